@@ -1,0 +1,1 @@
+#include "contensou/portraits/phase_portrait.hpp"

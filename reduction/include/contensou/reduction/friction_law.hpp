@@ -1,0 +1,98 @@
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "contensou/reduction/slip.hpp"
+
+namespace contensou::reduction {
+
+class SimilarityCurve;
+
+/// A friction law of a circular patch is any value that turns a Slip into a Resistance.
+///
+/// What the library relies on, and checks only where it says so:
+///   - degree 0: the answer depends on the ratio k = sliding/pivoting alone;
+///   - Phi(k) = Phi'(0) k + o(k) with Phi'(0) > 0, Phi(infinity) = 1; Psi(0) > 0, k Psi(k) bounded;
+///   - Phi and Psi continuous and piecewise smooth, with k = 1 the only likely kink.
+///
+/// A law may offer more; each of these is used when it is there:
+///   - `static constexpr std::string_view name` for messages and tables;
+///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
+///   - `static constexpr SlidingShare sliding_share`, its two-sided bound of the stop time;
+///   - `std::shared_ptr<const SimilarityCurve> closed_curve(double r) const`, its closed form for that r, or null.
+template <class L>
+concept FrictionLaw = std::copy_constructible<L> && requires(const L& law, Slip slip) {
+  { law(slip) } -> std::convertible_to<Resistance>;
+};
+
+/// Bounds of m in  tau* = P + m S  over all starts (README (R6)): P and S are the times of pure pivoting and pure
+/// sliding.
+struct SlidingShare {
+  double least;
+  double most;
+};
+
+/// Any friction law as one value: what the rest of the library computes with.
+class Law {
+ public:
+  /// @throws std::domain_error  if the law's limits are not those listed at FrictionLaw
+  template <FrictionLaw L>
+    requires(!std::same_as<L, Law>)
+  Law(L law) {  // NOLINT(google-explicit-constructor): a law is a Law
+    if constexpr (requires { { L::name } -> std::convertible_to<std::string_view>; }) name_ = L::name;
+    if constexpr (requires { { L::sliding_share } -> std::convertible_to<SlidingShare>; }) {
+      sliding_share_ = L::sliding_share;
+    }
+    if constexpr (requires(Slip slip) { { law.moment_deficit(slip) } -> std::convertible_to<double>; }) {
+      moment_deficit_ = [law](Slip slip) { return law.moment_deficit(slip); };
+    }
+    if constexpr (requires { { law.closed_curve(1.0) } -> std::convertible_to<std::shared_ptr<const SimilarityCurve>>; }) {
+      closed_curve_ = [law](double r) { return law.closed_curve(r); };
+    }
+    resistance_ = std::move(law);
+    read_limits();
+  }
+
+  Resistance operator()(Slip slip) const { return resistance_(slip); }
+
+  /// 1 - Psi/Psi(0).
+  double moment_deficit(Slip slip) const {
+    return moment_deficit_ ? moment_deficit_(slip) : 1 - resistance_(slip).moment / pivoting_moment_;
+  }
+
+  const std::string& name() const { return name_; }
+
+  /// Psi(0), the moment of pure pivoting.
+  double pivoting_moment() const { return pivoting_moment_; }
+
+  /// Phi'(0), the viscosity of slow sliding over a pivoting patch.
+  double force_slope() const { return force_slope_; }
+
+  /// The law's own bounds of the stop time, if it states any.
+  const std::optional<SlidingShare>& sliding_share() const { return sliding_share_; }
+
+  /// The law's closed form for r = gamma mu^2/chi; null if the law has none for this r.
+  std::shared_ptr<const SimilarityCurve> closed_curve(double r) const {
+    return closed_curve_ ? closed_curve_(r) : nullptr;
+  }
+
+ private:
+  void read_limits();
+
+  std::string name_ = "user's law";
+  std::function<Resistance(Slip)> resistance_;
+  std::function<double(Slip)> moment_deficit_;
+  std::function<std::shared_ptr<const SimilarityCurve>(double)> closed_curve_;
+  std::optional<SlidingShare> sliding_share_;
+  double pivoting_moment_ = std::numeric_limits<double>::quiet_NaN();
+  double force_slope_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace contensou::reduction

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/similarity_curve.hpp"
+
+namespace contensou::reduction {
+
+/// One instant of a motion. At the stop u = v = 0, ln_v = -inf, beta = inf.
+struct OrbitPoint {
+  double tau;   ///< the paper's time since the start
+  double u;     ///< keeps the sign of u0
+  double v;     ///< 0 where it underflows; ln_v does not
+  double ln_v;  ///< natural logarithm of v in the unit of the start
+  double k;     ///< v/(mu |u|); infinity for u = 0
+  double beta;  ///< regularised time of (2.8) since the start
+};
+
+/// Many instants, one entry of each column for each.
+struct OrbitColumns {
+  Eigen::ArrayXd tau, u, v, ln_v, k, beta;
+
+  explicit OrbitColumns(Eigen::Index rows = 0);
+  Eigen::Index rows() const { return tau.size(); }
+  void set(Eigen::Index row, const OrbitPoint& point);
+  OrbitPoint row(Eigen::Index row) const;
+};
+
+/// The motion from one start to its stop, from the similarity solution: the law's curve, scaled to pass through the start.
+///
+/// There are no time steps: any instant is found by itself. Invariant axes (u0 = 0, v0 = 0) and rest (both 0) are
+/// ordinary starts.
+///
+/// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference). Near the
+///           stop the conditioning is that of the question: u is proportional to stop_time() - tau, so ask at_time_left().
+class Orbit {
+ public:
+  /// @throws std::domain_error  if start is not a state (finite, v >= 0), or if r is outside the curve's domain
+  Orbit(const ReducedSystem& system, State start);
+
+  /// With a curve made before, for many orbits of one system.
+  /// @param curve  the similarity curve of system.law() and system.r()
+  Orbit(const ReducedSystem& system, State start, std::shared_ptr<const SimilarityCurve> curve);
+
+  double stop_time() const;
+
+  /// The state tau after the start; past the stop, rest.
+  /// @throws std::domain_error  if tau is negative or not a number
+  OrbitPoint at_time(double tau) const;
+
+  /// The state that has time_left until the stop; rest for 0.
+  /// @throws std::domain_error  unless 0 <= time_left <= stop_time()
+  OrbitPoint at_time_left(double time_left) const;
+
+  /// The state at which ln k has the given value, at most that of the start. Not on the axes.
+  /// @throws std::domain_error  on an axis, or if ln_k is above the start's
+  OrbitPoint at_log_ratio(double ln_k) const;
+
+  /// ln k at the start; +inf for u0 = 0, -inf for v0 = 0.
+  double start_log_ratio() const { return ln_k0_; }
+
+  /// at_time for each entry, in the order given.
+  OrbitColumns at_times(const Eigen::ArrayXd& times) const;
+
+  /// Equidistant instants from the start to the stop, both included.
+  /// @throws std::domain_error  for fewer than 2
+  OrbitColumns sample(Eigen::Index count) const;
+
+ private:
+  bool on_axis() const { return v0_ == 0 || u0_ == 0; }
+  OrbitPoint rest(double tau) const;
+  OrbitPoint on_axis_at(double tau, double left_share) const;
+  OrbitPoint point(double tau, double ln_k) const;
+
+  double rim_change(double ln_k) const { return curve_->log_rim(ln_k) - log_rim0_; }
+  double scaled_elapsed(double ln_k) const;
+  double scaled_left(double ln_k) const;
+  double scaled_left_slope(double ln_k) const;
+  double log_ratio_at_elapsed(double elapsed) const;
+  double log_ratio_at_left(double left) const;
+  double tau_of(double scaled) const;
+  double scaled_of(double tau) const;
+
+  ReducedSystem system_;
+  std::shared_ptr<const SimilarityCurve> curve_;
+  double u0_, v0_;
+  int exponent_;           ///< speeds are divided by 2^exponent_ inside
+  double w_, v_;           ///< mu |u0| and v0, scaled
+  double ln_k0_;
+  double log_rim0_ = 0;
+  double share0_ = 1;      ///< m(k0)
+  double pivoting_rate_;   ///< r Psi(0) = -dw/ds at k = 0
+};
+
+}  // namespace contensou::reduction

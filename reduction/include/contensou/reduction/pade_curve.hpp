@@ -1,0 +1,39 @@
+#pragma once
+
+#include "contensou/reduction/similarity_curve.hpp"
+
+namespace contensou::reduction {
+
+/// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
+///
+/// Source    README (R8) orbit, (R9) and (R10) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time.
+/// Accuracy  sliding_share and regularised_age about 5 eps relative, log_rim eps (|ln_rim| + r) absolute.
+class PadeCurve final : public SimilarityCurve {
+ public:
+  /// Largest r of the closed form: the connection formula (R10) loses digits as r -> 2. A ball has r <= 5/7.
+  static constexpr double largest_r = 1;
+
+  /// @throws std::domain_error  unless 0 < r <= largest_r
+  explicit PadeCurve(double r);
+
+  double log_rim(double ln_k) const override;
+  double sliding_share(double ln_k) const override;
+  double regularised_age(double ln_k) const override;
+
+  /// m from x = B k/(A + B k) and y = 1 - x, each given to full accuracy: for a caller who has no need of ln k.
+  double sliding_share_at(double x, double y) const;
+
+  double A() const { return A_; }  ///< 8 (2 - r)
+  double B() const { return B_; }  ///< 3 pi (5 - r)
+  double a() const { return a_; }  ///< r/(2 - r): slope of log_rim at k = 0
+  double b() const { return a_ - e_; }
+  double e() const { return e_; }  ///< r/(5 - r): slope of log_rim at infinity
+
+ private:
+  double A_, B_, a_, e_;
+  double log_ratio_;   ///< ln(B/A)
+  double connection_;  ///< e L of (R10)
+  double half_age_;    ///< the integral of (R11) over [1/2, 1]
+};
+
+}  // namespace contensou::reduction

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "contensou/reduction/friction_law.hpp"
+
+namespace contensou::reduction {
+
+/// The rational approximation of the Hertz law that Zh98 solves: Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 + 15 pi k).
+///
+/// It keeps the values and slopes at both ends, and is up to 39 % (Phi, k = 0.91) and 48 % (Psi, k = 0.54) below the
+/// exact law between them; it has no dissipation potential.
+///
+/// Source    Zh98 (1.4), (1.6).
+/// Accuracy  4 eps relative for every k (tests/reference/laws.csv).
+/// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
+struct PadeLaw {
+  static constexpr std::string_view name = "pade";
+  static constexpr SlidingShare sliding_share{1, 2.5};
+
+  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  Resistance operator()(Slip slip) const;
+
+  /// 1 - Psi/Psi(0) = 15 pi k/(16 + 15 pi k).
+  double moment_deficit(Slip slip) const;
+
+  /// PadeCurve, for the r it is accurate for; null beyond.
+  std::shared_ptr<const SimilarityCurve> closed_curve(double r) const;
+};
+
+}  // namespace contensou::reduction

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/reduction/inertia.hpp"
+
+namespace contensou::reduction {
+
+/// A point of the phase plane of (2.6): two speeds in one unit.
+struct State {
+  double u;  ///< pivoting, R omega_z, either sign
+  double v;  ///< sliding speed of the contact point, >= 0
+};
+
+/// A velocity in the phase plane.
+struct Rate {
+  double u;
+  double v;
+};
+
+/// Two numbers that enclose a third.
+struct Bounds {
+  double lower;
+  double upper;
+};
+
+/// The paper's two equations (2.6) for any friction law and any axisymmetric body:
+///   dv/dtau = -(2 chi/(3 pi)) Phi(k),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|).
+///
+/// Time is the paper's tau = (3 pi/2) f g t, a speed. A value: cheap to copy, never changes.
+class ReducedSystem {
+ public:
+  /// @param patch_ratio  mu = patch radius/R, > 0
+  /// @throws std::domain_error  if mu, chi or gamma is not a positive finite number
+  ReducedSystem(Law law, double patch_ratio, Inertia inertia = homogeneous_ball);
+
+  const Law& law() const { return law_; }
+  double mu() const { return mu_; }
+  Inertia inertia() const { return inertia_; }
+
+  /// r = gamma mu^2/chi, the one number that the shape of the motion depends on (README (R1)).
+  double r() const { return r_; }
+
+  /// ds/dtau of the scaled time s = chi f g t (README (R1)), in which dv/ds = -Phi, dw/ds = -r Psi, w = mu |u|.
+  double scaled_time_rate() const { return scaled_time_rate_; }
+
+  /// d(u, v)/dtau, the right side of (2.6).
+  /// @throws std::domain_error  at u = v = 0, where (2.6) has no value, and for v < 0
+  Rate field(State state) const;
+
+  /// dtau/dbeta = (16 mu |u| + 15 pi v)(8 mu |u| + 3 pi v), the weight of (2.8), the same for every law.
+  double regularising_weight(State state) const;
+
+  /// d(u, v)/dbeta: the field times the weight, (2.7) for the Pade law; 0 at u = v = 0.
+  /// @throws std::domain_error  for v < 0
+  Rate regularised_field(State state) const;
+
+  /// dv/du along an orbit.
+  /// @throws std::domain_error  at u = 0 and for v < 0
+  double slope(State state) const;
+
+  /// S = 3 pi v/(2 chi): the stop time of a body that slides and does not pivot. Ball: 3 pi v/7.
+  double sliding_limit(double v) const;
+
+  /// P = 3 pi |u|/(2 gamma mu Psi(0)): the stop time of a body that pivots and does not slide. Ball: 16 |u|/(5 mu).
+  double pivoting_limit(double u) const;
+
+  /// Two-sided bound of the stop time from the law's own SlidingShare and max(S, P) (README (R6)); [0, infinity] for a
+  /// law that states none.
+  Bounds stop_time_bounds(State start) const;
+
+ private:
+  Law law_;
+  double mu_;
+  Inertia inertia_;
+  double r_;
+  double scaled_time_rate_;
+};
+
+/// Rejects a state that no motion can have.
+/// @throws std::domain_error  if u or v is not finite or v < 0; the message begins with the function's name
+void require_state(const char* function, State state);
+
+}  // namespace contensou::reduction

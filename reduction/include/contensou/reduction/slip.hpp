@@ -1,0 +1,33 @@
+#pragma once
+
+namespace contensou::reduction {
+
+/// How a circular contact patch moves over the plane: two speeds in one unit, both >= 0 and not both 0.
+///
+/// Two speeds instead of their ratio k = sliding/pivoting, so that pure sliding (pivoting = 0) and pure pivoting
+/// (sliding = 0) are ordinary values and no infinity is needed.
+struct Slip {
+  double sliding;   ///< speed v of the patch centre
+  double pivoting;  ///< rim speed of the rotation about the normal, w = eps |omega_z| = mu |u|
+};
+
+/// Friction made dimensionless: what a law returns.
+struct Resistance {
+  double force;   ///< Phi = F/(N f), opposes sliding
+  double moment;  ///< Psi = M/(N f eps), opposes pivoting
+};
+
+/// The slip whose ratio is k = sliding/pivoting; the larger of the two speeds is 1.
+///
+/// @param k  0 (pure pivoting) to infinity (pure sliding)
+/// @throws std::domain_error  if k is negative or not a number
+Slip slip_of_ratio(double k);
+
+/// Rejects what no friction law can answer.
+///
+/// @param law  the name that the message begins with
+/// @throws std::domain_error  if a speed is negative or not finite, or if both are 0: the law has no limit there
+///                            (Zh98, remark 3)
+void require_slip(const char* law, Slip slip);
+
+}  // namespace contensou::reduction

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contensou/reduction/reduced_system.hpp"
+
+namespace contensou::reduction {
+
+/// One statement that must hold, and how well it does.
+struct Check {
+  std::string name;
+  double measured;  ///< the worst case; not a number counts as failed
+  double allowed;
+  bool passed() const { return measured <= allowed; }
+};
+
+/// Everything the theory says about one motion, each as a number that must be small: the routes against each other, the
+/// scaling generator on (2.6), (2.7) and dv/du, the separated equation, the first integral, beta against (2.8), both
+/// limits, the law's own bounds, and for the exact law its dissipation potential and its elementary orbit inside k = 1.
+///
+/// @throws std::domain_error  if start is not a state or is at rest, or r is outside the regime k -> 0
+std::vector<Check> verify(const ReducedSystem& system, State start);
+
+/// The same over several starts of one system: each row the worst of them.
+std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts);
+
+}  // namespace contensou::reduction

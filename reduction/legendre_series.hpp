@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <boost/math/quadrature/gauss.hpp>
+
+namespace contensou::reduction {
+
+/// Smooth functions on [-1, 1] as Legendre series, sampled at Gauss points.
+class LegendreSeries {
+ public:
+  static constexpr int order = 20;
+  using Samples = Eigen::Array<double, order, 1>;
+
+  /// The Gauss points in increasing order.
+  static const Samples& points();
+
+  /// The series of degree order - 1 through the samples at points().
+  static LegendreSeries through(const Samples& samples);
+
+  /// The antiderivative that vanishes at -1.
+  LegendreSeries antiderivative() const;
+
+  double operator()(double t) const;
+
+  /// The values at points().
+  Samples samples() const;
+
+  /// How fast the series still moves at its end, in the unit of the samples.
+  double tail() const;
+
+  LegendreSeries& operator*=(double factor) {
+    coefficients_ *= factor;
+    return *this;
+  }
+  LegendreSeries& operator+=(double shift) {
+    coefficients_[0] += shift;
+    return *this;
+  }
+
+ private:
+  Eigen::Array<double, order + 1, 1> coefficients_ = Eigen::Array<double, order + 1, 1>::Zero();
+};
+
+}  // namespace contensou::reduction

@@ -1,0 +1,122 @@
+// Notation (README (R8) to (R11)):
+//   A = 8 (2 - r), B = 3 pi (5 - r), a = r/(2 - r), e = r/(5 - r), b = a - e
+//   x = B k/(A + B k), y = 1 - x = A/(A + B k), z = ln(x/y) = ln k + ln(B/A)
+//   F = 2F1(1, b + 1; a + 2; x)
+#include "contensou/reduction/pade_curve.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <boost/math/special_functions/gamma.hpp>
+#include <fmt/format.h>
+
+namespace contensou::reduction {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Terms of a series in powers of 1/2 or less.
+constexpr int terms = 56;
+
+/// 2F1(1, beta; gamma; x) for 0 <= x <= 1/2 and |beta| <= gamma: the Taylor series, summed from its small end.
+double gauss_series(double beta, double gamma, double x) {
+  double sum = 1;
+  for (int n = terms - 1; n >= 0; --n) sum = 1 + sum * x * ((beta + n) / (gamma + n));
+  return sum;
+}
+
+/// ln Gamma(1 + t), relatively accurate at t = 0.
+double log_gamma_1p(double t) { return std::log1p(boost::math::tgamma1pm1(t)); }
+
+/// (exp(s t) - 1)/s, also at s = 0.
+double expm1_over(double s, double t) { return s == 0 ? t : std::expm1(s * t) / s; }
+
+struct Fractions {
+  double x, y;
+  double ln_x, ln_y;
+};
+
+/// x, y = 1 - x and their logarithms, none by subtraction.
+Fractions fractions(double z) {
+  const double far = std::exp(-std::abs(z));
+  const double near = std::log1p(far);
+  if (z > 0) return {1 / (1 + far), far / (1 + far), -near, -z - near};
+  return {far / (1 + far), 1 / (1 + far), z - near, -near};
+}
+
+}  // namespace
+
+PadeCurve::PadeCurve(double r)
+    : SimilarityCurve(r),
+      A_(8 * (2 - r)),
+      B_(3 * pi * (5 - r)),
+      a_(r / (2 - r)),
+      e_(r / (5 - r)),
+      log_ratio_(std::log(B_ / A_)),
+      connection_(0),
+      half_age_(0) {
+  if (!(r > 0 && r <= largest_r)) {
+    throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", largest_r, r));
+  }
+  connection_ = log_gamma_1p(a_) - log_gamma_1p(b()) + log_gamma_1p(-e_);
+  half_age_ = std::exp2(b()) * 0.5 / (e_ + 1) * gauss_series(1 - b(), e_ + 2, 0.5);
+}
+
+double PadeCurve::log_rim(double ln_k) const {
+  const auto at = fractions(ln_k + log_ratio_);
+  return a_ * at.ln_x - e_ * at.ln_y;
+}
+
+double PadeCurve::sliding_share(double ln_k) const {
+  const auto at = fractions(ln_k + log_ratio_);
+  return sliding_share_at(at.x, at.y);
+}
+
+double PadeCurve::sliding_share_at(double x, double y) const {
+  if (y == 0) return 1;
+  if (x <= 0.5) return 1 + 1.5 * y * gauss_series(b() + 1, a_ + 2, x);
+
+  // (R10): the connection formula x -> y with its two 1/e poles taken together.
+  const double pole = -std::expm1(e_ * std::log(y) + connection_) / e_;
+  double sum = 0;
+  double power = 1;
+  double rising = 1;  // (a + 1)_n/n!
+  double regular = 0;
+  for (int n = 0; n < terms; ++n) {
+    sum += power * (regular + rising * pole);
+    regular = regular * ((b() + 1 + n) / (1 - e_ + n)) + rising * a_ / ((1 - e_ + n) * (1 + n));
+    rising *= (a_ + 1 + n) / (1 + n);
+    power *= y;
+  }
+  return 1 + 1.5 * y * (a_ + 1) * sum;
+}
+
+double PadeCurve::regularised_age(double ln_k) const {
+  const auto at = fractions(ln_k + log_ratio_);
+  const double unit = 1 / (3 * pi * A_);
+  if (at.y <= 0.5) return unit * at.y / (e_ + 1) * gauss_series(1 - b(), e_ + 2, at.y);
+
+  // (R11): x^a times the integral of t^(-a-1) (1-t)^e from x to 1/2, term by term, and from 1/2 to 1.
+  const double to_half = -std::numbers::ln2 - at.ln_x;
+  const double x_to_a = std::exp(a_ * at.ln_x);
+  double sum = expm1_over(-a_, to_half);
+  double coefficient = 1;
+  double power = 1;
+  double half_power = 1;
+  for (int n = 1; n < terms; ++n) {
+    coefficient *= (n - 1 - e_) / n;
+    power *= at.x;
+    half_power *= 0.5;
+    const double s = n - a_;
+    const double integral = std::abs(s) * to_half < 1
+                                ? power * expm1_over(s, to_half)
+                                : (x_to_a * half_power * std::exp2(a_) - power) / s;
+    sum += coefficient * integral;
+  }
+  return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * half_age_);
+}
+
+}  // namespace contensou::reduction

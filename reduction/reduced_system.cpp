@@ -1,0 +1,83 @@
+#include "contensou/reduction/reduced_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace contensou::reduction {
+
+using std::numbers::pi;
+
+namespace {
+
+double positive(const char* name, double value) {
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw std::domain_error(fmt::format("ReducedSystem: {} must be positive and finite, got {}", name, value));
+  }
+  return value;
+}
+
+}  // namespace
+
+void require_state(const char* function, State state) {
+  if (!std::isfinite(state.u) || !std::isfinite(state.v) || state.v < 0) {
+    throw std::domain_error(
+        fmt::format("{}: u and v must be finite and v >= 0, got u = {}, v = {}", function, state.u, state.v));
+  }
+}
+
+ReducedSystem::ReducedSystem(Law law, double patch_ratio, Inertia inertia)
+    : law_(std::move(law)),
+      mu_(positive("mu", patch_ratio)),
+      inertia_{positive("chi", inertia.chi), positive("gamma", inertia.gamma)},
+      r_(inertia.gamma * patch_ratio * patch_ratio / inertia.chi),
+      scaled_time_rate_(2 * inertia.chi / (3 * pi)) {}
+
+Rate ReducedSystem::field(State state) const {
+  require_state("ReducedSystem::field", state);
+  const Resistance resistance = law_({state.v, mu_ * std::abs(state.u)});
+  const double spin_down = 2 * inertia_.gamma * mu_ / (3 * pi) * resistance.moment;
+  return {state.u == 0 ? 0.0 : -std::copysign(spin_down, state.u), -scaled_time_rate_ * resistance.force};
+}
+
+double ReducedSystem::regularising_weight(State state) const {
+  const double w = mu_ * std::abs(state.u);
+  return (16 * w + 15 * pi * state.v) * (8 * w + 3 * pi * state.v);
+}
+
+Rate ReducedSystem::regularised_field(State state) const {
+  if (state.u == 0 && state.v == 0) return {0, 0};
+  const Rate rate = field(state);
+  const double weight = regularising_weight(state);
+  return {weight * rate.u, weight * rate.v};
+}
+
+double ReducedSystem::slope(State state) const {
+  const Rate rate = field(state);
+  if (rate.u == 0) {
+    throw std::domain_error(fmt::format("ReducedSystem::slope: dv/du is infinite at u = 0 (v = {})", state.v));
+  }
+  return rate.v / rate.u;
+}
+
+double ReducedSystem::sliding_limit(double v) const { return 3 * pi / (2 * inertia_.chi) * v; }
+
+double ReducedSystem::pivoting_limit(double u) const {
+  return 3 * pi / (2 * inertia_.gamma * law_.pivoting_moment()) * (std::abs(u) / mu_);
+}
+
+Bounds ReducedSystem::stop_time_bounds(State start) const {
+  require_state("ReducedSystem::stop_time_bounds", start);
+  if (!law_.sliding_share()) return {0, std::numeric_limits<double>::infinity()};
+  const double sliding = sliding_limit(start.v);
+  const double pivoting = pivoting_limit(start.u);
+  const auto [least, most] = *law_.sliding_share();
+  return {std::max(pivoting + least * sliding, sliding), pivoting + most * sliding};
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/reduced_system.hpp"
+
+namespace contensou::reduction {
+
+/// Where a stepper stands: logarithms of the two speeds, scaled time s and regularised time, both since the start, in
+/// speeds divided by the stepper's unit.
+struct LogState {
+  double ln_w;
+  double ln_v;
+  double s;
+  double age;  ///< integral of ds/((16 w + 15 pi v)(8 w + 3 pi v))
+};
+
+/// The exact limit of the rest of a motion, from where one of the two frictions is all there is.
+///
+/// k -> 0: w falls at the rate r Psi(0), v follows with the exponent of the linearised law. k -> infinity: v falls at the
+/// rate 1, w follows.
+class StopLimit {
+ public:
+  /// The limit that holds at this state to better than 1e-17 of the whole time, if one does.
+  static std::optional<StopLimit> at(const ReducedSystem& system, const LogState& state);
+
+  /// Scaled time since the start at which the body stops.
+  double stop() const { return from_.s + left_; }
+
+  /// The state at a scaled time between from and stop().
+  LogState at_time(double s) const;
+
+ private:
+  StopLimit(const ReducedSystem& system, const LogState& from, bool pivoting);
+
+  LogState from_;
+  double left_;
+  double ln_v_slope_;  ///< d ln v per d ln (time left)
+  double ln_w_slope_;
+  double age_scale_;   ///< age gained = age_scale_ (1/share left - 1)
+};
+
+}  // namespace contensou::reduction

@@ -1,0 +1,95 @@
+#include "contensou/reduction/stop_time.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/regularised_motion.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+struct RouteText {
+  Route route;
+  std::string_view name;
+  std::string_view description;
+};
+
+constexpr std::array route_texts{
+    RouteText{Route::closed, "closed",
+              "closed form of the similarity solution, relative error below 1e-14; only where the law has one"},
+    RouteText{Route::quadrature, "quadrature",
+              "quadrature of the separated equation, relative error below 1e-13; only while k -> 0"},
+    RouteText{Route::regularised, "regularised",
+              "(2.7) in ln u, ln v stepped in beta with (2.8), relative error below 1e-10; any law and body"},
+    RouteText{Route::direct, "direct",
+              "(2.6) in ln u, ln v stepped in tau, relative error below 1e-10; any law and body"},
+};
+
+const RouteText& text(Route route) {
+  return *std::ranges::find(route_texts, route, &RouteText::route);
+}
+
+StopTime by_stepper(Route route, const Motion& motion) {
+  if (!motion.outcome.ok()) throw std::runtime_error(motion.outcome.sentence);
+  return {motion.stop_time, route, 1e-10, motion.evaluations};
+}
+
+}  // namespace
+
+std::string_view name(Route route) { return text(route).name; }
+
+std::string_view description(Route route) { return text(route).description; }
+
+std::optional<Route> find_route(std::string_view name) {
+  const auto found = std::ranges::find(route_texts, name, &RouteText::name);
+  if (found == route_texts.end()) return std::nullopt;
+  return found->route;
+}
+
+std::vector<Route> routes(const ReducedSystem& system) {
+  std::vector<Route> found;
+  if (system.law().closed_curve(system.r())) found.push_back(Route::closed);
+  // k -> 0 wherever Phi > r k Psi; for small k that is Phi'(0) > r Psi(0), the first to fail as r grows.
+  if (system.law().force_slope() > system.r() * system.law().pivoting_moment()) found.push_back(Route::quadrature);
+  found.push_back(Route::regularised);
+  found.push_back(Route::direct);
+  return found;
+}
+
+StopTime stop_time(const ReducedSystem& system, State start, Route route) {
+  switch (route) {
+    case Route::closed: {
+      const auto curve = system.law().closed_curve(system.r());
+      if (!curve) {
+        throw std::domain_error(
+            fmt::format("stop_time: law {} has no closed form for r = {}", system.law().name(), system.r()));
+      }
+      return {Orbit(system, start, curve).stop_time(), route, 1e-14, 0};
+    }
+    case Route::quadrature: {
+      const auto curve = std::make_shared<QuadratureCurve>(system.law(), system.r());
+      const double tau = Orbit(system, start, curve).stop_time();
+      return {tau, route, std::max(1e-13, 10 * curve->truncation()), curve->evaluations()};
+    }
+    case Route::regularised:
+      return by_stepper(route, integrate_regularised(system, start));
+    case Route::direct:
+      return by_stepper(route, integrate_directly(system, start));
+  }
+  throw std::domain_error("stop_time: unknown route");
+}
+
+StopTime stop_time(const ReducedSystem& system, State start) {
+  return stop_time(system, start, routes(system).front());
+}
+
+}  // namespace contensou::reduction

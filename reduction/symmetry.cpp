@@ -1,0 +1,58 @@
+#include "contensou/reduction/symmetry.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace contensou::reduction {
+
+namespace {
+
+State scaled(State state, double factor) { return {factor * state.u, factor * state.v}; }
+
+double size(Rate rate) { return std::hypot(rate.u, rate.v); }
+
+}  // namespace
+
+double generator_residual(const std::function<Rate(State)>& field, int degree, State state) {
+  // Fourth-order central difference of F(exp(h) x) in h: truncation 1e-11, rounding 1e-13.
+  constexpr double h = 1e-3;
+  const auto along = [&](double step) { return field(scaled(state, std::exp(step))); };
+  const Rate far_ahead = along(2 * h), ahead = along(h), behind = along(-h), far_behind = along(-2 * h);
+  const Rate here = field(state);
+  const auto residual = [&](double Rate::*part) {
+    const double derivative =
+        (8 * (ahead.*part - behind.*part) - (far_ahead.*part - far_behind.*part)) / (12 * h);
+    return derivative - degree * here.*part;
+  };
+  return size({residual(&Rate::u), residual(&Rate::v)}) / size(here);
+}
+
+double field_symmetry_residual(const ReducedSystem& system, State state) {
+  return generator_residual([&](State at) { return system.field(at); }, 0, state);
+}
+
+double regularised_symmetry_residual(const ReducedSystem& system, State state) {
+  return generator_residual([&](State at) { return system.regularised_field(at); }, 2, state);
+}
+
+double slope_symmetry_residual(const ReducedSystem& system, State state) {
+  // u w_u + v w_v from the two partial derivatives, not along the group: a different difference quotient.
+  constexpr double h = 1e-4;
+  const auto partial = [&](double du, double dv) {
+    const auto at = [&](double step) { return system.slope({state.u * (1 + step * du), state.v * (1 + step * dv)}); };
+    return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
+  };
+  return std::abs(partial(1, 0) + partial(0, 1)) / std::abs(system.slope(state));
+}
+
+double scaling_residual(const std::function<Rate(State)>& field, int degree, State state, double factor) {
+  if (!(factor > 0)) throw std::domain_error(fmt::format("scaling_residual: the factor must be > 0, got {}", factor));
+  const Rate moved = field(scaled(state, factor));
+  const Rate here = field(state);
+  const double power = std::pow(factor, degree);
+  return size({moved.u - power * here.u, moved.v - power * here.v}) / (power * size(here));
+}
+
+}  // namespace contensou::reduction

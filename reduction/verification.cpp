@@ -1,0 +1,1 @@
+#include "contensou/reduction/verification.hpp"

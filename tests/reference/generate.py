@@ -1,0 +1,882 @@
+#!/usr/bin/env python3
+"""Many-digit reference tables for the tests (Python 3 and mpmath, nothing else).
+
+    python3 generate.py                     all tables, into the folder of this file
+    python3 generate.py --only laws         one table (may be repeated)
+
+Every number is computed in two independent ways, and the program stops with an error when they
+agree to fewer than 30 digits.  "Zh98" is V. F. Zhuravlev, "On a model of dry friction in the
+problem of rolling of rigid bodies" (1998).
+
+Notation.  k = v/(mu |u|), w = mu |u|, v = k w, T = f g t, the paper's time tau = (3 pi/2) T, and
+s = chi T.  Any law, any axisymmetric body (ball: chi = 7/2, gamma = 5/2):
+
+    dv/ds = -Phi(k),   dw/ds = -r Psi(k),   r = gamma mu^2/chi,                          (M)
+
+so that, with D(k) = Phi - r k Psi,
+
+    dk/ds = -D/w,   d ln w/dk = r Psi/D.                                                 (O)
+
+The time left is s = w sigma(k) and the regularised time is beta = h(k)/w + const; from (M), (O)
+
+    D sigma' + r Psi sigma = 1,              sigma(0) = 1/(r Psi(0)),                    (S)
+   -D h'     + r Psi h     = kappa/Q(k),     Q = (16 + 15 pi k)(8 + 3 pi k),             (B)
+
+with kappa = 3 pi/(2 chi) (tau = kappa s) and d tau = w^2 Q d beta, the weight of Zh98 (2.8).
+
+Way 1 of a state or stop time   Pade: closed forms (one 2F1).   Hertz: quadrature of (O).
+Way 2                           both laws: Taylor series of (S), (B), (O), marched up from k = 0.
+"""
+
+import argparse
+import bisect
+import csv
+import functools
+import os
+import random
+import sys
+import time
+
+from mpmath import mp, mpf
+
+PRINTED = 40            # significant digits in the tables (--digits)
+GUARD = 40              # further working digits
+REQUIRED = 30           # the two ways must agree to at least this many
+TERMS = 140             # Taylor terms per step (way 2)
+NODES = 48              # Gauss-Legendre nodes per panel (way 1, Hertz)
+SEED = 1998
+
+
+class Disagreement(Exception):
+    """The two ways of computing a number do not agree."""
+
+
+def agreed(first, second):
+    """Number of digits to which two values agree (relative, at most the working precision)."""
+    if first == second:
+        return mp.dps
+    return min(mp.dps, int(mp.floor(-mp.log10(abs(first - second) / abs(second)))))
+
+
+def check(pairs, where):
+    """Fewest agreed digits over pairs of values; an error if fewer than REQUIRED."""
+    digits = min(agreed(first, second) for first, second in pairs)
+    if digits < REQUIRED:
+        raise Disagreement("%s: only %d digits agree: %s" % (where, digits, [
+            (mp.nstr(first, 20), mp.nstr(second, 20)) for first, second in pairs]))
+    return digits
+
+
+def text(value):
+    """A multiprecision number as printed in the tables."""
+    return mp.nstr(value, PRINTED, strip_zeros=True, min_fixed=-3, max_fixed=20)
+
+
+def double(value):
+    """The double nearest to a multiprecision number."""
+    return float(mp.nstr(value, 60))
+
+
+def exact(number):
+    """The two columns of an input double: decimal and hexadecimal, both exact."""
+    return [repr(number), number.hex()]
+
+
+# ---------------------------------------------------------------------------------------------
+# Quadrature
+# ---------------------------------------------------------------------------------------------
+
+def legendre_values(count, x):
+    """P_0(x) .. P_count(x)."""
+    values = [mpf(1), x]
+    for j in range(1, count):
+        values.append(((2 * j + 1) * x * values[j] - j * values[j - 1]) / (j + 1))
+    return values
+
+
+@functools.lru_cache(maxsize=None)
+def gauss_legendre(count, dps):
+    """Nodes and weights of the Gauss-Legendre rule on (-1, 1), ascending."""
+    with mp.workdps(dps + 15):
+        rule = []
+        for i in range(count):
+            x = -mp.cos(mp.pi * (i + mpf(3) / 4) / (count + mpf(1) / 2))
+            for _ in range(12):
+                p = legendre_values(count, x)
+                slope = count * (x * p[count] - p[count - 1]) / (x * x - 1)
+                step = p[count] / slope
+                x -= step
+                if abs(step) < mpf(10) ** (-(dps + 12)):
+                    break
+            p = legendre_values(count, x)
+            slope = count * (x * p[count] - p[count - 1]) / (x * x - 1)
+            rule.append((x, 2 / ((1 - x * x) * slope ** 2)))
+        return rule
+
+
+@functools.lru_cache(maxsize=None)
+def antiderivative_matrix(count, dps):
+    """Matrix that takes values at the Gauss nodes to integrals from -1 to each node."""
+    rule = gauss_legendre(count, dps)
+    values = [legendre_values(count + 1, x) for x, _ in rule]
+    rows = []
+    for p in values:
+        integrals = [p[1] + 1] + [(p[j + 1] - p[j - 1]) / (2 * j + 1) for j in range(1, count)]
+        scaled = [(2 * j + 1) * integrals[j] / 2 for j in range(count)]
+        rows.append([weight * mp.fdot(scaled, q[:count])
+                     for (_, weight), q in zip(rule, values)])
+    return rows
+
+
+def panel_nodes(left, right):
+    """Nodes and weights of the Gauss-Legendre rule on a panel."""
+    half, middle = (right - left) / 2, (right + left) / 2
+    return [(middle + half * x, half * weight) for x, weight in gauss_legendre(NODES, mp.dps)]
+
+
+def integrate(function, left, right):
+    """Gauss-Legendre on one panel."""
+    return mp.fsum(weight * function(x) for x, weight in panel_nodes(left, right))
+
+
+# ---------------------------------------------------------------------------------------------
+# The laws
+# ---------------------------------------------------------------------------------------------
+
+def hertz(k):
+    """Exact law: Zh98 (1.3) for k <= 1; for k >= 1 Zh98 (1.5) as a 2F1, which does not cancel."""
+    if k <= 1:
+        return (3 * mp.pi / 32 * k * (4 - k ** 2),
+                3 * mp.pi / 128 * (8 - 8 * k ** 2 + 3 * k ** 4))
+    z, half = 1 / k ** 2, mpf(1) / 2
+    return (mp.hyp2f1(-half, half, 5 * half, z), mp.hyp2f1(half, half, 7 * half, z) / (5 * k))
+
+
+def hertz_printed(k):
+    """Zh98 (1.5) as printed, k >= 1, with the digits that it loses (like k^4) added."""
+    with mp.workdps(mp.dps + 10 + 4 * max(0, int(mp.log10(k)) + 1)):
+        root, angle = mp.sqrt(k ** 2 - 1), mp.asin(1 / k)
+        phi = 3 / (64 * k) * (4 * k ** 2 * (4 - k ** 2) * angle + 4 * (k ** 2 + 2) * root)
+        psi = mpf(3) / 64 * ((8 - 8 * k ** 2 + 3 * k ** 4) * angle + 3 * (2 - k ** 2) * root)
+    return +phi, +psi
+
+
+def hertz_chords(k):
+    """Exact law by integration over the patch, in polar coordinates (q, a) about the centre of
+    velocity: every chord has centre k cos(a) and half length l, l^2 = 1 - k^2 sin^2(a), the
+    pressure is (3/(2 pi)) sqrt(l^2 - (q - k cos a)^2), and the moments of the half ellipse are
+    pi l^2 k cos(a)/2 (force) and pi l^4/8 (moment about the centre of the patch)."""
+    end = mp.pi / 2 if k <= 1 else mp.asin(1 / k)
+    phi = integrate(lambda a: mp.cos(a) ** 2 * (1 - (k * mp.sin(a)) ** 2), mpf(0), end)
+    psi = integrate(lambda a: (1 - (k * mp.sin(a)) ** 2) ** 2, mpf(0), end)
+    return mpf(3) / 2 * k * phi, mpf(3) / 8 * psi
+
+
+def pade(k):
+    """Zh98 (1.4), (1.6)."""
+    return 3 * mp.pi * k / (8 + 3 * mp.pi * k), 3 * mp.pi / (16 + 15 * mp.pi * k)
+
+
+def pade_from_ends(k):
+    """The fractions k/(k + c) and 1/(c + d k) that fit the slope of Phi and the value of Psi at
+    k = 0 and the limits of Phi and k Psi at infinity, all four of them by integration."""
+    slope, value = hertz_chords(mpf(10) ** (-mp.dps))
+    slope *= mpf(10) ** mp.dps
+    far = mpf(10) ** mp.dps
+    limit = far * hertz_chords(far)[1]
+    return k / (k + 1 / slope), 1 / (1 / value + k / limit)
+
+
+# ---------------------------------------------------------------------------------------------
+# Way 2, both laws: Taylor series of (S), (B), (O)
+# ---------------------------------------------------------------------------------------------
+
+def convolve(a, b, n):
+    """Coefficient n of the product of two series."""
+    return mp.fdot(a[:n + 1], b[n::-1])
+
+
+def multiply(a, b):
+    """Product of two series of TERMS coefficients."""
+    return [convolve(a, b, n) for n in range(TERMS)]
+
+
+def divide(a, b):
+    """Quotient of two series, b[0] != 0."""
+    quotient = []
+    for n in range(TERMS):
+        rest = mp.fdot(quotient, b[n:0:-1]) if n else 0
+        quotient.append((a[n] - rest) / b[0])
+    return quotient
+
+
+def constant(value):
+    """A constant as a series."""
+    return [mpf(value)] + [mpf(0)] * (TERMS - 1)
+
+
+def combine(*terms):
+    """Linear combination of series: pairs (factor, series)."""
+    return [mp.fsum(factor * series[n] for factor, series in terms) for n in range(TERMS)]
+
+
+def exponential_series(rate):
+    """Series of exp(rate t)."""
+    series = [mpf(1)]
+    for n in range(1, TERMS):
+        series.append(series[-1] * rate / n)
+    return series
+
+
+def derivative(series):
+    """Derivative of a series (the last coefficient, unknown, is set to zero)."""
+    return [(n + 1) * series[n + 1] for n in range(TERMS - 1)] + [mpf(0)]
+
+
+def k_series(chart, x):
+    """k as a series in t = (coordinate - x); the coordinate is k, arccosh k or ln k."""
+    if chart == "k":
+        return [mpf(x), mpf(1)] + [mpf(0)] * (TERMS - 2)
+    if chart == "log":
+        return [mp.exp(x) * c for c in exponential_series(mpf(1))]
+    up, down = exponential_series(mpf(1)), exponential_series(mpf(-1))
+    return combine((mp.exp(x) / 2, up), (mp.exp(-x) / 2, down))
+
+
+def pade_series(chart, x, k):
+    """Series of Zh98 (1.4), (1.6)."""
+    pi = mp.pi
+    phi = divide([3 * pi * c for c in k], combine((8, constant(1)), (3 * pi, k)))
+    psi = divide(constant(3 * pi), combine((16, constant(1)), (15 * pi, k)))
+    return phi, psi
+
+
+def hertz_series(chart, x, k):
+    """Series of Zh98 (1.3) in k <= 1; of (1.5) in y = arccosh k, where sqrt(k^2 - 1) = sinh y and
+    asin(1/k) has the derivative -1/cosh y; of the expansion in 1/k^2 in ln k."""
+    if chart == "k":
+        square = multiply(k, k)
+        phi = multiply(k, combine((4, constant(1)), (-1, square)))
+        psi = combine((8, constant(1)), (-8, square), (3, multiply(square, square)))
+        return [3 * mp.pi / 32 * c for c in phi], [3 * mp.pi / 128 * c for c in psi]
+    if chart == "log":
+        return hertz_far_series(mp.exp(x))
+    up, down = exponential_series(mpf(1)), exponential_series(mpf(-1))
+    root = combine((mp.exp(x) / 2, up), (-mp.exp(-x) / 2, down))
+    inverse = divide(constant(1), k)
+    angle = [mp.atan2(1, root[0])] + [-inverse[n - 1] / n for n in range(1, TERMS)]
+    square = multiply(k, k)
+    first = multiply(multiply(k, combine((4, constant(1)), (-1, square))), angle)
+    second = multiply(combine((1, k), (2, inverse)), root)
+    third = combine((8, constant(1)), (-8, square), (3, multiply(square, square)))
+    fourth = multiply(combine((2, constant(1)), (-1, square)), root)
+    return (combine((mpf(3) / 16, first), (mpf(3) / 16, second)),
+            combine((mpf(3) / 64, multiply(third, angle)), (mpf(9) / 64, fourth)))
+
+
+def hertz_far_series(centre):
+    """Phi and Psi for k = centre exp(t), summed over the powers of 1/k^2."""
+    phi, psi = [[mpf(0)] * TERMS for _ in range(2)]
+    half = mpf(1) / 2
+    p, q, j = mpf(1), 1 / (5 * centre), 0
+    while p and max(abs(p), abs(q) * centre) > mpf(10) ** (-mp.dps - 25):
+        for total, coefficient, rate in ((phi, p, -2 * j), (psi, q, -2 * j - 1)):
+            for n, c in enumerate(exponential_series(mpf(rate))):
+                total[n] += coefficient * c
+        p *= (j - half) * (j + half) / ((j + 5 * half) * (j + 1) * centre ** 2)
+        q *= (j + half) ** 2 / ((j + 7 * half) * (j + 1) * centre ** 2)
+        j += 1
+    return phi, psi
+
+
+def solve_linear(p, e, f, start):
+    """Series of p y' + e y = f.  Where p[0] = 0 (the singular point k = 0) the regular solution."""
+    if p[0] == 0:
+        y, slope = [f[0] / e[0]], []
+        for n in range(1, TERMS):
+            rest = mp.fdot(p[2:n + 1], slope[n - 2::-1]) if n > 1 else mpf(0)
+            rest += mp.fdot(e[1:n + 1], y[n - 1::-1])
+            y.append((f[n] - rest) / (n * p[1] + e[0]))
+            slope.append(n * y[n])
+        return y
+    y, slope = [start], []
+    for n in range(TERMS - 1):
+        rest = convolve(e, y, n)
+        if n:
+            rest += mp.fdot(p[1:n + 1], slope[n - 1::-1])
+        slope.append((f[n] - rest) / p[0])
+        y.append(slope[n] / (n + 1))
+    return y
+
+
+def safe_step(solutions):
+    """Step after which the last terms of all series are below the working precision."""
+    step = mpf(1)
+    for series, scale in solutions:
+        for n in range(TERMS - 8, TERMS):
+            if series[n]:
+                bound = mpf(10) ** (-mp.dps) * abs(scale) / abs(series[n])
+                step = min(step, mp.root(bound, n))
+    return step
+
+
+class Profile:
+    """sigma(k), h(k) and ln w(k) of (S), (B), (O) as a chain of Taylor series, k from 0 up.
+
+    With `start` the chain begins at that large k with sigma = k: there (S) forgets its starting
+    value like start/k."""
+
+    def __init__(self, law, r, kappa=None, start=None):
+        self.series = {"pade": pade_series, "hertz": hertz_series}[law]
+        self.last_curved = mpf(3) if law == "hertz" else mpf(0)     # arccosh k from 0 to this
+        self.r, self.kappa = r, kappa
+        self.power = r / (2 - r)                                    # ln w ~ power ln k, k -> 0
+        self.segments, self.ends = [], []
+        self.chart, self.x = "k", mpf(0)
+        self.values = None
+        if start is not None:
+            self.chart, self.x, self.values = "log", mp.log(start), (start, None, mpf(0))
+
+    def extend(self):
+        """Add one Taylor segment at the upper end."""
+        chart, x, r = self.chart, self.x, self.r
+        k = k_series(chart, x)
+        slope = derivative(k)
+        phi, psi = self.series(chart, x, k)
+        d = combine((1, phi), (-r, multiply(k, psi)))
+        e = [r * c for c in multiply(psi, slope)]
+        sigma0, h0, log0 = self.values or (None, None, None)
+        sigma = solve_linear(d, e, slope, sigma0)
+        if self.values is None:
+            # d(ln w - power ln k)/dk = (r k Psi - power D)/(k D), numerator O(k^2)
+            top = combine((r, multiply(k, psi)), (-self.power, d))
+            rate = divide(top[2:] + [mpf(0)] * 2, d[1:] + [mpf(0)])
+            log0 = mpf(0)
+        else:
+            rate = divide(e, d)
+        logarithm = [log0] + [rate[n] / (n + 1) for n in range(TERMS - 1)]
+        solutions = [(sigma, sigma[0]), (logarithm[:TERMS - 4] + [mpf(0)] * 4, 1)]
+        h = None
+        if self.kappa is not None:
+            q = multiply(combine((16, constant(1)), (15 * mp.pi, k)),
+                         combine((8, constant(1)), (3 * mp.pi, k)))
+            h = solve_linear([-c for c in multiply(d, q)], multiply(e, q),
+                             [self.kappa * c for c in slope], h0)
+            solutions.append((h, h[0]))
+        end = x + safe_step(solutions)
+        self.segments.append((chart, x, sigma, h, logarithm))
+        self.advance(chart, end)
+
+    def advance(self, chart, end):
+        """Close the last segment and choose the coordinate of the next."""
+        following = chart
+        if chart == "k" and end >= 1:
+            end, following = mpf(1), "arccosh" if self.last_curved else "log"
+        elif chart == "arccosh" and end >= self.last_curved:
+            end, following = self.last_curved, "log"
+        k = {"k": end, "arccosh": mp.cosh(end), "log": None}[chart]
+        if k is None:
+            k = mp.exp(end)
+        self.ends.append(k)
+        self.values = self.at_segment(len(self.segments) - 1, k)
+        self.chart = following
+        if following == chart:
+            self.x = end
+        else:
+            self.x = mpf(0) if following == "arccosh" else mp.log(k)
+
+    def at_segment(self, index, k):
+        """(sigma, h, ln w) at k from the series of one segment."""
+        chart, x, sigma, h, logarithm = self.segments[index]
+        coordinate = {"k": lambda: k, "arccosh": lambda: mp.acosh(k), "log": lambda: mp.log(k)}
+        t = coordinate[chart]() - x
+        log_w = mp.polyval(logarithm[TERMS - 5::-1], t)
+        if chart == "k" and x == 0 and k:
+            log_w += self.power * mp.log(k)
+        return (mp.polyval(sigma[::-1], t), None if h is None else mp.polyval(h[::-1], t), log_w)
+
+    def __call__(self, k):
+        """(sigma, h, ln w) at k."""
+        while not self.ends or self.ends[-1] < k:
+            self.extend()
+        return self.at_segment(bisect.bisect_left(self.ends, k), k)
+
+
+# ---------------------------------------------------------------------------------------------
+# Way 1, Pade: closed forms
+# ---------------------------------------------------------------------------------------------
+
+class PadeClosed:
+    """Closed forms for the Pade law Zh98 (1.4), (1.6), r < 2.
+
+    a = r/(2-r), e = r/(5-r), b = a - e, A = 8(2-r), B = 3 pi (5-r) (common factors dropped):
+    orbit u ~ k^a (A+Bk)^(-b); the time left and beta are one 2F1 each."""
+
+    def __init__(self, r, kappa):
+        self.r, self.kappa = r, kappa
+        self.a, self.e = r / (2 - r), r / (5 - r)
+        self.b = self.a - self.e
+        self.big_a, self.big_b = 8 * (2 - r), 3 * mp.pi * (5 - r)
+
+    def log_w(self, y):
+        """ln w on the orbit, y = ln k, up to a constant."""
+        return self.a * y - self.b * mp.log(self.big_a + self.big_b * mp.exp(y))
+
+    def sigma(self, k):
+        """Time left over w: 16/(3 pi r) + k + (3/2) k y 2F1(1, b+1; a+2; x), x = Bk/(A+Bk), y = 1-x."""
+        with mp.workdps(mp.dps + 30 + min(150, int(abs(mp.log10(1 + k))))):
+            bottom = self.big_a + self.big_b * k
+            x, y = self.big_b * k / bottom, self.big_a / bottom
+            series = mp.hyp2f1(1, self.b + 1, self.a + 2, x) if x else mpf(1)
+            value = 16 / (3 * mp.pi * self.r) + k + mpf(3) / 2 * k * y * series
+        return +value
+
+    def h(self, k):
+        """Solution of (B): -k(A+Bk) h' + r (8 + 3 pi k) h = kappa/(3 pi); a 2F1 of -Bk/A."""
+        z = -self.big_b * k / self.big_a
+        return (self.kappa / (24 * mp.pi * self.r)
+                * mp.hyp2f1(-self.e, 1, 1 - self.a, z))
+
+    def beta(self, k0, k, w0, w):
+        """Regularised time from k0 to k."""
+        with mp.workdps(mp.dps + 30):
+            return self.h(k) / w - self.h(k0) / w0
+
+
+# ---------------------------------------------------------------------------------------------
+# Way 1, Hertz: quadrature
+# ---------------------------------------------------------------------------------------------
+
+@functools.lru_cache(maxsize=None)
+def curved_panel(left, right, dps):
+    """Nodes y, weights and (k, dk/dy, Phi, Psi) on a panel of y = arccosh k."""
+    return [(weight, mp.cosh(y), mp.sinh(y), hertz(mp.cosh(y)))
+            for y, weight in panel_nodes(left, right)]
+
+
+class HertzQuadrature:
+    """Time left and beta for the exact law by quadrature of the separated equation (O).
+
+    sigma = 1/(r Psi(0)) + (1/w) Int_0^k w (1 - Psi/Psi(0))/D dk.  Normalised to w = 1 at k = 1.
+    k <= 1: closed orbit, panels in ln k.  k >= 1: panels in y = arccosh k, orbit by integration."""
+
+    def __init__(self, r, kappa):
+        self.r, self.kappa = r, kappa
+        self.psi0 = 3 * mp.pi / 16
+        self.closed_orbit(r)
+        self.panels = None
+
+    def closed_orbit(self, r):
+        """Roots and exponents of w = s^(a/2) |1 - s/s+|^e+ |1 - s/s-|^e-, s = k^2: partial
+        fractions of d ln w/ds = r (8-8s+3s^2)/(2 s [4(4-s) - r(8-8s+3s^2)])."""
+        with mp.workdps(mp.dps + 100):
+            root = mp.sqrt((4 * r - 2) ** 2 + 3 * r * (16 - 8 * r))
+            plus, minus = (4 * r - 2 + root) / (3 * r), (4 * r - 2 - root) / (3 * r)
+            self.roots = plus, minus
+            self.exponents = [-2 * (4 - one) / (3 * r * one * (one - other))
+                              for one, other in ((plus, minus), (minus, plus))]
+            self.power = r / (2 - r)
+            self.offset = mpf(0)
+            self.offset = self.log_w_low(mpf(0))
+
+    def log_w_low(self, y):
+        """ln w for y = ln k <= 0."""
+        s = mp.exp(2 * y)
+        return self.power * y - self.offset + mp.fsum(
+            exponent * mp.log(1 - s / root)
+            for root, exponent in zip(self.roots, self.exponents))
+
+    def bracket(self, s):
+        """128 D/(3 pi k) for k <= 1."""
+        return 4 * (4 - s) - self.r * (8 - 8 * s + 3 * s * s)
+
+    def panels_down(self, top, bottom):
+        """Panel edges in ln k from top down to bottom: short ones near k = 1."""
+        while top > bottom:
+            length = mpf(1) / 2 if top > -3 else mpf(2)
+            yield max(bottom, top - length), top
+            top -= length
+
+    def time_low(self, y):
+        """Int_0^k w (1 - Psi/Psi(0))/D dk, k = exp(y) <= 1; the integrand falls like k^2."""
+        if y < -(mp.dps + 10) * mp.ln10:
+            return mpf(0)
+
+        def integrand(x):
+            s = mp.exp(2 * x)
+            return mp.exp(self.log_w_low(x)) * 16 * s * (8 - 3 * s) / (3 * mp.pi * self.bracket(s))
+        bottom = y - (mp.dps + 5) * mp.ln10 / 2
+        return mp.fsum(integrate(integrand, *edges) for edges in self.panels_down(y, bottom))
+
+    def beta_low(self, y):
+        """kappa Int_k^1 dk/(w D Q), k = exp(y) <= 1; the limit k -> 0, which integrates to 1/w, is
+        taken out, so that the rest falls like k."""
+        def integrand(x):
+            k, s = mp.exp(x), mp.exp(2 * x)
+            rest = 1 / weight(k) - (8 - 8 * s + 3 * s * s) / (8 * weight(mpf(0)))
+            return mp.exp(-self.log_w_low(x)) * rest * 128 / (3 * mp.pi * self.bracket(s))
+
+        def weight(k):
+            return (16 + 15 * mp.pi * k) * (8 + 3 * mp.pi * k)
+        bottom = max(y, -(mp.dps + 5) * mp.ln10)
+        rest = mp.fsum(integrate(integrand, *edges)
+                       for edges in self.panels_down(mpf(0), bottom))
+        leading = (mp.exp(-self.log_w_low(y)) - 1) / (self.r * self.psi0 * weight(mpf(0)))
+        return self.kappa * (leading + rest)
+
+    def panel(self, left, right, state):
+        """One panel in y = arccosh k: (ln w, time integral, beta integral) at its upper end."""
+        log_w, elapsed, beta = state
+        nodes = curved_panel(left, right, mp.dps)
+        half = (right - left) / 2
+        rates, elapsed_rates, beta_rates = [], [], []
+        for _, k, slope, (phi, psi) in nodes:
+            d = phi - self.r * k * psi
+            rates.append(self.r * psi * slope / d)
+            elapsed_rates.append((1 - psi / self.psi0) * slope / d)
+            beta_rates.append(slope / (d * (16 + 15 * mp.pi * k) * (8 + 3 * mp.pi * k)))
+        inside = [mp.exp(log_w + half * mp.fdot(row, rates))
+                  for row in antiderivative_matrix(NODES, mp.dps)]
+        weights = [weight for weight, _, _, _ in nodes]
+        elapsed += mp.fdot(weights, [w * rate for w, rate in zip(inside, elapsed_rates)])
+        beta += self.kappa * mp.fdot(weights, [rate / w for w, rate in zip(inside, beta_rates)])
+        return log_w + mp.fdot(weights, rates), elapsed, beta
+
+    def high(self, k):
+        """(ln w, time integral, beta integral from 1) for k >= 1."""
+        y = mp.acosh(k)
+        far = (mp.dps + 10) * mp.ln10
+        if y > far + 20:                            # what lies below does not matter
+            left, state = mp.floor(y - far), (mpf(0), mpf(0), mpf(0))
+            while left + 1 < y:
+                state = self.panel(left, left + 1, state)
+                left += 1
+            return self.panel(left, y, state)
+        if self.panels is None:
+            self.panels = [(mpf(0), self.time_low(mpf(0)), mpf(0))]
+        count = int(mp.floor(y))
+        while len(self.panels) <= count:
+            left = mpf(len(self.panels) - 1)
+            self.panels.append(self.panel(left, left + 1, self.panels[-1]))
+        return self.panel(mpf(count), y, self.panels[count]) if y > count else self.panels[count]
+
+    def sigma_log_w(self, y):
+        """(sigma, ln w) at ln k = y."""
+        if y <= 0:
+            log_w, elapsed = self.log_w_low(y), self.time_low(y)
+        else:
+            log_w, elapsed, _ = self.high(mp.exp(y))
+        return 1 / (self.r * self.psi0) + elapsed * mp.exp(-log_w), log_w
+
+    def sigma(self, k):
+        """Time left over w."""
+        return self.sigma_log_w(mp.log(k))[0] if k else 1 / (self.r * self.psi0)
+
+    def beta_normal(self, y):
+        """Minus beta from k = 1 on the orbit through w = 1 at k = 1."""
+        return -self.beta_low(y) if y <= 0 else self.high(mp.exp(y))[2]
+
+    def log_w(self, y):
+        """ln w at ln k = y."""
+        return self.sigma_log_w(y)[1]
+
+    def beta(self, k0, k, w0, w):
+        """Regularised time from k0 to k."""
+        scale = mp.exp(self.log_w(mp.log(k0))) / w0
+        return scale * (self.beta_normal(mp.log(k0)) - self.beta_normal(mp.log(k)))
+
+
+# ---------------------------------------------------------------------------------------------
+# Stop times and states in two ways
+# ---------------------------------------------------------------------------------------------
+
+class Body:
+    """A body with a law: both ways of computing, shared by all starts with the same mu."""
+
+    def __init__(self, law, mu, chi=mpf(7) / 2, gamma=mpf(5) / 2, with_beta=False):
+        self.law = law
+        self.mu, self.chi, self.gamma = mpf(mu), mpf(chi), mpf(gamma)
+        self.r = self.gamma * self.mu ** 2 / self.chi
+        self.kappa = 3 * mp.pi / (2 * self.chi)
+        self.first = (PadeClosed if law == "pade" else HertzQuadrature)(self.r, self.kappa)
+        self.second = Profile(law, self.r, self.kappa if with_beta else None)
+
+    def stop(self, u, v):
+        """Stop time tau* and agreed digits."""
+        w, v = self.mu * abs(mpf(u)), mpf(v)
+        if w == 0:                                  # v/k -> 0: only sliding
+            pair = self.kappa * v, self.stop_taylor(v * mpf(10) ** (-mp.dps - 5), v)
+        else:
+            pair = self.kappa * w * self.first.sigma(v / w), self.stop_taylor(w, v)
+        return pair[0], check([pair], "stop %s mu=%s u=%s v=%s" % (self.law, self.mu, u, v))
+
+    def stop_taylor(self, w, v):
+        """Stop time by Taylor series."""
+        k, reach = v / w, mpf(10) ** (mp.dps + 5)
+        profile = self.second
+        if k > reach * 10 ** 5:
+            profile = Profile(self.law, self.r, start=k / reach)
+        return self.kappa * w * profile(k)[0]
+
+    def state(self, u, v, tau):
+        """State at tau: (|u|, ln v, k, beta) and agreed digits."""
+        w0, k0 = self.mu * abs(mpf(u)), mpf(v) / (self.mu * abs(mpf(u)))
+        left = self.kappa * w0 * self.first.sigma(k0) - tau
+        second = self.state_taylor(w0, k0, left)
+        guess = mpf(mp.nstr(second[0], 15))
+        first = self.state_direct(w0, k0, left, guess)
+        rows = [self.outputs(state) for state in (first, second)]
+        where = "state %s mu=%s u=%s v=%s tau=%s" % (self.law, self.mu, u, v, tau)
+        return rows[0], check(list(zip(*rows)), where)
+
+    def outputs(self, state):
+        """(|u|, ln v, k, beta) from (ln k, ln w, beta)."""
+        y, log_w, beta = state
+        return mp.exp(log_w) / self.mu, y + log_w, mp.exp(y), beta
+
+    def newton(self, left, y, evaluate):
+        """Solve time left = kappa w sigma for y = ln k; d ln(w sigma)/dy = k/(D sigma)."""
+        law = hertz if self.law == "hertz" else pade
+        for _ in range(200):
+            sigma, log_w = evaluate(y)
+            k = mp.exp(y)
+            phi, psi = law(k)
+            slope = 1 / ((phi / k - self.r * psi) * sigma)
+            step = (log_w + mp.log(self.kappa * sigma) - mp.log(left)) / slope
+            y -= step
+            if abs(step) < mpf(10) ** (10 - mp.dps) * max(1, abs(y)):
+                return y, evaluate(y)[1]
+        raise Disagreement("Newton does not converge")
+
+    def state_taylor(self, w0, k0, left):
+        """(ln k, ln w, beta) by Taylor series; ln(w sigma) is convex in ln k, so that Newton's
+        method descends monotonically from the start."""
+        log_k0 = mp.log(k0)
+        _, h0, log0 = self.second(k0)
+        log0 = mp.log(w0) - log0
+
+        def evaluate(y):
+            sigma, _, log_w = self.second(mp.exp(y))
+            return sigma, log_w + log0
+        y, log_w = self.newton(left, log_k0, evaluate)
+        h = self.second(mp.exp(y))[1]
+        return y, log_w, h / mp.exp(log_w) - h0 / w0
+
+    def state_direct(self, w0, k0, left, guess):
+        """(ln k, ln w, beta) by closed forms (Pade) or quadrature (Hertz)."""
+        way = self.first
+        log0 = mp.log(w0) - way.log_w(mp.log(k0))
+
+        def evaluate(y):
+            if self.law == "hertz":
+                sigma, log_w = way.sigma_log_w(y)
+                return sigma, log_w + log0
+            return way.sigma(mp.exp(y)), way.log_w(y) + log0
+        y, log_w = self.newton(left, guess, evaluate)
+        return y, log_w, way.beta(k0, mp.exp(y), w0, mp.exp(log_w))
+
+
+# ---------------------------------------------------------------------------------------------
+# The tables
+# ---------------------------------------------------------------------------------------------
+
+MUS = [1e-10, 1e-8, 1e-6, 1e-4, 1e-3, 0.0035, 0.01, 0.05, 0.099, 0.1, 0.241, 0.3, 0.5, 0.7, 0.9,
+       1.0]
+
+EXTREMES = [                                        # (mu, u0, v0)
+    (0.1, 0.0, 1.0), (1e-10, 0.0, 1.0), (1.0, 0.0, 3.5), (0.3, 0.0, 1e-290),
+    (0.3, 1.0, 0.0), (1e-10, 1.0, 0.0), (1.0, 2.0, 0.0), (0.1, 1e-290, 0.0),
+    (0.1, -1.0, 1.0), (0.3, -2.5, 0.4), (1e-3, -1.0, 1e-3), (1.0, -1.0, 2.0), (0.1, -1.0, 0.0),
+    (0.1, 1e-300, 1e300), (1e-10, 1e-300, 1e300), (0.01, 1e-308, 1e308),
+    (0.1, 1e300, 1e-300), (1.0, 1e200, 1e-200), (1e-10, 1e297, 1e-300),
+    (1e-10, 1e297, 1.0), (1e-10, 1e297, 1e297), (1e-10, 5e297, 1e300),
+    (0.1, 5e306, 3e306), (1.0, 3e307, 5e307), (0.3, -2e306, 1e308), (0.1, 1e100, 1e100),
+    (0.1, 1e-293, 1e-292), (1.0, 1e-291, 1e-290), (1e-10, 1e-301, 1e-300), (0.3, 1e-290, 1e-295),
+    (0.1, 1.0, 5e-324), (1e-10, 1.0, 5e-324), (0.1, 5e-324, 1.0), (1e-10, 5e-324, 1.0),
+    (0.1, 1.0, 1e-310), (0.1, -1e-310, 1.0),
+]
+
+HERTZ_EXTREMES = [EXTREMES[i] for i in (0, 1, 3, 4, 5, 7, 8, 9, 11, 13, 16, 19, 21, 22, 23, 26, 28,
+                                        30, 31, 32)]
+
+
+def law_points():
+    """Values of k for laws.csv."""
+    ulp, edge = 2.0 ** -52, 1.25
+    points = [1e-300, 1e-200, 1e-100, 1e-20, 1e-12, 1e-8, 1e-5, 1e-3, 0.01, 0.1, 0.25, 0.5, 0.5392,
+              0.75, 0.9, 0.9059, 0.99, 0.999999, 1 - ulp / 2, 1.0, 1 + ulp, 1 + 1e-12, 1.000001,
+              1.0001, 1.01, 1.1, 1.2, 1.2499, edge - ulp, edge, edge + ulp, 1.2501, 1.3, 1.5, 2.0,
+              3.0, 5.0, 10.0, 30.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e8, 1e10, 1e16, 1e30, 1e100, 1e200,
+              1e300]
+    dice = random.Random(SEED)
+    points += [10 ** dice.uniform(-3, 3) for _ in range(40)]
+    return sorted(points)
+
+
+def table_laws():
+    """Both laws at single points."""
+    yield ["k", "k_hex", "phi_hertz", "psi_hertz", "phi_pade", "psi_pade", "digits"]
+    for number in law_points():
+        k = mpf(number)
+        first = hertz(k) + pade(k)
+        pairs = list(zip(first, hertz_chords(k) + pade_from_ends(k)))
+        if k >= 1:
+            pairs += list(zip(first, hertz_printed(k)))
+        digits = check(pairs, "laws k=%s" % number)
+        yield exact(number) + [text(value) for value in first] + [digits]
+
+
+def stop_points(per_mu, extra_mus, extremes):
+    """(mu, u0, v0): k0 = v0/(mu u0) from 1e-6 to 1e8, spread and random, and the extremes."""
+    dice = random.Random(SEED)
+    points = []
+    for mu in MUS + [10 ** dice.uniform(-10, 0) for _ in range(extra_mus)]:
+        count = per_mu if mu in MUS else 2
+        for i in range(count):
+            k0 = 10 ** (-6 + 14 * (i + dice.random()) / count)
+            u0 = dice.choice([1.0, 0.25, 10 ** dice.uniform(-2, 2)])
+            points.append((mu, u0, k0 * mu * u0))
+    return sorted(points + extremes)
+
+
+def stop_table(law, points):
+    """Stop times of the ball."""
+    yield ["mu", "mu_hex", "u0", "u0_hex", "v0", "v0_hex", "tau_stop", "digits"]
+    body = None
+    for mu, u0, v0 in points:
+        if body is None or body.mu != mu:
+            body = Body(law, mu)
+        tau, digits = body.stop(u0, v0)
+        yield exact(mu) + exact(u0) + exact(v0) + [text(tau), digits]
+
+
+def table_stop_pade():
+    """Stop times, Pade law."""
+    return stop_table("pade", stop_points(10, 27, EXTREMES))
+
+
+def table_stop_hertz():
+    """Stop times, exact law."""
+    return stop_table("hertz", stop_points(5, 11, HERTZ_EXTREMES))
+
+
+TRAJECTORY_MUS = [1e-4, 1e-3, 0.0035, 0.01, 0.099, 0.1, 0.241, 0.3, 0.7, 1.0]
+FRACTIONS = [1e-6, 0.01, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 0.999]
+STARTS = [1e-3, 0.5, 2.5, 1e5, 0.05, 1.0, 30.0, 1e3]                # k0
+BALLS = {0.0035: (1.0, 0.5), 0.099: (2.8575, 1.0), 0.241: (0.9, 0.5)}    # (u0, v0)
+
+
+def trajectory_points(per_start):
+    """(mu, u0, v0, fraction): four starts for each mu, all fractions in turn."""
+    points, turn = [], 0
+    for i, mu in enumerate(TRAJECTORY_MUS):
+        starts = []
+        for j in range(4):
+            u0 = (1.0, -2.0, 0.5, 4.0)[(i + j) % 4]
+            starts.append((u0, STARTS[(4 * i + j) % len(STARTS)] * mu * abs(u0)))
+        if mu in BALLS:
+            starts[1] = BALLS[mu]
+        for u0, v0 in starts:
+            for _ in range(per_start):
+                points.append((mu, u0, v0, FRACTIONS[turn % len(FRACTIONS)]))
+                turn += 4
+            turn += 1
+    return points
+
+
+def trajectory_table(law, points):
+    """States of the ball at the exact double nearest to fraction tau*."""
+    yield ["mu", "mu_hex", "u0", "u0_hex", "v0", "v0_hex", "tau_stop", "fraction", "tau",
+           "tau_hex", "u", "ln_v", "k", "beta", "digits"]
+    body = None
+    for mu, u0, v0, fraction in points:
+        if body is None or body.mu != mu:
+            body = Body(law, mu, with_beta=True)
+        stop, digits = body.stop(u0, v0)
+        tau = double(fraction * stop)
+        (u, log_v, k, beta), more = body.state(u0, v0, mpf(tau))
+        u = u if u0 > 0 else -u
+        yield (exact(mu) + exact(u0) + exact(v0) + [text(stop), repr(fraction)] + exact(tau)
+               + [text(value) for value in (u, log_v, k, beta)] + [min(digits, more)])
+
+
+def table_trajectory_pade():
+    """States, Pade law."""
+    return trajectory_table("pade", trajectory_points(3))
+
+
+def table_trajectory_hertz():
+    """States, exact law."""
+    return trajectory_table("hertz", trajectory_points(2))
+
+
+BODIES = [                                          # (chi, gamma, mu, u0, v0)
+    (2.5, 1.5, 0.1, 1.0, 1.0),                      # hollow ball
+    (2.5, 1.5, 1.0, 0.5, 2.0),
+    (1.5, 4.0, 0.05, 2.0, 0.25),                    # gyroscope
+    (1.5, 4.0, 0.5, -1.0, 1.0),
+    (1.5, 4.0, 0.75, 1.0, 0.5),
+    (1.0, 2.0, 0.5, 1.0, 1.0),                      # puck
+    (1.0, 2.0, 0.9, 2.0, 40.0),
+    (1.0, 1.5, 1.0, 1.0, 0.01),
+    (3.5, 2.5, 0.3, 1.0, 0.3),                      # ball
+    (6.0, 3.25, 0.01, 3.0, 0.03),
+]
+
+
+def table_bodies():
+    """Stop times of bodies of other inertia."""
+    yield ["law", "chi", "gamma", "mu", "mu_hex", "u0", "u0_hex", "v0", "v0_hex", "tau_stop",
+           "digits"]
+    for law in ("pade", "hertz"):
+        for chi, gamma, mu, u0, v0 in BODIES:
+            tau, digits = Body(law, mu, chi, gamma).stop(u0, v0)
+            yield ([law, repr(chi), repr(gamma)] + exact(mu) + exact(u0) + exact(v0)
+                   + [text(tau), digits])
+
+
+TABLES = {
+    "laws": table_laws,
+    "stop_pade": table_stop_pade,
+    "stop_hertz": table_stop_hertz,
+    "trajectory_pade": table_trajectory_pade,
+    "trajectory_hertz": table_trajectory_hertz,
+    "bodies": table_bodies,
+}
+
+
+def write(name, folder):
+    """Write one table; nothing is left behind when the two ways disagree."""
+    start = time.time()
+    rows = []
+    for row in TABLES[name]():
+        rows.append(row)
+        if sys.stderr.isatty():
+            sys.stderr.write("\r%s: %d rows, %.0f s" % (name, len(rows) - 1, time.time() - start))
+    with open(os.path.join(folder, name + ".csv"), "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
+    digits = [row[-1] for row in rows[1:]]
+    sys.stderr.write("%s%s: %d rows, %d..%d digits agree, %.0f s\n"
+                     % ("\r" if sys.stderr.isatty() else "", name, len(digits), min(digits), max(digits), time.time() - start))
+
+
+def main():
+    """Command line."""
+    global PRINTED
+    parser = argparse.ArgumentParser(description="Write the many-digit reference tables.")
+    parser.add_argument("--only", metavar="TABLE", action="append", choices=sorted(TABLES),
+                        help="write only this table (may be repeated): " + ", ".join(TABLES))
+    parser.add_argument("--digits", type=int, default=PRINTED,
+                        help="significant digits to print (default %(default)s)")
+    parser.add_argument("--output", default=os.path.dirname(os.path.abspath(__file__)),
+                        help="folder to write to (default: the folder of this file)")
+    arguments = parser.parse_args()
+    PRINTED = arguments.digits
+    mp.dps = PRINTED + GUARD
+    for name in TABLES:
+        if not arguments.only or name in arguments.only:
+            write(name, arguments.output)
+
+
+if __name__ == "__main__":
+    main()
