@@ -12,13 +12,14 @@ namespace contensou::reduction {
 
 double hertz_inner_log_rim(double r, double k) {
   if (!(r > 0 && r < 2 && k > 0 && k <= 1)) {
-    throw std::domain_error(fmt::format("hertz_inner_log_rim: 0 < r < 2 and 0 < k <= 1 required, got r = {}, k = {}", r, k));
+    throw std::domain_error(
+        fmt::format("hertz_inner_log_rim: 0 < r < 2 and 0 < k <= 1 required, got r = {}, k = {}", r, k));
   }
   const double root = std::sqrt(1 + r * (8 - 2 * r));
   // The printed roots subtract for small r: s+ from the product of the roots, s- from their sum of like signs.
-  const double outer = 4 * (2 - r) / (1 - 2 * r + root);        // s+ > 1
-  const double negative = -2 * (1 - 2 * r + root) / (3 * r);    // s-
-  const double distance = 4 * root / (3 * r);                   // s+ - s-
+  const double outer = 4 * (2 - r) / (1 - 2 * r + root);      // s+ > 1
+  const double negative = -2 * (1 - 2 * r + root) / (3 * r);  // s-
+  const double distance = 4 * root / (3 * r);                 // s+ - s-
   // 4 - s+ from 4 (4 - s) = r (8 - 8 s + 3 s^2): s+ -> 4 as r -> 0.
   const double outer_exponent = -(8 - 8 * outer + 3 * outer * outer) / (6 * outer * distance);
   const double negative_exponent = 2 * (4 - negative) / (3 * r * negative * distance);

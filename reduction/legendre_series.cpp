@@ -72,8 +72,7 @@ double LegendreSeries::operator()(double t) const {
   double next = 0;
   double after_next = 0;
   for (int j = order; j >= 1; --j) {
-    const double current =
-        coefficients_[j] + (2 * j + 1) / (j + 1.0) * t * next - (j + 1) / (j + 2.0) * after_next;
+    const double current = coefficients_[j] + (2 * j + 1) / (j + 1.0) * t * next - (j + 1) / (j + 2.0) * after_next;
     after_next = std::exchange(next, current);
   }
   return coefficients_[0] + t * next - 0.5 * after_next;

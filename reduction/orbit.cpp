@@ -131,9 +131,7 @@ double Orbit::log_ratio_at_left(double left) const {
 }
 
 double Orbit::log_ratio_at_elapsed(double elapsed) const {
-  const auto residual = [&](double ln_k) {
-    return std::pair{elapsed - scaled_elapsed(ln_k), scaled_left_slope(ln_k)};
-  };
+  const auto residual = [&](double ln_k) { return std::pair{elapsed - scaled_elapsed(ln_k), scaled_left_slope(ln_k)}; };
   const double slope = pivoting_rate_ / (system_.law().force_slope() - pivoting_rate_);
   const double left = w_ / pivoting_rate_ + v_ * share0_ - elapsed;
   const double limit = limit_ln_k + (std::log(left * pivoting_rate_ / w_) - rim_change(limit_ln_k)) / slope;
@@ -142,7 +140,9 @@ double Orbit::log_ratio_at_elapsed(double elapsed) const {
   return increasing_root(residual, std::max(limit, sliding), low + low * 1e-15, ln_k0_);
 }
 
-OrbitPoint Orbit::rest(double tau) const { return {tau, 0, 0, -infinity, u0_ == 0 && v0_ > 0 ? infinity : 0.0, infinity}; }
+OrbitPoint Orbit::rest(double tau) const {
+  return {tau, 0, 0, -infinity, u0_ == 0 && v0_ > 0 ? infinity : 0.0, infinity};
+}
 
 OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
   // One speed alone falls linearly. On either axis dtau = weight dbeta with the weight of the one speed squared.
@@ -153,7 +153,8 @@ OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
     const double v = v0_ * left_share;
     return {tau, 0, v, std::log(v), infinity, spent / (45 * pi * pi * rate) / v0_};
   }
-  return {tau, u0_ * left_share, 0, -infinity, 0, spent / (128 * rate * pivoting_rate_) / (system_.mu() * std::abs(u0_))};
+  return {
+      tau, u0_ * left_share, 0, -infinity, 0, spent / (128 * rate * pivoting_rate_) / (system_.mu() * std::abs(u0_))};
 }
 
 OrbitPoint Orbit::point(double tau, double ln_k) const {

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
+#include <boost/math/special_functions/gamma.hpp>
 
 namespace contensou::reduction {
 
@@ -111,9 +111,8 @@ double PadeCurve::regularised_age(double ln_k) const {
     power *= at.x;
     half_power *= 0.5;
     const double s = n - a_;
-    const double integral = std::abs(s) * to_half < 1
-                                ? power * expm1_over(s, to_half)
-                                : (x_to_a * half_power * std::exp2(a_) - power) / s;
+    const double integral =
+        std::abs(s) * to_half < 1 ? power * expm1_over(s, to_half) : (x_to_a * half_power * std::exp2(a_) - power) / s;
     sum += coefficient * integral;
   }
   return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * half_age_);

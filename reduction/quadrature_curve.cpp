@@ -30,9 +30,9 @@ constexpr int deepest_split = 40;
 
 /// The three integrands at one k; D and Psi are taken relative to max(1, k) so that nothing overflows.
 struct Integrands {
-  double rim_slope;      ///< h
-  double deficit_rate;   ///< (1 - Psi/Psi(0))/D: k (k m)' without the decay of w
-  double age_rate;       ///< k/(D (16 + 15 pi k)(8 + 3 pi k))
+  double rim_slope;     ///< h
+  double deficit_rate;  ///< (1 - Psi/Psi(0))/D: k (k m)' without the decay of w
+  double age_rate;      ///< k/(D (16 + 15 pi k)(8 + 3 pi k))
 };
 
 Integrands integrands(const Law& law, double r, double ln_k) {

@@ -15,7 +15,8 @@ Slip slip_of_ratio(double k) {
 }
 
 void require_slip(const char* law, Slip slip) {
-  const bool speeds = std::isfinite(slip.sliding) && std::isfinite(slip.pivoting) && slip.sliding >= 0 && slip.pivoting >= 0;
+  const bool speeds =
+      std::isfinite(slip.sliding) && std::isfinite(slip.pivoting) && slip.sliding >= 0 && slip.pivoting >= 0;
   if (!speeds) {
     throw std::domain_error(fmt::format("{}: sliding and pivoting must be finite and >= 0, got {} and {}", law,
                                         slip.sliding, slip.pivoting));

@@ -7,8 +7,8 @@
 
 namespace contensou::reduction {
 
-/// What both steppers say and in which unit: the start in logarithms, the instants still to be reported, the Motion that
-/// grows. No equation of motion lives here.
+/// What both steppers say and in which unit: the start in logarithms, the instants still to be reported, the Motion
+/// that grows. No equation of motion lives here.
 class StepperReport {
  public:
   /// @param caller  named in error messages

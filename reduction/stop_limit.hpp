@@ -18,8 +18,8 @@ struct LogState {
 
 /// The exact limit of the rest of a motion, from where one of the two frictions is all there is.
 ///
-/// k -> 0: w falls at the rate r Psi(0), v follows with the exponent of the linearised law. k -> infinity: v falls at the
-/// rate 1, w follows.
+/// k -> 0: w falls at the rate r Psi(0), v follows with the exponent of the linearised law. k -> infinity: v falls at
+/// the rate 1, w follows.
 class StopLimit {
  public:
   /// The limit that holds at this state to better than 1e-17 of the whole time, if one does.
@@ -38,7 +38,7 @@ class StopLimit {
   double left_;
   double ln_v_slope_;  ///< d ln v per d ln (time left)
   double ln_w_slope_;
-  double age_scale_;   ///< age gained = age_scale_ (1/share left - 1)
+  double age_scale_;  ///< age gained = age_scale_ (1/share left - 1)
 };
 
 }  // namespace contensou::reduction

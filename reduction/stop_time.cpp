@@ -34,9 +34,7 @@ constexpr std::array route_texts{
               "(2.6) in ln u, ln v stepped in tau, relative error below 1e-10; any law and body"},
 };
 
-const RouteText& text(Route route) {
-  return *std::ranges::find(route_texts, route, &RouteText::route);
-}
+const RouteText& text(Route route) { return *std::ranges::find(route_texts, route, &RouteText::route); }
 
 StopTime by_stepper(Route route, const Motion& motion) {
   if (!motion.outcome.ok()) throw std::runtime_error(motion.outcome.sentence);

@@ -1,1 +1,227 @@
 #include "contensou/reduction/verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/similarity.hpp"
+#include "contensou/reduction/symmetry.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+using std::numbers::pi;
+
+// What each statement may miss by: rounding, the difference quotients of symmetry.hpp, or the steppers' answer.
+constexpr double rounding = 1e-13;
+constexpr double difference_quotient = 1e-9;
+constexpr double stepping = 1e-10;
+
+double relative(double value, double reference) {
+  return value == reference ? 0.0 : std::abs(value - reference) / std::abs(reference);
+}
+
+/// The start in a unit of speed in which neither squares nor sums overflow; exact.
+State normalised(State start) {
+  const int exponent = std::ilogb(std::max(std::abs(start.u), start.v));
+  return {std::ldexp(start.u, -exponent), std::ldexp(start.v, -exponent)};
+}
+
+/// The checks of one start, made one after the other.
+class Examination {
+ public:
+  Examination(const ReducedSystem& system, State start, const std::shared_ptr<const SimilarityCurve>& quadrature,
+              const std::shared_ptr<const SimilarityCurve>& closed)
+      : system_(system),
+        start_(normalised(start)),
+        quadrature_(quadrature),
+        closed_(closed),
+        orbit_(system, start_, closed ? closed : quadrature) {}
+
+  std::vector<Check> run() {
+    const Motion regularised = integrate_regularised(system_, start_);
+    const Motion direct = integrate_directly(system_, start_);
+    routes(regularised, direct);
+    symmetry();
+    if (start_.u != 0 && start_.v != 0) {
+      add("generator on dv/du", slope_symmetry_residual(system_, start_), difference_quotient);
+      separated_equation();
+      first_integral(regularised, direct);
+      times(regularised);
+    }
+    limits();
+    bounds();
+    inner_orbit();
+    return std::move(checks_);
+  }
+
+ private:
+  void add(std::string name, double measured, double allowed) {
+    checks_.push_back({std::move(name), measured, allowed});
+  }
+
+  void routes(const Motion& regularised, const Motion& direct) {
+    const double best = orbit_.stop_time();
+    if (closed_) {
+      const double by_quadrature = Orbit(system_, start_, quadrature_).stop_time();
+      add("stop time: quadrature against closed form", relative(by_quadrature, best), rounding);
+    }
+    add("stop time: (2.7) and (2.8) in beta", relative(regularised.stop_time, best), stepping);
+    add("stop time: (2.6) in tau", relative(direct.stop_time, best), stepping);
+  }
+
+  void symmetry() {
+    add("generator on (2.6)", field_symmetry_residual(system_, start_), difference_quotient);
+    add("generator on (2.7)", regularised_symmetry_residual(system_, start_), difference_quotient);
+
+    // A factor that is no power of two, so that no digit agrees by construction.
+    constexpr double factor = 1e3 / 7;
+    const double scaled = integrate_directly(system_, {factor * start_.u, factor * start_.v}).stop_time;
+    add("stop time of the scaled start, (2.6)", relative(scaled, factor * orbit_.stop_time()), stepping);
+  }
+
+  void separated_equation() {
+    // The change of p = ln v over one unit of ln q, below the start and around k = 1, where q is a double.
+    constexpr double largest = 600;
+    if (orbit_.start_log_ratio() < -largest) return;
+    double worst = 0;
+    for (double top : {std::min(orbit_.start_log_ratio(), largest), std::min(orbit_.start_log_ratio(), 0.5)}) {
+      const double bottom = top - 1;
+      const double sign = std::copysign(1.0, start_.u);
+      const auto slope = [&](double ln_k) {
+        const double q = sign * system_.mu() * std::exp(ln_k);
+        return q * separated_slope(system_, q);
+      };
+      using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
+      const double middle = std::clamp(0.0, bottom, top);  // k = 1, where the law may have a kink
+      const double change =
+          Rule::integrate(slope, bottom, middle, 8, 1e-14) + Rule::integrate(slope, middle, top, 8, 1e-14);
+      const double along = orbit_.at_log_ratio(top).ln_v - orbit_.at_log_ratio(bottom).ln_v;
+      worst = std::max(worst, relative(along, change));
+    }
+    add("separated equation dp/dq", worst, 1e-12);
+  }
+
+  /// ln k, also where k itself underflows.
+  double log_ratio(const OrbitPoint& point) const { return point.ln_v - std::log(system_.mu() * std::abs(point.u)); }
+
+  void first_integral(const Motion& regularised, const Motion& direct) {
+    // I = ln u - (ln w of the curve at k): constant along every solution.
+    const auto drift = [&](const Motion& motion) {
+      const auto& curve = closed_ ? *closed_ : *quadrature_;
+      const double at_start = std::log(std::abs(start_.u)) - curve.log_rim(orbit_.start_log_ratio());
+      double worst = 0;
+      for (Eigen::Index i = 0; i + 1 < motion.points.rows(); ++i) {
+        const OrbitPoint point = motion.points.row(i);
+        const double here = std::log(std::abs(point.u)) - curve.log_rim(log_ratio(point));
+        worst = std::max(worst, std::abs(here - at_start));
+      }
+      return worst;
+    };
+    add("first integral along (2.7)", drift(regularised), stepping);
+    add("first integral along (2.6)", drift(direct), stepping);
+  }
+
+  void times(const Motion& regularised) {
+    // tau(k) and beta(k) of the similarity solution where the stepper passed the same k.
+    const double beta_unit = 1 / (16 * system_.mu() * std::abs(start_.u) + 15 * pi * start_.v);
+    double worst_tau = 0;
+    double worst_beta = 0;
+    for (Eigen::Index i = 0; i + 1 < regularised.points.rows(); ++i) {
+      const OrbitPoint stepped = regularised.points.row(i);
+      const OrbitPoint exact = orbit_.at_log_ratio(std::min(log_ratio(stepped), orbit_.start_log_ratio()));
+      worst_tau = std::max(worst_tau, std::abs(stepped.tau - exact.tau) / orbit_.stop_time());
+      worst_beta = std::max(worst_beta, std::abs(stepped.beta - exact.beta) / (beta_unit + exact.beta));
+    }
+    add("tau(k) against (2.8)", worst_tau, stepping);
+    add("beta(k) against (2.8)", worst_beta, stepping);
+  }
+
+  void limits() {
+    // Next to the axes, where the orbit is still computed as any other, against the axes themselves.
+    const double speed = std::max(std::abs(start_.u), start_.v);
+    const double faint = 1e-15 / std::max(1.0, system_.r());
+    const State almost_pivoting{speed, faint * system_.mu() * speed};
+    const State almost_sliding{faint * std::min(1.0, system_.r()) * speed / system_.mu(), speed};
+    const auto stop = [&](State start) { return Orbit(system_, start, closed_ ? closed_ : quadrature_).stop_time(); };
+    add("limit of pure pivoting", relative(stop(almost_pivoting), system_.pivoting_limit(speed)), rounding);
+    add("limit of pure sliding", relative(stop(almost_sliding), system_.sliding_limit(speed)), rounding);
+  }
+
+  void bounds() {
+    if (!system_.law().sliding_share()) return;
+    const double stop = orbit_.stop_time();
+    const auto [lower, upper] = system_.stop_time_bounds(start_);
+    add("two-sided bound of the stop time", std::max({0.0, lower / stop - 1, stop / upper - 1}), rounding);
+
+    // The inequality that the bounds rest on: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 where m >= 1.
+    const double sign = system_.law().sliding_share()->least >= 1 ? 1 : -1;
+    double worst = 0;
+    for (int i = -200; i <= 200; ++i) {
+      const Slip slip = slip_of_ratio(std::exp2(0.1 * i));
+      const double excess = system_.law()(slip).force - system_.law().moment_deficit(slip);
+      worst = std::max(worst, sign * excess);
+    }
+    add("Phi + Psi/Psi(0) on its side of 1", worst, 1e-15);
+  }
+
+  void inner_orbit() {
+    const auto& elementary = system_.law().inner_log_rim();
+    if (!elementary) return;
+    // ln w changes by r times a number of order 1.
+    double worst = 0;
+    for (double k : {1e-6, 1e-3, 0.03, 0.3, 0.7, 0.99}) {
+      const double change = elementary(system_.r(), 1) - elementary(system_.r(), k);
+      const double by_quadrature = quadrature_->log_rim(0) - quadrature_->log_rim(std::log(k));
+      worst = std::max(worst, std::abs(by_quadrature - change) / system_.r());
+    }
+    add("elementary orbit for k <= 1", worst, rounding);
+  }
+
+  const ReducedSystem& system_;
+  State start_;
+  std::shared_ptr<const SimilarityCurve> quadrature_;
+  std::shared_ptr<const SimilarityCurve> closed_;
+  Orbit orbit_;
+  std::vector<Check> checks_;
+};
+
+/// The larger measure of two; not a number wins, so that it is never lost.
+double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
+}  // namespace
+
+std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts) {
+  const auto quadrature = std::make_shared<QuadratureCurve>(system.law(), system.r());
+  const auto closed = system.law().closed_curve(system.r());
+  std::vector<Check> all;
+  for (const State& start : starts) {
+    require_state("verify", start);
+    if (start.u == 0 && start.v == 0) {
+      throw std::domain_error("verify: u = v = 0 is rest, there is no motion to check");
+    }
+    for (Check& check : Examination(system, start, quadrature, closed).run()) {
+      const auto same = std::ranges::find(all, check.name, &Check::name);
+      if (same == all.end()) {
+        all.push_back(std::move(check));
+      } else {
+        same->measured = worse(check.measured, same->measured);
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<Check> verify(const ReducedSystem& system, State start) { return verify(system, std::vector{start}); }
+
+}  // namespace contensou::reduction

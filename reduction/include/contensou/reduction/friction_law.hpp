@@ -26,7 +26,9 @@ class SimilarityCurve;
 ///   - `static constexpr std::string_view name` for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
 ///   - `static constexpr SlidingShare sliding_share`, its two-sided bound of the stop time;
-///   - `std::shared_ptr<const SimilarityCurve> closed_curve(double r) const`, its closed form for that r, or null.
+///   - `std::shared_ptr<const SimilarityCurve> closed_curve(double r) const`, its closed form for that r, or null;
+///   - `double inner_log_rim(double r, double k) const`, ln w(k) for k <= 1 where only that part is elementary: a
+///   check.
 template <class L>
 concept FrictionLaw = std::copy_constructible<L> && requires(const L& law, Slip slip) {
   { law(slip) } -> std::convertible_to<Resistance>;
@@ -44,17 +46,30 @@ class Law {
  public:
   /// @throws std::domain_error  if the law's limits are not those listed at FrictionLaw
   template <FrictionLaw L>
-    requires(!std::same_as<L, Law>)
-  Law(L law) {  // NOLINT(google-explicit-constructor): a law is a Law
-    if constexpr (requires { { L::name } -> std::convertible_to<std::string_view>; }) name_ = L::name;
-    if constexpr (requires { { L::sliding_share } -> std::convertible_to<SlidingShare>; }) {
+  requires(!std::same_as<L, Law>) Law(L law) {  // NOLINT(google-explicit-constructor): a law is a Law
+    if constexpr (requires {
+                    { L::name } -> std::convertible_to<std::string_view>;
+                  })
+      name_ = L::name;
+    if constexpr (requires {
+                    { L::sliding_share } -> std::convertible_to<SlidingShare>;
+                  }) {
       sliding_share_ = L::sliding_share;
     }
-    if constexpr (requires(Slip slip) { { law.moment_deficit(slip) } -> std::convertible_to<double>; }) {
+    if constexpr (requires(Slip slip) {
+                    { law.moment_deficit(slip) } -> std::convertible_to<double>;
+                  }) {
       moment_deficit_ = [law](Slip slip) { return law.moment_deficit(slip); };
     }
-    if constexpr (requires { { law.closed_curve(1.0) } -> std::convertible_to<std::shared_ptr<const SimilarityCurve>>; }) {
+    if constexpr (requires {
+                    { law.closed_curve(1.0) } -> std::convertible_to<std::shared_ptr<const SimilarityCurve>>;
+                  }) {
       closed_curve_ = [law](double r) { return law.closed_curve(r); };
+    }
+    if constexpr (requires {
+                    { law.inner_log_rim(1.0, 1.0) } -> std::convertible_to<double>;
+                  }) {
+      inner_log_rim_ = [law](double r, double k) { return law.inner_log_rim(r, k); };
     }
     resistance_ = std::move(law);
     read_limits();
@@ -83,6 +98,9 @@ class Law {
     return closed_curve_ ? closed_curve_(r) : nullptr;
   }
 
+  /// The law's own ln w(k) for k <= 1, up to a constant; empty if it has none.
+  const std::function<double(double r, double k)>& inner_log_rim() const { return inner_log_rim_; }
+
  private:
   void read_limits();
 
@@ -90,6 +108,7 @@ class Law {
   std::function<Resistance(Slip)> resistance_;
   std::function<double(Slip)> moment_deficit_;
   std::function<std::shared_ptr<const SimilarityCurve>(double)> closed_curve_;
+  std::function<double(double, double)> inner_log_rim_;
   std::optional<SlidingShare> sliding_share_;
   double pivoting_moment_ = std::numeric_limits<double>::quiet_NaN();
   double force_slope_ = std::numeric_limits<double>::quiet_NaN();

@@ -29,13 +29,16 @@ struct OrbitColumns {
   OrbitPoint row(Eigen::Index row) const;
 };
 
-/// The motion from one start to its stop, from the similarity solution: the law's curve, scaled to pass through the start.
+/// The motion from one start to its stop, from the similarity solution: the law's curve, scaled to pass through the
+/// start.
 ///
 /// There are no time steps: any instant is found by itself. Invariant axes (u0 = 0, v0 = 0) and rest (both 0) are
 /// ordinary starts.
 ///
-/// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference). Near the
-///           stop the conditioning is that of the question: u is proportional to stop_time() - tau, so ask at_time_left().
+/// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference). Near
+/// the
+///           stop the conditioning is that of the question: u is proportional to stop_time() - tau, so ask
+///           at_time_left().
 class Orbit {
  public:
   /// @throws std::domain_error  if start is not a state (finite, v >= 0), or if r is outside the curve's domain
@@ -87,12 +90,12 @@ class Orbit {
   ReducedSystem system_;
   std::shared_ptr<const SimilarityCurve> curve_;
   double u0_, v0_;
-  int exponent_;           ///< speeds are divided by 2^exponent_ inside
-  double w_, v_;           ///< mu |u0| and v0, scaled
+  int exponent_;  ///< speeds are divided by 2^exponent_ inside
+  double w_, v_;  ///< mu |u0| and v0, scaled
   double ln_k0_;
   double log_rim0_ = 0;
-  double share0_ = 1;      ///< m(k0)
-  double pivoting_rate_;   ///< r Psi(0) = -dw/ds at k = 0
+  double share0_ = 1;     ///< m(k0)
+  double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };
 
 }  // namespace contensou::reduction

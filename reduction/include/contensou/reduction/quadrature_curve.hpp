@@ -12,8 +12,8 @@ namespace contensou::reduction {
 ///
 /// The nested integrals (R2), (R4), (R7) are done panel by panel in ln k: on each, the integrands are sampled at Gauss
 /// points (Boost.Math) and their Legendre series integrated term by term, so that the inner integral is known wherever
-/// the outer one needs it. Panels meet at k = 1 and are halved until the series has converged. Outside k = 4e-18 .. 1e19
-/// the limits hold to the last bit.
+/// the outer one needs it. Panels meet at k = 1 and are halved until the series has converged. Outside k = 4e-18 ..
+/// 1e19 the limits hold to the last bit.
 ///
 /// Accuracy  1e-13 or better for a law that is smooth on either side of k = 1 (measured: tests/reference/README.md).
 /// Cost      about 1500 evaluations of the law, once; then some 30 ns for each value.

@@ -8,8 +8,9 @@ namespace contensou::reduction {
 /// (ln u, ln v, tau) and the independent variable beta: Dormand-Prince 5(4) with dense output.
 ///
 /// In (u, v) the system is as stiff as (2.6); in logarithms it is not. Steps end at k = 1, where the exact law is only
-/// twice differentiable. The stop lies at beta = infinity: once k < 1e-17 (or the rest is negligible) the tail is closed
-/// with its exact limit. On an axis, and where pivoting takes less than 1e-18 of the time, the limit closes it at once.
+/// twice differentiable. The stop lies at beta = infinity: once k < 1e-17 (or the rest is negligible) the tail is
+/// closed with its exact limit. On an axis, and where pivoting takes less than 1e-18 of the time, the limit closes it
+/// at once.
 ///
 /// @param times  instants to report, tau >= 0, in increasing order; empty: every accepted step and the stop
 /// @throws std::domain_error  if start is not a state or times are negative or decrease

@@ -6,8 +6,8 @@ namespace contensou::reduction {
 /// (R4), (R7)); k = v/w, w = mu |u|.
 ///
 /// Scaling symmetry leaves nothing else to compute: orbits, stop times, the state at a given time and the regularised
-/// time follow by exponentials and sums (Orbit). All three functions are regular for every r in the domain, however small,
-/// and ln_k may be any finite number: v underflows long before ln v does.
+/// time follow by exponentials and sums (Orbit). All three functions are regular for every r in the domain, however
+/// small, and ln_k may be any finite number: v underflows long before ln v does.
 class SimilarityCurve {
  public:
   virtual ~SimilarityCurve() = default;

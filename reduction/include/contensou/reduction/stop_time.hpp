@@ -27,10 +27,10 @@ std::vector<Route> routes(const ReducedSystem& system);
 
 /// A stop time and what is known of it.
 struct StopTime {
-  double tau;          ///< the paper's time; infinity where it exceeds the largest double
+  double tau;  ///< the paper's time; infinity where it exceeds the largest double
   Route route;
-  double accuracy;     ///< relative error that the route answers for
-  long evaluations;    ///< of the friction law; 0 for a closed form
+  double accuracy;   ///< relative error that the route answers for
+  long evaluations;  ///< of the friction law; 0 for a closed form
 };
 
 /// The time until u = v = 0, 0 at rest.
@@ -38,7 +38,8 @@ struct StopTime {
 /// @throws std::domain_error   if start is not a state (finite, v >= 0), or the system does not have the route
 /// @throws std::runtime_error  if a stepper did not reach the stop; the message is its outcome's sentence
 ///
-/// Accuracy  closed 1e-14; quadrature 1e-13 (Pade, exact); steppers 1e-11; for all finite starts, v0/(mu u0) may overflow.
+/// Accuracy  closed 1e-14; quadrature 1e-13 (Pade, exact); steppers 1e-11; for all finite starts, v0/(mu u0) may
+/// overflow.
 StopTime stop_time(const ReducedSystem& system, State start, Route route);
 
 /// By the default route.

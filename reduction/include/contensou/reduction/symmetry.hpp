@@ -10,8 +10,8 @@ namespace contensou::reduction {
 /// time, X2 = -beta d_beta + u d_u + v d_v. A field F admits it exactly when it is homogeneous:
 ///   u F_u + v F_v = n F,   n = 0 for (2.6) and dv/du, n = 2 for (2.7).
 ///
-/// Each function returns the residual of that identity at a state, relative to |F|: 0 in exact arithmetic. The derivative
-/// along the generator is a central difference over exp(+-h), good to about 1e-9.
+/// Each function returns the residual of that identity at a state, relative to |F|: 0 in exact arithmetic. The
+/// derivative along the generator is a central difference over exp(+-h), good to about 1e-9.
 
 double generator_residual(const std::function<Rate(State)>& field, int degree, State state);
 
