@@ -27,11 +27,13 @@ constexpr int highest_ln_k = 44;
 
 constexpr double panel_tolerance = 1e-15;
 constexpr int deepest_split = 40;
+constexpr std::size_t most_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
 
 /// The three integrands at one k; D and Psi are taken relative to max(1, k) so that nothing overflows.
 struct Integrands {
   double rim_slope;     ///< h
   double deficit_rate;  ///< (1 - Psi/Psi(0))/D: k (k m)' without the decay of w
+  double largest_rate;  ///< 1/D: the same for a deficit of 1
   double age_rate;      ///< k/(D (16 + 15 pi k)(8 + 3 pi k))
 };
 
@@ -47,7 +49,7 @@ Integrands integrands(const Law& law, double r, double ln_k) {
                     "k = {}: this r = {} is beyond the regime in which k -> 0",
                     law.name(), force, drag, k, r));
   }
-  return {drag / difference, law.moment_deficit(slip) / difference,
+  return {drag / difference, law.moment_deficit(slip) / difference, 1 / difference,
           k / (difference * (16 + 15 * pi * k) * (8 + 3 * pi * k))};
 }
 
@@ -87,21 +89,25 @@ QuadratureCurve::QuadratureCurve(const Law& law, double r) : SimilarityCurve(r) 
 
 void QuadratureCurve::split(const Law& law, double left, double right, int depth) {
   Panel panel{left, right, {}, {}, {}, {}, {}, {}};
+  double largest_rate = 0;
   for (int i = 0; i < LegendreSeries::order; ++i) {
     const Integrands at = integrands(law, r(), panel.ln_k(LegendreSeries::points()[i]));
     panel.rim_slope[i] = at.rim_slope;
     panel.deficit_rate[i] = at.deficit_rate;
+    largest_rate = std::max(largest_rate, at.largest_rate);
     panel.age_rate[i] = at.age_rate;
   }
   evaluations_ += LegendreSeries::order;
 
-  // What a panel leaves out of the integrals, relative to a panel of full width.
-  double worst = 0;
-  for (const Samples* samples : {&panel.rim_slope, &panel.deficit_rate, &panel.age_rate}) {
-    const double size = samples->abs().maxCoeff();
-    if (size > 0) worst = std::max(worst, LegendreSeries::through(*samples).tail() / size * (right - left));
-  }
-  if (worst <= panel_tolerance || depth == deepest_split) {
+  // What a panel leaves out of the integrals, relative to a panel of full width. The deficit counts relative to 1: a
+  // law without moment_deficit has it to eps of 1 only, and the time left, P + m S, feels no more.
+  const auto left_out = [&](const Samples& samples, double size) {
+    return size > 0 ? LegendreSeries::through(samples).tail() / size * (right - left) : 0.0;
+  };
+  const double worst =
+      std::max({left_out(panel.rim_slope, panel.rim_slope.abs().maxCoeff()), left_out(panel.deficit_rate, largest_rate),
+                left_out(panel.age_rate, panel.age_rate.abs().maxCoeff())});
+  if (worst <= panel_tolerance || depth == deepest_split || panels_.size() >= most_panels) {
     truncation_ = std::max(truncation_, worst);
     panels_.push_back(std::move(panel));
     return;
