@@ -1,0 +1,23 @@
+#pragma once
+
+#include "contensou/reduction/reduced_system.hpp"
+#include "contensou/si/shot.hpp"
+
+namespace contensou::si {
+
+/// The bridge between SI and the paper's variables; speeds and tau are in m/s.
+
+/// mu = eps/R.
+double patch_ratio(const Shot& shot);
+
+/// u = R omega_z, v = slip.
+reduction::State reduced_start(const Shot& shot);
+
+/// The reduced system of a homogeneous ball.
+/// @throws std::domain_error  as require_shot
+reduction::ReducedSystem reduced_system(const Shot& shot, const reduction::Law& law);
+
+/// Seconds that a tau of m/s lasts: t = 2 tau/(3 pi f g).
+double seconds(const Shot& shot, double tau);
+
+}  // namespace contensou::si

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contensou/si/shot.hpp"
+
+namespace contensou::si {
+
+/// A ball that is built in, with a typical start.
+struct CatalogueEntry {
+  std::string name;  ///< one lower-case word
+  Shot shot;
+  std::string sources;  ///< where the values come from and which of them are assumed
+};
+
+/// The built-in balls.
+const std::vector<CatalogueEntry>& catalogue();
+
+/// The entry of that name; null if there is none.
+const CatalogueEntry* find_ball(std::string_view name);
+
+}  // namespace contensou::si

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+
+namespace contensou::si {
+
+/// Elastic constants of the two bodies in contact, the ball first, the plane second.
+struct HertzModuli {
+  std::array<double, 2> youngs_modulus;  ///< Pa, > 0
+  std::array<double, 2> poisson_ratio;   ///< -1 < nu <= 1/2
+};
+
+/// E* (Pa): 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+double effective_modulus(const HertzModuli& moduli);
+
+/// Radius (m) of the patch of a ball pressed on a plane: eps = (3 N R/(4 E*))^(1/3).
+///
+/// @param load    N, newton
+/// @param radius  R, m
+double hertz_patch_radius(double load, double radius, const HertzModuli& moduli);
+
+/// Radius (m) of the Hertz patch of a ball whose spin about the vertical, without sliding, falls at a measured rate:
+///   eps = 32 R^2 alpha/(15 pi f g).
+///
+/// From J domega_z/dt = -f N eps Psi(0) with J = (2/5) m R^2, N = m g and Psi(0) = 3 pi/16, which the exact and the
+/// Pade law share: domega_z/dt = -(5/2) eps f g Psi(0)/R^2.
+///
+/// @param radius        R, m
+/// @param deceleration  alpha, rad/s^2
+/// @param friction      f
+/// @param gravity       g, m/s^2
+double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity);
+
+}  // namespace contensou::si

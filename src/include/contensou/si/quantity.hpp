@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string_view>
+
+namespace contensou::si {
+
+/// A number that a user gives: what run files and messages call it, its unit, and the values it may have.
+struct Quantity {
+  enum class Range { any, not_negative, positive, poisson_ratio };
+
+  std::string_view name;  ///< the key of a run file
+  std::string_view unit;  ///< SI; empty for a pure number
+  std::string_view meaning;
+  Range range;
+};
+
+inline constexpr Quantity mass{"mass", "kg", "mass of the ball", Quantity::Range::positive};
+inline constexpr Quantity radius{"radius", "m", "radius of the ball", Quantity::Range::positive};
+inline constexpr Quantity friction{"friction", "", "coefficient of dry friction", Quantity::Range::positive};
+inline constexpr Quantity patch_radius{"patch_radius", "m", "radius of the contact patch", Quantity::Range::positive};
+inline constexpr Quantity spin_deceleration{
+    "spin_deceleration", "rad/s^2", "measured deceleration of a ball that spins in place", Quantity::Range::positive};
+inline constexpr Quantity youngs_modulus{"youngs_modulus", "Pa", "Young's moduli of ball and plane",
+                                         Quantity::Range::positive};
+inline constexpr Quantity poisson_ratio{"poisson_ratio", "", "Poisson's ratios of ball and plane",
+                                        Quantity::Range::poisson_ratio};
+inline constexpr Quantity slip{"slip", "m/s", "sliding speed of the contact point, along x",
+                               Quantity::Range::not_negative};
+inline constexpr Quantity spin{"spin", "rad/s", "angular velocity about the vertical", Quantity::Range::any};
+inline constexpr Quantity gravity{"gravity", "m/s^2", "acceleration of gravity", Quantity::Range::positive};
+
+/// Rejects a value that the quantity cannot have. Infinity and NaN are never allowed.
+/// @throws std::domain_error  naming the quantity, what is allowed and the value
+void require(const Quantity& quantity, double value);
+
+}  // namespace contensou::si

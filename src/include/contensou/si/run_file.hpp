@@ -1,0 +1,37 @@
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "contensou/si/shot.hpp"
+
+namespace contensou::si {
+
+/// What is wrong with a run file; the message begins with FILE:LINE:COLUMN.
+struct RunFileError : std::domain_error {
+  using std::domain_error::domain_error;
+};
+
+/// Values that take the place of what a run file says, by the name of their Quantity. A patch radius or a spin
+/// deceleration replaces whatever the file gives the patch by.
+using Overrides = std::map<std::string_view, double>;
+
+/// A shot from the text of a run file (TOML).
+///
+/// @param source  what messages call the text
+/// @throws RunFileError  for anything but a complete, valid run file; unknown keys are errors
+Shot parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides = {});
+
+/// A shot from a run file.
+/// @throws RunFileError       as parse_run_file
+/// @throws std::system_error  if the file cannot be read
+Shot read_run_file(const std::string& path, const Overrides& overrides = {});
+
+/// A shot as a run file that reads back to the same doubles.
+///
+/// @param remark  lines of comment to put first
+std::string run_file(const Shot& shot, std::string_view remark = {});
+
+}  // namespace contensou::si

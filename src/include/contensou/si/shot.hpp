@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "contensou/si/hertz_contact.hpp"
+
+namespace contensou::si {
+
+/// A homogeneous ball.
+struct Ball {
+  std::string name;
+  double mass;    ///< kg
+  double radius;  ///< m
+};
+
+/// The patch as it was measured.
+struct PatchRadius {
+  double value;  ///< m
+};
+
+/// The patch as it follows from how fast a spin without sliding dies out (patch_radius_of_deceleration).
+struct SpinDeceleration {
+  double value;  ///< rad/s^2
+};
+
+/// Where the patch radius comes from. Kept with the contact, so that it follows when radius, mass, friction or gravity
+/// change.
+using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli>;
+
+struct Contact {
+  double friction;  ///< coefficient of dry friction
+  PatchSource patch;
+};
+
+/// How the ball is set going: sliding along x, spinning about the vertical, with no horizontal angular velocity.
+struct Start {
+  double slip;  ///< m/s, sliding speed of the contact point
+  double spin;  ///< rad/s about the vertical, either sign
+};
+
+struct Environment {
+  double gravity = 9.80665;  ///< m/s^2
+};
+
+/// Everything that decides one motion of a ball on a horizontal plane.
+struct Shot {
+  Ball ball;
+  Contact contact;
+  Start start;
+  Environment environment{};
+};
+
+/// Radius of the contact patch in m, from whatever the contact gives it by.
+double patch_radius_of(const Shot& shot);
+
+/// Rejects what no ball can be or do.
+/// @throws std::domain_error  if a value is outside its Quantity's range, if the patch radius is not in (0, R], or if
+///                            R omega_z overflows
+void require_shot(const Shot& shot);
+
+}  // namespace contensou::si

@@ -1,0 +1,15 @@
+#include "commands.hpp"
+
+namespace contensou::program {
+
+std::vector<std::unique_ptr<Command>> make_commands() {
+  std::vector<std::unique_ptr<Command>> commands;
+  commands.push_back(make_stop_command());
+  commands.push_back(make_orbit_command());
+  commands.push_back(make_law_command());
+  commands.push_back(make_check_command());
+  commands.push_back(make_balls_command());
+  return commands;
+}
+
+}  // namespace contensou::program

@@ -1,0 +1,119 @@
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "columns.hpp"
+#include "commands.hpp"
+#include "csv_table.hpp"
+#include "json.hpp"
+#include "law_figure.hpp"
+#include "law_option.hpp"
+#include "output_options.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+class LawCommand final : public Command {
+ public:
+  std::string name() const override { return "law"; }
+  std::string summary() const override {
+    return "Friction force and moment against k: k,phi,psi, or the paper's Fig. 2";
+  }
+  std::string example() const override { return "contensou law --law exact --k 0,0.5,1,2,inf"; }
+
+  void add_options(CLI::App& app) override {
+    law_.add(app);
+    k_.add(app, "--k", "K1,K2,...", "ratios k = v/(mu |u|), 0 to inf");
+    batch_.add(app, "--batch", "FILE", "instead: a CSV with a column k; - is standard input");
+    output_.add(app);
+  }
+
+  ExitStatus run() override {
+    const reduction::Law law = law_.read();
+    if (k_.given() && batch_.given()) throw BadInput("--k and --batch exclude each other: give one of them");
+    if (is_figure(output_.path())) {
+      if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
+      write_law_figure(output_.path(), law);
+      return ExitStatus::done;
+    }
+    if (!k_.given() && !batch_.given()) throw BadInput("--k missing: give --k K1,K2,... or --batch FILE");
+
+    const Format format = data_format();
+    const int digits = output_.digits();
+    const std::vector<Column> columns = evaluate(law, k_.given() ? listed() : from_table());
+    switch (format) {
+      case Format::json:
+        output_.write(document(law, columns));
+        break;
+      case Format::csv:
+        output_.write(columns_as_csv(columns));
+        break;
+      case Format::text:
+        output_.write(columns_as_text(columns, digits));
+        break;
+    }
+    return ExitStatus::done;
+  }
+
+ private:
+  /// --format, or else what the ending of -o says.
+  Format data_format() const {
+    return !output_.format_given() && output_.path().ends_with(".json") ? Format::json : output_.format();
+  }
+
+  std::vector<double> listed() const {
+    const std::vector<double> ratios = k_.numbers(Infinity::allowed);
+    for (double k : ratios) {
+      if (!(k >= 0)) k_.reject(fmt::format("{} is not a ratio: k >= 0 or inf is required", k));
+    }
+    return ratios;
+  }
+
+  std::vector<double> from_table() const {
+    const CsvTable table = CsvTable::read(batch_.text());
+    const std::size_t column = table.column("k");
+    std::vector<double> ratios;
+    for (const CsvRecord& row : table.rows()) {
+      table.require_complete(row);
+      try {
+        ratios.push_back(parse_number(row.fields[column], Infinity::allowed));
+      } catch (const BadInput& error) {
+        throw table.complaint(row.line, fmt::format("k: {}", error.what()));
+      }
+      if (!(ratios.back() >= 0)) {
+        throw table.complaint(row.line, fmt::format("k: k >= 0 or inf is required, got {}", ratios.back()));
+      }
+    }
+    return ratios;
+  }
+
+  static std::vector<Column> evaluate(const reduction::Law& law, const std::vector<double>& ratios) {
+    const auto rows = static_cast<Eigen::Index>(ratios.size());
+    const Eigen::ArrayXd k = Eigen::Map<const Eigen::ArrayXd>(ratios.data(), rows);
+    Eigen::ArrayXd phi(rows), psi(rows);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const reduction::Resistance resistance = law(reduction::slip_of_ratio(k[i]));
+      phi[i] = resistance.force;
+      psi[i] = resistance.moment;
+    }
+    return {{"k", k}, {"phi", phi}, {"psi", psi}};
+  }
+
+  static std::string document(const reduction::Law& law, const std::vector<Column>& columns) {
+    JsonObject document = JsonObject::document();
+    document.add("law", json(law.name()));
+    for (const auto& [name, values] : columns) document.add(name, json(values));
+    return document.text();
+  }
+
+  LawOption law_;
+  Argument k_, batch_;
+  OutputOptions output_{Format::csv};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_law_command() { return std::make_unique<LawCommand>(); }
+
+}  // namespace contensou::program

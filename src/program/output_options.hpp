@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "argument.hpp"
+
+namespace contensou::program {
+
+enum class Format { text, csv, json };
+
+/// -o, --format and --digits: where results go and how they look.
+class OutputOptions {
+ public:
+  explicit OutputOptions(Format standard) : standard_(standard) {}
+
+  void add(CLI::App& app);
+
+  /// @throws BadInput  for an unknown format
+  Format format() const;
+  bool format_given() const { return format_.given(); }
+
+  /// Significant digits of the text format.
+  /// @throws BadInput  unless it is 1 to 17 and the format is text
+  int digits() const;
+
+  /// The file of -o; "-" without it.
+  std::string path() const;
+
+  /// @throws FileFailure  as write_output
+  void write(std::string_view content) const;
+
+ private:
+  Format standard_;
+  Argument file_, format_, digits_;
+};
+
+}  // namespace contensou::program

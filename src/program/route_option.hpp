@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "argument.hpp"
+#include "contensou/reduction/stop_time.hpp"
+
+namespace contensou::program {
+
+/// --route.
+class RouteOption {
+ public:
+  void add(CLI::App& app);
+
+  /// The route of that name; the system's best if none was given.
+  /// @throws BadInput  for an unknown name, or a route that the system does not have
+  reduction::Route read(const reduction::ReducedSystem& system) const;
+
+ private:
+  Argument route_;
+};
+
+}  // namespace contensou::program

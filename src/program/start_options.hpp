@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "argument.hpp"
+#include "contensou/reduction/reduced_system.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/si/quantity.hpp"
+#include "contensou/si/run_file.hpp"
+
+namespace contensou::program {
+
+/// The built-in ball of that name.
+/// @throws BadInput  for an unknown name
+const si::CatalogueEntry& require_ball(const std::string& name);
+
+/// The start that the command line gives, in the paper's variables.
+struct GivenStart {
+  double mu;
+  reduction::State state;
+  std::optional<si::Shot> shot;  ///< where it came from, if it is a ball in SI units
+};
+
+/// --mu, --u0 and --v0, or --ball with its overrides.
+class StartOptions {
+ public:
+  StartOptions();
+
+  void add(CLI::App& app);
+
+  /// Whether any of them was given.
+  bool given() const { return !given_names().empty(); }
+  std::string given_names() const;
+
+  /// @throws BadInput           if options are missing, exclude each other or have values that no ball can have
+  /// @throws si::RunFileError   for a mistake in a run file
+  /// @throws std::system_error  for a run file that cannot be read
+  GivenStart read() const;
+
+  /// mu alone, for which --mu or --ball is enough. Throws as read.
+  double read_patch_ratio() const;
+
+ private:
+  struct Override {
+    const si::Quantity* quantity;
+    Argument argument;
+  };
+
+  double read_mu() const;
+  si::Shot read_shot() const;
+  void require_one_kind() const;
+  std::string override_names() const;
+
+  Argument mu_, u0_, v0_, ball_;
+  std::vector<Override> overrides_;
+};
+
+}  // namespace contensou::program

@@ -1,0 +1,78 @@
+#include "commands.hpp"
+#include "csv_table.hpp"
+#include "law_option.hpp"
+#include "output_options.hpp"
+#include "route_option.hpp"
+#include "start_options.hpp"
+#include "stop_batch.hpp"
+#include "stop_report.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+class StopCommand final : public Command {
+ public:
+  std::string name() const override { return "stop"; }
+  std::string summary() const override { return "When the ball stops sliding and spinning, and how it rolls then"; }
+  std::string example() const override { return "contensou stop --ball pool --slip 2"; }
+
+  void add_options(CLI::App& app) override {
+    start_.add(app);
+    law_.add(app);
+    route_.add(app);
+    batch_.add(app, "--batch", "FILE", "CSV with columns mu,u0,v0; adds tau_stop to each row; - is standard input");
+    keep_going_ = app.add_flag("--keep-going");
+    keep_going_->description("with --batch: leave tau_stop of a bad row empty and go on");
+    output_.add(app);
+  }
+
+  ExitStatus run() override {
+    if (batch_.given()) return run_batch();
+    if (keep_going_->count() > 0) throw BadInput("--keep-going is for many starts: add --batch FILE");
+    const GivenStart start = start_.read();
+    const reduction::Law law = law_.read();
+    const reduction::Route route = route_.read({law, start.mu});
+    const Format format = output_.format();
+    const int digits = output_.digits();
+    const StopReport report = make_stop_report(start, law, route);
+    switch (format) {
+      case Format::json:
+        output_.write(stop_report_as_json(report));
+        break;
+      case Format::csv:
+        output_.write(stop_report_as_csv(report));
+        break;
+      case Format::text:
+        output_.write(stop_report_as_text(report, digits));
+        break;
+    }
+    return ExitStatus::done;
+  }
+
+ private:
+  ExitStatus run_batch() const {
+    if (start_.given()) {
+      throw BadInput("--batch and " + start_.given_names() + " exclude each other: the starts are in the file");
+    }
+    if (output_.format_given() && output_.format() != Format::csv) {
+      throw BadInput("--batch writes csv only: leave --format out");
+    }
+    const StopBatch batch = stop_batch(CsvTable::read(batch_.text()), law_.read(), route_, keep_going_->count() > 0);
+    output_.write(batch.csv);
+    return batch.status;
+  }
+
+  StartOptions start_;
+  LawOption law_;
+  RouteOption route_;
+  Argument batch_;
+  CLI::Option* keep_going_ = nullptr;
+  OutputOptions output_{Format::text};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_stop_command() { return std::make_unique<StopCommand>(); }
+
+}  // namespace contensou::program

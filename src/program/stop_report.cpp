@@ -1,0 +1,169 @@
+#include "stop_report.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "columns.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/si/bridge.hpp"
+#include "contensou/si/final_motion.hpp"
+#include "csv_table.hpp"
+#include "json.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+/// One line of the table of times.
+struct TimeLine {
+  std::string label;
+  double tau;
+  std::string note;
+};
+
+/// The law that stands beside another: the first of those with a name that is not the same.
+const reduction::Law& other_law(const reduction::Law& law) {
+  const auto& laws = reduction::named_laws();
+  return laws[laws.front().name() == law.name() ? 1 : 0];
+}
+
+std::string difference(double other, double tau) {
+  if (!(tau > 0) || !std::isfinite(tau) || !std::isfinite(other)) return "";
+  const double percent = 100 * (other / tau - 1);
+  return fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer");
+}
+
+class TextReport {
+ public:
+  TextReport(const StopReport& report, int digits) : report_(report), digits_(digits) {}
+
+  std::string text() const {
+    std::string all = heading() + "\n";
+    const bool at_rest = report_.start.state.u == 0 && report_.start.state.v == 0;
+    if (at_rest) all += "The ball neither slides nor spins: it rolls already, or rests.\n\n";
+    all += times() + "\n" + methods() + ending();
+    return all;
+  }
+
+ private:
+  std::string number(double value) const { return fmt::format("{:.{}g}", value, digits_); }
+
+  std::string heading() const {
+    const auto& [mu, state, shot] = report_.start;
+    if (!shot) {
+      return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n", number(mu), number(state.u),
+                         number(state.v));
+    }
+    return fmt::format(
+        "{}: radius {} m, mass {} kg, friction {}, patch radius {} m\n"
+        "slip {} m/s, spin {} rad/s: mu = {}, u0 = {} m/s, v0 = {} m/s\n",
+        shot->ball.name, number(shot->ball.radius), number(shot->ball.mass), number(shot->contact.friction),
+        number(si::patch_radius_of(*shot)), number(shot->start.slip), number(shot->start.spin), number(mu),
+        number(state.u), number(state.v));
+  }
+
+  std::string times() const {
+    const reduction::ReducedSystem beside(other_law(report_.system.law()), report_.start.mu);
+    const reduction::StopTime other = reduction::stop_time(beside, report_.start.state);
+    const std::vector<TimeLine> lines{
+        {"stop time", report_.stop.tau, fmt::format("relative error below {:.0e}", report_.stop.accuracy)},
+        {"at least", report_.bounds.lower, ""},
+        {"at most", report_.bounds.upper, ""},
+        {"sliding only", report_.sliding_only, "limit u0 = 0"},
+        {"pivoting only", report_.pivoting_only, "limit v0 = 0"},
+        {"law " + beside.law().name(), other.tau, difference(other.tau, report_.stop.tau)},
+    };
+    const int width = digits_ + 8;
+    const auto& shot = report_.start.shot;
+    std::string all = fmt::format("{:<14}{:>{}}", "", shot ? "tau* (m/s)" : "tau*", width);
+    if (shot) all += fmt::format("{:>{}}", "t* (s)", width);
+    all += "\n";
+    for (const auto& [label, tau, note] : lines) {
+      all += fmt::format("{:<14}{:>{}.{}g}", label, tau, width, digits_);
+      if (shot) all += fmt::format("{:>{}.{}g}", si::seconds(*shot, tau), width, digits_);
+      all += note.empty() ? "\n" : "    " + note + "\n";
+    }
+    return all;
+  }
+
+  std::string methods() const {
+    return fmt::format("law    {}\nroute  {}: {}\n", report_.system.law().name(), name(report_.stop.route),
+                       description(report_.stop.route));
+  }
+
+  std::string ending() const {
+    const auto& [mu, state, shot] = report_.start;
+    if (!shot) {
+      return fmt::format("then   it rolls; the centre's velocity has changed by -2 v0/7 = {} along the slip\n",
+                         number(-state.v * (2.0 / 7.0)));
+    }
+    const si::FinalMotion motion = si::final_motion(*shot);
+    return fmt::format(
+        "then   it rolls: velocity ({}, {}) m/s, angular velocity ({}, {}, {}) 1/s\n"
+        "       (x along the initial slip, z up)\n",
+        number(motion.velocity.x()), number(motion.velocity.y()), number(motion.angular_velocity.x()),
+        number(motion.angular_velocity.y()), number(motion.angular_velocity.z()));
+  }
+
+  const StopReport& report_;
+  int digits_;
+};
+
+}  // namespace
+
+StopReport make_stop_report(const GivenStart& start, const reduction::Law& law, reduction::Route route) {
+  const reduction::ReducedSystem system(law, start.mu);
+  return {start,
+          system,
+          reduction::stop_time(system, start.state, route),
+          system.stop_time_bounds(start.state),
+          system.sliding_limit(start.state.v),
+          system.pivoting_limit(start.state.u)};
+}
+
+std::string stop_report_as_json(const StopReport& report) {
+  const auto& [mu, state, shot] = report.start;
+  JsonObject document = JsonObject::document();
+  document.add("law", json(report.system.law().name()))
+      .add("route", json(name(report.stop.route)))
+      .add("mu", json(mu))
+      .add("u0", json(state.u))
+      .add("v0", json(state.v))
+      .add("tau_stop", json(report.stop.tau))
+      .add("bounds", json_array({json(report.bounds.lower), json(report.bounds.upper)}))
+      .add("limits", JsonObject()
+                         .add("sliding_only", json(report.sliding_only))
+                         .add("pivoting_only", json(report.pivoting_only))
+                         .inline_text());
+  if (shot) {
+    const si::FinalMotion motion = si::final_motion(*shot);
+    document.add("t_stop", json(si::seconds(*shot, report.stop.tau)))
+        .add("final", JsonObject()
+                          .add("velocity", json(Eigen::ArrayXd(motion.velocity)))
+                          .add("angular_velocity", json(Eigen::ArrayXd(motion.angular_velocity)))
+                          .inline_text());
+  }
+  return document.text();
+}
+
+std::string stop_report_as_csv(const StopReport& report) {
+  const auto& [mu, state, shot] = report.start;
+  std::vector<std::string> names{"law",      "route", "mu",    "u0",           "v0",
+                                 "tau_stop", "lower", "upper", "sliding_only", "pivoting_only"};
+  std::vector<std::string> values{report.system.law().name(), std::string(name(report.stop.route))};
+  for (double value : {mu, state.u, state.v, report.stop.tau, report.bounds.lower, report.bounds.upper,
+                       report.sliding_only, report.pivoting_only}) {
+    values.push_back(fmt::format("{}", value));
+  }
+  if (shot) {
+    names.emplace_back("t_stop");
+    values.push_back(fmt::format("{}", si::seconds(*shot, report.stop.tau)));
+  }
+  return csv_line(names) + csv_line(values);
+}
+
+std::string stop_report_as_text(const StopReport& report, int digits) { return TextReport(report, digits).text(); }
+
+}  // namespace contensou::program

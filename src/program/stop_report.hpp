@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "contensou/reduction/stop_time.hpp"
+#include "start_options.hpp"
+
+namespace contensou::program {
+
+/// Everything that `stop` says about one start.
+struct StopReport {
+  GivenStart start;
+  reduction::ReducedSystem system;
+  reduction::StopTime stop;
+  reduction::Bounds bounds;
+  double sliding_only;   ///< tau of a ball that did not pivot
+  double pivoting_only;  ///< tau of a ball that did not slide
+};
+
+StopReport make_stop_report(const GivenStart& start, const reduction::Law& law, reduction::Route route);
+
+std::string stop_report_as_json(const StopReport& report);
+std::string stop_report_as_csv(const StopReport& report);
+
+/// For people: with the time under another law beside it.
+std::string stop_report_as_text(const StopReport& report, int digits);
+
+}  // namespace contensou::program

@@ -1,0 +1,23 @@
+#include "contensou/si/bridge.hpp"
+
+#include <numbers>
+
+namespace contensou::si {
+
+double patch_ratio(const Shot& shot) { return patch_radius_of(shot) / shot.ball.radius; }
+
+reduction::State reduced_start(const Shot& shot) {
+  return {.u = shot.ball.radius * shot.start.spin, .v = shot.start.slip};
+}
+
+reduction::ReducedSystem reduced_system(const Shot& shot, const reduction::Law& law) {
+  require_shot(shot);
+  return {law, patch_ratio(shot)};
+}
+
+double seconds(const Shot& shot, double tau) {
+  // One factor at a time: f g may underflow.
+  return tau * (2 / (3 * std::numbers::pi)) / shot.contact.friction / shot.environment.gravity;
+}
+
+}  // namespace contensou::si

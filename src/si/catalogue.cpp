@@ -1,0 +1,68 @@
+#include "contensou/si/catalogue.hpp"
+
+#include <algorithm>
+
+namespace contensou::si {
+
+namespace {
+
+CatalogueEntry pool() {
+  return {"pool",
+          {.ball = {.name = "pool ball on cloth", .mass = 0.1701, .radius = 0.028575},
+           .contact = {.friction = 0.2, .patch = SpinDeceleration{10}},
+           .start = {.slip = 1, .spin = 100}},
+          "Size, mass (2.25 in, 0.1701 kg), friction (0.15 to 0.4) and spin deceleration (5 to 15 rad/s^2):\n"
+          "billiards.colostate.edu/threads/physics.html. The patch follows from the spin deceleration."};
+}
+
+CatalogueEntry steel() {
+  return {"steel",
+          {.ball = {.name = "steel ball of 20 mm on glass", .mass = 0.0327, .radius = 0.010},
+           .contact = {.friction = 0.12,
+                       .patch = HertzModuli{.youngs_modulus = {2.1e11, 7.0e10}, .poisson_ratio = {0.3, 0.22}}},
+           .start = {.slip = 0.5, .spin = 100}},
+          "Patch by Hertz's formula with handbook moduli of steel and glass; friction assumed."};
+}
+
+CatalogueEntry bowling() {
+  return {"bowling",
+          {.ball = {.name = "bowling ball on a dry lane", .mass = 6.8, .radius = 0.1085},
+           .contact = {.friction = 0.2,
+                       .patch = HertzModuli{.youngs_modulus = {4.186e9, 4.186e9}, .poisson_ratio = {0.3, 0.3}}},
+           .start = {.slip = 8, .spin = 10}},
+          "Regulation size and mass; friction assumed. Patch by Hertz's formula with E* = 2.3 GPa assumed:\n"
+          "the two equal pairs of moduli stand for that value only."};
+}
+
+CatalogueEntry rubber() {
+  return {"rubber",
+          {.ball = {.name = "rubber ball on steel", .mass = 0.072, .radius = 0.025},
+           .contact = {.friction = 0.6,
+                       .patch = HertzModuli{.youngs_modulus = {2e6, 2.1e11}, .poisson_ratio = {0.49, 0.3}}},
+           .start = {.slip = 1, .spin = 50}},
+          "Patch by Hertz's formula; the moduli of rubber (2 MPa, 0.49) and the friction are assumed."};
+}
+
+CatalogueEntry gel() {
+  return {"gel",
+          {.ball = {.name = "gel ball on a rigid plane", .mass = 0.113, .radius = 0.030},
+           .contact = {.friction = 0.5,
+                       .patch = HertzModuli{.youngs_modulus = {5e4, 2.1e11}, .poisson_ratio = {0.49, 0.3}}},
+           .start = {.slip = 0.5, .spin = 30}},
+          "Patch by Hertz's formula; the moduli of the gel (50 kPa, 0.49) and the friction are assumed, the plane is\n"
+          "steel. The patch is large (mu = 0.24): the ball where sliding and spinning are seen to be coupled."};
+}
+
+}  // namespace
+
+const std::vector<CatalogueEntry>& catalogue() {
+  static const std::vector<CatalogueEntry> entries{pool(), steel(), bowling(), rubber(), gel()};
+  return entries;
+}
+
+const CatalogueEntry* find_ball(std::string_view name) {
+  const auto found = std::ranges::find(catalogue(), name, &CatalogueEntry::name);
+  return found == catalogue().end() ? nullptr : &*found;
+}
+
+}  // namespace contensou::si

@@ -1,0 +1,26 @@
+#include "contensou/si/hertz_contact.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace contensou::si {
+
+using std::numbers::pi;
+
+double effective_modulus(const HertzModuli& moduli) {
+  const auto compliance = [&](std::size_t body) {
+    const double nu = moduli.poisson_ratio[body];
+    return (1 - nu) * (1 + nu) / moduli.youngs_modulus[body];
+  };
+  return 1 / (compliance(0) + compliance(1));
+}
+
+double hertz_patch_radius(double load, double radius, const HertzModuli& moduli) {
+  return std::cbrt(0.75 * load * radius / effective_modulus(moduli));
+}
+
+double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity) {
+  return 32 * radius * radius * deceleration / (15 * pi * friction * gravity);
+}
+
+}  // namespace contensou::si

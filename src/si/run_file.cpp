@@ -1,0 +1,236 @@
+#include "contensou/si/run_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <initializer_list>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include "contensou/si/nearest_name.hpp"
+#include "contensou/si/quantity.hpp"
+#include "contensou/si/text_file.hpp"
+
+namespace contensou::si {
+
+namespace {
+
+/// A table of the file with what messages need to know about it.
+struct Section {
+  std::string path;          ///< as in its header; empty for the file itself
+  const toml::table* table;  ///< null if the file does not have it
+  toml::source_position position;
+};
+
+/// The shortest digits that read back to the same double; TOML takes them as they are.
+std::string shortest(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return {digits.data(), end};
+}
+
+/// What the user calls a key: `key` in [section].
+std::string place(const Section& section, std::string_view key) {
+  return section.path.empty() ? fmt::format("'{}'", key) : fmt::format("'{}' in [{}]", key, section.path);
+}
+
+class Reader {
+ public:
+  Reader(std::string_view source, const Overrides& overrides) : source_(source), overrides_(overrides) {}
+
+  Shot read(std::string_view text) const {
+    const toml::table document = parse(text);
+    const Section file{"", &document, {1, 1}};
+    const Section ball = section(file, "ball");
+    const Section contact = section(file, "contact");
+    const Section start = section(file, "start");
+    const Section environment = section(file, "environment");
+    allow(file, {"ball", "contact", "start", "environment"});
+    allow(ball, {"name", mass.name, radius.name});
+    allow(contact, {friction.name, patch_radius.name, spin_deceleration.name, "hertz"});
+    allow(start, {slip.name, spin.name});
+    allow(environment, {gravity.name});
+
+    const Shot shot{
+        .ball = {.name = name(ball), .mass = number(ball, mass), .radius = number(ball, radius)},
+        .contact = {.friction = number(contact, friction), .patch = patch(contact)},
+        .start = {.slip = number(start, slip), .spin = number(start, spin)},
+        .environment = {.gravity = number(environment, gravity, Environment{}.gravity)},
+    };
+    at(contact.position, [&] { require_shot(shot); });
+    return shot;
+  }
+
+ private:
+  [[noreturn]] void fail(toml::source_position where, std::string_view message) const {
+    throw RunFileError(fmt::format("{}:{}:{}: {}", source_, where.line, where.column, message));
+  }
+
+  /// Gives the complaint of a check a place in the file.
+  template <class Check>
+  void at(toml::source_position where, Check check) const {
+    try {
+      check();
+    } catch (const std::domain_error& error) {
+      fail(where, error.what());
+    }
+  }
+
+  toml::table parse(std::string_view text) const {
+    try {
+      return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+      fail(error.source().begin, fmt::format("not TOML: {}", error.description()));
+    }
+  }
+
+  Section section(const Section& parent, std::string_view key) const {
+    const std::string path = parent.path.empty() ? std::string(key) : fmt::format("{}.{}", parent.path, key);
+    const toml::node* node = parent.table == nullptr ? nullptr : parent.table->get(key);
+    if (node == nullptr) return {path, nullptr, parent.position};
+    if (!node->is_table()) fail(node->source().begin, fmt::format("'{}' must be a table: write [{}]", key, path));
+    return {path, node->as_table(), node->source().begin};
+  }
+
+  void allow(const Section& section, std::initializer_list<std::string_view> keys) const {
+    if (section.table == nullptr) return;
+    const std::vector<std::string> names(keys.begin(), keys.end());
+    for (const auto& [key, node] : *section.table) {
+      if (std::ranges::find(names, key.str()) != names.end()) continue;
+      fail(key.source().begin,
+           fmt::format("unknown {} {}{}; allowed: {}", node.is_table() ? "table" : "key", place(section, key.str()),
+                       suggestion(key.str(), names), fmt::join(names, ", ")));
+    }
+  }
+
+  std::string name(const Section& ball) const {
+    const toml::node* node = ball.table == nullptr ? nullptr : ball.table->get("name");
+    if (node == nullptr) return "ball";
+    if (!node->is_string()) fail(node->source().begin, "'name' in [ball] must be a string in quotes");
+    return node->as_string()->get();
+  }
+
+  double number(const toml::node& node, const Section& section, const Quantity& quantity) const {
+    double value = 0;
+    if (const auto* integer = node.as_integer()) {
+      value = static_cast<double>(integer->get());
+    } else if (const auto* real = node.as_floating_point()) {
+      value = real->get();
+    } else {
+      fail(node.source().begin, fmt::format("{} must be a number{}{}", place(section, quantity.name),
+                                            quantity.unit.empty() ? "" : ", in ", quantity.unit));
+    }
+    at(node.source().begin, [&] { require(quantity, value); });
+    return value;
+  }
+
+  double number(const Section& section, const Quantity& quantity, std::optional<double> standard = {}) const {
+    if (const auto found = overrides_.find(quantity.name); found != overrides_.end()) return found->second;
+    const toml::node* node = section.table == nullptr ? nullptr : section.table->get(quantity.name);
+    if (node != nullptr) return number(*node, section, quantity);
+    if (standard) return *standard;
+    fail(section.position, fmt::format("{} is missing: {}{}{}", place(section, quantity.name), quantity.meaning,
+                                       quantity.unit.empty() ? "" : ", in ", quantity.unit));
+  }
+
+  std::array<double, 2> pair(const Section& section, const Quantity& quantity) const {
+    const toml::node* node = section.table->get(quantity.name);
+    if (node == nullptr) {
+      fail(section.position, fmt::format("{} is missing: {}", place(section, quantity.name), quantity.meaning));
+    }
+    const toml::array* array = node->as_array();
+    if (array == nullptr || array->size() != 2) {
+      fail(node->source().begin,
+           fmt::format("{} must be two numbers in brackets: {}", place(section, quantity.name), quantity.meaning));
+    }
+    return {number((*array)[0], section, quantity), number((*array)[1], section, quantity)};
+  }
+
+  PatchSource patch(const Section& contact) const {
+    const bool radius_given = overrides_.contains(patch_radius.name);
+    const bool deceleration_given = overrides_.contains(spin_deceleration.name);
+    if (radius_given && deceleration_given) {
+      throw std::domain_error("a patch radius and a spin deceleration exclude each other: give one of them");
+    }
+    if (radius_given) return PatchRadius{number(contact, patch_radius)};
+    if (deceleration_given) return SpinDeceleration{number(contact, spin_deceleration)};
+
+    std::vector<std::string_view> given;
+    for (std::string_view key : {patch_radius.name, spin_deceleration.name, std::string_view("hertz")}) {
+      if (contact.table != nullptr && contact.table->contains(key)) given.push_back(key);
+    }
+    if (given.size() != 1) {
+      fail(contact.position, fmt::format("[contact] must have exactly one of patch_radius, spin_deceleration and the "
+                                         "table [contact.hertz]; it has {}",
+                                         given.empty() ? "none" : fmt::format("{}", fmt::join(given, " and "))));
+    }
+    if (given.front() == patch_radius.name) return PatchRadius{number(contact, patch_radius)};
+    if (given.front() == spin_deceleration.name) return SpinDeceleration{number(contact, spin_deceleration)};
+    const Section hertz = section(contact, "hertz");
+    allow(hertz, {youngs_modulus.name, poisson_ratio.name});
+    return HertzModuli{.youngs_modulus = pair(hertz, youngs_modulus), .poisson_ratio = pair(hertz, poisson_ratio)};
+  }
+
+  std::string_view source_;
+  const Overrides& overrides_;
+};
+
+std::string line(const Quantity& quantity, double value) {
+  return fmt::format("{} = {}  # {}{}{}\n", quantity.name, shortest(value), quantity.unit,
+                     quantity.unit.empty() ? "" : ", ", quantity.meaning);
+}
+
+std::string line(const Quantity& quantity, const std::array<double, 2>& values) {
+  return fmt::format("{} = [{}, {}]  # {}{}{}\n", quantity.name, shortest(values[0]), shortest(values[1]),
+                     quantity.unit, quantity.unit.empty() ? "" : ", ", quantity.meaning);
+}
+
+struct WritePatch {
+  std::string operator()(PatchRadius patch) const { return line(patch_radius, patch.value); }
+  std::string operator()(SpinDeceleration measured) const { return line(spin_deceleration, measured.value); }
+  std::string operator()(const HertzModuli& moduli) const {
+    return "\n[contact.hertz]\n" + line(youngs_modulus, moduli.youngs_modulus) +
+           line(poisson_ratio, moduli.poisson_ratio);
+  }
+};
+
+}  // namespace
+
+Shot parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides) {
+  for (const auto& [name, value] : overrides) {
+    const Quantity* known = nullptr;
+    for (const Quantity* quantity :
+         {&mass, &radius, &friction, &patch_radius, &spin_deceleration, &slip, &spin, &gravity}) {
+      if (quantity->name == name) known = quantity;
+    }
+    if (known == nullptr) throw std::domain_error(fmt::format("parse_run_file: no value is called '{}'", name));
+    require(*known, value);
+  }
+  return Reader(source, overrides).read(text);
+}
+
+Shot read_run_file(const std::string& path, const Overrides& overrides) {
+  return parse_run_file(read_text_file(path), path, overrides);
+}
+
+std::string run_file(const Shot& shot, std::string_view remark) {
+  std::string text;
+  std::istringstream lines{std::string(remark)};
+  for (std::string comment; std::getline(lines, comment);) text += fmt::format("# {}\n", comment);
+  std::ostringstream name;
+  name << toml::value<std::string>(shot.ball.name);
+
+  text += fmt::format("[ball]\nname = {}\n", name.str());
+  text += line(mass, shot.ball.mass) + line(radius, shot.ball.radius);
+  text += "\n[contact]\n" + line(friction, shot.contact.friction) + std::visit(WritePatch{}, shot.contact.patch);
+  text += "\n[start]\n" + line(slip, shot.start.slip) + line(spin, shot.start.spin);
+  text += "\n[environment]\n" + line(gravity, shot.environment.gravity);
+  return text;
+}
+
+}  // namespace contensou::si
