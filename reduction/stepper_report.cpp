@@ -12,7 +12,10 @@ namespace contensou::reduction {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-}
+
+/// Reported steps of a tail that is closed in one.
+constexpr int tail_instants = 64;
+}  // namespace
 
 StepperReport::StepperReport(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times)
     : caller_(caller),
@@ -75,6 +78,9 @@ Motion StepperReport::close(double stop_time, long steps, long evaluations, Outc
 
 Motion StepperReport::finish(const StopLimit& tail, long steps, long evaluations) {
   while (next_time() < tail.stop()) add(tail.at_time(next_time()));
+  if (every_step_) {
+    for (int i = tail_instants - 1; i > 0; --i) add(tail.at_share(static_cast<double>(i) / tail_instants));
+  }
   const double stop_time = std::ldexp(tail.stop() / scaled_time_rate_, exponent_);
   return close(stop_time, steps, evaluations, Outcome{});
 }

@@ -38,10 +38,9 @@ StopLimit::StopLimit(const ReducedSystem& system, const LogState& from, bool piv
   }
 }
 
-LogState StopLimit::at_time(double s) const {
-  const double share = (stop() - s) / left_;
+LogState StopLimit::at_share(double share) const {
   const double ln_share = std::log(share);
-  return {from_.ln_w + ln_w_slope_ * ln_share, from_.ln_v + ln_v_slope_ * ln_share, s,
+  return {from_.ln_w + ln_w_slope_ * ln_share, from_.ln_v + ln_v_slope_ * ln_share, from_.s + left_ * (1 - share),
           from_.age + age_scale_ * (1 / share - 1)};
 }
 

@@ -29,7 +29,10 @@ class StopLimit {
   double stop() const { return from_.s + left_; }
 
   /// The state at a scaled time between from and stop().
-  LogState at_time(double s) const;
+  LogState at_time(double s) const { return at_share((stop() - s) / left_); }
+
+  /// The state when that share of the tail's time is left, 0 < share <= 1.
+  LogState at_share(double share) const;
 
  private:
   StopLimit(const ReducedSystem& system, const LogState& from, bool pivoting);

@@ -77,6 +77,11 @@ def double(value):
     return float(mp.nstr(value, 60))
 
 
+def power_of_ten(exponent):
+    """10^exponent rounded to a double, the same on every machine."""
+    return double(mpf(10) ** mpf(exponent))
+
+
 def exact(number):
     """The two columns of an input double: decimal and hexadecimal, both exact."""
     return [repr(number), number.hex()]
@@ -423,7 +428,8 @@ class PadeClosed:
         return self.a * y - self.b * mp.log(self.big_a + self.big_b * mp.exp(y))
 
     def sigma(self, k):
-        """Time left over w: 16/(3 pi r) + k + (3/2) k y 2F1(1, b+1; a+2; x), x = Bk/(A+Bk), y = 1-x."""
+        """Time left over w: 16/(3 pi r) + k + (3/2) k y 2F1(1, b+1; a+2; x), x = Bk/(A+Bk),
+        y = 1 - x."""
         with mp.workdps(mp.dps + 30 + min(150, int(abs(mp.log10(1 + k))))):
             bottom = self.big_a + self.big_b * k
             x, y = self.big_b * k / bottom, self.big_a / bottom
@@ -709,7 +715,7 @@ def law_points():
               3.0, 5.0, 10.0, 30.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e8, 1e10, 1e16, 1e30, 1e100, 1e200,
               1e300]
     dice = random.Random(SEED)
-    points += [10 ** dice.uniform(-3, 3) for _ in range(40)]
+    points += [power_of_ten(dice.uniform(-3, 3)) for _ in range(40)]
     return sorted(points)
 
 
@@ -730,11 +736,11 @@ def stop_points(per_mu, extra_mus, extremes):
     """(mu, u0, v0): k0 = v0/(mu u0) from 1e-6 to 1e8, spread and random, and the extremes."""
     dice = random.Random(SEED)
     points = []
-    for mu in MUS + [10 ** dice.uniform(-10, 0) for _ in range(extra_mus)]:
+    for mu in MUS + [power_of_ten(dice.uniform(-10, 0)) for _ in range(extra_mus)]:
         count = per_mu if mu in MUS else 2
         for i in range(count):
-            k0 = 10 ** (-6 + 14 * (i + dice.random()) / count)
-            u0 = dice.choice([1.0, 0.25, 10 ** dice.uniform(-2, 2)])
+            k0 = power_of_ten(-6 + 14 * (i + dice.random()) / count)
+            u0 = dice.choice([1.0, 0.25, power_of_ten(dice.uniform(-2, 2))])
             points.append((mu, u0, k0 * mu * u0))
     return sorted(points + extremes)
 
@@ -766,9 +772,9 @@ STARTS = [1e-3, 0.5, 2.5, 1e5, 0.05, 1.0, 30.0, 1e3]                # k0
 BALLS = {0.0035: (1.0, 0.5), 0.099: (2.8575, 1.0), 0.241: (0.9, 0.5)}    # (u0, v0)
 
 
-def trajectory_points(per_start):
-    """(mu, u0, v0, fraction): four starts for each mu, all fractions in turn."""
-    points, turn = [], 0
+def trajectory_points():
+    """(mu, u0, v0, fraction): four starts for each mu, three of the fractions for each start."""
+    points, number = [], 0
     for i, mu in enumerate(TRAJECTORY_MUS):
         starts = []
         for j in range(4):
@@ -777,10 +783,9 @@ def trajectory_points(per_start):
         if mu in BALLS:
             starts[1] = BALLS[mu]
         for u0, v0 in starts:
-            for _ in range(per_start):
-                points.append((mu, u0, v0, FRACTIONS[turn % len(FRACTIONS)]))
-                turn += 4
-            turn += 1
+            for j in range(3):
+                points.append((mu, u0, v0, FRACTIONS[(5 * number + 4 * j) % len(FRACTIONS)]))
+            number += 1
     return points
 
 
@@ -802,12 +807,12 @@ def trajectory_table(law, points):
 
 def table_trajectory_pade():
     """States, Pade law."""
-    return trajectory_table("pade", trajectory_points(3))
+    return trajectory_table("pade", trajectory_points())
 
 
 def table_trajectory_hertz():
     """States, exact law."""
-    return trajectory_table("hertz", trajectory_points(2))
+    return trajectory_table("hertz", trajectory_points())
 
 
 BODIES = [                                          # (chi, gamma, mu, u0, v0)
@@ -856,8 +861,9 @@ def write(name, folder):
     with open(os.path.join(folder, name + ".csv"), "w", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows(rows)
     digits = [row[-1] for row in rows[1:]]
-    sys.stderr.write("%s%s: %d rows, %d..%d digits agree, %.0f s\n"
-                     % ("\r" if sys.stderr.isatty() else "", name, len(digits), min(digits), max(digits), time.time() - start))
+    sys.stderr.write("%s%s: %d rows, %d..%d digits agree, %.0f s\n" % (
+        "\r" if sys.stderr.isatty() else "", name, len(digits), min(digits), max(digits),
+        time.time() - start))
 
 
 def main():

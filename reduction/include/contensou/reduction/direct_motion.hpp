@@ -11,7 +11,7 @@ namespace contensou::reduction {
 /// tail is closed with its exact limit once k < 1e-17 (or the rest is negligible). On an axis, and where pivoting takes
 /// less than 1e-18 of the time, the limit closes it at once.
 ///
-/// @param times  instants to report, tau >= 0, in increasing order; empty: every accepted step and the stop
+/// @param times  instants to report, tau >= 0, in increasing order; empty: every accepted step, the tail, the stop
 /// @throws std::domain_error  if start is not a state or times are negative or decrease
 ///
 /// Accuracy  stop time 1e-11 relative at the default tolerance; states 1e-10.

@@ -16,7 +16,8 @@ struct OrbitPoint {
   double v;     ///< 0 where it underflows; ln_v does not
   double ln_v;  ///< natural logarithm of v in the unit of the start
   double k;     ///< v/(mu |u|); infinity for u = 0
-  double beta;  ///< regularised time of (2.8) since the start; its error is relative to beta + 1/(16 mu |u0| + 15 pi v0)
+  double
+      beta;  ///< regularised time of (2.8) since the start; its error is relative to beta + 1/(16 mu |u0| + 15 pi v0)
 };
 
 /// Many instants, one entry of each column for each.

@@ -1,0 +1,307 @@
+// The one file that knows gnuplot. A 2014 gnuplot-iostream reports neither a missing nor a failing gnuplot, so it
+// writes the script, and the script is run here, once, with its status checked.
+#include "contensou/portraits/gnuplot.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iterator>
+#include <memory>
+#include <sstream>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gnuplot-iostream.h>
+#include <boost/process.hpp>
+
+namespace contensou::portraits {
+
+namespace process = boost::process;
+
+namespace {
+
+constexpr std::array formats{
+    std::pair{std::string_view("svg"), PictureFormat::svg},
+    std::pair{std::string_view("pdf"), PictureFormat::pdf},
+    std::pair{std::string_view("png"), PictureFormat::png},
+    std::pair{std::string_view("gp"), PictureFormat::gp},
+};
+
+constexpr double points_per_mm = 72 / 25.4;
+
+std::string terminal(const Figure& figure, PictureFormat format) {
+  const double width = figure.width_mm;
+  const double height = figure.height_mm;
+  switch (format) {
+    case PictureFormat::pdf:
+      return fmt::format(
+          "set terminal pdfcairo size {}cm,{}cm enhanced font 'sans,9' linewidth 0.75 background '#ffffff'", width / 10,
+          height / 10);
+    case PictureFormat::png: {
+      constexpr double pixels_per_mm = 200 / 25.4;
+      return fmt::format(
+          "set terminal pngcairo size {:.0f},{:.0f} enhanced font 'sans,9' fontscale 2.1 linewidth 2 background "
+          "'#ffffff'",
+          width * pixels_per_mm, height * pixels_per_mm);
+    }
+    case PictureFormat::svg:
+    case PictureFormat::gp:
+      break;
+  }
+  constexpr double pixels_per_mm = 5;
+  return fmt::format("set terminal svg size {:.0f},{:.0f} dynamic enhanced font 'sans-serif,13' background '#ffffff'",
+                     width * pixels_per_mm, height * pixels_per_mm);
+}
+
+/// Text between double quotes; a backslash stays one.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string line_style(const Stroke& stroke) {
+  return fmt::format("lc rgb '{}' lw {}{}", stroke.colour, stroke.width, stroke.dashed ? " dt (9,5)" : " dt 1");
+}
+
+using Row = std::pair<double, double>;
+using Vector = std::tuple<double, double, double, double>;
+
+std::vector<std::vector<Row>> rows(const std::vector<Polyline>& lines) {
+  std::vector<std::vector<Row>> result;
+  for (const Polyline& line : lines) {
+    auto& block = result.emplace_back();
+    for (const Point& point : line) block.emplace_back(point.x, point.y);
+  }
+  return result;
+}
+
+/// Vectors so short that only their heads show; of one length on paper whatever the axes.
+std::vector<Vector> heads(const Panel& panel, const std::vector<Arrow>& arrows) {
+  constexpr double length = 0.004;
+  const double x_range = panel.x.high - panel.x.low;
+  const double y_range = panel.y.high - panel.y.low;
+  std::vector<Vector> result;
+  for (const Arrow& arrow : arrows) {
+    const double size = std::hypot(arrow.direction.x / x_range, arrow.direction.y / y_range);
+    const double dx = arrow.direction.x / size * length;
+    const double dy = arrow.direction.y / size * length;
+    result.emplace_back(arrow.at.x - dx, arrow.at.y - dy, dx, dy);
+  }
+  return result;
+}
+
+void write_axis(Gnuplot& gp, const char* which, const Axis& axis) {
+  gp << "set " << which << "label " << quoted(axis.name) << "\n";
+  gp << "set " << which << "range [" << axis.low << ":" << axis.high << "]\n";
+  gp << (axis.logarithmic ? "set logscale " : "unset logscale ") << which << "\n";
+  gp << "set " << which << "tics nomirror out scale 0.6\n";
+  gp << "set format " << which << (axis.logarithmic ? " '10^{%T}'" : " '%g'") << "\n";
+  if (axis.ticks.empty()) return;
+  gp << "set " << which << "tics (";
+  for (const auto& tick : axis.ticks) {
+    gp << (&tick == &axis.ticks.front() ? "" : ", ") << quoted(tick.text) << " " << tick.at;
+  }
+  gp << ")\n";
+}
+
+const char* alignment(Label::Align align) {
+  switch (align) {
+    case Label::Align::left:
+      return "left";
+    case Label::Align::right:
+      return "right";
+    case Label::Align::centre:
+      break;
+  }
+  return "center";
+}
+
+/// Writes one panel into the strip [left, right] of the width.
+void write_panel(Gnuplot& gp, const Panel& panel, double left, double right) {
+  gp << "set lmargin at screen " << left << "\nset rmargin at screen " << right << "\n";
+  gp << "set title " << quoted(panel.title) << " offset 0,-0.4\n";
+  write_axis(gp, "x", panel.x);
+  write_axis(gp, "y", panel.y);
+  gp << "unset label\n";
+  for (const Label& label : panel.labels) {
+    gp << "set label " << quoted(label.text) << " at " << label.at.x << "," << label.at.y << " "
+       << alignment(label.align) << " front boxed tc rgb '" << label.colour << "'\n";
+  }
+
+  std::string separator = "plot ";
+  const auto entry = [&](const std::string& text) { gp << std::exchange(separator, ", \\\n     ") << text; };
+  for (const Lines& layer : panel.lines) {
+    entry(fmt::format("'-' with lines {} notitle", line_style(layer.stroke)));
+  }
+  for (const Arrows& layer : panel.arrows) {
+    entry(fmt::format("'-' with vectors head filled size screen 0.011,18,75 fixed lc rgb '{}' lw 0.5 notitle",
+                      layer.colour));
+  }
+  for (const Marks& layer : panel.marks) {
+    entry(fmt::format("'-' with points pt 7 ps 0.6 lc rgb '{}' notitle", layer.colour));
+  }
+  gp << "\n";
+  for (const Lines& layer : panel.lines) gp.send2d(rows(layer.lines));
+  for (const Arrows& layer : panel.arrows) gp.send1d(heads(panel, layer.arrows));
+  for (const Marks& layer : panel.marks) gp.send1d(rows({layer.points}).front());
+}
+
+/// Title, subtitle and legend, in a plot of its own that covers the page and shows nothing else.
+void write_heading(Gnuplot& gp, const Figure& figure) {
+  gp << "set lmargin at screen 0.02\nset rmargin at screen 0.98\nunset border\nunset tics\n";
+  gp << "set key at screen 0.5,0.02 center bottom horizontal maxrows 1 samplen 2.6 width 2\n";
+  gp << "set label " << quoted(figure.title) << " at screen 0.5,0.962 center font ',15'\n";
+  gp << "set label " << quoted(figure.subtitle) << " at screen 0.5,0.916 center tc rgb '#555555'\n";
+  std::string separator = "plot [0:1] [0:1] ";
+  for (const Lines& layer : figure.panels.front().lines) {
+    if (layer.legend.empty()) continue;
+    gp << std::exchange(separator, ", \\\n     ");
+    gp << "NaN with lines " << line_style(layer.stroke) << " title " << quoted(layer.legend);
+  }
+  gp << "\nunset key\nset border 3 lw 0.8 lc rgb '#444444'\n";
+}
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+std::string read_all(std::FILE* file) {
+  std::rewind(file);
+  std::string text;
+  std::array<char, 1 << 16> buffer;
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file)) text.append(buffer.data(), count);
+  return text;
+}
+
+std::string script(const Figure& figure, PictureFormat format) {
+  const std::unique_ptr<std::FILE, CloseFile> file(std::tmpfile());
+  if (!file)
+    throw GnuplotError(fmt::format("cannot make a temporary file for the gnuplot script: {}", std::strerror(errno)));
+  {
+    const int copy = dup(fileno(file.get()));
+    Gnuplot gp(fdopen(copy, "w"));
+    gp << std::defaultfloat << std::setprecision(8);
+    gp << "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n";
+    gp << "set encoding utf8\n" << terminal(figure, format) << "\n";
+    gp << "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.4,0.2\n";
+    gp << "set multiplot\n";
+    gp << "set tmargin at screen 0.84\nset bmargin at screen 0.19\n";
+    write_heading(gp, figure);
+    const double count = static_cast<double>(figure.panels.size());
+    const double label_room = 20 / figure.width_mm;
+    for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+      const double left = static_cast<double>(i) / count;
+      write_panel(gp, figure.panels[i], left + label_room, left + 1 / count - 0.25 * label_room);
+    }
+    gp << "unset multiplot\n";
+  }
+  return read_all(file.get());
+}
+
+/// A folder of its own, removed with what is in it.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "contensou-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) {
+      throw GnuplotError(fmt::format("cannot make a temporary folder {}: {}", pattern, std::strerror(errno)));
+    }
+    path_ = pattern;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::filesystem::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string first_lines(const std::string& text, int count) {
+  std::istringstream stream(text);
+  std::string result;
+  for (std::string line; count > 0 && std::getline(stream, line);) {
+    if (line.find_first_not_of(" \t^") == std::string::npos) continue;
+    result += "\n  " + line;
+    --count;
+  }
+  return result;
+}
+
+/// Italics cut a text into pieces, at whose ends some SVG viewers drop spaces unless told to keep them.
+std::string with_spaces(std::string svg) {
+  constexpr std::string_view plain = "<text>";
+  constexpr std::string_view preserving = "<text xml:space=\"preserve\">";
+  for (std::size_t at = 0; (at = svg.find(plain, at)) != std::string::npos; at += preserving.size()) {
+    svg.replace(at, plain.size(), preserving);
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::optional<PictureFormat> find_picture_format(std::string_view ending) {
+  const auto found = std::ranges::find(formats, ending, &std::pair<std::string_view, PictureFormat>::first);
+  if (found == formats.end()) return std::nullopt;
+  return found->second;
+}
+
+std::string gnuplot_script(const Figure& figure) { return script(figure, PictureFormat::gp); }
+
+std::string render(const Figure& figure, PictureFormat format) {
+  if (format == PictureFormat::gp) return gnuplot_script(figure);
+
+  const auto gnuplot = process::search_path("gnuplot");
+  if (gnuplot.empty()) {
+    throw GnuplotError(
+        "gnuplot was not found on PATH; install it (Debian: gnuplot-nox), or write .gp, .csv or .json, which need "
+        "none");
+  }
+  const ScratchFolder folder;
+  const auto script_path = folder / "figure.gp";
+  const auto picture_path = folder / "picture";
+  const auto message_path = folder / "messages";
+  {
+    std::ofstream stream(script_path, std::ios::binary);
+    stream << script(figure, format);
+    if (!stream.flush()) throw GnuplotError(fmt::format("cannot write the gnuplot script {}", script_path.string()));
+  }
+
+  const int status = process::system(gnuplot, script_path.string(), process::std_out > picture_path.string(),
+                                     process::std_err > message_path.string());
+  const std::string messages = read_file(message_path);
+  if (status != 0) {
+    throw GnuplotError(
+        fmt::format("gnuplot ({}) ended with status {}{}", gnuplot.string(), status, first_lines(messages, 4)));
+  }
+  std::string picture = read_file(picture_path);
+  if (picture.empty()) {
+    throw GnuplotError(fmt::format("gnuplot ({}) drew nothing{}", gnuplot.string(), first_lines(messages, 4)));
+  }
+  return format == PictureFormat::svg ? with_spaces(std::move(picture)) : picture;
+}
+
+}  // namespace contensou::portraits

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace contensou::portraits {
+
+/// A point in the units of a panel's axes.
+struct Point {
+  double x;
+  double y;
+};
+
+using Polyline = std::vector<Point>;
+
+/// How a line or a text looks. Colours are #rrggbb; widths are in points.
+struct Stroke {
+  std::string colour = "#000000";
+  double width = 1;
+  bool dashed = false;
+};
+
+/// Polylines of one look; one entry of the legend.
+struct Lines {
+  std::vector<Polyline> lines;
+  Stroke stroke;
+  std::string legend;  ///< empty: not in the legend
+};
+
+/// An arrow head that points along a direction, given in the units of the axes.
+struct Arrow {
+  Point at;
+  Point direction;
+};
+
+/// Arrow heads of one look, all of one size on paper.
+struct Arrows {
+  std::vector<Arrow> arrows;
+  std::string colour = "#000000";
+};
+
+/// A dot on a curve.
+struct Marks {
+  std::vector<Point> points;
+  std::string colour = "#000000";
+};
+
+/// A text at a point of a panel, on a white ground so that it stays legible over lines.
+struct Label {
+  Point at;
+  std::string text;
+  std::string colour = "#000000";
+  enum class Align { left, centre, right } align = Align::centre;
+};
+
+/// An interval with its name; ticks only where the default ones do not serve.
+struct Axis {
+  struct Tick {
+    double at;
+    std::string text;
+  };
+  std::string name;
+  double low;
+  double high;
+  bool logarithmic = false;
+  std::vector<Tick> ticks;
+};
+
+/// One system of axes and what is drawn in it, in the order given: lines, arrows, marks, labels.
+struct Panel {
+  std::string title;
+  Axis x;
+  Axis y;
+  std::vector<Lines> lines;
+  std::vector<Arrows> arrows;
+  std::vector<Marks> marks;
+  std::vector<Label> labels;
+};
+
+/// A drawing as data: panels side by side under one title, one legend below. Text is UTF-8; _ and ^ begin an index or a
+/// power, {/:Italic x} is a letter in italics.
+struct Figure {
+  std::string title;
+  std::string subtitle;
+  double width_mm = 180;
+  double height_mm = 120;
+  std::vector<Panel> panels;
+};
+
+}  // namespace contensou::portraits
