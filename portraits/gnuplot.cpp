@@ -74,8 +74,10 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+std::string colour(Colour colour) { return fmt::format("rgb '#{:06x}'", colour.rgb); }
+
 std::string line_style(const Stroke& stroke) {
-  return fmt::format("lc rgb '{}' lw {}{}", stroke.colour, stroke.width, stroke.dashed ? " dt (9,5)" : " dt 1");
+  return fmt::format("lc {} lw {}{}", colour(stroke.colour), stroke.width, stroke.dashed ? " dt (9,5)" : " dt 1");
 }
 
 using Row = std::pair<double, double>;
@@ -140,7 +142,7 @@ void write_panel(Gnuplot& gp, const Panel& panel, double left, double right) {
   gp << "unset label\n";
   for (const Label& label : panel.labels) {
     gp << "set label " << quoted(label.text) << " at " << label.at.x << "," << label.at.y << " "
-       << alignment(label.align) << " front boxed tc rgb '" << label.colour << "'\n";
+       << alignment(label.align) << " front boxed tc " << colour(label.colour) << "\n";
   }
 
   std::string separator = "plot ";
@@ -149,11 +151,11 @@ void write_panel(Gnuplot& gp, const Panel& panel, double left, double right) {
     entry(fmt::format("'-' with lines {} notitle", line_style(layer.stroke)));
   }
   for (const Arrows& layer : panel.arrows) {
-    entry(fmt::format("'-' with vectors head filled size screen 0.011,18,75 fixed lc rgb '{}' lw 0.5 notitle",
-                      layer.colour));
+    entry(fmt::format("'-' with vectors head filled size screen 0.011,18,75 fixed lc {} lw 0.5 notitle",
+                      colour(layer.colour)));
   }
   for (const Marks& layer : panel.marks) {
-    entry(fmt::format("'-' with points pt 7 ps 0.6 lc rgb '{}' notitle", layer.colour));
+    entry(fmt::format("'-' with points pt 7 ps 0.6 lc {} notitle", colour(layer.colour)));
   }
   gp << "\n";
   for (const Lines& layer : panel.lines) gp.send2d(rows(layer.lines));

@@ -1,7 +1,6 @@
 #include "contensou/portraits/law_figure.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -9,9 +8,9 @@ namespace contensou::portraits {
 
 namespace {
 
-constexpr const char* force_colour = "#0b4f8a";
-constexpr const char* moment_colour = "#b3003b";
-constexpr const char* guide_colour = "#999999";
+constexpr Colour force_colour{0x0b4f8a};
+constexpr Colour moment_colour{0xb3003b};
+constexpr Colour guide_colour{0x999999};
 constexpr double largest_k = 4;
 
 Polyline curve(const reduction::Law& law, double reduction::Resistance::*part) {
@@ -31,15 +30,15 @@ Figure law_figure(const std::vector<reduction::Law>& laws) {
   panel.x = {"{/:Italic k = v}/({/:Italic ε}|{/:Italic ω_z}|)", 0, largest_k, false, {}};
   panel.y = {"", 0, 1.05, false, {}};
   panel.lines.push_back({{{{0, 1}, {largest_k, 1}}, {{1, 0}, {1, 1.05}}}, {guide_colour, 0.8, true}, ""});
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const bool dashed = laws[i].name() != "exact";
+  for (const reduction::Law& law : laws) {
+    const bool dashed = law.name() != "exact";
     const double width = dashed ? 1.6 : 2.4;
-    panel.lines.push_back({{curve(laws[i], &reduction::Resistance::force)},
+    panel.lines.push_back({{curve(law, &reduction::Resistance::force)},
                            {force_colour, width, dashed},
-                           fmt::format("{{/:Italic Φ}}, {} law", laws[i].name())});
-    panel.lines.push_back({{curve(laws[i], &reduction::Resistance::moment)},
+                           fmt::format("{{/:Italic Φ}}, {} law", law.name())});
+    panel.lines.push_back({{curve(law, &reduction::Resistance::moment)},
                            {moment_colour, width, dashed},
-                           fmt::format("{{/:Italic Ψ}}, {} law", laws[i].name())});
+                           fmt::format("{{/:Italic Ψ}}, {} law", law.name())});
   }
   panel.labels = {
       {{2.9, 0.9}, "force  {/:Italic Φ = F}/({/:Italic N f})", force_colour, Label::Align::centre},

@@ -13,10 +13,10 @@ namespace contensou::portraits {
 namespace {
 
 // Legible in grey and for colour-blind readers: dark orbits, light times, one accent.
-constexpr const char* orbit_colour = "#0b4f8a";
-constexpr const char* isochrone_colour = "#c8761a";
-constexpr const char* axis_colour = "#222222";
-constexpr const char* highlight_colour = "#b3003b";
+constexpr Colour orbit_colour{0x0b4f8a};
+constexpr Colour isochrone_colour{0xc8761a};
+constexpr Colour axis_colour{0x222222};
+constexpr Colour highlight_colour{0xb3003b};
 
 /// How far down the contact panel reaches: to where u has fallen to this share of its start.
 constexpr double smallest_share = 1.0 / 20;

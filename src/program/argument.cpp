@@ -17,28 +17,26 @@ const std::string& Argument::text() const {
   return option_->results().front();
 }
 
-double Argument::number() const {
+template <class Parse>
+auto Argument::read(Parse parse) const {
+  const std::string& typed = text();
   try {
-    return parse_number(text());
+    return parse(typed);
   } catch (const BadInput& error) {
     throw BadInput(fmt::format("{}: {}", name(), error.what()));
   }
+}
+
+double Argument::number() const {
+  return read([](const std::string& typed) { return parse_number(typed); });
 }
 
 std::vector<double> Argument::numbers(Infinity infinity) const {
-  try {
-    return parse_numbers(text(), infinity);
-  } catch (const BadInput& error) {
-    throw BadInput(fmt::format("{}: {}", name(), error.what()));
-  }
+  return read([infinity](const std::string& typed) { return parse_numbers(typed, infinity); });
 }
 
 long Argument::integer(long lowest, long highest) const {
-  try {
-    return parse_integer(text(), lowest, highest);
-  } catch (const BadInput& error) {
-    throw BadInput(fmt::format("{}: {}", name(), error.what()));
-  }
+  return read([=](const std::string& typed) { return parse_integer(typed, lowest, highest); });
 }
 
 void Argument::reject(const std::string& message) const {

@@ -32,6 +32,10 @@ class Argument {
   [[noreturn]] void reject(const std::string& message) const;
 
  private:
+  /// Puts the option's name before what a parser complains about.
+  template <class Parse>
+  auto read(Parse parse) const;
+
   CLI::Option* option_ = nullptr;
 };
 

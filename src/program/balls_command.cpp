@@ -89,7 +89,7 @@ class BallsCommand final : public Command {
     const int digits = output_.digits();
     if (ball_.given()) {
       if (output_.format_given() && format != Format::text) throw BadInput("a run file is text: leave --format out");
-      const CatalogueEntry& entry = require_ball(ball_.text());
+      const CatalogueEntry& entry = require_ball(ball_);
       output_.write(si::run_file(entry.shot, entry.sources));
       return ExitStatus::done;
     }

@@ -1,6 +1,7 @@
 #include "csv_table.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include <csv.h>
@@ -85,7 +86,7 @@ CsvTable::CsvTable(std::string_view text, std::string source) : source_(std::mov
 }
 
 CsvTable CsvTable::read(const std::string& path) {
-  if (path == "-") return {si::read_text_file("/dev/stdin"), "<stdin>"};
+  if (path == "-") return {si::read_text(stdin, "<stdin>"), "<stdin>"};
   return {si::read_text_file(path), path};
 }
 

@@ -1,14 +1,18 @@
-#include <limits>
+#include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "columns.hpp"
 #include "commands.hpp"
+#include "contensou/portraits/law_figure.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/pade_law.hpp"
 #include "csv_table.hpp"
 #include "json.hpp"
-#include "law_figure.hpp"
 #include "law_option.hpp"
 #include "output_options.hpp"
+#include "picture.hpp"
 
 namespace contensou::program {
 
@@ -32,9 +36,9 @@ class LawCommand final : public Command {
   ExitStatus run() override {
     const reduction::Law law = law_.read();
     if (k_.given() && batch_.given()) throw BadInput("--k and --batch exclude each other: give one of them");
-    if (is_figure(output_.path())) {
+    if (const auto picture = portraits::find_picture_format(ending(output_.path()))) {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
-      write_law_figure(output_.path(), law);
+      output_.write(drawn(portraits::law_figure(shown(law)), *picture));
       return ExitStatus::done;
     }
     if (!k_.given() && !batch_.given()) throw BadInput("--k missing: give --k K1,K2,... or --batch FILE");
@@ -60,6 +64,13 @@ class LawCommand final : public Command {
   /// --format, or else what the ending of -o says.
   Format data_format() const {
     return !output_.format_given() && output_.path().ends_with(".json") ? Format::json : output_.format();
+  }
+
+  /// Both laws of the paper, and the one asked for if it is neither.
+  static std::vector<reduction::Law> shown(const reduction::Law& law) {
+    std::vector<reduction::Law> laws{reduction::HertzLaw{}, reduction::PadeLaw{}};
+    if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) laws.push_back(law);
+    return laws;
   }
 
   std::vector<double> listed() const {

@@ -40,6 +40,17 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+/// An option whose value was forgotten takes the next option for it.
+void reject_forgotten_values(const CLI::App& app) {
+  const std::vector<std::string> names = option_names(app);
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (std::ranges::find(names, value) == names.end()) continue;
+      throw BadInput(fmt::format("{} needs a value before '{}'", option->get_name(), value));
+    }
+  }
+}
+
 /// What CLI11 could not place: an option that does not exist or a word too many.
 void reject_extras(const CLI::App& app) {
   if (app.remaining_size() == 0) return;
@@ -60,9 +71,13 @@ ExitStatus run(Command& command, std::vector<std::string> arguments) {
   } catch (const CLI::CallForHelp&) {
     write_output("-", app.help());
     return ExitStatus::done;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string message = error.what();
+    throw BadInput(fmt::format("{} needs a value", message.substr(0, message.find(':'))));
   } catch (const CLI::ParseError& error) {
     throw BadInput(error.what());
   }
+  reject_forgotten_values(app);
   reject_extras(app);
   return command.run();
 }

@@ -23,12 +23,12 @@ bool is_file(const std::string& ball) { return ball.find('/') != std::string::np
 
 }  // namespace
 
-const si::CatalogueEntry& require_ball(const std::string& name) {
-  if (const si::CatalogueEntry* entry = si::find_ball(name)) return *entry;
+const si::CatalogueEntry& require_ball(const Argument& argument) {
+  if (const si::CatalogueEntry* entry = si::find_ball(argument.text())) return *entry;
   std::vector<std::string> names;
   for (const si::CatalogueEntry& entry : si::catalogue()) names.push_back(entry.name);
-  throw BadInput(fmt::format("'{}': no such ball{}; built in: {}; a file needs a / or the ending .toml", name,
-                             si::suggestion(name, names), fmt::join(names, ", ")));
+  argument.reject(fmt::format("no such ball{}; built in: {}; a file needs a / or the ending .toml",
+                              si::suggestion(argument.text(), names), fmt::join(names, ", ")));
 }
 
 StartOptions::StartOptions() {
@@ -124,7 +124,8 @@ si::Shot StartOptions::read_shot() const {
 
   const std::string& ball = ball_.text();
   if (is_file(ball)) return si::read_run_file(ball, overrides);
-  return si::parse_run_file(si::run_file(require_ball(ball).shot), "built-in ball " + ball, overrides);
+  const si::CatalogueEntry& entry = require_ball(ball_);
+  return si::parse_run_file(si::run_file(entry.shot, entry.sources), "built-in ball " + entry.name, overrides);
 }
 
 }  // namespace contensou::program

@@ -11,9 +11,9 @@
 
 namespace contensou::program {
 
-/// The built-in ball of that name.
+/// The built-in ball whose name an argument is.
 /// @throws BadInput  for an unknown name
-const si::CatalogueEntry& require_ball(const std::string& name);
+const si::CatalogueEntry& require_ball(const Argument& argument);
 
 /// The start that the command line gives, in the paper's variables.
 struct GivenStart {
@@ -32,6 +32,9 @@ class StartOptions {
   /// Whether any of them was given.
   bool given() const { return !given_names().empty(); }
   std::string given_names() const;
+
+  /// Whether there is no motion in them: neither --u0 nor --v0 nor --ball.
+  bool without_motion() const { return !u0_.given() && !v0_.given() && !ball_.given(); }
 
   /// @throws BadInput           if options are missing, exclude each other or have values that no ball can have
   /// @throws si::RunFileError   for a mistake in a run file

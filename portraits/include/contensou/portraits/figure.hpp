@@ -14,9 +14,14 @@ struct Point {
 
 using Polyline = std::vector<Point>;
 
-/// How a line or a text looks. Colours are #rrggbb; widths are in points.
+/// Red, green and blue, eight bits each: 0xrrggbb.
+struct Colour {
+  unsigned rgb = 0;
+};
+
+/// How a line looks; widths are in points.
 struct Stroke {
-  std::string colour = "#000000";
+  Colour colour;
   double width = 1;
   bool dashed = false;
 };
@@ -37,20 +42,20 @@ struct Arrow {
 /// Arrow heads of one look, all of one size on paper.
 struct Arrows {
   std::vector<Arrow> arrows;
-  std::string colour = "#000000";
+  Colour colour;
 };
 
 /// A dot on a curve.
 struct Marks {
   std::vector<Point> points;
-  std::string colour = "#000000";
+  Colour colour;
 };
 
 /// A text at a point of a panel, on a white ground so that it stays legible over lines.
 struct Label {
   Point at;
   std::string text;
-  std::string colour = "#000000";
+  Colour colour;
   enum class Align { left, centre, right } align = Align::centre;
 };
 

@@ -1,0 +1,133 @@
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/portraits/phase_portrait_data.hpp"
+#include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/si/bridge.hpp"
+#include "law_option.hpp"
+#include "output.hpp"
+#include "picture.hpp"
+#include "route_option.hpp"
+#include "start_options.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+constexpr const char* standard_file = "portrait.svg";
+constexpr const char* endings = "svg, pdf, png, gp, csv, json";
+
+class PortraitCommand final : public Command {
+ public:
+  std::string name() const override { return "portrait"; }
+  std::string summary() const override {
+    return "A phase portrait: orbits, isochrones of the stop time, invariant axes";
+  }
+  std::string example() const override { return "contensou portrait --mu 0.3 -o portrait.svg"; }
+
+  void add_options(CLI::App& app) override {
+    start_.add(app);
+    law_.add(app);
+    route_.add(app);
+    window_.add(app, "--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)");
+    file_.add(app, "-o,--output", "FILE",
+              fmt::format("write to FILE (default {}), whole or not at all; its ending is one of {}", standard_file,
+                          endings));
+    format_.add(app, "--format", "FORMAT", fmt::format("instead of the ending, as with -o -: {}", endings));
+  }
+
+  ExitStatus run() override {
+    const Given given = read_start();
+    const reduction::ReducedSystem system(law_.read(), given.mu);
+    portraits::PortraitRequest request;
+    request.route = route_.read(system);
+    if (request.route == reduction::Route::direct) {
+      throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
+    }
+    request.highlight = given.state;
+    if (window_.given()) request.window = read_window();
+    if (given.shot) request.time_unit = 1 / si::seconds(*given.shot, 1);
+
+    const std::string path = file_.given() ? file_.text() : standard_file;
+    const std::string format = read_format(path);
+    const auto picture = portraits::find_picture_format(format);
+    if (!picture && format != "csv" && format != "json") {
+      throw BadInput(
+          fmt::format("-o {}: a portrait is written as one of {}; '{}' is none of them", path, endings, format));
+    }
+    const portraits::PhasePortrait portrait = portraits::phase_portrait(system, request);
+    if (picture) {
+      write_output(path, drawn(portraits::draw(portrait, caption(given, system)), *picture));
+    } else {
+      write_output(path, format == "csv" ? portraits::to_csv(portrait) : portraits::to_json(portrait));
+    }
+    return ExitStatus::done;
+  }
+
+ private:
+  struct Given {
+    double mu;
+    std::optional<reduction::State> state;
+    std::optional<si::Shot> shot;
+  };
+
+  Given read_start() const {
+    if (start_.without_motion()) return {start_.read_patch_ratio(), std::nullopt, std::nullopt};
+    const GivenStart start = start_.read();
+    return {start.mu, start.state, start.shot};
+  }
+
+  portraits::Window read_window() const {
+    const std::vector<double> sides = window_.numbers();
+    if (sides.size() != 2) window_.reject("two numbers are needed, U,V");
+    if (!(sides[0] > 0 && sides[1] > 0)) window_.reject("both sides of the window must be positive");
+    return {sides[0], sides[1]};
+  }
+
+  std::string read_format(const std::string& path) const {
+    const std::string by_ending = ending(path);
+    if (!format_.given()) return path == "-" ? "svg" : by_ending;
+    if (path != "-" && !by_ending.empty() && by_ending != format_.text()) {
+      format_.reject(fmt::format("the file {} says otherwise: leave out one of them", path));
+    }
+    return format_.text();
+  }
+
+  static portraits::PortraitCaption caption(const Given& given, const reduction::ReducedSystem& system) {
+    portraits::PortraitCaption caption;
+    if (!given.state) return caption;
+    const double stop = reduction::stop_time(system, *given.state).tau;
+    caption.highlight = "this motion";
+    if (!given.shot) {
+      caption.subtitle =
+          fmt::format("u_0 = {:g}, v_0 = {:g}: it stops after τ* = {:.4g}", given.state->u, given.state->v, stop);
+      return caption;
+    }
+    const si::Shot& shot = *given.shot;
+    caption.title =
+        fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", shot.ball.name, system.mu(), system.law().name());
+    caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", shot.start.slip,
+                                   shot.start.spin, si::seconds(shot, stop));
+    caption.speed_unit = "m/s";
+    caption.time_symbol = "{/:Italic t}*";
+    caption.time_unit_name = "s";
+    caption.time_unit = 1 / si::seconds(shot, 1);
+    caption.highlight = "this ball";
+    return caption;
+  }
+
+  StartOptions start_;
+  LawOption law_;
+  RouteOption route_;
+  Argument window_, file_, format_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_portrait_command() { return std::make_unique<PortraitCommand>(); }
+
+}  // namespace contensou::program
