@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <sstream>
@@ -27,11 +28,15 @@ struct Section {
   toml::source_position position;
 };
 
-/// The shortest digits that read back to the same double; TOML takes them as they are.
+/// The shortest digits that read back to the same double; with an exponent from 1e6 on, because TOML takes digits alone
+/// for a 64-bit integer.
 std::string shortest(double value) {
   std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
+  char* const first = digits.data();
+  char* const last = first + digits.size();
+  const bool large = std::abs(value) >= 1e6;
+  return {first, large ? std::to_chars(first, last, value, std::chars_format::scientific).ptr
+                       : std::to_chars(first, last, value).ptr};
 }
 
 /// What the user calls a key: `key` in [section].

@@ -1,0 +1,26 @@
+#include "contensou/si/nearest_name.hpp"
+
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+using contensou::si::nearest_name;
+using contensou::si::suggestion;
+
+TEST_CASE("the nearest name", "[table]") {
+  const std::vector<std::string> names{"pool", "steel", "bowling", "rubber", "gel"};
+  CHECK(nearest_name("pol", names) == "pool");
+  CHECK(nearest_name("pool", names) == "pool");
+  CHECK(nearest_name("opol", names) == "pool");  // swapped neighbours are one edit
+  CHECK(nearest_name("bowlingball", names).empty());
+  CHECK(nearest_name("stel", names) == "steel");
+  CHECK(nearest_name("zebra", names).empty());
+  CHECK(nearest_name("", names).empty());
+  CHECK(nearest_name("pool", {}).empty());
+}
+
+TEST_CASE("the suggestion of a message", "[table]") {
+  const std::vector<std::string> names{"closed", "direct"};
+  CHECK(suggestion("clsoed", names) == " (did you mean 'closed'?)");
+  CHECK(suggestion("xyz", names).empty());
+}

@@ -1,0 +1,166 @@
+#include "contensou/si/run_file.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/si/catalogue.hpp"
+
+using namespace contensou::si;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+const std::string good = R"([ball]
+name = "pool ball on cloth"
+mass = 0.1701
+radius = 0.028575
+[contact]
+friction = 0.2
+spin_deceleration = 10
+[start]
+slip = 1.0
+spin = 100
+)";
+
+std::string with(std::string text, const std::string& old, const std::string& replacement) {
+  const auto at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), replacement);
+}
+
+bool same(const PatchSource& a, const PatchSource& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* x = std::get_if<PatchRadius>(&a)) return x->value == std::get<PatchRadius>(b).value;
+  if (const auto* x = std::get_if<SpinDeceleration>(&a)) return x->value == std::get<SpinDeceleration>(b).value;
+  const auto& x = std::get<HertzModuli>(a);
+  const auto& y = std::get<HertzModuli>(b);
+  return x.youngs_modulus == y.youngs_modulus && x.poisson_ratio == y.poisson_ratio;
+}
+
+void check_same(const Shot& a, const Shot& b) {
+  CHECK(a.ball.name == b.ball.name);
+  CHECK(a.ball.mass == b.ball.mass);
+  CHECK(a.ball.radius == b.ball.radius);
+  CHECK(a.contact.friction == b.contact.friction);
+  CHECK(same(a.contact.patch, b.contact.patch));
+  CHECK(a.start.slip == b.start.slip);
+  CHECK(a.start.spin == b.start.spin);
+  CHECK(a.environment.gravity == b.environment.gravity);
+}
+
+}  // namespace
+
+TEST_CASE("a run file in full", "[table]") {
+  const Shot shot = parse_run_file(good, "x.toml");
+  CHECK(shot.ball.name == "pool ball on cloth");
+  CHECK(shot.ball.mass == 0.1701);
+  CHECK(shot.ball.radius == 0.028575);
+  CHECK(shot.contact.friction == 0.2);
+  CHECK(std::get<SpinDeceleration>(shot.contact.patch).value == 10);
+  CHECK(shot.start.slip == 1);
+  CHECK(shot.start.spin == 100);
+  CHECK(shot.environment.gravity == 9.80665);
+  CHECK(parse_run_file(good + "[environment]\ngravity = 1.62\n", "x.toml").environment.gravity == 1.62);
+}
+
+TEST_CASE("a patch from moduli", "[table]") {
+  const std::string hertz =
+      with(good, "spin_deceleration = 10", "hertz = {youngs_modulus = [2.1e11, 7.0e10], poisson_ratio = [0.3, 0.22]}");
+  const auto moduli = std::get<HertzModuli>(parse_run_file(hertz, "x.toml").contact.patch);
+  CHECK(moduli.youngs_modulus[1] == 7.0e10);
+  CHECK(moduli.poisson_ratio[0] == 0.3);
+}
+
+TEST_CASE("what is written reads back to the same doubles", "[invariant]") {
+  for (const CatalogueEntry& entry : catalogue()) {
+    INFO(entry.name);
+    check_same(parse_run_file(run_file(entry.shot, entry.sources), entry.name), entry.shot);
+  }
+  const Shot awkward{
+      .ball = {.name = "a \"quoted\" 'name'\nwith \\ and \t and \xC3\xA9", .mass = 1.0 / 3, .radius = 1e300},
+      .contact = {.friction = 5e-324, .patch = PatchRadius{1e299 / 3}},
+      .start = {.slip = 12345678901234567890.0, .spin = -0.1},
+      .environment = {.gravity = 123456789}};
+  check_same(parse_run_file(run_file(awkward, "a remark\n\nof three lines"), "awkward"), awkward);
+}
+
+TEST_CASE("mistakes are found with their place", "[table]") {
+  struct Mistake {
+    std::string text;
+    std::string place;
+    std::vector<std::string> words;
+  };
+  const std::vector<Mistake> mistakes{
+      {"[ball\n", "x.toml:1:", {"not TOML"}},
+      {with(good, "mass = 0.1701\n", ""), "x.toml:1:1: ", {"'mass' in [ball] is missing", "kg"}},
+      {with(good, "mass", "mas"), "x.toml:3:1: ", {"unknown key 'mas' in [ball]", "did you mean 'mass'", "allowed: "}},
+      {with(good, "[start]", "[strat]"), "x.toml:8:", {"unknown table 'strat'", "did you mean 'start'"}},
+      {with(good, "0.1701", "\"0.1701\""), "x.toml:3:8: ", {"'mass' in [ball] must be a number, in kg"}},
+      {with(good, "0.1701", "true"), "x.toml:3:8: ", {"must be a number"}},
+      {with(good, "0.1701", "nan"), "x.toml:3:8: ", {"mass must be finite and > 0", "got nan"}},
+      {with(good, "0.1701", "inf"), "x.toml:3:8: ", {"mass must be finite and > 0", "got inf"}},
+      {with(good, "0.1701", "-1"), "x.toml:3:8: ", {"got -1"}},
+      {with(good, "\"pool ball on cloth\"", "3"), "x.toml:2:8: ", {"'name' in [ball] must be a string"}},
+      {with(good, "spin_deceleration = 10\n", ""), "x.toml:5:1: ", {"exactly one of", "it has none"}},
+      {with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3"),
+       "x.toml:5:1: ",
+       {"exactly one of", "patch_radius and spin_deceleration"}},
+      {with(good, "spin_deceleration = 10", "patch_radius = 0.03"), "x.toml:5:1: ", {"at most the ball's radius"}},
+      {with(good, "spin_deceleration = 10", "hertz = 3"), "x.toml:7:9: ", {"must be a table", "[contact.hertz]"}},
+      {with(good, "spin_deceleration = 10", "hertz = {youngs_modulus = [1e9]}"), "x.toml:7:", {"two numbers"}},
+      {with(good, "spin_deceleration = 10", "hertz = {youngs_modulus = [1e9, 1e9]}"),
+       "x.toml:7:",
+       {"'poisson_ratio' in [contact.hertz] is missing"}},
+      {with(good, "spin_deceleration = 10", "hertz = {youngs_modulus = [1e9, 1e9], poisson_ratio = [0.3, 0.7]}"),
+       "x.toml:7:",
+       {"poisson_ratio must be above -1 and at most 0.5", "got 0.7"}},
+      {with(good, "slip = 1.0", "slip = -1.0"), "x.toml:9:8: ", {"slip must be finite and >= 0"}},
+      {with(good, "[ball]", "ball = 3\n[bull]"), "x.toml:1:", {"'ball' must be a table"}},
+      {"", "x.toml:1:1: ", {"'mass' in [ball] is missing"}},
+      {with(good, "mass = 0.1701", "mass = 1\nmass = 2"), "x.toml:4:", {"not TOML"}},
+  };
+  for (const auto& [text, place, words] : mistakes) {
+    INFO(text);
+    CHECK_THROWS_AS(parse_run_file(text, "x.toml"), RunFileError);
+    CHECK_THROWS_WITH(parse_run_file(text, "x.toml"), StartsWith(place));
+    for (const std::string& word : words) CHECK_THROWS_WITH(parse_run_file(text, "x.toml"), Contains(word));
+  }
+}
+
+TEST_CASE("overrides act as if the file had said so", "[invariant]") {
+  const Overrides overrides{{"radius", 0.03}, {"mass", 0.2},    {"friction", 0.3},         {"slip", 2.0},
+                            {"spin", -5.0},   {"gravity", 1.6}, {"spin_deceleration", 4.0}};
+  const std::string changed =
+      R"([ball]
+name = "pool ball on cloth"
+mass = 0.2
+radius = 0.03
+[contact]
+friction = 0.3
+spin_deceleration = 4
+[start]
+slip = 2
+spin = -5
+[environment]
+gravity = 1.6
+)";
+  check_same(parse_run_file(good, "x.toml", overrides), parse_run_file(changed, "y.toml"));
+
+  CHECK(std::get<PatchRadius>(parse_run_file(good, "x.toml", {{"patch_radius", 0.002}}).contact.patch).value == 0.002);
+  CHECK(parse_run_file(with(good, "slip = 1.0\n", ""), "x.toml", {{"slip", 3.0}}).start.slip == 3);
+  CHECK_THROWS_WITH(parse_run_file(good, "x.toml", {{"mas", 1.0}}), Contains("'mas'"));
+  CHECK_THROWS_WITH(parse_run_file(good, "x.toml", {{"mass", -1.0}}), Contains("mass must be"));
+  CHECK_THROWS_AS(parse_run_file(good, "x.toml", {{"patch_radius", 1e-3}, {"spin_deceleration", 3.0}}),
+                  std::domain_error);
+}
+
+TEST_CASE("a file that is not there", "[limit]") {
+  CHECK_THROWS_AS(read_run_file("/no/such/file.toml"), std::system_error);
+  CHECK_THROWS_WITH(read_run_file("/no/such/file.toml"), Contains("/no/such/file.toml"));
+}

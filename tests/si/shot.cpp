@@ -1,0 +1,87 @@
+#include "contensou/si/shot.hpp"
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+using namespace contensou::si;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Shot good() {
+  return {.ball = {.name = "ball", .mass = 0.17, .radius = 0.03},
+          .contact = {.friction = 0.2, .patch = PatchRadius{0.003}},
+          .start = {.slip = 1, .spin = -100}};
+}
+
+}  // namespace
+
+TEST_CASE("a shot is checked value by value", "[limit]") {
+  CHECK_NOTHROW(require_shot(good()));
+  struct Fault {
+    std::function<void(Shot&, double)> set;
+    std::string name;
+    std::vector<double> values;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  const std::vector<Fault> faults{
+      {[](Shot& s, double x) { s.ball.mass = x; }, "mass", {0, -1, nan, inf}},
+      {[](Shot& s, double x) { s.ball.radius = x; }, "radius", {0, -1, nan, inf}},
+      {[](Shot& s, double x) { s.contact.friction = x; }, "friction", {0, -1, nan, inf}},
+      {[](Shot& s, double x) { s.contact.patch = PatchRadius{x}; }, "patch_radius", {0, -1, nan, inf}},
+      {[](Shot& s, double x) { s.contact.patch = SpinDeceleration{x}; }, "spin_deceleration", {0, -1, nan, inf}},
+      {[](Shot& s, double x) {
+         s.contact.patch = HertzModuli{{x, 1e9}, {0.3, 0.3}};
+       },
+       "youngs_modulus",
+       {0, -1, nan, inf}},
+      {[](Shot& s, double x) {
+         s.contact.patch = HertzModuli{{1e9, 1e9}, {0.3, x}};
+       },
+       "poisson_ratio",
+       {-1, 0.51, nan}},
+      {[](Shot& s, double x) { s.start.slip = x; }, "slip", {-1, nan, inf}},
+      {[](Shot& s, double x) { s.start.spin = x; }, "spin", {nan, inf, -inf}},
+      {[](Shot& s, double x) { s.environment.gravity = x; }, "gravity", {0, -9.8, nan, inf}},
+  };
+  for (const Fault& fault : faults) {
+    for (double value : fault.values) {
+      Shot shot = good();
+      fault.set(shot, value);
+      INFO(fault.name << " = " << value);
+      CHECK_THROWS_WITH(require_shot(shot), Contains(fault.name + " must be") && Contains("got"));
+    }
+  }
+}
+
+TEST_CASE("the patch is no larger than the ball", "[limit]") {
+  Shot shot = good();
+  shot.contact.patch = PatchRadius{0.03};
+  CHECK_NOTHROW(require_shot(shot));
+  shot.contact.patch = PatchRadius{0.031};
+  CHECK_THROWS_WITH(require_shot(shot), Contains("0.031") && Contains("at most the ball's radius 0.03"));
+  shot.contact.patch = SpinDeceleration{1e6};
+  CHECK_THROWS_WITH(require_shot(shot), Contains("from a spin deceleration of 1000000"));
+}
+
+TEST_CASE("a spin whose rim speed overflows is rejected", "[limit]") {
+  Shot shot = good();
+  shot.ball.radius = 100;
+  shot.start.spin = 1e307;
+  CHECK_THROWS_WITH(require_shot(shot), Contains("radius times spin"));
+}
+
+TEST_CASE("the patch follows the ball", "[symmetry]") {
+  Shot shot = good();
+  shot.contact.patch = SpinDeceleration{10};
+  const double patch = patch_radius_of(shot);
+  shot.ball.radius *= 2;
+  CHECK(patch_radius_of(shot) == 4 * patch);
+  shot.environment.gravity *= 2;
+  CHECK(patch_radius_of(shot) == 2 * patch);
+}
