@@ -142,12 +142,16 @@ class Painter {
     constexpr int instants = 100;
     double left = track.stop_time;
     if (start.u != 0 && start.v != 0) {
-      // While sliding is seen, by k, so that v falls evenly on paper; then by time, in which u falls evenly.
+      // While sliding is seen, by k, in steps that neither speed shows on paper; then by time, in which u falls evenly.
+      constexpr double share_of_window = 0.02;
+      const double fastest = system_.r() * system_.law().pivoting_moment() /
+                             (system_.law().force_slope() - system_.r() * system_.law().pivoting_moment());
       double ln_k = orbit.start_log_ratio();
       OrbitPoint point = orbit.at_log_ratio(ln_k);
-      while (ln_k > -14 && track.points.size() < 1000) {
+      while (ln_k > -14 && track.points.size() < 2000) {
         track.points.push_back(point);
-        ln_k -= std::clamp(window_.v / (50 * point.v), 0.02, 0.4);
+        const double step = share_of_window * std::min(window_.v / point.v, window_.u / (fastest * std::abs(point.u)));
+        ln_k -= std::clamp(step, share_of_window, 0.4);
         point = orbit.at_log_ratio(ln_k);
       }
       track.points.push_back(point);

@@ -1,0 +1,114 @@
+#include "contensou/portraits/gnuplot.hpp"
+
+#include <stdlib.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/reduction/pade_law.hpp"
+
+using namespace contensou;
+using portraits::PictureFormat;
+namespace fs = std::filesystem;
+
+namespace {
+
+portraits::Figure sample() { return portraits::draw(portraits::phase_portrait({reduction::PadeLaw{}, 0.05}, {})); }
+
+/// A folder for one test; PATH and TMPDIR point into it while it lives.
+class Sandbox {
+ public:
+  Sandbox() {
+    std::string pattern = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    folder_ = pattern;
+    fs::create_directory(folder_ / "bin");
+    fs::create_directory(folder_ / "tmp");
+    path_ = std::getenv("PATH");
+    setenv("PATH", (folder_ / "bin").c_str(), 1);
+    setenv("TMPDIR", (folder_ / "tmp").c_str(), 1);
+  }
+  ~Sandbox() {
+    setenv("PATH", path_.c_str(), 1);
+    unsetenv("TMPDIR");
+    fs::remove_all(folder_);
+  }
+  Sandbox(const Sandbox&) = delete;
+  Sandbox& operator=(const Sandbox&) = delete;
+
+  void fake_gnuplot(const std::string& body) const {
+    const fs::path file = folder_ / "bin" / "gnuplot";
+    std::ofstream(file) << "#!/bin/sh\n" << body << "\n";
+    fs::permissions(file, fs::perms::owner_all);
+  }
+  bool left_nothing() const { return fs::is_empty(folder_ / "tmp"); }
+
+ private:
+  fs::path folder_;
+  std::string path_;
+};
+
+}  // namespace
+
+TEST_CASE("Endings name formats", "[table]") {
+  CHECK(portraits::find_picture_format("svg") == PictureFormat::svg);
+  CHECK(portraits::find_picture_format("pdf") == PictureFormat::pdf);
+  CHECK(portraits::find_picture_format("png") == PictureFormat::png);
+  CHECK(portraits::find_picture_format("gp") == PictureFormat::gp);
+  CHECK_FALSE(portraits::find_picture_format("jpg"));
+  CHECK_FALSE(portraits::find_picture_format(""));
+}
+
+TEST_CASE("A script is whole: it needs no file, has no gaps, and is the same each time", "[table]") {
+  const std::string script = portraits::gnuplot_script(sample());
+  CHECK(script == portraits::gnuplot_script(sample()));
+  CHECK(script.find("set terminal svg") != std::string::npos);
+  CHECK(script.find("nan") == std::string::npos);
+  CHECK(script.find("inf") == std::string::npos);
+  // As many blocks of data as plots that ask for one.
+  const auto count = [&](const std::string& text) {
+    int found = 0;
+    for (std::size_t at = 0; (at = script.find(text, at)) != std::string::npos; at += text.size()) ++found;
+    return found;
+  };
+  CHECK(count("'-' with") == count("\ne\n"));
+  CHECK(count("'-' with") >= 8);
+}
+
+TEST_CASE("Scripts and the picture formats that need none are written without gnuplot", "[limit]") {
+  const Sandbox sandbox;
+  CHECK(portraits::render(sample(), PictureFormat::gp) == portraits::gnuplot_script(sample()));
+  CHECK(sandbox.left_nothing());
+}
+
+TEST_CASE("A missing gnuplot is named, with a way out", "[domain]") {
+  const Sandbox sandbox;
+  CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::svg),
+                    Catch::Contains("gnuplot was not found on PATH") && Catch::Contains("gnuplot-nox"));
+  CHECK(sandbox.left_nothing());
+}
+
+TEST_CASE("A failing gnuplot is an error with its words", "[domain]") {
+  const Sandbox sandbox;
+  sandbox.fake_gnuplot("echo 'line 3: no such terminal' >&2; exit 7");
+  CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::png),
+                    Catch::Contains("status 7") && Catch::Contains("no such terminal"));
+  CHECK(sandbox.left_nothing());
+  sandbox.fake_gnuplot("kill -9 $$");
+  CHECK_THROWS_AS(portraits::render(sample(), PictureFormat::png), portraits::GnuplotError);
+  sandbox.fake_gnuplot("exit 0");
+  CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::png), Catch::Contains("drew nothing"));
+  CHECK(sandbox.left_nothing());
+}
+
+TEST_CASE("gnuplot draws each format", "[table]") {
+  CHECK(portraits::render(sample(), PictureFormat::svg).find("<svg") != std::string::npos);
+  CHECK(portraits::render(sample(), PictureFormat::svg).ends_with("</svg>\n\n"));
+  CHECK(portraits::render(sample(), PictureFormat::pdf).starts_with("%PDF"));
+  CHECK(portraits::render(sample(), PictureFormat::png).starts_with("\x89PNG"));
+}

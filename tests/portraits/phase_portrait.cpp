@@ -1,0 +1,231 @@
+#include "contensou/portraits/phase_portrait.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/quadrature_curve.hpp"
+
+using namespace contensou;
+using portraits::PhasePortrait;
+using portraits::PortraitOrbit;
+using reduction::Orbit;
+using reduction::ReducedSystem;
+using reduction::Route;
+
+namespace {
+
+const std::vector<reduction::Law> laws{reduction::PadeLaw{}, reduction::HertzLaw{}};
+const std::vector<double> patch_ratios{1e-6, 1e-3, 0.0035, 0.099, 0.3, 1.0};
+
+double paper_distance(const PhasePortrait& portrait, const PortraitOrbit& orbit, Eigen::Index i, Eigen::Index j) {
+  return std::hypot((orbit.u[i] - orbit.u[j]) / portrait.window.u, (orbit.v[i] - orbit.v[j]) / portrait.window.v);
+}
+
+template <class Check>
+void for_each_portrait(Check check) {
+  for (const reduction::Law& law : laws) {
+    for (double mu : patch_ratios) {
+      CAPTURE(law.name(), mu);
+      const ReducedSystem system(law, mu);
+      check(system, portraits::phase_portrait(system, {}));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Every orbit runs unbroken from the border of the window to the origin", "[invariant]") {
+  for_each_portrait([](const ReducedSystem&, const PhasePortrait& portrait) {
+    REQUIRE(portrait.orbits.size() == 24);
+    for (const PortraitOrbit& orbit : portrait.orbits) {
+      const Eigen::Index last = orbit.u.size() - 1;
+      const bool on_top = orbit.v[0] == portrait.window.v && std::abs(orbit.u[0]) <= portrait.window.u;
+      const bool on_side = std::abs(orbit.u[0]) == portrait.window.u && orbit.v[0] <= portrait.window.v;
+      CHECK((on_top || on_side));
+      CHECK(orbit.u[last] == 0);
+      CHECK(orbit.v[last] == 0);
+      CHECK(orbit.tau_left[last] == 0);
+      double longest = 0;
+      for (Eigen::Index i = 1; i <= last; ++i) {
+        longest = std::max(longest, paper_distance(portrait, orbit, i, i - 1));
+        CHECK(orbit.tau_left[i] < orbit.tau_left[i - 1]);
+        CHECK(std::abs(orbit.u[i]) <= std::abs(orbit.u[i - 1]));
+        CHECK(orbit.v[i] <= orbit.v[i - 1]);
+      }
+      CHECK(longest < 0.05);
+    }
+  });
+}
+
+TEST_CASE("Orbits of both signs of u mirror each other", "[symmetry]") {
+  for_each_portrait([](const ReducedSystem&, const PhasePortrait& portrait) {
+    for (std::size_t i = 0; i < portrait.orbits.size(); i += 2) {
+      CHECK((portrait.orbits[i].u == -portrait.orbits[i + 1].u).all());
+      CHECK((portrait.orbits[i].v == portrait.orbits[i + 1].v).all());
+      CHECK(portrait.orbits[i].u[0] > 0);
+    }
+  });
+}
+
+TEST_CASE("The border is filled evenly: neighbours are equally far apart across the flow", "[invariant]") {
+  for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
+    const auto [U, V] = portrait.window;
+    // Distance across the flow from the left end of the right half of the border, integrated anew by midpoints.
+    const auto across = [&](const PortraitOrbit& orbit) {
+      const auto share = [&](reduction::State at, bool top) {
+        const auto rate = system.field(at);
+        const double du = rate.u / U, dv = rate.v / V;
+        return std::abs(top ? dv : du) / std::hypot(du, dv);
+      };
+      const double along_top = orbit.v[0] == V ? orbit.u[0] / U : 1;
+      const double along_side = 1 - orbit.v[0] / V;
+      double sum = 0;
+      constexpr int pieces = 4000;
+      for (int i = 0; i < pieces; ++i) {
+        const double middle = (i + 0.5) / pieces;
+        sum += along_top / pieces * share({middle * along_top * U, V}, true);
+        if (along_side > 0) sum += along_side / pieces * share({U, (1 - middle * along_side) * V}, false);
+      }
+      return sum;
+    };
+    std::vector<double> places;
+    for (std::size_t i = 0; i < portrait.orbits.size(); i += 2) places.push_back(across(portrait.orbits[i]));
+    const double gap = places[1] - places[0];
+    CHECK(gap > 0.05);
+    for (std::size_t i = 1; i < places.size(); ++i) CHECK(places[i] - places[i - 1] == Approx(gap).epsilon(0.02));
+  });
+}
+
+TEST_CASE("The time left at each point is that point's stop time", "[route]") {
+  for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
+    const auto curve = std::make_shared<reduction::QuadratureCurve>(system.law(), system.r());
+    for (const PortraitOrbit& orbit : portrait.orbits) {
+      for (Eigen::Index i = 0; i < orbit.u.size(); i += 7) {
+        const double stop = Orbit(system, {orbit.u[i], orbit.v[i]}, curve).stop_time();
+        CHECK(std::abs(orbit.tau_left[i] - stop) < 1e-12 * orbit.tau_left[0]);
+      }
+    }
+  });
+}
+
+TEST_CASE("Every point of an isochrone has its stop time and lies in the window", "[route]") {
+  for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
+    const auto curve = std::make_shared<reduction::QuadratureCurve>(system.law(), system.r());
+    CHECK(portrait.isochrones.size() >= 4);
+    for (const auto& isochrone : portrait.isochrones) {
+      for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
+        const double stop = Orbit(system, {isochrone.u[i], isochrone.v[i]}, curve).stop_time();
+        CHECK(stop == Approx(isochrone.tau_stop).epsilon(1e-12));
+        CHECK(std::abs(isochrone.u[i]) <= portrait.window.u * (1 + 1e-12));
+        CHECK(isochrone.v[i] <= portrait.window.v * (1 + 1e-12));
+      }
+    }
+  });
+}
+
+TEST_CASE("Isochrones are at round multiples of the time unit, from the first to the corner of the window", "[table]") {
+  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
+  portraits::PortraitRequest request;
+  request.time_unit = 0.7;
+  const PhasePortrait portrait = portraits::phase_portrait(system, request);
+  const double first = portrait.isochrones.front().tau_stop / request.time_unit;
+  const double mantissa = first / std::pow(10, std::floor(std::log10(first) + 1e-9));
+  CAPTURE(first, mantissa);
+  CHECK((mantissa == Approx(1) || mantissa == Approx(2) || mantissa == Approx(5)));
+  for (const auto& isochrone : portrait.isochrones) {
+    const double multiple = isochrone.tau_stop / request.time_unit / first;
+    CHECK(multiple == Approx(std::round(multiple)));
+  }
+  const double corner = Orbit(system, {portrait.window.u, portrait.window.v}).stop_time();
+  CHECK(portrait.isochrones.back().tau_stop > 0.7 * corner);
+}
+
+TEST_CASE("The similarity solution and (2.7) in beta draw the same curves", "[route]") {
+  for (const reduction::Law& law : laws) {
+    for (double mu : {0.0035, 0.099, 0.3, 1.0}) {
+      CAPTURE(law.name(), mu);
+      const ReducedSystem system(law, mu);
+      portraits::PortraitRequest request;
+      const PhasePortrait similar = portraits::phase_portrait(system, request);
+      request.route = Route::regularised;
+      const PhasePortrait stepped = portraits::phase_portrait(system, request);
+      REQUIRE(stepped.orbits.size() == similar.orbits.size());
+      for (std::size_t i = 0; i < stepped.orbits.size(); i += 2) {
+        const PortraitOrbit& orbit = stepped.orbits[i];
+        CHECK(orbit.u[0] == Approx(similar.orbits[i].u[0]).epsilon(1e-14));
+        CHECK(orbit.v[0] == Approx(similar.orbits[i].v[0]).epsilon(1e-14));
+        const Orbit exact(system, {similar.orbits[i].u[0], similar.orbits[i].v[0]});
+        for (Eigen::Index j = 0; j + 1 < orbit.u.size(); ++j) {
+          const auto point = exact.at_log_ratio(std::min(orbit.ln_k[j], exact.start_log_ratio()));
+          CHECK(std::abs(orbit.u[j] - point.u) < 1e-10 * similar.window.u);
+          CHECK(std::abs(orbit.v[j] - point.v) < 1e-10 * similar.window.v);
+          CHECK(std::abs(orbit.tau_left[j] - (exact.stop_time() - point.tau)) < 1e-10 * exact.stop_time());
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("The view follows mu: below 0.1 the plane alone shows a comb", "[table]") {
+  const auto view = [](double mu) { return portraits::phase_portrait({reduction::PadeLaw{}, mu}, {}).view; };
+  CHECK(view(0.3) == portraits::View::uv);
+  CHECK(view(0.1) == portraits::View::uv);
+  CHECK(view(0.099) == portraits::View::pair);
+  CHECK(view(1e-6) == portraits::View::pair);
+  CHECK(portraits::name(portraits::View::uv) == "uv");
+  CHECK(portraits::name(portraits::View::pair) == "pair");
+}
+
+TEST_CASE("The order of contact with the axis v = 0 is that of the printed exponent", "[table]") {
+  // k ~ u^(1/a), a = 5 mu^2/(14 - 5 mu^2)
+  const double mu = 0.3;
+  const auto portrait = portraits::phase_portrait({reduction::PadeLaw{}, mu}, {});
+  CHECK(portrait.pivoting_slope == Approx((14 - 5 * mu * mu) / (5 * mu * mu)).epsilon(1e-14));
+}
+
+TEST_CASE("A window that is given is kept; a highlighted start lies in the window that is chosen", "[table]") {
+  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
+  portraits::PortraitRequest request;
+  request.window = portraits::Window{2, 0.5};
+  auto portrait = portraits::phase_portrait(system, request);
+  CHECK(portrait.window.u == 2);
+  CHECK(portrait.window.v == 0.5);
+  for (const reduction::State& start :
+       {reduction::State{-3, 0.2}, reduction::State{0, 2}, reduction::State{5, 0}, reduction::State{1e-200, 1e200}}) {
+    CAPTURE(start.u, start.v);
+    portraits::PortraitRequest of_start;
+    of_start.highlight = start;
+    portrait = portraits::phase_portrait(system, of_start);
+    CHECK(std::abs(start.u) < portrait.window.u);
+    CHECK(start.v < portrait.window.v);
+    REQUIRE(portrait.highlight);
+    CHECK(portrait.highlight->u[0] == start.u);
+    CHECK(portrait.highlight->v[0] == Approx(start.v).epsilon(1e-13));
+    CHECK(portrait.highlight->tau_left[0] == Approx(Orbit(system, start).stop_time()).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("Rest as a highlight is no motion and nothing is highlighted", "[limit]") {
+  portraits::PortraitRequest request;
+  request.highlight = reduction::State{0, 0};
+  CHECK_FALSE(portraits::phase_portrait({reduction::PadeLaw{}, 0.3}, request).highlight);
+}
+
+TEST_CASE("What cannot be drawn is rejected", "[domain]") {
+  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
+  portraits::PortraitRequest request;
+  request.route = Route::direct;
+  CHECK_THROWS_AS(portraits::phase_portrait(system, request), std::domain_error);
+  for (const portraits::Window window :
+       {portraits::Window{0, 1}, portraits::Window{1, -1}, portraits::Window{NAN, 1}, portraits::Window{1, INFINITY}}) {
+    portraits::PortraitRequest bad;
+    bad.window = window;
+    CHECK_THROWS_AS(portraits::phase_portrait(system, bad), std::domain_error);
+  }
+}
