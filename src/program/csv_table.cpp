@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/si/nearest_name.hpp"
 #include "contensou/si/text_file.hpp"
 
 namespace contensou::program {
@@ -36,7 +35,8 @@ class CsvReader {
   /// False if the line is not CSV.
   bool add_line(std::string_view line) {
     ++line_;
-    if (!open_ && line.starts_with('#')) return true;
+    const bool blank = line.find_first_not_of("\r\n") == std::string_view::npos;
+    if (!open_ && (blank || line.starts_with('#'))) return true;
     if (!open_) record_ = {line_, {}};
     open_ = true;
     return csv_parse(&parser_, line.data(), line.size(), take_field, take_record, this) == line.size();
@@ -100,8 +100,8 @@ std::size_t CsvTable::column(std::string_view name) const {
     return static_cast<std::size_t>(std::ranges::find(header_.fields, name, trimmed) - header_.fields.begin());
   }
   if (count > 1) throw complaint(header_.line, fmt::format("{} columns are called '{}'; one is allowed", count, name));
-  throw complaint(header_.line, fmt::format("no column is called '{}'; the columns are {}{}", name,
-                                            fmt::join(header_.fields, ", "), si::suggestion(name, header_.fields)));
+  throw complaint(header_.line,
+                  fmt::format("no column is called '{}'; the columns are {}", name, fmt::join(header_.fields, ", ")));
 }
 
 void CsvTable::require_complete(const CsvRecord& row) const {

@@ -1,0 +1,92 @@
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+
+TEST_CASE("bad input is status 2, says what was typed and a way out", "[cli]") {
+  struct Mistake {
+    std::vector<std::string> arguments;
+    std::vector<std::string> words;
+  };
+  const auto start = [](const std::string& mu, const std::string& u0, const std::string& v0) {
+    return std::vector<std::string>{"stop", "--mu", mu, "--u0", u0, "--v0", v0};
+  };
+  const std::vector<Mistake> mistakes{
+      {{}, {"a verb is missing", "stop", "contensou --help"}},
+      {{"stpo"}, {"unknown verb 'stpo'", "did you mean 'stop'"}},
+      {{"--vresion"}, {"unknown option '--vresion'"}},
+      {{"stop"}, {"--mu, --u0, --v0 missing", "--ball"}},
+      {{"stop", "--mu", "0.1", "--v0", "1"}, {"--u0 missing"}},
+      {{"stop", "--mu", "0.1", "--u0", "1", "--v0"}, {"--v0 needs a value"}},
+      {{"stop", "--mu", "--u0", "1", "--v0", "1"}, {"--mu needs a value before '--u0'"}},
+      {{"stop", "--mw", "0.1"}, {"unknown option '--mw'", "did you mean '--mu'"}},
+      {{"stop", "--ball", "pool", "--sip=2"}, {"unknown option '--sip'", "did you mean '--slip'"}},
+      {{"stop", "--ball", "pool", "pool"}, {"unexpected argument 'pool'"}},
+      {{"stop", "--mu", "0.1", "--mu", "0.2", "--u0", "1", "--v0", "1"}, {"--mu is given 2 times"}},
+      {start("nan", "1", "1"), {"--mu: 'nan' is not a finite number"}},
+      {start("inf", "1", "1"), {"--mu: 'inf' is not a finite number"}},
+      {start("0.1", "-inf", "1"), {"--u0: '-inf' is not a finite number"}},
+      {start("1e999", "1", "1"), {"--mu: '1e999' does not fit a double"}},
+      {start("1e-999", "1", "1"), {"--mu: '1e-999' does not fit a double"}},
+      {start("", "1", "1"), {"--mu: '' is not a number"}},
+      {start("1,5", "1", "1"), {"--mu: '1,5' is not a number"}},
+      {start("0.1", "1x", "1"), {"--u0: '1x' is not a number"}},
+      {start("0.1", "+-1", "1"), {"--u0: '+-1' is not a number"}},
+      {start("0.1", "0x10", "1"), {"--u0: '0x10' is not a number"}},
+      {start("0", "1", "1"), {"--mu 0: ", "0 < mu <= 1"}},
+      {start("-0.1", "1", "1"), {"--mu -0.1: ", "0 < mu <= 1"}},
+      {start("1.01", "1", "1"), {"--mu 1.01: ", "0 < mu <= 1"}},
+      {start("0.1", "1", "-1"), {"--v0 -1: ", ">= 0"}},
+      {{"stop", "--ball", "pol"}, {"--ball pol: no such ball", "did you mean 'pool'", "steel"}},
+      {{"stop", "--ball", "pool", "--mu", "0.1"}, {"--ball pool and --mu exclude each other"}},
+      {{"stop", "--ball", "pool", "--u0", "1", "--v0", "1"}, {"--ball pool and --u0, --v0 exclude each other"}},
+      {{"stop", "--mu", "0.1", "--u0", "1", "--v0", "1", "--spin", "3"}, {"--spin changes a ball: add --ball"}},
+      {{"stop", "--ball", "pool", "--radius", "-1"}, {"--radius -1: radius must be finite and > 0"}},
+      {{"stop", "--ball", "pool", "--slip", "-1"}, {"--slip -1: slip must be finite and >= 0"}},
+      {{"stop", "--ball", "pool", "--mass", "nan"}, {"--mass: 'nan' is not a finite number"}},
+      {{"stop", "--ball", "pool", "--patch-radius", "1"}, {"at most the ball's radius 0.028575 m, got 1 m"}},
+      {{"stop", "--ball", "pool", "--patch-radius", "1e-3", "--spin-deceleration", "3"}, {"exclude each other"}},
+      {{"stop", "--ball", "pool", "--law", "pad"}, {"--law pad: no such law", "did you mean 'pade'", "exact"}},
+      {{"stop", "--ball", "pool", "--law", "exact", "--route", "closed"},
+       {"--route closed: law exact", "it has quadrature, regularised, direct"}},
+      {{"stop", "--ball", "pool", "--route", "dirct"}, {"--route dirct: no such route", "did you mean 'direct'"}},
+      {{"stop", "--ball", "pool", "--digits", "0"}, {"--digits: '0' is not a whole number from 1 to 17"}},
+      {{"stop", "--ball", "pool", "--digits", "18"}, {"'18'"}},
+      {{"stop", "--ball", "pool", "--digits", "3", "--format", "csv"}, {"--digits 3: ", "--format text"}},
+      {{"stop", "--ball", "pool", "--format", "jsn"}, {"--format jsn: unknown format", "did you mean 'json'"}},
+      {{"stop", "--ball", "pool", "-o", ""}, {"-o '': a file name is needed"}},
+      {{"orbit", "--ball", "pool", "--at", "1,-1"}, {"--at 1,-1: ", "tau >= 0"}},
+      {{"orbit", "--ball", "pool", "--at", "1,,2"}, {"--at: '' is not a number"}},
+      {{"orbit", "--ball", "pool", "--at", "inf"}, {"--at: 'inf' is not a finite number"}},
+      {{"orbit", "--ball", "pool", "--samples", "1"}, {"--samples: '1' is not a whole number from 2"}},
+      {{"orbit", "--ball", "pool", "--samples", "2.5"}, {"--samples: '2.5'"}},
+      {{"orbit", "--ball", "pool", "--samples", "3", "--at", "1"}, {"--at and --samples exclude each other"}},
+      {{"orbit", "--mu", "0.1"}, {"--u0, --v0 missing"}},
+      {{"law"}, {"--k missing", "--batch"}},
+      {{"law", "--k", "-1"}, {"--k -1: ", "k >= 0"}},
+      {{"law", "--k", "nan"}, {"--k: 'nan'"}},
+      {{"law", "--k", "1", "--batch", "-"}, {"--k and --batch exclude each other"}},
+      {{"check", "--mu", "0.1", "--u0", "0", "--v0", "0"}, {"u0 = v0 = 0"}},
+      {{"check", "--mu", "0.1"}, {"--u0, --v0 missing"}},
+      {{"balls", "pol"}, {"no such ball", "did you mean 'pool'"}},
+      {{"balls", "pool", "--format", "json"}, {"a run file is text"}},
+  };
+  for (const auto& [arguments, words] : mistakes) {
+    const Run run = run_program(arguments);
+    INFO(Catch::Detail::stringify(arguments) << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    for (const std::string& word : words) CHECK_THAT(run.err, Contains(word));
+  }
+}
+
+TEST_CASE("what cannot be computed is status 3", "[cli]") {
+  const Run run = run_program("orbit --mu 1e-100 --u0 1e300 --v0 1");
+  CHECK(run.status == 3);
+  CHECK(run.out.empty());
+  CHECK_THAT(run.err, Contains("exceeds the largest double"));
+}

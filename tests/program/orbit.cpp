@@ -1,0 +1,86 @@
+#include <cmath>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "run_program.hpp"
+
+using namespace contensou::reduction;
+
+TEST_CASE("orbit gives 200 rows from the start to the stop", "[cli]") {
+  const Run run = run_program("orbit --mu 0.3 --u0 -1 --v0 1");
+  CHECK(run.status == 0);
+  const auto rows = rows_of(run.out);
+  REQUIRE(rows.size() == 201);
+  CHECK(rows[0] == std::vector<std::string>{"tau", "u", "v", "ln_v", "k", "beta"});
+  CHECK(rows[1][0] == "0");
+  CHECK(rows[1][1] == "-1");
+  CHECK(rows[1][5] == "0");
+  CHECK(std::stod(rows[100][1]) < 0);  // u keeps its sign
+  const auto& last = rows.back();
+  CHECK(std::stod(last[0]) == Orbit({PadeLaw{}, 0.3}, {-1, 1}).stop_time());
+  CHECK(last[1] == "0");
+  CHECK(last[2] == "0");
+  CHECK(last[3] == "-inf");
+  CHECK(last[5] == "inf");
+}
+
+TEST_CASE("--at keeps its order, and rests past the stop", "[cli]") {
+  for (const std::string route : {"closed", "quadrature", "regularised", "direct"}) {
+    const auto rows = rows_of(run_program("orbit --mu 0.3 --u0 1 --v0 1 --at 3,0,99,1.5 --route " + route).out);
+    INFO(route);
+    REQUIRE(rows.size() == 5);
+    const Orbit orbit({PadeLaw{}, 0.3}, {1, 1});
+    for (std::size_t i : {1, 2, 4}) {
+      const OrbitPoint point = orbit.at_time(std::stod(rows[i][0]));
+      CHECK(std::stod(rows[i][1]) == Approx(point.u).epsilon(1e-9));
+      CHECK(std::stod(rows[i][3]) == Approx(point.ln_v).epsilon(1e-9).margin(1e-12));
+      CHECK(std::stod(rows[i][5]) == Approx(point.beta).epsilon(1e-9).margin(1e-15));
+    }
+    CHECK(rows[1][0] == "3");
+    CHECK(rows[3] == std::vector<std::string>{"99", "0", "0", "-inf", "0", "inf"});
+  }
+}
+
+TEST_CASE("every route samples up to the stop", "[route]") {
+  for (const std::string route : {"closed", "quadrature", "regularised", "direct"}) {
+    const auto rows = rows_of(run_program("orbit --mu 0.1 --u0 1 --v0 1 --samples 3 --route " + route).out);
+    INFO(route);
+    REQUIRE(rows.size() == 4);
+    CHECK(rows[1][1] == "1");
+    CHECK(std::stod(rows[2][0]) == Approx(Orbit({PadeLaw{}, 0.1}, {1, 1}).stop_time() / 2).epsilon(1e-9));
+    CHECK(rows[3][3] == "-inf");
+    CHECK(rows[3][5] == "inf");
+  }
+}
+
+TEST_CASE("a ball has seconds in its last column", "[cli]") {
+  const auto rows = rows_of(run_program("orbit --ball pool --samples 2").out);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].back() == "t");
+  CHECK(rows[1].back() == "0");
+  CHECK(std::stod(rows[2].back()) == json_of("stop --ball pool --format json").at("t_stop").get<double>());
+}
+
+TEST_CASE("orbit as JSON says infinity as a string", "[cli]") {
+  const auto orbit = json_of("orbit --mu 0.3 --u0 1 --v0 1 --samples 3 --format json");
+  CHECK(orbit.at("schema") == 1);
+  CHECK(orbit.at("tau").size() == 3);
+  CHECK(orbit.at("ln_v").at(2) == "-inf");
+  CHECK(orbit.at("beta").at(2) == "inf");
+  CHECK(orbit.at("u").at(0) == 1);
+}
+
+TEST_CASE("motions along the axes and at rest", "[limit]") {
+  for (const std::string start : {"--u0 0 --v0 1", "--u0 1 --v0 0", "--u0 0 --v0 0"}) {
+    for (const std::string route : {"closed", "regularised", "direct"}) {
+      const Run run = run_program("orbit --mu 0.3 --samples 5 " + start + " --route " + route);
+      INFO(start << " " << route << "\n" << run.err);
+      CHECK(run.status == 0);
+      CHECK(rows_of(run.out).size() == 6);
+      CHECK(run.out.find("nan") == std::string::npos);
+    }
+  }
+}

@@ -1,0 +1,62 @@
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+TEST_CASE("-o writes what standard output would get", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string orbit = "orbit --mu 0.1 --u0 1 --v0 1";
+  const Run run = run_program(orbit + " -o " + scratch.file("orbit.csv"));
+  CHECK(run.status == 0);
+  CHECK(run.out.empty());
+  CHECK(read_file(scratch.file("orbit.csv")) == run_program(orbit).out);
+  CHECK(run_program(orbit + " -o -").out == run_program(orbit).out);
+  CHECK(scratch.names() == std::vector<std::string>{"orbit.csv"});
+}
+
+TEST_CASE("-o leaves the old file when there is nothing new to write", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("old"), "old");
+  CHECK(run_program("stop --mu 7 --u0 1 --v0 1 -o " + scratch.file("old")).status == 2);
+  CHECK(read_file(scratch.file("old")) == "old");
+  CHECK(run_program("stop --mu 0.7 --u0 1 --v0 1 -o " + scratch.file("old")).status == 0);
+  CHECK(read_file(scratch.file("old")) != "old");
+  CHECK(scratch.names() == std::vector<std::string>{"old"});
+}
+
+TEST_CASE("-o through a link replaces the file and keeps the link", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("file"), "old");
+  fs::create_symlink("file", scratch.file("link"));
+  CHECK(run_program("balls pool -o " + scratch.file("link")).status == 0);
+  CHECK(fs::is_symlink(scratch.file("link")));
+  CHECK(read_file(scratch.file("file")) == run_program("balls pool").out);
+}
+
+TEST_CASE("what cannot be written is status 4 and leaves nothing", "[cli]") {
+  const TemporaryDirectory scratch;
+  fs::create_directory(scratch.file("folder"));
+  for (const std::string& path :
+       {scratch.file("no/such/file"), scratch.file("folder"), std::string("/dev/full"), scratch.file("folder/")}) {
+    const Run run = run_program("stop --ball pool -o " + path);
+    INFO(path);
+    CHECK(run.status == 4);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains("cannot write " + path + ": "));
+  }
+  CHECK(scratch.names() == std::vector<std::string>{"folder"});
+  CHECK(fs::is_empty(scratch.file("folder")));
+  CHECK(fs::is_character_file("/dev/full"));
+}
+
+TEST_CASE("a full standard output is status 4", "[cli]") {
+  const std::string command = std::string("'") + CONTENSOU_PROGRAM + "' stop --ball pool >/dev/full 2>/dev/null";
+  const int ended = std::system(command.c_str());
+  CHECK(WEXITSTATUS(ended) == 4);
+}

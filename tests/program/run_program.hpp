@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+/// What a run of the program gave.
+struct Run {
+  int status;
+  std::string out;
+  std::string err;
+};
+
+/// Runs the program that was built.
+Run run_program(const std::vector<std::string>& arguments, std::string_view input = {});
+
+/// The same for arguments without spaces, written as on a command line.
+Run run_program(const std::string& arguments, std::string_view input = {});
+
+/// What a successful run printed, as JSON; fails the test otherwise.
+nlohmann::json json_of(const std::string& arguments);
+
+/// The rows of a CSV without quotes, the header first.
+std::vector<std::vector<std::string>> rows_of(const std::string& csv);
+
+std::string read_file(const std::filesystem::path& path);
+void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// An empty directory that goes with the test.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory();
+  ~TemporaryDirectory();
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  const std::filesystem::path& path() const { return path_; }
+  std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};

@@ -1,0 +1,128 @@
+#include <cmath>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "run_program.hpp"
+
+using namespace contensou::reduction;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
+  const json stop = json_of("stop --mu 0.1 --u0 2 --v0 1 --format json");
+  CHECK(stop.size() == 9);
+  CHECK(stop.at("schema") == 1);
+  CHECK(stop.at("law") == "pade");
+  CHECK(stop.at("route") == "closed");
+  CHECK(stop.at("mu") == 0.1);
+  CHECK(stop.at("u0") == 2);
+  CHECK(stop.at("v0") == 1);
+  const ReducedSystem system(PadeLaw{}, 0.1);
+  CHECK(stop.at("tau_stop").get<double>() == stop_time(system, {2, 1}).tau);
+  CHECK(stop.at("bounds").at(0).get<double>() == system.stop_time_bounds({2, 1}).lower);
+  CHECK(stop.at("bounds").at(1).get<double>() == system.stop_time_bounds({2, 1}).upper);
+  CHECK(stop.at("limits").at("sliding_only").get<double>() == system.sliding_limit(1));
+  CHECK(stop.at("limits").at("pivoting_only").get<double>() == system.pivoting_limit(2));
+}
+
+TEST_CASE("stop of a ball has seconds and the final motion", "[cli]") {
+  const json stop = json_of("stop --ball pool --format json");
+  CHECK(stop.size() == 11);
+  CHECK(stop.at("t_stop").get<double>() == Approx(10.2).margin(0.05));
+  CHECK(stop.at("final").at("velocity").size() == 2);
+  CHECK(stop.at("final").at("velocity").at(0).get<double>() == Approx(5.0 / 7).epsilon(1e-15));
+  CHECK(stop.at("final").at("velocity").at(1) == 0);
+  CHECK(stop.at("final").at("angular_velocity").size() == 3);
+  CHECK(stop.at("final").at("angular_velocity").at(1).get<double>() == Approx(5.0 / (7 * 0.028575)).epsilon(1e-15));
+}
+
+TEST_CASE("the worked exercise on the command line", "[table]") {
+  const json stop =
+      json_of("stop --ball bowling --radius 0.11 --slip 8.10 --friction 0.19 --gravity 9.8 --spin 0 --format json");
+  CHECK(stop.at("t_stop").get<double>() == Approx(1.243).margin(5e-4));
+  CHECK(stop.at("final").at("velocity").at(0).get<double>() == Approx(5.786).margin(5e-4));
+  CHECK(json_of("stop --ball pool --spin 0 --format json").at("t_stop").get<double>() == Approx(0.146).margin(5e-4));
+}
+
+TEST_CASE("routes and laws of stop agree with the library", "[route]") {
+  for (const std::string route : {"quadrature", "regularised", "direct"}) {
+    const json stop = json_of("stop --mu 0.3 --u0 1 --v0 1 --law exact --format json --route " + route);
+    INFO(route);
+    CHECK(stop.at("route") == route);
+    CHECK(stop.at("law") == "exact");
+    CHECK(stop.at("tau_stop").get<double>() == Approx(stop_time({HertzLaw{}, 0.3}, {1, 1}).tau).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("negative numbers are values, not options", "[cli]") {
+  const json positive = json_of("stop --mu 0.1 --u0 5 --v0 1 --format json");
+  for (const std::string u0 : {"--u0 -5", "--u0=-5", "--u0 -5e0"}) {
+    const json stop = json_of("stop --mu 0.1 --v0 1 --format json " + u0);
+    CHECK(stop.at("u0") == -5);
+    CHECK(stop.at("tau_stop") == positive.at("tau_stop"));
+  }
+  CHECK(json_of("stop --ball pool --spin -100 --format json").at("t_stop") ==
+        json_of("stop --ball pool --spin +100 --format json").at("t_stop"));
+}
+
+TEST_CASE("stop for people answers on one screen", "[cli]") {
+  const Run run = run_program("stop --ball pool");
+  CHECK(run.status == 0);
+  for (const char* word :
+       {"pool ball on cloth", "tau* (m/s)", "t* (s)", "at least", "at most", "sliding only", "pivoting only",
+        "law exact", "% shorter", "route  closed", "relative error", "angular velocity"}) {
+    CHECK_THAT(run.out, Contains(word));
+  }
+  std::size_t longest = 0, lines = 0;
+  for (std::size_t at = 0; at < run.out.size(); ++lines) {
+    const std::size_t end = run.out.find('\n', at);
+    longest = std::max(longest, end - at);
+    at = end + 1;
+  }
+  CHECK(lines <= 24);
+  CHECK(longest <= 110);
+  CHECK_THAT(run_program("stop --ball pool --law exact").out, Contains("law pade") && Contains("% longer"));
+  CHECK_THAT(run_program("stop --ball pool --digits 3").out, Contains("94.2 ") && !Contains("94.24"));
+  CHECK_THAT(run_program("stop --mu 0.1 --u0 1 --v0 1").out, Contains("unit of u0 and v0") && !Contains("(s)"));
+}
+
+TEST_CASE("a ball at rest has stopped", "[limit]") {
+  const Run run = run_program("stop --mu 0.1 --u0 0 --v0 0");
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("rolls already") && !Contains("nan"));
+  CHECK(json_of("stop --mu 0.1 --u0 0 --v0 0 --format json").at("tau_stop") == 0);
+  const json ball = json_of("stop --ball pool --spin 0 --slip 0 --format json");
+  CHECK(ball.at("t_stop") == 0);
+  CHECK(ball.at("bounds").at(1) == 0);
+}
+
+TEST_CASE("a stop time that overflows is said to be infinite", "[limit]") {
+  const json stop = json_of("stop --mu 1e-100 --u0 1e300 --v0 1 --format json");
+  CHECK(stop.at("tau_stop") == "inf");
+  CHECK(stop.at("limits").at("pivoting_only") == "inf");
+  CHECK_THAT(run_program("stop --mu 1e-100 --u0 1e300 --v0 1").out, Contains("inf") && !Contains("nan"));
+}
+
+TEST_CASE("overrides act as if the run file had said so", "[cli]") {
+  // The patch of the pool ball follows from its spin deceleration: eps ~ R^2/(f g).
+  CHECK(json_of("stop --ball pool --radius 0.05715 --format json").at("mu").get<double>() ==
+        Approx(2 * json_of("stop --ball pool --format json").at("mu").get<double>()).epsilon(1e-14));
+  // That of the steel ball from Hertz's formula: eps ~ m^(1/3).
+  CHECK(json_of("stop --ball steel --mass 0.2616 --format json").at("mu").get<double>() ==
+        Approx(2 * json_of("stop --ball steel --format json").at("mu").get<double>()).epsilon(1e-14));
+  CHECK(json_of("stop --ball steel --patch-radius 1e-3 --format json").at("mu").get<double>() == 0.1);
+  const json slow = json_of("stop --ball steel --slip 0 --spin-deceleration 4 --spin 2 --format json");
+  CHECK(slow.at("t_stop").get<double>() == Approx(0.5).epsilon(1e-14));
+}
+
+TEST_CASE("stop as CSV reads back", "[cli]") {
+  const auto rows = rows_of(run_program("stop --mu 0.1 --u0 2 --v0 1 --format csv").out);
+  REQUIRE(rows.size() == 2);
+  REQUIRE(rows[0].size() == rows[1].size());
+  CHECK(rows[0][5] == "tau_stop");
+  CHECK(std::stod(rows[1][5]) == stop_time({PadeLaw{}, 0.1}, {2, 1}).tau);
+}
