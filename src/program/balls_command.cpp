@@ -85,25 +85,13 @@ class BallsCommand final : public Command {
   }
 
   ExitStatus run() override {
-    const Format format = output_.format();
-    const int digits = output_.digits();
     if (ball_.given()) {
-      if (output_.format_given() && format != Format::text) throw BadInput("a run file is text: leave --format out");
+      if (output_.format() != Format::text) throw BadInput("a run file is text: leave --format out");
       const CatalogueEntry& entry = require_ball(ball_);
       output_.write(si::run_file(entry.shot, entry.sources));
       return ExitStatus::done;
     }
-    switch (format) {
-      case Format::json:
-        output_.write(as_json());
-        break;
-      case Format::csv:
-        output_.write(as_csv());
-        break;
-      case Format::text:
-        output_.write(as_text(digits));
-        break;
-    }
+    output_.write_as(output_.format(), as_text, as_csv, as_json);
     return ExitStatus::done;
   }
 

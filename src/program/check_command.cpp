@@ -67,8 +67,6 @@ class CheckCommand final : public Command {
 
   ExitStatus run() override {
     const std::vector<Law> laws = law_.given() ? std::vector{law_.read()} : reduction::named_laws();
-    const Format format = output_.format();
-    const int digits = output_.digits();
     std::vector<Verdict> verdicts;
     if (start_.given()) {
       const GivenStart start = start_.read();
@@ -79,27 +77,15 @@ class CheckCommand final : public Command {
     } else {
       for (const Law& law : laws) verdicts.push_back({law.name(), built_in_checks(law)});
     }
-    write(verdicts, format, digits);
+    output_.write_as(
+        output_.format(), [&](int digits) { return as_text(verdicts, digits); }, [&] { return as_csv(verdicts); },
+        [&] { return as_json(verdicts); });
     const bool passed = std::ranges::all_of(
         verdicts, [](const Verdict& verdict) { return std::ranges::all_of(verdict.checks, &Check::passed); });
     return passed ? ExitStatus::done : ExitStatus::check_failed;
   }
 
  private:
-  void write(const std::vector<Verdict>& verdicts, Format format, int digits) const {
-    switch (format) {
-      case Format::json:
-        output_.write(as_json(verdicts));
-        break;
-      case Format::csv:
-        output_.write(as_csv(verdicts));
-        break;
-      case Format::text:
-        output_.write(as_text(verdicts, digits));
-        break;
-    }
-  }
-
   std::string as_text(const std::vector<Verdict>& verdicts, int digits) const {
     const int width = digits + 8;
     std::string text =

@@ -43,20 +43,10 @@ class LawCommand final : public Command {
     }
     if (!k_.given() && !batch_.given()) throw BadInput("--k missing: give --k K1,K2,... or --batch FILE");
 
-    const Format format = data_format();
-    const int digits = output_.digits();
     const std::vector<Column> columns = evaluate(law, k_.given() ? listed() : from_table());
-    switch (format) {
-      case Format::json:
-        output_.write(document(law, columns));
-        break;
-      case Format::csv:
-        output_.write(columns_as_csv(columns));
-        break;
-      case Format::text:
-        output_.write(columns_as_text(columns, digits));
-        break;
-    }
+    output_.write_as(
+        data_format(), [&](int digits) { return columns_as_text(columns, digits); },
+        [&] { return columns_as_csv(columns); }, [&] { return document(law, columns); });
     return ExitStatus::done;
   }
 

@@ -40,20 +40,10 @@ class OrbitCommand final : public Command {
     const GivenStart start = start_.read();
     const reduction::ReducedSystem system(law_.read(), start.mu);
     const reduction::Route route = route_.read(system);
-    const Format format = output_.format();
-    const int digits = output_.digits();
     const std::vector<Column> columns = make_columns(start, motion(system, start.state, route));
-    switch (format) {
-      case Format::json:
-        output_.write(document(start, system, route, columns));
-        break;
-      case Format::csv:
-        output_.write(columns_as_csv(columns));
-        break;
-      case Format::text:
-        output_.write(columns_as_text(columns, digits));
-        break;
-    }
+    output_.write_as(
+        output_.format(), [&](int digits) { return columns_as_text(columns, digits); },
+        [&] { return columns_as_csv(columns); }, [&] { return document(start, system, route, columns); });
     return ExitStatus::done;
   }
 

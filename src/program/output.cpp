@@ -59,6 +59,9 @@ void write_output(const std::string& path, std::string_view content) {
   const std::string target = resolved.empty() ? path : resolved.string();
   const std::string beside = fmt::format("{}.{}.part", target, ::getpid());
   int error = write_to(beside, O_CREAT | O_EXCL, content);
+  if (const auto old = fs::status(target, ignored); error == 0 && fs::exists(old)) {
+    fs::permissions(beside, old.permissions(), ignored);
+  }
   if (error == 0 && std::rename(beside.c_str(), target.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(beside.c_str());

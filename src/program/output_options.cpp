@@ -55,4 +55,17 @@ std::string OutputOptions::path() const {
 
 void OutputOptions::write(std::string_view content) const { write_output(path(), content); }
 
+void OutputOptions::write_as(Format format, const std::function<std::string(int)>& text,
+                             const std::function<std::string()>& csv, const std::function<std::string()>& json) const {
+  const int digits = this->digits();
+  switch (format) {
+    case Format::text:
+      return write(text(digits));
+    case Format::csv:
+      return write(csv());
+    case Format::json:
+      return write(json());
+  }
+}
+
 }  // namespace contensou::program

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -29,6 +30,11 @@ class OutputOptions {
 
   /// @throws FileFailure  as write_output
   void write(std::string_view content) const;
+
+  /// Writes what the maker of a format makes; that of text takes the number of digits.
+  /// @throws FileFailure  as write_output
+  void write_as(Format format, const std::function<std::string(int)>& text, const std::function<std::string()>& csv,
+                const std::function<std::string()>& json) const;
 
  private:
   Format standard_;

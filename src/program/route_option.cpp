@@ -28,20 +28,22 @@ void RouteOption::add(CLI::App& app) {
              fmt::format("{} (default: the first that the law has)", fmt::join(names_of(every_route), ", ")));
 }
 
+std::optional<Route> RouteOption::named() const {
+  if (!route_.given()) return std::nullopt;
+  if (const auto route = reduction::find_route(route_.text())) return route;
+  const auto names = names_of(every_route);
+  route_.reject(
+      fmt::format("no such route{}; routes: {}", si::suggestion(route_.text(), names), fmt::join(names, ", ")));
+}
+
 Route RouteOption::read(const reduction::ReducedSystem& system) const {
   const std::vector<Route> available = reduction::routes(system);
-  if (!route_.given()) return available.front();
-  const auto route = reduction::find_route(route_.text());
-  if (!route) {
-    const auto names = names_of(every_route);
-    route_.reject(
-        fmt::format("no such route{}; routes: {}", si::suggestion(route_.text(), names), fmt::join(names, ", ")));
-  }
-  if (std::ranges::find(available, *route) == available.end()) {
+  const Route route = named().value_or(available.front());
+  if (std::ranges::find(available, route) == available.end()) {
     route_.reject(fmt::format("law {} at mu = {} does not have this route; it has {}", system.law().name(), system.mu(),
                               fmt::join(names_of(available), ", ")));
   }
-  return *route;
+  return route;
 }
 
 }  // namespace contensou::program

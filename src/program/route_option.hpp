@@ -12,8 +12,12 @@ class RouteOption {
  public:
   void add(CLI::App& app);
 
+  /// The route that was named; nothing if none was.
+  /// @throws BadInput  for an unknown name
+  std::optional<reduction::Route> named() const;
+
   /// The route of that name; the system's best if none was given.
-  /// @throws BadInput  for an unknown name, or a route that the system does not have
+  /// @throws BadInput  as named, and for a route that the system does not have
   reduction::Route read(const reduction::ReducedSystem& system) const;
 
  private:

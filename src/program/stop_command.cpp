@@ -33,20 +33,10 @@ class StopCommand final : public Command {
     const GivenStart start = start_.read();
     const reduction::Law law = law_.read();
     const reduction::Route route = route_.read({law, start.mu});
-    const Format format = output_.format();
-    const int digits = output_.digits();
     const StopReport report = make_stop_report(start, law, route);
-    switch (format) {
-      case Format::json:
-        output_.write(stop_report_as_json(report));
-        break;
-      case Format::csv:
-        output_.write(stop_report_as_csv(report));
-        break;
-      case Format::text:
-        output_.write(stop_report_as_text(report, digits));
-        break;
-    }
+    output_.write_as(
+        output_.format(), [&](int digits) { return stop_report_as_text(report, digits); },
+        [&] { return stop_report_as_csv(report); }, [&] { return stop_report_as_json(report); });
     return ExitStatus::done;
   }
 
@@ -58,6 +48,7 @@ class StopCommand final : public Command {
     if (output_.format_given() && output_.format() != Format::csv) {
       throw BadInput("--batch writes csv only: leave --format out");
     }
+    route_.named();  // an unknown name is the command line's mistake, not each row's
     const StopBatch batch = stop_batch(CsvTable::read(batch_.text()), law_.read(), route_, keep_going_->count() > 0);
     output_.write(batch.csv);
     return batch.status;

@@ -39,6 +39,14 @@ TEST_CASE("-o through a link replaces the file and keeps the link", "[cli]") {
   CHECK(read_file(scratch.file("file")) == run_program("balls pool").out);
 }
 
+TEST_CASE("-o keeps the permissions of the file that it replaces", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("private"), "old");
+  fs::permissions(scratch.file("private"), fs::perms::owner_read | fs::perms::owner_write);
+  CHECK(run_program("balls pool -o " + scratch.file("private")).status == 0);
+  CHECK(fs::status(scratch.file("private")).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+}
+
 TEST_CASE("what cannot be written is status 4 and leaves nothing", "[cli]") {
   const TemporaryDirectory scratch;
   fs::create_directory(scratch.file("folder"));

@@ -109,5 +109,12 @@ TEST_CASE("a batch excludes what makes no sense with it", "[cli]") {
     CHECK(run.out.empty());
   }
   CHECK(run_program("stop --keep-going --ball pool").status == 2);
+  const Run unknown = run_program("stop --keep-going --batch - --route quick", "mu,u0,v0\n1,0,0\n");
+  CHECK(unknown.status == 2);
+  CHECK(unknown.out.empty());
+  CHECK_THAT(unknown.err, Contains("--route quick: no such route"));
+  const Run missing = run_program("stop --batch - --law exact --route closed", "mu,u0,v0\n1,0,0\n");
+  CHECK(missing.status == 2);
+  CHECK_THAT(missing.err, StartsWith("<stdin>:2: ") && Contains("--route closed: law exact"));
   CHECK(run_program("stop --batch /no/such/file.csv").status == 4);
 }
