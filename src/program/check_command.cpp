@@ -28,6 +28,8 @@ struct Verdict {
   std::vector<Check> checks;
 };
 
+constexpr std::array built_in_patch_ratios{1e-4, 0.0035, 0.099, 0.3, 1.0};
+
 /// Starts whose k0 = v0/(mu u0) runs from almost pure pivoting to almost pure sliding.
 std::vector<State> built_in_starts(double mu) {
   std::vector<State> starts;
@@ -49,7 +51,7 @@ void merge(std::vector<Check>& worst, const std::vector<Check>& others) {
 
 std::vector<Check> built_in_checks(const Law& law) {
   std::vector<Check> worst;
-  for (double mu : {1e-4, 0.0035, 0.099, 0.3, 1.0}) merge(worst, verify({law, mu}, built_in_starts(mu)));
+  for (double mu : built_in_patch_ratios) merge(worst, verify({law, mu}, built_in_starts(mu)));
   return worst;
 }
 
@@ -88,8 +90,12 @@ class CheckCommand final : public Command {
  private:
   std::string as_text(const std::vector<Verdict>& verdicts, int digits) const {
     const int width = digits + 8;
-    std::string text =
-        start_.given() ? "" : "The worst of 55 starts: mu from 1e-4 to 1, v0/(mu u0) from 1e-4 to 1e6.\n\n";
+    std::string text;
+    if (!start_.given()) {
+      text = fmt::format("The worst of {} starts: mu from {} to {}, v0/(mu u0) from 1e-4 to 1e6.\n\n",
+                         built_in_patch_ratios.size() * built_in_starts(1).size(), built_in_patch_ratios.front(),
+                         built_in_patch_ratios.back());
+    }
     text += fmt::format("{:<8}{:<44}{:>{}}{:>10}\n", "law", "check", "measured", width, "allowed");
     for (const auto& [law, checks] : verdicts) {
       for (const Check& check : checks) {
