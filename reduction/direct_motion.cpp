@@ -34,6 +34,10 @@ struct DirectEquations {
     const double w = std::exp(x[0]);
     const double v = std::exp(x[1]);
     const double k = std::exp(x[1] - x[0]);
+    if (std::isnan(k)) {  // the law had no number before: the run ends with its outcome
+      rate.fill(k);
+      return;
+    }
     const auto [force, moment] = system.law()(slip_of_ratio(k));
     rate[0] = -system.r() * (k > 1 ? k * moment / v : moment / w);
     rate[1] = -(k > 1 ? force / v : force / k / w);
@@ -71,10 +75,12 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
     double trial = std::min(step, limit);
     const Values before = x;
     const double s_before = s;
+    double taken = trial;  // not s - s_before, which near the stop is all rounding
     while (stepper.try_step(std::ref(equations), x, s, trial) == odeint::fail) {
       if (!(trial > std::numeric_limits<double>::min())) {
         return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
       }
+      taken = trial;
     }
     if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2])) {
       return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
@@ -87,7 +93,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
       // Land on k = 1: the length of the step that ends there, by the secant method from both its ends.
       Fehlberg base;
       double low = 0;
-      double high = s - s_before;
+      double high = taken;
       double at_low = side;
       double at_high = x[1] - x[0];
       Values landed = x;

@@ -25,9 +25,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Below this ln k the curve is its limit (QuadratureCurve), and so is the slope of time.
 constexpr double limit_ln_k = -40;
 
-double log_ratio(double v, double w, double v_scaled, double w_scaled) {
+/// Above the one, k b(k) is its limit 1/(45 pi^2) to the last bit; above the other, b or w may underflow.
+constexpr double sliding_ln_k = 44;
+constexpr double faint_ln_k = 600;
+
+/// ln k from speeds that may differ by more than a double holds, w = mu |u|.
+double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled) {
   const double k = v_scaled / w_scaled;
-  return std::isnormal(k) ? std::log(k) : std::log(v) - std::log(w);
+  return std::isnormal(k) && std::isnormal(w_scaled) ? std::log(k) : std::log(v) - std::log(mu) - std::log(u);
 }
 
 /// The root of an increasing function in [low, high] by Newton's method, kept inside by bisection.
@@ -87,7 +92,7 @@ Orbit::Orbit(const ReducedSystem& system, State start, std::shared_ptr<const Sim
     ln_k0_ = u0_ == 0 ? infinity : -infinity;
     return;
   }
-  ln_k0_ = log_ratio(v0_, system.mu() * std::abs(u0_), v_, w_);
+  ln_k0_ = log_ratio(v0_, system.mu(), std::abs(u0_), v_, w_);
   log_rim0_ = curve_->log_rim(ln_k0_);
   share0_ = curve_->sliding_share(ln_k0_);
 }
@@ -161,9 +166,18 @@ OrbitPoint Orbit::point(double tau, double ln_k) const {
   const double change = rim_change(ln_k);
   const double ln_v = std::log(v0_) + (change + (ln_k - ln_k0_));
   const double v = v0_ * std::exp(change + (ln_k - ln_k0_));
-  const double age = curve_->regularised_age(ln_k) * std::exp(-change) - curve_->regularised_age(ln_k0_);
-  const double beta = std::max(0.0, age) / (system_.scaled_time_rate() * system_.mu() * std::abs(u0_));
-  return {tau, u0_ * std::exp(change), v, ln_v, std::exp(ln_k), beta};
+  return {tau, u0_ * std::exp(change), v, ln_v, std::exp(ln_k), beta(ln_k, change, v)};
+}
+
+double Orbit::beta(double ln_k, double change, double v) const {
+  if (ln_k0_ < faint_ln_k) {
+    const double age = curve_->regularised_age(ln_k) * std::exp(-change) - curve_->regularised_age(ln_k0_);
+    return std::max(0.0, age) / (system_.scaled_time_rate() * system_.mu() * std::abs(u0_));
+  }
+  // b/w = k b/v.
+  constexpr double limit = 1 / (45 * pi * pi);
+  const double b_k = ln_k > sliding_ln_k ? limit : curve_->regularised_age(ln_k) * std::exp(ln_k);
+  return std::max(0.0, b_k / v - limit / v0_) / system_.scaled_time_rate();
 }
 
 OrbitPoint Orbit::at_time(double tau) const {

@@ -33,6 +33,10 @@ struct RegularisedEquations {
     const double w = std::exp(x[0]);
     const double v = std::exp(x[1]);
     const double k = std::exp(x[1] - x[0]);
+    if (std::isnan(k)) {  // the law had no number before: the run ends with its outcome
+      rate.fill(k);
+      return;
+    }
     const auto [force, moment] = system.law()(slip_of_ratio(k));
     // Weight over the larger speed, so that neither quotient divides by a speed that vanishes.
     const double weight = (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);

@@ -79,7 +79,10 @@ Motion StepperReport::close(double stop_time, long steps, long evaluations, Outc
 Motion StepperReport::finish(const StopLimit& tail, long steps, long evaluations) {
   while (next_time() < tail.stop()) add(tail.at_time(next_time()));
   if (every_step_) {
-    for (int i = tail_instants - 1; i > 0; --i) add(tail.at_share(static_cast<double>(i) / tail_instants));
+    for (int i = tail_instants - 1; i > 0; --i) {
+      const LogState state = tail.at_share(static_cast<double>(i) / tail_instants);
+      if (state.s < tail.stop()) add(state);  // a tail shorter than rounding has no instants, and is no exact limit
+    }
   }
   const double stop_time = std::ldexp(tail.stop() / scaled_time_rate_, exponent_);
   return close(stop_time, steps, evaluations, Outcome{});

@@ -14,7 +14,7 @@ namespace contensou::reduction {
 /// @param times  instants to report, tau >= 0, in increasing order; empty: every accepted step, the tail, the stop
 /// @throws std::domain_error  if start is not a state or times are negative or decrease
 ///
-/// Accuracy  stop time 1e-11 relative at the default tolerance; states 1e-10.
+/// Accuracy  stop time 3e-11 relative at the default tolerance; states 1e-10 for mu <= 1, 3e-10 up to r = 2.
 Motion integrate_directly(const ReducedSystem& system, State start, const Eigen::ArrayXd& times = {},
                           const Stepping& stepping = {});
 

@@ -78,6 +78,7 @@ class Orbit {
   OrbitPoint rest(double tau) const;
   OrbitPoint on_axis_at(double tau, double left_share) const;
   OrbitPoint point(double tau, double ln_k) const;
+  double beta(double ln_k, double rim_change, double v) const;
 
   double rim_change(double ln_k) const { return curve_->log_rim(ln_k) - log_rim0_; }
   double scaled_elapsed(double ln_k) const;

@@ -16,8 +16,8 @@ namespace contensou::reduction {
 /// 1e19 the limits hold to the last bit.
 ///
 /// Accuracy  1e-13 or better for a law that is smooth on either side of k = 1 (measured: tests/reference/README.md).
-/// Cost      about 5000 evaluations of the law, once; then some 30 ns for each value. A law with noise above 1e-15 makes
-///           it up to a million, and truncation() larger.
+/// Cost      about 5000 evaluations of the law, once; then some 30 ns for each value. Noise in the law costs up to a
+///           million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r  gamma mu^2/chi

@@ -17,7 +17,7 @@ struct Check {
 
 /// Everything the theory says about one motion, each as a number that must be small: the routes against each other, the
 /// scaling generator on (2.6), (2.7) and dv/du, the separated equation, the first integral, beta against (2.8), both
-/// limits, the law's own bounds, and for the exact law its dissipation potential and its elementary orbit inside k = 1.
+/// limits, the law's own bounds, and for the exact law its elementary orbit inside k = 1.
 ///
 /// @throws std::domain_error  if start is not a state or is at rest, or r is outside the regime k -> 0
 std::vector<Check> verify(const ReducedSystem& system, State start);
