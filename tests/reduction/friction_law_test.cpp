@@ -1,0 +1,169 @@
+#include "contensou/reduction/friction_law.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/verification.hpp"
+#include "user_laws.hpp"
+#include "worst_case.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Named {
+  static constexpr std::string_view name = "mine";
+  Resistance operator()(Slip slip) const { return RootLaw{}(slip); }
+};
+
+/// A law from two functions of k, to make bad ones.
+template <class Force, class Moment>
+auto from_ratio(Force force, Moment moment) {
+  return [=](Slip slip) {
+    const double k = slip.pivoting == 0 ? infinity : slip.sliding / slip.pivoting;
+    return Resistance{force(k), moment(k)};
+  };
+}
+
+double root_force(double k) { return std::isinf(k) ? 1.0 : k / std::hypot(1, k); }
+double root_moment(double k) { return 1 / std::hypot(1, k); }
+
+}  // namespace
+
+TEST_CASE("what is a friction law", "[friction_law][domain]") {
+  STATIC_REQUIRE(FrictionLaw<HertzLaw>);
+  STATIC_REQUIRE(FrictionLaw<PadeLaw>);
+  STATIC_REQUIRE(FrictionLaw<RootLaw>);
+  STATIC_REQUIRE(FrictionLaw<Law>);
+  STATIC_REQUIRE(FrictionLaw<decltype([](Slip) { return Resistance{1, 1}; })>);
+  STATIC_REQUIRE_FALSE(FrictionLaw<int>);
+  STATIC_REQUIRE_FALSE(FrictionLaw<decltype([](Slip) { return 1.0; })>);
+  STATIC_REQUIRE_FALSE(FrictionLaw<decltype([](double) { return Resistance{1, 1}; })>);
+}
+
+TEST_CASE("a law keeps what it offers", "[friction_law]") {
+  const Law exact = HertzLaw{};
+  CHECK(exact.name() == "exact");
+  CHECK(exact.pivoting_moment() == HertzLaw{}({0, 1}).moment);
+  CHECK(exact.force_slope() == Approx(1.1780972450961724).epsilon(1e-15));
+  REQUIRE(exact.sliding_share());
+  CHECK(exact.sliding_share()->least == 0);
+  CHECK(exact.sliding_share()->most == 1);
+  CHECK(exact.closed_curve(0.1) == nullptr);
+  REQUIRE(exact.inner_log_rim());
+  CHECK(exact.inner_log_rim()(0.5, 0.25) == HertzLaw{}.inner_log_rim(0.5, 0.25));
+  CHECK(exact.moment_deficit({1e-9, 1}) == HertzLaw{}.moment_deficit({1e-9, 1}));
+
+  const Law pade = PadeLaw{};
+  CHECK(pade.name() == "pade");
+  REQUIRE(pade.closed_curve(0.1));
+  CHECK(pade.closed_curve(0.1)->r() == 0.1);
+  CHECK(pade.closed_curve(1.5) == nullptr);
+  CHECK_FALSE(pade.inner_log_rim());
+
+  CHECK(Law(Named{}).name() == "mine");
+}
+
+TEST_CASE("a law of one function has the defaults", "[friction_law]") {
+  const Law law = RootLaw{};
+  CHECK(law.name() == "user's law");
+  CHECK(law.pivoting_moment() == law({0, 1}).moment);
+  CHECK(law.force_slope() == 1 / 0.8);
+  CHECK_FALSE(law.sliding_share());
+  CHECK(law.closed_curve(0.1) == nullptr);
+  CHECK_FALSE(law.inner_log_rim());
+  CHECK(law.moment_deficit({1, 1}) == 1 - law({1, 1}).moment / law.pivoting_moment());
+
+  const ReducedSystem system(law, 0.1);
+  CHECK(system.stop_time_bounds({1, 1}).lower == 0);
+  CHECK(system.stop_time_bounds({1, 1}).upper == infinity);
+  CHECK(routes(system) == std::vector{Route::quadrature, Route::regularised, Route::direct});
+}
+
+TEST_CASE("a copy of a law is the same law", "[friction_law]") {
+  const Law pade = PadeLaw{};
+  const Law copy = pade;  // NOLINT(performance-unnecessary-copy-initialization)
+  CHECK(copy.name() == "pade");
+  CHECK(copy.closed_curve(0.5) != nullptr);
+}
+
+TEMPLATE_TEST_CASE("everything works with a user's law of one function", "[friction_law][route]", RootLaw, OcticLaw,
+                   CallOnly<HertzLaw>, CallOnly<PadeLaw>) {
+  WorstCase stop("stop time against quadrature"), speed("u"), ln_v("ln v");
+  for (double mu : {1e-4, 1e-2, 0.3, 1.0}) {
+    const ReducedSystem system(TestType{}, mu);
+    for (double k0 : {1e-4, 0.7, 1.0, 30.0, 1e6}) {
+      const State start{-2, 2 * mu * k0};
+      const std::string where = fmt::format("mu = {}, k0 = {}", mu, k0);
+      const StopTime best = stop_time(system, start);
+      CHECK(best.route == Route::quadrature);
+      CHECK(best.accuracy <= 1e-13);
+      stop.add(stop_time(system, start, Route::regularised).tau, best.tau, where);
+      stop.add(stop_time(system, start, Route::direct).tau, best.tau, where);
+
+      const Orbit orbit(system, start);
+      const Eigen::ArrayXd times = best.tau * Eigen::ArrayXd::LinSpaced(7, 0.01, 0.95);
+      const Motion motion = integrate_directly(system, start, times);
+      for (Eigen::Index i = 0; i < times.size(); ++i) {
+        const OrbitPoint stepped = motion.points.row(i);
+        const OrbitPoint point = orbit.at_time(times[i]);
+        speed.add(stepped.u, point.u, where);
+        ln_v.add(stepped.ln_v, point.ln_v, 1 + std::abs(stepped.ln_v), where);
+      }
+    }
+    for (const Check& check : verify(system, State{1, mu})) {
+      CAPTURE(mu, check.name, check.measured, check.allowed);
+      CHECK(check.passed());
+    }
+  }
+  CHECK_WITHIN_EPS(stop, 1e-11 / 2.2e-16);
+  CHECK_WITHIN_EPS(speed, 1e-10 / 2.2e-16);
+  CHECK_WITHIN_EPS(ln_v, 1e-10 / 2.2e-16);
+}
+
+TEST_CASE("the potential of degree 8 stays within 3.41 % of the exact law", "[friction_law][route]") {
+  double worst = 0;
+  for (double k = 1e-3; k < 1e3; k *= 1.01) {
+    const auto exact = HertzLaw{}({k, 1});
+    const auto octic = OcticLaw{}({k, 1});
+    worst = std::max({worst, std::abs(octic.force / exact.force - 1), std::abs(octic.moment / exact.moment - 1)});
+  }
+  CHECK(worst == Approx(0.0341).margin(1e-4));
+}
+
+TEST_CASE("a law whose limits are not those of friction is rejected", "[friction_law][domain]") {
+  CHECK_NOTHROW(Law(from_ratio(root_force, root_moment)));
+  // Coulomb: as large for the slowest sliding as for any.
+  CHECK_THROWS_WITH(Law(from_ratio([](double k) { return k > 0 ? 1.0 : 0.0; }, root_moment)),
+                    Contains("user's law") && Contains("2^-60"));
+  // A root and a square: Phi'(0) infinite, or 0.
+  CHECK_THROWS_AS(Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : std::sqrt(k / (1 + k)); }, root_moment)),
+                  std::domain_error);
+  CHECK_THROWS_AS(Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k * k / (1 + k * k); }, root_moment)),
+                  std::domain_error);
+  CHECK_THROWS_AS(Law(from_ratio([](double k) { return -root_force(k); }, root_moment)), std::domain_error);
+  // Pure sliding must be resisted by 1.
+  CHECK_THROWS_WITH(Law(from_ratio([](double k) { return 0.9 * root_force(k); }, root_moment)), Contains("0.9"));
+  CHECK_THROWS_AS(Law(from_ratio([](double k) { return k == infinity ? NAN : root_force(k); }, root_moment)),
+                  std::domain_error);
+  // Pure pivoting must be resisted at all.
+  for (double moment : {0.0, -1.0, infinity, static_cast<double>(NAN)}) {
+    CAPTURE(moment);
+    CHECK_THROWS_WITH(Law(from_ratio(root_force, [=](double k) { return k == 0 ? moment : root_moment(k); })),
+                      Contains("Psi(0)"));
+  }
+}

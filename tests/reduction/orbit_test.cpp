@@ -1,0 +1,439 @@
+#include "contensou/reduction/orbit.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/quadrature_curve.hpp"
+#include "reference_table.hpp"
+#include "user_laws.hpp"
+#include "worst_case.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// 1e-12 in eps.
+constexpr double promised = 4503;
+
+double beta_unit(double mu, State start) { return 1 / (16 * mu * std::abs(start.u) + 15 * pi * start.v); }
+
+void check_trajectories(const std::string& table, const Law& law) {
+  WorstCase u("u"), ln_v("ln v"), k("ln k"), beta("beta"), left("u at time left"), left_ln_v("ln v at time left");
+  for (const ReferenceRow& row : reference_table(table)) {
+    const double mu = row.input("mu");
+    const State start{row.input("u0"), row.input("v0")};
+    const Orbit orbit(ReducedSystem(law, mu), start);
+    const double tau = row.input("tau");
+    const OrbitPoint point = orbit.at_time(tau);
+    CHECK(point.tau == tau);
+    u.add(row.result("u"), point.u, row.where());
+    const long double ln_v_scale = 1 + std::abs(row.result("ln_v"));
+    ln_v.add(row.result("ln_v"), point.ln_v, ln_v_scale, row.where());
+    if (row.result("k") > 1e-290L) k.add(std::log(row.result("k")), std::log(point.k), ln_v_scale, row.where());
+    beta.add(row.result("beta"), point.beta, row.result("beta") + beta_unit(mu, start), row.where());
+
+    // The time left from the table, where it is known better than the difference of two doubles.
+    if (row.input("fraction") < 0.5) continue;
+    const OrbitPoint from_stop =
+        orbit.at_time_left(static_cast<double>(row.result("tau_stop") - static_cast<long double>(tau)));
+    left.add(row.result("u"), from_stop.u, row.where());
+    left_ln_v.add(row.result("ln_v"), from_stop.ln_v, ln_v_scale, row.where());
+  }
+  CHECK_WITHIN_EPS(u, promised);
+  CHECK_WITHIN_EPS(ln_v, promised);
+  CHECK_WITHIN_EPS(k, promised);
+  CHECK_WITHIN_EPS(beta, 2 * promised);
+  CHECK_WITHIN_EPS(left, promised);
+  CHECK_WITHIN_EPS(left_ln_v, promised);
+}
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+TEST_CASE("the state at any fraction of the stop time: Pade", "[orbit][table]") {
+  check_trajectories("trajectory_pade", PadeLaw{});
+}
+
+TEST_CASE("the state at any fraction of the stop time: exact", "[orbit][table]") {
+  check_trajectories("trajectory_hertz", HertzLaw{});
+}
+
+TEST_CASE("an orbit starts at its start and ends at rest", "[orbit][limit]") {
+  for (const Law& law : named_laws()) {
+    for (const State start : {State{1, 0.1}, State{-3, 1e-9}, State{2e-5, 40}, State{-1e300, 1e290}}) {
+      const Orbit orbit(ReducedSystem(law, 0.2), start);
+      CAPTURE(law.name(), start.u, start.v);
+      const OrbitPoint first = orbit.at_time(0);
+      CHECK(first.tau == 0);
+      CHECK(first.u == start.u);
+      CHECK(first.v == start.v);
+      CHECK(first.ln_v == std::log(start.v));
+      CHECK(first.beta == 0);
+      CHECK(first.k == Approx(start.v / (0.2 * std::abs(start.u))).epsilon(1e-14));
+      const double stop = orbit.stop_time();
+      CHECK(orbit.at_time_left(stop).u == start.u);
+      for (const OrbitPoint& last :
+           {orbit.at_time(stop), orbit.at_time(2 * stop), orbit.at_time(infinity), orbit.at_time_left(0)}) {
+        CHECK(last.u == 0);
+        CHECK(last.v == 0);
+        CHECK(last.ln_v == -infinity);
+        CHECK(last.k == 0);
+        CHECK(last.beta == infinity);
+      }
+      CHECK(orbit.at_time(2 * stop).tau == 2 * stop);
+      CHECK(orbit.at_time_left(0).tau == stop);
+    }
+  }
+}
+
+TEST_CASE("along an orbit u, v and k fall and beta grows", "[orbit][invariant]") {
+  for (const Law& law : named_laws()) {
+    for (double mu : {1e-4, 0.05, 1.0}) {
+      for (double k0 : {1e-4, 1.0, 1e5}) {
+        const Orbit orbit(ReducedSystem(law, mu), {-1, mu * k0});
+        const OrbitColumns columns = orbit.sample(101);
+        CAPTURE(law.name(), mu, k0);
+        REQUIRE(columns.rows() == 101);
+        CHECK(columns.tau[0] == 0);
+        CHECK(columns.tau[100] == orbit.stop_time());
+        CHECK(columns.u[100] == 0);
+        for (Eigen::Index i = 1; i < 100; ++i) {
+          CAPTURE(i);
+          CHECK(columns.tau[i] > columns.tau[i - 1]);
+          CHECK(std::abs(columns.u[i]) < std::abs(columns.u[i - 1]));
+          CHECK(columns.u[i] < 0);
+          CHECK(columns.ln_v[i] < columns.ln_v[i - 1]);
+          CHECK(columns.k[i] <= columns.k[i - 1]);
+          CHECK(columns.beta[i] > columns.beta[i - 1]);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the sign of u0 is the sign of u, and nothing else", "[orbit][symmetry]") {
+  for (const Law& law : named_laws()) {
+    const ReducedSystem system(law, 0.1);
+    const Orbit right(system, {0.75, 0.2});
+    const Orbit left(system, {-0.75, 0.2});
+    CHECK(left.stop_time() == right.stop_time());
+    for (double share : {0.0, 1e-9, 0.01, 0.3, 0.6, 0.999}) {
+      const OrbitPoint a = right.at_time(share * right.stop_time());
+      const OrbitPoint b = left.at_time(share * right.stop_time());
+      CAPTURE(law.name(), share);
+      CHECK(a.u == -b.u);
+      CHECK(a.v == b.v);
+      CHECK(a.ln_v == b.ln_v);
+      CHECK(a.k == b.k);
+      CHECK(a.beta == b.beta);
+    }
+  }
+}
+
+TEST_CASE("scaling by powers of two holds bit for bit", "[orbit][symmetry]") {
+  // ln v moves by a multiple of ln 2, which is rounded; everything else is the same digits.
+  for (const Law& law : named_laws()) {
+    for (const State start : {State{1.1, 0.3}, State{-0.01, 2}, State{5, 1e-12}, State{0, 3}, State{-3, 0}}) {
+      const ReducedSystem system(law, 0.05);
+      const Orbit orbit(system, start);
+      for (int power : {-600, -300, -1, 1, 33, 900}) {
+        const auto scale = [&](double x) { return std::ldexp(x, power); };
+        const Orbit scaled(system, {scale(start.u), scale(start.v)});
+        CAPTURE(law.name(), start.u, start.v, power);
+        CHECK(scaled.stop_time() == scale(orbit.stop_time()));
+        CHECK(scaled.start_log_ratio() == orbit.start_log_ratio());
+        for (double share : {0.0, 0.01, 0.4, 0.7, 0.99}) {
+          const double tau = share * orbit.stop_time();
+          const OrbitPoint here = orbit.at_time(tau);
+          const OrbitPoint there = scaled.at_time(scale(tau));
+          CAPTURE(share);
+          CHECK(there.u == scale(here.u));
+          if (std::isnormal(there.v) && std::isnormal(here.v)) CHECK(there.v == scale(here.v));
+          CHECK(there.k == here.k);
+          CHECK(there.beta == std::ldexp(here.beta, -power));
+          if (std::isfinite(here.ln_v)) {
+            const double moved = here.ln_v + power * std::numbers::ln2;
+            CHECK(std::abs(there.ln_v - moved) <= 4e-16 * (std::abs(here.ln_v) + std::abs(power * std::numbers::ln2)));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("on the axes one speed falls linearly", "[orbit][limit]") {
+  for (const Law& law : named_laws()) {
+    const ReducedSystem system(law, 0.1);
+    const Orbit sliding(system, {0, 2});
+    CHECK(sliding.stop_time() == Approx(6 * pi / 7).epsilon(1e-15));
+    CHECK(sliding.start_log_ratio() == infinity);
+    const Orbit pivoting(system, {-2, 0});
+    CHECK(pivoting.stop_time() == Approx(32 / 0.5).epsilon(1e-15));
+    CHECK(pivoting.start_log_ratio() == -infinity);
+    for (double share : {0.0, 0.25, 0.75}) {
+      CAPTURE(law.name(), share);
+      const double gone = share / (1 - share);
+      for (const OrbitPoint& point :
+           {sliding.at_time(share * sliding.stop_time()), sliding.at_time_left((1 - share) * sliding.stop_time())}) {
+        CHECK(point.v == Approx(2 * (1 - share)).epsilon(1e-15));
+        CHECK(point.ln_v == Approx(std::log(2 * (1 - share))).margin(1e-15));
+        CHECK(point.u == 0);
+        CHECK(point.k == infinity);
+        CHECK(point.beta == Approx(sliding.stop_time() / (45 * pi * pi * 4) * gone).margin(1e-17).epsilon(1e-14));
+      }
+      for (const OrbitPoint& point : {pivoting.at_time(share * pivoting.stop_time()),
+                                      pivoting.at_time_left((1 - share) * pivoting.stop_time())}) {
+        CHECK(point.u == Approx(-2 * (1 - share)).epsilon(1e-15));
+        CHECK(point.v == 0);
+        CHECK(point.ln_v == -infinity);
+        CHECK(point.k == 0);
+        CHECK(point.beta == Approx(pivoting.stop_time() / (128 * 0.04) * gone).margin(1e-15).epsilon(1e-14));
+      }
+    }
+    CHECK(sliding.at_time(infinity).k == infinity);
+    CHECK(sliding.at_time(infinity).v == 0);
+    CHECK_THROWS_AS(sliding.at_log_ratio(0), std::domain_error);
+    CHECK_THROWS_AS(pivoting.at_log_ratio(0), std::domain_error);
+  }
+}
+
+TEST_CASE("next to the axes an orbit is almost that of the axis", "[orbit][limit]") {
+  for (const Law& law : named_laws()) {
+    const ReducedSystem system(law, 0.1);
+    const Orbit sliding(system, {5e-324, 1});
+    CHECK(sliding.stop_time() == Approx(3 * pi / 7).epsilon(1e-15));
+    CHECK(sliding.at_time(sliding.stop_time() / 4).v == Approx(0.75).epsilon(1e-12));
+    const Orbit pivoting(system, {1, 5e-324});
+    CHECK(pivoting.stop_time() == Approx(32).epsilon(1e-15));
+    CHECK(pivoting.at_time(8).u == Approx(0.75).epsilon(1e-14));
+    CHECK(std::isfinite(pivoting.at_time(8).ln_v));
+    CHECK(pivoting.at_time(8).v == 0);
+  }
+}
+
+// Found with mu = 0.1, u0 = 5e-324, v0 = 1 (mu u0 underflows, ln k0 was infinite) and with u0 = 1e-200, v0 = 1e200 (the
+// curve's b underflows, beta was 0).
+TEST_CASE("a spin too faint for v0/(mu u0) leaves pure sliding", "[orbit][limit]") {
+  for (const Law& law : named_laws()) {
+    const ReducedSystem system(law, 0.1);
+    for (const State start : {State{5e-324, 1}, State{-1e-309, 1}, State{1e-200, 1e200}, State{-1e-300, 1e300}}) {
+      const Orbit orbit(system, start);
+      const Orbit sliding(system, {0, start.v});
+      CAPTURE(law.name(), start.u, start.v);
+      CHECK(orbit.start_log_ratio() == Approx(std::log(start.v) - std::log(0.1) - std::log(std::abs(start.u))));
+      CHECK(orbit.at_time(0).u == start.u);
+      CHECK(orbit.at_time(0).beta == 0);
+      for (double share : {0.25, 0.75, 0.999}) {
+        const OrbitPoint point = orbit.at_time(share * orbit.stop_time());
+        const OrbitPoint axis = sliding.at_time(share * sliding.stop_time());
+        CAPTURE(share);
+        CHECK(point.v == Approx(axis.v).epsilon(1e-12));
+        CHECK(point.beta == Approx(axis.beta).epsilon(1e-11));
+        // u goes with the power r/5 of the time left, for both laws; a denormal u has few digits.
+        const double power = std::pow(1 - share, system.r() / 5);
+        CHECK(point.u == Approx(start.u * power).epsilon(1e-11).margin(5e-324));
+        CHECK(std::signbit(point.u) == std::signbit(start.u));
+      }
+    }
+  }
+}
+
+TEST_CASE("a body at rest stays at rest", "[orbit][limit]") {
+  const Orbit orbit(ReducedSystem(HertzLaw{}, 0.1), {0, 0});
+  CHECK(orbit.stop_time() == 0);
+  for (const OrbitPoint& point : {orbit.at_time(0), orbit.at_time(1), orbit.at_time_left(0)}) {
+    CHECK(point.u == 0);
+    CHECK(point.v == 0);
+    CHECK(point.ln_v == -infinity);
+  }
+  CHECK(orbit.sample(3).rows() == 3);
+}
+
+TEST_CASE("a state is found again by its ratio and by its time", "[orbit][route]") {
+  WorstCase by_time("u by tau"), by_ratio("ln k by tau");
+  for (const Law& law : named_laws()) {
+    for (double mu : {1e-3, 0.1, 0.8}) {
+      const Orbit orbit(ReducedSystem(law, mu), {-2, 2 * mu * 20});
+      const double start = orbit.start_log_ratio();
+      CHECK(start == Approx(std::log(20.0)).epsilon(1e-14));
+      CHECK(orbit.at_log_ratio(start).tau == Approx(0).margin(1e-15 * orbit.stop_time()));
+      double before = 0;
+      for (double step : {0.01, 0.5, 2.0, 3.0, 5.0, 20.0, 60.0}) {
+        const OrbitPoint point = orbit.at_log_ratio(start - step);
+        const std::string where = fmt::format("{}, mu = {}, ln k = {}", law.name(), mu, start - step);
+        CHECK(point.tau > before);
+        before = point.tau;
+        const OrbitPoint again = orbit.at_time(point.tau);
+        CHECK(again.tau == point.tau);
+        by_time.add(point.u, again.u, 2, where);
+        // Later tau no longer tells one k from the next.
+        if (point.v > 1e-2 * mu * 40) by_ratio.add(start - step, std::log(again.k), 1, where);
+      }
+    }
+  }
+  CHECK_WITHIN_EPS(by_time, 100);
+  CHECK_WITHIN_EPS(by_ratio, 1000);
+}
+
+TEST_CASE("near the stop u is proportional to the time left", "[orbit][limit]") {
+  for (const Law& law : named_laws()) {
+    const double mu = 0.3;
+    const Orbit orbit(ReducedSystem(law, mu), {1, 0.5});
+    for (double left : {1e-6, 1e-12, 1e-100, 1e-300}) {
+      CAPTURE(law.name(), left);
+      const OrbitPoint point = orbit.at_time_left(left);
+      const OrbitPoint closer = orbit.at_time_left(left / 2);
+      CHECK(point.u == Approx(5 * mu / 16 * left).epsilon(1e-12));
+      // v goes with the power 14/(5 mu^2) of the time left.
+      CHECK(point.ln_v - closer.ln_v == Approx(14 / (5 * mu * mu) * std::numbers::ln2).epsilon(1e-11));
+    }
+  }
+}
+
+TEST_CASE("the printed first integral is constant along the Pade orbit", "[orbit][invariant]") {
+  for (double mu : {1e-3, 0.1, 0.7, 1.0}) {
+    const double A = 8 * (14 - 5 * mu * mu);
+    const double B = 15 * pi * (7 - mu * mu);
+    const double a = 5 * mu * mu / (14 - 5 * mu * mu);
+    const double b = 21 * mu * mu / ((14 - 5 * mu * mu) * (7 - mu * mu));
+    const Orbit orbit(ReducedSystem(PadeLaw{}, mu), {2, 30 * mu});
+    const auto first_integral = [&](const OrbitPoint& point) {
+      const double ln_k = point.ln_v - std::log(mu * point.u);
+      return std::log(point.u) - a * ln_k + b * std::log(A + B * std::exp(ln_k));
+    };
+    const double wanted = first_integral(orbit.at_time(0));
+    const OrbitColumns columns = orbit.sample(50);
+    for (Eigen::Index i = 0; i + 1 < columns.rows(); ++i) {
+      CAPTURE(mu, i);
+      CHECK(first_integral(columns.row(i)) == Approx(wanted).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("friction takes v0^2/2 by sliding and w0^2/(2 r) by pivoting", "[orbit][invariant]") {
+  // Per unit of chi m: ball, m v0^2/7 and m u0^2/5, whatever the law.
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
+  std::vector<Law> laws = named_laws();
+  laws.emplace_back(OcticLaw{});
+  for (const Law& law : laws) {
+    for (double mu : {0.01, 0.3, 1.0}) {
+      for (double k0 : {0.2, 3.0, 100.0}) {
+        const ReducedSystem system(law, mu);
+        const State start{1, mu * k0};
+        const Orbit orbit(system, start);
+        const double r = system.r();
+        CAPTURE(law.name(), mu, k0);
+
+        // ds = v d ln k/(Phi - r k Psi); v falls with k, and below exp(-50) nothing is left.
+        double sliding = 0;
+        double pivoting = 0;
+        double slid = 0;
+        double turned = 0;
+        const double top = orbit.start_log_ratio();
+        const auto add_panel = [&](double low, double high) {
+          const auto integral = [&](auto power) {
+            return Rule::integrate(
+                [&](double ln_k) {
+                  const OrbitPoint point = orbit.at_log_ratio(ln_k);
+                  const Slip slip = slip_of_ratio(std::exp(ln_k));
+                  const auto [force, moment] = law(slip);
+                  const double ds = point.v / (force - r * (std::exp(ln_k) * moment));
+                  return ds * power(point, force, moment);
+                },
+                low, high, 3, 1e-13);
+          };
+          sliding += integral([](const OrbitPoint& p, double force, double) { return force * p.v; });
+          slid += integral([](const OrbitPoint& p, double, double) { return p.v; });
+          pivoting += integral([&](const OrbitPoint& p, double, double moment) { return moment * mu * p.u; });
+          turned += integral([](const OrbitPoint& p, double, double) { return p.u; });
+        };
+        const double bottom = -50;
+        for (double low = bottom; low < top; low += 1) {
+          const double high = std::min(low + 1, top);  // k = 1 is an edge
+          add_panel(low, high);
+        }
+        // The rest is pure pivoting: its time is w/(r Psi(0)), its mean speed half of the first.
+        const OrbitPoint last = orbit.at_log_ratio(bottom);
+        const double w = mu * last.u;
+        pivoting += w * w / (2 * r);
+        turned += last.u * w / (2 * r * law.pivoting_moment());
+
+        CHECK(sliding == Approx(start.v * start.v / 2).epsilon(1e-11));
+        CHECK(pivoting == Approx(mu * mu / (2 * r)).epsilon(1e-11));
+
+        // Slip length and angle of the Pade ball: the common quadrature Q = Int v du drops out of the two.
+        if (law.name() != "pade") continue;
+        const double rate = system.scaled_time_rate();
+        const double length = slid / rate;
+        const double angle = turned / rate;
+        const double q = (angle - 8 / (5 * mu)) * mu * mu / (3 * pi);
+        CHECK(length == Approx(3 * pi * start.v * start.v / 14 + 8 * mu / 7 * (start.v - q)).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("columns keep their points", "[orbit]") {
+  OrbitColumns columns(2);
+  columns.set(1, {1, 2, 3, 4, 5, 6});
+  const OrbitPoint point = columns.row(1);
+  CHECK(point.tau == 1);
+  CHECK(point.u == 2);
+  CHECK(point.v == 3);
+  CHECK(point.ln_v == 4);
+  CHECK(point.k == 5);
+  CHECK(point.beta == 6);
+
+  const Orbit orbit(ReducedSystem(PadeLaw{}, 0.1), {1, 1});
+  const Eigen::ArrayXd times{{3.0, 0.5, 1e9}};
+  const OrbitColumns asked = orbit.at_times(times);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const OrbitPoint one = orbit.at_time(times[i]);
+    CHECK(same(asked.row(i).u, one.u));
+    CHECK(same(asked.row(i).beta, one.beta));
+  }
+}
+
+TEST_CASE("a curve made before serves many orbits", "[orbit][route]") {
+  const ReducedSystem system(HertzLaw{}, 0.3);
+  const auto curve = similarity_curve(system.law(), system.r());
+  for (double v : {0.01, 1.0}) {
+    CHECK(Orbit(system, {1, v}, curve).stop_time() == Orbit(system, {1, v}).stop_time());
+  }
+}
+
+TEST_CASE("an orbit is asked within its motion", "[orbit][domain]") {
+  using Catch::Matchers::Contains;
+  const ReducedSystem system(PadeLaw{}, 0.1);
+  const Orbit orbit(system, {1, 1});
+  for (double bad : {-1e-300, -1.0, -infinity, not_a_number}) {
+    CAPTURE(bad);
+    CHECK_THROWS_AS(orbit.at_time(bad), std::domain_error);
+    CHECK_THROWS_AS(orbit.at_time_left(bad), std::domain_error);
+  }
+  CHECK_THROWS_WITH(orbit.at_time(-2), Contains("Orbit::at_time") && Contains("-2"));
+  CHECK_THROWS_AS(orbit.at_time_left(orbit.stop_time() * 1.0001), std::domain_error);
+  CHECK_THROWS_AS(orbit.at_log_ratio(orbit.start_log_ratio() + 1e-9), std::domain_error);
+  CHECK_THROWS_AS(orbit.at_log_ratio(not_a_number), std::domain_error);
+  CHECK_THROWS_AS(orbit.sample(1), std::domain_error);
+  CHECK_THROWS_AS(orbit.sample(-3), std::domain_error);
+  CHECK_THROWS_AS(orbit.at_times(Eigen::ArrayXd{{0.5, -0.5}}), std::domain_error);
+  for (const State bad : {State{1, -1}, State{not_a_number, 1}, State{infinity, 1}, State{1, infinity}}) {
+    CHECK_THROWS_AS(Orbit(system, bad), std::domain_error);
+  }
+  CHECK_THROWS_AS(Orbit(ReducedSystem(PadeLaw{}, 2), {1, 1}), std::domain_error);
+}

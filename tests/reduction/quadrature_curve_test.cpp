@@ -1,0 +1,147 @@
+#include "contensou/reduction/quadrature_curve.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/pade_curve.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "user_laws.hpp"
+#include "worst_case.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// A law with more noise than the quadrature could ever resolve: deterministic, about 1e-9.
+struct NoisyLaw {
+  Resistance operator()(Slip slip) const {
+    const auto [force, moment] = RootLaw{}(slip);
+    if (slip.sliding < 1e-9 * slip.pivoting || slip.pivoting == 0) return {force, moment};
+    const double noise = 1e-9 * std::sin(1e12 * std::log(slip.sliding / slip.pivoting));
+    return {force * (1 + noise), moment * (1 - noise)};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the quadrature of the Pade law is its closed form", "[quadrature_curve][route]") {
+  WorstCase rim("ln w"), share("m"), age("b");
+  for (double r : {1e-20, 1e-8, 1e-4, 0.01, 0.1, 0.4, 5.0 / 7, 1.0}) {
+    const QuadratureCurve curve(PadeLaw{}, r);
+    const PadeCurve closed(r);
+    CHECK(curve.truncation() < 1e-14);
+    const double constant = curve.log_rim(0) - closed.log_rim(0);
+    for (double ln_k :
+         {-1e6, -700.0, -45.0, -40.0, -39.9, -20.0, -3.3, -0.2, 0.0, 0.5, 4.0, 21.7, 43.9, 44.0, 50.0, 700.0}) {
+      const std::string where = fmt::format("r = {}, ln k = {}", r, ln_k);
+      rim.add(closed.log_rim(ln_k) + constant, curve.log_rim(ln_k), std::abs(closed.log_rim(ln_k)) + r, where);
+      share.add(closed.sliding_share(ln_k), curve.sliding_share(ln_k), where);
+      // exp(-ln k) beyond k = 1e19
+      const double wanted = closed.regularised_age(ln_k);
+      age.add(wanted, curve.regularised_age(ln_k), wanted * (1 + std::abs(ln_k) / 44), where);
+    }
+  }
+  CHECK_WITHIN_EPS(rim, 100);
+  CHECK_WITHIN_EPS(share, 100);
+  CHECK_WITHIN_EPS(age, 200);
+}
+
+TEST_CASE("the exact law's share runs from 0 to 1", "[quadrature_curve][limit]") {
+  for (double r : {1e-10, 0.1, 1.0, 1.9}) {
+    const QuadratureCurve curve(HertzLaw{}, r);
+    CAPTURE(r);
+    CHECK(std::abs(curve.sliding_share(-1000)) < 1e-15);
+    CHECK(curve.sliding_share(1000) == 1);
+    CHECK(curve.sliding_share(44) == Approx(1).epsilon(1e-13));
+    for (double ln_k = -40; ln_k <= 44; ln_k += 0.37) {
+      CAPTURE(ln_k);
+      CHECK(curve.sliding_share(ln_k) >= 0);
+      CHECK(curve.sliding_share(ln_k) <= 1 + 1e-14);
+      CHECK(curve.regularised_age(ln_k) > 0);
+    }
+  }
+}
+
+TEST_CASE("panels join without a step", "[quadrature_curve][limit]") {
+  WorstCase share("m"), age("b"), rim("ln w");
+  for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{})}) {
+    const QuadratureCurve curve(law, 0.3);
+    for (int edge = -40; edge <= 44; ++edge) {
+      const double below = std::nextafter(static_cast<double>(edge), -infinity);
+      const std::string where = fmt::format("{}, ln k = {}", law.name(), edge);
+      const double ln_k = edge;
+      share.add(curve.sliding_share(below), curve.sliding_share(ln_k), 1, where);
+      age.add(curve.regularised_age(below), curve.regularised_age(ln_k), where);
+      rim.add(curve.log_rim(below), curve.log_rim(ln_k), 1 + std::abs(curve.log_rim(ln_k)), where);
+    }
+  }
+  CHECK_WITHIN_EPS(share, 64);
+  CHECK_WITHIN_EPS(age, 64);
+  CHECK_WITHIN_EPS(rim, 64);
+}
+
+TEST_CASE("the curve has the slope of the separated equation", "[quadrature_curve][invariant]") {
+  for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{}), Law(OcticLaw{})}) {
+    const double r = 0.6;
+    const QuadratureCurve curve(law, r);
+    for (double ln_k : {-5.0, -1.0, -0.3, 0.11, 0.3, 2.0, 8.0}) {
+      CAPTURE(law.name(), ln_k);
+      const double k = std::exp(ln_k);
+      const auto [force, moment] = law({k, 1});
+      const double h = 1e-4;
+      const double slope = (curve.log_rim(ln_k + h) - curve.log_rim(ln_k - h)) / (2 * h);
+      CHECK(slope == Approx(r * k * moment / (force - r * k * moment)).epsilon(1e-7));
+    }
+  }
+}
+
+// Found with RootLaw, mu = 1e-4: below k = 1e-5 the difference 1 - Psi/Psi(0) is all rounding, and panels were halved
+// to depth 40 everywhere.
+TEST_CASE("a law of one function costs no more than one that offers its deficit", "[quadrature_curve]") {
+  for (double r : {1e-8, 1e-4, 0.06, 0.7}) {
+    CAPTURE(r);
+    CHECK(QuadratureCurve(RootLaw{}, r).evaluations() < 10'000);
+    CHECK(QuadratureCurve(CallOnly<HertzLaw>{}, r).evaluations() < 10'000);
+    CHECK(QuadratureCurve(CallOnly<PadeLaw>{}, r).evaluations() < 10'000);
+  }
+  CHECK(QuadratureCurve(HertzLaw{}, 0.1).evaluations() < 10'000);
+}
+
+TEST_CASE("a law with noise ends, and says so", "[quadrature_curve]") {
+  const QuadratureCurve noisy(NoisyLaw{}, 0.1);
+  const QuadratureCurve smooth(RootLaw{}, 0.1);
+  CHECK(noisy.evaluations() < 5'000'000);
+  CHECK(noisy.truncation() > 1e-13);
+  CHECK(noisy.sliding_share(0) == Approx(smooth.sliding_share(0)).epsilon(1e-7));
+}
+
+TEST_CASE("the curve that is used is the closed one where there is one", "[quadrature_curve]") {
+  CHECK(dynamic_cast<const PadeCurve*>(similarity_curve(PadeLaw{}, 0.5).get()));
+  CHECK(dynamic_cast<const QuadratureCurve*>(similarity_curve(PadeLaw{}, 1.5).get()));
+  CHECK(dynamic_cast<const QuadratureCurve*>(similarity_curve(HertzLaw{}, 0.5).get()));
+  CHECK(similarity_curve(HertzLaw{}, 0.5)->r() == 0.5);
+}
+
+TEST_CASE("the curve ends where k no longer falls", "[quadrature_curve][domain]") {
+  for (double bad : {0.0, -1.0, infinity, static_cast<double>(NAN)}) {
+    CHECK_THROWS_AS(QuadratureCurve(PadeLaw{}, bad), std::domain_error);
+  }
+  // r = 2 is the first r with an invariant ray or growth, for both laws: Phi'(0) = r Psi(0).
+  for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{})}) {
+    CAPTURE(law.name());
+    CHECK_NOTHROW(QuadratureCurve(law, 1.9));
+    CHECK_THROWS_WITH(QuadratureCurve(law, 2.1), Catch::Matchers::Contains("QuadratureCurve") &&
+                                                     Catch::Matchers::Contains(law.name()) &&
+                                                     Catch::Matchers::Contains("2.1"));
+    CHECK_THROWS_AS(QuadratureCurve(law, 3), std::domain_error);
+    CHECK_THROWS_AS(QuadratureCurve(law, 6), std::domain_error);
+  }
+}

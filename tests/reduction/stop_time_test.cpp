@@ -1,0 +1,282 @@
+#include "contensou/reduction/stop_time.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "reference_table.hpp"
+#include "stepper_checks.hpp"
+#include "user_laws.hpp"
+#include "worst_case.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+WorstCase over_table(const std::string& table, const Law& law, Route route) {
+  WorstCase stop(table + " " + std::string(name(route)));
+  for (const ReferenceRow& row : reference_table(table)) {
+    const ReducedSystem system(law, row.input("mu"));
+    const StopTime got = stop_time(system, {row.input("u0"), row.input("v0")}, route);
+    CHECK(got.route == route);
+    stop.add(row.result("tau_stop"), got.tau, row.where());
+  }
+  return stop;
+}
+
+}  // namespace
+
+TEST_CASE("stop time of the Pade ball, closed form", "[stop_time][table]") {
+  CHECK_WITHIN_EPS(over_table("stop_pade", PadeLaw{}, Route::closed), 4);
+}
+
+TEST_CASE("stop time of the Pade ball, quadrature", "[stop_time][table]") {
+  CHECK_WITHIN_EPS(over_table("stop_pade", PadeLaw{}, Route::quadrature), 1e-13 / eps);
+}
+
+TEST_CASE("stop time of the exact ball, quadrature", "[stop_time][table]") {
+  CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}, Route::quadrature), 1e-13 / eps);
+}
+
+TEST_CASE("stop time by steppers over the tables", "[stop_time][table]") {
+  for (Route route : {Route::regularised, Route::direct}) {
+    CHECK_WITHIN_EPS(over_table("stop_pade", PadeLaw{}, route), 3e-11 / eps);
+    CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}, route), 3e-11 / eps);
+  }
+}
+
+TEST_CASE("stop time of other bodies, by every route", "[stop_time][table][route]") {
+  WorstCase closed("bodies closed"), quadrature("bodies quadrature"), steppers("bodies steppers");
+  for (const ReferenceRow& row : reference_table("bodies")) {
+    const Law law = row.text("law") == "pade" ? Law(PadeLaw{}) : Law(HertzLaw{});
+    const ReducedSystem system(law, row.input("mu"), {row.input("chi"), row.input("gamma")});
+    const State start{row.input("u0"), row.input("v0")};
+    for (Route route : routes(system)) {
+      WorstCase& worst = route == Route::closed ? closed : route == Route::quadrature ? quadrature : steppers;
+      worst.add(row.result("tau_stop"), stop_time(system, start, route).tau, row.where());
+    }
+  }
+  CHECK_WITHIN_EPS(closed, 8);
+  CHECK_WITHIN_EPS(quadrature, 1e-13 / eps);
+  CHECK_WITHIN_EPS(steppers, 3e-11 / eps);
+}
+
+TEST_CASE("all routes give one stop time", "[stop_time][route]") {
+  WorstCase closed("closed against quadrature"), regularised("regularised"), direct("direct");
+  for (const Law& law : named_laws()) {
+    for (double mu : {1e-4, 1e-3, 1e-2, 0.1, 0.3, 1.0}) {
+      const ReducedSystem system(law, mu);
+      for (double k0 : {1e-4, 1e-2, 0.5, 1.0, 1.25, 3.0, 1e2, 1e4, 1e6}) {
+        for (double u0 : {1.0, -7.0}) {
+          const State start{u0, mu * k0 * std::abs(u0)};
+          const std::string where = fmt::format("{}, mu = {}, u0 = {}, k0 = {}", law.name(), mu, u0, k0);
+          const double best = stop_time(system, start, Route::quadrature).tau;
+          if (law.closed_curve(system.r())) closed.add(stop_time(system, start, Route::closed).tau, best, where);
+          regularised.add(best, stop_time(system, start, Route::regularised).tau, where);
+          direct.add(best, stop_time(system, start, Route::direct).tau, where);
+        }
+      }
+    }
+  }
+  CHECK_WITHIN_EPS(closed, 1e-13 / eps);
+  CHECK_WITHIN_EPS(regularised, 3e-11 / eps);
+  CHECK_WITHIN_EPS(direct, 3e-11 / eps);
+}
+
+TEST_CASE("beyond mu^2 = 14/5 the steppers still stop the Pade ball", "[stop_time][route]") {
+  // 21 of 40 digits; mu^2 = 14/5 and 7 are where the exponents of the closed form blow up.
+  struct Row {
+    double mu, u0, v0;
+    long double tau;
+  };
+  const Row rows[] = {{1.2, 0.18257418583505539, 5.477225575051661, 8.31045593884147672145L},
+                      {1.5, 0.18257418583505539, 5.477225575051661, 8.20837927116421390378L},
+                      {1.5, 0.01, 100, 134.692464400053529770L},
+                      {1.6, 0.18257418583505539, 5.477225575051661, 8.17647038933488985902L},
+                      {1.6733190530681512, 10, 0.1, 19.4568100757566333412L},
+                      {1.6733200530681511, 1, 1, 4.15342340481639836815L},
+                      {1.7, 10, 0.1, 19.1566155174126698610L},
+                      {2, 0.18257418583505539, 5.477225575051661, 8.05708357543749598176L},
+                      {2, 0.01, 100, 134.679670279953883460L},
+                      {2.3, 10, 0.1, 14.2413358586138421760L},
+                      {2.3, 1.8257418583505538, 0.5477225575051661, 3.96266741630060515806L},
+                      {2.6457513110645907, 1.8257418583505538, 0.5477225575051661, 3.56662177991221488753L},
+                      {2.6467513110645906, 1, 1, 3.26721691286522866075L},
+                      {2.7, 1e-50, 1e+50, 1.34639685153848291921e50L},
+                      {3, -3, 0.25, 3.87878960294202717238L},
+                      {3, 1, 0, 1.06666666666666666667L}};
+  WorstCase regularised("regularised"), direct("direct"), quadrature("quadrature");
+  for (const Row& row : rows) {
+    const ReducedSystem system(PadeLaw{}, row.mu);
+    const State start{row.u0, row.v0};
+    const std::string where = fmt::format("mu = {}, u0 = {}, v0 = {}", row.mu, row.u0, row.v0);
+    regularised.add(row.tau, stop_time(system, start, Route::regularised).tau, where);
+    direct.add(row.tau, stop_time(system, start, Route::direct).tau, where);
+    if (system.r() < 1.99) {
+      CHECK(routes(system).front() == Route::quadrature);
+      quadrature.add(row.tau, stop_time(system, start, Route::quadrature).tau, where);
+    } else if (system.r() > 2.01) {
+      CHECK(routes(system) == std::vector{Route::regularised, Route::direct});
+      CHECK_THROWS_AS(stop_time(system, start, Route::quadrature), std::domain_error);
+    }
+  }
+  CHECK_WITHIN_EPS(regularised, 1e-10 / eps);
+  CHECK_WITHIN_EPS(direct, 1e-10 / eps);
+  CHECK_WITHIN_EPS(quadrature, 1e-12 / eps);
+}
+
+TEST_CASE("beyond r = 2 the two steppers agree for the exact law", "[stop_time][route]") {
+  WorstCase routes("regularised against direct");
+  for (double mu : {1.8, 2.0, 2.6, 3.0}) {
+    const ReducedSystem system(HertzLaw{}, mu);
+    for (double k0 : {1e-3, 0.5, 3.0, 1e3}) {
+      const State start{-1, mu * k0};
+      routes.add(stop_time(system, start, Route::direct).tau, stop_time(system, start, Route::regularised).tau,
+                 fmt::format("mu = {}, k0 = {}", mu, k0));
+    }
+  }
+  CHECK_WITHIN_EPS(routes, 1e-10 / eps);
+}
+
+TEST_CASE("the stop time on the axes, at rest and without the sign of u0", "[stop_time][limit]") {
+  for (const Law& law : named_laws()) {
+    const ReducedSystem system(law, 0.1);
+    for (Route route : routes(system)) {
+      CAPTURE(law.name(), name(route));
+      CHECK(stop_time(system, {0, 7}, route).tau == Approx(3 * pi).epsilon(4e-16));
+      CHECK(stop_time(system, {1, 0}, route).tau == Approx(32).epsilon(4e-16));
+      CHECK(stop_time(system, {0, 0}, route).tau == 0);
+      CHECK(stop_time(system, {-1, 2}, route).tau == stop_time(system, {1, 2}, route).tau);
+    }
+  }
+}
+
+TEST_CASE("v0/(mu u0) may overflow and underflow", "[stop_time][limit]") {
+  for (const Law& law : named_laws()) {
+    const ReducedSystem system(law, 1e-4);
+    for (Route route : routes(system)) {
+      // The steppers carry logarithms: 500 eps of the exponent are in the speed.
+      const double rounding = route == Route::closed || route == Route::quadrature ? 4e-16 : 1e-12;
+      CAPTURE(law.name(), name(route));
+      CHECK(stop_time(system, {1e-200, 1e200}, route).tau == Approx(3 * pi / 7 * 1e200).epsilon(rounding));
+      CHECK(stop_time(system, {5e-324, 1e308}, route).tau == Approx(3 * pi / 7 * 1e308).epsilon(rounding));
+      CHECK(stop_time(system, {1e200, 1e-200}, route).tau == Approx(3.2e204).epsilon(rounding));
+      CHECK(stop_time(system, {1e300, 5e-324}, route).tau == Approx(3.2e304).epsilon(rounding));
+    }
+  }
+}
+
+TEST_CASE("a stop time above the largest double is infinite", "[stop_time][limit]") {
+  constexpr double largest = std::numeric_limits<double>::max();
+  for (const Law& law : named_laws()) {
+    const ReducedSystem system(law, 1e-3);
+    for (Route route : routes(system)) {
+      CAPTURE(law.name(), name(route));
+      CHECK(stop_time(system, {largest, 1}, route).tau == infinity);
+      CHECK(stop_time(system, {-1e306, 1e306}, route).tau == infinity);
+      CHECK(stop_time(system, {0, largest}, route).tau == infinity);
+      CHECK(stop_time(system, {1e304, 1}, route).tau == Approx(3.2e307).epsilon(1e-11));
+    }
+  }
+}
+
+TEST_CASE("the stop time scales with the speeds, bit for bit for powers of two", "[stop_time][symmetry]") {
+  for (const Law& law : named_laws()) {
+    const ReducedSystem system(law, 0.03);
+    for (const State start : {State{1, 0.1}, State{-0.3, 5}, State{2, 1e-7}}) {
+      for (Route route : {Route::closed, Route::quadrature}) {
+        if (route == Route::closed && !law.closed_curve(system.r())) continue;
+        const double tau = stop_time(system, start, route).tau;
+        for (int power : {-900, -3, 1, 900}) {
+          const State scaled{std::ldexp(start.u, power), std::ldexp(start.v, power)};
+          CHECK(stop_time(system, scaled, route).tau == std::ldexp(tau, power));
+        }
+        CHECK(stop_time(system, {3 * start.u, 3 * start.v}, route).tau == Approx(3 * tau).epsilon(2e-15));
+      }
+    }
+  }
+}
+
+TEST_CASE("the stop time grows with both speeds", "[stop_time][invariant]") {
+  for (const Law& law : named_laws()) {
+    for (double mu : {1e-3, 0.1, 1.0}) {
+      const ReducedSystem system(law, mu);
+      double before = 0;
+      for (double v = 1e-6; v < 1e6; v *= 3) {
+        const double here = stop_time(system, {1, v}).tau;
+        CHECK(here >= before);
+        CHECK(here > stop_time(system, {0.5, v}).tau);
+        before = here;
+      }
+    }
+  }
+}
+
+TEST_CASE("routes have names and say what they do", "[stop_time]") {
+  const ReducedSystem pade(PadeLaw{}, 0.1);
+  const std::vector<Route> all{Route::closed, Route::quadrature, Route::regularised, Route::direct};
+  CHECK(routes(pade) == all);
+  CHECK(routes(ReducedSystem(HertzLaw{}, 0.1)) == std::vector<Route>(all.begin() + 1, all.end()));
+  CHECK(routes(ReducedSystem(HertzLaw{}, 2)) == std::vector<Route>(all.begin() + 2, all.end()));
+  for (Route route : all) {
+    CHECK(find_route(name(route)) == route);
+    CHECK(description(route).size() > 20);
+    CHECK(description(route).find('\n') == std::string_view::npos);
+    const StopTime got = stop_time(pade, {1, 1}, route);
+    CHECK(got.route == route);
+    CHECK((got.evaluations == 0) == (route == Route::closed));
+    CHECK(got.accuracy > 0);
+    CHECK(got.accuracy <= 1e-10);
+  }
+  CHECK_FALSE(find_route("closed form"));
+  CHECK_FALSE(find_route(""));
+  CHECK(stop_time(pade, {1, 1}).route == Route::closed);
+  CHECK(stop_time(ReducedSystem(HertzLaw{}, 0.1), {1, 1}).route == Route::quadrature);
+  CHECK(stop_time(ReducedSystem(HertzLaw{}, 2), {1, 1}).route == Route::regularised);
+}
+
+TEST_CASE("the error a route answers for is its error", "[stop_time][table]") {
+  for (const ReferenceRow& row : reference_table("stop_pade")) {
+    const ReducedSystem system(PadeLaw{}, row.input("mu"));
+    for (Route route : {Route::closed, Route::quadrature}) {
+      const StopTime got = stop_time(system, {row.input("u0"), row.input("v0")}, route);
+      const long double wanted = row.result("tau_stop");
+      CAPTURE(row.where(), name(route));
+      if (std::isnormal(got.tau)) CHECK(std::abs(got.tau / wanted - 1) <= got.accuracy);
+    }
+  }
+}
+
+TEST_CASE("a route that the system does not have is refused", "[stop_time][domain]") {
+  using Catch::Matchers::Contains;
+  const ReducedSystem exact(HertzLaw{}, 0.1);
+  CHECK_THROWS_WITH(stop_time(exact, {1, 1}, Route::closed), Contains("exact") && Contains("closed form"));
+  CHECK_THROWS_AS(stop_time(ReducedSystem(HertzLaw{}, 2), {1, 1}, Route::quadrature), std::domain_error);
+  CHECK_THROWS_AS(stop_time(ReducedSystem(PadeLaw{}, 1.3), {1, 1}, Route::closed), std::domain_error);
+  for (Route route : {Route::quadrature, Route::regularised, Route::direct}) {
+    for (const State bad :
+         {State{1, -1}, State{not_a_number, 1}, State{1, not_a_number}, State{infinity, 1}, State{1, infinity}}) {
+      CHECK_THROWS_AS(stop_time(exact, bad, route), std::domain_error);
+    }
+  }
+}
+
+TEST_CASE("a stepper that does not arrive throws its sentence", "[stop_time][domain]") {
+  const ReducedSystem system(BrokenLaw{}, 0.3);
+  for (Route route : {Route::regularised, Route::direct}) {
+    CHECK_THROWS_AS(stop_time(system, {1, 1}, route), std::runtime_error);
+    CHECK_THROWS_WITH(stop_time(system, {1, 1}, route), Catch::Matchers::Contains("not finite"));
+  }
+}
