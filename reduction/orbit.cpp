@@ -35,6 +35,9 @@ double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled
   return std::isnormal(k) && std::isnormal(w_scaled) ? std::log(k) : std::log(v) - std::log(mu) - std::log(u);
 }
 
+/// a/b, and 0 for a = 0 where b has underflowed.
+double quotient(double a, double b) { return a == 0 ? 0 : a / b; }
+
 /// The root of an increasing function in [low, high] by Newton's method, kept inside by bisection.
 template <class Function>
 double increasing_root(Function value_and_slope, double guess, double low, double high) {
@@ -81,12 +84,15 @@ Orbit::Orbit(const ReducedSystem& system, State start, std::shared_ptr<const Sim
       exponent_(0),
       w_(0),
       v_(0),
+      pivoting_(0),
       ln_k0_(0),
       pivoting_rate_(system.r() * system.law().pivoting_moment()) {
   require_state("Orbit", start);
   const double largest = std::max(std::abs(u0_), v0_);
   if (largest > 0) exponent_ = std::ilogb(largest);
-  w_ = system.mu() * std::ldexp(std::abs(u0_), -exponent_);
+  const double u = std::ldexp(std::abs(u0_), -exponent_);
+  w_ = system.mu() * u;
+  pivoting_ = system.scaled_time_rate() * system.pivoting_limit(u);
   v_ = std::ldexp(v0_, -exponent_);
   if (on_axis()) {
     ln_k0_ = u0_ == 0 ? infinity : -infinity;
@@ -101,17 +107,17 @@ double Orbit::tau_of(double scaled) const { return std::ldexp(scaled / system_.s
 
 double Orbit::scaled_of(double tau) const { return std::ldexp(tau, -exponent_) * system_.scaled_time_rate(); }
 
-double Orbit::stop_time() const { return tau_of(w_ / pivoting_rate_ + v_ * share0_); }
+double Orbit::stop_time() const { return tau_of(pivoting_ + v_ * share0_); }
 
 double Orbit::scaled_left(double ln_k) const {
   const double change = rim_change(ln_k);
-  return w_ * std::exp(change) / pivoting_rate_ + v_ * std::exp(change + (ln_k - ln_k0_)) * curve_->sliding_share(ln_k);
+  return pivoting_ * std::exp(change) + v_ * std::exp(change + (ln_k - ln_k0_)) * curve_->sliding_share(ln_k);
 }
 
 double Orbit::scaled_elapsed(double ln_k) const {
   const double change = rim_change(ln_k);
   const double v = v_ * std::exp(change + (ln_k - ln_k0_));
-  return -w_ * std::expm1(change) / pivoting_rate_ + (v_ * share0_ - v * curve_->sliding_share(ln_k));
+  return -pivoting_ * std::expm1(change) + (v_ * share0_ - v * curve_->sliding_share(ln_k));
 }
 
 double Orbit::scaled_left_slope(double ln_k) const {
@@ -130,7 +136,7 @@ double Orbit::log_ratio_at_left(double left) const {
   };
   // In the limit k -> 0 all of the time left is pivoting: w = r Psi(0) left, and ln w has slope a.
   const double slope = pivoting_rate_ / (system_.law().force_slope() - pivoting_rate_);
-  const double limit = limit_ln_k + (std::log(left * pivoting_rate_ / w_) - rim_change(limit_ln_k)) / slope;
+  const double limit = limit_ln_k + (std::log(left / pivoting_) - rim_change(limit_ln_k)) / slope;
   const double low = std::min(limit, limit_ln_k) - 2;
   return increasing_root(residual, std::min(limit, ln_k0_), low + low * 1e-15, ln_k0_);
 }
@@ -138,8 +144,8 @@ double Orbit::log_ratio_at_left(double left) const {
 double Orbit::log_ratio_at_elapsed(double elapsed) const {
   const auto residual = [&](double ln_k) { return std::pair{elapsed - scaled_elapsed(ln_k), scaled_left_slope(ln_k)}; };
   const double slope = pivoting_rate_ / (system_.law().force_slope() - pivoting_rate_);
-  const double left = w_ / pivoting_rate_ + v_ * share0_ - elapsed;
-  const double limit = limit_ln_k + (std::log(left * pivoting_rate_ / w_) - rim_change(limit_ln_k)) / slope;
+  const double left = pivoting_ + v_ * share0_ - elapsed;
+  const double limit = limit_ln_k + (std::log(left / pivoting_) - rim_change(limit_ln_k)) / slope;
   const double low = std::min({limit, limit_ln_k, ln_k0_}) - 2;
   const double sliding = elapsed < v_ ? ln_k0_ + std::log1p(-elapsed / v_) : limit_ln_k;
   return increasing_root(residual, std::max(limit, sliding), low + low * 1e-15, ln_k0_);
@@ -156,10 +162,10 @@ OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
   const double spent = (1 - left_share) / left_share;
   if (u0_ == 0) {
     const double v = v0_ * left_share;
-    return {tau, 0, v, std::log(v), infinity, spent / (45 * pi * pi * rate) / v0_};
+    return {tau, 0, v, std::log(v), infinity, quotient(spent / (45 * pi * pi * rate), v0_)};
   }
-  return {
-      tau, u0_ * left_share, 0, -infinity, 0, spent / (128 * rate * pivoting_rate_) / (system_.mu() * std::abs(u0_))};
+  const double beta = quotient(spent / (128 * rate * pivoting_rate_), system_.mu() * std::abs(u0_));
+  return {tau, u0_ * left_share, 0, -infinity, 0, beta};
 }
 
 OrbitPoint Orbit::point(double tau, double ln_k) const {
@@ -170,14 +176,16 @@ OrbitPoint Orbit::point(double tau, double ln_k) const {
 }
 
 double Orbit::beta(double ln_k, double change, double v) const {
+  if (ln_k == ln_k0_) return 0;
+  const double w0 = system_.mu() * std::abs(u0_);
   if (ln_k0_ < faint_ln_k) {
     const double age = curve_->regularised_age(ln_k) * std::exp(-change) - curve_->regularised_age(ln_k0_);
-    return std::max(0.0, age) / (system_.scaled_time_rate() * system_.mu() * std::abs(u0_));
+    return quotient(std::max(0.0, age), system_.scaled_time_rate() * w0);
   }
   // b/w = k b/v.
   constexpr double limit = 1 / (45 * pi * pi);
-  const double b_k = ln_k > sliding_ln_k ? limit : curve_->regularised_age(ln_k) * std::exp(ln_k);
-  return std::max(0.0, b_k / v - limit / v0_) / system_.scaled_time_rate();
+  const double age = ln_k > sliding_ln_k ? limit / v : curve_->regularised_age(ln_k) / (w0 * std::exp(change));
+  return std::max(0.0, age - limit / v0_) / system_.scaled_time_rate();
 }
 
 OrbitPoint Orbit::at_time(double tau) const {
@@ -226,10 +234,8 @@ OrbitColumns Orbit::sample(Eigen::Index count) const {
     const Eigen::Index to_go = count - 1 - i;
     const double last = static_cast<double>(count - 1);
     // The nearer end sets the scale: no digit of the time left is lost near the stop.
-    OrbitPoint point = i < to_go ? at_time(stop * (static_cast<double>(i) / last))
-                                 : at_time_left(stop * (static_cast<double>(to_go) / last));
-    if (to_go == 0) point.tau = stop;
-    columns.set(i, point);
+    columns.set(i, i < to_go ? at_time(stop * (static_cast<double>(i) / last))
+                             : at_time_left(stop * (static_cast<double>(to_go) / last)));
   }
   return columns;
 }

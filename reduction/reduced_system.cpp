@@ -35,7 +35,8 @@ ReducedSystem::ReducedSystem(Law law, double patch_ratio, Inertia inertia)
     : law_(std::move(law)),
       mu_(positive("mu", patch_ratio)),
       inertia_{positive("chi", inertia.chi), positive("gamma", inertia.gamma)},
-      r_(inertia.gamma * patch_ratio * patch_ratio / inertia.chi),
+      // Below this r nothing but time depends on it, and time is had from mu itself (pivoting_limit).
+      r_(std::max(inertia.gamma * patch_ratio * patch_ratio / inertia.chi, std::numeric_limits<double>::min())),
       scaled_time_rate_(2 * inertia.chi / (3 * pi)) {}
 
 Rate ReducedSystem::field(State state) const {
@@ -77,7 +78,8 @@ Bounds ReducedSystem::stop_time_bounds(State start) const {
   const double sliding = sliding_limit(start.v);
   const double pivoting = pivoting_limit(start.u);
   const auto [least, most] = *law_.sliding_share();
-  return {std::max(pivoting + least * sliding, sliding), pivoting + most * sliding};
+  const double least_sliding = least == 0 ? 0 : least * sliding;  // sliding may be infinite
+  return {std::max(pivoting + least_sliding, sliding), pivoting + most * sliding};
 }
 
 }  // namespace contensou::reduction

@@ -91,7 +91,7 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
         stepper.calc_state(middle, at);
         (passed(at) ? high : low) = middle;
       }
-      return high;
+      return low;
     };
 
     double end = interval.second;

@@ -26,7 +26,6 @@ using std::numbers::pi;
 constexpr double rounding = 1e-13;
 constexpr double difference_quotient = 1e-9;
 constexpr double stepping = 1e-10;
-constexpr double stepped_state = 3e-10;
 
 double relative(double value, double reference) {
   return value == reference ? 0.0 : std::abs(value - reference) / std::abs(reference);
@@ -120,7 +119,10 @@ class Examination {
   double log_ratio(const OrbitPoint& point) const { return point.ln_v - std::log(system_.mu() * std::abs(point.u)); }
 
   void first_integral(const Motion& regularised, const Motion& direct) {
-    // I = ln u - (ln w of the curve at k): constant along every solution.
+    // I = ln u - (ln w of the curve at k): constant along every solution. An error of ln k comes in by the curve's
+    // slope, which is at most that of k -> 0 and grows without bound as r -> Phi'(0)/Psi(0).
+    const double pivoting = system_.r() * system_.law().pivoting_moment();
+    const double steepest = pivoting / (system_.law().force_slope() - pivoting);
     const auto drift = [&](const Motion& motion) {
       const auto& curve = closed_ ? *closed_ : *quadrature_;
       const double at_start = std::log(std::abs(start_.u)) - curve.log_rim(orbit_.start_log_ratio());
@@ -130,10 +132,10 @@ class Examination {
         const double here = std::log(std::abs(point.u)) - curve.log_rim(log_ratio(point));
         worst = worse(std::abs(here - at_start), worst);
       }
-      return worst;
+      return worst / (1 + steepest);
     };
-    add("first integral along (2.7)", drift(regularised), stepped_state);
-    add("first integral along (2.6)", drift(direct), stepped_state);
+    add("first integral along (2.7)", drift(regularised), stepping);
+    add("first integral along (2.6)", drift(direct), stepping);
   }
 
   void times(const Motion& regularised) {
@@ -203,6 +205,11 @@ class Examination {
 }  // namespace
 
 std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts) {
+  constexpr double smallest_r = 1e-100;
+  if (system.r() < smallest_r) {
+    throw std::domain_error(fmt::format(
+        "verify: mu = {} is too small, the fields underflow; gamma mu^2/chi >= {} is needed", system.mu(), smallest_r));
+  }
   const auto quadrature = std::make_shared<QuadratureCurve>(system.law(), system.r());
   const auto closed = system.law().closed_curve(system.r());
   std::vector<Check> all;

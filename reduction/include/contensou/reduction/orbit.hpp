@@ -92,8 +92,9 @@ class Orbit {
   ReducedSystem system_;
   std::shared_ptr<const SimilarityCurve> curve_;
   double u0_, v0_;
-  int exponent_;  ///< speeds are divided by 2^exponent_ inside
-  double w_, v_;  ///< mu |u0| and v0, scaled
+  int exponent_;     ///< speeds are divided by 2^exponent_ inside
+  double w_, v_;     ///< mu |u0| and v0, scaled
+  double pivoting_;  ///< P, scaled
   double ln_k0_;
   double log_rim0_ = 0;
   double share0_ = 1;     ///< m(k0)

@@ -37,7 +37,8 @@ class ReducedSystem {
   double mu() const { return mu_; }
   Inertia inertia() const { return inertia_; }
 
-  /// r = gamma mu^2/chi, the one number that the shape of the motion depends on (README (R1)).
+  /// r = gamma mu^2/chi, the one number that the shape of the motion depends on (README (R1)); at least the
+  /// smallest normal double.
   double r() const { return r_; }
 
   /// ds/dtau of the scaled time s = chi f g t (README (R1)), in which dv/ds = -Phi, dw/ds = -r Psi, w = mu |u|.

@@ -19,7 +19,7 @@ struct Check {
 /// scaling generator on (2.6), (2.7) and dv/du, the separated equation, the first integral, beta against (2.8), both
 /// limits, the law's own bounds, and for the exact law its elementary orbit inside k = 1.
 ///
-/// @throws std::domain_error  if start is not a state or is at rest, or r is outside the regime k -> 0
+/// @throws std::domain_error  if start is not a state or is at rest, r is outside the regime k -> 0, or r < 1e-100
 std::vector<Check> verify(const ReducedSystem& system, State start);
 
 /// The same over several starts of one system: each row the worst of them.
