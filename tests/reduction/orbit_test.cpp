@@ -304,6 +304,19 @@ TEST_CASE("near the stop u is proportional to the time left", "[orbit][limit]") 
   }
 }
 
+TEST_CASE("close to the stop an instant is as good as its time left", "[orbit][limit]") {
+  for (const Law& law : named_laws()) {
+    const Orbit orbit(ReducedSystem(law, 0.3), {1, 0.5});
+    const double stop = orbit.stop_time();
+    for (double left : {0x1p-2, 0x1p-20, 0x1p-45}) {
+      const double tau = stop * (1 - left);  // stop - tau is exact
+      CAPTURE(law.name(), left);
+      CHECK(orbit.at_time(tau).u == orbit.at_time_left(stop - tau).u);
+      CHECK(orbit.at_time(tau).ln_v == orbit.at_time_left(stop - tau).ln_v);
+    }
+  }
+}
+
 TEST_CASE("the printed first integral is constant along the Pade orbit", "[orbit][invariant]") {
   for (double mu : {1e-3, 0.1, 0.7, 1.0}) {
     const double A = 8 * (14 - 5 * mu * mu);
@@ -426,6 +439,7 @@ TEST_CASE("an orbit is asked within its motion", "[orbit][domain]") {
     CHECK_THROWS_AS(orbit.at_time_left(bad), std::domain_error);
   }
   CHECK_THROWS_WITH(orbit.at_time(-2), Contains("Orbit::at_time") && Contains("-2"));
+  CHECK_THROWS_WITH(orbit.at_time(not_a_number), Contains("Orbit::at_time") && Contains("nan"));
   CHECK_THROWS_AS(orbit.at_time_left(orbit.stop_time() * 1.0001), std::domain_error);
   CHECK_THROWS_AS(orbit.at_log_ratio(orbit.start_log_ratio() + 1e-9), std::domain_error);
   CHECK_THROWS_AS(orbit.at_log_ratio(not_a_number), std::domain_error);

@@ -37,6 +37,7 @@ class LyingCurve final : public SimilarityCurve {
   LyingCurve(double r, CurveLie lie) : SimilarityCurve(r), truth_(r), lie_(std::move(lie)) {}
   double log_rim(double ln_k) const override { return lie_.log_rim(ln_k, truth_.log_rim(ln_k)); }
   double sliding_share(double ln_k) const override { return lie_.sliding_share(ln_k, truth_.sliding_share(ln_k)); }
+  double slip_excess(double ln_k) const override { return truth_.slip_excess(ln_k); }
   double regularised_age(double ln_k) const override {
     return lie_.regularised_age(ln_k, truth_.regularised_age(ln_k));
   }
@@ -298,7 +299,8 @@ TEST_CASE("not a number counts as failed", "[verification]") {
 
 TEST_CASE("rest, what is no state, and r >= 2 cannot be verified", "[verification][domain]") {
   const ReducedSystem system(PadeLaw{}, 0.3);
-  CHECK_THROWS_WITH(verify(system, State{0, 0}), Catch::Matchers::Contains("rest"));
+  CHECK_THROWS_WITH(verify(system, State{0, 0}),
+                    Catch::Matchers::Contains("verify") && Catch::Matchers::Contains("rest"));
   for (const State bad : {State{1, -1}, State{not_a_number, 1}, State{1, not_a_number}}) {
     CHECK_THROWS_AS(verify(system, bad), std::domain_error);
   }
