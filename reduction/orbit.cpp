@@ -1,6 +1,7 @@
 // Notation (README (R1) to (R7)): w = mu |u|, s = scaled time, and with the curve's ln w, m, b at k:
 //   s left    = w/(r Psi(0)) + v m                                (R4)
 //   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R5)
+//   slip left = v (v/2 + n w)                                     (R13)
 //   beta      = (3 pi/(2 chi)) (b/w - b0/w0)                      (R7)
 #include "contensou/reduction/orbit.hpp"
 
@@ -101,6 +102,7 @@ Orbit::Orbit(const ReducedSystem& system, State start, std::shared_ptr<const Sim
   ln_k0_ = log_ratio(v0_, system.mu(), std::abs(u0_), v_, w_);
   log_rim0_ = curve_->log_rim(ln_k0_);
   share0_ = curve_->sliding_share(ln_k0_);
+  slip0_ = slip_left(ln_k0_);
 }
 
 double Orbit::tau_of(double scaled) const { return std::ldexp(scaled / system_.scaled_time_rate(), exponent_); }
@@ -118,6 +120,12 @@ double Orbit::scaled_elapsed(double ln_k) const {
   const double change = rim_change(ln_k);
   const double v = v_ * std::exp(change + (ln_k - ln_k0_));
   return -pivoting_ * std::expm1(change) + (v_ * share0_ - v * curve_->sliding_share(ln_k));
+}
+
+double Orbit::slip_left(double ln_k) const {
+  const double change = rim_change(ln_k);
+  const double v = v_ * std::exp(change + (ln_k - ln_k0_));
+  return v * (v / 2 + curve_->slip_excess(ln_k) * (w_ * std::exp(change)));
 }
 
 double Orbit::scaled_left_slope(double ln_k) const {
@@ -193,9 +201,27 @@ OrbitPoint Orbit::at_time(double tau) const {
   const double stop = stop_time();
   if (tau >= stop) return rest(tau);
   if (on_axis()) return on_axis_at(tau, 1 - tau / stop);
-  if (tau == 0) return point(0, ln_k0_);
-  if (tau > stop / 2) return point(tau, log_ratio_at_left(scaled_of(stop - tau)));
-  return point(tau, log_ratio_at_elapsed(scaled_of(tau)));
+  return point(tau, log_ratio_at_time(tau));
+}
+
+double Orbit::log_ratio_at_time(double tau) const {
+  if (tau == 0) return ln_k0_;
+  const double stop = stop_time();
+  if (tau > stop / 2) return log_ratio_at_left(scaled_of(stop - tau));
+  return log_ratio_at_elapsed(scaled_of(tau));
+}
+
+double Orbit::slip_length(double tau) const {
+  if (!(tau >= 0)) throw std::domain_error(fmt::format("Orbit::slip_length: tau must be >= 0, got {}", tau));
+  const double stop = stop_time();
+  double slip = 0;
+  if (on_axis()) {
+    const double v = u0_ == 0 && tau < stop ? v_ * (1 - tau / stop) : 0;
+    slip = (v_ - v) * (v_ + v) / 2;
+  } else {
+    slip = slip0_ - (tau < stop ? slip_left(log_ratio_at_time(tau)) : 0);
+  }
+  return std::ldexp(slip / system_.scaled_time_rate(), 2 * exponent_);
 }
 
 OrbitPoint Orbit::at_time_left(double time_left) const {

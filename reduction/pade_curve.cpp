@@ -34,6 +34,28 @@ double log_gamma_1p(double t) { return std::log1p(boost::math::tgamma1pm1(t)); }
 /// (exp(s t) - 1)/s, also at s = 0.
 double expm1_over(double s, double t) { return s == 0 ? t : std::expm1(s * t) / s; }
 
+/// C of (R10).
+double connection(double a, double e) { return log_gamma_1p(a) - log_gamma_1p(a - e) + log_gamma_1p(-e); }
+
+/// 2F1(1, a - e + 1; a + 2; x), y = 1 - x > 0: the Taylor series, or (R10), the connection formula x -> y with its two
+/// poles 1/e taken together.
+double connected_gauss(double a, double e, double connection, double x, double y) {
+  const double b = a - e;
+  if (x <= 0.5) return gauss_series(b + 1, a + 2, x);
+  const double pole = -std::expm1(e * std::log(y) + connection) / e;
+  double sum = 0;
+  double power = 1;
+  double rising = 1;  // (a + 1)_n/n!
+  double regular = 0;
+  for (int n = 0; n < terms; ++n) {
+    sum += power * (regular + rising * pole);
+    regular = regular * ((b + 1 + n) / (1 - e + n)) + rising * a / ((1 - e + n) * (1 + n));
+    rising *= (a + 1 + n) / (1 + n);
+    power *= y;
+  }
+  return (a + 1) * sum;
+}
+
 struct Fractions {
   double x, y;
   double ln_x, ln_y;
@@ -56,13 +78,12 @@ PadeCurve::PadeCurve(double r)
       a_(r / (2 - r)),
       e_(r / (5 - r)),
       log_ratio_(std::log(B_ / A_)),
-      connection_(0),
-      half_age_(0) {
+      time_connection_(connection(a_, e_)),
+      slip_connection_(connection(2 * a_, 2 * e_)),
+      half_age_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)) {
   if (!(r > 0 && r <= largest_r)) {
     throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", largest_r, r));
   }
-  connection_ = log_gamma_1p(a_) - log_gamma_1p(b()) + log_gamma_1p(-e_);
-  half_age_ = std::exp2(b()) * 0.5 / (e_ + 1) * gauss_series(1 - b(), e_ + 2, 0.5);
 }
 
 double PadeCurve::log_rim(double ln_k) const {
@@ -77,21 +98,13 @@ double PadeCurve::sliding_share(double ln_k) const {
 
 double PadeCurve::sliding_share_at(double x, double y) const {
   if (y == 0) return 1;
-  if (x <= 0.5) return 1 + 1.5 * y * gauss_series(b() + 1, a_ + 2, x);
+  return 1 + 1.5 * y * connected_gauss(a_, e_, time_connection_, x, y);
+}
 
-  // (R10): the connection formula x -> y with its two 1/e poles taken together.
-  const double pole = -std::expm1(e_ * std::log(y) + connection_) / e_;
-  double sum = 0;
-  double power = 1;
-  double rising = 1;  // (a + 1)_n/n!
-  double regular = 0;
-  for (int n = 0; n < terms; ++n) {
-    sum += power * (regular + rising * pole);
-    regular = regular * ((b() + 1 + n) / (1 - e_ + n)) + rising * a_ / ((1 - e_ + n) * (1 + n));
-    rising *= (a_ + 1 + n) / (1 + n);
-    power *= y;
-  }
-  return 1 + 1.5 * y * (a_ + 1) * sum;
+double PadeCurve::slip_excess(double ln_k) const {
+  const auto at = fractions(ln_k + log_ratio_);
+  const double tail = at.y == 0 ? 0 : at.y * connected_gauss(2 * a_, 2 * e_, slip_connection_, at.x, at.y);
+  return 8 / (3 * pi) * (1 - r() / (5 + r()) * (1 + 3 / (2 + r()) * tail));
 }
 
 double PadeCurve::regularised_age(double ln_k) const {

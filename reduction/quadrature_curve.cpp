@@ -1,6 +1,7 @@
 // Notation (README (R1) to (R7)): w = mu |u|, k = v/w, D = Phi - r k Psi,
 //   h = d ln w/d ln k = r k Psi/D                          (R2)
 //   k m w = integral over (0, k) of  w (1 - Psi/Psi(0))/D dk            (R4)
+//   n k w^2 = integral over (0, k) of  w^2 k (1 - Phi)/D dk             (R13)
 //   b/w   = integral over (k, infinity) of  dk/(w D (16 + 15 pi k)(8 + 3 pi k))   (R7)
 // In the variable ln k each integrand gains a factor k.
 #include "contensou/reduction/quadrature_curve.hpp"
@@ -29,11 +30,12 @@ constexpr double panel_tolerance = 1e-15;
 constexpr int deepest_split = 40;
 constexpr std::size_t most_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
 
-/// The three integrands at one k; D and Psi are taken relative to max(1, k) so that nothing overflows.
+/// The integrands at one k.
 struct Integrands {
   double rim_slope;     ///< h
   double deficit_rate;  ///< (1 - Psi/Psi(0))/D: k (k m)' without the decay of w
   double largest_rate;  ///< 1/D: the same for a deficit of 1
+  double slip_rate;     ///< (1 - Phi)/D
   double age_rate;      ///< k/(D (16 + 15 pi k)(8 + 3 pi k))
 };
 
@@ -49,7 +51,7 @@ Integrands integrands(const Law& law, double r, double ln_k) {
                     "k = {}: this r = {} is beyond the regime in which k -> 0",
                     law.name(), force, drag, k, r));
   }
-  return {drag / difference, law.moment_deficit(slip) / difference, 1 / difference,
+  return {drag / difference, law.moment_deficit(slip) / difference, 1 / difference, (1 - force) / difference,
           k / (difference * (16 + 15 * pi * k) * (8 + 3 * pi * k))};
 }
 
@@ -60,9 +62,11 @@ struct QuadratureCurve::Panel {
   double right;
   Samples rim_slope;
   Samples deficit_rate;
+  Samples slip_rate;
   Samples age_rate;
   LegendreSeries log_rim;
   LegendreSeries sliding_share;
+  LegendreSeries slip_excess;
   LegendreSeries regularised_age;
 
   double half() const { return (right - left) / 2; }
@@ -88,25 +92,28 @@ QuadratureCurve::QuadratureCurve(const Law& law, double r) : SimilarityCurve(r) 
 }
 
 void QuadratureCurve::split(const Law& law, double left, double right, int depth) {
-  Panel panel{left, right, {}, {}, {}, {}, {}, {}};
+  Panel panel{};
+  panel.left = left;
+  panel.right = right;
   double largest_rate = 0;
   for (int i = 0; i < LegendreSeries::order; ++i) {
     const Integrands at = integrands(law, r(), panel.ln_k(LegendreSeries::points()[i]));
     panel.rim_slope[i] = at.rim_slope;
     panel.deficit_rate[i] = at.deficit_rate;
     largest_rate = std::max(largest_rate, at.largest_rate);
+    panel.slip_rate[i] = at.slip_rate;
     panel.age_rate[i] = at.age_rate;
   }
   evaluations_ += LegendreSeries::order;
 
-  // What a panel leaves out of the integrals, relative to a panel of full width. The deficit counts relative to 1: a
-  // law without moment_deficit has it to eps of 1 only, and the time left, P + m S, feels no more.
+  // What a panel leaves out of the integrals, relative to a panel of full width. 1 - Psi/Psi(0) and 1 - Phi
+  // count relative to 1: a law may have them to eps of 1 only, and the time left, P + m S, feels no more.
   const auto left_out = [&](const Samples& samples, double size) {
     return size > 0 ? LegendreSeries::through(samples).tail() / size * (right - left) : 0.0;
   };
   const double worst =
       std::max({left_out(panel.rim_slope, panel.rim_slope.abs().maxCoeff()), left_out(panel.deficit_rate, largest_rate),
-                left_out(panel.age_rate, panel.age_rate.abs().maxCoeff())});
+                left_out(panel.slip_rate, largest_rate), left_out(panel.age_rate, panel.age_rate.abs().maxCoeff())});
   if (worst <= panel_tolerance || depth == deepest_split || panels_.size() >= most_panels) {
     truncation_ = std::max(truncation_, worst);
     panels_.push_back(std::move(panel));
@@ -121,6 +128,9 @@ void QuadratureCurve::integrate_forwards() {
   double log_rim = 0;
   // Below the first panel the deficit is k to some power >= 1; the first power makes this exact, others negligible.
   double excess = panels_.front().deficit_rate[0] * std::exp(lowest_ln_k) / (1 + lower_slope_);  // k m
+  // There slip_rate is 1/(k (Phi'(0) - r Psi(0))).
+  const double first_k = std::exp(panels_.front().ln_k(LegendreSeries::points()[0]));
+  double slip = panels_.front().slip_rate[0] * first_k * std::exp(lowest_ln_k) / (1 + 2 * lower_slope_);  // k n
   for (Panel& panel : panels_) {
     panel.log_rim = LegendreSeries::through(panel.rim_slope).antiderivative();
     panel.log_rim *= panel.half();
@@ -130,8 +140,14 @@ void QuadratureCurve::integrate_forwards() {
     LegendreSeries gain = LegendreSeries::through(growth * k * panel.deficit_rate).antiderivative();
     gain *= panel.half();
     panel.sliding_share = LegendreSeries::through((excess + gain.samples()) / (growth * k));
-    excess = (excess + gain(1)) / std::exp(panel.log_rim(1));
 
+    LegendreSeries length = LegendreSeries::through((growth * k).square() * panel.slip_rate).antiderivative();
+    length *= panel.half();
+    panel.slip_excess = LegendreSeries::through((slip + length.samples()) / (growth.square() * k));
+
+    const double whole_growth = std::exp(panel.log_rim(1));
+    excess = (excess + gain(1)) / whole_growth;
+    slip = (slip + length(1)) / (whole_growth * whole_growth);
     panel.log_rim += log_rim;
     log_rim = panel.log_rim(1);
   }
@@ -166,6 +182,12 @@ double QuadratureCurve::sliding_share(double ln_k) const {
   if (ln_k > highest_ln_k) return 1;
   const Panel* panel = find(ln_k);
   return panel->sliding_share(panel->t(std::max<double>(ln_k, lowest_ln_k)));
+}
+
+double QuadratureCurve::slip_excess(double ln_k) const {
+  const double inside = std::clamp<double>(ln_k, lowest_ln_k, highest_ln_k);
+  const Panel* panel = find(inside);
+  return panel->slip_excess(panel->t(inside));
 }
 
 double QuadratureCurve::regularised_age(double ln_k) const {

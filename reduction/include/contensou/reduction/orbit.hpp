@@ -63,6 +63,11 @@ class Orbit {
   /// @throws std::domain_error  on an axis, or if ln_k is above the start's
   OrbitPoint at_log_ratio(double ln_k) const;
 
+  /// The integral of v over [0, tau] in the unit of speed squared: the length of slip where tau is turned into a time.
+  /// Past the stop, the whole of it.
+  /// @throws std::domain_error  as at_time
+  double slip_length(double tau) const;
+
   /// ln k at the start; +inf for u0 = 0, -inf for v0 = 0.
   double start_log_ratio() const { return ln_k0_; }
 
@@ -81,9 +86,11 @@ class Orbit {
   double beta(double ln_k, double rim_change, double v) const;
 
   double rim_change(double ln_k) const { return curve_->log_rim(ln_k) - log_rim0_; }
+  double slip_left(double ln_k) const;
   double scaled_elapsed(double ln_k) const;
   double scaled_left(double ln_k) const;
   double scaled_left_slope(double ln_k) const;
+  double log_ratio_at_time(double tau) const;
   double log_ratio_at_elapsed(double elapsed) const;
   double log_ratio_at_left(double left) const;
   double tau_of(double scaled) const;
@@ -97,6 +104,7 @@ class Orbit {
   double pivoting_;  ///< P, scaled
   double ln_k0_;
   double log_rim0_ = 0;
+  double slip0_ = 0;      ///< integral of v ds until the stop, scaled
   double share0_ = 1;     ///< m(k0)
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };

@@ -6,8 +6,9 @@ namespace contensou::reduction {
 
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
-/// Source    README (R8) orbit, (R9) and (R10) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time.
-/// Accuracy  sliding_share and regularised_age about 5 eps relative, log_rim eps (|ln_rim| + r) absolute.
+/// Source    README (R8) orbit, (R9) and (R10) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time,
+/// (R14) slip. Accuracy  sliding_share, slip_excess and regularised_age about 5 eps relative, log_rim eps (|ln_rim| +
+/// r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
   /// Largest r of the closed form: the connection formula (R10) loses digits as r -> 2. A ball has r <= 5/7.
@@ -18,6 +19,7 @@ class PadeCurve final : public SimilarityCurve {
 
   double log_rim(double ln_k) const override;
   double sliding_share(double ln_k) const override;
+  double slip_excess(double ln_k) const override;
   double regularised_age(double ln_k) const override;
 
   /// m from x = B k/(A + B k) and y = 1 - x, each given to full accuracy: for a caller who has no need of ln k.
@@ -31,9 +33,10 @@ class PadeCurve final : public SimilarityCurve {
 
  private:
   double A_, B_, a_, e_;
-  double log_ratio_;   ///< ln(B/A)
-  double connection_;  ///< e L of (R10)
-  double half_age_;    ///< the integral of (R11) over [1/2, 1]
+  double log_ratio_;        ///< ln(B/A)
+  double time_connection_;  ///< C of (R10)
+  double slip_connection_;  ///< the same for (R14)
+  double half_age_;         ///< the integral of (R11) over [1/2, 1]
 };
 
 }  // namespace contensou::reduction

@@ -10,10 +10,10 @@ namespace contensou::reduction {
 
 /// The similarity curve of any friction law, by quadrature of the separated equation.
 ///
-/// The nested integrals (R2), (R4), (R7) are done panel by panel in ln k: on each, the integrands are sampled at Gauss
-/// points (Boost.Math) and their Legendre series integrated term by term, so that the inner integral is known wherever
-/// the outer one needs it. Panels meet at k = 1 and are halved until the series has converged. Outside k = 4e-18 ..
-/// 1e19 the limits hold to the last bit.
+/// The nested integrals (R2), (R4), (R7), (R13) are done panel by panel in ln k: on each, the integrands are sampled at
+/// Gauss points (Boost.Math) and their Legendre series integrated term by term, so that the inner integral is known
+/// wherever the outer one needs it. Panels meet at k = 1 and are halved until the series has converged. Outside k =
+/// 4e-18 .. 1e19 the limits hold to the last bit.
 ///
 /// Accuracy  1e-13 or better for a law that is smooth on either side of k = 1 (measured: tests/reference/README.md).
 /// Cost      about 5000 evaluations of the law, once; then some 30 ns for each value. Noise in the law costs up to a
@@ -27,6 +27,7 @@ class QuadratureCurve final : public SimilarityCurve {
 
   double log_rim(double ln_k) const override;
   double sliding_share(double ln_k) const override;
+  double slip_excess(double ln_k) const override;
   double regularised_age(double ln_k) const override;
 
   /// Estimate of the relative error of sliding_share from the last terms of the series; rounding is not in it.
