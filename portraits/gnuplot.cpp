@@ -64,14 +64,15 @@ std::string terminal(const Figure& figure, PictureFormat format) {
                      width * pixels_per_mm, height * pixels_per_mm);
 }
 
-/// Text between double quotes; a backslash stays one.
+/// Text as a gnuplot string: between single quotes nothing is run and only the quote itself is special. Control
+/// characters would end the line.
 std::string quoted(const std::string& text) {
-  std::string result = "\"";
+  std::string result = "'";
   for (char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
+    if (c == '\'') result += '\'';
+    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
-  return result + '"';
+  return result + '\'';
 }
 
 std::string colour(Colour colour) { return fmt::format("rgb '#{:06x}'", colour.rgb); }
@@ -219,7 +220,12 @@ std::string script(const Figure& figure, PictureFormat format) {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "contensou-XXXXXX").string();
+    std::error_code error;
+    const auto parent = std::filesystem::temp_directory_path(error);
+    if (error) {
+      throw GnuplotError(fmt::format("no temporary folder for gnuplot: {}; set TMPDIR to one", error.message()));
+    }
+    std::string pattern = (parent / "contensou-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) {
       throw GnuplotError(fmt::format("cannot make a temporary folder {}: {}", pattern, std::strerror(errno)));
     }
@@ -251,6 +257,35 @@ std::string first_lines(const std::string& text, int count) {
     --count;
   }
   return result;
+}
+
+std::string_view name(PictureFormat format) {
+  return std::ranges::find(formats, format, &std::pair<std::string_view, PictureFormat>::second)->first;
+}
+
+/// Whether the bytes begin as a file of the format does.
+bool is_picture(std::string_view bytes, PictureFormat format) {
+  switch (format) {
+    case PictureFormat::svg:
+      return bytes.starts_with("<?xml") && bytes.find("</svg>") != std::string_view::npos;
+    case PictureFormat::pdf:
+      return bytes.starts_with("%PDF");
+    case PictureFormat::png:
+      return bytes.starts_with("\x89PNG");
+    case PictureFormat::gp:
+      break;
+  }
+  return true;
+}
+
+int run(const boost::filesystem::path& gnuplot, const std::filesystem::path& script,
+        const std::filesystem::path& picture, const std::filesystem::path& messages) {
+  try {
+    return process::system(gnuplot, script.string(), process::std_out > picture.string(),
+                           process::std_err > messages.string());
+  } catch (const process::process_error& error) {
+    throw GnuplotError(fmt::format("gnuplot ({}) cannot be started: {}", gnuplot.string(), error.what()));
+  }
 }
 
 /// Italics cut a text into pieces, at whose ends some SVG viewers drop spaces unless told to keep them.
@@ -292,16 +327,14 @@ std::string render(const Figure& figure, PictureFormat format) {
     if (!stream.flush()) throw GnuplotError(fmt::format("cannot write the gnuplot script {}", script_path.string()));
   }
 
-  const int status = process::system(gnuplot, script_path.string(), process::std_out > picture_path.string(),
-                                     process::std_err > message_path.string());
-  const std::string messages = read_file(message_path);
+  const int status = run(gnuplot, script_path, picture_path, message_path);
+  const std::string messages = first_lines(read_file(message_path), 4);
   if (status != 0) {
-    throw GnuplotError(
-        fmt::format("gnuplot ({}) ended with status {}{}", gnuplot.string(), status, first_lines(messages, 4)));
+    throw GnuplotError(fmt::format("gnuplot ({}) ended with status {}{}", gnuplot.string(), status, messages));
   }
   std::string picture = read_file(picture_path);
-  if (picture.empty()) {
-    throw GnuplotError(fmt::format("gnuplot ({}) drew nothing{}", gnuplot.string(), first_lines(messages, 4)));
+  if (!is_picture(picture, format)) {
+    throw GnuplotError(fmt::format("gnuplot ({}) drew nothing that is {}{}", gnuplot.string(), name(format), messages));
   }
   return format == PictureFormat::svg ? with_spaces(std::move(picture)) : picture;
 }

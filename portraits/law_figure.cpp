@@ -35,10 +35,10 @@ Figure law_figure(const std::vector<reduction::Law>& laws) {
     const double width = dashed ? 1.6 : 2.4;
     panel.lines.push_back({{curve(law, &reduction::Resistance::force)},
                            {force_colour, width, dashed},
-                           fmt::format("{{/:Italic Φ}}, {} law", law.name())});
+                           fmt::format("{{/:Italic Φ}}, {} law", literal(law.name()))});
     panel.lines.push_back({{curve(law, &reduction::Resistance::moment)},
                            {moment_colour, width, dashed},
-                           fmt::format("{{/:Italic Ψ}}, {} law", law.name())});
+                           fmt::format("{{/:Italic Ψ}}, {} law", literal(law.name()))});
   }
   panel.labels = {
       {{2.9, 0.9}, "force  {/:Italic Φ = F}/({/:Italic N f})", force_colour, Label::Align::centre},

@@ -144,11 +144,12 @@ class Painter {
     if (start.u != 0 && start.v != 0) {
       // While sliding is seen, by k, in steps that neither speed shows on paper; then by time, in which u falls evenly.
       constexpr double share_of_window = 0.02;
+      constexpr double invisible = 1e-6;
       const double fastest = system_.r() * system_.law().pivoting_moment() /
                              (system_.law().force_slope() - system_.r() * system_.law().pivoting_moment());
       double ln_k = orbit.start_log_ratio();
       OrbitPoint point = orbit.at_log_ratio(ln_k);
-      while (ln_k > -14 && track.points.size() < 2000) {
+      while (point.v > invisible * window_.v && track.points.size() < 2000) {
         track.points.push_back(point);
         const double step = share_of_window * std::min(window_.v / point.v, window_.u / (fastest * std::abs(point.u)));
         ln_k -= std::clamp(step, share_of_window, 0.4);
@@ -251,9 +252,13 @@ PhasePortrait phase_portrait(const ReducedSystem& system, const PortraitRequest&
   }
   if (request.highlight) reduction::require_state("phase_portrait", *request.highlight);
   const Window window = request.window.value_or(default_window(system, request.highlight));
-  if (!(window.u > 0 && window.v > 0 && std::isfinite(window.u) && std::isfinite(window.v))) {
-    throw std::domain_error(
-        fmt::format("phase_portrait: the window must be positive and finite, got {} by {}", window.u, window.v));
+  // Stop times and squares of speeds across the window must be doubles.
+  constexpr double smallest = 1e-150;
+  const auto reasonable = [](double side) { return side >= smallest && side <= 1 / smallest; };
+  if (!reasonable(window.u) || !reasonable(window.v)) {
+    throw std::domain_error(fmt::format(
+        "phase_portrait: the sides of the window must be between {} and {}, got {} by {}: use another unit of speed",
+        smallest, 1 / smallest, window.u, window.v));
   }
   const Painter painter(system, window, request);
   const double pivoting = system.r() * system.law().pivoting_moment();

@@ -186,7 +186,7 @@ Panel contact_panel(const PhasePortrait& portrait, const PortraitCaption& captio
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption) {
   Figure figure;
   figure.title = caption.title.empty() ? fmt::format("Sliding and spinning ball,  {{/:Italic μ}} = {},  law: {}",
-                                                     number(portrait.mu), portrait.law)
+                                                     number(portrait.mu), literal(portrait.law))
                                        : caption.title;
   figure.subtitle = caption.subtitle.empty()
                         ? "every orbit runs from the border to the stop at the origin; both axes are invariant"

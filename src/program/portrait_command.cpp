@@ -91,7 +91,9 @@ class PortraitCommand final : public Command {
   std::string read_format(const std::string& path) const {
     const std::string by_ending = ending(path);
     if (!format_.given()) return path == "-" ? "svg" : by_ending;
-    if (path != "-" && !by_ending.empty() && by_ending != format_.text()) {
+    const bool ending_is_format =
+        portraits::find_picture_format(by_ending) || by_ending == "csv" || by_ending == "json";
+    if (ending_is_format && by_ending != format_.text()) {
       format_.reject(fmt::format("the file {} says otherwise: leave out one of them", path));
     }
     return format_.text();
@@ -108,8 +110,8 @@ class PortraitCommand final : public Command {
       return caption;
     }
     const si::Shot& shot = *given.shot;
-    caption.title =
-        fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", shot.ball.name, system.mu(), system.law().name());
+    caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot.ball.name),
+                                system.mu(), portraits::literal(system.law().name()));
     caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", shot.start.slip,
                                    shot.start.spin, si::seconds(shot, stop));
     caption.speed_unit = "m/s";

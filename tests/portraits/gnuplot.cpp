@@ -46,6 +46,11 @@ class Sandbox {
     std::ofstream(file) << "#!/bin/sh\n" << body << "\n";
     fs::permissions(file, fs::perms::owner_all);
   }
+  void not_a_program() const {
+    const fs::path file = folder_ / "bin" / "gnuplot";
+    std::ofstream(file, std::ios::binary) << "\x7f no program";
+    fs::permissions(file, fs::perms::owner_all);
+  }
   bool left_nothing() const { return fs::is_empty(folder_ / "tmp"); }
 
  private:
@@ -103,7 +108,39 @@ TEST_CASE("A failing gnuplot is an error with its words", "[domain]") {
   CHECK_THROWS_AS(portraits::render(sample(), PictureFormat::png), portraits::GnuplotError);
   sandbox.fake_gnuplot("exit 0");
   CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::png), Catch::Contains("drew nothing"));
+  sandbox.fake_gnuplot("echo picture");
+  for (PictureFormat format : {PictureFormat::svg, PictureFormat::pdf, PictureFormat::png}) {
+    CHECK_THROWS_WITH(portraits::render(sample(), format), Catch::Contains("drew nothing"));
+  }
+  sandbox.not_a_program();
+  CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::png),
+                    Catch::Contains("gnuplot (") && Catch::Contains("cannot be started"));
   CHECK(sandbox.left_nothing());
+}
+
+TEST_CASE("A missing temporary folder is named", "[domain]") {
+  const Sandbox sandbox;
+  sandbox.fake_gnuplot("exit 0");
+  setenv("TMPDIR", "/does/not/exist", 1);
+  CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::svg), Catch::Contains("TMPDIR"));
+}
+
+TEST_CASE("Text is data: nothing in it is run, and it cannot end its line", "[domain]") {
+  portraits::Figure figure = sample();
+  figure.title = "a`touch pwned`b\n!touch pwned\nquote ' and \" $(touch pwned)";
+  const std::string script = portraits::gnuplot_script(figure);
+  CHECK(script.find("\n!") == std::string::npos);
+  CHECK(script.find("'a`touch pwned`b !touch pwned quote '' and \" $(touch pwned)'") != std::string::npos);
+
+  std::string folder = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
+  REQUIRE(mkdtemp(folder.data()) != nullptr);
+  const fs::path here = fs::current_path();
+  fs::current_path(folder);
+  const std::string svg = portraits::render(figure, PictureFormat::svg);
+  fs::current_path(here);
+  CHECK(fs::is_empty(folder));
+  fs::remove_all(folder);
+  CHECK(svg.find("a`touch pwned`b !touch pwned quote ' and") != std::string::npos);
 }
 
 TEST_CASE("gnuplot draws each format", "[table]") {

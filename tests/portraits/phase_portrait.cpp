@@ -197,7 +197,7 @@ TEST_CASE("A window that is given is kept; a highlighted start lies in the windo
   CHECK(portrait.window.u == 2);
   CHECK(portrait.window.v == 0.5);
   for (const reduction::State& start :
-       {reduction::State{-3, 0.2}, reduction::State{0, 2}, reduction::State{5, 0}, reduction::State{1e-200, 1e200}}) {
+       {reduction::State{-3, 0.2}, reduction::State{0, 2}, reduction::State{5, 0}, reduction::State{1e-140, 1e140}}) {
     CAPTURE(start.u, start.v);
     portraits::PortraitRequest of_start;
     of_start.highlight = start;
@@ -217,13 +217,38 @@ TEST_CASE("Rest as a highlight is no motion and nothing is highlighted", "[limit
   CHECK_FALSE(portraits::phase_portrait({reduction::PadeLaw{}, 0.3}, request).highlight);
 }
 
+TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[invariant]") {
+  for (const portraits::Window window : {portraits::Window{1e5, 1e-5}, portraits::Window{1, 1e-12},
+                                         portraits::Window{1e-5, 1e5}, portraits::Window{1, 1}}) {
+    for (double mu : {0.01, 0.3, 1.0}) {
+      CAPTURE(mu, window.u, window.v);
+      portraits::PortraitRequest request;
+      request.window = window;
+      const PhasePortrait portrait = portraits::phase_portrait({reduction::HertzLaw{}, mu}, request);
+      double sharpest = 0;
+      for (const PortraitOrbit& orbit : portrait.orbits) {
+        for (Eigen::Index i = 1; i + 1 < orbit.u.size(); ++i) {
+          const double before = paper_distance(portrait, orbit, i, i - 1);
+          const double after = paper_distance(portrait, orbit, i + 1, i);
+          const double chord = paper_distance(portrait, orbit, i + 1, i - 1);
+          if (std::min(before, after) < 0.01) continue;  // too short to be seen as a corner
+          const double cosine = (before * before + after * after - chord * chord) / (2 * before * after);
+          sharpest = std::max(sharpest, std::acos(-1) - std::acos(std::clamp(cosine, -1.0, 1.0)));
+        }
+      }
+      CHECK(sharpest < 0.5);
+    }
+  }
+}
+
 TEST_CASE("What cannot be drawn is rejected", "[domain]") {
   const ReducedSystem system(reduction::PadeLaw{}, 0.3);
   portraits::PortraitRequest request;
   request.route = Route::direct;
   CHECK_THROWS_AS(portraits::phase_portrait(system, request), std::domain_error);
   for (const portraits::Window window :
-       {portraits::Window{0, 1}, portraits::Window{1, -1}, portraits::Window{NAN, 1}, portraits::Window{1, INFINITY}}) {
+       {portraits::Window{0, 1}, portraits::Window{1, -1}, portraits::Window{NAN, 1}, portraits::Window{1, INFINITY},
+        portraits::Window{1e308, 1e308}, portraits::Window{1e-320, 1}}) {
     portraits::PortraitRequest bad;
     bad.window = window;
     CHECK_THROWS_AS(portraits::phase_portrait(system, bad), std::domain_error);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace contensou::portraits {
@@ -92,5 +94,9 @@ struct Figure {
   double height_mm = 120;
   std::vector<Panel> panels;
 };
+
+/// A text of somebody else's, such as a name, as a figure's text that shows just these characters; cut with an ellipsis
+/// after the given number of them.
+std::string literal(std::string_view text, std::size_t longest = 60);
 
 }  // namespace contensou::portraits
