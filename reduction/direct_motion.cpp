@@ -54,7 +54,6 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
-  if (report.every_step()) report.add(here);
   // The age grows without bound towards the stop: its logarithm, shifted to start at 0, is of the size of the others.
   const double speed = 16 * std::exp(here.ln_w) + 15 * pi * std::exp(here.ln_v);
   const double age_unit = 1 / speed;

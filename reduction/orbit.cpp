@@ -177,6 +177,7 @@ OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
 }
 
 OrbitPoint Orbit::point(double tau, double ln_k) const {
+  if (ln_k == ln_k0_) return {tau, u0_, v0_, std::log(v0_), v_ / w_, 0};
   const double change = rim_change(ln_k);
   const double ln_v = std::log(v0_) + (change + (ln_k - ln_k0_));
   const double v = v0_ * std::exp(change + (ln_k - ln_k0_));
@@ -184,7 +185,6 @@ OrbitPoint Orbit::point(double tau, double ln_k) const {
 }
 
 double Orbit::beta(double ln_k, double change, double v) const {
-  if (ln_k == ln_k0_) return 0;
   const double w0 = system_.mu() * std::abs(u0_);
   if (ln_k0_ < faint_ln_k) {
     const double age = curve_->regularised_age(ln_k) * std::exp(-change) - curve_->regularised_age(ln_k0_);

@@ -79,7 +79,9 @@ Bounds ReducedSystem::stop_time_bounds(State start) const {
   const double pivoting = pivoting_limit(start.u);
   const auto [least, most] = *law_.sliding_share();
   const double least_sliding = least == 0 ? 0 : least * sliding;  // sliding may be infinite
-  return {std::max(pivoting + least_sliding, sliding), pivoting + most * sliding};
+  // Outwards by the rounding of these sums and of the stop time itself, so that it is never outside.
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  return {std::max(pivoting + least_sliding, sliding) * (1 - rounding), (pivoting + most * sliding) * (1 + rounding)};
 }
 
 }  // namespace contensou::reduction

@@ -54,7 +54,6 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
-  if (report.every_step()) report.add(here);
   RegularisedEquations equations{system, report.time_scale()};
   const auto log_state = [&](const Values& x, double beta) {
     return LogState{x[0], x[1], x[2] * report.time_scale(), beta};

@@ -38,6 +38,12 @@ StepperReport::StepperReport(const char* caller, const ReducedSystem& system, St
   const double unit = exponent_ * std::log(2.0);
   start_ = {std::log(mu_) + std::log(std::abs(start.u)) - unit, std::log(start.v) - unit, 0, 0};
   time_scale_ = std::exp(start_.ln_w) / (system.r() * system.law().pivoting_moment()) + std::exp(start_.ln_v);
+
+  // As it was given, not by way of its logarithms.
+  const double k = given_.u == 0 ? infinity : given_.v / (mu_ * std::abs(given_.u));
+  const OrbitPoint at_start{0, given_.u, given_.v, std::log(given_.v), k, 0};
+  if (every_step_) points_.push_back(at_start);
+  while (points_.size() < times_.size() && times_[points_.size()] == 0) points_.push_back(at_start);
 }
 
 double StepperReport::next_time() const {
@@ -88,7 +94,10 @@ Motion StepperReport::finish(const StopLimit& tail, long steps, long evaluations
   return close(stop_time, steps, evaluations, Outcome{});
 }
 
-Motion StepperReport::finish_at_rest() { return close(0, 0, 0, Outcome{}); }
+Motion StepperReport::finish_at_rest() {
+  points_.clear();
+  return close(0, 0, 0, Outcome{});
+}
 
 Motion StepperReport::fail(Outcome::Kind kind, long steps, long evaluations) {
   const char* why = kind == Outcome::Kind::step_limit ? "the step limit was reached before the stop"

@@ -15,7 +15,7 @@ class StepperReport {
   /// @throws std::domain_error  if start is not a state, or times are negative, not finite or decreasing
   StepperReport(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times);
 
-  /// The start, speeds in the report's unit; -inf for a speed of 0.
+  /// The start, speeds in the report's unit; -inf for a speed of 0. It is reported already where it was asked for.
   const LogState& start() const { return start_; }
 
   /// An upper estimate of the whole scaled time, the unit of its error.

@@ -34,10 +34,13 @@ double relative(double value, double reference) {
 /// The larger measure of two; not a number wins, so that it is never lost.
 double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// The start in a unit of speed in which neither squares nor sums overflow; exact.
+/// The start in a unit of speed in which neither squares nor sums overflow; exact. A speed that is 1e-200 of the other
+/// is not felt and counts as 0: the start is then checked as one on the axis.
 State normalised(State start) {
+  constexpr double faint = 1e-200;
   const int exponent = std::ilogb(std::max(std::abs(start.u), start.v));
-  return {std::ldexp(start.u, -exponent), std::ldexp(start.v, -exponent)};
+  const State scaled{std::ldexp(start.u, -exponent), std::ldexp(start.v, -exponent)};
+  return {std::abs(scaled.u) < faint ? 0 : scaled.u, scaled.v < faint ? 0 : scaled.v};
 }
 
 /// The checks of one start, made one after the other.
@@ -94,11 +97,9 @@ class Examination {
   }
 
   void separated_equation() {
-    // The change of p = ln v over one unit of ln q, below the start and around k = 1, where q is a double.
-    constexpr double largest = 600;
-    if (orbit_.start_log_ratio() < -largest) return;
+    // The change of p = ln v over one unit of ln q, below the start and around k = 1.
     double worst = 0;
-    for (double top : {std::min(orbit_.start_log_ratio(), largest), std::min(orbit_.start_log_ratio(), 0.5)}) {
+    for (double top : {orbit_.start_log_ratio(), std::min(orbit_.start_log_ratio(), 0.5)}) {
       const double bottom = top - 1;
       const double sign = std::copysign(1.0, start_.u);
       const auto slope = [&](double ln_k) {

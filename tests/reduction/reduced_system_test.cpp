@@ -90,9 +90,9 @@ TEST_CASE("the bounds enclose every stop time of the tables", "[reduced_system][
     const auto [lower, upper] = system.stop_time_bounds({row.input("u0"), row.input("v0")});
     const auto tau = static_cast<double>(row.result("tau_stop"));
     CAPTURE(system.law().name(), row.where(), lower, tau, upper);
-    CHECK(lower <= tau * (1 + 1e-15));
-    CHECK(tau <= upper * (1 + 1e-15));
-    CHECK(upper <= lower * 2.5 * (1 + 1e-15));
+    CHECK(lower <= tau);
+    CHECK(tau <= upper);
+    CHECK(upper <= lower * 2.5 * (1 + 1e-14));
   };
   for (const ReferenceRow& row : reference_table("stop_pade")) {
     enclosed(ReducedSystem(PadeLaw{}, row.input("mu")), row);
@@ -111,12 +111,12 @@ TEST_CASE("the bounds are those of theory: S + P and (15 pi/14) v0, or max(S, P)
   const ReducedSystem pade(PadeLaw{}, 0.1);
   const double sliding = 3 * pi * 2 / 7;
   const double pivoting = 16 * 0.5 / 0.5;
-  CHECK(pade.stop_time_bounds(start).lower == Approx(sliding + pivoting).epsilon(1e-15));
-  CHECK(pade.stop_time_bounds(start).upper == Approx(pivoting + 15 * pi / 14 * 2).epsilon(1e-15));
+  CHECK(pade.stop_time_bounds(start).lower == Approx(sliding + pivoting).epsilon(4e-15));
+  CHECK(pade.stop_time_bounds(start).upper == Approx(pivoting + 15 * pi / 14 * 2).epsilon(4e-15));
   const ReducedSystem exact(HertzLaw{}, 0.1);
-  CHECK(exact.stop_time_bounds(start).lower == Approx(pivoting).epsilon(1e-15));
-  CHECK(exact.stop_time_bounds(start).upper == Approx(sliding + pivoting).epsilon(1e-15));
-  CHECK(exact.stop_time_bounds({0, 2}).lower == Approx(sliding).epsilon(1e-15));
+  CHECK(exact.stop_time_bounds(start).lower == Approx(pivoting).epsilon(4e-15));
+  CHECK(exact.stop_time_bounds(start).upper == Approx(sliding + pivoting).epsilon(4e-15));
+  CHECK(exact.stop_time_bounds({0, 2}).lower == Approx(sliding).epsilon(4e-15));
   CHECK(exact.stop_time_bounds({0, 0}).upper == 0);
 }
 

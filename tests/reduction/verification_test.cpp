@@ -202,8 +202,9 @@ TEST_CASE("other bodies, the axes and extreme speeds pass, too", "[verification]
   for (const Law& law : named_laws()) {
     for (const Inertia body : {Inertia{1, 2}, Inertia{1.5, 4}, Inertia{6, 3.25}}) {
       const ReducedSystem system(law, 0.6, body);
-      for (const State from : {State{1, 1}, State{-2, 0}, State{0, 3}, State{1e-250, 1e-240}, State{1e300, 1e-300},
-                               State{1e-300, 1e300}, State{1e305, 1e307}}) {
+      for (const State from :
+           {State{1, 1}, State{-2, 0}, State{0, 3}, State{1e-250, 1e-240}, State{1e300, 1e-300}, State{1e-300, 1e300},
+            State{1e305, 1e307}, State{1e-150, 1e150}, State{1e-100, 1e90}, State{1e-320, 1}, State{5e-324, 5e-324}}) {
         for (const Check& check : verify(system, from)) {
           CAPTURE(law.name(), body.chi, body.gamma, from.u, from.v, check.name, check.measured, check.allowed);
           CHECK(check.passed());
