@@ -41,7 +41,10 @@ class LawCommand final : public Command {
       output_.write(drawn(portraits::law_figure(shown(law)), *picture));
       return ExitStatus::done;
     }
-    if (!k_.given() && !batch_.given()) throw BadInput("--k missing: give --k K1,K2,... or --batch FILE");
+    if (!k_.given() && !batch_.given()) {
+      throw BadInput(
+          "--k missing: give --k K1,K2,... or --batch FILE; or -o FILE with a picture's ending svg, pdf, png, gp");
+    }
 
     const std::vector<Column> columns = evaluate(law, k_.given() ? listed() : from_table());
     output_.write_as(

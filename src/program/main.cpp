@@ -90,7 +90,7 @@ ExitStatus dispatch(const std::vector<std::string>& arguments, std::string& help
 
   if (arguments.empty()) throw BadInput(fmt::format("a verb is missing; verbs: {}", fmt::join(names, ", ")));
   const std::string& verb = arguments.front();
-  if (verb == "--help" || verb == "-h") {
+  if (verb == "--help" || verb == "-h" || verb == "help") {
     write_output("-", help(commands));
     return ExitStatus::done;
   }

@@ -1,6 +1,7 @@
 #include "output.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +22,35 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(std::string_view name, int error) {
   throw FileFailure(fmt::format("cannot write {}: {}", name, std::strerror(error)));
+}
+
+/// Keeps signals that end a program waiting while it lives, so that a file is written whole or not at all; and lets a
+/// file-size limit be an error of write() instead of a signal.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) sigaddset(&ending, signal);
+    sigprocmask(SIG_BLOCK, &ending, &before_);
+    std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~SignalsWait() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+/// Where a link leads, also if nothing is there yet; a path that is no link is itself.
+fs::path followed(fs::path path) {
+  std::error_code error;
+  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links) {
+    const fs::path target = fs::read_symlink(path, error);
+    path = target.is_absolute() ? target : path.parent_path() / target;
+  }
+  return path;
 }
 
 /// 0, or the error number of the first write that failed.
@@ -55,9 +85,9 @@ void write_output(const std::string& path, std::string_view content) {
     return;
   }
   // Through links, so that the file they lead to is replaced and they stay.
-  const fs::path resolved = fs::weakly_canonical(path, ignored);
-  const std::string target = resolved.empty() ? path : resolved.string();
+  const std::string target = followed(path).string();
   const std::string beside = fmt::format("{}.{}.part", target, ::getpid());
+  const SignalsWait wait;
   int error = write_to(beside, O_CREAT | O_EXCL, content);
   if (const auto old = fs::status(target, ignored); error == 0 && fs::exists(old)) {
     fs::permissions(beside, old.permissions(), ignored);

@@ -122,7 +122,18 @@ si::Shot StartOptions::read_shot() const {
     throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
   }
 
-  const std::string& ball = ball_.text();
+  try {
+    return read_shot(ball_.text(), overrides);
+  } catch (const si::RunFileError&) {
+    throw;
+  } catch (const BadInput&) {
+    throw;
+  } catch (const std::domain_error& error) {  // of the values together, not of a place in a file
+    throw BadInput(fmt::format("--ball {} with {}: {}", ball_.text(), override_names(), error.what()));
+  }
+}
+
+si::Shot StartOptions::read_shot(const std::string& ball, const si::Overrides& overrides) const {
   if (is_file(ball)) return si::read_run_file(ball, overrides);
   const si::CatalogueEntry& entry = require_ball(ball_);
   return si::parse_run_file(si::run_file(entry.shot, entry.sources), "built-in ball " + entry.name, overrides);

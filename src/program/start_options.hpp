@@ -52,6 +52,7 @@ class StartOptions {
 
   double read_mu() const;
   si::Shot read_shot() const;
+  si::Shot read_shot(const std::string& ball, const si::Overrides& overrides) const;
   void require_one_kind() const;
   std::string override_names() const;
 

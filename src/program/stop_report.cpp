@@ -40,11 +40,9 @@ class TextReport {
   TextReport(const StopReport& report, int digits) : report_(report), digits_(digits) {}
 
   std::string text() const {
-    std::string all = heading() + "\n";
     const bool at_rest = report_.start.state.u == 0 && report_.start.state.v == 0;
-    if (at_rest) all += "The ball neither slides nor spins: it rolls already, or rests.\n\n";
-    all += times() + "\n" + methods() + ending();
-    return all;
+    if (at_rest) return heading() + "\nstop time 0: the ball neither slides nor spins; it rolls already, or rests\n";
+    return heading() + "\n" + times() + "\n" + methods() + ending();
   }
 
  private:
@@ -64,11 +62,16 @@ class TextReport {
         number(state.u), number(state.v));
   }
 
+  std::string certainty() const {
+    if (std::isinf(report_.stop.tau)) return "beyond the largest double: use a larger unit of speed";
+    return fmt::format("relative error below {:.0e}", report_.stop.accuracy);
+  }
+
   std::string times() const {
     const reduction::ReducedSystem beside(other_law(report_.system.law()), report_.start.mu);
     const reduction::StopTime other = reduction::stop_time(beside, report_.start.state);
     const std::vector<TimeLine> lines{
-        {"stop time", report_.stop.tau, fmt::format("relative error below {:.0e}", report_.stop.accuracy)},
+        {"stop time", report_.stop.tau, certainty()},
         {"at least", report_.bounds.lower, ""},
         {"at most", report_.bounds.upper, ""},
         {"sliding only", report_.sliding_only, "limit u0 = 0"},
@@ -89,15 +92,16 @@ class TextReport {
   }
 
   std::string methods() const {
-    return fmt::format("law    {}\nroute  {}: {}\n", report_.system.law().name(), name(report_.stop.route),
-                       description(report_.stop.route));
+    return fmt::format(
+        "tau*   the paper's time, (3 pi/2) f g t: it has the unit of a speed\nlaw    {}\nroute  {}: {}\n",
+        report_.system.law().name(), name(report_.stop.route), description(report_.stop.route));
   }
 
   std::string ending() const {
     const auto& [mu, state, shot] = report_.start;
     if (!shot) {
       return fmt::format("then   it rolls; the centre's velocity has changed by -2 v0/7 = {} along the slip\n",
-                         number(-state.v * (2.0 / 7.0)));
+                         number(0 - state.v * (2.0 / 7.0)));
     }
     const si::FinalMotion motion = si::final_motion(*shot);
     return fmt::format(

@@ -67,7 +67,12 @@ class Reader {
         .start = {.slip = number(start, slip), .spin = number(start, spin)},
         .environment = {.gravity = number(environment, gravity, Environment{}.gravity)},
     };
-    at(contact.position, [&] { require_shot(shot); });
+    // Of values that the file does not have it is not the place.
+    if (overrides_.empty()) {
+      at(contact.position, [&] { require_shot(shot); });
+    } else {
+      require_shot(shot);
+    }
     return shot;
   }
 
@@ -117,7 +122,12 @@ class Reader {
     const toml::node* node = ball.table == nullptr ? nullptr : ball.table->get("name");
     if (node == nullptr) return "ball";
     if (!node->is_string()) fail(node->source().begin, "'name' in [ball] must be a string in quotes");
-    return node->as_string()->get();
+    const std::string& text = node->as_string()->get();
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; };
+    if (std::ranges::any_of(text, is_control)) {
+      fail(node->source().begin, "'name' in [ball] must be one line of text without control characters");
+    }
+    return text;
   }
 
   double number(const toml::node& node, const Section& section, const Quantity& quantity) const {
@@ -162,18 +172,19 @@ class Reader {
     if (radius_given && deceleration_given) {
       throw std::domain_error("a patch radius and a spin deceleration exclude each other: give one of them");
     }
-    if (radius_given) return PatchRadius{number(contact, patch_radius)};
-    if (deceleration_given) return SpinDeceleration{number(contact, spin_deceleration)};
 
     std::vector<std::string_view> given;
     for (std::string_view key : {patch_radius.name, spin_deceleration.name, std::string_view("hertz")}) {
       if (contact.table != nullptr && contact.table->contains(key)) given.push_back(key);
     }
-    if (given.size() != 1) {
+    const bool overridden = radius_given || deceleration_given;
+    if (given.size() > 1 || (given.empty() && !overridden)) {
       fail(contact.position, fmt::format("[contact] must have exactly one of patch_radius, spin_deceleration and the "
                                          "table [contact.hertz]; it has {}",
                                          given.empty() ? "none" : fmt::format("{}", fmt::join(given, " and "))));
     }
+    if (radius_given) return PatchRadius{number(contact, patch_radius)};
+    if (deceleration_given) return SpinDeceleration{number(contact, spin_deceleration)};
     if (given.front() == patch_radius.name) return PatchRadius{number(contact, patch_radius)};
     if (given.front() == spin_deceleration.name) return SpinDeceleration{number(contact, spin_deceleration)};
     const Section hertz = section(contact, "hertz");

@@ -68,3 +68,11 @@ TEST_CASE("a full standard output is status 4", "[cli]") {
   const int ended = std::system(command.c_str());
   CHECK(WEXITSTATUS(ended) == 4);
 }
+
+TEST_CASE("a link to a file that is not there yet stays a link", "[cli]") {
+  const TemporaryDirectory directory;
+  std::filesystem::create_symlink("later.csv", directory.file("link.csv"));
+  CHECK(run_program("stop --mu 1 --u0 1 --v0 1 --format csv -o " + directory.file("link.csv")).status == 0);
+  CHECK(std::filesystem::is_symlink(directory.file("link.csv")));
+  CHECK(read_file(directory.file("later.csv")).starts_with("law,route"));
+}

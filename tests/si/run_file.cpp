@@ -82,11 +82,10 @@ TEST_CASE("what is written reads back to the same doubles", "[invariant]") {
     INFO(entry.name);
     check_same(parse_run_file(run_file(entry.shot, entry.sources), entry.name), entry.shot);
   }
-  const Shot awkward{
-      .ball = {.name = "a \"quoted\" 'name'\nwith \\ and \t and \xC3\xA9", .mass = 1.0 / 3, .radius = 1e300},
-      .contact = {.friction = 5e-324, .patch = PatchRadius{1e299 / 3}},
-      .start = {.slip = 12345678901234567890.0, .spin = -0.1},
-      .environment = {.gravity = 123456789}};
+  const Shot awkward{.ball = {.name = "a \"quoted\" 'name' with \\ and \xC3\xA9", .mass = 1.0 / 3, .radius = 1e300},
+                     .contact = {.friction = 5e-324, .patch = PatchRadius{1e299 / 3}},
+                     .start = {.slip = 12345678901234567890.0, .spin = -0.1},
+                     .environment = {.gravity = 123456789}};
   check_same(parse_run_file(run_file(awkward, "a remark\n\nof three lines"), "awkward"), awkward);
 }
 
@@ -106,6 +105,10 @@ TEST_CASE("mistakes are found with their place", "[table]") {
       {with(good, "0.1701", "nan"), "x.toml:3:8: ", {"mass must be finite and > 0", "got nan"}},
       {with(good, "0.1701", "inf"), "x.toml:3:8: ", {"mass must be finite and > 0", "got inf"}},
       {with(good, "0.1701", "-1"), "x.toml:3:8: ", {"got -1"}},
+      {with(good, "pool ball on cloth", "two\\nlines"), "x.toml:2:8: ", {"one line", "control characters"}},
+      {with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3"),
+       "x.toml:5:1: ",
+       {"exactly one of"}},
       {with(good, "\"pool ball on cloth\"", "3"), "x.toml:2:8: ", {"'name' in [ball] must be a string"}},
       {with(good, "spin_deceleration = 10\n", ""), "x.toml:5:1: ", {"exactly one of", "it has none"}},
       {with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3"),
@@ -163,4 +166,16 @@ gravity = 1.6
 TEST_CASE("a file that is not there", "[limit]") {
   CHECK_THROWS_AS(read_run_file("/no/such/file.toml"), std::system_error);
   CHECK_THROWS_WITH(read_run_file("/no/such/file.toml"), Contains("/no/such/file.toml"));
+}
+
+TEST_CASE("a contradictory file stays one, whatever is overridden", "[domain]") {
+  const std::string two = with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3");
+  CHECK_THROWS_AS(parse_run_file(two, "x.toml", {{"patch_radius", 2e-3}}), RunFileError);
+  const std::string none = with(good, "spin_deceleration = 10\n", "");
+  CHECK(std::get<PatchRadius>(parse_run_file(none, "x.toml", {{"patch_radius", 2e-3}}).contact.patch).value == 2e-3);
+}
+
+TEST_CASE("values that only the overrides bring have no place in the file", "[domain]") {
+  CHECK_THROWS_AS(parse_run_file(good, "x.toml", {{"patch_radius", 1}}), std::domain_error);
+  CHECK_THROWS_WITH(parse_run_file(good, "x.toml", {{"patch_radius", 1}}), !Catch::Contains("x.toml"));
 }
