@@ -4,11 +4,19 @@
 
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/potential8_law.hpp"
+#include "contensou/reduction/pressure_law.hpp"
 
 namespace contensou::reduction {
 
-const std::vector<Law>& named_laws() {
+const std::vector<Law>& paper_laws() {
   static const std::vector<Law> laws{PadeLaw{}, HertzLaw{}};
+  return laws;
+}
+
+const std::vector<Law>& named_laws() {
+  static const std::vector<Law> laws{PadeLaw{},           HertzLaw{},     PressureLaw::uniform(), PressureLaw::punch(),
+                                     PressureLaw::ring(), Potential8Law{}};
   return laws;
 }
 

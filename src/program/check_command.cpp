@@ -68,7 +68,7 @@ class CheckCommand final : public Command {
   }
 
   ExitStatus run() override {
-    const std::vector<Law> laws = law_.given() ? std::vector{law_.read()} : reduction::named_laws();
+    const std::vector<Law> laws = law_.given() ? std::vector{law_.read()} : reduction::paper_laws();
     std::vector<Verdict> verdicts;
     if (start_.given()) {
       const GivenStart start = start_.read();

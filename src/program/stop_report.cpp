@@ -23,9 +23,9 @@ struct TimeLine {
   std::string note;
 };
 
-/// The law that stands beside another: the first of those with a name that is not the same.
+/// The law of the paper that stands beside another: the first that is not the same.
 const reduction::Law& other_law(const reduction::Law& law) {
-  const auto& laws = reduction::named_laws();
+  const auto& laws = reduction::paper_laws();
   return laws[laws.front().name() == law.name() ? 1 : 0];
 }
 

@@ -8,11 +8,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/dissipation.hpp"
 #include "contensou/reduction/friction_law.hpp"
 #include "reference_table.hpp"
 #include "worst_case.hpp"
 
-/// What both laws of the paper are asked in the same words.
+/// What every law is asked in the same words.
 namespace contensou::tests {
 
 inline std::vector<double> ratios_of_slip() {
@@ -21,11 +22,13 @@ inline std::vector<double> ratios_of_slip() {
   return ratios;
 }
 
-/// laws.csv, each k as Slip{k, 1} and as Slip{1, 1/k}; 1/k is rounded unless k is a power of two.
+/// A table of laws, each k as Slip{k, 1} and as Slip{1, 1/k}; 1/k is rounded unless k is a power of two.
+///
+/// @param steepest  the largest logarithmic slope of Phi and Psi, by which that rounding comes in
 template <class L>
-void check_table(const L& law, const std::string& column) {
+void check_table(const L& law, const std::string& column, const std::string& table = "laws", long double steepest = 1) {
   WorstCase force("Phi(k)"), moment("Psi(k)"), swapped_force("Phi(1 : 1/k)"), swapped_moment("Psi(1 : 1/k)");
-  for (const ReferenceRow& row : reference_table("laws")) {
+  for (const ReferenceRow& row : reference_table(table)) {
     const double k = row.input("k");
     const auto [phi, psi] = law(reduction::Slip{k, 1});
     force.add(row.result("phi_" + column), phi, row.where());
@@ -33,7 +36,7 @@ void check_table(const L& law, const std::string& column) {
     const double inverse = 1 / k;
     if (!std::isnormal(inverse)) continue;
     const auto [phi_swapped, psi_swapped] = law(reduction::Slip{1, inverse});
-    const long double rounding = std::fma(inverse, k, -1.0) == 0 ? 0 : 0.5L;
+    const long double rounding = std::fma(inverse, k, -1.0) == 0 ? 0 : 0.5L * steepest;
     swapped_force.add(row.result("phi_" + column), phi_swapped, row.result("phi_" + column) * (1 + rounding),
                       row.where());
     swapped_moment.add(row.result("psi_" + column), psi_swapped, row.result("psi_" + column) * (1 + rounding),
@@ -47,10 +50,10 @@ void check_table(const L& law, const std::string& column) {
 
 /// 1 - Psi/Psi(0), from the table where long double leaves it its digits.
 template <class L>
-void check_moment_deficit(const L& law, const std::string& column) {
-  constexpr long double pure_pivoting = 0.589048622548086232211745634364906790787L;
+void check_moment_deficit(const L& law, const std::string& column, const std::string& table = "laws",
+                          long double pure_pivoting = 0.589048622548086232211745634364906790787L) {
   WorstCase deficit("1 - Psi/Psi(0)");
-  for (const ReferenceRow& row : reference_table("laws")) {
+  for (const ReferenceRow& row : reference_table(table)) {
     const double k = row.input("k");
     const long double wanted = 1 - row.result("psi_" + column) / pure_pivoting;
     if (wanted > 1e-3L) deficit.add(wanted, law.moment_deficit({k, 1}), row.where());
@@ -59,11 +62,11 @@ void check_moment_deficit(const L& law, const std::string& column) {
 }
 
 template <class L>
-void check_limits(const L& law) {
+void check_limits(const L& law, double pure_pivoting = 0.589048622548086232211745634364906790787) {
   for (double speed : {5e-324, 1e-300, 1.0, 1e300, std::numeric_limits<double>::max()}) {
     const auto pivoting = law(reduction::Slip{0, speed});
     CHECK(pivoting.force == 0);
-    CHECK(pivoting.moment == 0.589048622548086232211745634364906790787);
+    CHECK(pivoting.moment == pure_pivoting);
     CHECK(law.moment_deficit({0, speed}) == 0);
     const auto sliding = law(reduction::Slip{speed, 0});
     CHECK(sliding.force == 1);
@@ -129,6 +132,15 @@ void check_domain(const L& law, const char* name) {
   }
 }
 
+/// Phi + Psi/Psi(0) >= 1: the curve (Phi, Psi) is convex.
+template <class L>
+void check_convex(const L& law) {
+  for (double k : ratios_of_slip()) {
+    CAPTURE(k);
+    CHECK(law(reduction::Slip{k, 1}).force >= law.moment_deficit({k, 1}) * (1 - 6e-16));
+  }
+}
+
 /// Psi' + k Phi' relative to Psi', by central differences: 0 for a law with a dissipation potential.
 template <class L>
 double potential_defect(const L& law, double k) {
@@ -138,6 +150,25 @@ double potential_defect(const L& law, double k) {
   const double moment_change = ahead.moment - behind.moment;
   const double force_change = ahead.force - behind.force;
   return std::abs((moment_change + k * force_change) / moment_change);
+}
+
+/// Phi = R' and Psi = R - k R' for the dissipation R(v, w), by difference quotients of the fourth order away from k
+/// = 1.
+template <class L>
+void check_potential(const L& law) {
+  const auto slope = [](auto function) {
+    constexpr double h = 1e-3;
+    return (8 * (function(h) - function(-h)) - (function(2 * h) - function(-2 * h))) / (12 * h);
+  };
+  for (double k : {0.01, 0.1, 0.3, 0.6, 0.9, 1.1, 1.5, 3.0, 10.0, 100.0}) {
+    CAPTURE(k);
+    const auto [force, moment] = law(reduction::Slip{k, 1});
+    const double by_sliding = slope([&](double h) { return reduction::dissipation(law, {k * (1 + h), 1}); }) / k;
+    const double by_pivoting = slope([&](double h) { return reduction::dissipation(law, {k, 1 + h}); });
+    CHECK(by_sliding == Approx(force).epsilon(1e-8).margin(1e-12 / k));
+    CHECK(by_pivoting == Approx(moment).epsilon(1e-8).margin(1e-12 * k));
+    CHECK(potential_defect(law, k) < 1e-8 * std::max(1.0, k * k / 100) + 1e-10 / std::min(1.0, k * k));
+  }
 }
 
 }  // namespace contensou::tests

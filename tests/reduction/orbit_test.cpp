@@ -73,7 +73,7 @@ TEST_CASE("the state at any fraction of the stop time: exact", "[orbit][table]")
 }
 
 TEST_CASE("an orbit starts at its start and ends at rest", "[orbit][limit]") {
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     for (const State start : {State{1, 0.1}, State{-3, 1e-9}, State{2e-5, 40}, State{-1e300, 1e290}}) {
       const Orbit orbit(ReducedSystem(law, 0.2), start);
       CAPTURE(law.name(), start.u, start.v);
@@ -101,7 +101,7 @@ TEST_CASE("an orbit starts at its start and ends at rest", "[orbit][limit]") {
 }
 
 TEST_CASE("along an orbit u, v and k fall and beta grows", "[orbit][invariant]") {
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     for (double mu : {1e-4, 0.05, 1.0}) {
       for (double k0 : {1e-4, 1.0, 1e5}) {
         const Orbit orbit(ReducedSystem(law, mu), {-1, mu * k0});
@@ -126,7 +126,7 @@ TEST_CASE("along an orbit u, v and k fall and beta grows", "[orbit][invariant]")
 }
 
 TEST_CASE("the sign of u0 is the sign of u, and nothing else", "[orbit][symmetry]") {
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
     const Orbit right(system, {0.75, 0.2});
     const Orbit left(system, {-0.75, 0.2});
@@ -146,7 +146,7 @@ TEST_CASE("the sign of u0 is the sign of u, and nothing else", "[orbit][symmetry
 
 TEST_CASE("scaling by powers of two holds bit for bit", "[orbit][symmetry]") {
   // ln v moves by a multiple of ln 2, which is rounded; everything else is the same digits.
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     for (const State start : {State{1.1, 0.3}, State{-0.01, 2}, State{5, 1e-12}, State{0, 3}, State{-3, 0}}) {
       const ReducedSystem system(law, 0.05);
       const Orbit orbit(system, start);
@@ -176,7 +176,7 @@ TEST_CASE("scaling by powers of two holds bit for bit", "[orbit][symmetry]") {
 }
 
 TEST_CASE("on the axes one speed falls linearly", "[orbit][limit]") {
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
     const Orbit sliding(system, {0, 2});
     CHECK(sliding.stop_time() == Approx(6 * pi / 7).epsilon(1e-15));
@@ -212,7 +212,7 @@ TEST_CASE("on the axes one speed falls linearly", "[orbit][limit]") {
 }
 
 TEST_CASE("next to the axes an orbit is almost that of the axis", "[orbit][limit]") {
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
     const Orbit sliding(system, {5e-324, 1});
     CHECK(sliding.stop_time() == Approx(3 * pi / 7).epsilon(1e-15));
@@ -228,7 +228,7 @@ TEST_CASE("next to the axes an orbit is almost that of the axis", "[orbit][limit
 // Found with mu = 0.1, u0 = 5e-324, v0 = 1 (mu u0 underflows, ln k0 was infinite) and with u0 = 1e-200, v0 = 1e200 (the
 // curve's b underflows, beta was 0).
 TEST_CASE("a spin too faint for v0/(mu u0) leaves pure sliding", "[orbit][limit]") {
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
     for (const State start : {State{5e-324, 1}, State{-1e-309, 1}, State{1e-200, 1e200}, State{-1e-300, 1e300}}) {
       const Orbit orbit(system, start);
@@ -265,7 +265,7 @@ TEST_CASE("a body at rest stays at rest", "[orbit][limit]") {
 
 TEST_CASE("a state is found again by its ratio and by its time", "[orbit][route]") {
   WorstCase by_time("u by tau"), by_ratio("ln k by tau");
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     for (double mu : {1e-3, 0.1, 0.8}) {
       const Orbit orbit(ReducedSystem(law, mu), {-2, 2 * mu * 20});
       const double start = orbit.start_log_ratio();
@@ -290,7 +290,7 @@ TEST_CASE("a state is found again by its ratio and by its time", "[orbit][route]
 }
 
 TEST_CASE("near the stop u is proportional to the time left", "[orbit][limit]") {
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const double mu = 0.3;
     const Orbit orbit(ReducedSystem(law, mu), {1, 0.5});
     for (double left : {1e-6, 1e-12, 1e-100, 1e-300}) {
@@ -305,7 +305,7 @@ TEST_CASE("near the stop u is proportional to the time left", "[orbit][limit]") 
 }
 
 TEST_CASE("close to the stop an instant is as good as its time left", "[orbit][limit]") {
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const Orbit orbit(ReducedSystem(law, 0.3), {1, 0.5});
     const double stop = orbit.stop_time();
     for (double left : {0x1p-2, 0x1p-20, 0x1p-45}) {
@@ -340,7 +340,7 @@ TEST_CASE("the printed first integral is constant along the Pade orbit", "[orbit
 TEST_CASE("friction takes v0^2/2 by sliding and w0^2/(2 r) by pivoting", "[orbit][invariant]") {
   // Per unit of chi m: ball, m v0^2/7 and m u0^2/5, whatever the law.
   using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
-  std::vector<Law> laws = named_laws();
+  std::vector<Law> laws = paper_laws();
   laws.emplace_back(OcticLaw{});
   for (const Law& law : laws) {
     for (double mu : {0.01, 0.3, 1.0}) {

@@ -32,7 +32,7 @@ template <class Integrate>
 void check_states(Integrate integrate) {
   using namespace reduction;
   WorstCase stop("stop time"), u("u"), ln_v("ln v"), beta("beta");
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     for (double mu : {1e-4, 1e-2, 0.3, 1.0}) {
       for (double k0 : {1e-4, 0.5, 1.0, 7.0, 1e6}) {
         const ReducedSystem system(law, mu);
@@ -75,7 +75,7 @@ void check_states(Integrate integrate) {
 template <class Integrate>
 void check_every_step(Integrate integrate) {
   using namespace reduction;
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
     const Orbit orbit(system, {2, 1});
     const Motion motion = integrate(system, State{2, 1}, Eigen::ArrayXd{}, Stepping{});
@@ -107,7 +107,7 @@ void check_every_step(Integrate integrate) {
 template <class Integrate>
 void check_axes_and_rest(Integrate integrate) {
   using namespace reduction;
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
     const Motion sliding = integrate(system, State{0, 2}, Eigen::ArrayXd{{0.5, 100.0}}, Stepping{});
     REQUIRE(sliding.outcome.ok());
@@ -136,7 +136,7 @@ void check_axes_and_rest(Integrate integrate) {
 template <class Integrate>
 void check_scaling(Integrate integrate) {
   using namespace reduction;
-  for (const Law& law : named_laws()) {
+  for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.2);
     const Motion here = integrate(system, State{-1, 2}, Eigen::ArrayXd{{0.3, 2.0}}, Stepping{});
     for (int power : {-1000, -500, 60, 1000}) {

@@ -15,7 +15,7 @@ namespace {
 
 template <class Visit>
 void over_systems_and_states(Visit visit) {
-  std::vector<Law> laws = named_laws();
+  std::vector<Law> laws = paper_laws();
   laws.emplace_back(OcticLaw{});
   for (const Law& law : laws) {
     for (double mu : {1e-3, 0.1, 1.0, 2.5}) {

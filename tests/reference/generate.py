@@ -193,6 +193,89 @@ def pade_from_ends(k):
 
 
 # ---------------------------------------------------------------------------------------------
+# The pressure family, and the octic potential
+# ---------------------------------------------------------------------------------------------
+
+def pressure(p, k):
+    """Pressure (1 - rho^2)^p, p >= -1, as 2F1; at k = 1 by Gauss's theorem."""
+    half = mpf(1) / 2
+
+    def series(a, b, c, z):
+        if z == 1:
+            return mp.gammaprod([c, c - a - b], [c - a, c - b])
+        return mp.hyp2f1(a, b, c, z)
+
+    if k <= 1:
+        scale = mp.sqrt(mp.pi) * mp.gamma(p + 2) / (2 * mp.gamma(p + 5 * half))
+        return (scale * (p + 3 * half) * k * series(half, -p - half, 2, k ** 2),
+                scale * series(half, -p - 3 * half, 1, k ** 2))
+    z = 1 / k ** 2
+    return series(-half, half, p + 2, z), series(half, half, p + 3, z) / (2 * (p + 2) * k)
+
+
+def pressure_chords(p, k):
+    """The same over the chords of hertz_chords: the moments of (l^2 - t^2)^p on (-l, l) are l^(2p+1)
+    times a beta function (force) and l^(2p+3) times another (moment).  With c the angle from the
+    last chord, l^2 = 1 - k^2 + k^2 sin(c)^2 for k <= 1; for k > 1 sin(a) = cos(c)/k, l = sin(c)."""
+    half = mpf(1) / 2
+    force = 2 * mp.gamma(half) * mp.gamma(p + 2) / (mp.pi * mp.gamma(p + 3 * half))
+    moment = 2 * mp.gamma(3 * half) * mp.gamma(p + 2) / (mp.pi * mp.gamma(p + 5 * half))
+    if k <= 1:
+        rest, scale = 1 - k ** 2, k ** 2
+        force *= k
+
+        def integrand(c):
+            square = rest + scale * mp.sin(c) ** 2
+            return mp.sin(c) ** 2 * square ** (p + half), square ** (p + 3 * half)
+    else:
+        rest, scale = 1 - 1 / k ** 2, 1 / k ** 2
+        moment /= k
+
+        def integrand(c):
+            sine = mp.sin(c)
+            cosine = mp.sqrt(rest + scale * sine ** 2)
+            return sine ** (2 * p + 2) * cosine, sine ** (2 * p + 4) / cosine
+
+    # Panels that double away from the branch points at sin(c)^2 = -rest/scale; the power of sin(c)
+    # at c = 0 is left to tanh-sinh.
+    edges = [mp.pi / 2]
+    while rest and edges[0] > mp.sqrt(rest / scale) / 2:
+        edges.insert(0, edges[0] / 2)
+    total = []
+    for i in range(2):
+        whole = mp.quad(lambda c: integrand(c)[i], [0, edges[0]])
+        for left, right in zip(edges, edges[1:]):
+            whole += integrate(lambda c: integrand(c)[i], left, right)
+        total.append(whole)
+    return force * total[0], moment * total[1]
+
+
+def octic(v, w):
+    """The eighth root R of v^8 + 0.8 v^6 w^2 + 0.321466 v^4 w^4 + 8 c v^2 w^6 + c w^8."""
+    c = (3 * mp.pi / 16) ** 8
+    return mp.root(v ** 8 + mpf(4) / 5 * v ** 6 * w ** 2 + mpf(321466) / 10 ** 6 * v ** 4 * w ** 4
+                   + 8 * c * v ** 2 * w ** 6 + c * w ** 8, 8)
+
+
+def potential8(k):
+    """The gradient of octic at (k, 1)."""
+    c = (3 * mp.pi / 16) ** 8
+    rest = 8 * octic(k, mpf(1)) ** 7
+    fourth = mpf(321466) / 10 ** 6
+    return ((8 * k ** 7 + mpf(24) / 5 * k ** 5 + 4 * fourth * k ** 3 + 16 * c * k) / rest,
+            (mpf(8) / 5 * k ** 6 + 4 * fourth * k ** 4 + 48 * c * k ** 2 + 8 * c) / rest)
+
+
+def potential8_differences(k):
+    """The same by difference quotients, with the digits that they lose added."""
+    with mp.workdps(3 * mp.dps + 4 * abs(int(mp.log10(k)))):
+        step = mpf(10) ** (-mp.dps / 3) * min(k, 1 / k)
+        force = (octic(k + step, mpf(1)) - octic(k - step, mpf(1))) / (2 * step)
+        moment = (octic(k, 1 + step) - octic(k, 1 - step)) / (2 * step)
+    return +force, +moment
+
+
+# ---------------------------------------------------------------------------------------------
 # Way 2, both laws: Taylor series of (S), (B), (O)
 # ---------------------------------------------------------------------------------------------
 
@@ -732,6 +815,36 @@ def table_laws():
         yield exact(number) + [text(value) for value in first] + [digits]
 
 
+PRESSURES = {"uniform": 0.0, "punch": -0.5, "ring": -1.0, "pressure:-0.3": -0.3, "pressure:1.7": 1.7,
+             "pressure:25": 25.0}
+
+
+def pressure_points():
+    """Values of k for laws_pressure.csv: those of laws.csv, more of them near k = 1."""
+    dice = random.Random(SEED)
+    points = [0.7071067811865475, 0.7071067811865476, 1.414213562373095, 1.4142135623730951,
+              1 - 2.0 ** -52, 1 + 2.0 ** -51]
+    points += [1 + sign * power_of_ten(dice.uniform(-15, -1)) for sign in (-1, 1) for _ in range(12)]
+    return sorted(set(law_points() + points))
+
+
+def table_laws_pressure():
+    """The pressure family and the octic potential at single points."""
+    columns = ["%s_%s" % (part, law) for law in list(PRESSURES) + ["potential8"]
+               for part in ("phi", "psi")]
+    yield ["k", "k_hex"] + columns + ["digits"]
+    for number in pressure_points():
+        k = mpf(number)
+        first, second = (), ()
+        for p in PRESSURES.values():
+            first += pressure(mpf(p), k)
+            second += pressure_chords(mpf(p), k)
+        first += potential8(k)
+        second += potential8_differences(k)
+        digits = check(list(zip(first, second)), "laws_pressure k=%s" % number)
+        yield exact(number) + [text(value) for value in first] + [digits]
+
+
 def stop_points(per_mu, extra_mus, extremes):
     """(mu, u0, v0): k0 = v0/(mu u0) from 1e-6 to 1e8, spread and random, and the extremes."""
     dice = random.Random(SEED)
@@ -842,6 +955,7 @@ def table_bodies():
 
 TABLES = {
     "laws": table_laws,
+    "laws_pressure": table_laws_pressure,
     "stop_pade": table_stop_pade,
     "stop_hertz": table_stop_hertz,
     "trajectory_pade": table_trajectory_pade,

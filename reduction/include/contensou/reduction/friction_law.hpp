@@ -23,7 +23,7 @@ class SimilarityCurve;
 ///   - Phi and Psi continuous and piecewise smooth, with k = 1 the only likely kink.
 ///
 /// A law may offer more; each of these is used when it is there:
-///   - `static constexpr std::string_view name` for messages and tables;
+///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
 ///   - `static constexpr SlidingShare sliding_share`, its two-sided bound of the stop time;
 ///   - `std::shared_ptr<const SimilarityCurve> closed_curve(double r) const`, its closed form for that r, or null;
@@ -51,6 +51,10 @@ class Law {
                     { L::name } -> std::convertible_to<std::string_view>;
                   })
       name_ = L::name;
+    else if constexpr (requires {
+                         { law.name() } -> std::convertible_to<std::string>;
+                       })
+      name_ = law.name();
     if constexpr (requires {
                     { L::sliding_share } -> std::convertible_to<SlidingShare>;
                   }) {

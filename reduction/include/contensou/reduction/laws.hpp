@@ -8,7 +8,10 @@
 
 namespace contensou::reduction {
 
-/// Every law that has a name, in the order in which it is shown: the paper's Pade pair first.
+/// The two laws of the paper: its Pade pair, and the exact law that the pair approximates.
+const std::vector<Law>& paper_laws();
+
+/// Every law that has a name, in the order in which it is shown: those of the paper first.
 const std::vector<Law>& named_laws();
 
 /// The law of that name, if there is one.

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "contensou/reduction/friction_law.hpp"
+
+namespace contensou::reduction {
+
+/// Coulomb friction of a circular patch whose pressure is proportional to (1 - rho^2)^p, rho = distance/eps.
+///
+/// p = 1/2 is Hertz (HertzLaw), p = 0 a uniform disc, p = -1/2 a flat rigid punch, p -> -1 a thin ring.
+///
+/// Source    z = k^2:   Phi = C (p + 3/2) k 2F1(1/2, -p - 1/2; 2; z),  Psi = C 2F1(1/2, -p - 3/2; 1; z),   k <= 1
+///           z = k^-2:  Phi = 2F1(-1/2, 1/2; p + 2; z),  Psi = 2F1(1/2, 1/2; p + 3; z)/(2 (p + 2) k),      k >= 1
+///           with C = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)); for integer p these are elliptic integrals.
+/// Accuracy  for every k, 1e-300 to 1e300: 4 eps
+///           (tests/reference/laws_pressure.csv). Needs the 64 bits of x87's long double; without them a few eps more.
+/// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
+class PressureLaw {
+ public:
+  static constexpr SlidingShare sliding_share{0, 1};
+  static constexpr double largest_p = 25;
+
+  /// @param p  -1 < p <= largest_p
+  /// @throws std::domain_error  for another p
+  explicit PressureLaw(double p);
+
+  static PressureLaw uniform();
+  static PressureLaw punch();
+  static PressureLaw ring();
+
+  /// "uniform", "punch", "ring", or "pressure:P" with the shortest P that reads back to the same double.
+  const std::string& name() const { return name_; }
+
+  /// The exponent; -1 for the ring.
+  double p() const { return p_; }
+
+  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  Resistance operator()(Slip slip) const;
+
+  /// 1 - Psi/Psi(0), without cancellation for k << 1.
+  double moment_deficit(Slip slip) const;
+
+ private:
+  struct Series;
+  PressureLaw(double p, std::string name);
+
+  double p_;
+  std::string name_;
+  std::shared_ptr<const Series> series_;
+};
+
+}  // namespace contensou::reduction

@@ -1,0 +1,58 @@
+// Notation: x = k^2, R0 = 3 pi/16, c = R0^8;  P = (R/R0)^8 = 1 + 8 x + g2 x^2 + g3 x^3 + g4 x^4 for k <= 1.
+//   Psi/R0 = N/P^(7/8),  N = 1 + 6 x + n2 x^2 + n3 x^3;   with d = P^(1/8) - 1
+//   1 - Psi/R0 = [(7/8)(P - 1) - (N - 1) - d^2 (7/2 + 14 d + ... + 7/8 d^6)]/(1 + d)^7
+// where d^2 (...) is (7/8)[(1 + d)^8 - 1] - [(1 + d)^7 - 1] expanded: its term of first order cancels.
+#include "contensou/reduction/potential8_law.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace contensou::reduction {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double power8(double x) { return (x * x) * (x * x) * ((x * x) * (x * x)); }
+constexpr double pivoting_moment = 3 * pi / 16;
+constexpr double c = power8(pivoting_moment);
+constexpr double sixth = 0.8;
+constexpr double fourth = 0.321466;
+
+double eighth_root(double x) { return std::sqrt(std::sqrt(std::sqrt(x))); }
+
+}  // namespace
+
+Resistance Potential8Law::operator()(Slip slip) const {
+  require_slip("Potential8Law", slip);
+  if (slip.sliding <= slip.pivoting) {
+    const double k = slip.sliding / slip.pivoting;
+    const double x = k * k;
+    const double octic = c + x * (8 * c + x * (fourth + x * (sixth + x)));
+    const double slope = eighth_root(octic) / octic;
+    return {k * (2 * c + x * (fourth / 2 + x * (0.75 * sixth + x))) * slope,
+            (c + x * (6 * c + x * (fourth / 2 + x * (sixth / 4)))) * slope};
+  }
+  const double inverse_k = slip.pivoting / slip.sliding;
+  const double x = inverse_k * inverse_k;
+  const double octic = 1 + x * (sixth + x * (fourth + x * (8 * c + x * c)));
+  const double slope = eighth_root(octic) / octic;
+  return {(1 + x * (0.75 * sixth + x * (fourth / 2 + x * (2 * c)))) * slope,
+          inverse_k * (sixth / 4 + x * (fourth / 2 + x * (6 * c + x * c))) * slope};
+}
+
+double Potential8Law::moment_deficit(Slip slip) const {
+  if (slip.sliding > slip.pivoting / 2) return 1 - (*this)(slip).moment / pivoting_moment;
+  const double k = slip.sliding / slip.pivoting;
+  const double x = k * k;
+  constexpr double g2 = fourth / c;
+  constexpr double g3 = sixth / c;
+  constexpr double g4 = 1 / c;
+  const double d = std::expm1(std::log1p(x * (8 + x * (g2 + x * (g3 + x * g4)))) / 8);
+  const double first = x * (1 + x * (0.375 * g2 + x * (0.625 * g3 + x * (0.875 * g4))));
+  const double second = d * d * (3.5 + d * (14 + d * (26.25 + d * (28 + d * (17.5 + d * (6 + d * 0.875))))));
+  const double square = (1 + d) * (1 + d);
+  return (first - second) / (square * square * square * (1 + d));
+}
+
+}  // namespace contensou::reduction
