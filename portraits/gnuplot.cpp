@@ -142,7 +142,7 @@ void write_panel(Gnuplot& gp, const Panel& panel, double left, double right) {
   write_axis(gp, "y", panel.y);
   gp << "unset label\n";
   for (const Label& label : panel.labels) {
-    gp << "set label " << quoted(label.text) << " at " << label.at.x << "," << label.at.y << " "
+    gp << "set label " << quoted("{/*0.85 " + label.text + "}") << " at " << label.at.x << "," << label.at.y << " "
        << alignment(label.align) << " front boxed tc " << colour(label.colour) << "\n";
   }
 
@@ -201,7 +201,7 @@ std::string script(const Figure& figure, PictureFormat format) {
     gp << std::defaultfloat << std::setprecision(8);
     gp << "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n";
     gp << "set encoding utf8\n" << terminal(figure, format) << "\n";
-    gp << "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.4,0.2\n";
+    gp << "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.2,0.1\n";
     gp << "set multiplot\n";
     gp << "set tmargin at screen 0.84\nset bmargin at screen 0.19\n";
     write_heading(gp, figure);

@@ -75,6 +75,48 @@ void add_highlight(Panel& panel, Polyline line, const std::string& legend) {
   panel.arrows.push_back(std::move(arrows));
 }
 
+/// What lies beside a point at its height: the nearest orbits, the axis u = 0, or the border.
+struct Gap {
+  double left;
+  double right;
+};
+
+Gap gap_around(const PhasePortrait& portrait, double u, double v) {
+  Gap gap{u < 0 ? -portrait.window.u : 0, u < 0 ? 0 : portrait.window.u};
+  for (const PortraitOrbit& orbit : portrait.orbits) {
+    if (orbit.v[0] < v || orbit.u[0] * u < 0) continue;
+    Eigen::Index i = 1;
+    while (orbit.v[i] > v) ++i;
+    const double share = (orbit.v[i - 1] - v) / (orbit.v[i - 1] - orbit.v[i]);
+    const double here = orbit.u[i - 1] + share * (orbit.u[i] - orbit.u[i - 1]);
+    if (here <= u) gap.left = std::max(gap.left, here);
+    if (here >= u) gap.right = std::min(gap.right, here);
+  }
+  return gap;
+}
+
+/// Where a label of the given width touches no orbit: on the middle part of the isochrone, on the side of that sign,
+/// where most room is; and moved off the isochrone as far as it must be.
+Point place_label(const PhasePortrait& portrait, const Isochrone& isochrone, double side, double width) {
+  const double lowest = isochrone.v.minCoeff();
+  const double highest = isochrone.v.maxCoeff();
+  Point best{};
+  double widest = 0;
+  for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
+    const double u = isochrone.u[i];
+    const double height = (isochrone.v[i] - lowest) / (highest - lowest);
+    if (u * side <= 0 || height < 0.2 || height > 0.85) continue;
+    const auto [left, right] = gap_around(portrait, u, isochrone.v[i]);
+    const double room = std::min({2 * (u - left), 2 * (right - u), right - left - width});
+    if (best.x != 0 && room <= widest) continue;
+    widest = room;
+    const double middle = (left + right) / 2;
+    const double slack = std::max(0.0, (right - left - width) / 2);
+    best = {std::clamp(u, middle - slack, middle + slack), isochrone.v[i]};
+  }
+  return best;
+}
+
 /// The plane (u, v) of Fig. 4.
 Panel plane_panel(const PhasePortrait& portrait, const PortraitCaption& caption) {
   const auto [U, V] = portrait.window;
@@ -89,20 +131,17 @@ Panel plane_panel(const PhasePortrait& portrait, const PortraitCaption& caption)
     return line;
   };
   Lines isochrones = isochrone_lines();
-  isochrones.legend = fmt::format("time left {}", caption.time_symbol);
+  isochrones.legend = fmt::format("time left {}{}", caption.time_symbol,
+                                  caption.time_unit_name.empty() ? "" : ", " + caption.time_unit_name);
   // Labels on the side where the highlighted orbit is not.
   const double side = portrait.highlight && portrait.highlight->u[0] > 0 ? -1 : 1;
   for (const Isochrone& isochrone : portrait.isochrones) {
     isochrones.lines.push_back(line_of(isochrone.u, isochrone.v));
-    const Eigen::Index last = isochrone.u.size() - 1;
-    const bool both_sides = isochrone.u[0] * isochrone.u[last] < 0;
-    if (!both_sides && isochrone.u[0] * side < 0) continue;
-    const Eigen::Index at = !both_sides ? last / 2 : (isochrone.u[0] * side > 0 ? last / 4 : last - last / 4);
-    const std::string name = caption.time_unit_name.empty() ? "" : " " + caption.time_unit_name;
-    panel.labels.push_back({{isochrone.u[at], isochrone.v[at]},
-                            number(isochrone.tau_stop / caption.time_unit) + name,
-                            isochrone_colour,
-                            Label::Align::centre});
+    if ((isochrone.u * side).maxCoeff() <= 0) continue;
+    const std::string text = number(isochrone.tau_stop / caption.time_unit);
+    const double width = (0.014 * static_cast<double>(text.size()) + 0.01) * 2 * U * 0.85;
+    panel.labels.push_back(
+        {place_label(portrait, isochrone, side, width), text, isochrone_colour, Label::Align::centre});
   }
   panel.lines.push_back(std::move(isochrones));
 
