@@ -1,0 +1,111 @@
+// Notation: v, w the sliding and the rim speed, rho the distance from the centre of the patch, c = sqrt(1 - rho^2),
+// psi the angle from the point opposite to the direction in which both speeds add up. There the slip is
+//   |V|^2 = (v - w rho)^2 + 4 v w rho sin^2(psi/2),   V_x = v - w rho cos(psi),   moment arm of V: w rho - v cos(psi)
+// Chords: q = k cos(theta) + t, |t| <= l, l^2 = 1 - k^2 sin^2(theta), 1 - rho^2 = l^2 - t^2; for k > 1 the angle b,
+// sin(theta) = sin(b)/k, l = cos(b), removes the root at the last chord.
+#include "contensou/reduction/contact_patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <boost/math/quadrature/tanh_sinh.hpp>
+
+namespace contensou::reduction {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Tanh-sinh: powers and logarithms at the ends cost nothing.
+template <class Function>
+double integral(Function function, double left, double right) {
+  static boost::math::quadrature::tanh_sinh<double> rule(12);
+  return left < right ? rule.integrate(function, left, right, 1e-10) : 0.0;  // the next level squares the error
+}
+
+}  // namespace
+
+ContactPatch::ContactPatch(std::function<double(double)> pressure) : pressure_(std::move(pressure)) {
+  load_ = 2 * pi * integral([&](double c) { return c * pressure_at(c * c); }, 0, 1);
+  if (!(load_ > 0) || !std::isfinite(load_)) {
+    throw std::domain_error(fmt::format(
+        "ContactPatch: the load, the integral of the pressure, must be positive and finite, got {}", load_));
+  }
+}
+
+double ContactPatch::pressure_at(double rest) const {
+  return pressure_(std::max(rest, std::numeric_limits<double>::min()));  // at the edge it may be infinite
+}
+
+Resistance ContactPatch::over_disc(Slip slip) const {
+  require_slip("ContactPatch", slip);
+  const double larger = std::max(slip.sliding, slip.pivoting);
+  const double v = slip.sliding / larger;
+  const double w = slip.pivoting / larger;
+  const auto around = [&](double rho, auto part) {
+    const double rim = w * rho;
+    return 2 * integral(
+                   [&](double psi) {
+                     const double square = std::sin(psi / 2) * std::sin(psi / 2);
+                     const double speed = std::sqrt((v - rim) * (v - rim) + 4 * v * rim * square);
+                     return speed > 0 ? part(rim, square) / speed : 0.0;
+                   },
+                   0, pi);
+  };
+  const auto over = [&](auto part) {
+    const auto ring = [&](double c) {
+      const double rho = std::sqrt((1 - c) * (1 + c));
+      return c * pressure_at(c * c) * around(rho, [&](double rim, double square) { return part(rho, rim, square); });
+    };
+    // The ring through the centre of velocity has a logarithm.
+    const double edge = v < w ? std::sqrt((1 - v) * (1 + v)) : 0.0;
+    return (integral(ring, 0, edge) + integral(ring, edge, 1)) / load_;
+  };
+  return {over([&](double, double rim, double square) { return v - rim + 2 * rim * square; }),
+          over([&](double rho, double rim, double square) { return rho * (rim - v + 2 * v * square); })};
+}
+
+double ContactPatch::chord_moment_of(int n, double centre, double half_length) const {
+  return integral(
+             [&](double x) {  // t = l (1 - x), from the end of the chord to its middle
+               const double t = half_length * (1 - x);
+               const double rest = half_length * half_length * (x * (2 - x));
+               return pressure_at(rest) * (std::pow(centre + t, n) + std::pow(centre - t, n));
+             },
+             0, 1) *
+         half_length / load_;
+}
+
+double ContactPatch::chord_moment(int n, double theta, double k) const {
+  const double offset = k * std::sin(theta);
+  if (!(std::abs(offset) < 1)) return 0;
+  return chord_moment_of(n, k * std::cos(theta), std::sqrt((1 - offset) * (1 + offset)));
+}
+
+Resistance ContactPatch::over_chords(double k) const {
+  if (!(k > 0) || !std::isfinite(k)) {
+    throw std::domain_error(fmt::format("ContactPatch::over_chords: k must be positive and finite, got {}", k));
+  }
+  if (k <= 1) {
+    const double force = integral([&](double theta) { return std::cos(theta) * chord_moment(1, theta, k); }, 0, pi / 2);
+    const double moment = integral([&](double theta) { return chord_moment(2, theta, k); }, 0, pi / 2);
+    return {2 * force, 2 * moment - k * (2 * force)};  // pi - theta gives the same chord, turned round
+  }
+  const auto over = [&](int n, int power) {
+    return 2 * integral(
+                   [&](double b) {
+                     const double cosine = std::sqrt(1 - std::sin(b) / k * (std::sin(b) / k));
+                     return std::pow(cosine, power) * chord_moment_of(n, k * cosine, std::cos(b)) * std::cos(b) / k;
+                   },
+                   0, pi / 2);
+  };
+  const double force = over(1, 0);
+  return {force, over(2, -1) - k * force};
+}
+
+}  // namespace contensou::reduction

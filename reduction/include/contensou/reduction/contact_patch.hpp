@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+
+#include "contensou/reduction/slip.hpp"
+
+namespace contensou::reduction {
+
+/// Coulomb friction of a circular patch from its definition: the local slip field, integrated over the disc. Slow, and
+/// sharing no formula with any law: it is what the laws are tested against.
+///
+/// Unit of length: the radius eps of the patch. Pressures are relative; only their ratio to the load matters.
+/// Accuracy  1e-12 of the largest value (1 for Phi, Psi(0) for Psi), for pressures that are smooth inside the disc and
+///           a power of 1 - rho^2, larger than -1, at its edge.
+class ContactPatch {
+ public:
+  /// @param pressure  as a function of 1 - rho^2, which keeps its digits at the edge; >= 0
+  /// @throws std::domain_error  if the load, its integral over the disc, is not positive and finite
+  explicit ContactPatch(std::function<double(double)> pressure);
+
+  /// (1.1) and the moment about the centre, in polar coordinates about the centre of the patch.
+  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  Resistance over_disc(Slip slip) const;
+
+  /// The same in polar coordinates (q, theta) about the centre of velocity, at the distance k: (1.2) with the factor
+  /// cos(theta) that the print lacks, and M = M^h - k F, theta from 0 to pi for k <= 1.
+  /// @param k  > 0, finite
+  Resistance over_chords(double k) const;
+
+  /// Q_n of (1.2) for this pressure, relative to the load: the integral of pressure q^n over the chord q_- to q_+.
+  /// @param n      >= 0
+  /// @param theta  angle of the chord with the line through both centres; 0 if the chord misses the patch
+  double chord_moment(int n, double theta, double k) const;
+
+ private:
+  double pressure_at(double rest) const;
+  double chord_moment_of(int n, double centre, double half_length) const;
+
+  std::function<double(double)> pressure_;
+  double load_ = 1;
+};
+
+}  // namespace contensou::reduction
