@@ -11,11 +11,15 @@ class LawOption {
   void add(CLI::App& app);
   bool given() const { return law_.given(); }
 
-  /// The law of that name; the first of named_laws() if none was given.
-  /// @throws BadInput  for an unknown name
+  /// The law of that name, of that exponent (pressure:P), or of the table in that file (with a / or ending in .csv);
+  /// the first of named_laws() if none was given.
+  /// @throws BadInput           for an unknown name or an exponent out of range; BadLine for a bad line of the file
+  /// @throws std::system_error  if the file cannot be read
   reduction::Law read() const;
 
  private:
+  reduction::Law of_the_family() const;
+
   Argument law_;
 };
 

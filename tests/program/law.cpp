@@ -45,3 +45,71 @@ TEST_CASE("law as JSON, asked for or by the file's ending", "[cli]") {
   CHECK(run_program("law --k 1 -o " + scratch.file("law.csv")).status == 0);
   CHECK_THAT(read_file(scratch.file("law.csv")), StartsWith("k,phi,psi\n1,"));
 }
+
+TEST_CASE("law by every name, by exponent and by table", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("flat.csv"), "# flat\nrho,pressure\n0,3\n0.5,3\n1,3\n");
+  const auto phi = [](const std::string& law) {
+    const Run run = run_program("law --k 0.5 --law " + law);
+    INFO(law << ": " << run.err);
+    REQUIRE(run.status == 0);
+    return std::stod(rows_of(run.out).at(1).at(1));
+  };
+  CHECK(phi("punch") == Approx(0.39269908169872414).epsilon(1e-15));
+  CHECK(phi("uniform") == phi("pressure:0"));
+  CHECK(phi("pressure:0.5") == Approx(phi("exact")).epsilon(1e-15));
+  CHECK(phi("pressure:-0.9999999999") == Approx(phi("ring")).epsilon(1e-8));
+  CHECK(phi("potential8") == Approx(phi("exact")).epsilon(0.0341));
+  CHECK(phi(scratch.file("flat.csv")) == Approx(phi("uniform")).epsilon(1e-15));
+  CHECK(json_of("law --k 1 --law pressure:1.5 --format json").at("law") == "pressure:1.5");
+}
+
+TEST_CASE("an exponent or a name that is no law", "[cli]") {
+  const std::pair<const char*, const char*> complaints[] = {
+      {"pressure:", "exponent"},  {"pressure:x", "'x'"},  {"pressure:-1", "ring"},    {"pressure:nan", "nan"},
+      {"pressure:1e9", "-1 < P"}, {"uniforn", "uniform"}, {"pressure", "pressure:P"}, {"punsh", "'punch'"}};
+  for (const auto& [law, complaint] : complaints) {
+    const Run run = run_program(std::string("law --k 1 --law ") + law);
+    INFO(law << ": " << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains(complaint) && Contains(law));
+  }
+}
+
+TEST_CASE("a table that is no pressure", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string path = scratch.file("bad.csv");
+  const std::pair<const char*, const char*> tables[] = {
+      {"rho,pressure\n0.1,1\n1,1\n", ":2: "}, {"rho,pressure\n0,1\n0,1\n1,1\n", ":3: "},
+      {"rho,pressure\n0,1\n0.9,1\n", ":3: "}, {"rho,pressure\n0,1\n1.5,1\n", ":3: "},
+      {"rho,pressure\n0,1\n1,-1\n", ":3: "},  {"rho,pressure\n0,inf\n1,1\n", ":2: "},
+      {"rho,pressure\n0,0\n1,0\n", ":3: "},   {"rho,pressure\n0,1\n", ":1: "},
+      {"rho,p\n0,1\n1,1\n", ":1: "},          {"rho,pressure\n0,1\n1\n", ":3: "},
+      {"rho,pressure\n0,1\nnan,1\n", ":3: "}, {"", ":1: "}};
+  for (const auto& [text, line] : tables) {
+    write_file(path, text);
+    const Run run = run_program("stop --mu 0.1 --u0 1 --v0 1 --law " + path);
+    INFO(text << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains(path + line));
+  }
+  CHECK(run_program("law --k 1 --law " + scratch.file("missing.csv")).status == 4);
+}
+
+TEST_CASE("every verb takes every law", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("hat.csv"), "rho,pressure\n0,1\n0.3,4\n0.7,2\n1,0\n");
+  for (const std::string& law : {std::string("uniform"), std::string("punch"), std::string("ring"),
+                                std::string("pressure:-0.3"), std::string("potential8"), scratch.file("hat.csv")}) {
+    const std::string start = " --mu 0.2 --u0 1 --v0 1 --law " + law;
+    for (const std::string verb : {"stop", "check", "orbit"}) {
+      const Run run = run_program(verb + start);
+      INFO(verb << start << "\n" << run.out << run.err);
+      CHECK(run.status == 0);
+    }
+    CHECK(run_program("portrait --mu 0.2 --law " + law + " -o " + scratch.file("p.json")).status == 0);
+    CHECK(run_program("law --law " + law + " -o " + scratch.file("f.gp")).status == 0);
+  }
+}
