@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/inertia.hpp"
 #include "legendre_series.hpp"
 
 namespace contensou::reduction {
@@ -79,6 +80,14 @@ QuadratureCurve::~QuadratureCurve() = default;
 QuadratureCurve::QuadratureCurve(const Law& law, double r) : SimilarityCurve(r) {
   if (!(r > 0) || !std::isfinite(r)) {
     throw std::domain_error(fmt::format("QuadratureCurve: r = gamma mu^2/chi must be positive and finite, got {}", r));
+  }
+  const double limit = law.force_slope() / law.pivoting_moment();
+  if (!(r < limit)) {
+    throw std::domain_error(fmt::format(
+        "law {}: the similarity solution is known here for r = gamma mu^2/chi below Phi'(0)/Psi(0) = {:.6g} only "
+        "(a ball: mu < {:.6g}), got r = {:.6g}; beyond, v/(mu |u|) does not tend to 0; routes regularised and "
+        "direct answer there",
+        law.name(), limit, std::sqrt(limit * homogeneous_ball.chi / homogeneous_ball.gamma), r));
   }
   for (int left = lowest_ln_k; left < highest_ln_k; ++left) split(law, left, left + 1, 0);
 
