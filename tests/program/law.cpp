@@ -102,7 +102,7 @@ TEST_CASE("every verb takes every law", "[cli]") {
   const TemporaryDirectory scratch;
   write_file(scratch.file("hat.csv"), "rho,pressure\n0,1\n0.3,4\n0.7,2\n1,0\n");
   for (const std::string& law : {std::string("uniform"), std::string("punch"), std::string("ring"),
-                                std::string("pressure:-0.3"), std::string("potential8"), scratch.file("hat.csv")}) {
+                                 std::string("pressure:-0.3"), std::string("potential8"), scratch.file("hat.csv")}) {
     const std::string start = " --mu 0.2 --u0 1 --v0 1 --law " + law;
     for (const std::string verb : {"stop", "check", "orbit"}) {
       const Run run = run_program(verb + start);

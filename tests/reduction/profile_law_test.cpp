@@ -101,7 +101,7 @@ TEST_CASE("a table keeps what holds for every patch", "[profile_law][invariant]"
 }
 
 TEST_CASE("the unit of the pressure does not matter", "[profile_law][symmetry]") {
-  for (double unit : {1e-300, 1e6, 1e300}) {
+  for (double unit : {1e-300, 1e6, 1.7e308}) {
     const ProfileLaw law = table([unit](double rho) { return unit * (1 - rho / 2); }, 7);
     const ProfileLaw one = table([](double rho) { return 1 - rho / 2; }, 7);
     CHECK(law({0.7, 1}).force == Approx(one({0.7, 1}).force).epsilon(1e-14));
