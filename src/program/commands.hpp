@@ -12,6 +12,7 @@ std::unique_ptr<Command> make_orbit_command();
 std::unique_ptr<Command> make_law_command();
 std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_portrait_command();
+std::unique_ptr<Command> make_terminal_command();
 std::unique_ptr<Command> make_balls_command();
 
 /// Every verb, in the order of the help.

@@ -1,0 +1,44 @@
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+TEST_CASE("terminal gives the published ratio of a disc on its own face", "[cli]") {
+  const auto disc = json_of("terminal --law uniform --body disc --format json");
+  CHECK(disc["schema"] == 1);
+  CHECK(disc["law"] == "uniform");
+  CHECK(disc["r"] == 2);
+  CHECK(disc["limit"] == "ray");
+  CHECK(disc["k_star"].get<double>() == Approx(0.653001789205597639).epsilon(1e-14));
+  CHECK(disc["r_low"].get<double>() == Approx(1.5).epsilon(1e-14));
+  CHECK(disc["r_high"].get<double>() == Approx(4).epsilon(1e-14));
+  CHECK(json_of("terminal --law ring --body ring --format json")["k_star"].get<double>() == Approx(1).epsilon(1e-14));
+  CHECK(run_program("terminal --law uniform --body disc").out.find("0.653002") != std::string::npos);
+}
+
+TEST_CASE("terminal names the three regimes", "[cli]") {
+  const auto ball = json_of("terminal --mu 0.3 --format json");
+  CHECK(ball["limit"] == "zero");
+  CHECK(ball["k_star"] == 0);
+  const auto tall = json_of("terminal --mu 3 --body 1,1 --format json");
+  CHECK(tall["limit"] == "infinity");
+  CHECK(tall["k_star"] == "inf");
+  CHECK(rows_of(run_program("terminal --mu 0.3 --format csv").out)[0][5] == "k_star");
+}
+
+TEST_CASE("terminal rejects what no body is", "[cli]") {
+  const auto rejected = [](const std::string& arguments, const std::string& words) {
+    CAPTURE(arguments);
+    const Run run = run_program(arguments);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK(run.err.find(words) != std::string::npos);
+  };
+  rejected("terminal", "--mu missing");
+  rejected("terminal --mu 2", "0 < mu <= 1");
+  rejected("terminal --mu 0.5 --body disc", "leave --mu out");
+  rejected("terminal --mu 0.5 --body dsic", "did you mean 'disc'");
+  rejected("terminal --mu 0.5 --body 1", "CHI,GAMMA");
+  rejected("terminal --mu 0.5 --body 1,0", "positive");
+  rejected("terminal --mu 0.5 --body 1,2,3", "two numbers");
+  rejected("terminal --mu -1 --body 1,2", "positive");
+}
