@@ -40,8 +40,8 @@ std::vector<std::pair<std::string, double>> numbers(const CatalogueEntry& entry)
           {"friction", contact.friction},
           {"patch_radius", si::patch_radius_of(entry.shot)},
           {"mu", si::patch_ratio(entry.shot)},
-          {"slip", start.slip},
-          {"spin", start.spin},
+          {"slip", si::slip_at_start(entry.shot)},
+          {"spin", si::spin_at_start(entry.shot)},
           {"gravity", environment.gravity}};
 }
 

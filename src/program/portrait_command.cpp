@@ -112,8 +112,8 @@ class PortraitCommand final : public Command {
     const si::Shot& shot = *given.shot;
     caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot.ball.name),
                                 system.mu(), portraits::literal(system.law().name()));
-    caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", shot.start.slip,
-                                   shot.start.spin, si::seconds(shot, stop));
+    caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", si::slip_at_start(shot),
+                                   si::spin_at_start(shot), si::seconds(shot, stop));
     caption.speed_unit = "m/s";
     caption.time_symbol = "{/:Italic t}*";
     caption.time_unit_name = "s";

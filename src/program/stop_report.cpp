@@ -58,8 +58,8 @@ class TextReport {
         "{}: radius {} m, mass {} kg, friction {}, patch radius {} m\n"
         "slip {} m/s, spin {} rad/s: mu = {}, u0 = {} m/s, v0 = {} m/s\n",
         shot->ball.name, number(shot->ball.radius), number(shot->ball.mass), number(shot->contact.friction),
-        number(si::patch_radius_of(*shot)), number(shot->start.slip), number(shot->start.spin), number(mu),
-        number(state.u), number(state.v));
+        number(si::patch_radius_of(*shot)), number(si::slip_at_start(*shot)), number(si::spin_at_start(*shot)),
+        number(mu), number(state.u), number(state.v));
   }
 
   std::string certainty() const {
@@ -106,9 +106,10 @@ class TextReport {
     const si::FinalMotion motion = si::final_motion(*shot);
     return fmt::format(
         "then   it rolls: velocity ({}, {}) m/s, angular velocity ({}, {}, {}) 1/s\n"
-        "       (x along the initial slip, z up)\n",
+        "       ({}, z up)\n",
         number(motion.velocity.x()), number(motion.velocity.y()), number(motion.angular_velocity.x()),
-        number(motion.angular_velocity.y()), number(motion.angular_velocity.z()));
+        number(motion.angular_velocity.y()), number(motion.angular_velocity.z()),
+        std::holds_alternative<si::SlipAndSpin>(shot->start) ? "x along the initial slip" : "axes of the start");
   }
 
   const StopReport& report_;

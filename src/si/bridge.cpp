@@ -7,7 +7,7 @@ namespace contensou::si {
 double patch_ratio(const Shot& shot) { return patch_radius_of(shot) / shot.ball.radius; }
 
 reduction::State reduced_start(const Shot& shot) {
-  return {.u = shot.ball.radius * shot.start.spin, .v = shot.start.slip};
+  return {.u = shot.ball.radius * spin_at_start(shot), .v = slip_at_start(shot)};
 }
 
 reduction::ReducedSystem reduced_system(const Shot& shot, const reduction::Law& law) {

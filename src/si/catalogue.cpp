@@ -10,7 +10,7 @@ CatalogueEntry pool() {
   return {"pool",
           {.ball = {.name = "pool ball on cloth", .mass = 0.1701, .radius = 0.028575},
            .contact = {.friction = 0.2, .patch = SpinDeceleration{10}},
-           .start = {.slip = 1, .spin = 100}},
+           .start = SlipAndSpin{.slip = 1, .spin = 100}},
           "Size, mass (2.25 in, 0.1701 kg), friction (0.15 to 0.4) and spin deceleration (5 to 15 rad/s^2):\n"
           "billiards.colostate.edu/threads/physics.html. The patch follows from the spin deceleration."};
 }
@@ -20,7 +20,7 @@ CatalogueEntry steel() {
           {.ball = {.name = "steel ball of 20 mm on glass", .mass = 0.0327, .radius = 0.010},
            .contact = {.friction = 0.12,
                        .patch = HertzModuli{.youngs_modulus = {2.1e11, 7.0e10}, .poisson_ratio = {0.3, 0.22}}},
-           .start = {.slip = 0.5, .spin = 100}},
+           .start = SlipAndSpin{.slip = 0.5, .spin = 100}},
           "Patch by Hertz's formula with handbook moduli of steel and glass; friction assumed."};
 }
 
@@ -29,7 +29,7 @@ CatalogueEntry bowling() {
           {.ball = {.name = "bowling ball on a dry lane", .mass = 6.8, .radius = 0.1085},
            .contact = {.friction = 0.2,
                        .patch = HertzModuli{.youngs_modulus = {4.186e9, 4.186e9}, .poisson_ratio = {0.3, 0.3}}},
-           .start = {.slip = 8, .spin = 10}},
+           .start = SlipAndSpin{.slip = 8, .spin = 10}},
           "Regulation size and mass; friction assumed. Patch by Hertz's formula with E* = 2.3 GPa assumed:\n"
           "the two equal pairs of moduli stand for that value only."};
 }
@@ -39,7 +39,7 @@ CatalogueEntry rubber() {
           {.ball = {.name = "rubber ball on steel", .mass = 0.072, .radius = 0.025},
            .contact = {.friction = 0.6,
                        .patch = HertzModuli{.youngs_modulus = {2e6, 2.1e11}, .poisson_ratio = {0.49, 0.3}}},
-           .start = {.slip = 1, .spin = 50}},
+           .start = SlipAndSpin{.slip = 1, .spin = 50}},
           "Patch by Hertz's formula; the moduli of rubber (2 MPa, 0.49) and the friction are assumed."};
 }
 
@@ -48,7 +48,7 @@ CatalogueEntry gel() {
           {.ball = {.name = "gel ball on a rigid plane", .mass = 0.113, .radius = 0.030},
            .contact = {.friction = 0.5,
                        .patch = HertzModuli{.youngs_modulus = {5e4, 2.1e11}, .poisson_ratio = {0.49, 0.3}}},
-           .start = {.slip = 0.5, .spin = 30}},
+           .start = SlipAndSpin{.slip = 0.5, .spin = 30}},
           "Patch by Hertz's formula; the moduli of the gel (50 kPa, 0.49) and the friction are assumed, the plane is\n"
           "steel. The patch is large (mu = 0.24): the ball where sliding and spinning are seen to be coupled."};
 }

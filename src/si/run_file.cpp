@@ -46,7 +46,8 @@ std::string place(const Section& section, std::string_view key) {
 
 class Reader {
  public:
-  Reader(std::string_view source, const Overrides& overrides) : source_(source), overrides_(overrides) {}
+  Reader(std::string_view source, const Overrides& overrides, const StartOverride& start)
+      : source_(source), overrides_(overrides), start_(start) {}
 
   Shot read(std::string_view text) const {
     const toml::table document = parse(text);
@@ -58,13 +59,13 @@ class Reader {
     allow(file, {"ball", "contact", "start", "environment"});
     allow(ball, {"name", mass.name, radius.name});
     allow(contact, {friction.name, patch_radius.name, spin_deceleration.name, "hertz"});
-    allow(start, {slip.name, spin.name});
+    allow(start, {slip.name, spin.name, velocity.name, angular_velocity.name});
     allow(environment, {gravity.name});
 
     const Shot shot{
         .ball = {.name = name(ball), .mass = number(ball, mass), .radius = number(ball, radius)},
         .contact = {.friction = number(contact, friction), .patch = patch(contact)},
-        .start = {.slip = number(start, slip), .spin = number(start, spin)},
+        .start = start_of(start),
         .environment = {.gravity = number(environment, gravity, Environment{}.gravity)},
     };
     // Of values that the file does not have it is not the place.
@@ -153,17 +154,51 @@ class Reader {
                                        quantity.unit.empty() ? "" : ", in ", quantity.unit));
   }
 
-  std::array<double, 2> pair(const Section& section, const Quantity& quantity) const {
-    const toml::node* node = section.table->get(quantity.name);
+  template <std::size_t Count>
+  std::array<double, Count> numbers(const Section& section, const Quantity& quantity) const {
+    static_assert(Count == 2 || Count == 3);
+    const toml::node* node = section.table == nullptr ? nullptr : section.table->get(quantity.name);
     if (node == nullptr) {
       fail(section.position, fmt::format("{} is missing: {}", place(section, quantity.name), quantity.meaning));
     }
     const toml::array* array = node->as_array();
-    if (array == nullptr || array->size() != 2) {
-      fail(node->source().begin,
-           fmt::format("{} must be two numbers in brackets: {}", place(section, quantity.name), quantity.meaning));
+    if (array == nullptr || array->size() != Count) {
+      fail(node->source().begin, fmt::format("{} must be {} numbers in brackets: {}", place(section, quantity.name),
+                                             Count == 2 ? "two" : "three", quantity.meaning));
     }
-    return {number((*array)[0], section, quantity), number((*array)[1], section, quantity)};
+    std::array<double, Count> values{};
+    for (std::size_t i = 0; i < Count; ++i) values[i] = number((*array)[i], section, quantity);
+    return values;
+  }
+
+  Start start_of(const Section& start) const {
+    if (start_.velocity && start_.angular_velocity) return Velocities{*start_.velocity, *start_.angular_velocity};
+    Start given = given_start(start);
+    if (!start_.velocity && !start_.angular_velocity) return given;
+    auto [centre, body] = velocities_of(given);
+    return Velocities{start_.velocity.value_or(centre), start_.angular_velocity.value_or(body)};
+  }
+
+  /// slip and spin, or velocity and angular_velocity; never both.
+  Start given_start(const Section& start) const {
+    const auto key_of = [&](const Quantity& quantity) -> const toml::key* {
+      if (start.table == nullptr) return nullptr;
+      const auto found = start.table->find(quantity.name);
+      return found == start.table->end() ? nullptr : &found->first;
+    };
+    const toml::key* general = key_of(velocity) != nullptr ? key_of(velocity) : key_of(angular_velocity);
+    if (general == nullptr) return SlipAndSpin{.slip = number(start, slip), .spin = number(start, spin)};
+    for (const Quantity* quantity : {&slip, &spin}) {
+      const toml::key* key = key_of(*quantity);
+      if (key == nullptr && !overrides_.contains(quantity->name)) continue;
+      fail((key == nullptr ? general : key)->source().begin,
+           fmt::format("'{}' and '{}' in [start] exclude each other: give slip and spin, or velocity and "
+                       "angular_velocity",
+                       quantity->name, general->str()));
+    }
+    const auto [x, y] = numbers<2>(start, velocity);
+    const auto [wx, wy, wz] = numbers<3>(start, angular_velocity);
+    return Velocities{{x, y}, {wx, wy, wz}};
   }
 
   PatchSource patch(const Section& contact) const {
@@ -189,11 +224,13 @@ class Reader {
     if (given.front() == spin_deceleration.name) return SpinDeceleration{number(contact, spin_deceleration)};
     const Section hertz = section(contact, "hertz");
     allow(hertz, {youngs_modulus.name, poisson_ratio.name});
-    return HertzModuli{.youngs_modulus = pair(hertz, youngs_modulus), .poisson_ratio = pair(hertz, poisson_ratio)};
+    return HertzModuli{.youngs_modulus = numbers<2>(hertz, youngs_modulus),
+                       .poisson_ratio = numbers<2>(hertz, poisson_ratio)};
   }
 
   std::string_view source_;
   const Overrides& overrides_;
+  const StartOverride& start_;
 };
 
 std::string line(const Quantity& quantity, double value) {
@@ -201,23 +238,34 @@ std::string line(const Quantity& quantity, double value) {
                      quantity.unit.empty() ? "" : ", ", quantity.meaning);
 }
 
-std::string line(const Quantity& quantity, const std::array<double, 2>& values) {
-  return fmt::format("{} = [{}, {}]  # {}{}{}\n", quantity.name, shortest(values[0]), shortest(values[1]),
-                     quantity.unit, quantity.unit.empty() ? "" : ", ", quantity.meaning);
+template <class Values>
+std::string list_line(const Quantity& quantity, const Values& values) {
+  std::vector<std::string> texts;
+  for (double value : values) texts.push_back(shortest(value));
+  return fmt::format("{} = [{}]  # {}{}{}\n", quantity.name, fmt::join(texts, ", "), quantity.unit,
+                     quantity.unit.empty() ? "" : ", ", quantity.meaning);
 }
 
 struct WritePatch {
   std::string operator()(PatchRadius patch) const { return line(patch_radius, patch.value); }
   std::string operator()(SpinDeceleration measured) const { return line(spin_deceleration, measured.value); }
   std::string operator()(const HertzModuli& moduli) const {
-    return "\n[contact.hertz]\n" + line(youngs_modulus, moduli.youngs_modulus) +
-           line(poisson_ratio, moduli.poisson_ratio);
+    return "\n[contact.hertz]\n" + list_line(youngs_modulus, moduli.youngs_modulus) +
+           list_line(poisson_ratio, moduli.poisson_ratio);
+  }
+};
+
+struct WriteStart {
+  std::string operator()(const SlipAndSpin& start) const { return line(slip, start.slip) + line(spin, start.spin); }
+  std::string operator()(const Velocities& start) const {
+    return list_line(velocity, start.velocity) + list_line(angular_velocity, start.angular_velocity);
   }
 };
 
 }  // namespace
 
-Shot parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides) {
+Shot parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides,
+                    const StartOverride& start) {
   for (const auto& [name, value] : overrides) {
     const Quantity* known = nullptr;
     for (const Quantity* quantity :
@@ -227,11 +275,11 @@ Shot parse_run_file(std::string_view text, std::string_view source, const Overri
     if (known == nullptr) throw std::domain_error(fmt::format("parse_run_file: no value is called '{}'", name));
     require(*known, value);
   }
-  return Reader(source, overrides).read(text);
+  return Reader(source, overrides, start).read(text);
 }
 
-Shot read_run_file(const std::string& path, const Overrides& overrides) {
-  return parse_run_file(read_text_file(path), path, overrides);
+Shot read_run_file(const std::string& path, const Overrides& overrides, const StartOverride& start) {
+  return parse_run_file(read_text_file(path), path, overrides, start);
 }
 
 std::string run_file(const Shot& shot, std::string_view remark) {
@@ -244,7 +292,7 @@ std::string run_file(const Shot& shot, std::string_view remark) {
   text += fmt::format("[ball]\nname = {}\n", name.str());
   text += line(mass, shot.ball.mass) + line(radius, shot.ball.radius);
   text += "\n[contact]\n" + line(friction, shot.contact.friction) + std::visit(WritePatch{}, shot.contact.patch);
-  text += "\n[start]\n" + line(slip, shot.start.slip) + line(spin, shot.start.spin);
+  text += "\n[start]\n" + std::visit(WriteStart{}, shot.start);
   text += "\n[environment]\n" + line(gravity, shot.environment.gravity);
   return text;
 }

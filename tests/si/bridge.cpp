@@ -26,7 +26,7 @@ double stop_in_seconds(const si::Shot& shot, const reduction::Law& law) {
 TEST_CASE("u is R omega_z with its sign, v the slip, mu the patch over the radius", "[table]") {
   si::Shot shot = pool();
   shot.contact.patch = si::PatchRadius{0.0028575};
-  shot.start = {.slip = 2, .spin = -10};
+  shot.start = si::SlipAndSpin{.slip = 2, .spin = -10};
   CHECK(si::patch_ratio(shot) == Approx(0.1).epsilon(1e-15));
   CHECK(si::reduced_start(shot).u == -0.28575);
   CHECK(si::reduced_start(shot).v == 2);
@@ -34,7 +34,7 @@ TEST_CASE("u is R omega_z with its sign, v the slip, mu the patch over the radiu
 
 TEST_CASE("a ball that only slides takes 2 v0/(7 f g)", "[limit]") {
   si::Shot shot = pool();
-  shot.start = {.slip = 1.7, .spin = 0};
+  shot.start = si::SlipAndSpin{.slip = 1.7, .spin = 0};
   const double expected = 2 * 1.7 / (7 * shot.contact.friction * shot.environment.gravity);
   CHECK(stop_in_seconds(shot, reduction::PadeLaw{}) == Approx(expected).epsilon(1e-14));
   CHECK(stop_in_seconds(shot, reduction::HertzLaw{}) == Approx(expected).epsilon(1e-14));
@@ -43,7 +43,7 @@ TEST_CASE("a ball that only slides takes 2 v0/(7 f g)", "[limit]") {
 TEST_CASE("a ball that only spins takes omega_z/alpha", "[limit]") {
   si::Shot shot = pool();
   shot.contact.patch = si::SpinDeceleration{8};
-  shot.start = {.slip = 0, .spin = -100};
+  shot.start = si::SlipAndSpin{.slip = 0, .spin = -100};
   CHECK(stop_in_seconds(shot, reduction::PadeLaw{}) == Approx(100.0 / 8).epsilon(1e-14));
   CHECK(stop_in_seconds(shot, reduction::HertzLaw{}) == Approx(100.0 / 8).epsilon(1e-14));
 }
@@ -52,7 +52,7 @@ TEST_CASE("the bowling ball of the worked exercise", "[table]") {
   si::Shot shot = si::find_ball("bowling")->shot;
   shot.ball.radius = 0.11;
   shot.contact.friction = 0.19;
-  shot.start = {.slip = 8.10, .spin = 0};
+  shot.start = si::SlipAndSpin{.slip = 8.10, .spin = 0};
   shot.environment.gravity = 9.8;
   CHECK(stop_in_seconds(shot, reduction::PadeLaw{}) == Approx(1.243).margin(5e-4));
   CHECK(si::final_motion(shot).velocity.x() == Approx(5.786).margin(5e-4));
@@ -61,7 +61,7 @@ TEST_CASE("the bowling ball of the worked exercise", "[table]") {
 TEST_CASE("the pool ball's times", "[table]") {
   si::Shot shot = pool();
   CHECK(stop_in_seconds(shot, reduction::PadeLaw{}) == Approx(10.2).margin(0.05));
-  shot.start.spin = 0;
+  std::get<si::SlipAndSpin>(shot.start).spin = 0;
   CHECK(stop_in_seconds(shot, reduction::PadeLaw{}) == Approx(0.146).margin(5e-4));
 }
 

@@ -49,8 +49,9 @@ void check_same(const Shot& a, const Shot& b) {
   CHECK(a.ball.radius == b.ball.radius);
   CHECK(a.contact.friction == b.contact.friction);
   CHECK(same(a.contact.patch, b.contact.patch));
-  CHECK(a.start.slip == b.start.slip);
-  CHECK(a.start.spin == b.start.spin);
+  CHECK(a.start.index() == b.start.index());
+  CHECK(velocities_of(a.start).velocity == velocities_of(b.start).velocity);
+  CHECK(velocities_of(a.start).angular_velocity == velocities_of(b.start).angular_velocity);
   CHECK(a.environment.gravity == b.environment.gravity);
 }
 
@@ -63,8 +64,8 @@ TEST_CASE("a run file in full", "[table]") {
   CHECK(shot.ball.radius == 0.028575);
   CHECK(shot.contact.friction == 0.2);
   CHECK(std::get<SpinDeceleration>(shot.contact.patch).value == 10);
-  CHECK(shot.start.slip == 1);
-  CHECK(shot.start.spin == 100);
+  CHECK(slip_at_start(shot) == 1);
+  CHECK(spin_at_start(shot) == 100);
   CHECK(shot.environment.gravity == 9.80665);
   CHECK(parse_run_file(good + "[environment]\ngravity = 1.62\n", "x.toml").environment.gravity == 1.62);
 }
@@ -84,9 +85,37 @@ TEST_CASE("what is written reads back to the same doubles", "[invariant]") {
   }
   const Shot awkward{.ball = {.name = "a \"quoted\" 'name' with \\ and \xC3\xA9", .mass = 1.0 / 3, .radius = 1e300},
                      .contact = {.friction = 5e-324, .patch = PatchRadius{1e299 / 3}},
-                     .start = {.slip = 12345678901234567890.0, .spin = -0.1},
+                     .start = SlipAndSpin{.slip = 12345678901234567890.0, .spin = -0.1},
                      .environment = {.gravity = 123456789}};
   check_same(parse_run_file(run_file(awkward, "a remark\n\nof three lines"), "awkward"), awkward);
+}
+
+TEST_CASE("a start may be given by its velocities", "[table]") {
+  const std::string general =
+      with(with(good, "slip = 1.0", "velocity = [1, -0.5]"), "spin = 100", "angular_velocity = [3, 1e3, -7.5]");
+  const Shot shot = parse_run_file(general, "x.toml");
+  const auto& start = std::get<Velocities>(shot.start);
+  CHECK(start.velocity == Eigen::Vector2d(1, -0.5));
+  CHECK(start.angular_velocity == Eigen::Vector3d(3, 1000, -7.5));
+  check_same(parse_run_file(run_file(shot), "written"), shot);
+  const Shot awkward{.ball = shot.ball,
+                     .contact = shot.contact,
+                     .start = Velocities{{1.0 / 3, -5e-324}, {12345678901234567890.0, 0, -1e-300}}};
+  check_same(parse_run_file(run_file(awkward), "written"), awkward);
+}
+
+TEST_CASE("velocities take the place of a start, one or both", "[table]") {
+  const StartOverride velocity_only{.velocity = Eigen::Vector2d(2, 3)};
+  const Velocities kept = velocities_of(parse_run_file(good, "x.toml", {}, velocity_only).start);
+  CHECK(kept.velocity == Eigen::Vector2d(2, 3));
+  CHECK(kept.angular_velocity == Eigen::Vector3d(0, 0, 100));
+  const StartOverride spin_only{.angular_velocity = Eigen::Vector3d(4, 5, 6)};
+  CHECK(velocities_of(parse_run_file(good, "x.toml", {}, spin_only).start).velocity == Eigen::Vector2d(1, 0));
+  // Both of them need no [start].
+  const std::string without = good.substr(0, good.find("[start]"));
+  const StartOverride both{Eigen::Vector2d(2, 3), Eigen::Vector3d(4, 5, 6)};
+  CHECK(velocities_of(parse_run_file(without, "x.toml", {}, both).start).angular_velocity == Eigen::Vector3d(4, 5, 6));
+  CHECK_THROWS_WITH(parse_run_file(without, "x.toml", {}, velocity_only), Contains("'slip' in [start] is missing"));
 }
 
 TEST_CASE("mistakes are found with their place", "[table]") {
@@ -124,6 +153,22 @@ TEST_CASE("mistakes are found with their place", "[table]") {
        "x.toml:7:",
        {"poisson_ratio must be above -1 and at most 0.5", "got 0.7"}},
       {with(good, "slip = 1.0", "slip = -1.0"), "x.toml:9:8: ", {"slip must be finite and >= 0"}},
+      {with(good, "slip = 1.0", "velocity = [1, 0]"), "x.toml:10:1: ", {"'spin' and 'velocity' in [start] exclude"}},
+      {with(good, "spin = 100", "angular_velocity = [1, 0, 0]"),
+       "x.toml:9:1: ",
+       {"'slip' and 'angular_velocity' in [start] exclude"}},
+      {with(with(good, "slip = 1.0", "velocity = [1, 0, 0]"), "spin = 100", "angular_velocity = [1, 0, 0]"),
+       "x.toml:9:12: ",
+       {"'velocity' in [start] must be two numbers in brackets"}},
+      {with(with(good, "slip = 1.0", "velocity = [1, 0]"), "spin = 100", "angular_velocity = 3"),
+       "x.toml:10:20: ",
+       {"'angular_velocity' in [start] must be three numbers"}},
+      {with(with(good, "slip = 1.0", "velocity = [1, nan]"), "spin = 100", "angular_velocity = [1, 0, 0]"),
+       "x.toml:9:16: ",
+       {"velocity must be finite, in m/s, got nan"}},
+      {with(with(good, "slip = 1.0", "velocity = [1, 0]"), "spin = 100", ""),
+       "x.toml:8:1: ",
+       {"'angular_velocity' in [start] is missing"}},
       {with(good, "[ball]", "ball = 3\n[bull]"), "x.toml:1:", {"'ball' must be a table"}},
       {"", "x.toml:1:1: ", {"'mass' in [ball] is missing"}},
       {with(good, "mass = 0.1701", "mass = 1\nmass = 2"), "x.toml:4:", {"not TOML"}},
@@ -156,7 +201,11 @@ gravity = 1.6
   check_same(parse_run_file(good, "x.toml", overrides), parse_run_file(changed, "y.toml"));
 
   CHECK(std::get<PatchRadius>(parse_run_file(good, "x.toml", {{"patch_radius", 0.002}}).contact.patch).value == 0.002);
-  CHECK(parse_run_file(with(good, "slip = 1.0\n", ""), "x.toml", {{"slip", 3.0}}).start.slip == 3);
+  CHECK(slip_at_start(parse_run_file(with(good, "slip = 1.0\n", ""), "x.toml", {{"slip", 3.0}})) == 3);
+  const std::string general =
+      with(with(good, "slip = 1.0", "velocity = [1, 0]"), "spin = 100", "angular_velocity = [0, 0, 1]");
+  CHECK_THROWS_WITH(parse_run_file(general, "x.toml", {{"spin", 3.0}}),
+                    StartsWith("x.toml:9:1: 'spin' and 'velocity'"));
   CHECK_THROWS_WITH(parse_run_file(good, "x.toml", {{"mas", 1.0}}), Contains("'mas'"));
   CHECK_THROWS_WITH(parse_run_file(good, "x.toml", {{"mass", -1.0}}), Contains("mass must be"));
   CHECK_THROWS_AS(parse_run_file(good, "x.toml", {{"patch_radius", 1e-3}, {"spin_deceleration", 3.0}}),

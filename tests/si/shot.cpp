@@ -15,7 +15,7 @@ namespace {
 Shot good() {
   return {.ball = {.name = "ball", .mass = 0.17, .radius = 0.03},
           .contact = {.friction = 0.2, .patch = PatchRadius{0.003}},
-          .start = {.slip = 1, .spin = -100}};
+          .start = SlipAndSpin{.slip = 1, .spin = -100}};
 }
 
 }  // namespace
@@ -45,8 +45,8 @@ TEST_CASE("a shot is checked value by value", "[limit]") {
        },
        "poisson_ratio",
        {-1, 0.51, nan}},
-      {[](Shot& s, double x) { s.start.slip = x; }, "slip", {-1, nan, inf}},
-      {[](Shot& s, double x) { s.start.spin = x; }, "spin", {nan, inf, -inf}},
+      {[](Shot& s, double x) { std::get<SlipAndSpin>(s.start).slip = x; }, "slip", {-1, nan, inf}},
+      {[](Shot& s, double x) { std::get<SlipAndSpin>(s.start).spin = x; }, "spin", {nan, inf, -inf}},
       {[](Shot& s, double x) { s.environment.gravity = x; }, "gravity", {0, -9.8, nan, inf}},
   };
   for (const Fault& fault : faults) {
@@ -57,6 +57,27 @@ TEST_CASE("a shot is checked value by value", "[limit]") {
       CHECK_THROWS_WITH(require_shot(shot), Contains(fault.name + " must be") && Contains("got"));
     }
   }
+}
+
+TEST_CASE("any velocities, if they are numbers", "[limit]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  Shot shot = good();
+  shot.start = Velocities{{-1, 2}, {3, -4, 5}};
+  CHECK_NOTHROW(require_shot(shot));
+  // (2.1): (vx - R omega_y, vy + R omega_x)
+  CHECK(slip_velocity_at_start(shot).x() == -1 + 0.03 * 4);
+  CHECK(slip_velocity_at_start(shot).y() == 2 + 0.03 * 3);
+  CHECK(spin_at_start(shot) == 5);
+  for (double bad : {nan, inf, -inf}) {
+    shot.start = Velocities{{0, bad}, {0, 0, 0}};
+    CHECK_THROWS_WITH(require_shot(shot), Contains("velocity must be finite, in m/s"));
+    shot.start = Velocities{{0, 0}, {0, bad, 0}};
+    CHECK_THROWS_WITH(require_shot(shot), Contains("angular_velocity must be finite"));
+  }
+  shot.start = Velocities{{1.7e308, 0}, {0, -1e308, 0}};
+  shot.ball.radius = 10;
+  CHECK_THROWS_WITH(require_shot(shot), Contains("velocity of the contact point must be finite"));
 }
 
 TEST_CASE("the patch is no larger than the ball", "[limit]") {
@@ -72,7 +93,7 @@ TEST_CASE("the patch is no larger than the ball", "[limit]") {
 TEST_CASE("a spin whose rim speed overflows is rejected", "[limit]") {
   Shot shot = good();
   shot.ball.radius = 100;
-  shot.start.spin = 1e307;
+  shot.start = SlipAndSpin{.slip = 1, .spin = 1e307};
   CHECK_THROWS_WITH(require_shot(shot), Contains("radius times spin"));
 }
 

@@ -27,6 +27,9 @@ inline constexpr Quantity poisson_ratio{"poisson_ratio", "", "Poisson's ratios o
 inline constexpr Quantity slip{"slip", "m/s", "sliding speed of the contact point, along x",
                                Quantity::Range::not_negative};
 inline constexpr Quantity spin{"spin", "rad/s", "angular velocity about the vertical", Quantity::Range::any};
+inline constexpr Quantity velocity{"velocity", "m/s", "velocity of the centre, x and y", Quantity::Range::any};
+inline constexpr Quantity angular_velocity{"angular_velocity", "rad/s", "angular velocity, x, y and z (up)",
+                                           Quantity::Range::any};
 inline constexpr Quantity gravity{"gravity", "m/s^2", "acceleration of gravity", Quantity::Range::positive};
 
 /// Rejects a value that the quantity cannot have. Infinity and NaN are never allowed.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,16 +19,23 @@ struct RunFileError : std::domain_error {
 /// deceleration replaces whatever the file gives the patch by.
 using Overrides = std::map<std::string_view, double>;
 
+/// Velocities that take the place of those of [start], however it is given there; the other one stays.
+struct StartOverride {
+  std::optional<Eigen::Vector2d> velocity{};
+  std::optional<Eigen::Vector3d> angular_velocity{};
+};
+
 /// A shot from the text of a run file (TOML).
 ///
 /// @param source  what messages call the text
 /// @throws RunFileError  for anything but a complete, valid run file; unknown keys are errors
-Shot parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides = {});
+Shot parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides = {},
+                    const StartOverride& start = {});
 
 /// A shot from a run file.
 /// @throws RunFileError       as parse_run_file
 /// @throws std::system_error  if the file cannot be read
-Shot read_run_file(const std::string& path, const Overrides& overrides = {});
+Shot read_run_file(const std::string& path, const Overrides& overrides = {}, const StartOverride& start = {});
 
 /// A shot as a run file that reads back to the same doubles.
 ///

@@ -3,6 +3,8 @@
 #include <string>
 #include <variant>
 
+#include <Eigen/Core>
+
 #include "contensou/si/hertz_contact.hpp"
 
 namespace contensou::si {
@@ -33,11 +35,20 @@ struct Contact {
   PatchSource patch;
 };
 
-/// How the ball is set going: sliding along x, spinning about the vertical, with no horizontal angular velocity.
-struct Start {
+/// A ball that slides along x and spins about the vertical, with no horizontal angular velocity.
+struct SlipAndSpin {
   double slip;  ///< m/s, sliding speed of the contact point
   double spin;  ///< rad/s about the vertical, either sign
 };
+
+/// Any motion of a ball on the plane.
+struct Velocities {
+  Eigen::Vector2d velocity;          ///< m/s, of the centre
+  Eigen::Vector3d angular_velocity;  ///< rad/s, z up
+};
+
+/// How the ball is set going, in the way in which it was given.
+using Start = std::variant<SlipAndSpin, Velocities>;
 
 struct Environment {
   double gravity = 9.80665;  ///< m/s^2
@@ -54,9 +65,22 @@ struct Shot {
 /// Radius of the contact patch in m, from whatever the contact gives it by.
 double patch_radius_of(const Shot& shot);
 
+/// A start as velocities of the centre and of the ball.
+Velocities velocities_of(const Start& start);
+
+/// Velocity (m/s) of the point of the ball that touches the plane, at the start:
+///   (vx - R omega_y, vy + R omega_x), Zh98 (2.1).
+Eigen::Vector2d slip_velocity_at_start(const Shot& shot);
+
+/// Its size in m/s.
+double slip_at_start(const Shot& shot);
+
+/// omega_z in rad/s at the start.
+double spin_at_start(const Shot& shot);
+
 /// Rejects what no ball can be or do.
 /// @throws std::domain_error  if a value is outside its Quantity's range, if the patch radius is not in (0, R], or if
-///                            R omega_z overflows
+///                            R omega_z or the slip overflows
 void require_shot(const Shot& shot);
 
 }  // namespace contensou::si

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "contensou/si/shot.hpp"
+
+namespace contensou::si {
+
+/// One instant of the motion of a ball on the plane.
+struct MotionPoint {
+  double t;                          ///< s, since the start
+  Eigen::Vector2d position;          ///< m, of the centre; the start is (0, 0)
+  Eigen::Vector2d velocity;          ///< m/s, of the centre
+  Eigen::Vector3d angular_velocity;  ///< rad/s, z up
+  double slip;                       ///< m/s, speed of the contact point
+  double energy;                     ///< J, kinetic
+};
+
+/// Many instants, one entry of each column for each; w is the angular velocity.
+struct MotionColumns {
+  Eigen::ArrayXd t, x, y, vx, vy, wx, wy, wz, slip, energy;
+
+  explicit MotionColumns(Eigen::Index rows = 0);
+  Eigen::Index rows() const { return t.size(); }
+  void set(Eigen::Index row, const MotionPoint& point);
+};
+
+/// Kinetic energy in J of a homogeneous ball: m V^2/2 + (m R^2/5) omega^2.
+double kinetic_energy(const Ball& ball, const Velocities& velocities);
+
+/// What friction takes from a shot until it rolls, in J, under any friction law.
+struct EnergyLoss {
+  double sliding;   ///< m v0^2/7
+  double pivoting;  ///< m (R omega_z0)^2/5
+};
+
+EnergyLoss energy_loss(const Shot& shot);
+
+/// The motion when the contact point slides at `slip`, having slid for `slip_length` since the start, and the ball
+/// spins at `spin` about the vertical: friction leaves nothing else free.
+///
+/// The slip keeps its direction e, and with it omega along e; along e the velocity of the centre falls by 2/7 of what
+/// the slip has lost, and R omega across e takes the rest (Zh98 after (2.5)). So V = V0 - (2/7)(v0 - v) e and
+/// X = V0 t - (2/7)(v0 t - slip_length) e.
+///
+/// @param t            s
+/// @param slip         m/s
+/// @param slip_length  m
+/// @param spin         rad/s
+MotionPoint motion_by_slip(const Shot& shot, double t, double slip, double slip_length, double spin);
+
+}  // namespace contensou::si

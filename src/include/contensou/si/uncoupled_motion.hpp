@@ -1,0 +1,35 @@
+#pragma once
+
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/motion.hpp"
+
+namespace contensou::si {
+
+/// The textbook's ball, whose sliding and pivoting do not know of each other: the slip falls at 7 f g/2, the spin at
+/// its rate without sliding. It ends in the same rolling as WholeMotion, but elsewhere and at another time.
+class UncoupledMotion {
+ public:
+  /// @param law  gives Psi(0), the moment of pure pivoting
+  /// @throws std::domain_error  as require_shot
+  UncoupledMotion(const Shot& shot, const reduction::Law& law);
+
+  /// s until the ball rolls: 2 v0/(7 f g).
+  double slip_end() const { return slip_end_; }
+
+  /// s until the spin has ended: 2 R |omega_z|/(5 mu Psi(0) f g).
+  double spin_end() const { return spin_end_; }
+
+  /// @param t  s, >= 0
+  /// @throws std::domain_error  if t is negative or not a number
+  MotionPoint at_time(double t) const;
+
+  /// at_time for each entry, in the order given.
+  MotionColumns at_times(const Eigen::ArrayXd& times) const;
+
+ private:
+  Shot shot_;
+  double slip_end_;
+  double spin_end_;
+};
+
+}  // namespace contensou::si

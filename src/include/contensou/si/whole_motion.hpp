@@ -1,0 +1,54 @@
+#pragma once
+
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/si/motion.hpp"
+
+namespace contensou::si {
+
+/// The whole motion of a ball, Zh98 (2.1) to (2.5), from the similarity solution: slip and spin are one orbit of the
+/// reduced system, the rest follows from the first integrals (motion_by_slip). Any instant is found by itself.
+///
+/// After the stop the ball rolls on a straight line at constant velocity: the model has no rolling resistance.
+///
+/// Accuracy  1e-12 of the scales of the motion against integrate_motion, for mu from 1e-3 to 1.
+class WholeMotion {
+ public:
+  /// @throws std::domain_error  as require_shot
+  WholeMotion(const Shot& shot, const reduction::Law& law);
+
+  /// s from the start until the ball neither slides nor spins.
+  double stop_time() const { return stop_; }
+
+  /// @param t  s, >= 0
+  /// @throws std::domain_error  if t is negative or not a number
+  MotionPoint at_time(double t) const;
+
+  /// at_time for each entry, in the order given.
+  MotionColumns at_times(const Eigen::ArrayXd& times) const;
+
+  /// s until the slip has fallen to that share of its initial value, 0 < share <= 1. 0 for a ball that does not slide.
+  double slip_time(double share) const;
+
+  /// m that the contact point slides on the ball, that is the integral of slip over time, until the stop.
+  double slip_length() const;
+
+  /// rad that the ball turns about the vertical until the stop, to 1e-9.
+  double spin_angle() const;
+
+  /// m along the path of the centre until that time in s, to 1e-9.
+  double path_length(double t) const;
+
+ private:
+  double paper_time(double t) const;
+
+  /// The integral of a function of time over [0, end], with panels graded towards the start, where slip dies out.
+  template <class Function>
+  double integral(Function function, double end) const;
+
+  Shot shot_;
+  reduction::Orbit orbit_;
+  double stop_;
+  double scale_;  ///< tau per s
+};
+
+}  // namespace contensou::si

@@ -1,0 +1,297 @@
+// Notation: V, omega velocities of ball and centre, c = (Vx - R omega_y, Vy + R omega_x) that of the contact point,
+// (2.1), v = |c|, alpha its direction, e = c/v. Friction is the force -f N Phi e at the contact point, the moment
+// -f N eps Psi sign(omega_z) about the vertical:
+//   m V' = F,   J omega_x' = R F_y,  J omega_y' = -R F_x,  J omega_z' = M                    (2.5)
+// Units of the integration: speed scale for R omega, time scale T for t, their product for the position, the slip
+// length without spin for the slip length.
+#include "contensou/si/integrated_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_cash_karp54.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
+
+namespace contensou::si {
+
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// ln(v/scale), alpha, ln(R|omega_z|/scale), R omega_x/scale, R omega_y/scale, x, y, slip length, spin angle R/length
+using Values = std::array<double, 9>;
+// Not Fehlberg 7(8): its error estimate compares the two ends of a step and vanishes for a quadrature, which the
+// position and the horizontal spin are.
+using CashKarp = odeint::runge_kutta_cash_karp54<Values>;
+
+constexpr double tolerance = 1e-14;
+constexpr long step_limit = 1'000'000;
+
+/// The equations with the values of one shot.
+struct Ballistics {
+  const reduction::Law& law;
+  double R, m, J;
+  double normal_friction;  ///< f N
+  double eps;
+  double turn;  ///< sign of omega_z
+  double speed_scale;
+  double time_scale;
+  double slip_scale;
+
+  double slip(const Values& x) const { return speed_scale * std::exp(x[0]); }
+  double spin(const Values& x) const { return speed_scale * std::exp(x[2]) / R; }  // |omega_z|
+  Vector2d direction(const Values& x) const { return {std::cos(x[1]), std::sin(x[1])}; }
+  Vector3d angular_velocity(const Values& x) const {
+    return {speed_scale / R * x[3], speed_scale / R * x[4], turn * spin(x)};
+  }
+
+  /// (2.1), solved for the velocity of the centre.
+  Vector2d velocity(const Values& x) const {
+    const Vector2d rolling = speed_scale * Vector2d(x[4], -x[3]);
+    return slip(x) * direction(x) + rolling;
+  }
+
+  void operator()(const Values& x, Values& rate, double /*t*/) const {
+    const double v = slip(x);
+    const double omega = spin(x);
+    if (std::isnan(v) || std::isnan(omega) || !(v > 0 || omega > 0)) {
+      rate.fill(std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    const auto [phi, psi] = law(reduction::Slip{v, eps * omega});
+    const Vector2d e = direction(x);
+    const Vector2d force = -normal_friction * phi * e;
+    const Vector2d acceleration = force / m;
+    const Vector2d turning = R / J * Vector2d(force.y(), -force.x());
+    const Vector2d contact = acceleration + R * Vector2d(-turning.y(), turning.x());
+    const Vector2d centre = velocity(x);
+    rate[0] = contact.dot(e) / v;
+    rate[1] = (e.x() * contact.y() - e.y() * contact.x()) / v;
+    rate[2] = -normal_friction * eps * psi / (J * omega);
+    rate[3] = R / speed_scale * turning.x();
+    rate[4] = R / speed_scale * turning.y();
+    const double length = speed_scale * time_scale;
+    rate[5] = centre.x() / length;
+    rate[6] = centre.y() / length;
+    rate[7] = v / slip_scale;
+    rate[8] = R * omega / length;
+    for (double& value : rate) value *= time_scale;
+  }
+
+  double slip_time_left(double v) const { return v / (normal_friction * (1 / m + R * R / J)); }
+  /// ln k, k = v/(eps |omega_z|).
+  double log_ratio(const Values& x) const { return x[0] - x[2] + std::log(R / eps); }
+
+  double spin_time_left(double omega) const { return omega * J / (normal_friction * eps * law.pivoting_moment()); }
+};
+
+/// The rest of a motion from where one of the two frictions is all there is. Its decline is linear in time.
+class Tail {
+ public:
+  /// @param start  s
+  Tail(const Ballistics& ball, const Values& from, double start) : ball_(ball), from_(from), start_(start) {
+    const double sliding = ball.slip_time_left(ball.slip(from));
+    const double pivoting = ball.spin_time_left(ball.spin(from));
+    slides_ = sliding > pivoting;
+    left_ = std::max(sliding, pivoting);
+    // The other speed follows with the slope of its logarithm against that of the first.
+    if (slides_) {
+      constexpr double fast = 0x1p100;
+      const double moment = fast * ball.law(reduction::Slip{fast, 1}).moment;  // k Psi at infinity
+      other_slope_ = ball.eps * ball.eps * moment / (ball.J * (1 / ball.m + ball.R * ball.R / ball.J));
+    } else {
+      other_slope_ = (1 / ball.m + ball.R * ball.R / ball.J) * ball.law.force_slope() * ball.J /
+                     (ball.eps * ball.eps * ball.law.pivoting_moment());
+    }
+  }
+
+  double stop() const { return start_ + left_; }
+
+  /// The state at a time in [start, infinity), in s.
+  Values at_time(double t) const {
+    const double share = t < stop() && left_ > 0 ? std::min((stop() - t) / left_, 1.0) : 0.0;
+    const double passed = std::min(t, stop()) - start_;
+    const double length = ball_.speed_scale * ball_.time_scale;
+    Values x = from_;
+    x[slides_ ? 0 : 2] += std::log(share);
+    x[slides_ ? 2 : 0] += share > 0 ? other_slope_ * std::log(share) : -std::numeric_limits<double>::infinity();
+    const double v = ball_.slip(from_);
+    const double omega = ball_.spin(from_);
+    if (slides_) {
+      const Vector2d e = ball_.direction(from_);
+      const double lost = v * (1 - share);
+      const double part = ball_.R * ball_.R / ball_.J / (1 / ball_.m + ball_.R * ball_.R / ball_.J);  // to rotation
+      x[3] -= part * lost * e.y() / ball_.speed_scale;
+      x[4] += part * lost * e.x() / ball_.speed_scale;
+      const double slid = v * (1 + share) / 2 * passed;
+      const Vector2d way = ball_.velocity(from_) * passed - (1 - part) * (v * passed - slid) * e;
+      x[5] += way.x() / length;
+      x[6] += way.y() / length;
+      x[7] += slid / ball_.slip_scale;
+    } else {
+      const Vector2d way = ball_.velocity(from_) * passed;
+      x[5] += way.x() / length;
+      x[6] += way.y() / length;
+      x[8] += ball_.R * omega * (1 + share) / 2 * passed / length;
+    }
+    if (t > stop()) {
+      const Vector2d way = ball_.velocity(x) * (t - stop());
+      x[5] += way.x() / length;
+      x[6] += way.y() / length;
+    }
+    return x;
+  }
+
+ private:
+  const Ballistics& ball_;
+  Values from_;
+  double start_;
+  double left_;
+  double other_slope_;
+  bool slides_;
+};
+
+/// Whether the rest is a Tail to better than rounding: one friction does nothing more, or next to no time is left.
+bool in_tail(const Ballistics& ball, const Values& x, double t) {
+  const double v = ball.slip(x);
+  const double omega = ball.spin(x);
+  const double sliding = ball.slip_time_left(v);
+  const double pivoting = ball.spin_time_left(omega);
+  return v <= 1e-17 * ball.eps * omega || pivoting <= 1e-18 * sliding || sliding + pivoting <= 1e-14 * t;
+}
+
+/// The length of the step from `before` that ends at k = 1, and its end, by bisection.
+double step_to_kink(const Ballistics& ball, const Values& before, double t, double longest, Values& end) {
+  CashKarp base;
+  double low = 0;
+  double high = longest;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = low + (high - low) / 2;
+    base.do_step(std::cref(ball), before, t, end, middle);
+    (ball.log_ratio(end) > 0 ? low : high) = middle;
+  }
+  base.do_step(std::cref(ball), before, t, end, high);
+  return high;
+}
+
+MotionPoint point_of(const Ballistics& ball, const Ball& body, const Values& x, double t) {
+  const double length = ball.speed_scale * ball.time_scale;
+  MotionPoint point{t, {x[5] * length, x[6] * length}, ball.velocity(x), ball.angular_velocity(x), ball.slip(x), 0};
+  point.angular_velocity.z() += 0.0;  // no -0
+  point.energy = kinetic_energy(body, {point.velocity, point.angular_velocity});
+  return point;
+}
+
+std::vector<Eigen::Index> increasing(const Eigen::ArrayXd& times) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(times.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return times[i]; });
+  return order;
+}
+
+}  // namespace
+
+IntegratedMotion integrate_motion(const Shot& shot, const reduction::Law& law, const Eigen::ArrayXd& times) {
+  require_shot(shot);
+  for (double t : times) {
+    if (t >= 0 && std::isfinite(t)) continue;
+    throw std::domain_error(fmt::format("integrate_motion: times must be finite and >= 0, in s; got {}", t));
+  }
+  IntegratedMotion motion{MotionColumns(times.size())};
+  const Velocities start = velocities_of(shot.start);
+  const Vector2d contact = slip_velocity_at_start(shot);
+  const double v0 = slip_at_start(shot);
+  const double spin = spin_at_start(shot);
+  if (v0 == 0 && spin == 0) {
+    for (Eigen::Index i = 0; i < times.size(); ++i) {
+      motion.points.set(i, {times[i], start.velocity * times[i], start.velocity, start.angular_velocity, 0,
+                            kinetic_energy(shot.ball, start)});
+    }
+    return motion;
+  }
+
+  const double R = shot.ball.radius;
+  Ballistics ball{.law = law,
+                  .R = R,
+                  .m = shot.ball.mass,
+                  .J = 0.4 * shot.ball.mass * R * R,
+                  .normal_friction = shot.contact.friction * shot.ball.mass * shot.environment.gravity,
+                  .eps = patch_radius_of(shot),
+                  .turn = std::copysign(1.0, spin),
+                  .speed_scale = std::max({start.velocity.norm(), R * start.angular_velocity.norm()}),
+                  .time_scale = 1,
+                  .slip_scale = 1};
+  ball.time_scale = ball.slip_time_left(v0) + ball.spin_time_left(std::abs(spin));
+  if (v0 > 0) ball.slip_scale = v0 * ball.slip_time_left(v0);
+  const double speed = ball.speed_scale;
+  Values x{std::log(v0 / speed),
+           std::atan2(contact.y(), contact.x()),
+           std::log(R * std::abs(spin) / speed),
+           R * start.angular_velocity.x() / speed,
+           R * start.angular_velocity.y() / speed,
+           0,
+           0,
+           0,
+           0};
+
+  auto stepper = odeint::make_controlled(tolerance, 0.0, CashKarp());
+  const std::vector<Eigen::Index> order = increasing(times);
+  auto next = order.begin();
+  double t = 0;  // in units of time_scale
+  double step = 1e-3 * std::min(1.0, ball.slip_time_left(std::max(v0, R * std::abs(spin))) / ball.time_scale);
+  const double T = ball.time_scale;
+  while (!in_tail(ball, x, t * T)) {
+    if (motion.steps == step_limit) {
+      throw std::runtime_error(fmt::format("integrate_motion: {} steps were not enough to reach the stop", step_limit));
+    }
+    while (next != order.end() && times[*next] / T <= t) {
+      motion.points.set(*next, point_of(ball, shot.ball, x, times[*next]));
+      ++next;
+    }
+    const double wanted = next == order.end() ? std::numeric_limits<double>::infinity() : times[*next] / T;
+    double trial = std::min(step, wanted - t);
+    const bool cut = trial < step;
+    const Values before = x;
+    const double t_before = t;
+    double taken = trial;
+    while (stepper.try_step(std::cref(ball), x, t, trial) == odeint::fail) {
+      if (!(trial > std::numeric_limits<double>::min())) {
+        throw std::runtime_error("integrate_motion: the step size fell to nothing: the friction law is not a number");
+      }
+      taken = trial;
+    }
+    for (double value : x) {
+      if (std::isnan(value)) throw std::runtime_error("integrate_motion: the friction law gave no number");
+    }
+    step = cut && t >= wanted ? std::max(step, trial) : trial;
+    if (ball.log_ratio(before) > 0 && ball.log_ratio(x) < 0) {
+      // Laws have a kink at k = 1: a step ends there.
+      taken = step_to_kink(ball, before, t_before, taken, x);
+      t = t_before + taken;
+    }
+    ++motion.steps;
+  }
+  const Tail tail(ball, x, t * T);
+  for (; next != order.end(); ++next) {
+    // Reached within the last step by rounding, not before it.
+    const double at = std::max(times[*next], t * T);
+    motion.points.set(*next, point_of(ball, shot.ball, tail.at_time(at), times[*next]));
+  }
+  motion.stop_time = tail.stop();
+  const Values end = tail.at_time(tail.stop());
+  motion.slip_length = end[7] * ball.slip_scale;
+  motion.spin_angle = ball.turn * end[8] * speed * T / R;
+  return motion;
+}
+
+}  // namespace contensou::si

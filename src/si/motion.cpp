@@ -1,0 +1,51 @@
+#include "contensou/si/motion.hpp"
+
+namespace contensou::si {
+
+MotionColumns::MotionColumns(Eigen::Index rows)
+    : t(rows), x(rows), y(rows), vx(rows), vy(rows), wx(rows), wy(rows), wz(rows), slip(rows), energy(rows) {}
+
+void MotionColumns::set(Eigen::Index row, const MotionPoint& point) {
+  t[row] = point.t;
+  x[row] = point.position.x();
+  y[row] = point.position.y();
+  vx[row] = point.velocity.x();
+  vy[row] = point.velocity.y();
+  wx[row] = point.angular_velocity.x();
+  wy[row] = point.angular_velocity.y();
+  wz[row] = point.angular_velocity.z();
+  slip[row] = point.slip;
+  energy[row] = point.energy;
+}
+
+double kinetic_energy(const Ball& ball, const Velocities& velocities) {
+  const Eigen::Vector3d rim = ball.radius * velocities.angular_velocity;
+  return ball.mass * (velocities.velocity.squaredNorm() / 2 + rim.squaredNorm() / 5);
+}
+
+EnergyLoss energy_loss(const Shot& shot) {
+  const double v = slip_at_start(shot);
+  const double u = shot.ball.radius * spin_at_start(shot);
+  return {shot.ball.mass * v * v / 7, shot.ball.mass * u * u / 5};
+}
+
+MotionPoint motion_by_slip(const Shot& shot, double t, double slip, double slip_length, double spin) {
+  const Velocities start = velocities_of(shot.start);
+  const Eigen::Vector2d contact = slip_velocity_at_start(shot);
+  const double v0 = slip_at_start(shot);
+  const Eigen::Vector2d along = v0 > 0 ? Eigen::Vector2d(contact / v0) : Eigen::Vector2d::Zero();
+  const double lost = v0 - slip;
+  const double rolling = 5 * lost / (7 * shot.ball.radius);
+
+  MotionPoint point;
+  point.t = t;
+  point.position = start.velocity * t - (v0 * t - slip_length) * (2.0 / 7.0) * along;
+  point.velocity = start.velocity - lost * (2.0 / 7.0) * along;
+  point.angular_velocity = {start.angular_velocity.x() - rolling * along.y(),
+                            start.angular_velocity.y() + rolling * along.x(), spin};
+  point.slip = slip;
+  point.energy = kinetic_energy(shot.ball, {point.velocity, point.angular_velocity});
+  return point;
+}
+
+}  // namespace contensou::si

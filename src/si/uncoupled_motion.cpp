@@ -1,0 +1,34 @@
+#include "contensou/si/uncoupled_motion.hpp"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "contensou/si/bridge.hpp"
+
+namespace contensou::si {
+
+UncoupledMotion::UncoupledMotion(const Shot& shot, const reduction::Law& law) : shot_(shot) {
+  const reduction::ReducedSystem system = reduced_system(shot, law);
+  const reduction::State start = reduced_start(shot);
+  slip_end_ = seconds(shot, system.sliding_limit(start.v));
+  spin_end_ = seconds(shot, system.pivoting_limit(start.u));
+}
+
+MotionPoint UncoupledMotion::at_time(double t) const {
+  if (!(t >= 0)) throw std::domain_error(fmt::format("UncoupledMotion::at_time: t must be >= 0, in s; got {}", t));
+  const double v0 = slip_at_start(shot_);
+  const bool slides = t < slip_end_;
+  const double slip = slides ? v0 * (1 - t / slip_end_) : 0;
+  const double slip_length = slides ? (v0 + slip) / 2 * t : v0 / 2 * slip_end_;
+  const double spin = t < spin_end_ ? spin_at_start(shot_) * (1 - t / spin_end_) : 0;
+  return motion_by_slip(shot_, t, slip, slip_length, spin);
+}
+
+MotionColumns UncoupledMotion::at_times(const Eigen::ArrayXd& times) const {
+  MotionColumns columns(times.size());
+  for (Eigen::Index i = 0; i < times.size(); ++i) columns.set(i, at_time(times[i]));
+  return columns;
+}
+
+}  // namespace contensou::si

@@ -1,0 +1,82 @@
+#include "contensou/si/whole_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include "contensou/si/bridge.hpp"
+
+namespace contensou::si {
+
+WholeMotion::WholeMotion(const Shot& shot, const reduction::Law& law)
+    : shot_(shot),
+      orbit_(reduced_system(shot, law), reduced_start(shot)),
+      stop_(seconds(shot, orbit_.stop_time())),
+      scale_(1 / seconds(shot, 1)) {
+  if (!std::isfinite(stop_)) throw std::runtime_error("the stop time exceeds the largest double");
+}
+
+double WholeMotion::paper_time(double t) const { return t >= stop_ ? orbit_.stop_time() : t * scale_; }
+
+MotionPoint WholeMotion::at_time(double t) const {
+  if (!(t >= 0)) throw std::domain_error(fmt::format("WholeMotion::at_time: t must be >= 0, in s; got {}", t));
+  const double tau = paper_time(t);
+  const reduction::OrbitPoint point = orbit_.at_time(tau);
+  return motion_by_slip(shot_, t, point.v, seconds(shot_, orbit_.slip_length(tau)), point.u / shot_.ball.radius);
+}
+
+MotionColumns WholeMotion::at_times(const Eigen::ArrayXd& times) const {
+  MotionColumns columns(times.size());
+  for (Eigen::Index i = 0; i < times.size(); ++i) columns.set(i, at_time(times[i]));
+  return columns;
+}
+
+double WholeMotion::slip_time(double share) const {
+  if (!(share > 0 && share <= 1)) {
+    throw std::domain_error(fmt::format("WholeMotion::slip_time: 0 < share <= 1 is required, got {}", share));
+  }
+  if (slip_at_start(shot_) == 0) return 0;
+  const double start = orbit_.start_log_ratio();
+  if (std::isinf(start)) return (1 - share) * stop_;  // no spin: the slip falls evenly
+  // ln v falls at least as fast as ln k (README of reduction, (R2)).
+  const double wanted = std::log(slip_at_start(shot_)) + std::log(share);
+  double low = start + std::log(share) - 1e-9;
+  double high = start;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = low + (high - low) / 2;
+    (orbit_.at_log_ratio(middle).ln_v > wanted ? high : low) = middle;
+  }
+  return seconds(shot_, orbit_.at_log_ratio(low).tau);
+}
+
+double WholeMotion::slip_length() const { return seconds(shot_, orbit_.slip_length(orbit_.stop_time())); }
+
+template <class Function>
+double WholeMotion::integral(Function function, double end) const {
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+  constexpr unsigned depth = 12;
+  constexpr double tolerance = 1e-10;
+  std::vector<double> edges{0, end};
+  for (double share : {0.5, 0.1, 0.01, 1e-4, 1e-8}) edges.push_back(std::min(slip_time(share), end));
+  std::ranges::sort(edges);
+  double sum = 0;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i] > edges[i - 1]) sum += Rule::integrate(function, edges[i - 1], edges[i], depth, tolerance);
+  }
+  return sum;
+}
+
+double WholeMotion::spin_angle() const {
+  return integral([this](double t) { return orbit_.at_time(paper_time(t)).u / shot_.ball.radius; }, stop_);
+}
+
+double WholeMotion::path_length(double t) const {
+  if (!(t >= 0)) throw std::domain_error(fmt::format("WholeMotion::path_length: t must be >= 0, in s; got {}", t));
+  return integral([this](double at) { return at_time(at).velocity.norm(); }, t);
+}
+
+}  // namespace contensou::si

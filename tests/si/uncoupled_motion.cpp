@@ -1,0 +1,49 @@
+#include "contensou/si/uncoupled_motion.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/si/final_motion.hpp"
+#include "contensou/si/whole_motion.hpp"
+#include "motion_cases.hpp"
+
+using namespace contensou;
+using namespace contensou::si;
+
+TEST_CASE("the textbook's motion is the limit of the whole one", "[limit]") {
+  const reduction::PadeLaw law;
+  for (const std::size_t alone : {std::size_t{5}, std::size_t{6}}) {  // pure spin, no spin
+    const Shot shot = shot_of(motion_cases[alone], 0.1);
+    const WholeMotion whole(shot, law);
+    const UncoupledMotion textbook(shot, law);
+    const double stop = whole.stop_time();
+    CHECK(std::max(textbook.slip_end(), textbook.spin_end()) == Approx(stop).epsilon(1e-14));
+    for (double share : {0.0, 0.3, 0.9, 1.5}) {
+      const MotionPoint a = whole.at_time(share * stop);
+      const MotionPoint b = textbook.at_time(share * stop);
+      CHECK((a.position - b.position).norm() < 1e-13);
+      CHECK((a.velocity - b.velocity).norm() < 1e-13);
+      CHECK((a.angular_velocity - b.angular_velocity).norm() < 1e-11);
+    }
+  }
+}
+
+TEST_CASE("the textbook's ball rolls after 2 v0/(7 f g), as any ball does in the end", "[table]") {
+  const Shot shot = shot_of(motion_cases[2], 0.1);
+  const UncoupledMotion textbook(shot, reduction::PadeLaw{});
+  CHECK(textbook.slip_end() == Approx(2 * slip_at_start(shot) / (7 * 0.2 * 9.80665)).epsilon(1e-14));
+  const MotionPoint rolls = textbook.at_time(textbook.slip_end());
+  CHECK((rolls.velocity - final_motion(shot).velocity).norm() < 1e-15);
+  CHECK(rolls.slip == 0);
+  // Constant force: X = V0 t - f g t^2/2 e.
+  const double t = 0.7 * textbook.slip_end();
+  const Eigen::Vector2d e = slip_velocity_at_start(shot).normalized();
+  const Eigen::Vector2d expected = velocities_of(shot.start).velocity * t - 0.2 * 9.80665 * t * t / 2 * e;
+  CHECK((textbook.at_time(t).position - expected).norm() < 1e-14);
+  CHECK_THROWS_AS(textbook.at_time(-1), std::domain_error);
+  CHECK_THROWS_AS(textbook.at_time(std::numeric_limits<double>::quiet_NaN()), std::domain_error);
+}

@@ -1,0 +1,135 @@
+#include "contensou/si/whole_motion.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/si/bridge.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/si/final_motion.hpp"
+#include "contensou/si/integrated_motion.hpp"
+#include "motion_cases.hpp"
+
+using namespace contensou;
+using namespace contensou::si;
+
+TEST_CASE("the bowling ball of the textbook", "[table]") {
+  Shot shot = find_ball("bowling")->shot;
+  shot.ball.radius = 0.11;
+  shot.contact.friction = 0.19;
+  shot.environment.gravity = 9.8;
+  shot.start = Velocities{{8.10, 0}, {0, 0, 0}};
+  for (const reduction::Law& law : reduction::named_laws()) {
+    const WholeMotion motion(shot, law);
+    const MotionPoint stop = motion.at_time(motion.stop_time());
+    CHECK(motion.stop_time() == Approx(1.243).margin(5e-4));
+    CHECK(stop.velocity.x() == Approx(5.786).margin(5e-4));
+    CHECK(stop.position.x() == Approx(8.63).margin(5e-3));
+    CHECK(stop.position.x() == Approx(12 * 8.1 * 8.1 / (49 * 0.19 * 9.8)).epsilon(1e-14));
+    CHECK(motion.path_length(motion.stop_time()) == Approx(stop.position.x()).epsilon(1e-9));
+    CHECK(motion.slip_length() == Approx(8.1 * 8.1 / (7 * 0.19 * 9.8)).epsilon(1e-13));
+    CHECK(motion.spin_angle() == 0);
+    CHECK(motion.slip_time(0.25) == Approx(0.75 * motion.stop_time()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
+  for (const reduction::Law& law : reduction::named_laws()) {
+    for (double mu : {1e-3, 1e-2, 0.1, 0.3, 1.0}) {
+      for (const MotionCase& motion_case : motion_cases) {
+        INFO(law.name() << ", mu = " << mu << ", " << motion_case.name);
+        const Shot shot = shot_of(motion_case, mu);
+        const WholeMotion reduced(shot, law);
+        const double stop = reduced.stop_time();
+        const double sliding = 2 * slip_at_start(shot) / (7 * 0.2 * 9.80665);
+        Eigen::ArrayXd times(62);  // the whole motion and beyond, and where it slides
+        times << Eigen::ArrayXd::LinSpaced(31, 0, 1.2 * stop), Eigen::ArrayXd::LinSpaced(31, 0, 2 * sliding);
+        const MotionColumns a = reduced.at_times(times);
+        const IntegratedMotion integrated = integrate_motion(shot, law, times);
+        const MotionColumns& b = integrated.points;
+
+        const double R = shot.ball.radius;
+        const double speed = motion_case.start.velocity.norm() + R * motion_case.start.angular_velocity.norm();
+        const double length = speed * stop + 1e-300;
+        const double energy = shot.ball.mass * speed * speed;
+        const auto differ = [](const Eigen::ArrayXd& one, const Eigen::ArrayXd& other, double scale) {
+          return (one - other).abs().maxCoeff() / scale;
+        };
+        CHECK(differ(a.x, b.x, length) < 1e-12);
+        CHECK(differ(a.y, b.y, length) < 1e-12);
+        CHECK(differ(a.vx, b.vx, speed) < 1e-12);
+        CHECK(differ(a.vy, b.vy, speed) < 1e-12);
+        CHECK(differ(a.wx, b.wx, speed / R) < 1e-12);
+        CHECK(differ(a.wy, b.wy, speed / R) < 1e-12);
+        CHECK(differ(a.wz, b.wz, speed / R) < 1e-12);
+        CHECK(differ(a.slip, b.slip, speed) < 1e-12);
+        CHECK(differ(a.energy, b.energy, energy) < 1e-12);
+        CHECK(integrated.stop_time == Approx(stop).epsilon(1e-12));
+        CHECK(integrated.slip_length == Approx(reduced.slip_length()).epsilon(1e-12));
+        CHECK(integrated.spin_angle == Approx(reduced.spin_angle()).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("after the stop the ball rolls on a straight line", "[invariant]") {
+  for (const MotionCase& motion_case : motion_cases) {
+    INFO(motion_case.name);
+    const Shot shot = shot_of(motion_case, 0.1);
+    const WholeMotion motion(shot, reduction::HertzLaw{});
+    const double stop = motion.stop_time();
+    const FinalMotion rolling = final_motion(shot);
+    const MotionPoint here = motion.at_time(stop);
+    const MotionPoint later = motion.at_time(stop + 3);
+    CHECK((later.position - here.position - 3 * rolling.velocity).norm() < 1e-13 * (1 + later.position.norm()));
+    for (const MotionPoint& point : {here, later}) {
+      CHECK((point.velocity - rolling.velocity).norm() < 1e-15);
+      CHECK((point.angular_velocity - rolling.angular_velocity).norm() < 2e-14);
+      CHECK(point.slip == 0);
+    }
+  }
+}
+
+TEST_CASE("a masse shot curves while it slips", "[limit]") {
+  const Shot shot = shot_of(motion_cases[1], 0.1);
+  const WholeMotion motion(shot, reduction::PadeLaw{});
+  const auto direction = [&](double t) {
+    const MotionPoint point = motion.at_time(t);
+    return std::atan2(point.velocity.y(), point.velocity.x());
+  };
+  CHECK(direction(0) == 0);
+  const double slips = motion.slip_time(0.01);
+  double before = 0;
+  for (int i = 1; i <= 10; ++i) {
+    const double now = direction(slips * i / 10);
+    CHECK(now < before);
+    before = now;
+  }
+  CHECK(direction(motion.slip_time(1e-9)) == Approx(direction(2 * motion.stop_time())).epsilon(1e-9));
+}
+
+TEST_CASE("where the slip has fallen to a share", "[route]") {
+  for (const reduction::Law& law : reduction::named_laws()) {
+    const Shot shot = shot_of(motion_cases[2], 0.1);
+    const WholeMotion motion(shot, law);
+    for (double share : {0.9, 0.5, 1e-3}) {
+      CHECK(motion.at_time(motion.slip_time(share)).slip == Approx(share * slip_at_start(shot)).epsilon(1e-9));
+    }
+    CHECK_THROWS_AS(motion.slip_time(0), std::domain_error);
+  }
+  CHECK(WholeMotion(shot_of(motion_cases[5], 0.1), reduction::PadeLaw{}).slip_time(0.5) == 0);
+}
+
+TEST_CASE("a time before the start is refused", "[domain]") {
+  const WholeMotion motion(shot_of(motion_cases[0], 0.1), reduction::PadeLaw{});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (double t : {-1.0, nan}) {
+    CHECK_THROWS_AS(motion.at_time(t), std::domain_error);
+    CHECK_THROWS_AS(motion.path_length(t), std::domain_error);
+  }
+}
