@@ -156,7 +156,7 @@ void write_panel(Gnuplot& gp, const Panel& panel, double left, double right) {
                       colour(layer.colour)));
   }
   for (const Marks& layer : panel.marks) {
-    entry(fmt::format("'-' with points pt 7 ps 0.6 lc {} notitle", colour(layer.colour)));
+    entry(fmt::format("'-' with points pt 7 ps {} lc {} notitle", layer.size, colour(layer.colour)));
   }
   gp << "\n";
   for (const Lines& layer : panel.lines) gp.send2d(rows(layer.lines));
@@ -171,10 +171,14 @@ void write_heading(Gnuplot& gp, const Figure& figure) {
   gp << "set label " << quoted(figure.title) << " at screen 0.5,0.962 center font ',15'\n";
   gp << "set label " << quoted(figure.subtitle) << " at screen 0.5,0.916 center tc rgb '#555555'\n";
   std::string separator = "plot [0:1] [0:1] ";
-  for (const Lines& layer : figure.panels.front().lines) {
-    if (layer.legend.empty()) continue;
-    gp << std::exchange(separator, ", \\\n     ");
-    gp << "NaN with lines " << line_style(layer.stroke) << " title " << quoted(layer.legend);
+  std::vector<std::string> listed;  // panels share entries
+  for (const Panel& panel : figure.panels) {
+    for (const Lines& layer : panel.lines) {
+      if (layer.legend.empty() || std::ranges::find(listed, layer.legend) != listed.end()) continue;
+      listed.push_back(layer.legend);
+      gp << std::exchange(separator, ", \\\n     ");
+      gp << "NaN with lines " << line_style(layer.stroke) << " title " << quoted(layer.legend);
+    }
   }
   gp << "\nunset key\nset border 3 lw 0.8 lc rgb '#444444'\n";
 }

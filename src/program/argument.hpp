@@ -17,7 +17,8 @@ class Argument {
   /// @param value_name  what the help calls the value
   void add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help);
 
-  bool given() const { return option_->count() > 0; }
+  /// False for an argument that a verb does not have.
+  bool given() const { return option_ != nullptr && option_->count() > 0; }
   std::string name() const { return option_->get_name(); }
 
   /// @throws BadInput  if the option was given more than once

@@ -9,6 +9,7 @@ namespace contensou::program {
 
 std::unique_ptr<Command> make_stop_command();
 std::unique_ptr<Command> make_orbit_command();
+std::unique_ptr<Command> make_roll_command();
 std::unique_ptr<Command> make_law_command();
 std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_portrait_command();

@@ -42,7 +42,13 @@ void StartOptions::add(CLI::App& app) {
   mu_.add(app, "--mu", "M", "patch ratio, patch radius/R; 0 < M <= 1");
   u0_.add(app, "--u0", "U", "pivoting R omega_z at the start, either sign, in any unit of speed");
   v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0");
-  ball_.add(app, "--ball", "NAME|FILE.toml", "instead of these three: a ball in SI units, built in or from a run file");
+  add_ball(app, "instead of these three: a ball in SI units, built in or from a run file");
+}
+
+void StartOptions::add_ball(CLI::App& app) { add_ball(app, "a ball in SI units, built in or from a run file"); }
+
+void StartOptions::add_ball(CLI::App& app, const std::string& help) {
+  ball_.add(app, "--ball", "NAME|FILE.toml", help);
   for (auto& [quantity, argument] : overrides_) {
     argument.add(app, option_name(*quantity), quantity->unit.empty() ? "X" : std::string(quantity->unit),
                  fmt::format("with --ball: {}", quantity->meaning));
@@ -76,7 +82,7 @@ void StartOptions::require_one_kind() const {
 GivenStart StartOptions::read() const {
   require_one_kind();
   if (ball_.given()) {
-    const si::Shot shot = read_shot();
+    const si::Shot shot = read_ball();
     return {si::patch_ratio(shot), si::reduced_start(shot), shot};
   }
   std::vector<std::string> missing;
@@ -95,7 +101,7 @@ GivenStart StartOptions::read() const {
 
 double StartOptions::read_patch_ratio() const {
   require_one_kind();
-  if (ball_.given()) return si::patch_ratio(read_shot());
+  if (ball_.given()) return si::patch_ratio(read_ball());
   if (!mu_.given()) throw BadInput("--mu missing: give --mu M, or --ball NAME|FILE.toml");
   return read_mu();
 }
@@ -106,7 +112,14 @@ double StartOptions::read_mu() const {
   return mu;
 }
 
-si::Shot StartOptions::read_shot() const {
+bool StartOptions::overrides_start() const {
+  return std::ranges::any_of(overrides_, [](const Override& entry) {
+    return (entry.quantity == &si::slip || entry.quantity == &si::spin) && entry.argument.given();
+  });
+}
+
+si::Shot StartOptions::read_ball(const si::StartOverride& start) const {
+  if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
   si::Overrides overrides;
   for (const auto& [quantity, argument] : overrides_) {
     if (!argument.given()) continue;
@@ -123,20 +136,23 @@ si::Shot StartOptions::read_shot() const {
   }
 
   try {
-    return read_shot(ball_.text(), overrides);
+    return read_shot(ball_.text(), overrides, start);
   } catch (const si::RunFileError&) {
     throw;
   } catch (const BadInput&) {
     throw;
   } catch (const std::domain_error& error) {  // of the values together, not of a place in a file
-    throw BadInput(fmt::format("--ball {} with {}: {}", ball_.text(), override_names(), error.what()));
+    const std::string others = override_names();
+    throw BadInput(
+        fmt::format("--ball {}{}{}: {}", ball_.text(), others.empty() ? "" : " with ", others, error.what()));
   }
 }
 
-si::Shot StartOptions::read_shot(const std::string& ball, const si::Overrides& overrides) const {
-  if (is_file(ball)) return si::read_run_file(ball, overrides);
+si::Shot StartOptions::read_shot(const std::string& ball, const si::Overrides& overrides,
+                                 const si::StartOverride& start) const {
+  if (is_file(ball)) return si::read_run_file(ball, overrides, start);
   const si::CatalogueEntry& entry = require_ball(ball_);
-  return si::parse_run_file(si::run_file(entry.shot, entry.sources), "built-in ball " + entry.name, overrides);
+  return si::parse_run_file(si::run_file(entry.shot, entry.sources), "built-in ball " + entry.name, overrides, start);
 }
 
 }  // namespace contensou::program

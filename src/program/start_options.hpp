@@ -29,6 +29,9 @@ class StartOptions {
 
   void add(CLI::App& app);
 
+  /// --ball and its overrides alone, for a verb that is in SI units.
+  void add_ball(CLI::App& app);
+
   /// Whether any of them was given.
   bool given() const { return !given_names().empty(); }
   std::string given_names() const;
@@ -41,6 +44,14 @@ class StartOptions {
   /// @throws std::system_error  for a run file that cannot be read
   GivenStart read() const;
 
+  /// Whether --slip or --spin was given.
+  bool overrides_start() const;
+
+  /// The ball of --ball. Throws as read.
+  ///
+  /// @param start  velocities that take the place of those of [start]
+  si::Shot read_ball(const si::StartOverride& start = {}) const;
+
   /// mu alone, for which --mu or --ball is enough. Throws as read.
   double read_patch_ratio() const;
 
@@ -50,9 +61,9 @@ class StartOptions {
     Argument argument;
   };
 
+  void add_ball(CLI::App& app, const std::string& help);
   double read_mu() const;
-  si::Shot read_shot() const;
-  si::Shot read_shot(const std::string& ball, const si::Overrides& overrides) const;
+  si::Shot read_shot(const std::string& ball, const si::Overrides& overrides, const si::StartOverride& start) const;
   void require_one_kind() const;
   std::string override_names() const;
 

@@ -51,6 +51,7 @@ struct Arrows {
 struct Marks {
   std::vector<Point> points;
   Colour colour;
+  double size = 0.6;  ///< relative to the text's dots
 };
 
 /// A text at a point of a panel, on a white ground so that it stays legible over lines.

@@ -1,0 +1,101 @@
+#include "contensou/portraits/roll_figure.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/portraits/gnuplot.hpp"
+
+using namespace contensou::portraits;
+
+namespace {
+
+/// A ball that goes along x, is pushed along y until it rolls at 1, and spins until 2.
+RollCurve curve(double push, double last) {
+  RollCurve c;
+  c.t = Eigen::ArrayXd::LinSpaced(101, 0, last);
+  const Eigen::ArrayXd slides = c.t.min(1.0);
+  c.x = c.t;
+  c.y = push * (slides.square() / 2 + (c.t - slides));
+  c.slip = 1 - slides;
+  c.rim = (2 - c.t).max(0.0);
+  c.speed = (1 + (push * slides).square()).sqrt();
+  c.rolls = 1;
+  return c;
+}
+
+bool inside(const Panel& panel, const Point& point) {
+  return point.x >= panel.x.low && point.x <= panel.x.high && point.y >= panel.y.low && point.y <= panel.y.high;
+}
+
+}  // namespace
+
+TEST_CASE("the path with the point from which it rolls, beside the speeds", "[table]") {
+  const Figure figure = roll_figure({"a ball", "", curve(0.5, 2.2), curve(0.6, 2.2)});
+  REQUIRE(figure.panels.size() == 2);
+  const Panel& path = figure.panels[0];
+  REQUIRE(path.lines.size() == 2);
+  // As far as 1.6 times the time of rolling; every point in the panel.
+  CHECK(path.lines[0].lines[0].back().x == Approx(1.6).margin(0.03));
+  for (const Lines& layer : path.lines) {
+    for (const Point& point : layer.lines[0]) CHECK(inside(path, point));
+  }
+  REQUIRE(path.marks.size() == 2);
+  CHECK(path.marks[1].points[0].x == Approx(1).epsilon(1e-3));
+  CHECK(path.marks[1].points[0].y == Approx(0.25).epsilon(1e-2));
+
+  const Panel& speeds = figure.panels[1];
+  REQUIRE(speeds.lines.size() == 6);
+  CHECK_FALSE(speeds.x.logarithmic);
+  CHECK(speeds.x.high == 2.2);
+  CHECK(std::ranges::count_if(speeds.lines, [](const Lines& layer) { return layer.stroke.dashed; }) == 3);
+  for (const Lines& layer : speeds.lines) {
+    for (const Point& point : layer.lines[0]) CHECK(inside(speeds, point));
+  }
+}
+
+TEST_CASE("a flat path is stretched, and says so", "[limit]") {
+  const Panel path = roll_figure({"", "", curve(0.2, 2.2), curve(0.2, 2.2)}).panels[0];
+  CHECK(path.y.name.find("stretched") != std::string::npos);
+  CHECK(path.x.name.find("stretched") == std::string::npos);
+}
+
+TEST_CASE("a straight path is drawn against time", "[limit]") {
+  const Panel path = roll_figure({"", "", curve(0, 2.2), curve(0, 2.2)}).panels[0];
+  CHECK(path.x.low == 0);
+  CHECK(path.x.high == Approx(1.6));
+  CHECK(path.title.find("straight") != std::string::npos);
+}
+
+TEST_CASE("a ball that stays in its place has no path", "[limit]") {
+  RollCurve still = curve(0, 2.2);
+  still.x.setZero();
+  still.rolls = 0;
+  const Figure figure = roll_figure({"", "", still, still});
+  REQUIRE(figure.panels.size() == 1);
+  CHECK(figure.panels[0].title.find("speeds") != std::string::npos);
+}
+
+TEST_CASE("a long spin is drawn on a logarithmic time axis", "[limit]") {
+  const Panel speeds = roll_figure({"", "", curve(0.5, 30), curve(0.5, 30)}).panels[1];
+  CHECK(speeds.x.logarithmic);
+  CHECK(speeds.x.low > 0);
+}
+
+TEST_CASE("the legend lists the entries of every panel once", "[table]") {
+  const std::string script = gnuplot_script(roll_figure({"", "", curve(0.5, 2.2), curve(0.6, 2.2)}));
+  for (const std::string entry : {"this ball", "textbook", "speed of the centre"}) {
+    const std::string title = "title '" + entry + "'";
+    const std::size_t at = script.find(title);
+    CHECK(at != std::string::npos);
+    CHECK(script.find(title, at + 1) == std::string::npos);
+  }
+}
+
+TEST_CASE("columns of different lengths are refused", "[domain]") {
+  RollCurve bad = curve(0.5, 2.2);
+  bad.rim = Eigen::ArrayXd::Zero(3);
+  CHECK_THROWS_AS(roll_figure({"", "", curve(0.5, 2.2), bad}), std::domain_error);
+}

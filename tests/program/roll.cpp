@@ -1,0 +1,227 @@
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/si/catalogue.hpp"
+#include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+const std::string masse = "roll --ball pool --velocity 1,0 --angular-velocity 40,35,-50";
+
+/// The columns of a CSV by their names.
+std::map<std::string, std::vector<double>> columns_of(const std::string& arguments) {
+  const Run run = run_program(arguments);
+  INFO(arguments << "\n" << run.err);
+  REQUIRE(run.status == 0);
+  const auto rows = rows_of(run.out);
+  std::map<std::string, std::vector<double>> columns;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < rows[0].size(); ++j)
+      columns[rows[0][j]].push_back(std::strtod(rows[i][j].c_str(), nullptr));
+  }
+  return columns;
+}
+
+const std::string general_file = R"([ball]
+mass = 0.1701
+radius = 0.028575
+[contact]
+friction = 0.2
+spin_deceleration = 10
+[start]
+velocity = [1, 0]
+angular_velocity = [40, 35, -50]
+)";
+
+}  // namespace
+
+TEST_CASE("roll gives 200 rows from the start to a little past the stop", "[cli]") {
+  const Run run = run_program("roll --ball pool");
+  CHECK(run.status == 0);
+  const auto rows = rows_of(run.out);
+  REQUIRE(rows.size() == 201);
+  CHECK(rows[0] == std::vector<std::string>{"t", "x", "y", "vx", "vy", "wx", "wy", "wz", "slip", "energy"});
+  CHECK(rows[1][0] == "0");
+  CHECK(rows[1][3] == "1");
+  CHECK(rows[1][7] == "100");
+  CHECK(rows[1][8] == "1");
+  const auto& last = rows.back();
+  const auto stop = json_of("stop --ball pool --format json");
+  CHECK(std::stod(last[0]) > stop.at("t_stop").get<double>());
+  CHECK(std::stod(last[0]) < 1.2 * stop.at("t_stop").get<double>());
+  CHECK(std::stod(last[3]) == Approx(stop.at("final").at("velocity").at(0).get<double>()).epsilon(1e-15));
+  CHECK(last[7] == "0");
+  CHECK(last[8] == "0");
+}
+
+TEST_CASE("the bowling ball of the textbook, from the command line", "[table]") {
+  const std::string bowling =
+      "roll --ball bowling --radius 0.11 --friction 0.19 --gravity 9.8 --velocity 8.10,0 --angular-velocity 0,0,0";
+  const double stop = json_of(bowling + " --format json").at("t_stop").get<double>();
+  CHECK(stop == Approx(1.243).margin(5e-4));
+  const auto columns = columns_of(bowling + " --at " + std::to_string(stop + 1e-6));
+  CHECK(columns.at("x")[0] == Approx(8.63).margin(5e-3));
+  CHECK(columns.at("vx")[0] == Approx(5.786).margin(5e-4));
+  CHECK(columns.at("slip")[0] == 0);
+  CHECK_THAT(run_program(bowling + " --format text").out,
+             Contains("rolls after") && Contains("1.2429") && Contains("(8.6293, 0)") && Contains("5.78571"));
+}
+
+TEST_CASE("a masse shot from the command line is curved, then straight", "[limit]") {
+  const auto columns = columns_of(masse + " --at 0,0.05,0.1,0.2,6,7,8");
+  const auto& vx = columns.at("vx");
+  const auto& vy = columns.at("vy");
+  for (std::size_t i = 1; i <= 3; ++i) CHECK(vy[i] / vx[i] < vy[i - 1] / vx[i - 1]);
+  for (const char* name : {"x", "y"}) {
+    const auto& path = columns.at(name);
+    CHECK(path[6] - path[5] == Approx(path[5] - path[4]).epsilon(1e-12));
+  }
+  CHECK(columns.at("energy")[4] == columns.at("energy")[6]);
+}
+
+TEST_CASE("both routes print the same motion", "[route]") {
+  for (const std::string law : {"pade", "exact"}) {
+    for (const std::string start : {" --at 8,0,0.01,0.1,1,5", " --samples 20", " --samples 20 --until 0.3"}) {
+      auto reduced = columns_of(masse + " --law " + law + start);
+      auto integrated = columns_of(masse + " --law " + law + start + " --route integrated");
+      for (const auto& [name, values] : reduced) {
+        INFO(law << start << ", column " << name);
+        REQUIRE(integrated[name].size() == values.size());
+        const double scale = name.starts_with("w") ? 70.0 : 1.0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          CHECK(std::abs(values[i] - integrated[name][i]) < 1e-11 * (scale + std::abs(values[i])));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a start by velocities, from a run file and from options", "[invariant]") {
+  const TemporaryDirectory scratch;
+  const std::string file = scratch.file("masse.toml");
+  write_file(file, general_file);
+  CHECK(run_program("roll --ball " + file + " --samples 9").out == run_program(masse + " --samples 9").out);
+  // Each option alone replaces its part of [start].
+  CHECK(run_program("roll --ball " + file + " --velocity 2,3 --at 0").out ==
+        run_program("roll --ball pool --velocity 2,3 --angular-velocity 40,35,-50 --at 0").out);
+  CHECK(rows_of(run_program("roll --ball pool --velocity 2,3 --at 0").out)[1][7] == "100");
+  // The other verbs take it, too: slip is the speed of the contact point.
+  const auto stop = json_of("stop --format json --ball " + file);
+  const double R = 0.028575;
+  CHECK(stop.at("v0").get<double>() == Approx(std::hypot(1 - R * 35, R * 40)).epsilon(1e-15));
+  CHECK(stop.at("u0").get<double>() == Approx(-50 * R).epsilon(1e-15));
+  CHECK(stop.at("final").at("velocity").at(1).get<double>() == Approx(-R * 40 * 2 / 7).epsilon(1e-14));
+  CHECK_THAT(run_program("stop --ball " + file).out, Contains("axes of the start"));
+  CHECK(run_program("check --ball " + file).status == 0);
+}
+
+TEST_CASE("roll as JSON, asked for or by the file's ending", "[cli]") {
+  const auto roll = json_of(masse + " --samples 3 --law exact --format json");
+  CHECK(roll.at("schema") == 1);
+  CHECK(roll.at("law") == "exact");
+  CHECK(roll.at("route") == "reduced");
+  CHECK(roll.at("angular_velocity").at(2) == -50);
+  for (const char* name : {"t", "x", "y", "vx", "vy", "wx", "wy", "wz", "slip", "energy"}) {
+    CHECK(roll.at(name).size() == 3);
+  }
+  const TemporaryDirectory scratch;
+  CHECK(run_program(masse + " --samples 3 --law exact -o " + scratch.file("roll.json")).status == 0);
+  CHECK(nlohmann::json::parse(read_file(scratch.file("roll.json"))) == roll);
+}
+
+TEST_CASE("the summary has both models and the energy", "[cli]") {
+  const Run run = run_program(masse + " --format text");
+  CHECK(run.status == 0);
+  for (const char* words : {"rolls after", "spins no more after", "textbook (uncoupled)", "length of slip",
+                            "turned about vertical", "lost by sliding", "rolls straight on"}) {
+    CHECK_THAT(run.out, Contains(words));
+  }
+  CHECK_THAT(run_program(masse + " --format text --route integrated").out, Contains("route integrated"));
+  for (const std::string start :
+       {"--velocity 0,0 --angular-velocity 0,0,0", "--velocity 0,0 --angular-velocity 0,0,9"}) {
+    const Run still = run_program("roll --ball pool --format text " + start);
+    INFO(start << still.err);
+    CHECK(still.status == 0);
+    CHECK(still.out.find("nan") == std::string::npos);
+  }
+}
+
+TEST_CASE("a picture of the motion as a script", "[cli]") {
+  const TemporaryDirectory scratch;
+  for (const std::string& start :
+       {masse, std::string("roll --ball gel --slip 0"), std::string("roll --ball bowling --spin 0"),
+        std::string("roll --ball pool --velocity 0,0 --angular-velocity 0,0,0")}) {
+    const Run run = run_program(start + " -o " + scratch.file("roll.gp"));
+    INFO(start << "\n" << run.err);
+    CHECK(run.status == 0);
+    const std::string script = read_file(scratch.file("roll.gp"));
+    CHECK_THAT(script, Contains("speeds"));
+    CHECK(script.find("nan") == std::string::npos);
+    CHECK(script.find("inf") == std::string::npos);
+  }
+}
+
+TEST_CASE("every built-in ball rolls", "[cli]") {
+  for (const auto& entry : contensou::si::catalogue()) {
+    for (const std::string route : {"reduced", "integrated"}) {
+      const Run run = run_program("roll --samples 11 --ball " + entry.name + " --route " + route);
+      INFO(entry.name << " " << run.err);
+      CHECK(run.status == 0);
+      CHECK(run.out.find("nan") == std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("mistakes in a motion are bad input", "[cli]") {
+  struct Mistake {
+    std::string arguments;
+    std::string words;
+  };
+  const std::vector<Mistake> mistakes{
+      {"roll", "--ball missing"},
+      {"roll --mu 0.1 --u0 1 --v0 1", "unknown option '--mu'"},
+      {"roll --ball pool --velocity 1", "--velocity 1: 2 numbers are needed, VX,VY"},
+      {"roll --ball pool --velocity 1,2,3", "2 numbers are needed"},
+      {"roll --ball pool --angular-velocity 1,2", "3 numbers are needed, WX,WY,WZ"},
+      {"roll --ball pool --velocity 1,nan", "'nan' is not a finite number"},
+      {"roll --ball pool --angular-velocity 1,inf,0", "'inf' is not a finite number"},
+      {"roll --ball pool --velocity 1,x", "--velocity: 'x' is not a number"},
+      {"roll --ball pool --slip 1 --velocity 1,0", "exclude each other"},
+      {"roll --ball pool --angular-velocity 0,1e308,0 --radius 1e10 --patch-radius 1", "must be finite"},
+      {"roll --ball pool --route closed", "--route closed: no such route; routes: reduced, integrated"},
+      {"roll --ball pool --route reducd", "did you mean 'reduced'"},
+      {"roll --ball pool --samples 1", "from 2"},
+      {"roll --ball pool --at 1,-1", "t >= 0"},
+      {"roll --ball pool --at 1 --samples 3", "exclude each other"},
+      {"roll --ball pool --at 1 --until 3", "exclude each other"},
+      {"roll --ball pool --until 0", "--until 0: "},
+      {"roll --ball pool --until -1", "--until -1: "},
+      {"roll --ball pool --until inf", "'inf' is not a finite number"},
+      {"roll --ball pool --samples 3 -o roll.svg", "leave them out"},
+  };
+  for (const auto& [arguments, words] : mistakes) {
+    const Run run = run_program(arguments);
+    INFO(arguments << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains(words));
+  }
+
+  const TemporaryDirectory scratch;
+  const std::string file = scratch.file("mixed.toml");
+  write_file(file, general_file + "spin = 3\n");
+  const Run mixed = run_program("roll --ball " + file);
+  CHECK(mixed.status == 2);
+  CHECK_THAT(mixed.err, StartsWith(file + ":10:1: ") && Contains("exclude each other"));
+  write_file(file, general_file);
+  CHECK(run_program("roll --spin 3 --ball " + file).status == 2);
+  CHECK(run_program("roll --ball nosuch.toml").status == 4);
+}
