@@ -41,6 +41,7 @@ TEST_CASE("the bowling ball of the textbook", "[table]") {
 TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     for (double mu : {1e-3, 1e-2, 0.1, 0.3, 1.0}) {
+      if (law.force_slope() <= 5 * mu * mu / 7 * law.pivoting_moment()) continue;  // ends on the ray: no curve
       for (const MotionCase& motion_case : motion_cases) {
         INFO(law.name() << ", mu = " << mu << ", " << motion_case.name);
         const Shot shot = shot_of(motion_case, mu);
