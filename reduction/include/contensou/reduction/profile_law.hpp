@@ -18,7 +18,8 @@ namespace contensou::reduction {
 ///
 /// Accuracy  of the sum: rounding, some eps times the number of rows. A smooth pressure in n rows is met within about
 ///           1/n^2, and 1/n^(3/2) where it falls like a root at the edge.
-/// Cost      0.3 microseconds for each row and slip: a stop time takes 0.3 s with 100 rows, and 4 s with 1000.
+/// Cost      12 ns for each row and slip (the paraboloid is tabulated once for all): a stop time takes 0.04 s with 100
+///           rows, and 0.5 s with 1000.
 class ProfileLaw {
  public:
   static constexpr SlidingShare sliding_share{0, 1};
