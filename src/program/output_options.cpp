@@ -22,10 +22,13 @@ const std::array<std::string, 3> format_names{"text", "csv", "json"};
 }  // namespace
 
 void OutputOptions::add(CLI::App& app) {
-  file_.add(app, "-o,--output", "FILE", "write to FILE, whole or not at all; - is standard output");
-  format_.add(
-      app, "--format", "FORMAT",
+  add(app, "write to FILE, whole or not at all; - is standard output",
       fmt::format("{} (default {})", fmt::join(format_names, ", "), format_names[static_cast<std::size_t>(standard_)]));
+}
+
+void OutputOptions::add(CLI::App& app, const std::string& file_help, const std::string& format_help) {
+  file_.add(app, "-o,--output", "FILE", file_help);
+  format_.add(app, "--format", "FORMAT", format_help);
   digits_.add(app, "--digits", "N",
               fmt::format("significant digits of the text format, 1 to 17 (default {})", standard_digits));
 }

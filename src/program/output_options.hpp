@@ -17,6 +17,14 @@ class OutputOptions {
 
   void add(CLI::App& app);
 
+  /// With words of its own for a verb that also writes pictures.
+  void add(CLI::App& app, const std::string& file_help, const std::string& format_help);
+
+  /// As typed, for such a verb.
+  const Argument& file_argument() const { return file_; }
+  const Argument& format_argument() const { return format_; }
+  const Argument& digits_argument() const { return digits_; }
+
   /// @throws BadInput  for an unknown format
   Format format() const;
   bool format_given() const { return format_.given(); }

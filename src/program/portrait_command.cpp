@@ -7,9 +7,12 @@
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_data.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/reduction/phase_plane.hpp"
 #include "contensou/si/bridge.hpp"
 #include "law_option.hpp"
 #include "output.hpp"
+#include "output_options.hpp"
+#include "phase_plane_report.hpp"
 #include "picture.hpp"
 #include "route_option.hpp"
 #include "start_options.hpp"
@@ -34,15 +37,21 @@ class PortraitCommand final : public Command {
     law_.add(app);
     route_.add(app);
     window_.add(app, "--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)");
-    file_.add(app, "-o,--output", "FILE",
-              fmt::format("write to FILE (default {}), whole or not at all; its ending is one of {}", standard_file,
-                          endings));
-    format_.add(app, "--format", "FORMAT", fmt::format("instead of the ending, as with -o -: {}", endings));
+    facts_ = app.add_flag("--facts");
+    facts_->description(
+        "print the plane's facts instead: regime, singular points at the origin and at infinity with eigenvalues and "
+        "kind, how orbits enter the origin; to standard output unless -o is given");
+    output_.add(
+        app,
+        fmt::format("write to FILE (default {}), whole or not at all; its ending is one of {}", standard_file, endings),
+        fmt::format("instead of the ending, as with -o -: {}; with --facts: text, csv, json", endings));
   }
 
   ExitStatus run() override {
     const Given given = read_start();
     const reduction::ReducedSystem system(law_.read(), given.mu);
+    if (facts_->count() > 0) return print_facts(system);
+    if (output_.digits_argument().given()) output_.digits_argument().reject("a picture has no digits: add --facts");
     portraits::PortraitRequest request;
     request.route = route_.read(system);
     if (request.route == reduction::Route::direct) {
@@ -52,7 +61,8 @@ class PortraitCommand final : public Command {
     if (window_.given()) request.window = read_window();
     if (given.shot) request.time_unit = 1 / si::seconds(*given.shot, 1);
 
-    const std::string path = file_.given() ? file_.text() : standard_file;
+    const Argument& file = output_.file_argument();
+    const std::string path = file.given() ? file.text() : standard_file;
     const std::string format = read_format(path);
     const auto picture = portraits::find_picture_format(format);
     if (!picture && format != "csv" && format != "json") {
@@ -69,6 +79,16 @@ class PortraitCommand final : public Command {
   }
 
  private:
+  ExitStatus print_facts(const reduction::ReducedSystem& system) const {
+    if (window_.given()) window_.reject("--facts prints the whole plane: leave one of them out");
+    if (route_.named()) throw BadInput("--facts and --route exclude each other: facts follow no orbit");
+    const reduction::PhasePlane plane = reduction::phase_plane(system);
+    output_.write_as(
+        output_.format(), [&](int digits) { return phase_plane_as_text(system, plane, digits); },
+        [&] { return phase_plane_as_csv(plane); }, [&] { return phase_plane_as_json(system, plane); });
+    return ExitStatus::done;
+  }
+
   struct Given {
     double mu;
     std::optional<reduction::State> state;
@@ -89,14 +109,15 @@ class PortraitCommand final : public Command {
   }
 
   std::string read_format(const std::string& path) const {
+    const Argument& format = output_.format_argument();
     const std::string by_ending = ending(path);
-    if (!format_.given()) return path == "-" ? "svg" : by_ending;
+    if (!format.given()) return path == "-" ? "svg" : by_ending;
     const bool ending_is_format =
         portraits::find_picture_format(by_ending) || by_ending == "csv" || by_ending == "json";
-    if (ending_is_format && by_ending != format_.text()) {
-      format_.reject(fmt::format("the file {} says otherwise: leave out one of them", path));
+    if (ending_is_format && by_ending != format.text()) {
+      format.reject(fmt::format("the file {} says otherwise: leave out one of them", path));
     }
-    return format_.text();
+    return format.text();
   }
 
   static portraits::PortraitCaption caption(const Given& given, const reduction::ReducedSystem& system) {
@@ -125,7 +146,9 @@ class PortraitCommand final : public Command {
   StartOptions start_;
   LawOption law_;
   RouteOption route_;
-  Argument window_, file_, format_;
+  Argument window_;
+  CLI::Option* facts_ = nullptr;
+  OutputOptions output_{Format::text};
 };
 
 }  // namespace

@@ -1,0 +1,165 @@
+#include "contensou/reduction/phase_plane.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+namespace contensou::reduction {
+
+using std::numbers::pi;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// dD/dk at a zero k of D = Phi - r k Psi, k neither 0 nor infinity. A law gives no slope of its own: differences in
+/// ln k.
+double excess_slope(const Law& law, double r, double k) {
+  const double ln_k = std::log(k);
+  const auto excess = [&](double x) {
+    const double ratio = std::exp(x);
+    const auto [force, moment] = law(slip_of_ratio(ratio));
+    return force - r * ratio * moment;
+  };
+  const auto central = [&](double h) { return (excess(ln_k + h) - excess(ln_k - h)) / (2 * h); };
+
+  constexpr double at_kink = 1e-6;
+  if (std::abs(ln_k) < at_kink) {
+    // Across the kink; a slope that grows as the step shrinks is infinite.
+    const double fine = central(at_kink);
+    const double coarse = central(100 * at_kink);
+    return fine > 1.01 * coarse ? infinity : fine / k;
+  }
+  // Of order 8, on one side of k = 1.
+  constexpr std::array weights{4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+  const double h = std::min(0.02, std::abs(ln_k) / 20);
+  double slope = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double step = h * static_cast<double>(i + 1);
+    slope += weights[i] * (excess(ln_k + step) - excess(ln_k - step)) / h;
+  }
+  return slope / k;
+}
+
+/// Of an eigenvalue pair whose signs are known where the eigenvalues themselves may underflow.
+SingularKind kind_of(bool attracts_radially, double attracts_angularly) {
+  if (attracts_angularly == 0) return SingularKind::degenerate;
+  if (attracts_radially != (attracts_angularly > 0)) return SingularKind::saddle;
+  return attracts_radially ? SingularKind::stable_node : SingularKind::unstable_node;
+}
+
+class Points {
+ public:
+  explicit Points(const ReducedSystem& system) : system_(system) {}
+
+  /// @param fall       rate at which the speed falls along the half-line, over the speed
+  /// @param approach   rate at which the angle falls next to it
+  /// @param attraction its sign
+  void add(InvariantDirection direction, double k, double fall, double approach, double attraction) {
+    for (SingularPlace place : {SingularPlace::origin, SingularPlace::infinity}) {
+      const bool at_origin = place == SingularPlace::origin;
+      SingularPoint point{direction, place, k, system_.mu() * k, {}, 0, 0, kind_of(at_origin, attraction)};
+      point.linear_part << (at_origin ? -fall : fall), 0, 0, -approach;
+      read_eigenvalues(point);
+      points.push_back(point);
+    }
+  }
+
+  std::vector<SingularPoint> points;
+
+ private:
+  static void read_eigenvalues(SingularPoint& point) {
+    if (!point.linear_part.allFinite()) {
+      point.radial = point.linear_part(0, 0);
+      point.angular = point.linear_part(1, 1);
+      return;
+    }
+    const Eigen::EigenSolver<Eigen::Matrix2d> solver(point.linear_part);
+    // The radial one is that whose eigenvector leaves the line (circle) of all directions.
+    const Eigen::Index radial = std::norm(solver.eigenvectors()(0, 0)) > 0.5 ? 0 : 1;
+    point.radial = solver.eigenvalues()[radial].real();
+    point.angular = solver.eigenvalues()[1 - radial].real();
+  }
+
+  const ReducedSystem& system_;
+};
+
+}  // namespace
+
+std::string_view name(InvariantDirection direction) {
+  constexpr std::array<std::string_view, 3> names{"v = 0", "ray", "u = 0"};
+  return names[static_cast<std::size_t>(direction)];
+}
+
+std::string_view name(SingularPlace place) { return place == SingularPlace::origin ? "origin" : "infinity"; }
+
+std::string_view name(SingularKind kind) {
+  constexpr std::array<std::string_view, 4> names{"saddle", "stable node", "unstable node", "degenerate"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+PhasePlane phase_plane(const ReducedSystem& system) {
+  const Law& law = system.law();
+  const double mu = system.mu();
+  const double r = system.r();
+  const auto [chi, gamma] = system.inertia();
+  const TerminalRatio terminal = terminal_ratio(law, r);
+  const auto weight = [](double k) { return (16 + 15 * pi * k) * (8 + 3 * pi * k); };  // of (2.8), over (mu u)^2
+
+  // The sign of 1 - r/limit, 0 where it is rounding.
+  const auto sign_below = [r](double limit) {
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    return std::abs(r - limit) <= rounding * limit ? 0.0 : r < limit ? 1.0 : -1.0;
+  };
+  const double below_low = sign_below(terminal.low);
+  const double below_high = sign_below(terminal.high);
+
+  // README (R16), (R17).
+  const double sliding_rate = 2 * chi / (3 * pi);
+  const double pivoting_rate = 2 * gamma * mu / (3 * pi);
+  Points all(system);
+  const double fall_pivoting = pivoting_rate * law.pivoting_moment() * mu * mu * weight(0);
+  const double approach_pivoting =
+      below_low == 0 ? 0 : sliding_rate * mu * weight(0) * (law.force_slope() - r * law.pivoting_moment());
+  all.add(InvariantDirection::pivoting, 0, fall_pivoting, approach_pivoting, below_low);
+
+  double fall_ray = 0;
+  double approach_ray = 0;
+  const bool has_ray = terminal.regime == TerminalRegime::ray && below_low != 0 && below_high != 0;
+  if (has_ray) {
+    const double k = terminal.k;
+    fall_ray = pivoting_rate * law(slip_of_ratio(k)).moment * mu * mu * weight(k);
+    approach_ray = sliding_rate * mu * weight(k) * excess_slope(law, r, k);
+    all.add(InvariantDirection::ray, k, fall_ray, approach_ray, 1);
+  }
+
+  const double fall_sliding = sliding_rate * 45 * pi * pi;
+  const double approach_sliding = below_high == 0 ? 0 : fall_sliding * (r / terminal.high - 1);
+  all.add(InvariantDirection::sliding, infinity, fall_sliding, approach_sliding, -below_high);
+
+  const double body_scale = std::sqrt(chi / gamma);
+  PhasePlane plane{terminal,
+                   body_scale * std::sqrt(terminal.low),
+                   body_scale * std::sqrt(terminal.high),
+                   std::move(all.points),
+                   InvariantDirection::pivoting,
+                   0};
+  // Ratios of rates in which mu, that may underflow in them, cancels.
+  if (has_ray) {
+    plane.tangent = InvariantDirection::ray;
+    plane.contact_order = approach_ray / fall_ray;
+  } else if (below_high <= 0) {
+    plane.tangent = InvariantDirection::sliding;
+    plane.contact_order = std::max(0.0, approach_sliding / fall_sliding);
+  } else {
+    plane.contact_order = below_low == 0 ? 0 : std::max(0.0, law.force_slope() / (r * law.pivoting_moment()) - 1);
+  }
+  return plane;
+}
+
+}  // namespace contensou::reduction
