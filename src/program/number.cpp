@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "exit_status.hpp"
+#include "quotation.hpp"
 
 namespace contensou::program {
 
@@ -28,13 +29,13 @@ double parse_number(std::string_view text, Infinity infinity) {
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-    throw BadInput(fmt::format("'{}' is not a number; write it like 0.1, -5 or 1e-3", text));
+    throw BadInput(fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3", quotation(text)));
   }
   if (error == std::errc::result_out_of_range) {
-    throw BadInput(fmt::format("'{}' does not fit a double (5e-324 to 1.8e308)", text));
+    throw BadInput(fmt::format("{} does not fit a double (5e-324 to 1.8e308)", quotation(text)));
   }
   const bool infinite = infinity == Infinity::allowed && std::isinf(value);
-  if (!std::isfinite(value) && !infinite) throw BadInput(fmt::format("'{}' is not a finite number", text));
+  if (!std::isfinite(value) && !infinite) throw BadInput(fmt::format("{} is not a finite number", quotation(text)));
   return value;
 }
 
@@ -53,7 +54,7 @@ long parse_integer(std::string_view text, long lowest, long highest) {
   long value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || end != digits.data() + digits.size() || value < lowest || value > highest) {
-    throw BadInput(fmt::format("'{}' is not a whole number from {} to {}", text, lowest, highest));
+    throw BadInput(fmt::format("{} is not a whole number from {} to {}", quotation(text), lowest, highest));
   }
   return value;
 }

@@ -17,7 +17,7 @@ reduction::Law read_pressure_profile(const std::string& path) {
   const std::size_t rho_column = table.column("rho");
   const std::size_t pressure_column = table.column("pressure");
   if (table.rows().size() < 2) {
-    throw table.complaint(table.header().line, "two or more rows are needed, from rho = 0 to rho = 1");
+    throw table.complaint(table.header().line(), "two or more rows are needed, from rho = 0 to rho = 1");
   }
   std::vector<double> rho, pressure;
   bool loaded = false;

@@ -3,22 +3,29 @@
 #include <string>
 
 #include "contensou/reduction/friction_law.hpp"
-#include "csv_table.hpp"
+#include "csv_stream.hpp"
 #include "exit_status.hpp"
+#include "output.hpp"
 #include "route_option.hpp"
 
 namespace contensou::program {
 
-/// Stop times of a whole table.
-struct StopBatch {
-  std::string csv;                       ///< the table with a column tau_stop
-  ExitStatus status = ExitStatus::done;  ///< of the worst row that was kept without one
+/// How a batch of stop times is computed.
+struct BatchRequest {
+  reduction::Law law;
+  const RouteOption& route;
+  bool keep_going = false;  ///< report a bad row on standard error and leave its tau_stop empty
+  int threads = 1;
 };
 
-/// @param table       with columns mu, u0 and v0; the others pass through
-/// @param keep_going  report a bad row on standard error and leave its tau_stop empty
-/// @throws BadLine             for a table that lacks a column or, unless keep_going, has a bad row
+/// Stop times of a table of any length, in the memory of a few blocks of it: writes the table with a column tau_stop.
+/// The rows keep their order and the bytes do not depend on the number of threads.
+///
+/// @param table   with columns mu, u0 and v0; the others pass through
+/// @param output  not finished here
+/// @return        what the worst row was that was kept without a result; done if none was
+/// @throws BadLine             for a table that lacks a column or is not CSV and, unless keep_going, for a bad row
 /// @throws std::runtime_error  for a row that cannot be computed, unless keep_going
-StopBatch stop_batch(const CsvTable& table, const reduction::Law& law, const RouteOption& route, bool keep_going);
+ExitStatus stop_batch(CsvStream& table, OutputFile& output, const BatchRequest& request);
 
 }  // namespace contensou::program

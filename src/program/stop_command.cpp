@@ -1,11 +1,11 @@
 #include "commands.hpp"
-#include "csv_table.hpp"
 #include "law_option.hpp"
 #include "output_options.hpp"
 #include "route_option.hpp"
 #include "start_options.hpp"
 #include "stop_batch.hpp"
 #include "stop_report.hpp"
+#include "thread_option.hpp"
 
 namespace contensou::program {
 
@@ -24,12 +24,14 @@ class StopCommand final : public Command {
     batch_.add(app, "--batch", "FILE", "CSV with columns mu,u0,v0; adds tau_stop to each row; - is standard input");
     keep_going_ = app.add_flag("--keep-going");
     keep_going_->description("with --batch: leave tau_stop of a bad row empty and go on");
+    threads_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     if (batch_.given()) return run_batch();
     if (keep_going_->count() > 0) throw BadInput("--keep-going is for many starts: add --batch FILE");
+    if (threads_.given()) throw BadInput("--threads is for many starts: add --batch FILE");
     const GivenStart start = start_.read();
     const reduction::Law law = law_.read();
     const reduction::Route route = route_.read({law, start.mu});
@@ -49,9 +51,12 @@ class StopCommand final : public Command {
       throw BadInput("--batch writes csv only: leave --format out");
     }
     route_.named();  // an unknown name is the command line's mistake, not each row's
-    const StopBatch batch = stop_batch(CsvTable::read(batch_.text()), law_.read(), route_, keep_going_->count() > 0);
-    output_.write(batch.csv);
-    return batch.status;
+    const BatchRequest request{law_.read(), route_, keep_going_->count() > 0, threads_.read()};
+    OutputFile output(output_.path());  // before the input, which may be long in coming
+    CsvStream table(batch_.text());
+    const ExitStatus status = stop_batch(table, output, request);
+    output.finish();
+    return status;
   }
 
   StartOptions start_;
@@ -59,6 +64,7 @@ class StopCommand final : public Command {
   RouteOption route_;
   Argument batch_;
   CLI::Option* keep_going_ = nullptr;
+  ThreadOption threads_;
   OutputOptions output_{Format::text};
 };
 

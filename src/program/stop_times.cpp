@@ -7,23 +7,29 @@ namespace contensou::program {
 
 namespace {
 
-/// More different mu than this are not remembered: a table in which each row has its own gains nothing.
-constexpr std::size_t most_patches = 1000;
+/// A curve by quadrature takes some 300 kB. A table in which each row has its own mu gains nothing.
+constexpr std::size_t most_patches = 256;
 
 }  // namespace
 
-double StopTimes::operator()(double mu, reduction::State start) {
-  const OfPatch& patch = of_patch(mu);
-  if (!patch.curve) return reduction::stop_time(patch.system, start, patch.route).tau;
-  return reduction::Orbit(patch.system, start, patch.curve).stop_time();
+PatchStopTimes::PatchStopTimes(const reduction::Law& law, double mu, const RouteOption& route)
+    : system_(law, mu), route_(route.read(system_)), curve_(route_curve(system_, route_)) {}
+
+double PatchStopTimes::operator()(reduction::State start) const {
+  if (!curve_) return reduction::stop_time(system_, start, route_).tau;
+  return reduction::Orbit(system_, start, curve_).stop_time();
 }
 
-const StopTimes::OfPatch& StopTimes::of_patch(double mu) {
-  if (const auto known = patches_.find(mu); known != patches_.end()) return known->second;
-  const reduction::ReducedSystem system(law_, mu);
-  const reduction::Route route = route_.read(system);
+std::shared_ptr<const PatchStopTimes> StopTimes::of_patch(double mu) {
+  {
+    const std::lock_guard lock(guard_);
+    if (const auto known = patches_.find(mu); known != patches_.end()) return known->second;
+  }
+  // Not under the lock: two threads that meet a new mu at once both make it, and the same.
+  const auto patch = std::make_shared<const PatchStopTimes>(law_, mu, route_);
+  const std::lock_guard lock(guard_);
   if (patches_.size() == most_patches) patches_.clear();
-  return patches_.emplace(mu, OfPatch{system, route, route_curve(system, route)}).first->second;
+  return patches_.emplace(mu, patch).first->second;
 }
 
 }  // namespace contensou::program

@@ -1,32 +1,46 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <mutex>
 
+#include "contensou/reduction/similarity_curve.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "route_option.hpp"
 
 namespace contensou::program {
 
-/// Stop times of many starts under one law. What depends on mu alone is computed once for each mu.
+/// Stop times of many starts that share law and mu. Threads may share it.
+class PatchStopTimes {
+ public:
+  /// @throws  as RouteOption::read and the making of the route's curve
+  PatchStopTimes(const reduction::Law& law, double mu, const RouteOption& route);
+
+  double mu() const { return system_.mu(); }
+
+  /// @throws  as reduction::stop_time
+  double operator()(reduction::State start) const;
+
+ private:
+  reduction::ReducedSystem system_;
+  reduction::Route route_;
+  std::shared_ptr<const reduction::SimilarityCurve> curve_;  ///< null for the steppers
+};
+
+/// Stop times of many starts under one law. What depends on mu alone is computed once for each mu, and kept for as many
+/// of them as take a bounded memory. Threads may share it.
 class StopTimes {
  public:
   StopTimes(reduction::Law law, const RouteOption& route) : law_(std::move(law)), route_(route) {}
 
-  /// @throws  as RouteOption::read and reduction::stop_time
-  double operator()(double mu, reduction::State start);
+  /// @throws  as PatchStopTimes
+  std::shared_ptr<const PatchStopTimes> of_patch(double mu);
 
  private:
-  struct OfPatch {
-    reduction::ReducedSystem system;
-    reduction::Route route;
-    std::shared_ptr<const reduction::SimilarityCurve> curve;  ///< null for the steppers
-  };
-
-  const OfPatch& of_patch(double mu);
-
   reduction::Law law_;
   const RouteOption& route_;
-  std::map<double, OfPatch> patches_;
+  std::mutex guard_;
+  std::map<double, std::shared_ptr<const PatchStopTimes>> patches_;
 };
 
 }  // namespace contensou::program

@@ -1,3 +1,7 @@
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -80,6 +84,11 @@ TEST_CASE("a bad table is refused with its line", "[cli]") {
       {"mu,u0,v0\n0.1,1,-1\n", "<stdin>:2: ", "v0 >= 0"},
       {"mu,u0,v0\n0.1,\"1,1\n", "<stdin>:2: ", "never closed"},
       {"mu,u0,v0\n0.1,1\",1\n", "<stdin>:2: ", "a quote inside a field"},
+      {"mu,u0,v0\n0.1,1,1\n0.1,\"1,1\n0.1,1,1\n", "<stdin>:3: ", "never closed"},
+      {"mu,u0,\"v0\n0.1,1,1\n", "<stdin>:1: ", "never closed"},
+      {"mu,u0,v\"0\n0.1,1,1\n", "<stdin>:1: ", "a quote inside a field"},
+      {std::string("mu,u0,v0\n0.1,1\0002,1\n", 18), "<stdin>:2: ", "u0: '1\\x002' is not a number; write it"},
+      {"mu,u0,v0\n0.1," + std::string(1000, 'x') + ",1\n", "<stdin>:2: ", "x...' is not a number"},
   };
   for (const auto& [input, place, word] : faults) {
     const Run run = run_program("stop --batch -", input);
@@ -117,4 +126,124 @@ TEST_CASE("a batch excludes what makes no sense with it", "[cli]") {
   CHECK(missing.status == 2);
   CHECK_THAT(missing.err, StartsWith("<stdin>:2: ") && Contains("--route closed: law exact"));
   CHECK(run_program("stop --batch /no/such/file.csv").status == 4);
+}
+
+namespace {
+
+/// A table of random starts; every mu of them stands in many rows.
+struct RandomTable {
+  explicit RandomTable(int rows) {
+    std::mt19937_64 random(20);
+    std::uniform_real_distribution<double> unit;
+    for (int i = 0; i < rows; ++i) {
+      mu.push_back(std::pow(10, -std::floor(5 * unit(random)) / 2));
+      starts.push_back({10 * unit(random) - 5, std::pow(10, 6 * unit(random) - 3)});
+      csv += fmt::format("{},row {},{},{}\n", mu.back(), i, starts.back().u, starts.back().v);
+    }
+  }
+
+  std::vector<double> mu;
+  std::vector<State> starts;
+  std::string csv = "mu,name,u0,v0\n";
+};
+
+}  // namespace
+
+TEST_CASE("a long batch has the bits of single calls, however many threads there are", "[route]") {
+  const RandomTable table(100000);
+  const Run one = run_program("stop --batch - --threads 1", table.csv);
+  REQUIRE(one.status == 0);
+  const auto rows = rows_of(one.out);
+  REQUIRE(rows.size() == table.mu.size() + 1);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < table.mu.size(); ++i) {
+    const double tau = stop_time({PadeLaw{}, table.mu[i]}, table.starts[i]).tau;
+    if (rows[i + 1].back() != shortest(tau) || rows[i + 1][1] != fmt::format("row {}", i)) ++different;
+  }
+  CHECK(different == 0);
+  for (const std::string threads : {"2", "3", "16"}) {
+    CHECK(run_program("stop --batch - --threads " + threads, table.csv).out == one.out);
+  }
+  const std::string few = RandomTable(20000).csv;
+  CHECK(run_program("stop --law exact --batch - --threads 7", few).out ==
+        run_program("stop --law exact --batch - --threads 1", few).out);
+}
+
+TEST_CASE("the first bad row of a long batch is the one that is named", "[cli]") {
+  std::string csv = RandomTable(60000).csv;
+  csv += "9,bad,1,1\n" + RandomTable(30000).csv.substr(14) + "8,worse,1,1\n";
+  for (const std::string threads : {"1", "8"}) {
+    const Run run = run_program("stop --batch - --threads " + threads, csv);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, StartsWith("<stdin>:60002: mu: 0 < mu <= 1 is required, got 9"));
+    const Run kept = run_program("stop --keep-going --batch - --threads " + threads, csv);
+    CHECK(kept.status == 2);
+    CHECK_THAT(kept.out, Contains("\n9,bad,1,1,\n") && Contains("\n8,worse,1,1,\n"));
+    CHECK_THAT(kept.err, StartsWith("<stdin>:60002: ") && Contains("\n<stdin>:90003: "));
+  }
+}
+
+TEST_CASE("records in quotes may lie across the blocks in which a long file is read", "[cli]") {
+  std::string csv = "note,mu,u0,v0\n", expected = "note,mu,u0,v0,tau_stop\n";
+  const std::string tau = shortest(stop_time({PadeLaw{}, 0.5}, {1, 1}).tau);
+  for (int i = 0; i < 3000; ++i) {
+    const std::string note = "\"" + std::to_string(i) + std::string(static_cast<std::size_t>(i) % 400, '\n') + "#\"\"";
+    csv += note + "\",0.5,1,1\n# it\"s a comment\n";
+    expected += note + "\",0.5,1,1," + tau + "\n";
+  }
+  const Run run = run_program("stop --batch -", csv);
+  CHECK(run.err.empty());
+  CHECK(run.out == expected);
+}
+
+TEST_CASE("a record without an end is refused before it fills the memory", "[limit]") {
+  const Run open = run_program("stop --batch -", "mu,u0,v0\n0.1,1,1\n0.1,1,\"" + std::string(70 << 20, '1'));
+  CHECK(open.status == 2);
+  CHECK_THAT(open.err, StartsWith("<stdin>:3: ") && Contains("longer than 64 MiB"));
+  CHECK(open.out.empty());
+}
+
+#if !defined(__SANITIZE_ADDRESS__)  // which needs an address space without limit
+TEST_CASE("a batch of any length takes constant memory", "[limit]") {
+  const TemporaryDirectory scratch;
+  const std::string row = "0.1,1,1," + std::string(1000, 'x');
+  const std::string command = fmt::format(
+      "(echo mu,u0,v0,note; yes {} | head -n 200000) | (ulimit -v 120000; exec '{}' stop --batch - "
+      "--threads 1 -o '{}')",
+      row, CONTENSOU_PROGRAM, scratch.file("out.csv"));
+  CHECK(std::system(command.c_str()) == 0);
+  const std::string tau = shortest(stop_time({PadeLaw{}, 0.1}, {1, 1}).tau);
+  CHECK(std::filesystem::file_size(scratch.file("out.csv")) ==
+        200000 * (row.size() + 1 + tau.size() + 1) + std::string("mu,u0,v0,note,tau_stop\n").size());
+}
+#endif
+
+TEST_CASE("--threads is a whole number, and for many starts", "[cli]") {
+  for (const std::string threads : {"0", "-1", "1.5", "two", "1025"}) {
+    const Run run = run_program("stop --batch - --threads " + threads, "mu,u0,v0\n1,0,0\n");
+    INFO(threads);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains("--threads: '" + threads + "' is not a whole number from 1 to 1024"));
+  }
+  const Run single = run_program("stop --ball pool --threads 2");
+  CHECK(single.status == 2);
+  CHECK_THAT(single.err, Contains("--threads is for many starts"));
+}
+
+TEST_CASE("a batch is written to a file whole or not at all", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("table.csv"), "mu,u0,v0\n1,0,0\n");
+  // Also into the file that it reads.
+  CHECK(run_program("stop --batch " + scratch.file("table.csv") + " -o " + scratch.file("table.csv")).status == 0);
+  CHECK(read_file(scratch.file("table.csv")) == "mu,u0,v0,tau_stop\n1,0,0,0\n");
+  CHECK(run_program("stop --batch - -o " + scratch.file("table.csv"), "mu,u0,v0\n1,0,0\n7,0,0\n").status == 2);
+  CHECK(read_file(scratch.file("table.csv")) == "mu,u0,v0,tau_stop\n1,0,0,0\n");
+  CHECK(scratch.names() == std::vector<std::string>{"table.csv"});
+  const Run full = run_program("stop --batch - -o /dev/full", "mu,u0,v0\n1,0,0\n");
+  CHECK(full.status == 4);
+  CHECK_THAT(full.err, Contains("cannot write /dev/full: No space left"));
+  CHECK(run_program("stop --batch - -o " + scratch.file("no/such"), "mu,u0,v0\n1,0,0\n").status == 4);
+  CHECK(run_program("stop --batch " + scratch.path().string()).status == 4);
 }
