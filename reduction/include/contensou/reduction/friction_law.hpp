@@ -88,6 +88,12 @@ class Law {
 
   const std::string& name() const { return name_; }
 
+  /// The law that this was made from if it is an L, else null.
+  template <FrictionLaw L>
+  const L* as() const {
+    return resistance_.template target<L>();
+  }
+
   /// Psi(0), the moment of pure pivoting.
   double pivoting_moment() const { return pivoting_moment_; }
 

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "contensou/reduction/reduced_system.hpp"
+
+namespace contensou::reduction {
+
+struct StopTimeTable;
+
+/// The stop times of one system, for very many starts: at fixed law, mu and body
+///   tau* = (P + S) (1 + g(k0)),  P = pivoting_limit(u0),  S = sliding_limit(v0),
+/// and g is a smooth function of one variable, small while mu is: a table of polynomials whose panels are the exponent
+/// and four bits of the mantissa of a fraction in k0, so that an array costs little more than reading and writing it.
+///
+/// A start (u0, v0) is as for stop_time: u0 of either sign, v0 >= 0, any size: a result that a double cannot hold is
+/// infinity. An array may hold others, too, and each that stop_time rejects becomes NaN.
+///
+/// Source    README (R18) to (R20): Taylor series of the time left along the similarity curve; other laws and bodies
+///           than Pade's with r < 2 are sampled from their similarity curve.
+/// Accuracy  4 eps relative (Pade, r < 2), that of the similarity curve for others (1e-13).
+/// Bits      the same for one start and for many, however they are cut into arrays and threads; within 1 ulp between
+///           processors of different instruction sets (baseline, AVX2 with FMA, AVX-512: chosen at run time).
+class StopTimeProfile {
+ public:
+  /// @throws std::domain_error  if the law's similarity curve is not known for this r (similarity_curve)
+  explicit StopTimeProfile(const ReducedSystem& system);
+
+  const ReducedSystem& system() const { return system_; }
+
+  /// The stop time of one start.
+  /// @throws std::domain_error  if u0 or v0 is not finite, or v0 < 0
+  double operator()(double u0, double v0) const;
+
+  /// The stop times of starts (u0[i], v0[i]).
+  ///
+  /// @param tau      as many as there are starts; may be u0 or v0 itself, but must not overlap them otherwise
+  /// @param threads  how many share the work, >= 1; the calling thread is one of them
+  /// @throws std::domain_error  if the three sizes differ, or threads is 0
+  void evaluate(std::span<const double> u0, std::span<const double> v0, std::span<double> tau,
+                unsigned threads = 1) const;
+
+  /// A row of a grid: the stop times of starts (u0[i], v0), the same bits as evaluate's.
+  void evaluate_row(std::span<const double> u0, double v0, std::span<double> tau, unsigned threads = 1) const;
+
+  /// What evaluate runs on here: "baseline", "AVX2" or "AVX-512".
+  static std::string_view instruction_set();
+
+  /// What the loops of the instruction sets read; of no use without the library's sources.
+  const StopTimeTable& table() const { return *table_; }
+
+ private:
+  ReducedSystem system_;
+  std::shared_ptr<const StopTimeTable> table_;
+};
+
+}  // namespace contensou::reduction

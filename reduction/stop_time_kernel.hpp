@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace contensou::reduction {
+
+/// What StopTimeProfile has in common with its kernels, one translation unit for each instruction set.
+///
+/// A fraction y in [0, 1] says where a start lies; the exponent of y and `cut_bits` bits of its mantissa say which
+/// panel holds g there. Two maps from k to y:
+///   - one sheet:    y = fold w/(fold w + v), for a curve that is singular at k = infinity alone;
+///   - four sheets:  y = min(v, w, |v - w|)/(v + w), for one that may be singular at k = 0, 1 and infinity.
+/// Panels become narrow where y -> 0, on every sheet.
+struct StopTimePanels {
+  static constexpr int cut_bits = 4;
+  static constexpr int terms = 8;
+  static constexpr int octaves = 58;
+  static constexpr double lowest = 0x1p-58;  ///< y below it count as it: y ln y is below the last bit of 1
+  static constexpr int mantissa_bits = 52 - cut_bits;
+  static constexpr std::size_t per_sheet = (std::size_t{octaves} << cut_bits) + 1;  ///< the last begins at y = 1
+
+  /// Coefficients of powers of y - centre, the lowest first.
+  struct alignas(64) Panel {
+    double coefficients[terms];
+  };
+
+  /// In four sheets: k <= 1/2, 1/2 to 1, 1 to 2, from 2.
+  enum Sheet { slow, below_one, above_one, fast };
+};
+
+/// A profile as its kernels read it.
+struct StopTimeTable {
+  double pivoting;  ///< P/|u0|
+  double sliding;   ///< S/v0
+  double rim;       ///< w/|u0|; with one sheet, fold w/|u0|
+  bool one_sheet;
+  bool ordinary;  ///< the three are so far from the ends of the double range that only u0 and v0 can lead there
+  const StopTimePanels::Panel* panels;
+  long double wide_pivoting, wide_sliding, wide_rim;  ///< the same three, for careful()
+
+  /// Where the sum P + S lies for starts that need no care.
+  static constexpr double least_ordinary = 0x1p-800;
+  static constexpr double most_ordinary = 0x1p900;
+
+  /// One stop time without overflow or underflow on the way; NaN for a start that is none.
+  double careful(double u0, double v0) const;
+};
+
+/// Starts in, stop times out; v0 counts for all if v0_step is 0.
+struct StopTimeJob {
+  const double* u0;
+  const double* v0;
+  std::size_t v0_step;
+  double* tau;
+  std::size_t size;
+  bool streaming;  ///< stores that bypass the caches
+};
+
+/// The loop, compiled for one instruction set.
+using StopTimeLoop = void(const StopTimeTable&, const StopTimeJob&);
+StopTimeLoop run_baseline, run_avx2, run_avx512;
+
+struct StopTimeKernel {
+  std::string_view name;
+  StopTimeLoop* run;
+};
+
+/// Those that this processor can run, the fastest last.
+std::span<const StopTimeKernel> stop_time_kernels();
+
+}  // namespace contensou::reduction
