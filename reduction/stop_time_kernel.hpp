@@ -27,6 +27,13 @@ struct StopTimePanels {
     double coefficients[terms];
   };
 
+  /// Where a panel lies on its sheet.
+  struct Span {
+    double centre;
+    double half;
+  };
+  static Span span(std::size_t index);
+
   /// In four sheets: k <= 1/2, 1/2 to 1, 1 to 2, from 2.
   enum Sheet { slow, below_one, above_one, fast };
 };

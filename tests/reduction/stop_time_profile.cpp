@@ -84,7 +84,7 @@ TEST_CASE("profile of the Pade ball", "[stop_time_profile][table]") {
 }
 
 TEST_CASE("profile of the exact ball", "[stop_time_profile][table]") {
-  CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}), 1e-13 / eps);
+  CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}), 8);
 }
 
 TEST_CASE("profiles of other bodies", "[stop_time_profile][table]") {
@@ -93,6 +93,35 @@ TEST_CASE("profiles of other bodies", "[stop_time_profile][table]") {
     const Law law = row.text("law") == "pade" ? Law(PadeLaw{}) : Law(HertzLaw{});
     const StopTimeProfile profile(ReducedSystem(law, row.input("mu"), {row.input("chi"), row.input("gamma")}));
     worst.add(row.result("tau_stop"), profile(row.input("u0"), row.input("v0")), row.where());
+  }
+  CHECK_WITHIN_EPS(worst, 8);
+}
+
+TEST_CASE("profiles where k tends to a ray or to infinity", "[stop_time_profile][table]") {
+  // As in stop_time.cpp: 21 of 40 digits; mu^2 = 14/5 and 7 are where the regimes meet.
+  struct Row {
+    double mu, u0, v0;
+    long double tau;
+  };
+  const Row rows[] = {{1.2, 0.18257418583505539, 5.477225575051661, 8.31045593884147672145L},
+                      {1.5, 0.18257418583505539, 5.477225575051661, 8.20837927116421390378L},
+                      {1.5, 0.01, 100, 134.692464400053529770L},
+                      {1.6, 0.18257418583505539, 5.477225575051661, 8.17647038933488985902L},
+                      {1.6733190530681512, 10, 0.1, 19.4568100757566333412L},
+                      {1.6733200530681511, 1, 1, 4.15342340481639836815L},
+                      {1.7, 10, 0.1, 19.1566155174126698610L},
+                      {2, 0.18257418583505539, 5.477225575051661, 8.05708357543749598176L},
+                      {2, 0.01, 100, 134.679670279953883460L},
+                      {2.3, 10, 0.1, 14.2413358586138421760L},
+                      {2.3, 1.8257418583505538, 0.5477225575051661, 3.96266741630060515806L},
+                      {2.6457513110645907, 1.8257418583505538, 0.5477225575051661, 3.56662177991221488753L},
+                      {2.6467513110645906, 1, 1, 3.26721691286522866075L},
+                      {2.7, 1e-50, 1e+50, 1.34639685153848291921e50L},
+                      {3, -3, 0.25, 3.87878960294202717238L},
+                      {3, 1, 0, 1.06666666666666666667L}};
+  WorstCase worst("all regimes");
+  for (const auto& [mu, u0, v0, tau] : rows) {
+    worst.add(tau, StopTimeProfile(ReducedSystem(PadeLaw{}, mu))(u0, v0), fmt::format("mu = {}, u0 = {}", mu, u0));
   }
   CHECK_WITHIN_EPS(worst, 8);
 }
@@ -190,8 +219,8 @@ TEST_CASE("starts that need care", "[stop_time_profile][limit]") {
       const StopTimeProfile profile(system);
       CHECK(profile(0, 0) == 0);
       CHECK(profile(-0.0, 0) == 0);
-      CHECK(profile(0, 3) == Approx(system.sliding_limit(3)).epsilon(1e-14));
-      CHECK(profile(0.1, 0) == Approx(system.pivoting_limit(0.1)).epsilon(1e-14));
+      CHECK(profile(0, 3) == Approx(system.sliding_limit(3)).epsilon(4 * eps));
+      CHECK(profile(0.1, 0) == Approx(system.pivoting_limit(0.1)).epsilon(4 * eps));
       CHECK(profile(-2, 1) == profile(2, 1));
       CHECK(profile(0, std::numeric_limits<double>::max()) == infinity);
       // Alike but for a power of two, in the middle of the double range and near its ends.

@@ -18,14 +18,15 @@ struct StopTimeTable;
 /// A start (u0, v0) is as for stop_time: u0 of either sign, v0 >= 0, any size: a result that a double cannot hold is
 /// infinity. An array may hold others, too, and each that stop_time rejects becomes NaN.
 ///
-/// Source    README (R18) to (R20): Taylor series of the time left along the similarity curve; other laws and bodies
-///           than Pade's with r < 2 are sampled from their similarity curve.
-/// Accuracy  4 eps relative (Pade, r < 2), that of the similarity curve for others (1e-13).
+/// Source    README (R18) to (R20): Taylor series for Pade's law and r <= 7/4, any ball with mu <= 1 among them;
+///           collocation for other laws, smooth on either side of k = 1, and every r.
+/// Accuracy  4 eps relative (Pade, r <= 7/4), 8 eps (the laws of laws.hpp and every r).
+/// Cost      built in 1 ms (Pade, r <= 7/4), 20 ms (others).
 /// Bits      the same for one start and for many, however they are cut into arrays and threads; within 1 ulp between
 ///           processors of different instruction sets (baseline, AVX2 with FMA, AVX-512: chosen at run time).
 class StopTimeProfile {
  public:
-  /// @throws std::domain_error  if the law's similarity curve is not known for this r (similarity_curve)
+  /// Assumes  of the law what terminal_ratio does
   explicit StopTimeProfile(const ReducedSystem& system);
 
   const ReducedSystem& system() const { return system_; }
