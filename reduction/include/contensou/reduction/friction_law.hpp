@@ -27,6 +27,8 @@ class SimilarityCurve;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
 ///   - `static constexpr SlidingShare sliding_share`, its two-sided bound of the stop time;
 ///   - `std::shared_ptr<const SimilarityCurve> closed_curve(double r) const`, its closed form for that r, or null;
+///   - `double small_mu_share(int order, double r, double ln_k) const`, its m of README (R4) up to r^(order - 1), order
+///   1 or 2, in closed form;
 ///   - `double inner_log_rim(double r, double k) const`, ln w(k) for k <= 1 where only that part is elementary: a
 ///   check.
 template <class L>
@@ -75,6 +77,11 @@ class Law {
                   }) {
       inner_log_rim_ = [law](double r, double k) { return law.inner_log_rim(r, k); };
     }
+    if constexpr (requires {
+                    { law.small_mu_share(1, 1.0, 1.0) } -> std::convertible_to<double>;
+                  }) {
+      small_mu_share_ = [law](int order, double r, double ln_k) { return law.small_mu_share(order, r, ln_k); };
+    }
     resistance_ = std::move(law);
     read_limits();
   }
@@ -108,6 +115,9 @@ class Law {
     return closed_curve_ ? closed_curve_(r) : nullptr;
   }
 
+  /// The law's own expansion of m for small r; empty if it has none.
+  const std::function<double(int order, double r, double ln_k)>& small_mu_share() const { return small_mu_share_; }
+
   /// The law's own ln w(k) for k <= 1, up to a constant; empty if it has none.
   const std::function<double(double r, double k)>& inner_log_rim() const { return inner_log_rim_; }
 
@@ -118,6 +128,7 @@ class Law {
   std::function<Resistance(Slip)> resistance_;
   std::function<double(Slip)> moment_deficit_;
   std::function<std::shared_ptr<const SimilarityCurve>(double)> closed_curve_;
+  std::function<double(int, double, double)> small_mu_share_;
   std::function<double(double, double)> inner_log_rim_;
   std::optional<SlidingShare> sliding_share_;
   double pivoting_moment_ = std::numeric_limits<double>::quiet_NaN();

@@ -25,6 +25,9 @@ struct PadeLaw {
   /// 1 - Psi/Psi(0) = 15 pi k/(16 + 15 pi k).
   double moment_deficit(Slip slip) const;
 
+  /// m of README (R4) without its terms in r^order and higher: (R22), order 1 or 2.
+  double small_mu_share(int order, double r, double ln_k) const;
+
   /// PadeCurve, for the r it is accurate for; null beyond.
   std::shared_ptr<const SimilarityCurve> closed_curve(double r) const;
 };

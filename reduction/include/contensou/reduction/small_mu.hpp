@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "contensou/reduction/reduced_system.hpp"
+
+namespace contensou::reduction {
+
+/// m(k; r) = first + r second + O(r^2 ln^3): the sliding share of README (R4) for small r = gamma mu^2/chi.
+struct ShareExpansion {
+  double first;
+  double second;
+};
+
+/// Both coefficients at one k, for any law, by two nested integrals (README (R21)).
+///
+/// @param ln_k  any finite number
+/// @throws std::domain_error  if ln_k is not finite
+///
+/// Accuracy  first 1e-13 relative, second 1e-12 of the largest |second| over all k (2e-3 to 0.3, by law), for a law
+///           whose only kink is at k = 1. Cost: up to 3000 calls of the law.
+ShareExpansion share_expansion(const Law& law, double ln_k);
+
+/// k first(k) = k - logarithm ln k - constant + O(1/k) as k -> infinity (README (R23)).
+struct FarShare {
+  double logarithm;
+  double constant;
+};
+
+/// Empty for a law whose Phi nears 1 like 1/k only (the Pade law): its logarithm has another origin, and in it the
+/// other sign.
+///
+/// Accuracy  logarithm 1e-13, constant 1e-9.
+std::optional<FarShare> far_share(const Law& law);
+
+/// One estimate of a stop time.
+struct StopEstimate {
+  std::string_view name;
+  std::string_view formula;  ///< in words for people
+  double tau;                ///< the paper's time, as StopTime::tau
+};
+
+/// The estimates of the stop time that this law has for a small mu, the roughest first:
+///
+///   log  P + S less the logarithm of the far share; for k0 > 1, and a law that has a FarShare
+///   E1   P + m(k0; 0) S; relative error O(mu^4 ln^2), uniformly in k0
+///   E2   the next term; O(mu^6 ln^3)
+///
+/// On the axes all of them are exact.
+///
+/// @throws std::domain_error  if start is not a state, or r >= Phi'(0)/Psi(0): there k does not tend to 0, and nothing
+/// is
+///                            small
+std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start);
+
+}  // namespace contensou::reduction
