@@ -127,8 +127,7 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
   if (far && (start.u == 0 || ln_k > 0)) {
     // S/k0 is the time in which sliding at the rim speed would end.
     const double rim = on_axis ? 0 : sliding * std::exp(-ln_k) * (far->logarithm * ln_k + far->constant);
-    estimates.push_back({"log", "for k0 >> 1: pivoting only + sliding only - (c ln k0 + d) times sliding only/k0",
-                         pivoting + sliding - rim});
+    estimates.push_back({"log", "E1 for k0 >> 1, P + S (1 - (c ln k0 + d)/k0)", pivoting + sliding - rim});
   }
   double first = 0;
   double second = 0;
@@ -143,8 +142,8 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
     }
   }
   const auto with_share = [&](double share) { return start.v == 0 ? pivoting : pivoting + share * sliding; };
-  estimates.push_back({"E1", "first order in mu^2", start.u == 0 ? sliding : with_share(first)});
-  estimates.push_back({"E2", "second order in mu^2", start.u == 0 ? sliding : with_share(second)});
+  estimates.push_back({"E1", "relative error O(mu^4 ln^2 mu)", start.u == 0 ? sliding : with_share(first)});
+  estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)", start.u == 0 ? sliding : with_share(second)});
   return estimates;
 }
 

@@ -21,6 +21,8 @@ class StopCommand final : public Command {
     start_.add(app);
     law_.add(app);
     route_.add(app);
+    estimate_ = app.add_flag("--estimate");
+    estimate_->description("the estimates for small mu beside the stop time, with their errors");
     batch_.add(app, "--batch", "FILE", "CSV with columns mu,u0,v0; adds tau_stop to each row; - is standard input");
     keep_going_ = app.add_flag("--keep-going");
     keep_going_->description("with --batch: leave tau_stop of a bad row empty and go on");
@@ -35,7 +37,8 @@ class StopCommand final : public Command {
     const GivenStart start = start_.read();
     const reduction::Law law = law_.read();
     const reduction::Route route = route_.read({law, start.mu});
-    const StopReport report = make_stop_report(start, law, route);
+    StopReport report = make_stop_report(start, law, route);
+    if (estimate_->count() > 0) report.estimates = reduction::small_mu_estimates(report.system, start.state);
     output_.write_as(
         output_.format(), [&](int digits) { return stop_report_as_text(report, digits); },
         [&] { return stop_report_as_csv(report); }, [&] { return stop_report_as_json(report); });
@@ -47,6 +50,7 @@ class StopCommand final : public Command {
     if (start_.given()) {
       throw BadInput("--batch and " + start_.given_names() + " exclude each other: the starts are in the file");
     }
+    if (estimate_->count() > 0) throw BadInput("--estimate is for one start: leave it or --batch out");
     if (output_.format_given() && output_.format() != Format::csv) {
       throw BadInput("--batch writes csv only: leave --format out");
     }
@@ -63,6 +67,7 @@ class StopCommand final : public Command {
   LawOption law_;
   RouteOption route_;
   Argument batch_;
+  CLI::Option* estimate_ = nullptr;
   CLI::Option* keep_going_ = nullptr;
   ThreadOption threads_;
   OutputOptions output_{Format::text};

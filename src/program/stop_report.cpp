@@ -1,6 +1,7 @@
 #include "stop_report.hpp"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -35,6 +36,11 @@ std::string difference(double other, double tau) {
   return fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer");
 }
 
+/// What an estimate is too long by; 0 where both are infinite.
+double error_of(const reduction::StopEstimate& estimate, const reduction::StopTime& stop) {
+  return estimate.tau == stop.tau ? 0 : estimate.tau - stop.tau;
+}
+
 class TextReport {
  public:
   TextReport(const StopReport& report, int digits) : report_(report), digits_(digits) {}
@@ -42,7 +48,7 @@ class TextReport {
   std::string text() const {
     const bool at_rest = report_.start.state.u == 0 && report_.start.state.v == 0;
     if (at_rest) return heading() + "\nstop time 0: the ball neither slides nor spins; it rolls already, or rests\n";
-    return heading() + "\n" + times() + "\n" + methods() + ending();
+    return heading() + "\n" + times() + "\n" + estimates() + methods() + ending();
   }
 
  private:
@@ -89,6 +95,21 @@ class TextReport {
       all += note.empty() ? "\n" : "    " + note + "\n";
     }
     return all;
+  }
+
+  std::string estimates() const {
+    if (report_.estimates.empty()) return "";
+    const double r = report_.system.r();
+    const reduction::Law& law = report_.system.law();
+    const double limit = law.force_slope() / law.pivoting_moment();
+    const int width = digits_ + 8;
+    std::string all = fmt::format("for small mu  {:>{}}{:>{}}    r = gamma mu^2/chi = {}{}\n", "tau*", width, "error",
+                                  width, number(r), r > 0.1 * limit ? ": not small, trust none of these" : "");
+    for (const reduction::StopEstimate& estimate : report_.estimates) {
+      all += fmt::format("{:<14}{:>{}.{}g}{:>{}.2g}    {}\n", estimate.name, estimate.tau, width, digits_,
+                         error_of(estimate, report_.stop), width, estimate.formula);
+    }
+    return all + "\n";
   }
 
   std::string methods() const {
@@ -142,6 +163,17 @@ std::string stop_report_as_json(const StopReport& report) {
                          .add("sliding_only", json(report.sliding_only))
                          .add("pivoting_only", json(report.pivoting_only))
                          .inline_text());
+  if (!report.estimates.empty()) {
+    std::vector<std::string> estimates;
+    for (const reduction::StopEstimate& estimate : report.estimates) {
+      estimates.push_back(JsonObject()
+                              .add("name", json(estimate.name))
+                              .add("tau_stop", json(estimate.tau))
+                              .add("error", json(error_of(estimate, report.stop)))
+                              .inline_text());
+    }
+    document.add("estimates", json_array(estimates));
+  }
   if (shot) {
     const si::FinalMotion motion = si::final_motion(*shot);
     document.add("t_stop", json(si::seconds(*shot, report.stop.tau)))
@@ -165,6 +197,12 @@ std::string stop_report_as_csv(const StopReport& report) {
   if (shot) {
     names.emplace_back("t_stop");
     values.push_back(fmt::format("{}", si::seconds(*shot, report.stop.tau)));
+  }
+  for (const reduction::StopEstimate& estimate : report.estimates) {
+    for (const auto& [column, value] : {std::pair{"tau_", estimate.tau}, {"error_", error_of(estimate, report.stop)}}) {
+      names.push_back(column + std::string(estimate.name));
+      values.push_back(fmt::format("{}", value));
+    }
   }
   return csv_line(names) + csv_line(values);
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "start_options.hpp"
 
@@ -13,8 +15,9 @@ struct StopReport {
   reduction::ReducedSystem system;
   reduction::StopTime stop;
   reduction::Bounds bounds;
-  double sliding_only;   ///< tau of a ball that did not pivot
-  double pivoting_only;  ///< tau of a ball that did not slide
+  double sliding_only;                                  ///< tau of a ball that did not pivot
+  double pivoting_only;                                 ///< tau of a ball that did not slide
+  std::vector<reduction::StopEstimate> estimates = {};  ///< for small mu; none unless asked for
 };
 
 StopReport make_stop_report(const GivenStart& start, const reduction::Law& law, reduction::Route route);

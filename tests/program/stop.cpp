@@ -126,3 +126,32 @@ TEST_CASE("stop as CSV reads back", "[cli]") {
   CHECK(rows[0][5] == "tau_stop");
   CHECK(std::stod(rows[1][5]) == stop_time({PadeLaw{}, 0.1}, {2, 1}).tau);
 }
+
+TEST_CASE("stop --estimate: the estimates for small mu and what they miss by", "[cli]") {
+  const json stop = json_of("stop --mu 0.1 --u0 1 --v0 1 --estimate --format json");
+  const auto& estimates = stop.at("estimates");
+  REQUIRE(estimates.size() == 2);
+  CHECK(estimates.at(0).at("name") == "E1");
+  CHECK(estimates.at(0).at("error").get<double>() == Approx(4.6e-4).epsilon(0.02));
+  CHECK(estimates.at(1).at("name") == "E2");
+  CHECK(std::abs(estimates.at(1).at("error").get<double>()) == Approx(1.3e-6).epsilon(0.02));
+  for (const auto& estimate : estimates) {
+    CHECK(estimate.at("tau_stop").get<double>() - stop.at("tau_stop").get<double>() == estimate.at("error"));
+  }
+  CHECK_FALSE(json_of("stop --mu 0.1 --u0 1 --v0 1 --format json").contains("estimates"));
+
+  // A patch under Coulomb friction has the logarithm, beyond k0 = 1.
+  CHECK(json_of("stop --mu 0.01 --u0 1 --v0 1 --law exact --estimate --format json").at("estimates").size() == 3);
+  CHECK(json_of("stop --mu 0.01 --u0 1 --v0 1e-3 --law exact --estimate --format json").at("estimates").size() == 2);
+
+  const auto rows = rows_of(run_program("stop --mu 0.1 --u0 1 --v0 1 --estimate --format csv").out);
+  const std::vector<std::string> last(rows[0].end() - 4, rows[0].end());
+  CHECK(last == std::vector<std::string>{"tau_E1", "error_E1", "tau_E2", "error_E2"});
+  REQUIRE(rows[1].size() == rows[0].size());
+  CHECK(std::stod(*(rows[1].end() - 2)) == estimates.at(1).at("tau_stop"));
+
+  CHECK_THAT(run_program("stop --ball pool --estimate").out, Contains("for small mu") && !Contains("not small"));
+  CHECK_THAT(run_program("stop --mu 1 --u0 1 --v0 1 --estimate").out, Contains("not small"));
+  CHECK_THAT(run_program("stop --mu 1e-100 --u0 1e300 --v0 1 --estimate --format json").out, !Contains("nan"));
+  CHECK(run_program("stop --batch - --estimate", "mu,u0,v0\n0.1,1,1\n").status == 2);
+}
