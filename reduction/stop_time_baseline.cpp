@@ -7,19 +7,27 @@ namespace {
 
 constexpr int width = 2;
 using Vector [[gnu::vector_size(16)]] = double;
-using Integers [[gnu::vector_size(16)]] = long long;
+using Bits [[gnu::vector_size(16)]] = unsigned long long;
 
-using Pair [[gnu::vector_size(16)]] = double;
+inline Vector larger(Vector a, Vector b) { return a > b ? a : b; }
+inline Vector fused(Vector a, Vector b, Vector c) { return a * b + c; }
+inline bool any_negative(Bits x) { return (x[0] | x[1]) >> 63 != 0; }
+
 struct Columns {
-  Vector first;
-  Vector second;
+  Vector zeroth, first, second, third;
 };
 
-inline Columns transposed(const Pair (&pairs)[width]) {
-  return {__builtin_shufflevector(pairs[0], pairs[1], 0, 2), __builtin_shufflevector(pairs[0], pairs[1], 1, 3)};
+/// Coefficients j and j + 1 of a panel, with four more each.
+inline Vector folded(const double* panel, double t4, int j) {
+  const auto* pairs = reinterpret_cast<const Vector*>(panel + j);
+  return pairs[0] + t4 * pairs[2];
 }
-inline Vector fused(Vector a, Vector b, Vector c) { return a * b + c; }
-inline bool all(Integers mask) { return (mask[0] & mask[1]) != 0; }
+inline Columns columns(const double* const (&panels)[width], const double* t4) {
+  const Vector a = folded(panels[0], t4[0], 0), b = folded(panels[1], t4[1], 0);
+  const Vector c = folded(panels[0], t4[0], 2), d = folded(panels[1], t4[1], 2);
+  return {__builtin_shufflevector(a, b, 0, 2), __builtin_shufflevector(a, b, 1, 3), __builtin_shufflevector(c, d, 0, 2),
+          __builtin_shufflevector(c, d, 1, 3)};
+}
 
 #ifdef __SSE2__
 inline void stream(double* to, Vector vector) { _mm_stream_pd(to, vector); }

@@ -17,20 +17,24 @@ namespace contensou::reduction {
 struct StopTimePanels {
   static constexpr int cut_bits = 4;
   static constexpr int terms = 8;
-  static constexpr int octaves = 58;
-  static constexpr double lowest = 0x1p-58;  ///< y below it count as it: y ln y is below the last bit of 1
+  static constexpr int octaves = 64;
+  static constexpr double lowest = 0x1p-63;  ///< y below it count as it: y ln y is below the last bit of 1
   static constexpr int mantissa_bits = 52 - cut_bits;
-  static constexpr std::size_t per_sheet = (std::size_t{octaves} << cut_bits) + 1;  ///< the last begins at y = 1
+  static constexpr std::size_t per_sheet = std::size_t{octaves} << cut_bits;
+  static constexpr std::size_t at_one = per_sheet - (std::size_t{1} << cut_bits);  ///< the last panel that has a y
 
-  /// Coefficients of powers of y - centre, the lowest first.
+  /// The exponents of lowest to 1 are the numbers 0 to 63 modulo 64: no y whatever, nor what is none, is off its sheet.
+  static constexpr std::size_t index(std::uint64_t bits_of_y) { return bits_of_y >> mantissa_bits & (per_sheet - 1); }
+
+  /// Coefficients of powers of y - left, the lowest first.
   struct alignas(64) Panel {
     double coefficients[terms];
   };
 
   /// Where a panel lies on its sheet.
   struct Span {
-    double centre;
-    double half;
+    double left;
+    double width;
   };
   static Span span(std::size_t index);
 

@@ -1,16 +1,18 @@
 // The loop of StopTimeProfile, once for all instruction sets: a translation unit that includes this has defined, in
 // namespace contensou::reduction and there without a name,
-//   width             doubles in a vector
-//   Vector, Integers  of so many doubles and 64-bit integers
-//   Columns transposed(const Pair (&)[width])  the first and the second number of each pair, lane by lane
+//   width                         doubles in a vector
+//   Vector, Bits                  of so many doubles and unsigned 64-bit integers
+//   Vector larger(a, b)           a > b ? a : b, so b if a is not a number
 //   Vector fused(a, b, c)         a b + c
-//   bool all(Integers mask)       for masks of 0 and -1
+//   bool any_negative(Bits)       whether the first bit of any lane is set
+//   Columns columns(panels, t4)   c_j + t4 c_(j+4) for j = 0..3, the coefficients c of the panel of each lane
 //   void stream(double*, Vector)  to an aligned address, past the caches; void streamed() ends a run of them
 // Nothing from the standard library is called: an inline function compiled here for a larger instruction set could be
 // the one that the linker keeps for everybody.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "stop_time_kernel.hpp"
 
@@ -26,104 +28,167 @@ inline Vector load(const double* from) {
 inline void store(double* to, Vector vector) { __builtin_memcpy(to, &vector, sizeof vector); }
 
 inline Vector every(double value) { return value - Vector{}; }
-inline Vector magnitude(Vector x) {
-  constexpr long long all_but_sign = 0x7fffffffffffffff;
-  return reinterpret_cast<Vector>(reinterpret_cast<Integers>(x) & all_but_sign);
+inline Bits bits(Vector x) { return reinterpret_cast<Bits>(x); }
+inline Vector magnitude(Vector x) { return reinterpret_cast<Vector>(bits(x) & 0x7fffffffffffffff); }
+
+struct Scales {
+  Vector pivoting, sliding, rim, lowest;
+
+  explicit Scales(const StopTimeTable& table)
+      : pivoting(every(table.pivoting)),
+        sliding(every(table.sliding)),
+        rim(every(table.rim)),
+        lowest(every(StopTimePanels::lowest)) {}
+};
+
+/// Starts on the way to their stop times, in two steps: which panel each lies on, and the polynomials.
+///
+/// The way from a division to the end of its polynomial is long, and a processor looks ahead by a few vectors only: so
+/// the first step of a block goes with the second step of the block before.
+class Block {
+ public:
+  static constexpr std::size_t size = 128;
+
+  /// @return  negative in the lanes that need care: v0 is, or P + S is not ordinary
+  template <bool one_sheet>
+  Bits locate(const Scales& scales, Vector u0, Vector v, std::size_t i) {
+    const Vector u = magnitude(u0);
+    // Not fused, so that it is the same everywhere.
+    const Vector sum = scales.pivoting * u + scales.sliding * v;
+    const Vector w = scales.rim * u;
+    Vector y;
+    Bits sheet{};
+    if constexpr (one_sheet) {
+      y = w / (v + w);
+    } else {
+      const Vector smaller = v < w ? v : w;
+      const Vector distance = magnitude(v - w);
+      const auto near = distance < smaller;
+      const auto above = v > w;
+      const auto start = [](Panels::Sheet number) { return Bits{} + number * Panels::per_sheet * panel_size; };
+      y = (near ? distance : smaller) / (v + w);
+      sheet = near ? (above ? start(Panels::above_one) : start(Panels::below_one))
+                   : (above ? start(Panels::fast) : start(Panels::slow));
+    }
+    y = larger(y, scales.lowest);
+    const Vector t = y - reinterpret_cast<Vector>(bits(y) & ~0ULL << Panels::mantissa_bits);
+    const Bits offset = (bits(y) >> (Panels::mantissa_bits - 6) & (Panels::per_sheet - 1) * panel_size) + sheet;
+    store(sum_ + i, sum);
+    store(t_ + i, t);
+    store(t4_ + i, (t * t) * (t * t));
+    __builtin_memcpy(offset_ + i, &offset, sizeof offset);
+    return (bits(sum) - least) | (most - bits(sum)) | bits(v);
+  }
+
+  Vector finish(const char* origin, std::size_t i) const {
+    const double* panels[width];
+    for (int lane = 0; lane < width; ++lane) panels[lane] = reinterpret_cast<const double*>(origin + offset_[i + lane]);
+    const Columns c = columns(panels, t4_ + i);
+    const Vector sum = load(sum_ + i), t = load(t_ + i);
+    return fused(sum, fused(fused(fused(c.third, t, c.second), t, c.first), t, c.zeroth), sum);
+  }
+
+ private:
+  using Panels = StopTimePanels;
+  static constexpr unsigned long long panel_size = sizeof(Panels::Panel);
+  static constexpr auto least = __builtin_bit_cast(unsigned long long, StopTimeTable::least_ordinary);
+  static constexpr auto most = __builtin_bit_cast(unsigned long long, StopTimeTable::most_ordinary);
+  static_assert(panel_size == 64);
+
+  alignas(64) double sum_[size];
+  alignas(64) double t_[size];  ///< y - left edge of the panel
+  alignas(64) double t4_[size];
+  alignas(64) unsigned long long offset_[size];  ///< of the panel, in bytes
+};
+
+/// A few starts, or some that need care.
+template <bool one_sheet>
+[[gnu::noinline]] void run_few(const StopTimeTable& table, const double* u0, const double* v0, std::size_t v0_step,
+                               double* tau, std::size_t count) {
+  Block block;
+  const Scales scales(table);
+  for (std::size_t i = 0; i < count; i += width) {
+    Vector some_u0 = every(1), some_v0 = every(1);
+    const std::size_t lanes = count - i < width ? count - i : width;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      some_u0[lane] = u0[i + lane];
+      some_v0[lane] = v0[(i + lane) * v0_step];
+    }
+    const Bits odd = block.locate<one_sheet>(scales, some_u0, some_v0, 0);
+    const Vector some_tau = block.finish(reinterpret_cast<const char*>(table.panels), 0);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      tau[i + lane] = odd[lane] >> 63 == 0 ? some_tau[lane] : table.careful(some_u0[lane], some_v0[lane]);
+    }
+  }
+}
+
+template <bool one_sheet, bool row, bool streaming>
+void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
+  const Scales scales(table);
+  const char* const origin = reinterpret_cast<const char*>(table.panels);
+  const double* const u0 = job.u0;
+  const double* const v0 = job.v0;
+  double* const tau = job.tau;
+  const Vector row_v0 = every(*v0);
+  const auto start_at = [=](Block& block, std::size_t begin, std::size_t i) {
+    return block.locate<one_sheet>(scales, load(u0 + begin + i), row ? row_v0 : load(v0 + begin + i), i);
+  };
+  const auto end_at = [=](const Block& block, std::size_t begin, std::size_t i) {
+    const Vector result = block.finish(origin, i);
+    streaming ? stream(tau + begin + i, result) : store(tau + begin + i, result);
+  };
+  const auto few = [&](std::size_t begin, std::size_t count) {
+    run_few<one_sheet>(table, u0 + begin, v0 + begin * job.v0_step, job.v0_step, tau + begin, count);
+  };
+
+  std::size_t begin = 0;
+  if (streaming) {
+    const std::size_t beyond = reinterpret_cast<std::uintptr_t>(job.tau) % sizeof(Vector) / sizeof(double);
+    if (beyond != 0) begin = width - beyond < job.size ? width - beyond : job.size;
+    few(0, begin);
+  }
+  Block blocks[2];
+  Bits odd{};
+  bool ahead = false;  // the block that begins here is located
+  for (int turn = 0; begin + Block::size <= job.size; begin += Block::size, turn = 1 - turn) {
+    Block& block = blocks[turn];
+    if (!ahead) {
+      odd = Bits{};
+      for (std::size_t i = 0; i < Block::size; i += width) odd |= start_at(block, begin, i);
+    }
+    if (any_negative(odd)) {
+      few(begin, Block::size);
+      ahead = false;
+      continue;
+    }
+    const std::size_t next = begin + Block::size;
+    ahead = next + Block::size <= job.size;
+    if (ahead) {
+      odd = Bits{};
+      for (std::size_t i = 0; i < Block::size; i += width) {
+        odd |= start_at(blocks[1 - turn], next, i);
+        end_at(block, begin, i);
+      }
+    } else {
+      for (std::size_t i = 0; i < Block::size; i += width) end_at(block, begin, i);
+    }
+  }
+  few(begin, job.size - begin);
+  if (streaming) streamed();
 }
 
 template <bool one_sheet>
-inline Vector stop_times(const StopTimeTable& table, Vector u0, Vector v0) {
-  using Panels = StopTimePanels;
-  const Vector u = magnitude(u0);
-  const Vector v = magnitude(v0);
-  // Products and sums that would move the argument or the sum by a bit are not fused: they are the same everywhere.
-  const Vector sum = table.pivoting * u + table.sliding * v;
-  const Vector w = table.rim * u;
-
-  Vector numerator = w;
-  Integers sheet{};
-  if constexpr (!one_sheet) {
-    const Vector smaller = v < w ? v : w;
-    const Vector distance = magnitude(v - w);
-    const Integers near = distance < smaller;
-    numerator = near ? distance : smaller;
-    const Integers above = v > w;
-    const auto start = [](Panels::Sheet s) { return Integers{} + s * Panels::per_sheet * sizeof(Panels::Panel); };
-    sheet = near ? (above ? start(Panels::above_one) : start(Panels::below_one))
-                 : (above ? start(Panels::fast) : start(Panels::slow));
-  }
-  Vector y = numerator / (v + w);
-  y = y > Panels::lowest ? y : every(Panels::lowest);  // and so for NaN
-
-  constexpr long long half_panel = 1LL << (Panels::mantissa_bits - 1);
-  constexpr long long first = static_cast<long long>(__builtin_bit_cast(unsigned long long, Panels::lowest));
-  const Integers bits = reinterpret_cast<Integers>(y);
-  const Integers offsets =
-      ((bits - first) >> Panels::mantissa_bits) * static_cast<long long>(sizeof(Panels::Panel)) + sheet;
-  const Vector t = y - reinterpret_cast<Vector>((bits & -(2 * half_panel)) | half_panel);
-
-  const char* panels = reinterpret_cast<const char*>(table.panels);
-  Vector g = every(0);
-  for (int n = Panels::terms; (n -= 2) >= 0;) {
-    Pair pairs[width];
-    for (int lane = 0; lane < width; ++lane) {
-      pairs[lane] = *reinterpret_cast<const Pair*>(panels + offsets[lane] + n * static_cast<int>(sizeof(double)));
-    }
-    const auto [even, odd] = transposed(pairs);
-    g = fused(fused(g, t, odd), t, even);
-  }
-  Vector tau = fused(sum, g, sum);
-
-  const Integers ordinary = (sum > table.least_ordinary) & (sum < table.most_ordinary) & (v0 >= 0);
-  if (!all(ordinary)) {
-    for (int lane = 0; lane < width; ++lane) {
-      if (!ordinary[lane]) tau[lane] = table.careful(u0[lane], v0[lane]);
-    }
-  }
-  return tau;
-}
-
-template <bool one_sheet, bool row>
-void run_lanes(const StopTimeTable& table, const StopTimeJob& job) {
-  const Vector row_v0 = every(*job.v0);
-  const auto at = [&](std::size_t i) {
-    return stop_times<one_sheet>(table, load(job.u0 + i), row ? row_v0 : load(job.v0 + i));
-  };
-  const auto fewer_at = [&](std::size_t i, std::size_t count) {
-    Vector u0 = every(1);
-    Vector v0 = row ? row_v0 : every(1);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      u0[lane] = job.u0[i + lane];
-      if (!row) v0[lane] = job.v0[i + lane];
-    }
-    const Vector tau = stop_times<one_sheet>(table, u0, v0);
-    for (std::size_t lane = 0; lane < count; ++lane) job.tau[i + lane] = tau[lane];
-  };
-
-  std::size_t i = 0;
-  if (job.streaming) {
-    constexpr std::size_t alignment = sizeof(Vector);
-    const std::size_t beyond = reinterpret_cast<std::uintptr_t>(job.tau) % alignment / sizeof(double);
-    const std::size_t head = beyond == 0 ? 0 : width - beyond;
-    if (head > 0 && head < job.size) {
-      fewer_at(0, head);
-      i = head;
-    }
-    for (; i + width <= job.size; i += width) stream(job.tau + i, at(i));
-    streamed();
+void run_sheets(const StopTimeTable& table, const StopTimeJob& job) {
+  if (job.v0_step == 0) {
+    job.streaming ? run_blocks<one_sheet, true, true>(table, job) : run_blocks<one_sheet, true, false>(table, job);
   } else {
-    for (; i + width <= job.size; i += width) store(job.tau + i, at(i));
+    job.streaming ? run_blocks<one_sheet, false, true>(table, job) : run_blocks<one_sheet, false, false>(table, job);
   }
-  if (i < job.size) fewer_at(i, job.size - i);
 }
 
 inline void run(const StopTimeTable& table, const StopTimeJob& job) {
   if (job.size == 0) return;
-  if (table.one_sheet) {
-    job.v0_step == 0 ? run_lanes<true, true>(table, job) : run_lanes<true, false>(table, job);
-  } else {
-    job.v0_step == 0 ? run_lanes<false, true>(table, job) : run_lanes<false, false>(table, job);
-  }
+  table.one_sheet ? run_sheets<true>(table, job) : run_sheets<false>(table, job);
 }
 
 }  // namespace

@@ -3,9 +3,10 @@
 //     x y dn/dx + [(1 + a) y + (1 + e) x] n = (3/2)(1 + a) y
 //     S/(P + S) = l x/(l x + y),  l = (A/B) r Psi(0)
 //   any law:  D dn/d ln k + Phi n = delta - Phi,  D = Phi - r k Psi,  delta = 1 - Psi/Psi(0)
-// On a panel y = centre + half t, -1 <= t <= 1.
+// On a panel y = left + width (1 + t)/2, -1 <= t <= 1.
 #include "stop_time_panels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -25,13 +26,15 @@ using Panels = StopTimePanels;
 using Panel = Panels::Panel;
 using Values = Eigen::Matrix<double, Panels::terms, 1>;
 using Matrix = Eigen::Matrix<double, Panels::terms, Panels::terms>;
+using WideValues = Eigen::Matrix<long double, Panels::terms, 1>;
+using WideMatrix = Eigen::Matrix<long double, Panels::terms, Panels::terms>;
 
 constexpr long double pi = std::numbers::pi_v<long double>;
 
 /// Polynomials in t through their values at Chebyshev's points.
 struct Interpolation {
-  Values points;
-  Matrix coefficients;             ///< of powers of t, from values
+  WideValues points;
+  WideMatrix coefficients;         ///< of powers of t, from values
   Matrix derivative;               ///< values of the derivative, from values
   std::array<Matrix, 2> integral;  ///< values of the integral from t = -1 and from t = 1, from values
   std::array<Values, 2> end;       ///< the value at t = -1 and at t = 1
@@ -39,28 +42,30 @@ struct Interpolation {
 
   Interpolation() {
     constexpr int terms = Panels::terms;
-    Matrix powers, slopes;
-    std::array<Matrix, 2> integrals;
-    Values total;
-    for (int i = 0; i < terms; ++i) points[i] = -std::cos(std::numbers::pi * (2 * i + 1) / (2 * terms));
+    WideMatrix powers, slopes;
+    std::array<WideMatrix, 2> integrals;
+    std::array<WideValues, 2> ends;
+    WideValues total;
+    for (int i = 0; i < terms; ++i) points[i] = -std::cos(pi * (2 * i + 1) / (2 * terms));
     for (int n = 0; n < terms; ++n) {
-      powers.col(n) = points.array().pow(n);
-      slopes.col(n) = n == 0 ? Values::Zero() : Values(n * points.array().pow(n - 1));
-      const Values rise = points.array().pow(n + 1) / (n + 1);
-      const double at_end = 1.0 / (n + 1);
-      integrals[0].col(n) = rise.array() - (n % 2 == 0 ? -at_end : at_end);
-      integrals[1].col(n) = rise.array() - at_end;
-      total[n] = n % 2 == 0 ? 2 * at_end : 0;
-      end[0][n] = n % 2 == 0 ? 1 : -1;
-      end[1][n] = 1;
+      const auto power = [&](int exponent) { return points.array().pow(static_cast<long double>(exponent)).matrix(); };
+      const long double at_end = 1.0L / (n + 1);
+      const long double sign = n % 2 == 0 ? 1 : -1;
+      powers.col(n) = power(n);
+      slopes.col(n) = n == 0 ? WideValues(WideValues::Zero()) : WideValues(n * power(n - 1));
+      integrals[0].col(n) = (power(n + 1) * at_end).array() + sign * at_end;
+      integrals[1].col(n) = (power(n + 1) * at_end).array() - at_end;
+      total[n] = (1 + sign) * at_end;
+      ends[0][n] = sign;
+      ends[1][n] = 1;
     }
     coefficients = powers.partialPivLu().inverse();
-    derivative = slopes * coefficients;
-    for (int side : {0, 1}) {
-      integral[side] = integrals[side] * coefficients;
-      end[side] = coefficients.transpose() * end[side];
+    derivative = (slopes * coefficients).cast<double>();
+    for (std::size_t side : {0U, 1U}) {
+      integral[side] = (integrals[side] * coefficients).cast<double>();
+      end[side] = (coefficients.transpose() * ends[side]).cast<double>();
     }
-    whole = coefficients.transpose() * total;
+    whole = (coefficients.transpose() * total).cast<double>();
   }
 
   static const Interpolation& chebyshev() {
@@ -69,11 +74,20 @@ struct Interpolation {
   }
 };
 
-Panel panel_through(const Values& values, double half) {
-  const Values coefficients = Interpolation::chebyshev().coefficients * values;
+/// In long double: the coefficients of a smooth function are small sums of large terms.
+Panel panel_through(const WideValues& values, double width) {
+  const auto& polynomials = Interpolation::chebyshev();
+  // A constant apart, then powers of t, then of 1 + t.
+  const long double constant = values[0];
+  WideValues c = polynomials.coefficients * (values.array() - constant).matrix();
+  for (int n = 0; n + 1 < Panels::terms; ++n) {
+    for (int j = Panels::terms - 2; j >= n; --j) c[j] -= c[j + 1];
+  }
+  c[0] += constant;
   Panel panel{};
-  double unit = 1;
-  for (int n = 0; n < Panels::terms; ++n, unit *= half) panel.coefficients[n] = coefficients[n] / unit;
+  long double unit = 1;
+  for (int n = 0; n < Panels::terms; ++n, unit *= width / 2.0L)
+    panel.coefficients[n] = static_cast<double>(c[n] / unit);
   return panel;
 }
 
@@ -133,18 +147,18 @@ std::vector<Panel> pade_panels(long double r, long double pivoting_moment) {
   PadeMarch march(r);
   const long double l = pade_fold(r) * r * pivoting_moment;
   std::vector<Panel> panels(Panels::per_sheet);
-  for (std::size_t i = panels.size(); i-- > 0;) {
-    const auto [centre, half] = Panels::span(i);
-    const bool near = centre > 0.5;
-    if (!near) march.move_to(centre);
-    Values g;
+  for (std::size_t i = Panels::at_one + 1; i-- > 0;) {
+    const auto [left, width] = Panels::span(i);
+    const bool near = left >= 0.5;
+    if (!near) march.move_to(left + width / 2);
+    WideValues g;
     for (int j = 0; j < Panels::terms; ++j) {
-      const long double t = half * Interpolation::chebyshev().points[j];
-      const long double y = centre + t;
+      const long double t = width / 2 * Interpolation::chebyshev().points[j];
+      const long double y = left + width / 2 + t;
       const long double n = near ? march.near(y) : march.series(t);
-      g[j] = static_cast<double>(n * l * (1 - y) / (l * (1 - y) + y));
+      g[j] = n * l * (1 - y) / (l * (1 - y) + y);
     }
-    panels[i] = panel_through(g, half);
+    panels[i] = panel_through(g, width);
   }
   return panels;
 }
@@ -197,7 +211,7 @@ class LawMarch {
   };
 
   /// The panel from y = 21/64 to 22/64: y is at most 1/3.
-  static constexpr std::size_t last = (Panels::octaves - 2) * (std::size_t{1} << Panels::cut_bits) + 5;
+  static constexpr std::size_t last = Panels::at_one - 2 * (std::size_t{1} << Panels::cut_bits) + 5;
 
   static std::size_t number(Position at) { return at.sheet * Panels::per_sheet + at.index; }
 
@@ -207,20 +221,21 @@ class LawMarch {
     Values force;   ///< Phi times d ln k/dt
     Values source;  ///< (delta - Phi) times d ln k/dt
     Values share;   ///< S/(P + S)
-    double half;
+    double width;
     bool lost;  ///< D is lost in rounding: (R19) without its derivative
   };
   Sampled sampled(Position at) const {
     Sampled values;
-    const auto [centre, half] = Panels::span(at.index);
-    values.half = half;
+    const auto [left, width] = Panels::span(at.index);
+    values.width = width;
     values.lost = true;
+    const Values points = Interpolation::chebyshev().points.cast<double>();
     for (int j = 0; j < Panels::terms; ++j) {
-      const auto [slip, k, log_slope] = place(at.sheet, centre + half * Interpolation::chebyshev().points[j]);
+      const auto [slip, k, log_slope] = place(at.sheet, left + width / 2 * (1 + points[j]));
       const auto [force, moment] = law_(slip);
       const double least = law_.pivoting_moment() / 2;
       const double deficit = moment < least ? 1 - moment / law_.pivoting_moment() : law_.moment_deficit(slip);
-      const double rate = half * log_slope;
+      const double rate = width / 2 * log_slope;
       values.drag[j] = force - r_ * (k * moment);
       values.lost = values.lost && std::abs(values.drag[j]) < 0x1p-44 * force;
       values.force[j] = rate * force;
@@ -232,11 +247,11 @@ class LawMarch {
 
   /// -1, 0 or 1: the panel lies below the terminal ratio, across it, or above.
   int side_of_terminal(Position at) const {
-    const auto [centre, half] = Panels::span(at.index);
-    const double left = place(at.sheet, centre - half).k;
-    const double right = place(at.sheet, centre + half).k;
-    if (std::max(left, right) < terminal_) return -1;
-    return std::min(left, right) > terminal_ ? 1 : 0;
+    const auto [left, width] = Panels::span(at.index);
+    const double k = place(at.sheet, left).k;
+    const double other_k = place(at.sheet, left + width).k;
+    if (std::max(k, other_k) < terminal_) return -1;
+    return std::min(k, other_k) > terminal_ ? 1 : 0;
   }
 
   /// The one solution that is regular where D = 0.
@@ -270,7 +285,7 @@ class LawMarch {
   }
 
   void keep(Position at, const Sampled& law, const Values& n) {
-    panels_[number(at)] = panel_through(n.cwiseProduct(law.share), law.half);
+    panels_[number(at)] = panel_through(n.cwiseProduct(law.share).cast<long double>(), law.width);
   }
 
   /// Towards larger k for direction 1, the panels above the terminal ratio; the mirror image for -1.

@@ -54,8 +54,8 @@ struct StoredTable : StopTimeTable {
 Panels::Span Panels::span(std::size_t index) {
   constexpr std::size_t cuts = std::size_t{1} << cut_bits;
   const double octave = std::ldexp(lowest, static_cast<int>(index / cuts));
-  const double half = octave / (2 * cuts);
-  return {octave + half * static_cast<double>(2 * (index % cuts) + 1), half};
+  const double width = octave / cuts;
+  return {octave + width * static_cast<double>(index % cuts), width};
 }
 
 double StopTimeTable::careful(double u0, double v0) const {
@@ -74,9 +74,8 @@ double StopTimeTable::careful(double u0, double v0) const {
     sheet = near ? (v > w ? Panels::above_one : Panels::below_one) : (v > w ? Panels::fast : Panels::slow);
   }
   const double y = std::max(static_cast<double>(numerator / (v + w)), Panels::lowest);
-  constexpr auto first = std::bit_cast<std::uint64_t>(Panels::lowest);
-  const auto index = (std::bit_cast<std::uint64_t>(y) - first) >> Panels::mantissa_bits;
-  const double t = y - Panels::span(index).centre;
+  const std::size_t index = Panels::index(std::bit_cast<std::uint64_t>(y));
+  const double t = y - Panels::span(index).left;
   double g = 0;
   const Panel& panel = panels[sheet * Panels::per_sheet + index];
   for (int n = Panels::terms; n-- > 0;) g = g * t + panel.coefficients[n];

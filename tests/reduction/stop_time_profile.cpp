@@ -80,11 +80,11 @@ WorstCase over_table(const char* table, const Law& law) {
 }  // namespace
 
 TEST_CASE("profile of the Pade ball", "[stop_time_profile][table]") {
-  CHECK_WITHIN_EPS(over_table("stop_pade", PadeLaw{}), 4);
+  CHECK_WITHIN_EPS(over_table("stop_pade", PadeLaw{}), 2);
 }
 
 TEST_CASE("profile of the exact ball", "[stop_time_profile][table]") {
-  CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}), 8);
+  CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}), 2);
 }
 
 TEST_CASE("profiles of other bodies", "[stop_time_profile][table]") {
@@ -94,7 +94,7 @@ TEST_CASE("profiles of other bodies", "[stop_time_profile][table]") {
     const StopTimeProfile profile(ReducedSystem(law, row.input("mu"), {row.input("chi"), row.input("gamma")}));
     worst.add(row.result("tau_stop"), profile(row.input("u0"), row.input("v0")), row.where());
   }
-  CHECK_WITHIN_EPS(worst, 8);
+  CHECK_WITHIN_EPS(worst, 2);
 }
 
 TEST_CASE("profiles where k tends to a ray or to infinity", "[stop_time_profile][table]") {
@@ -123,7 +123,7 @@ TEST_CASE("profiles where k tends to a ray or to infinity", "[stop_time_profile]
   for (const auto& [mu, u0, v0, tau] : rows) {
     worst.add(tau, StopTimeProfile(ReducedSystem(PadeLaw{}, mu))(u0, v0), fmt::format("mu = {}, u0 = {}", mu, u0));
   }
-  CHECK_WITHIN_EPS(worst, 8);
+  CHECK_WITHIN_EPS(worst, 2);
 }
 
 TEST_CASE("a profile meets the quadrature between its own nodes", "[stop_time_profile][route]") {

@@ -20,7 +20,7 @@ struct StopTimeTable;
 ///
 /// Source    README (R18) to (R20): Taylor series for Pade's law and r <= 7/4, any ball with mu <= 1 among them;
 ///           collocation for other laws, smooth on either side of k = 1, and every r.
-/// Accuracy  4 eps relative (Pade, r <= 7/4), 8 eps (the laws of laws.hpp and every r).
+/// Accuracy  2 eps relative for the laws of laws.hpp and every r; a law with kinks or noise, somewhat more.
 /// Cost      built in 1 ms (Pade, r <= 7/4), 20 ms (others).
 /// Bits      the same for one start and for many, however they are cut into arrays and threads; within 1 ulp between
 ///           processors of different instruction sets (baseline, AVX2 with FMA, AVX-512: chosen at run time).
