@@ -47,8 +47,8 @@ struct SlidingShare {
 class Law {
  public:
   /// @throws std::domain_error  if the law's limits are not those listed at FrictionLaw
-  template <FrictionLaw L>
-  requires(!std::same_as<L, Law>) Law(L law) {  // NOLINT(google-explicit-constructor): a law is a Law
+  template <class L>
+  requires(!std::same_as<L, Law> && FrictionLaw<L>) Law(L law) {  // NOLINT(google-explicit-constructor): a law is a Law
     if constexpr (requires {
                     { L::name } -> std::convertible_to<std::string_view>;
                   })
