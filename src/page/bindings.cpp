@@ -1,0 +1,437 @@
+// What the page asks of the library, as functions of JavaScript.
+//
+// Every function answers with an object, and with {error: message} for what the library rejects: an exception of C++
+// would reach JavaScript without its message. Columns are Float64Array.
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <emscripten/bind.h>
+#include <emscripten/val.h>
+
+#include <fmt/format.h>
+
+#include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/verification.hpp"
+#include "contensou/si/bridge.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/si/final_motion.hpp"
+#include "contensou/si/uncoupled_motion.hpp"
+#include "contensou/si/whole_motion.hpp"
+
+namespace contensou::page {
+
+namespace {
+
+using emscripten::val;
+using reduction::Law;
+using reduction::Orbit;
+using reduction::ReducedSystem;
+using reduction::State;
+
+val column(const double* data, Eigen::Index size) {
+  return val(emscripten::typed_memory_view(static_cast<std::size_t>(size), data)).call<val>("slice");
+}
+
+val column(const Eigen::ArrayXd& values) { return column(values.data(), values.size()); }
+
+val column(const std::vector<double>& values) {
+  return column(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// The answer of a function, or what the library says against the question.
+template <class Function>
+val answer(Function function) {
+  try {
+    return function();
+  } catch (const std::exception& error) {
+    val rejected = val::object();
+    rejected.set("error", std::string(error.what()));
+    return rejected;
+  }
+}
+
+Law law_of(const std::string& name) {
+  constexpr std::string_view family = "pressure:";
+  if (name.starts_with(family)) return reduction::PressureLaw(std::stod(name.substr(family.size())));
+  if (auto law = reduction::find_law(name)) return *law;
+  throw std::domain_error(fmt::format("no such law: {}", name));
+}
+
+/// The motions under one law, for one body and patch.
+class Motions {
+ public:
+  explicit Motions(ReducedSystem system)
+      : system_(std::move(system)), curve_(reduction::similarity_curve(system_.law(), system_.r())) {}
+
+  const ReducedSystem& system() const { return system_; }
+  Orbit orbit(State start) const { return {system_, start, curve_}; }
+
+ private:
+  ReducedSystem system_;
+  std::shared_ptr<const reduction::SimilarityCurve> curve_;
+};
+
+/// The plane that the page shows. A plane that was rejected leaves the last good one in place.
+class Plane {
+ public:
+  /// Changes law, patch and body.
+  val choose(const std::string& law, double mu, double chi, double gamma) {
+    return answer([&] {
+      motions_ = std::make_unique<Motions>(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
+      const auto end = reduction::terminal_ratio(system().law(), system().r());
+      val facts = val::object();
+      facts.set("r", system().r());
+      facts.set("regime", static_cast<int>(end.regime));
+      facts.set("terminalRatio", end.k);
+      facts.set("slidingLimit", system().sliding_limit(1));
+      facts.set("pivotingLimit", system().pivoting_limit(1));
+      return facts;
+    });
+  }
+
+  /// The portrait that the program draws. Sides of the window that are not positive: the program's own choice.
+  val portrait(double window_u, double window_v, double time_unit) const {
+    return answer([&] {
+      portraits::PortraitRequest request;
+      if (window_u > 0 && window_v > 0) request.window = portraits::Window{window_u, window_v};
+      request.time_unit = time_unit;
+      const portraits::PhasePortrait portrait = portraits::phase_portrait(system(), request);
+      val orbits = val::array();
+      for (const auto& orbit : portrait.orbits) {
+        val entry = val::object();
+        entry.set("u", column(orbit.u));
+        entry.set("v", column(orbit.v));
+        entry.set("lnK", column(orbit.ln_k));
+        entry.set("left", column(orbit.tau_left));
+        orbits.call<void>("push", entry);
+      }
+      val isochrones = val::array();
+      for (const auto& isochrone : portrait.isochrones) {
+        val entry = val::object();
+        entry.set("tau", isochrone.tau_stop);
+        entry.set("u", column(isochrone.u));
+        entry.set("v", column(isochrone.v));
+        isochrones.call<void>("push", entry);
+      }
+      val result = val::object();
+      result.set("windowU", portrait.window.u);
+      result.set("windowV", portrait.window.v);
+      result.set("orbits", orbits);
+      result.set("isochrones", isochrones);
+      return result;
+    });
+  }
+
+  /// The stop time of one start, its bounds and its limits.
+  val stop(double u, double v) const {
+    return answer([&] {
+      const State start{.u = u, .v = v};
+      const auto bounds = system().stop_time_bounds(start);
+      val result = val::object();
+      result.set("tau", motions().orbit(start).stop_time());
+      result.set("lower", bounds.lower);
+      result.set("upper", bounds.upper);
+      result.set("slidingOnly", system().sliding_limit(v));
+      result.set("pivotingOnly", system().pivoting_limit(u));
+      return result;
+    });
+  }
+
+  /// The motion from one start to its stop: dense while it slides, and in equal times.
+  val motion(double u, double v) const {
+    return answer([&] {
+      const Orbit orbit = motions().orbit({.u = u, .v = v});
+      const double stop = orbit.stop_time();
+      constexpr int instants = 120;
+      std::vector<double> times;
+      for (int i = 0; i <= instants; ++i) times.push_back(stop * i / instants);
+      // Sliding may be over long before the stop: also in steps of the time that sliding alone takes.
+      const double sliding = std::min(stop, 2 * system().sliding_limit(v));
+      for (int i = 1; i < instants; ++i) times.push_back(sliding * i / instants);
+      std::ranges::sort(times);
+      const auto columns =
+          orbit.at_times(Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())));
+      val result = val::object();
+      result.set("stop", stop);
+      result.set("tau", column(columns.tau));
+      result.set("u", column(columns.u));
+      result.set("v", column(columns.v));
+      result.set("lnV", column(columns.ln_v));
+      result.set("k", column(columns.k));
+      return result;
+    });
+  }
+
+  /// One instant of the motion from one start.
+  val instant(double u, double v, double tau) const {
+    return answer([&] {
+      const auto point = motions().orbit({.u = u, .v = v}).at_time(tau);
+      val result = val::object();
+      result.set("tau", point.tau);
+      result.set("u", point.u);
+      result.set("v", point.v);
+      result.set("lnV", point.ln_v);
+      result.set("k", point.k);
+      return result;
+    });
+  }
+
+  /// The curves that all motions are scaled copies of, one for each side that k comes to its terminal value from:
+  /// columns ln k, ln u and the time left, by falling time left.
+  val branches() const {
+    return answer([&] {
+      constexpr double far = 20;
+      const auto end = reduction::terminal_ratio(system().law(), system().r());
+      std::vector<std::vector<double>> sides;
+      if (end.regime != reduction::TerminalRegime::infinity) sides.push_back(log_ratios(far, end));
+      if (end.regime != reduction::TerminalRegime::zero) sides.push_back(log_ratios(-far, end));
+      val result = val::array();
+      for (const std::vector<double>& side : sides) result.call<void>("push", branch(side));
+      val all = val::object();
+      all.set("branches", result);
+      return all;
+    });
+  }
+
+  /// All states with u >= 0 that stop after the time 1; another isochrone is this one times its time.
+  val isochrone() const {
+    return answer([&] {
+      std::vector<double> us;
+      std::vector<double> vs;
+      const auto add = [&](State direction) {
+        const double scale = 1 / motions().orbit(direction).stop_time();
+        us.push_back(scale * direction.u);
+        vs.push_back(scale * direction.v);
+      };
+      add({.u = 1, .v = 0});
+      // Even in angle where both speeds take the same time to stop, and down to small k.
+      for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
+      const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
+      constexpr int pieces = 96;
+      for (int i = 1; i < pieces; ++i) {
+        const double angle = std::numbers::pi / 2 * i / pieces;
+        add({.u = std::cos(angle), .v = aspect * std::sin(angle)});
+      }
+      add({.u = 0, .v = 1});
+      val result = val::object();
+      result.set("u", column(us));
+      result.set("v", column(vs));
+      return result;
+    });
+  }
+
+  /// The table of checks of one start.
+  val checks(double u, double v) const {
+    return answer([&] {
+      val rows = val::array();
+      for (const auto& check : reduction::verify(system(), State{.u = u, .v = v})) {
+        val row = val::object();
+        row.set("name", check.name);
+        row.set("measured", check.measured);
+        row.set("allowed", check.allowed);
+        row.set("passed", check.passed());
+        rows.call<void>("push", row);
+      }
+      val result = val::object();
+      result.set("rows", rows);
+      return result;
+    });
+  }
+
+ private:
+  /// From one ln k towards the terminal one, close enough to be seen as there.
+  static std::vector<double> log_ratios(double from, const reduction::TerminalRatio& end) {
+    constexpr double step = 0.1;
+    constexpr double seen = 12;
+    std::vector<double> values;
+    if (end.regime == reduction::TerminalRegime::ray) {
+      const double ray = std::log(end.k);
+      for (double distance = std::abs(from); distance > 1e-3; distance -= std::min(step, 0.1 * distance)) {
+        values.push_back(ray + std::copysign(distance, from));
+      }
+    } else {
+      for (int i = 0; i * step <= std::abs(from) + seen; ++i) values.push_back(from - std::copysign(i * step, from));
+    }
+    return values;
+  }
+
+  val branch(const std::vector<double>& log_ratios) const {
+    const Orbit orbit = motions().orbit({.u = 1, .v = system().mu() * std::exp(log_ratios.front())});
+    const double stop = orbit.stop_time();
+    std::vector<double> ln_k;
+    std::vector<double> ln_u;
+    std::vector<double> left;
+    const auto add = [&](const reduction::OrbitPoint& point, double time_left) {
+      ln_u.push_back(std::log(point.u));
+      ln_k.push_back(point.ln_v - std::log(system().mu()) - ln_u.back());
+      left.push_back(time_left);
+    };
+    for (double ratio : log_ratios) {
+      const auto point = orbit.at_log_ratio(ratio);
+      add(point, stop - point.tau);
+    }
+    // From there by the time left, finely while it is seen on linear axes.
+    const double last =
+        motions()
+            .orbit({.u = std::exp(ln_u.back()), .v = system().mu() * std::exp(ln_u.back() + ln_k.back())})
+            .stop_time();
+    left.back() = last;
+    for (int i = 1; i <= 100; ++i) {
+      const double time_left = last * std::exp(-0.05 * i);
+      add(orbit.at_time_left(time_left), time_left);
+    }
+    for (int i = 1; i <= 40; ++i) {
+      const double time_left = last * std::exp(-5 - 0.6 * i);
+      add(orbit.at_time_left(time_left), time_left);
+    }
+    val result = val::object();
+    result.set("lnK", column(ln_k));
+    result.set("lnU", column(ln_u));
+    result.set("left", column(left));
+    return result;
+  }
+
+  const Motions& motions() const {
+    if (!motions_) throw std::domain_error("no law and body were chosen yet");
+    return *motions_;
+  }
+  const ReducedSystem& system() const { return motions().system(); }
+
+  std::unique_ptr<Motions> motions_;
+};
+
+val names_of_laws() {
+  val names = val::array();
+  for (const Law& law : reduction::named_laws()) names.call<void>("push", law.name());
+  return names;
+}
+
+/// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2.
+si::Shot shot_of(const val& fields) {
+  const auto number = [&](const char* key) { return fields[key].as<double>(); };
+  const double patch = number("patch");
+  si::Shot shot{.ball = {.name = "ball", .mass = number("mass"), .radius = number("radius")},
+                .contact = {.friction = number("friction"), .patch = si::PatchRadius{patch}},
+                .start = si::Velocities{{number("velocityX"), number("velocityY")},
+                                        {number("omegaX"), number("omegaY"), number("omegaZ")}},
+                .environment = {.gravity = number("gravity")}};
+  if (fields["patchBy"].as<std::string>() == "spin_deceleration") shot.contact.patch = si::SpinDeceleration{patch};
+  si::require_shot(shot);
+  return shot;
+}
+
+val catalogue() {
+  val balls = val::array();
+  for (const si::CatalogueEntry& entry : si::catalogue()) {
+    const auto* by_spin = std::get_if<si::SpinDeceleration>(&entry.shot.contact.patch);
+    val ball = val::object();
+    ball.set("name", entry.name);
+    ball.set("title", entry.shot.ball.name);
+    ball.set("mass", entry.shot.ball.mass);
+    ball.set("radius", entry.shot.ball.radius);
+    ball.set("friction", entry.shot.contact.friction);
+    ball.set("gravity", entry.shot.environment.gravity);
+    ball.set("patchBy", std::string(by_spin ? "spin_deceleration" : "patch_radius"));
+    ball.set("patch", by_spin ? by_spin->value : si::patch_radius_of(entry.shot));
+    ball.set("slip", si::slip_at_start(entry.shot));
+    ball.set("spin", si::spin_at_start(entry.shot));
+    ball.set("sources", entry.sources);
+    balls.call<void>("push", ball);
+  }
+  return balls;
+}
+
+/// What the plane needs to know of a ball.
+val contact(const val& fields) {
+  return answer([&] {
+    const si::Shot shot = shot_of(fields);
+    val result = val::object();
+    result.set("mu", si::patch_ratio(shot));
+    result.set("patchRadius", si::patch_radius_of(shot));
+    result.set("secondsPerTau", si::seconds(shot, 1));
+    return result;
+  });
+}
+
+/// The whole motion of a ball on the table, until it rolls and a little on; beside the textbook's, in which sliding and
+/// spinning do not know of each other.
+val roll(const std::string& law, const val& fields) {
+  return answer([&] {
+    const si::Shot shot = shot_of(fields);
+    const si::WholeMotion motion(shot, law_of(law));
+    constexpr double rolling_share = 1e-3;
+    constexpr int instants = 240;
+    const si::UncoupledMotion textbook(shot, law_of(law));
+    const double rolls = motion.slip_time(rolling_share);
+    const double end = rolls > 0 ? 1.6 * rolls : motion.stop_time();
+    const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(instants + 1, 0, end);
+    const auto columns = motion.at_times(times);
+    const auto textbook_columns = textbook.at_times(times);
+    const si::FinalMotion final = si::final_motion(shot);
+    val result = val::object();
+    result.set("t", column(columns.t));
+    result.set("x", column(columns.x));
+    result.set("y", column(columns.y));
+    result.set("textbookX", column(textbook_columns.x));
+    result.set("textbookY", column(textbook_columns.y));
+    result.set("textbookRollsAfter", textbook.slip_end());
+    result.set("rollsAfter", rolls);
+    result.set("stop", motion.stop_time());
+    result.set("slipLength", motion.slip_length());
+    result.set("finalX", final.velocity.x());
+    result.set("finalY", final.velocity.y());
+    const auto there = motion.at_time(rolls);
+    result.set("rollsAtX", there.position.x());
+    result.set("rollsAtY", there.position.y());
+    return result;
+  });
+}
+
+/// Where a ball is at one instant.
+val place(const std::string& law, const val& fields, double t) {
+  return answer([&] {
+    const auto point = si::WholeMotion(shot_of(fields), law_of(law)).at_time(t);
+    val result = val::object();
+    result.set("x", point.position.x());
+    result.set("y", point.position.y());
+    return result;
+  });
+}
+
+}  // namespace
+
+}  // namespace contensou::page
+
+EMSCRIPTEN_BINDINGS(contensou) {
+  using contensou::page::Plane;
+  emscripten::class_<Plane>("Plane")
+      .constructor<>()
+      .function("choose", &Plane::choose)
+      .function("portrait", &Plane::portrait)
+      .function("stop", &Plane::stop)
+      .function("motion", &Plane::motion)
+      .function("instant", &Plane::instant)
+      .function("branches", &Plane::branches)
+      .function("isochrone", &Plane::isochrone)
+      .function("checks", &Plane::checks);
+  emscripten::function("namesOfLaws", &contensou::page::names_of_laws);
+  emscripten::function("catalogue", &contensou::page::catalogue);
+  emscripten::function("contact", &contensou::page::contact);
+  emscripten::function("roll", &contensou::page::roll);
+  emscripten::function("place", &contensou::page::place);
+}

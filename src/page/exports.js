@@ -1,0 +1,34 @@
+// Files that the page hands out.
+
+export function save(name, blob) {
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+export const textFile = (text, type) => new Blob([text], { type });
+
+/** A figure as PNG, twice as fine as on the screen. */
+export async function pngOf(svg) {
+  const scale = 2;
+  const image = new Image();
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const canvas = Object.assign(document.createElement("canvas"), { width: image.width * scale, height: image.height * scale });
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
+}
+
+/** The orbits of the reader as CSV, all digits; infinities as the program writes them. */
+export function csvOf(orbits) {
+  const number = (value) => (value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value));
+  const rows = ["orbit,tau,u,v,ln_v,k"];
+  orbits.forEach((motion, index) => {
+    motion.tau.forEach((tau, i) => {
+      rows.push([index + 1, tau, motion.u[i], motion.v[i], motion.lnV[i], motion.k[i]].map(number).join(","));
+    });
+  });
+  return `${rows.join("\n")}\n`;
+}

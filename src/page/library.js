@@ -1,0 +1,25 @@
+// The C++ library, compiled to WebAssembly; bindings.cpp says what each function answers.
+
+/** What the library says against a question, in its own words. */
+export class Rejected extends Error {}
+
+function checked(answer) {
+  if (answer.error !== undefined) throw new Rejected(answer.error);
+  return answer;
+}
+
+/** Wraps the functions of an object of the library so that what it rejects is thrown. */
+function checking(object, names) {
+  return Object.fromEntries(names.map((name) => [name, (...args) => checked(object[name](...args))]));
+}
+
+export async function loadLibrary() {
+  const module = await globalThis.loadContensou();
+  return {
+    laws: module.namesOfLaws(),
+    balls: module.catalogue(),
+    plane: checking(new module.Plane(),
+      ["choose", "portrait", "branches", "stop", "motion", "instant", "isochrone", "checks"]),
+    ...checking(module, ["contact", "roll", "place"]),
+  };
+}

@@ -1,0 +1,7 @@
+#include "embedded_page.hpp"
+
+namespace contensou::page {
+
+std::string_view embedded_page() { return {}; }
+
+}  // namespace contensou::page

@@ -1,0 +1,103 @@
+// Everything that a link has to reproduce, and its text after the # of the address.
+
+export const bodies = {
+  "ball": { title: "ball", chi: 3.5, gamma: 2.5, largestMu: 1 },
+  "hollow-ball": { title: "hollow ball", chi: 2.5, gamma: 1.5, largestMu: 1 },
+  "disc": { title: "disc that cannot roll", chi: 1, gamma: 2, mu: 1 },
+  "ring": { title: "ring that cannot roll", chi: 1, gamma: 1, mu: 1 },
+  "own": { title: "your own χ and γ" },
+};
+
+const largestOwnMu = 10;
+
+/** chi, gamma and the largest mu of the state's body; and mu itself where the body decides it. */
+export function bodyOf(state) {
+  return state.body === "own" ? { chi: state.chi, gamma: state.gamma, largestMu: largestOwnMu } : bodies[state.body];
+}
+
+export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "velocityX", "velocityY"];
+
+export function initialState() {
+  return {
+    law: "exact",
+    body: "ball",
+    chi: 1,         // of a body of the reader's own
+    gamma: 2,
+    mu: 0.3,
+    view: "uv",
+    window: [1, 5],
+    orbits: [{ u: 0.8, v: 3.5 }],
+    chosen: 0,
+    share: 0,       // of the stop time (or of the part that is shown) that the moving point has reached
+    part: "whole",  // of the motion: "whole", or "sliding"
+    isochrone: 0,   // stop time of the isochrone the reader has drawn; 0 for none
+    ball: null,     // SI values of a real ball; then speeds are m/s
+    theme: "auto",
+  };
+}
+
+export function toFragment(state) {
+  const query = new URLSearchParams();
+  query.set("law", state.law);
+  if (state.ball) {
+    query.set("ball", state.ball.name);
+    query.set("patchBy", state.ball.patchBy);
+    for (const key of ballKeys) query.set(key, state.ball[key]);
+  } else {
+    query.set("body", state.body === "own" ? `${state.chi},${state.gamma}` : state.body);
+    query.set("mu", state.mu);
+  }
+  query.set("view", state.view);
+  query.set("window", state.window.join(","));
+  query.set("orbits", state.orbits.map(({ u, v }) => `${u},${v}`).join(";"));
+  query.set("chosen", state.chosen);
+  if (state.share) query.set("at", Number(state.share.toFixed(4)));
+  if (state.part !== "whole") query.set("part", state.part);
+  if (state.isochrone) query.set("isochrone", state.isochrone);
+  if (state.theme !== "auto") query.set("theme", state.theme);
+  return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":");
+}
+
+/** The state of a fragment; what cannot be read in it keeps its first value. */
+export function fromFragment(fragment, { laws, views, balls }) {
+  const state = initialState();
+  const query = new URLSearchParams(fragment.replace(/^#/, ""));
+  const choice = (key, allowed, use) => allowed.includes(query.get(key)) && use(query.get(key));
+  const number = (key, use, allowed = () => true) => {
+    const value = Number(query.get(key));
+    if (query.has(key) && query.get(key) !== "" && Number.isFinite(value) && allowed(value)) use(value);
+  };
+  const numbers = (text, count, allowed) => {
+    const values = text.split(",").map(Number);
+    return values.length === count && values.every(Number.isFinite) && allowed(values) ? values : null;
+  };
+
+  choice("law", laws, (law) => (state.law = law));
+  if (/^pressure:-?[0-9.]+$/.test(query.get("law") ?? "")) state.law = query.get("law");
+  choice("view", views, (view) => (state.view = view));
+  choice("theme", ["light", "dark"], (theme) => (state.theme = theme));
+  choice("part", ["sliding"], (part) => (state.part = part));
+  choice("body", Object.keys(bodies), (body) => (state.body = body));
+  const inertia = numbers(query.get("body") ?? "", 2, ([chi, gamma]) => chi > 0 && gamma > 0);
+  if (inertia) Object.assign(state, { body: "own", chi: inertia[0], gamma: inertia[1] });
+  number("mu", (mu) => (state.mu = mu), (mu) => mu > 0);
+  state.mu = bodyOf(state).mu ?? Math.min(state.mu, bodyOf(state).largestMu);
+  choice("ball", balls.map((ball) => ball.name), (name) => {
+    state.ball = { ...balls.find((ball) => ball.name === name) };
+    choice("patchBy", ["patch_radius", "spin_deceleration"], (by) => (state.ball.patchBy = by));
+    for (const key of ballKeys) {
+      number(key, (value) => (state.ball[key] = value), (value) => key.startsWith("velocity") || value > 0);
+    }
+    state.body = "ball";
+  });
+  state.window = numbers(query.get("window") ?? "", 2, ([U, V]) => U > 0 && V > 0) ?? state.window;
+  if (query.has("orbits")) {
+    state.orbits = query.get("orbits").split(";").map((text) => numbers(text, 2, ([, v]) => v >= 0))
+      .filter(Boolean).map(([u, v]) => ({ u, v }));
+  }
+  number("chosen", (chosen) => (state.chosen = chosen), Number.isInteger);
+  state.chosen = Math.max(0, Math.min(state.orbits.length - 1, state.chosen));
+  number("at", (share) => (state.share = share), (share) => share >= 0 && share <= 1);
+  number("isochrone", (tau) => (state.isochrone = tau), (tau) => tau > 0);
+  return state;
+}
