@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/quadrature_curve.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 
 namespace contensou::portraits {
@@ -19,7 +18,6 @@ using reduction::Orbit;
 using reduction::OrbitPoint;
 using reduction::ReducedSystem;
 using reduction::Route;
-using reduction::SimilarityCurve;
 using reduction::State;
 using std::numbers::pi;
 
@@ -60,8 +58,8 @@ class Painter {
  public:
   Painter(const ReducedSystem& system, Window window, const PortraitRequest& request)
       : system_(system), window_(window), request_(request) {
-    curve_ = request.route == Route::quadrature ? std::make_shared<reduction::QuadratureCurve>(system.law(), system.r())
-                                                : reduction::similarity_curve(system.law(), system.r());
+    solution_ = request.route == Route::quadrature ? reduction::quadrature_solution(system.law(), system.r())
+                                                   : reduction::similarity_solution(system.law(), system.r());
   }
 
   PortraitOrbit orbit(State start) const {
@@ -122,7 +120,7 @@ class Painter {
   }
 
  private:
-  double stop_time(State start) const { return Orbit(system_, start, curve_).stop_time(); }
+  double stop_time(State start) const { return Orbit(system_, start, solution_).stop_time(); }
 
   double ln_k(const OrbitPoint& point) const {
     return point.u == 0 ? (point.v > 0 ? infinity : -infinity)
@@ -137,7 +135,7 @@ class Painter {
   }
 
   Track exact(State start) const {
-    const Orbit orbit(system_, start, curve_);
+    const Orbit orbit(system_, start, solution_);
     Track track{{}, orbit.stop_time()};
     constexpr int instants = 100;
     double left = track.stop_time;
@@ -145,15 +143,16 @@ class Painter {
       // While sliding is seen, by k, in steps that neither speed shows on paper; then by time, in which u falls evenly.
       constexpr double share_of_window = 0.02;
       constexpr double invisible = 1e-6;
-      const double fastest = system_.r() * system_.law().pivoting_moment() /
-                             (system_.law().force_slope() - system_.r() * system_.law().pivoting_moment());
-      double ln_k = orbit.start_log_ratio();
-      OrbitPoint point = orbit.at_log_ratio(ln_k);
+      double xi = orbit.start_coordinate();
+      OrbitPoint point = orbit.at_coordinate(xi);
       while (point.v > invisible * window_.v && track.points.size() < 2000) {
         track.points.push_back(point);
-        const double step = share_of_window * std::min(window_.v / point.v, window_.u / (fastest * std::abs(point.u)));
-        ln_k -= std::clamp(step, share_of_window, 0.4);
-        point = orbit.at_log_ratio(ln_k);
+        const auto rate = system_.field({point.u, point.v});
+        const double speed = std::hypot(rate.u / window_.u, rate.v / window_.v) *
+                             orbit.curve().time_rate(xi) * (system_.mu() * std::abs(point.u) + point.v) /
+                             system_.scaled_time_rate();
+        xi -= std::min(share_of_window / speed, 0.4);
+        point = orbit.at_coordinate(xi);
       }
       track.points.push_back(point);
       left = track.stop_time - point.tau;
@@ -234,7 +233,7 @@ class Painter {
   const ReducedSystem& system_;
   Window window_;
   const PortraitRequest& request_;
-  std::shared_ptr<const SimilarityCurve> curve_;
+  reduction::SimilaritySolution solution_;
 };
 
 PortraitOrbit mirrored(PortraitOrbit orbit) {

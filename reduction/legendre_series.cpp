@@ -9,10 +9,11 @@ namespace contensou::reduction {
 namespace {
 
 constexpr int order = LegendreSeries::order;
-using Rule = boost::math::quadrature::gauss<double, order>;
+using Rule = boost::math::quadrature::gauss<long double, order>;
 using Matrix = Eigen::Matrix<double, order, order>;
 
-/// Points, the matrix samples -> coefficients (discrete orthogonality of the Gauss rule), and its inverse.
+/// Points, the matrix samples -> coefficients (discrete orthogonality of the Gauss rule), and its inverse. Made in long
+/// double: errors of the matrix add up at the ends of the interval, where all P_j are 1.
 struct Transform {
   LegendreSeries::Samples points;
   Matrix analysis;
@@ -21,19 +22,16 @@ struct Transform {
   Transform() {
     const auto& half_points = Rule::abscissa();
     const auto& half_weights = Rule::weights();
-    for (int i = 0; i < order / 2; ++i) {
-      const auto mirrored = static_cast<std::size_t>(order / 2 - 1 - i);
-      points[i] = -half_points[mirrored];
-      points[order - 1 - i] = half_points[mirrored];
-    }
     for (int i = 0; i < order; ++i) {
       const auto half = static_cast<std::size_t>(i < order / 2 ? order / 2 - 1 - i : i - order / 2);
-      double before = 0;
-      double here = 1;
+      const long double point = i < order / 2 ? -half_points[half] : half_points[half];
+      points[i] = static_cast<double>(point);
+      long double before = 0;
+      long double here = 1;
       for (int j = 0; j <= order; ++j) {
-        synthesis(i, j) = here;
-        if (j < order) analysis(j, i) = (2 * j + 1) / 2.0 * half_weights[half] * here;
-        before = std::exchange(here, ((2 * j + 1) * points[i] * here - j * before) / (j + 1));
+        synthesis(i, j) = static_cast<double>(here);
+        if (j < order) analysis(j, i) = static_cast<double>((2 * j + 1) / 2.0L * half_weights[half] * here);
+        before = std::exchange(here, ((2 * j + 1) * point * here - j * before) / (j + 1));
       }
     }
   }
@@ -65,6 +63,12 @@ LegendreSeries LegendreSeries::antiderivative() const {
     integral.coefficients_[j - 1] -= share;
   }
   return integral;
+}
+
+LegendreSeries LegendreSeries::mirrored() const {
+  LegendreSeries mirror = *this;
+  for (int j = 1; j <= order; j += 2) mirror.coefficients_[j] = -mirror.coefficients_[j];
+  return mirror;
 }
 
 double LegendreSeries::operator()(double t) const {

@@ -20,6 +20,9 @@ class LegendreSeries {
   /// The antiderivative that vanishes at -1.
   LegendreSeries antiderivative() const;
 
+  /// t -> f(-t).
+  LegendreSeries mirrored() const;
+
   double operator()(double t) const;
 
   /// The values at points().

@@ -1,8 +1,9 @@
-// Notation (README (R1) to (R7)): w = mu |u|, s = scaled time, and with the curve's ln w, m, b at k:
+// Notation (README (R1) to (R7)): w = mu |u|, s = scaled time, and with the curve's ln w, m, n, b, c at xi:
 //   s left    = w/(r Psi(0)) + v m                                (R4)
 //   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R5)
 //   slip left = v (v/2 + n w)                                     (R13)
-//   beta      = (3 pi/(2 chi)) (b/w - b0/w0)                      (R7)
+//   beta      = (3 pi/(2 chi)) (b/(w + v) - b0/(w0 + v0))         (R7)
+//   d(s left)/d xi = c (w + v)                                    (R3)
 #include "contensou/reduction/orbit.hpp"
 
 #include <algorithm>
@@ -14,21 +15,12 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/quadrature_curve.hpp"
-
 namespace contensou::reduction {
 
 namespace {
 
 using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Below this ln k the curve is its limit (QuadratureCurve), and so is the slope of time.
-constexpr double limit_ln_k = -40;
-
-/// Above the one, k b(k) is its limit 1/(45 pi^2) to the last bit; above the other, b or w may underflow.
-constexpr double sliding_ln_k = 44;
-constexpr double faint_ln_k = 600;
 
 /// ln k from speeds that may differ by more than a double holds, w = mu |u|.
 double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled) {
@@ -75,11 +67,11 @@ OrbitPoint OrbitColumns::row(Eigen::Index row) const {
 }
 
 Orbit::Orbit(const ReducedSystem& system, State start)
-    : Orbit(system, start, similarity_curve(system.law(), system.r())) {}
+    : Orbit(system, start,
+            start.u == 0 || start.v == 0 ? SimilaritySolution() : similarity_solution(system.law(), system.r())) {}
 
-Orbit::Orbit(const ReducedSystem& system, State start, std::shared_ptr<const SimilarityCurve> curve)
+Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution& solution)
     : system_(system),
-      curve_(std::move(curve)),
       u0_(start.u),
       v0_(start.v),
       exponent_(0),
@@ -100,63 +92,73 @@ Orbit::Orbit(const ReducedSystem& system, State start, std::shared_ptr<const Sim
     return;
   }
   ln_k0_ = log_ratio(v0_, system.mu(), std::abs(u0_), v_, w_);
-  log_rim0_ = curve_->log_rim(ln_k0_);
-  share0_ = curve_->sliding_share(ln_k0_);
-  slip0_ = slip_left(ln_k0_);
+  curve_ = solution.through(ln_k0_);
+  xi0_ = curve_->approach().coordinate(ln_k0_);
+  log_rim0_ = curve_->log_rim(xi0_);
+  share0_ = curve_->sliding_share(xi0_);
+  slip0_ = slip_left(xi0_);
+}
+
+const SimilarityCurve& Orbit::curve() const {
+  if (on_axis()) throw std::domain_error("Orbit::curve: on an axis k does not change");
+  return *curve_;
 }
 
 double Orbit::tau_of(double scaled) const { return std::ldexp(scaled / system_.scaled_time_rate(), exponent_); }
 
 double Orbit::scaled_of(double tau) const { return std::ldexp(tau, -exponent_) * system_.scaled_time_rate(); }
 
-double Orbit::stop_time() const { return tau_of(pivoting_ + v_ * share0_); }
+double Orbit::stop_time() const { return tau_of(whole()); }
 
-double Orbit::scaled_left(double ln_k) const {
-  const double change = rim_change(ln_k);
-  return pivoting_ * std::exp(change) + v_ * std::exp(change + (ln_k - ln_k0_)) * curve_->sliding_share(ln_k);
+Orbit::Progress Orbit::progress(double xi) const {
+  const double ln_w = curve_->log_rim(xi) - log_rim0_;
+  const double ln_v = ln_w + (curve_->approach().log_ratio(xi) - ln_k0_);
+  return {ln_w, ln_v, w_ * std::exp(ln_w), v_ * std::exp(ln_v)};
 }
 
-double Orbit::scaled_elapsed(double ln_k) const {
-  const double change = rim_change(ln_k);
-  const double v = v_ * std::exp(change + (ln_k - ln_k0_));
-  return -pivoting_ * std::expm1(change) + (v_ * share0_ - v * curve_->sliding_share(ln_k));
+double Orbit::scaled_left(double xi) const {
+  const Progress now = progress(xi);
+  return pivoting_ * std::exp(now.ln_w) + now.v * curve_->sliding_share(xi);
 }
 
-double Orbit::slip_left(double ln_k) const {
-  const double change = rim_change(ln_k);
-  const double v = v_ * std::exp(change + (ln_k - ln_k0_));
-  return v * (v / 2 + curve_->slip_excess(ln_k) * (w_ * std::exp(change)));
+double Orbit::scaled_elapsed(double xi) const {
+  const Progress now = progress(xi);
+  return -pivoting_ * std::expm1(now.ln_w) + (v_ * share0_ - now.v * curve_->sliding_share(xi));
 }
 
-double Orbit::scaled_left_slope(double ln_k) const {
-  // ds = v d ln k/(Phi - r k Psi), README (R3).
-  const double change = rim_change(ln_k);
-  if (ln_k < limit_ln_k) return w_ * std::exp(change) / (system_.law().force_slope() - pivoting_rate_);
-  const double k = std::exp(ln_k);
-  const auto [force, moment] = system_.law()(slip_of_ratio(k));
-  return v_ * std::exp(change + (ln_k - ln_k0_)) / (force - system_.r() * (k * moment));
+double Orbit::slip_left(double xi) const {
+  const Progress now = progress(xi);
+  return now.v * (now.v / 2 + curve_->slip_excess(xi) * now.w);
 }
 
-double Orbit::log_ratio_at_left(double left) const {
-  const auto residual = [&](double ln_k) {
-    const double here = scaled_left(ln_k);
-    return std::pair{std::log(here / left), scaled_left_slope(ln_k) / here};
+double Orbit::scaled_left_slope(double xi) const {
+  const Progress now = progress(xi);
+  return curve_->time_rate(xi) * (now.w + now.v);
+}
+
+double Orbit::coordinate_at_left(double left) const {
+  // Below the curve's limit the time left is a power of exp(xi).
+  const double limit = std::min(curve_->limit(), xi0_);
+  const double at_limit = scaled_left(limit);
+  if (left <= at_limit) return limit + std::log(left / at_limit) * (at_limit / scaled_left_slope(limit));
+  const auto residual = [&](double xi) {
+    const double here = scaled_left(xi);
+    return std::pair{std::log(here / left), scaled_left_slope(xi) / here};
   };
-  // In the limit k -> 0 all of the time left is pivoting: w = r Psi(0) left, and ln w has slope a.
-  const double slope = pivoting_rate_ / (system_.law().force_slope() - pivoting_rate_);
-  const double limit = limit_ln_k + (std::log(left / pivoting_) - rim_change(limit_ln_k)) / slope;
-  const double low = std::min(limit, limit_ln_k) - 2;
-  return increasing_root(residual, std::min(limit, ln_k0_), low + low * 1e-15, ln_k0_);
+  const double at_start = scaled_left(xi0_);
+  const double guess = xi0_ + std::log(left / at_start) * (at_start / scaled_left_slope(xi0_));
+  return increasing_root(residual, guess, limit, xi0_);
 }
 
-double Orbit::log_ratio_at_elapsed(double elapsed) const {
-  const auto residual = [&](double ln_k) { return std::pair{elapsed - scaled_elapsed(ln_k), scaled_left_slope(ln_k)}; };
-  const double slope = pivoting_rate_ / (system_.law().force_slope() - pivoting_rate_);
-  const double left = pivoting_ + v_ * share0_ - elapsed;
-  const double limit = limit_ln_k + (std::log(left / pivoting_) - rim_change(limit_ln_k)) / slope;
-  const double low = std::min({limit, limit_ln_k, ln_k0_}) - 2;
-  const double sliding = elapsed < v_ ? ln_k0_ + std::log1p(-elapsed / v_) : limit_ln_k;
-  return increasing_root(residual, std::max(limit, sliding), low + low * 1e-15, ln_k0_);
+double Orbit::coordinate_at_elapsed(double elapsed) const {
+  const double limit = std::min(curve_->limit(), xi0_);
+  const double beyond = elapsed - scaled_elapsed(limit);
+  if (beyond >= 0) {
+    const double at_limit = scaled_left(limit);
+    return limit + std::log1p(-beyond / at_limit) * (at_limit / scaled_left_slope(limit));
+  }
+  const auto residual = [&](double xi) { return std::pair{elapsed - scaled_elapsed(xi), scaled_left_slope(xi)}; };
+  return increasing_root(residual, xi0_ - elapsed / scaled_left_slope(xi0_), limit, xi0_);
 }
 
 OrbitPoint Orbit::rest(double tau) const {
@@ -176,24 +178,26 @@ OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
   return {tau, u0_ * left_share, 0, -infinity, 0, beta};
 }
 
-OrbitPoint Orbit::point(double tau, double ln_k) const {
-  if (ln_k == ln_k0_) return {tau, u0_, v0_, std::log(v0_), v_ / w_, 0};
-  const double change = rim_change(ln_k);
-  const double ln_v = std::log(v0_) + (change + (ln_k - ln_k0_));
-  const double v = v0_ * std::exp(change + (ln_k - ln_k0_));
-  return {tau, u0_ * std::exp(change), v, ln_v, std::exp(ln_k), beta(ln_k, change, v)};
-}
-
-double Orbit::beta(double ln_k, double change, double v) const {
-  const double w0 = system_.mu() * std::abs(u0_);
-  if (ln_k0_ < faint_ln_k) {
-    const double age = curve_->regularised_age(ln_k) * std::exp(-change) - curve_->regularised_age(ln_k0_);
-    return quotient(std::max(0.0, age), system_.scaled_time_rate() * w0);
-  }
-  // b/w = k b/v.
-  constexpr double limit = 1 / (45 * pi * pi);
-  const double age = ln_k > sliding_ln_k ? limit / v : curve_->regularised_age(ln_k) / (w0 * std::exp(change));
-  return std::max(0.0, age - limit / v0_) / system_.scaled_time_rate();
+OrbitPoint Orbit::point(double tau, double xi, double left) const {
+  if (xi == xi0_) return {tau, u0_, v0_, std::log(v0_), v_ / w_, 0};
+  // Both speeds from k and the time that is left, left = P w/w0 + S m v/v0: beside an invariant ray they fall while k
+  // hardly changes, and time tells more of them than xi does. With the ratio that is at most 1:
+  const double ln_k = curve_->approach().log_ratio(xi);
+  const double change = ln_k - ln_k0_;
+  const double ratio = std::exp(-std::abs(change));
+  const double sliding = v_ * curve_->sliding_share(xi);
+  const double larger = change < 0 ? left / (pivoting_ + sliding * ratio) : left / (pivoting_ * ratio + sliding);
+  const double smaller = larger * ratio;
+  const double u_share = change < 0 ? larger : smaller;
+  const double v_share = change < 0 ? smaller : larger;
+  const double age =
+      curve_->regularised_age(xi) / (w_ * u_share + v_ * v_share) - curve_->regularised_age(xi0_) / (w_ + v_);
+  return {.tau = tau,
+          .u = u0_ * u_share,
+          .v = v0_ * v_share,
+          .ln_v = std::log(v0_) + std::log(larger) + std::min(change, 0.0),
+          .k = std::exp(ln_k),
+          .beta = std::ldexp(std::max(0.0, age) / system_.scaled_time_rate(), -exponent_)};
 }
 
 OrbitPoint Orbit::at_time(double tau) const {
@@ -201,14 +205,15 @@ OrbitPoint Orbit::at_time(double tau) const {
   const double stop = stop_time();
   if (tau >= stop) return rest(tau);
   if (on_axis()) return on_axis_at(tau, 1 - tau / stop);
-  return point(tau, log_ratio_at_time(tau));
+  const double left = tau > stop / 2 ? scaled_of(stop - tau) : whole() - scaled_of(tau);
+  return point(tau, coordinate_at_time(tau), left);
 }
 
-double Orbit::log_ratio_at_time(double tau) const {
-  if (tau == 0) return ln_k0_;
+double Orbit::coordinate_at_time(double tau) const {
+  if (tau == 0) return xi0_;
   const double stop = stop_time();
-  if (tau > stop / 2) return log_ratio_at_left(scaled_of(stop - tau));
-  return log_ratio_at_elapsed(scaled_of(tau));
+  if (tau > stop / 2) return coordinate_at_left(scaled_of(stop - tau));
+  return coordinate_at_elapsed(scaled_of(tau));
 }
 
 double Orbit::slip_length(double tau) const {
@@ -219,7 +224,7 @@ double Orbit::slip_length(double tau) const {
     const double v = u0_ == 0 && tau < stop ? v_ * (1 - tau / stop) : 0;
     slip = (v_ - v) * (v_ + v) / 2;
   } else {
-    slip = slip0_ - (tau < stop ? slip_left(log_ratio_at_time(tau)) : 0);
+    slip = slip0_ - (tau < stop ? slip_left(coordinate_at_time(tau)) : 0);
   }
   return std::ldexp(slip / system_.scaled_time_rate(), 2 * exponent_);
 }
@@ -233,17 +238,27 @@ OrbitPoint Orbit::at_time_left(double time_left) const {
   if (time_left == 0) return rest(stop);
   const double tau = stop - time_left;
   if (on_axis()) return on_axis_at(tau, time_left / stop);
-  if (tau == 0) return point(0, ln_k0_);
-  return point(tau, log_ratio_at_left(scaled_of(time_left)));
+  if (tau == 0) return point(0, xi0_, whole());
+  return point(tau, coordinate_at_left(scaled_of(time_left)), scaled_of(time_left));
+}
+
+OrbitPoint Orbit::at_coordinate(double xi) const {
+  if (on_axis() || !(xi <= xi0_)) {
+    throw std::domain_error(fmt::format(
+        "Orbit::at_coordinate: xi must be at most that of the start, {}, and the start not on an axis; got {}", xi0_,
+        xi));
+  }
+  return point(tau_of(scaled_elapsed(xi)), xi, scaled_left(xi));
 }
 
 OrbitPoint Orbit::at_log_ratio(double ln_k) const {
-  if (on_axis() || !(ln_k <= ln_k0_)) {
-    throw std::domain_error(fmt::format(
-        "Orbit::at_log_ratio: ln k must be at most that of the start, {}, and the start not on an axis; got {}", ln_k0_,
-        ln_k));
+  if (on_axis() || !approach().reaches(ln_k) || !(approach().coordinate(ln_k) <= xi0_)) {
+    throw std::domain_error(
+        fmt::format("Orbit::at_log_ratio: ln k must be between that of the start, {}, and that of the stop, and the "
+                    "start not on an axis; got {}",
+                    ln_k0_, ln_k));
   }
-  return point(tau_of(scaled_elapsed(ln_k)), ln_k);
+  return at_coordinate(approach().coordinate(ln_k));
 }
 
 OrbitColumns Orbit::at_times(const Eigen::ArrayXd& times) const {

@@ -18,6 +18,9 @@ namespace {
 
 using std::numbers::pi;
 
+/// Below, x is 0 to the last bit beside 1.
+constexpr double lowest_ln_k = -40;
+
 /// Terms of a series in powers of 1/2 or less.
 constexpr int terms = 56;
 
@@ -72,7 +75,7 @@ Fractions fractions(double z) {
 }  // namespace
 
 PadeCurve::PadeCurve(double r)
-    : SimilarityCurve(r),
+    : SimilarityCurve(r, Approach::to_zero(), lowest_ln_k),
       A_(8 * (2 - r)),
       B_(3 * pi * (5 - r)),
       a_(r / (2 - r)),
@@ -109,8 +112,9 @@ double PadeCurve::slip_excess(double ln_k) const {
 
 double PadeCurve::regularised_age(double ln_k) const {
   const auto at = fractions(ln_k + log_ratio_);
-  const double unit = 1 / (3 * pi * A_);
-  if (at.y <= 0.5) return unit * at.y / (e_ + 1) * gauss_series(1 - b(), e_ + 2, at.y);
+  // y (1 + k), by the larger of the two.
+  const double bounded = ln_k > 0 ? A_ * (1 + std::exp(-ln_k)) / (B_ + A_ * std::exp(-ln_k)) : at.y * (1 + std::exp(ln_k));
+  if (at.y <= 0.5) return bounded / (3 * pi * A_ * (e_ + 1)) * gauss_series(1 - b(), e_ + 2, at.y);
 
   // (R11): x^a times the integral of t^(-a-1) (1-t)^e from x to 1/2, term by term, and from 1/2 to 1.
   const double to_half = -std::numbers::ln2 - at.ln_x;
@@ -128,7 +132,15 @@ double PadeCurve::regularised_age(double ln_k) const {
         std::abs(s) * to_half < 1 ? power * expm1_over(s, to_half) : (x_to_a * half_power * std::exp2(a_) - power) / s;
     sum += coefficient * integral;
   }
+  const double unit = (1 + std::exp(ln_k)) / (3 * pi * A_);
   return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * half_age_);
+}
+
+double PadeCurve::time_rate(double ln_k) const {
+  // k/((1 + k) D), in k or 1/k.
+  const double far = std::exp(-std::abs(ln_k));
+  if (ln_k > 0) return (8 * far + 3 * pi) * (16 * far + 15 * pi) / (3 * pi * (1 + far) * (A_ * far + B_));
+  return (8 + 3 * pi * far) * (16 + 15 * pi * far) / (3 * pi * (1 + far) * (A_ + B_ * far));
 }
 
 }  // namespace contensou::reduction

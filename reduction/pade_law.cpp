@@ -1,6 +1,7 @@
 #include "contensou/reduction/pade_law.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "contensou/reduction/pade_curve.hpp"
@@ -39,8 +40,9 @@ double PadeLaw::small_mu_share(int order, double r, double ln_k) const {
   return 1 + 1.5 * (2 / (2 - r_kept)) * bracket / z;
 }
 
-std::shared_ptr<const SimilarityCurve> PadeLaw::closed_curve(double r) const {
-  return r <= PadeCurve::largest_r ? std::make_shared<PadeCurve>(r) : nullptr;
+SimilaritySolution PadeLaw::closed_solution(double r) const {
+  if (r > PadeCurve::largest_r) return {};
+  return std::make_shared<PadeCurve>(r);
 }
 
 }  // namespace contensou::reduction

@@ -10,8 +10,8 @@
 
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/orbit.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::reduction {
 
@@ -27,7 +27,7 @@ constexpr std::array route_texts{
     RouteText{Route::closed, "closed",
               "closed form of the similarity solution, relative error below 1e-14; only where the law has one"},
     RouteText{Route::quadrature, "quadrature",
-              "quadrature of the separated equation, relative error below 1e-13; only while k -> 0"},
+              "quadrature of the separated equation, relative error below 1e-13; any law and body"},
     RouteText{Route::regularised, "regularised",
               "(2.7) in ln u, ln v stepped in beta with (2.8), relative error below 1e-10; any law and body"},
     RouteText{Route::direct, "direct",
@@ -35,6 +35,11 @@ constexpr std::array route_texts{
 };
 
 const RouteText& text(Route route) { return *std::ranges::find(route_texts, route, &RouteText::route); }
+
+StopTime by_similarity(Route route, const Orbit& orbit) {
+  if (orbit.on_axis()) return {orbit.stop_time(), route, 1e-15, 0};
+  return {orbit.stop_time(), route, orbit.curve().accuracy(), orbit.curve().evaluations()};
+}
 
 StopTime by_stepper(Route route, const Motion& motion) {
   if (!motion.outcome.ok()) throw std::runtime_error(motion.outcome.sentence);
@@ -55,9 +60,8 @@ std::optional<Route> find_route(std::string_view name) {
 
 std::vector<Route> routes(const ReducedSystem& system) {
   std::vector<Route> found;
-  if (system.law().closed_curve(system.r())) found.push_back(Route::closed);
-  // k -> 0 wherever Phi > r k Psi; for small k that is Phi'(0) > r Psi(0), the first to fail as r grows.
-  if (system.law().force_slope() > system.r() * system.law().pivoting_moment()) found.push_back(Route::quadrature);
+  if (system.law().closed_solution(system.r())) found.push_back(Route::closed);
+  found.push_back(Route::quadrature);
   found.push_back(Route::regularised);
   found.push_back(Route::direct);
   return found;
@@ -66,18 +70,15 @@ std::vector<Route> routes(const ReducedSystem& system) {
 StopTime stop_time(const ReducedSystem& system, State start, Route route) {
   switch (route) {
     case Route::closed: {
-      const auto curve = system.law().closed_curve(system.r());
-      if (!curve) {
+      const SimilaritySolution solution = system.law().closed_solution(system.r());
+      if (!solution) {
         throw std::domain_error(
             fmt::format("stop_time: law {} has no closed form for r = {}", system.law().name(), system.r()));
       }
-      return {Orbit(system, start, curve).stop_time(), route, 1e-14, 0};
+      return by_similarity(route, Orbit(system, start, solution));
     }
-    case Route::quadrature: {
-      const auto curve = std::make_shared<QuadratureCurve>(system.law(), system.r());
-      const double tau = Orbit(system, start, curve).stop_time();
-      return {tau, route, std::max(1e-13, 10 * curve->truncation()), curve->evaluations()};
-    }
+    case Route::quadrature:
+      return by_similarity(route, Orbit(system, start, quadrature_solution(system.law(), system.r())));
     case Route::regularised:
       return by_stepper(route, integrate_regularised(system, start));
     case Route::direct:

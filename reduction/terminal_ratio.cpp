@@ -10,6 +10,29 @@
 
 namespace contensou::reduction {
 
+namespace {
+
+/// k falls where Phi > r k Psi and grows where it is less: with more than one change of sign, it depends on the start
+/// where it goes.
+template <class Excess>
+void require_one_end(const Law& law, double r, Excess excess, double farthest) {
+  constexpr double step = 0.25;
+  constexpr double told_apart = 1e-9;
+  bool falls = false;
+  for (double ln_k = -farthest; ln_k <= farthest; ln_k += step) {
+    const double here = excess(ln_k);
+    if (falls && here < -told_apart) {
+      throw std::domain_error(
+          fmt::format("terminal_ratio: under law {} with r = gamma mu^2/chi = {}, k = v/(mu |u|) tends to one of several "
+                      "ratios, it depends on the start which; routes regularised and direct answer there",
+                      law.name(), r));
+    }
+    falls = falls || here > told_apart;
+  }
+}
+
+}  // namespace
+
 TerminalRatio terminal_ratio(const Law& law, double r) {
   if (!(r > 0) || !std::isfinite(r)) {
     throw std::domain_error(fmt::format("terminal_ratio: r = gamma mu^2/chi must be positive and finite, got {}", r));
@@ -17,16 +40,16 @@ TerminalRatio terminal_ratio(const Law& law, double r) {
   constexpr double fast = 0x1p100;
   const double low = law.force_slope() / law.pivoting_moment();
   const double high = 1 / (fast * law({fast, 1}).moment);
-  if (r <= low) return {TerminalRegime::zero, 0, low, high};
-  if (r >= high) return {TerminalRegime::infinity, std::numeric_limits<double>::infinity(), low, high};
-
+  // Beyond these k the law is its limit, and r would be equal to low or high.
+  constexpr double farthest = 60;
   const auto excess = [&](double ln_k) {
     const double k = std::exp(ln_k);
     const auto [force, moment] = law(slip_of_ratio(k));
-    return force - r * k * moment;
+    return force / (r * k * moment) - 1;
   };
-  // Beyond these k the law is its limit, and r would be equal to low or high.
-  constexpr double farthest = 60;
+  require_one_end(law, r, excess, farthest);
+  if (r <= low) return {TerminalRegime::zero, 0, low, high};
+  if (r >= high) return {TerminalRegime::infinity, std::numeric_limits<double>::infinity(), low, high};
   constexpr int digits = std::numeric_limits<double>::digits - 2;
   std::uintmax_t most = 200;
   const auto [left, right] = boost::math::tools::toms748_solve(excess, -farthest, farthest,

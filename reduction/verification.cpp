@@ -11,9 +11,9 @@
 
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/orbit.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 #include "contensou/reduction/similarity.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 #include "contensou/reduction/symmetry.hpp"
 
 namespace contensou::reduction {
@@ -46,8 +46,8 @@ State normalised(State start) {
 /// The checks of one start, made one after the other.
 class Examination {
  public:
-  Examination(const ReducedSystem& system, State start, const std::shared_ptr<const SimilarityCurve>& quadrature,
-              const std::shared_ptr<const SimilarityCurve>& closed)
+  Examination(const ReducedSystem& system, State start, const SimilaritySolution& quadrature,
+              const SimilaritySolution& closed)
       : system_(system),
         start_(normalised(start)),
         quadrature_(quadrature),
@@ -61,9 +61,13 @@ class Examination {
     symmetry();
     if (start_.u != 0 && start_.v != 0) {
       add("generator on dv/du", slope_symmetry_residual(system_, beside_the_kink()), difference_quotient);
-      separated_equation();
-      first_integral(regularised, direct);
-      times(regularised);
+      // On an invariant ray k does not change, and says nothing about where a motion is.
+      constexpr double beside_a_ray = 1e9;
+      if (steepness(orbit_.start_log_ratio()) < beside_a_ray) {
+        separated_equation();
+        first_integral(regularised, direct);
+        times(regularised);
+      }
     }
     limits();
     bounds();
@@ -103,10 +107,11 @@ class Examination {
   }
 
   void separated_equation() {
-    // The change of p = ln v over one unit of ln q, below the start and around k = 1.
+    // The change of p = ln v over one unit of xi, from the start and around k = 1.
     double worst = 0;
-    for (double top : {orbit_.start_log_ratio(), std::min(orbit_.start_log_ratio(), 0.5)}) {
-      const double bottom = top - 1;
+    const Approach& approach = orbit_.approach();
+    for (double xi : {orbit_.start_coordinate(), std::min(orbit_.start_coordinate(), approach.coordinate(0) + 0.5)}) {
+      const auto [bottom, top] = std::minmax({approach.log_ratio(xi - 1), approach.log_ratio(xi)});
       const double sign = std::copysign(1.0, start_.u);
       const auto slope = [&](double ln_k) {
         const double q = sign * system_.mu() * std::exp(ln_k);
@@ -116,8 +121,10 @@ class Examination {
       const double middle = std::clamp(0.0, bottom, top);  // k = 1, where the law may have a kink
       const double change =
           Rule::integrate(slope, bottom, middle, 8, 1e-14) + Rule::integrate(slope, middle, top, 8, 1e-14);
-      const double along = orbit_.at_log_ratio(top).ln_v - orbit_.at_log_ratio(bottom).ln_v;
-      worst = worse(relative(along, change), worst);
+      const double along = orbit_.at_coordinate(xi).ln_v - orbit_.at_coordinate(xi - 1).ln_v;
+      // dp/dq has the digits that Phi - r k Psi has.
+      const double digits = 1 / std::max(1.0, steepness(approach.log_ratio(xi - 1)));
+      worst = worse(relative(along, std::copysign(change, along)) * digits, worst);
     }
     add("separated equation dp/dq", worst, 1e-12);
   }
@@ -127,34 +134,45 @@ class Examination {
 
   void first_integral(const Motion& regularised, const Motion& direct) {
     // I = ln u - (ln w of the curve at k): constant along every solution. An error of ln k comes in by the curve's
-    // slope, which is at most that of k -> 0 and grows without bound as r -> Phi'(0)/Psi(0).
-    const double pivoting = system_.r() * system_.law().pivoting_moment();
-    const double steepest = pivoting / (system_.law().force_slope() - pivoting);
+    // slope: along an invariant ray, or with r next to Phi'(0)/Psi(0), that is without bound.
     const auto drift = [&](const Motion& motion) {
-      const auto& curve = closed_ ? *closed_ : *quadrature_;
-      const double at_start = std::log(std::abs(start_.u)) - curve.log_rim(orbit_.start_log_ratio());
+      const SimilarityCurve& curve = *(closed_ ? closed_ : quadrature_).through(orbit_.start_log_ratio());
+      const double at_start = std::log(std::abs(start_.u)) - curve.log_rim(orbit_.start_coordinate());
       double worst = 0;
       for (Eigen::Index i = 0; i + 1 < motion.points.rows(); ++i) {
         const OrbitPoint point = motion.points.row(i);
-        const double here = std::log(std::abs(point.u)) - curve.log_rim(log_ratio(point));
-        worst = worse(std::abs(here - at_start), worst);
+        const double ln_k = log_ratio(point);
+        const double here = std::log(std::abs(point.u)) - curve.log_rim(curve.approach().coordinate(ln_k));
+        worst = worse(std::abs(here - at_start) / (1 + steepness(ln_k)), worst);
       }
-      return worst / (1 + steepest);
+      return worst;
     };
     add("first integral along (2.7)", drift(regularised), stepping);
     add("first integral along (2.6)", drift(direct), stepping);
   }
 
+  /// |d ln w/d ln k| = r k Psi/|Phi - r k Psi|, README (R2).
+  double steepness(double ln_k) const {
+    const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
+    const auto [force, moment] = system_.law()(slip_of_ratio(k));
+    const double drag = system_.r() * k * moment;
+    return drag / std::abs(force - drag);
+  }
+
   void times(const Motion& regularised) {
-    // tau(k) and beta(k) of the similarity solution where the stepper passed the same k.
+    // tau(k) and beta(k) of the similarity solution where the stepper passed the same k. Beside an invariant ray k says
+    // little about either.
     const double beta_unit = 1 / (16 * system_.mu() * std::abs(start_.u) + 15 * pi * start_.v);
     double worst_tau = 0;
     double worst_beta = 0;
     for (Eigen::Index i = 0; i + 1 < regularised.points.rows(); ++i) {
       const OrbitPoint stepped = regularised.points.row(i);
-      const OrbitPoint exact = orbit_.at_log_ratio(std::min(log_ratio(stepped), orbit_.start_log_ratio()));
-      worst_tau = worse(std::abs(stepped.tau - exact.tau) / orbit_.stop_time(), worst_tau);
-      worst_beta = worse(std::abs(stepped.beta - exact.beta) / (beta_unit + exact.beta), worst_beta);
+      const double ln_k = log_ratio(stepped);
+      const OrbitPoint exact =
+          orbit_.at_coordinate(std::min(orbit_.approach().coordinate(ln_k), orbit_.start_coordinate()));
+      const double blunt = 1 + steepness(ln_k);
+      worst_tau = worse(std::abs(stepped.tau - exact.tau) / (orbit_.stop_time() * blunt), worst_tau);
+      worst_beta = worse(std::abs(stepped.beta - exact.beta) / ((beta_unit + exact.beta) * blunt), worst_beta);
     }
     add("tau(k) against (2.8)", worst_tau, stepping);
     add("beta(k) against (2.8)", worst_beta, stepping);
@@ -190,12 +208,13 @@ class Examination {
 
   void inner_orbit() {
     const auto& elementary = system_.law().inner_log_rim();
-    if (!elementary) return;
+    if (!elementary || !(system_.r() * system_.law().pivoting_moment() < system_.law().force_slope())) return;
+    const SimilarityCurve& curve = *quadrature_.through(0);
     // ln w changes by r times a number of order 1, and more as r -> 2.
     double worst = 0;
     for (double k : {1e-6, 1e-3, 0.03, 0.3, 0.7, 0.99}) {
       const double change = elementary(system_.r(), 1) - elementary(system_.r(), k);
-      const double by_quadrature = quadrature_->log_rim(0) - quadrature_->log_rim(std::log(k));
+      const double by_quadrature = curve.log_rim(0) - curve.log_rim(std::log(k));
       worst = worse(std::abs(by_quadrature - change) / std::max(system_.r(), std::abs(by_quadrature)), worst);
     }
     add("elementary orbit for k <= 1", worst, rounding);
@@ -203,8 +222,8 @@ class Examination {
 
   const ReducedSystem& system_;
   State start_;
-  std::shared_ptr<const SimilarityCurve> quadrature_;
-  std::shared_ptr<const SimilarityCurve> closed_;
+  SimilaritySolution quadrature_;
+  SimilaritySolution closed_;
   Orbit orbit_;
   std::vector<Check> checks_;
 };
@@ -217,8 +236,8 @@ std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>&
     throw std::domain_error(fmt::format(
         "verify: mu = {} is too small, the fields underflow; gamma mu^2/chi >= {} is needed", system.mu(), smallest_r));
   }
-  const auto quadrature = std::make_shared<QuadratureCurve>(system.law(), system.r());
-  const auto closed = system.law().closed_curve(system.r());
+  const SimilaritySolution quadrature = quadrature_solution(system.law(), system.r());
+  const SimilaritySolution closed = system.law().closed_solution(system.r());
   std::vector<Check> all;
   for (const State& start : starts) {
     require_state("verify", start);

@@ -23,7 +23,7 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pressure_law.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
@@ -76,14 +76,14 @@ Law law_of(const std::string& name) {
 class Motions {
  public:
   explicit Motions(ReducedSystem system)
-      : system_(std::move(system)), curve_(reduction::similarity_curve(system_.law(), system_.r())) {}
+      : system_(std::move(system)), solution_(reduction::similarity_solution(system_.law(), system_.r())) {}
 
   const ReducedSystem& system() const { return system_; }
-  Orbit orbit(State start) const { return {system_, start, curve_}; }
+  Orbit orbit(State start) const { return {system_, start, solution_}; }
 
  private:
   ReducedSystem system_;
-  std::shared_ptr<const reduction::SimilarityCurve> curve_;
+  reduction::SimilaritySolution solution_;
 };
 
 /// The plane that the page shows. A plane that was rejected leaves the last good one in place.

@@ -8,7 +8,7 @@
 
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
-#include "route_curve.hpp"
+#include "route_solution.hpp"
 
 namespace contensou::program {
 
@@ -36,7 +36,7 @@ double require_finite(double stop) {
 }  // namespace
 
 OrbitColumns motion_at(const ReducedSystem& system, State start, Route route, const Eigen::ArrayXd& times) {
-  if (const auto curve = route_curve(system, route)) return Orbit(system, start, curve).at_times(times);
+  if (const auto solution = route_solution(system, route)) return Orbit(system, start, solution).at_times(times);
   if (times.size() == 0) return OrbitColumns();
 
   // The steppers go forwards only.
@@ -54,8 +54,8 @@ OrbitColumns motion_at(const ReducedSystem& system, State start, Route route, co
 }
 
 OrbitColumns motion_samples(const ReducedSystem& system, State start, Route route, Eigen::Index count) {
-  if (const auto curve = route_curve(system, route)) {
-    const Orbit orbit(system, start, curve);
+  if (const auto solution = route_solution(system, route)) {
+    const Orbit orbit(system, start, solution);
     require_finite(orbit.stop_time());
     return orbit.sample(count);
   }

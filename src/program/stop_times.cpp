@@ -1,7 +1,7 @@
 #include "stop_times.hpp"
 
 #include "contensou/reduction/orbit.hpp"
-#include "route_curve.hpp"
+#include "route_solution.hpp"
 
 namespace contensou::program {
 
@@ -13,11 +13,11 @@ constexpr std::size_t most_patches = 256;
 }  // namespace
 
 PatchStopTimes::PatchStopTimes(const reduction::Law& law, double mu, const RouteOption& route)
-    : system_(law, mu), route_(route.read(system_)), curve_(route_curve(system_, route_)) {}
+    : system_(law, mu), route_(route.read(system_)), solution_(route_solution(system_, route_)) {}
 
 double PatchStopTimes::operator()(reduction::State start) const {
-  if (!curve_) return reduction::stop_time(system_, start, route_).tau;
-  return reduction::Orbit(system_, start, curve_).stop_time();
+  if (!solution_) return reduction::stop_time(system_, start, route_).tau;
+  return reduction::Orbit(system_, start, solution_).stop_time();
 }
 
 std::shared_ptr<const PatchStopTimes> StopTimes::of_patch(double mu) {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <mutex>
 
-#include "contensou/reduction/similarity_curve.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "route_option.hpp"
 
@@ -13,7 +13,7 @@ namespace contensou::program {
 /// Stop times of many starts that share law and mu. Threads may share it.
 class PatchStopTimes {
  public:
-  /// @throws  as RouteOption::read and the making of the route's curve
+  /// @throws  as RouteOption::read and the making of the solution
   PatchStopTimes(const reduction::Law& law, double mu, const RouteOption& route);
 
   double mu() const { return system_.mu(); }
@@ -24,7 +24,7 @@ class PatchStopTimes {
  private:
   reduction::ReducedSystem system_;
   reduction::Route route_;
-  std::shared_ptr<const reduction::SimilarityCurve> curve_;  ///< null for the steppers
+  reduction::SimilaritySolution solution_;  ///< empty for the steppers
 };
 
 /// Stop times of many starts under one law. What depends on mu alone is computed once for each mu, and kept for as many

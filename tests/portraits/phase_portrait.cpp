@@ -9,7 +9,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 
 using namespace contensou;
 using portraits::PhasePortrait;
@@ -104,10 +104,10 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
 
 TEST_CASE("The time left at each point is that point's stop time", "[route]") {
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
-    const auto curve = std::make_shared<reduction::QuadratureCurve>(system.law(), system.r());
+    const auto solution = reduction::quadrature_solution(system.law(), system.r());
     for (const PortraitOrbit& orbit : portrait.orbits) {
       for (Eigen::Index i = 0; i < orbit.u.size(); i += 7) {
-        const double stop = Orbit(system, {orbit.u[i], orbit.v[i]}, curve).stop_time();
+        const double stop = Orbit(system, {orbit.u[i], orbit.v[i]}, solution).stop_time();
         CHECK(std::abs(orbit.tau_left[i] - stop) < 1e-12 * orbit.tau_left[0]);
       }
     }
@@ -116,11 +116,11 @@ TEST_CASE("The time left at each point is that point's stop time", "[route]") {
 
 TEST_CASE("Every point of an isochrone has its stop time and lies in the window", "[route]") {
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
-    const auto curve = std::make_shared<reduction::QuadratureCurve>(system.law(), system.r());
+    const auto solution = reduction::quadrature_solution(system.law(), system.r());
     CHECK(portrait.isochrones.size() >= 4);
     for (const auto& isochrone : portrait.isochrones) {
       for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
-        const double stop = Orbit(system, {isochrone.u[i], isochrone.v[i]}, curve).stop_time();
+        const double stop = Orbit(system, {isochrone.u[i], isochrone.v[i]}, solution).stop_time();
         CHECK(stop == Approx(isochrone.tau_stop).epsilon(1e-12));
         CHECK(std::abs(isochrone.u[i]) <= portrait.window.u * (1 + 1e-12));
         CHECK(isochrone.v[i] <= portrait.window.v * (1 + 1e-12));

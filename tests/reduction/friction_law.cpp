@@ -11,7 +11,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/similarity_curve.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "user_laws.hpp"
@@ -63,16 +63,16 @@ TEST_CASE("a law keeps what it offers", "[friction_law]") {
   REQUIRE(exact.sliding_share());
   CHECK(exact.sliding_share()->least == 0);
   CHECK(exact.sliding_share()->most == 1);
-  CHECK(exact.closed_curve(0.1) == nullptr);
+  CHECK_FALSE(exact.closed_solution(0.1));
   REQUIRE(exact.inner_log_rim());
   CHECK(exact.inner_log_rim()(0.5, 0.25) == HertzLaw{}.inner_log_rim(0.5, 0.25));
   CHECK(exact.moment_deficit({1e-9, 1}) == HertzLaw{}.moment_deficit({1e-9, 1}));
 
   const Law pade = PadeLaw{};
   CHECK(pade.name() == "pade");
-  REQUIRE(pade.closed_curve(0.1));
-  CHECK(pade.closed_curve(0.1)->r() == 0.1);
-  CHECK(pade.closed_curve(1.5) == nullptr);
+  REQUIRE(pade.closed_solution(0.1));
+  CHECK(pade.closed_solution(0.1).through(0)->r() == 0.1);
+  CHECK_FALSE(pade.closed_solution(1.5));
   CHECK_FALSE(pade.inner_log_rim());
 
   CHECK(Law(Named{}).name() == "mine");
@@ -84,7 +84,7 @@ TEST_CASE("a law of one function has the defaults", "[friction_law]") {
   CHECK(law.pivoting_moment() == law({0, 1}).moment);
   CHECK(law.force_slope() == 1 / 0.8);
   CHECK_FALSE(law.sliding_share());
-  CHECK(law.closed_curve(0.1) == nullptr);
+  CHECK_FALSE(law.closed_solution(0.1));
   CHECK_FALSE(law.inner_log_rim());
   CHECK(law.moment_deficit({1, 1}) == 1 - law({1, 1}).moment / law.pivoting_moment());
 
@@ -98,7 +98,7 @@ TEST_CASE("a copy of a law is the same law", "[friction_law]") {
   const Law pade = PadeLaw{};
   const Law copy = pade;  // NOLINT(performance-unnecessary-copy-initialization)
   CHECK(copy.name() == "pade");
-  CHECK(copy.closed_curve(0.5) != nullptr);
+  CHECK(copy.closed_solution(0.5));
 }
 
 TEMPLATE_TEST_CASE("everything works with a user's law of one function", "[friction_law][route]", RootLaw, OcticLaw,

@@ -184,7 +184,7 @@ TEST_CASE("the regularised age is the integral of dtau over the weight", "[pade_
         return k * std::exp(rim - curve.log_rim(ln_k + x)) /
                ((force - r * k * moment) * (16 + 15 * pi * k) * (8 + 3 * pi * k));
       };
-      age.add(rule.integrate(rate, 0.0, infinity), curve.regularised_age(ln_k),
+      age.add((1 + std::exp(ln_k)) * rule.integrate(rate, 0.0, infinity), curve.regularised_age(ln_k),
               fmt::format("r = {}, ln k = {}", r, ln_k));
     }
   }

@@ -33,7 +33,7 @@ struct NoisyLaw {
 }  // namespace
 
 TEST_CASE("the quadrature of the Pade law is its closed form", "[quadrature_curve][route]") {
-  WorstCase rim("ln w"), share("m"), age("b");
+  WorstCase rim("ln w"), share("m"), age("b"), rate("c");
   for (double r : {1e-20, 1e-8, 1e-4, 0.01, 0.1, 0.4, 5.0 / 7, 1.0}) {
     const QuadratureCurve curve(PadeLaw{}, r);
     const PadeCurve closed(r);
@@ -44,14 +44,14 @@ TEST_CASE("the quadrature of the Pade law is its closed form", "[quadrature_curv
       const std::string where = fmt::format("r = {}, ln k = {}", r, ln_k);
       rim.add(closed.log_rim(ln_k) + constant, curve.log_rim(ln_k), std::abs(closed.log_rim(ln_k)) + r, where);
       share.add(closed.sliding_share(ln_k), curve.sliding_share(ln_k), where);
-      // exp(-ln k) beyond k = 1e19
-      const double wanted = closed.regularised_age(ln_k);
-      age.add(wanted, curve.regularised_age(ln_k), wanted * (1 + std::abs(ln_k) / 44), where);
+      age.add(closed.regularised_age(ln_k), curve.regularised_age(ln_k), where);
+      rate.add(closed.time_rate(ln_k), curve.time_rate(ln_k), where);
     }
   }
-  CHECK_WITHIN_EPS(rim, 100);
-  CHECK_WITHIN_EPS(share, 100);
-  CHECK_WITHIN_EPS(age, 200);
+  CHECK_WITHIN_EPS(rim, 64);
+  CHECK_WITHIN_EPS(share, 8);
+  CHECK_WITHIN_EPS(age, 64);
+  CHECK_WITHIN_EPS(rate, 64);
 }
 
 TEST_CASE("the exact law's share runs from 0 to 1", "[quadrature_curve][limit]") {
@@ -83,9 +83,9 @@ TEST_CASE("panels join without a step", "[quadrature_curve][limit]") {
       rim.add(curve.log_rim(below), curve.log_rim(ln_k), 1 + std::abs(curve.log_rim(ln_k)), where);
     }
   }
-  CHECK_WITHIN_EPS(share, 64);
-  CHECK_WITHIN_EPS(age, 64);
-  CHECK_WITHIN_EPS(rim, 64);
+  CHECK_WITHIN_EPS(share, 8);
+  CHECK_WITHIN_EPS(age, 16);
+  CHECK_WITHIN_EPS(rim, 16);
 }
 
 TEST_CASE("the curve has the slope of the separated equation", "[quadrature_curve][invariant]") {
@@ -123,25 +123,20 @@ TEST_CASE("a law with noise ends, and says so", "[quadrature_curve]") {
   CHECK(noisy.sliding_share(0) == Approx(smooth.sliding_share(0)).epsilon(1e-7));
 }
 
-TEST_CASE("the curve that is used is the closed one where there is one", "[quadrature_curve]") {
-  CHECK(dynamic_cast<const PadeCurve*>(similarity_curve(PadeLaw{}, 0.5).get()));
-  CHECK(dynamic_cast<const QuadratureCurve*>(similarity_curve(PadeLaw{}, 1.5).get()));
-  CHECK(dynamic_cast<const QuadratureCurve*>(similarity_curve(HertzLaw{}, 0.5).get()));
-  CHECK(similarity_curve(HertzLaw{}, 0.5)->r() == 0.5);
-}
-
-TEST_CASE("the curve ends where k no longer falls", "[quadrature_curve][domain]") {
+TEST_CASE("the curve is that of one side, and says what is not", "[quadrature_curve][domain]") {
   for (double bad : {0.0, -1.0, infinity, static_cast<double>(NAN)}) {
     CHECK_THROWS_AS(QuadratureCurve(PadeLaw{}, bad), std::domain_error);
   }
-  // r = 2 is the first r with an invariant ray or growth, for both laws: Phi'(0) = r Psi(0).
+  // r = 2 is the first r with an invariant ray, r = 5 the last, for both laws.
+  const Approach to_infinity(Approach::Side::below, infinity);
   for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{})}) {
     CAPTURE(law.name());
     CHECK_NOTHROW(QuadratureCurve(law, 1.9));
-    CHECK_THROWS_WITH(QuadratureCurve(law, 2.1), Catch::Matchers::Contains("Phi'(0)/Psi(0) = 2 only") &&
-                                                     Catch::Matchers::Contains(law.name()) &&
-                                                     Catch::Matchers::Contains("2.1"));
-    CHECK_THROWS_AS(QuadratureCurve(law, 3), std::domain_error);
+    CHECK_NOTHROW(QuadratureCurve(law, 5.1, to_infinity));
+    CHECK_THROWS_WITH(QuadratureCurve(law, 2.1),
+                      Catch::Matchers::Contains("Phi > r k Psi must hold for every k above the terminal ratio 0") &&
+                          Catch::Matchers::Contains(law.name()) && Catch::Matchers::Contains("r = 2.1"));
+    CHECK_THROWS_WITH(QuadratureCurve(law, 3, to_infinity), Catch::Matchers::Contains("Phi < r k Psi"));
     CHECK_THROWS_AS(QuadratureCurve(law, 6), std::domain_error);
   }
 }

@@ -83,7 +83,7 @@ TEST_CASE("all routes give one stop time", "[stop_time][route]") {
           const State start{u0, mu * k0 * std::abs(u0)};
           const std::string where = fmt::format("{}, mu = {}, u0 = {}, k0 = {}", law.name(), mu, u0, k0);
           const double best = stop_time(system, start, Route::quadrature).tau;
-          if (law.closed_curve(system.r())) closed.add(stop_time(system, start, Route::closed).tau, best, where);
+          if (law.closed_solution(system.r())) closed.add(stop_time(system, start, Route::closed).tau, best, where);
           regularised.add(best, stop_time(system, start, Route::regularised).tau, where);
           direct.add(best, stop_time(system, start, Route::direct).tau, where);
         }
@@ -95,7 +95,7 @@ TEST_CASE("all routes give one stop time", "[stop_time][route]") {
   CHECK_WITHIN_EPS(direct, 3e-11 / eps);
 }
 
-TEST_CASE("beyond mu^2 = 14/5 the steppers still stop the Pade ball", "[stop_time][route]") {
+TEST_CASE("beyond mu^2 = 14/5 the Pade ball stops by every route", "[stop_time][route]") {
   // 21 of 40 digits; mu^2 = 14/5 and 7 are where the exponents of the closed form blow up.
   struct Row {
     double mu, u0, v0;
@@ -124,17 +124,12 @@ TEST_CASE("beyond mu^2 = 14/5 the steppers still stop the Pade ball", "[stop_tim
     const std::string where = fmt::format("mu = {}, u0 = {}, v0 = {}", row.mu, row.u0, row.v0);
     regularised.add(row.tau, stop_time(system, start, Route::regularised).tau, where);
     direct.add(row.tau, stop_time(system, start, Route::direct).tau, where);
-    if (system.r() < 1.99) {
-      CHECK(routes(system).front() == Route::quadrature);
-      quadrature.add(row.tau, stop_time(system, start, Route::quadrature).tau, where);
-    } else if (system.r() > 2.01) {
-      CHECK(routes(system) == std::vector{Route::regularised, Route::direct});
-      CHECK_THROWS_AS(stop_time(system, start, Route::quadrature), std::domain_error);
-    }
+    CHECK(routes(system).front() == Route::quadrature);
+    quadrature.add(row.tau, stop_time(system, start, Route::quadrature).tau, where);
   }
   CHECK_WITHIN_EPS(regularised, 1e-10 / eps);
   CHECK_WITHIN_EPS(direct, 1e-10 / eps);
-  CHECK_WITHIN_EPS(quadrature, 1e-12 / eps);
+  CHECK_WITHIN_EPS(quadrature, 8);
 }
 
 TEST_CASE("beyond r = 2 the two steppers agree for the exact law", "[stop_time][route]") {
@@ -197,7 +192,7 @@ TEST_CASE("the stop time scales with the speeds, bit for bit for powers of two",
     const ReducedSystem system(law, 0.03);
     for (const State start : {State{1, 0.1}, State{-0.3, 5}, State{2, 1e-7}}) {
       for (Route route : {Route::closed, Route::quadrature}) {
-        if (route == Route::closed && !law.closed_curve(system.r())) continue;
+        if (route == Route::closed && !law.closed_solution(system.r())) continue;
         const double tau = stop_time(system, start, route).tau;
         for (int power : {-900, -3, 1, 900}) {
           const State scaled{std::ldexp(start.u, power), std::ldexp(start.v, power)};

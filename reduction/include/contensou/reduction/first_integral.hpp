@@ -1,7 +1,7 @@
 #pragma once
 
 #include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/similarity_curve.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::reduction {
 
@@ -10,10 +10,10 @@ namespace contensou::reduction {
 ///
 /// For the Pade law it is ln [ |u| k^(-a) (A + B k)^b ] up to a constant (README (R8)).
 ///
-/// @param curve  the similarity curve of the system's law and r
+/// @param solution  the similarity solution of the system's law and r; the constant is its own on either side of a ray
 /// @throws std::domain_error  on the axes u = 0 and v = 0, where it has no value
 ///
 /// Accuracy  absolute, a few eps of |ln u| and of the curve's |ln w|.
-double log_first_integral(const ReducedSystem& system, const SimilarityCurve& curve, State state);
+double log_first_integral(const ReducedSystem& system, const SimilaritySolution& solution, State state);
 
 }  // namespace contensou::reduction

@@ -3,17 +3,15 @@
 #include <concepts>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "contensou/reduction/similarity_solution.hpp"
 #include "contensou/reduction/slip.hpp"
 
 namespace contensou::reduction {
-
-class SimilarityCurve;
 
 /// A friction law of a circular patch is any value that turns a Slip into a Resistance.
 ///
@@ -26,7 +24,7 @@ class SimilarityCurve;
 ///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
 ///   - `static constexpr SlidingShare sliding_share`, its two-sided bound of the stop time;
-///   - `std::shared_ptr<const SimilarityCurve> closed_curve(double r) const`, its closed form for that r, or null;
+///   - `SimilaritySolution closed_solution(double r) const`, its closed form for that r, or an empty one;
 ///   - `double small_mu_share(int order, double r, double ln_k) const`, its m of README (R4) up to r^(order - 1), order
 ///   1 or 2, in closed form;
 ///   - `double inner_log_rim(double r, double k) const`, ln w(k) for k <= 1 where only that part is elementary: a
@@ -68,9 +66,9 @@ class Law {
       moment_deficit_ = [law](Slip slip) { return law.moment_deficit(slip); };
     }
     if constexpr (requires {
-                    { law.closed_curve(1.0) } -> std::convertible_to<std::shared_ptr<const SimilarityCurve>>;
+                    { law.closed_solution(1.0) } -> std::convertible_to<SimilaritySolution>;
                   }) {
-      closed_curve_ = [law](double r) { return law.closed_curve(r); };
+      closed_solution_ = [law](double r) { return law.closed_solution(r); };
     }
     if constexpr (requires {
                     { law.inner_log_rim(1.0, 1.0) } -> std::convertible_to<double>;
@@ -110,9 +108,9 @@ class Law {
   /// The law's own bounds of the stop time, if it states any.
   const std::optional<SlidingShare>& sliding_share() const { return sliding_share_; }
 
-  /// The law's closed form for r = gamma mu^2/chi; null if the law has none for this r.
-  std::shared_ptr<const SimilarityCurve> closed_curve(double r) const {
-    return closed_curve_ ? closed_curve_(r) : nullptr;
+  /// The law's closed form for r = gamma mu^2/chi; empty if the law has none for this r.
+  SimilaritySolution closed_solution(double r) const {
+    return closed_solution_ ? closed_solution_(r) : SimilaritySolution();
   }
 
   /// The law's own expansion of m for small r; empty if it has none.
@@ -127,7 +125,7 @@ class Law {
   std::string name_ = "user's law";
   std::function<Resistance(Slip)> resistance_;
   std::function<double(Slip)> moment_deficit_;
-  std::function<std::shared_ptr<const SimilarityCurve>(double)> closed_curve_;
+  std::function<SimilaritySolution(double)> closed_solution_;
   std::function<double(int, double, double)> small_mu_share_;
   std::function<double(double, double)> inner_log_rim_;
   std::optional<SlidingShare> sliding_share_;

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <memory>
-
 #include <Eigen/Core>
 
 #include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/similarity_curve.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::reduction {
 
@@ -33,21 +31,20 @@ struct OrbitColumns {
 /// The motion from one start to its stop, from the similarity solution: the law's curve, scaled to pass through the
 /// start.
 ///
-/// There are no time steps: any instant is found by itself. Invariant axes (u0 = 0, v0 = 0) and rest (both 0) are
-/// ordinary starts.
+/// There are no time steps: any instant is found by itself. Invariant axes (u0 = 0, v0 = 0), the invariant ray and rest
+/// are ordinary starts.
 ///
 /// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference). Near
-/// the
-///           stop the conditioning is that of the question: u is proportional to stop_time() - tau, so ask
-///           at_time_left().
+///           the stop the conditioning is that of the question: the speeds are proportional to stop_time() - tau, so
+///           ask at_time_left().
 class Orbit {
  public:
-  /// @throws std::domain_error  if start is not a state (finite, v >= 0), or if r is outside the curve's domain
+  /// @throws std::domain_error  if start is not a state (finite, v >= 0), or if the law has no solution (QuadratureCurve)
   Orbit(const ReducedSystem& system, State start);
 
-  /// With a curve made before, for many orbits of one system.
-  /// @param curve  the similarity curve of system.law() and system.r()
-  Orbit(const ReducedSystem& system, State start, std::shared_ptr<const SimilarityCurve> curve);
+  /// With a solution made before, for many orbits of one system.
+  /// @param solution  the similarity solution of system.law() and system.r()
+  Orbit(const ReducedSystem& system, State start, const SimilaritySolution& solution);
 
   double stop_time() const;
 
@@ -59,8 +56,12 @@ class Orbit {
   /// @throws std::domain_error  unless 0 <= time_left <= stop_time()
   OrbitPoint at_time_left(double time_left) const;
 
-  /// The state at which ln k has the given value, at most that of the start. Not on the axes.
-  /// @throws std::domain_error  on an axis, or if ln_k is above the start's
+  /// The state at a nearness xi to the terminal ratio (SimilarityCurve), at most that of the start. Not on the axes.
+  /// @throws std::domain_error  on an axis, or if xi is above the start's
+  OrbitPoint at_coordinate(double xi) const;
+
+  /// The state at which ln k has the given value. Not on the axes.
+  /// @throws std::domain_error  on an axis, or if ln_k is not between the start's and the terminal ratio's
   OrbitPoint at_log_ratio(double ln_k) const;
 
   /// The integral of v over [0, tau] in the unit of speed squared: the length of slip where tau is turned into a time.
@@ -68,8 +69,21 @@ class Orbit {
   /// @throws std::domain_error  as at_time
   double slip_length(double tau) const;
 
+  /// Whether the start is on u = 0 or v = 0, where k does not change.
+  bool on_axis() const { return v0_ == 0 || u0_ == 0; }
+
   /// ln k at the start; +inf for u0 = 0, -inf for v0 = 0.
   double start_log_ratio() const { return ln_k0_; }
+
+  /// xi at the start, where it is not on an axis.
+  double start_coordinate() const { return xi0_; }
+
+  /// The curve that the motion is a scaled copy of. Not on the axes: there k does not change.
+  /// @throws std::domain_error  on an axis
+  const SimilarityCurve& curve() const;
+
+  /// How k tends to its terminal ratio. Throws as curve().
+  const Approach& approach() const { return curve().approach(); }
 
   /// at_time for each entry, in the order given.
   OrbitColumns at_times(const Eigen::ArrayXd& times) const;
@@ -79,30 +93,35 @@ class Orbit {
   OrbitColumns sample(Eigen::Index count) const;
 
  private:
-  bool on_axis() const { return v0_ == 0 || u0_ == 0; }
   OrbitPoint rest(double tau) const;
   OrbitPoint on_axis_at(double tau, double left_share) const;
-  OrbitPoint point(double tau, double ln_k) const;
-  double beta(double ln_k, double rim_change, double v) const;
+  OrbitPoint point(double tau, double xi, double left) const;
 
-  double rim_change(double ln_k) const { return curve_->log_rim(ln_k) - log_rim0_; }
-  double slip_left(double ln_k) const;
-  double scaled_elapsed(double ln_k) const;
-  double scaled_left(double ln_k) const;
-  double scaled_left_slope(double ln_k) const;
-  double log_ratio_at_time(double tau) const;
-  double log_ratio_at_elapsed(double elapsed) const;
-  double log_ratio_at_left(double left) const;
+  /// What has changed since the start: ln w and ln v by how much, and the speeds, scaled.
+  struct Progress {
+    double ln_w, ln_v;
+    double w, v;
+  };
+  Progress progress(double xi) const;
+  double whole() const { return pivoting_ + v_ * share0_; }  ///< the stop time, scaled
+  double slip_left(double xi) const;
+  double scaled_elapsed(double xi) const;
+  double scaled_left(double xi) const;
+  double scaled_left_slope(double xi) const;
+  double coordinate_at_time(double tau) const;
+  double coordinate_at_elapsed(double elapsed) const;
+  double coordinate_at_left(double left) const;
   double tau_of(double scaled) const;
   double scaled_of(double tau) const;
 
   ReducedSystem system_;
-  std::shared_ptr<const SimilarityCurve> curve_;
+  SimilaritySolution::Curve curve_;  ///< null on the axes
   double u0_, v0_;
   int exponent_;     ///< speeds are divided by 2^exponent_ inside
   double w_, v_;     ///< mu |u0| and v0, scaled
   double pivoting_;  ///< P, scaled
   double ln_k0_;
+  double xi0_ = 0;
   double log_rim0_ = 0;
   double slip0_ = 0;      ///< integral of v ds until the stop, scaled
   double share0_ = 1;     ///< m(k0)

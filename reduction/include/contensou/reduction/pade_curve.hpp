@@ -21,6 +21,8 @@ class PadeCurve final : public SimilarityCurve {
   double sliding_share(double ln_k) const override;
   double slip_excess(double ln_k) const override;
   double regularised_age(double ln_k) const override;
+  double time_rate(double ln_k) const override;
+  double accuracy() const override { return 1e-14; }
 
   /// m from x = B k/(A + B k) and y = 1 - x, each given to full accuracy: for a caller who has no need of ln k.
   double sliding_share_at(double x, double y) const;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string_view>
 
 #include "contensou/reduction/friction_law.hpp"
@@ -28,8 +27,8 @@ struct PadeLaw {
   /// m of README (R4) without its terms in r^order and higher: (R22), order 1 or 2.
   double small_mu_share(int order, double r, double ln_k) const;
 
-  /// PadeCurve, for the r it is accurate for; null beyond.
-  std::shared_ptr<const SimilarityCurve> closed_curve(double r) const;
+  /// PadeCurve, for the r it is accurate for; empty beyond.
+  SimilaritySolution closed_solution(double r) const;
 };
 
 }  // namespace contensou::reduction

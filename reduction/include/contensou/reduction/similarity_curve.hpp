@@ -1,40 +1,61 @@
 #pragma once
 
+#include "contensou/reduction/approach.hpp"
+
 namespace contensou::reduction {
 
-/// The one orbit that every motion under a law and an r is a scaled copy of, as four functions of ln k (README (R2),
-/// (R4), (R7), (R13)); k = v/w, w = mu |u|.
+/// The one orbit that all motions which approach the terminal ratio from one side are scaled copies of, as functions of
+/// their nearness xi (Approach): ln k itself where k -> 0, which is every ball.
 ///
 /// Scaling symmetry leaves nothing else to compute: orbits, stop times, the state at a given time and the regularised
-/// time follow by exponentials and sums (Orbit). All four functions are regular for every r in the domain, however
-/// small, and ln_k may be any finite number: v underflows long before ln v does.
+/// time follow by exponentials and sums (Orbit). k = v/w, w = mu |u|, s is the scaled time of README (R1). All functions
+/// but the first are bounded and regular for every r, however small; xi may be any finite number: v underflows long
+/// before ln v does.
 class SimilarityCurve {
  public:
   virtual ~SimilarityCurve() = default;
 
-  /// ln w along the curve, up to a constant; grows with k from slope a (k -> 0) to slope e (k -> infinity).
-  virtual double log_rim(double ln_k) const = 0;
+  /// ln w along the curve, up to a constant; grows with xi (README (R2)).
+  virtual double log_rim(double xi) const = 0;
 
-  /// m(k): the time left is  P + m S  (README (R4)); 1 in the limit of pure sliding.
-  virtual double sliding_share(double ln_k) const = 0;
+  /// m: the time left is  P + m S  (README (R4)); 1 in the limit of pure sliding.
+  virtual double sliding_share(double xi) const = 0;
 
-  /// n(k): the length of slip that is left, the integral of v ds, is  v (v/2 + n w)  (README (R13)).
-  virtual double slip_excess(double ln_k) const = 0;
+  /// n: the length of slip that is left, the integral of v ds, is  v (v/2 + n w)  (README (R13)).
+  virtual double slip_excess(double xi) const = 0;
 
-  /// b(k): w times the regularised time since k = infinity, without its constant (README (R7)).
-  virtual double regularised_age(double ln_k) const = 0;
+  /// b: the regularised time is  b/(w + v), up to its scale and a constant  (README (R7)).
+  virtual double regularised_age(double xi) const = 0;
+
+  /// c: the time left grows with xi at the rate  c (w + v)  (README (R3)).
+  virtual double time_rate(double xi) const = 0;
+
+  /// Relative error of sliding_share.
+  virtual double accuracy() const = 0;
+
+  /// How often the law was called to make it.
+  virtual long evaluations() const { return 0; }
 
   /// r = gamma mu^2/chi.
   double r() const { return r_; }
+
+  const Approach& approach() const { return approach_; }
+
+  /// Below this xi ln w is linear and the other functions are constant, to the last bit.
+  double limit() const { return limit_; }
 
   SimilarityCurve(const SimilarityCurve&) = delete;
   SimilarityCurve& operator=(const SimilarityCurve&) = delete;
 
  protected:
-  explicit SimilarityCurve(double r) : r_(r) {}
+  SimilarityCurve(double r, const Approach& approach, double limit) : r_(r), approach_(approach), limit_(limit) {}
+
+  void set_limit(double limit) { limit_ = limit; }
 
  private:
   double r_;
+  Approach approach_;
+  double limit_;
 };
 
 }  // namespace contensou::reduction

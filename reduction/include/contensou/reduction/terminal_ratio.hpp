@@ -22,10 +22,10 @@ struct TerminalRatio {
 /// Solves Phi(k) = r k Psi(k): d ln k/ds vanishes there (README (R2)).
 ///
 /// @param r  gamma mu^2/chi, > 0
-/// @throws std::domain_error  if r is not positive and finite
+/// @throws std::domain_error  if r is not positive and finite, or if there are several such k (potential8 just below
+///                            r = 2): where k goes then depends on the start
 ///
 /// Accuracy  k to 1e-14 relative, unless r is so close to low or high that Phi/(k Psi) hardly changes.
-/// Assumes   Phi/(k Psi) grows with k, as it does for every law that has a name.
 TerminalRatio terminal_ratio(const Law& law, double r);
 
 }  // namespace contensou::reduction
