@@ -148,9 +148,8 @@ class Painter {
       while (point.v > invisible * window_.v && track.points.size() < 2000) {
         track.points.push_back(point);
         const auto rate = system_.field({point.u, point.v});
-        const double speed = std::hypot(rate.u / window_.u, rate.v / window_.v) *
-                             orbit.curve().time_rate(xi) * (system_.mu() * std::abs(point.u) + point.v) /
-                             system_.scaled_time_rate();
+        const double speed = std::hypot(rate.u / window_.u, rate.v / window_.v) * orbit.curve().time_rate(xi) *
+                             (system_.mu() * std::abs(point.u) + point.v) / system_.scaled_time_rate();
         xi -= std::min(share_of_window / speed, 0.4);
         point = orbit.at_coordinate(xi);
       }

@@ -15,8 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Approach::Approach(Side side, double ln_k_star)
-    : sign_(side == Side::above ? 1 : -1), end_(sign_ * ln_k_star) {
+Approach::Approach(Side side, double ln_k_star) : sign_(side == Side::above ? 1 : -1), end_(sign_ * ln_k_star) {
   if (std::isnan(ln_k_star) || end_ == infinity) {
     throw std::domain_error(fmt::format("Approach: nothing is {} a terminal ratio with ln k* = {}",
                                         side == Side::above ? "above" : "below", ln_k_star));

@@ -113,7 +113,8 @@ double PadeCurve::slip_excess(double ln_k) const {
 double PadeCurve::regularised_age(double ln_k) const {
   const auto at = fractions(ln_k + log_ratio_);
   // y (1 + k), by the larger of the two.
-  const double bounded = ln_k > 0 ? A_ * (1 + std::exp(-ln_k)) / (B_ + A_ * std::exp(-ln_k)) : at.y * (1 + std::exp(ln_k));
+  const double bounded =
+      ln_k > 0 ? A_ * (1 + std::exp(-ln_k)) / (B_ + A_ * std::exp(-ln_k)) : at.y * (1 + std::exp(ln_k));
   if (at.y <= 0.5) return bounded / (3 * pi * A_ * (e_ + 1)) * gauss_series(1 - b(), e_ + 2, at.y);
 
   // (R11): x^a times the integral of t^(-a-1) (1-t)^e from x to 1/2, term by term, and from 1/2 to 1.

@@ -110,7 +110,9 @@ QuadratureCurve::QuadratureCurve(const Law& law, double r, const Approach& appro
   const bool from_above = approach.side() == Approach::Side::above;
   const double end = approach.log_terminal_ratio();
   const double far = from_above ? std::max(highest_ln_k, end + highest_ln_k) : std::min(lowest_ln_k, end + lowest_ln_k);
-  const double near = std::isfinite(end) ? (from_above ? end : -end) + nearest : from_above ? lowest_ln_k : -highest_ln_k;
+  const double near = std::isfinite(end) ? (from_above ? end : -end) + nearest
+                      : from_above       ? lowest_ln_k
+                                         : -highest_ln_k;
   const double kink = approach.coordinate(0);
   const double anchor = approach.reaches(0) && kink > near ? kink : 0;
   double right = anchor + std::ceil(approach.coordinate(far) - anchor);
@@ -156,10 +158,10 @@ bool QuadratureCurve::sample(const Law& law, double left, double right, int dept
   const auto left_out = [&](const Samples& samples, double size) {
     return size > 0 ? LegendreSeries::through(samples).tail() / (size * cancellation) * (right - left) : 0.0;
   };
-  const double worst = std::max({left_out(panel.rim_slope, panel.rim_slope.maxCoeff()),
-                                 left_out(panel.sliding_slope, panel.sliding_slope.maxCoeff()),
-                                 left_out(panel.deficit, largest), left_out(panel.excess, largest_excess),
-                                 left_out(panel.age, panel.age.maxCoeff())});
+  const double worst =
+      std::max({left_out(panel.rim_slope, panel.rim_slope.maxCoeff()),
+                left_out(panel.sliding_slope, panel.sliding_slope.maxCoeff()), left_out(panel.deficit, largest),
+                left_out(panel.excess, largest_excess), left_out(panel.age, panel.age.maxCoeff())});
   if (worst > panel_tolerance && depth < deepest_split && panels_.size() < most_panels) {
     const double middle = (left + right) / 2;
     return sample(law, middle, right, depth + 1) && sample(law, left, middle, depth + 1);
@@ -198,8 +200,7 @@ void QuadratureCurve::solve_towards_the_stop() {
     panel->log_rim += log_rim - panel->log_rim(1);
     log_rim = panel->log_rim(-1);
 
-    panel->regularised_age =
-        relax((half * panel->age_slope).reverse(), (half * panel->age).reverse(), age).mirrored();
+    panel->regularised_age = relax((half * panel->age_slope).reverse(), (half * panel->age).reverse(), age).mirrored();
     age = panel->regularised_age(-1);
   }
   // w + v is w to the last bit, but next to a small r not its slope.
@@ -229,7 +230,8 @@ double QuadratureCurve::sliding_share(double xi) const {
   if (xi >= limit()) return panel.sliding_share(panel.t(std::min(xi, panel.right)));
   const double at_limit = panel.sliding_share(-1);
   // To infinity, where all time is sliding's, 1 - m falls like 1/k.
-  return from_above || std::isfinite(approach().log_terminal_ratio()) ? at_limit : 1 - (1 - at_limit) * std::exp(xi - limit());
+  return from_above || std::isfinite(approach().log_terminal_ratio()) ? at_limit
+                                                                      : 1 - (1 - at_limit) * std::exp(xi - limit());
 }
 
 double QuadratureCurve::slip_excess(double xi) const {

@@ -22,10 +22,10 @@ void require_one_end(const Law& law, double r, Excess excess, double farthest) {
   for (double ln_k = -farthest; ln_k <= farthest; ln_k += step) {
     const double here = excess(ln_k);
     if (falls && here < -told_apart) {
-      throw std::domain_error(
-          fmt::format("terminal_ratio: under law {} with r = gamma mu^2/chi = {}, k = v/(mu |u|) tends to one of several "
-                      "ratios, it depends on the start which; routes regularised and direct answer there",
-                      law.name(), r));
+      throw std::domain_error(fmt::format(
+          "terminal_ratio: under law {} with r = gamma mu^2/chi = {}, k = v/(mu |u|) tends to one of several "
+          "ratios, it depends on the start which; routes regularised and direct answer there",
+          law.name(), r));
     }
     falls = falls || here > told_apart;
   }

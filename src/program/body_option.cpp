@@ -28,9 +28,28 @@ const std::vector<std::pair<std::string, Body>>& bodies() {
 
 }  // namespace
 
+std::string Body::complaint(double mu) const {
+  if (patch_ratio) return mu == *patch_ratio ? "" : "a puck rests on its whole face, so mu is 1: leave --mu out";
+  if (!(mu > 0)) return rolls_on_a_small_patch ? "0 < mu <= 1 is required" : "mu > 0 is required";
+  if (rolls_on_a_small_patch && mu > 1) return "mu is the patch radius over the ball's radius: 0 < mu <= 1 is required";
+  return "";
+}
+
 void BodyOption::add(CLI::App& app) {
-  body_.add(app, "--body", "BODY",
-            "ball (default), hollow-ball, disc or ring (flat pucks that cannot roll: mu = 1), or CHI,GAMMA");
+  body_.add(
+      app, "--body", "BODY",
+      "ball (default), hollow-ball, disc or ring (flat pucks that cannot roll: mu = 1), or CHI,GAMMA: chi = 1 + m "
+      "R^2/J about a horizontal axis (1: cannot roll), gamma = m R^2/J_z");
+}
+
+double BodyOption::read_patch_ratio(const Argument& mu, const Body& body) {
+  if (!mu.given()) {
+    if (body.patch_ratio) return *body.patch_ratio;
+    throw BadInput("--mu missing: give --mu M, or a --body that lies flat, disc or ring");
+  }
+  const double value = mu.number();
+  if (const std::string complaint = body.complaint(value); !complaint.empty()) mu.reject(complaint);
+  return value;
 }
 
 Body BodyOption::read() const {

@@ -70,12 +70,12 @@ class CheckCommand final : public Command {
   ExitStatus run() override {
     const std::vector<Law> laws = law_.given() ? std::vector{law_.read()} : reduction::paper_laws();
     std::vector<Verdict> verdicts;
-    if (start_.given()) {
+    if (start_.given() || start_.body().given()) {
       const GivenStart start = start_.read();
       if (start.state.u == 0 && start.state.v == 0) {
         throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
       }
-      for (const Law& law : laws) verdicts.push_back({law.name(), verify({law, start.mu}, start.state)});
+      for (const Law& law : laws) verdicts.push_back({law.name(), verify(start.body.system(law), start.state)});
     } else {
       for (const Law& law : laws) verdicts.push_back({law.name(), built_in_checks(law)});
     }

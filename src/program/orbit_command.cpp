@@ -38,7 +38,7 @@ class OrbitCommand final : public Command {
 
   ExitStatus run() override {
     const GivenStart start = start_.read();
-    const reduction::ReducedSystem system(law_.read(), start.mu);
+    const reduction::ReducedSystem system = start.body.system(law_.read());
     const reduction::Route route = route_.read(system);
     const std::vector<Column> columns = make_columns(start, motion(system, start.state, route));
     output_.write_as(
@@ -77,7 +77,7 @@ class OrbitCommand final : public Command {
     JsonObject document = JsonObject::document();
     document.add("law", json(system.law().name()))
         .add("route", json(reduction::name(route)))
-        .add("mu", json(start.mu))
+        .add("mu", json(start.body.mu))
         .add("u0", json(start.state.u))
         .add("v0", json(start.state.v));
     for (const auto& [name, values] : columns) document.add(name, json(values));

@@ -49,7 +49,7 @@ class PortraitCommand final : public Command {
 
   ExitStatus run() override {
     const Given given = read_start();
-    const reduction::ReducedSystem system(law_.read(), given.mu);
+    const reduction::ReducedSystem system = given.body.system(law_.read());
     if (facts_->count() > 0) return print_facts(system);
     if (output_.digits_argument().given()) output_.digits_argument().reject("a picture has no digits: add --facts");
     portraits::PortraitRequest request;
@@ -90,15 +90,15 @@ class PortraitCommand final : public Command {
   }
 
   struct Given {
-    double mu;
+    GivenBody body;
     std::optional<reduction::State> state;
     std::optional<si::Shot> shot;
   };
 
   Given read_start() const {
-    if (start_.without_motion()) return {start_.read_patch_ratio(), std::nullopt, std::nullopt};
+    if (start_.without_motion()) return {start_.read_body(), std::nullopt, std::nullopt};
     const GivenStart start = start_.read();
-    return {start.mu, start.state, start.shot};
+    return {start.body, start.state, start.shot};
   }
 
   portraits::Window read_window() const {

@@ -39,10 +39,11 @@ StartOptions::StartOptions() {
 }
 
 void StartOptions::add(CLI::App& app) {
-  mu_.add(app, "--mu", "M", "patch ratio, patch radius/R; 0 < M <= 1");
+  mu_.add(app, "--mu", "M", "patch ratio, patch radius/R; a ball: 0 < M <= 1, another body: M > 0 (disc, ring: 1)");
   u0_.add(app, "--u0", "U", "pivoting R omega_z at the start, either sign, in any unit of speed");
   v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0");
-  add_ball(app, "instead of these three: a ball in SI units, built in or from a run file");
+  body_.add(app);
+  add_ball(app, "instead of these four: a ball in SI units, built in or from a run file");
 }
 
 void StartOptions::add_ball(CLI::App& app) { add_ball(app, "a ball in SI units, built in or from a run file"); }
@@ -74,6 +75,9 @@ void StartOptions::require_one_kind() const {
         fmt::format("--ball {} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip",
                     ball_.text(), reduced));
   }
+  if (ball_.given() && body_.given()) {
+    body_.reject("--ball is a homogeneous ball already: with another body give --mu, --u0 and --v0");
+  }
   if (!ball_.given() && !override_names().empty()) {
     throw BadInput(fmt::format("{} changes a ball: add --ball NAME|FILE.toml", override_names()));
   }
@@ -83,33 +87,31 @@ GivenStart StartOptions::read() const {
   require_one_kind();
   if (ball_.given()) {
     const si::Shot shot = read_ball();
-    return {si::patch_ratio(shot), si::reduced_start(shot), shot};
+    return {{si::patch_ratio(shot), reduction::homogeneous_ball}, si::reduced_start(shot), shot};
   }
   std::vector<std::string> missing;
   for (const Argument* argument : {&mu_, &u0_, &v0_}) {
-    if (!argument->given()) missing.push_back(argument->name());
+    const bool known = argument == &mu_ && body_.read().patch_ratio;
+    if (!argument->given() && !known) missing.push_back(argument->name());
   }
   if (!missing.empty()) {
     throw BadInput(
         fmt::format("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", ")));
   }
-  const double mu = read_mu();
+  const GivenBody body = read_body();
   const reduction::State state{.u = u0_.number(), .v = v0_.number()};
   if (state.v < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
-  return {mu, state, std::nullopt};
+  return {body, state, std::nullopt};
 }
 
-double StartOptions::read_patch_ratio() const {
+GivenBody StartOptions::read_body() const {
   require_one_kind();
-  if (ball_.given()) return si::patch_ratio(read_ball());
-  if (!mu_.given()) throw BadInput("--mu missing: give --mu M, or --ball NAME|FILE.toml");
-  return read_mu();
-}
-
-double StartOptions::read_mu() const {
-  const double mu = mu_.number();
-  if (!(mu > 0 && mu <= 1)) mu_.reject("mu is the patch radius over the ball's radius: 0 < mu <= 1");
-  return mu;
+  if (ball_.given()) return {si::patch_ratio(read_ball()), reduction::homogeneous_ball};
+  const Body body = body_.read();
+  if (!mu_.given() && !body.patch_ratio) {
+    throw BadInput("--mu missing: give --mu M, --ball NAME|FILE.toml, or a --body that lies flat, disc or ring");
+  }
+  return {BodyOption::read_patch_ratio(mu_, body), body.inertia};
 }
 
 bool StartOptions::overrides_start() const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "argument.hpp"
+#include "body_option.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/quantity.hpp"
@@ -15,14 +16,22 @@ namespace contensou::program {
 /// @throws BadInput  for an unknown name
 const si::CatalogueEntry& require_ball(const Argument& argument);
 
-/// The start that the command line gives, in the paper's variables.
-struct GivenStart {
+/// What slides and pivots, in the paper's variables.
+struct GivenBody {
   double mu;
+  reduction::Inertia inertia;
+
+  reduction::ReducedSystem system(const reduction::Law& law) const { return {law, mu, inertia}; }
+};
+
+/// The start that the command line gives.
+struct GivenStart {
+  GivenBody body;
   reduction::State state;
   std::optional<si::Shot> shot;  ///< where it came from, if it is a ball in SI units
 };
 
-/// --mu, --u0 and --v0, or --ball with its overrides.
+/// --mu, --u0, --v0 and --body, or --ball with its overrides.
 class StartOptions {
  public:
   StartOptions();
@@ -32,7 +41,7 @@ class StartOptions {
   /// --ball and its overrides alone, for a verb that is in SI units.
   void add_ball(CLI::App& app);
 
-  /// Whether any of them was given.
+  /// Whether any of them was given, --body aside.
   bool given() const { return !given_names().empty(); }
   std::string given_names() const;
 
@@ -52,8 +61,11 @@ class StartOptions {
   /// @param start  velocities that take the place of those of [start]
   si::Shot read_ball(const si::StartOverride& start = {}) const;
 
-  /// mu alone, for which --mu or --ball is enough. Throws as read.
-  double read_patch_ratio() const;
+  /// What moves, without how: --mu, a --body with a mu of its own, or --ball is enough. Throws as read.
+  GivenBody read_body() const;
+
+  /// --body, by itself.
+  const BodyOption& body() const { return body_; }
 
  private:
   struct Override {
@@ -62,12 +74,12 @@ class StartOptions {
   };
 
   void add_ball(CLI::App& app, const std::string& help);
-  double read_mu() const;
   si::Shot read_shot(const std::string& ball, const si::Overrides& overrides, const si::StartOverride& start) const;
   void require_one_kind() const;
   std::string override_names() const;
 
   Argument mu_, u0_, v0_, ball_;
+  BodyOption body_;
   std::vector<Override> overrides_;
 };
 

@@ -92,7 +92,9 @@ class BatchWorker final : public PieceWorker {
     header().require_complete(row.line, row.fields.size());
     const double mu = number(row, "mu", batch_.mu);
     const reduction::State start{.u = number(row, "u0", batch_.u0), .v = number(row, "v0", batch_.v0)};
-    if (!(mu > 0 && mu <= 1)) throw complaint(row, fmt::format("mu: 0 < mu <= 1 is required, got {}", mu));
+    if (const std::string wrong = batch_.request.body.complaint(mu); !wrong.empty()) {
+      throw complaint(row, fmt::format("mu: {}, got {}", wrong, mu));
+    }
     if (start.v < 0) throw complaint(row, fmt::format("v0: v0 >= 0 is required, got {}", start.v));
     try {
       if (!patch_ || patch_->mu() != mu) patch_ = batch_.stop_times.of_patch(mu);
@@ -132,7 +134,7 @@ ExitStatus stop_batch(CsvStream& table, OutputFile& output, const BatchRequest& 
               .mu = header.column("mu"),
               .u0 = header.column("u0"),
               .v0 = header.column("v0"),
-              .stop_times = {request.law, request.route}};
+              .stop_times = {request.law, request.body.inertia, request.route}};
   if (header.has_column(result)) {
     throw header.complaint(header.line(),
                            fmt::format("the input already has a column '{}': rename or remove it", result));

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "body_option.hpp"
 #include "contensou/reduction/friction_law.hpp"
 #include "csv_stream.hpp"
 #include "exit_status.hpp"
@@ -13,6 +14,7 @@ namespace contensou::program {
 /// How a batch of stop times is computed.
 struct BatchRequest {
   reduction::Law law;
+  Body body;
   const RouteOption& route;
   bool keep_going = false;  ///< report a bad row on standard error and leave its tau_stop empty
   int threads = 1;

@@ -36,7 +36,7 @@ class StopCommand final : public Command {
     if (threads_.given()) throw BadInput("--threads is for many starts: add --batch FILE");
     const GivenStart start = start_.read();
     const reduction::Law law = law_.read();
-    const reduction::Route route = route_.read({law, start.mu});
+    const reduction::Route route = route_.read(start.body.system(law));
     StopReport report = make_stop_report(start, law, route);
     if (estimate_->count() > 0) report.estimates = reduction::small_mu_estimates(report.system, start.state);
     output_.write_as(
@@ -55,7 +55,7 @@ class StopCommand final : public Command {
       throw BadInput("--batch writes csv only: leave --format out");
     }
     route_.named();  // an unknown name is the command line's mistake, not each row's
-    const BatchRequest request{law_.read(), route_, keep_going_->count() > 0, threads_.read()};
+    const BatchRequest request{law_.read(), start_.body().read(), route_, keep_going_->count() > 0, threads_.read()};
     OutputFile output(output_.path());  // before the input, which may be long in coming
     CsvStream table(batch_.text());
     const ExitStatus status = stop_batch(table, output, request);

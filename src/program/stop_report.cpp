@@ -1,6 +1,7 @@
 #include "stop_report.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -55,17 +56,28 @@ class TextReport {
   std::string number(double value) const { return fmt::format("{:.{}g}", value, digits_); }
 
   std::string heading() const {
-    const auto& [mu, state, shot] = report_.start;
+    const auto& [body, state, shot] = report_.start;
     if (!shot) {
-      return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n", number(mu), number(state.u),
-                         number(state.v));
+      return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}", number(body.mu),
+                         number(state.u), number(state.v), is_ball() ? "" : body_line());
     }
     return fmt::format(
         "{}: radius {} m, mass {} kg, friction {}, patch radius {} m\n"
         "slip {} m/s, spin {} rad/s: mu = {}, u0 = {} m/s, v0 = {} m/s\n",
         shot->ball.name, number(shot->ball.radius), number(shot->ball.mass), number(shot->contact.friction),
         number(si::patch_radius_of(*shot)), number(si::slip_at_start(*shot)), number(si::spin_at_start(*shot)),
-        number(mu), number(state.u), number(state.v));
+        number(body.mu), number(state.u), number(state.v));
+  }
+
+  bool is_ball() const {
+    const auto [chi, gamma] = report_.system.inertia();
+    return chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
+  }
+
+  std::string body_line() const {
+    const auto [chi, gamma] = report_.system.inertia();
+    return fmt::format("body with chi = {}, gamma = {}: r = gamma mu^2/chi = {}\n", number(chi), number(gamma),
+                       number(report_.system.r()));
   }
 
   std::string certainty() const {
@@ -74,7 +86,7 @@ class TextReport {
   }
 
   std::string times() const {
-    const reduction::ReducedSystem beside(other_law(report_.system.law()), report_.start.mu);
+    const reduction::ReducedSystem beside = report_.start.body.system(other_law(report_.system.law()));
     const reduction::StopTime other = reduction::stop_time(beside, report_.start.state);
     const std::vector<TimeLine> lines{
         {"stop time", report_.stop.tau, certainty()},
@@ -119,10 +131,12 @@ class TextReport {
   }
 
   std::string ending() const {
-    const auto& [mu, state, shot] = report_.start;
+    const auto& [body, state, shot] = report_.start;
     if (!shot) {
-      return fmt::format("then   it rolls; the centre's velocity has changed by -2 v0/7 = {} along the slip\n",
-                         number(0 - state.v * (2.0 / 7.0)));
+      const double chi = report_.system.inertia().chi;
+      if (chi == 1) return "then   it lies still\n";
+      return fmt::format("then   it rolls; the centre's velocity has changed by {} = {} along the slip\n",
+                         is_ball() ? "-2 v0/7" : "-v0/chi", number(0 - state.v / chi));
     }
     const si::FinalMotion motion = si::final_motion(*shot);
     return fmt::format(
@@ -140,24 +154,28 @@ class TextReport {
 }  // namespace
 
 StopReport make_stop_report(const GivenStart& start, const reduction::Law& law, reduction::Route route) {
-  const reduction::ReducedSystem system(law, start.mu);
+  const reduction::ReducedSystem system = start.body.system(law);
+  const reduction::StopTime stop = reduction::stop_time(system, start.state, route);
   return {start,
           system,
-          reduction::stop_time(system, start.state, route),
+          stop,
+          2 * stop.tau / (3 * std::numbers::pi),
           system.stop_time_bounds(start.state),
           system.sliding_limit(start.state.v),
           system.pivoting_limit(start.state.u)};
 }
 
 std::string stop_report_as_json(const StopReport& report) {
-  const auto& [mu, state, shot] = report.start;
+  const auto& [body, state, shot] = report.start;
   JsonObject document = JsonObject::document();
   document.add("law", json(report.system.law().name()))
       .add("route", json(name(report.stop.route)))
-      .add("mu", json(mu))
+      .add("mu", json(body.mu))
+      .add("body", JsonObject().add("chi", json(body.inertia.chi)).add("gamma", json(body.inertia.gamma)).inline_text())
       .add("u0", json(state.u))
       .add("v0", json(state.v))
       .add("tau_stop", json(report.stop.tau))
+      .add("T_stop", json(report.T_stop))
       .add("bounds", json_array({json(report.bounds.lower), json(report.bounds.upper)}))
       .add("limits", JsonObject()
                          .add("sliding_only", json(report.sliding_only))
@@ -186,12 +204,13 @@ std::string stop_report_as_json(const StopReport& report) {
 }
 
 std::string stop_report_as_csv(const StopReport& report) {
-  const auto& [mu, state, shot] = report.start;
-  std::vector<std::string> names{"law",      "route", "mu",    "u0",           "v0",
-                                 "tau_stop", "lower", "upper", "sliding_only", "pivoting_only"};
+  const auto& [body, state, shot] = report.start;
+  std::vector<std::string> names{"law",          "route",         "mu",  "u0",    "v0",    "tau_stop", "lower", "upper",
+                                 "sliding_only", "pivoting_only", "chi", "gamma", "T_stop"};
   std::vector<std::string> values{report.system.law().name(), std::string(name(report.stop.route))};
-  for (double value : {mu, state.u, state.v, report.stop.tau, report.bounds.lower, report.bounds.upper,
-                       report.sliding_only, report.pivoting_only}) {
+  for (double value :
+       {body.mu, state.u, state.v, report.stop.tau, report.bounds.lower, report.bounds.upper, report.sliding_only,
+        report.pivoting_only, body.inertia.chi, body.inertia.gamma, report.T_stop}) {
     values.push_back(fmt::format("{}", value));
   }
   if (shot) {

@@ -14,9 +14,10 @@ struct StopReport {
   GivenStart start;
   reduction::ReducedSystem system;
   reduction::StopTime stop;
+  double T_stop;  ///< f g t, the stop time without the paper's factor 3 pi/2
   reduction::Bounds bounds;
-  double sliding_only;                                  ///< tau of a ball that did not pivot
-  double pivoting_only;                                 ///< tau of a ball that did not slide
+  double sliding_only;                                  ///< tau of a body that did not pivot
+  double pivoting_only;                                 ///< tau of a body that did not slide
   std::vector<reduction::StopEstimate> estimates = {};  ///< for small mu; none unless asked for
 };
 

@@ -14,7 +14,7 @@ namespace contensou::program {
 class PatchStopTimes {
  public:
   /// @throws  as RouteOption::read and the making of the solution
-  PatchStopTimes(const reduction::Law& law, double mu, const RouteOption& route);
+  PatchStopTimes(const reduction::ReducedSystem& system, const RouteOption& route);
 
   double mu() const { return system_.mu(); }
 
@@ -27,17 +27,19 @@ class PatchStopTimes {
   reduction::SimilaritySolution solution_;  ///< empty for the steppers
 };
 
-/// Stop times of many starts under one law. What depends on mu alone is computed once for each mu, and kept for as many
-/// of them as take a bounded memory. Threads may share it.
+/// Stop times of many starts of one body under one law. What depends on mu alone is computed once for each mu, and kept
+/// for as many of them as take a bounded memory. Threads may share it.
 class StopTimes {
  public:
-  StopTimes(reduction::Law law, const RouteOption& route) : law_(std::move(law)), route_(route) {}
+  StopTimes(reduction::Law law, reduction::Inertia body, const RouteOption& route)
+      : law_(std::move(law)), body_(body), route_(route) {}
 
   /// @throws  as PatchStopTimes
   std::shared_ptr<const PatchStopTimes> of_patch(double mu);
 
  private:
   reduction::Law law_;
+  reduction::Inertia body_;
   const RouteOption& route_;
   std::mutex guard_;
   std::map<double, std::shared_ptr<const PatchStopTimes>> patches_;

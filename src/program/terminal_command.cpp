@@ -42,7 +42,7 @@ class TerminalCommand final : public Command {
 
   ExitStatus run() override {
     const Body body = body_.read();
-    const reduction::ReducedSystem system(law_.read(), read_mu(body), body.inertia);
+    const reduction::ReducedSystem system(law_.read(), BodyOption::read_patch_ratio(mu_, body), body.inertia);
     const TerminalRatio ratio = reduction::terminal_ratio(system.law(), system.r());
     const auto regime = static_cast<std::size_t>(ratio.regime);
     output_.write_as(
@@ -67,20 +67,6 @@ class TerminalCommand final : public Command {
   }
 
  private:
-  double read_mu(const Body& body) const {
-    if (body.patch_ratio) {
-      if (mu_.given() && mu_.number() != *body.patch_ratio) {
-        mu_.reject("a puck rests on its whole face, so mu is 1: leave --mu out");
-      }
-      return *body.patch_ratio;
-    }
-    if (!mu_.given()) throw BadInput("--mu missing: give --mu M, or a --body that lies flat, disc or ring");
-    const double mu = mu_.number();
-    if (!(mu > 0)) mu_.reject("a patch ratio is positive");
-    if (body.rolls_on_a_small_patch && mu > 1) mu_.reject("mu is the patch radius over the ball's radius: 0 < mu <= 1");
-    return mu;
-  }
-
   static std::string as_text(const reduction::ReducedSystem& system, const TerminalRatio& ratio, std::size_t regime,
                              int digits) {
     const auto number = [&](double value) { return fmt::format("{:.{}g}", value, digits); };

@@ -39,7 +39,8 @@ struct OrbitColumns {
 ///           ask at_time_left().
 class Orbit {
  public:
-  /// @throws std::domain_error  if start is not a state (finite, v >= 0), or if the law has no solution (QuadratureCurve)
+  /// @throws std::domain_error  if start is not a state (finite, v >= 0), or if the law has no solution
+  /// (QuadratureCurve)
   Orbit(const ReducedSystem& system, State start);
 
   /// With a solution made before, for many orbits of one system.
