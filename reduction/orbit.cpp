@@ -113,27 +113,38 @@ double Orbit::stop_time() const { return tau_of(whole()); }
 Orbit::Progress Orbit::progress(double xi) const {
   const double ln_w = curve_->log_rim(xi) - log_rim0_;
   const double ln_v = ln_w + (curve_->approach().log_ratio(xi) - ln_k0_);
-  return {ln_w, ln_v, w_ * std::exp(ln_w), v_ * std::exp(ln_v)};
+  return {ln_w, ln_v, std::exp(ln_w), std::exp(ln_v)};
+}
+
+Orbit::Progress Orbit::progress(double xi, double left) const {
+  // Both speeds from k and  left = P w/w0 + S m v/v0.  With the ratio of their shares that is at most 1:
+  const double change = curve_->approach().log_ratio(xi) - ln_k0_;
+  const double ratio = std::exp(-std::abs(change));
+  const double sliding = v_ * curve_->sliding_share(xi);
+  const double larger = left / (change < 0 ? pivoting_ + sliding * ratio : pivoting_ * ratio + sliding);
+  const double ln_larger = std::log(larger);
+  if (change < 0) return {ln_larger, ln_larger + change, larger, larger * ratio};
+  return {ln_larger - change, ln_larger, larger * ratio, larger};
 }
 
 double Orbit::scaled_left(double xi) const {
   const Progress now = progress(xi);
-  return pivoting_ * std::exp(now.ln_w) + now.v * curve_->sliding_share(xi);
+  return pivoting_ * now.w + v_ * now.v * curve_->sliding_share(xi);
 }
 
 double Orbit::scaled_elapsed(double xi) const {
   const Progress now = progress(xi);
-  return -pivoting_ * std::expm1(now.ln_w) + (v_ * share0_ - now.v * curve_->sliding_share(xi));
+  return -pivoting_ * std::expm1(now.ln_w) + v_ * (share0_ - now.v * curve_->sliding_share(xi));
 }
 
 double Orbit::slip_left(double xi) const {
   const Progress now = progress(xi);
-  return now.v * (now.v / 2 + curve_->slip_excess(xi) * now.w);
+  return v_ * now.v * (v_ * now.v / 2 + curve_->slip_excess(xi) * w_ * now.w);
 }
 
 double Orbit::scaled_left_slope(double xi) const {
   const Progress now = progress(xi);
-  return curve_->time_rate(xi) * (now.w + now.v);
+  return curve_->time_rate(xi) * (w_ * now.w + v_ * now.v);
 }
 
 double Orbit::coordinate_at_left(double left) const {
@@ -178,26 +189,22 @@ OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
   return {tau, u0_ * left_share, 0, -infinity, 0, beta};
 }
 
-OrbitPoint Orbit::point(double tau, double xi, double left) const {
+OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
   if (xi == xi0_) return {tau, u0_, v0_, std::log(v0_), v_ / w_, 0};
-  // Both speeds from k and the time that is left, left = P w/w0 + S m v/v0: beside an invariant ray they fall while k
-  // hardly changes, and time tells more of them than xi does. With the ratio that is at most 1:
-  const double ln_k = curve_->approach().log_ratio(xi);
-  const double change = ln_k - ln_k0_;
-  const double ratio = std::exp(-std::abs(change));
-  const double sliding = v_ * curve_->sliding_share(xi);
-  const double larger = change < 0 ? left / (pivoting_ + sliding * ratio) : left / (pivoting_ * ratio + sliding);
-  const double smaller = larger * ratio;
-  const double u_share = change < 0 ? larger : smaller;
-  const double v_share = change < 0 ? smaller : larger;
   const double age =
-      curve_->regularised_age(xi) / (w_ * u_share + v_ * v_share) - curve_->regularised_age(xi0_) / (w_ + v_);
+      curve_->regularised_age(xi) / (w_ * now.w + v_ * now.v) - curve_->regularised_age(xi0_) / (w_ + v_);
   return {.tau = tau,
-          .u = u0_ * u_share,
-          .v = v0_ * v_share,
-          .ln_v = std::log(v0_) + std::log(larger) + std::min(change, 0.0),
-          .k = std::exp(ln_k),
+          .u = u0_ * now.w,
+          .v = v0_ * now.v,
+          .ln_v = std::log(v0_) + now.ln_v,
+          .k = std::exp(curve_->approach().log_ratio(xi)),
           .beta = std::ldexp(std::max(0.0, age) / system_.scaled_time_rate(), -exponent_)};
+}
+
+/// Beside an invariant ray the speeds fall while k hardly changes, and the time that is left tells more of them than
+/// xi.
+OrbitPoint Orbit::point_with_left(double tau, double xi, double left) const {
+  return point(tau, xi, progress(xi, left));
 }
 
 OrbitPoint Orbit::at_time(double tau) const {
@@ -206,7 +213,7 @@ OrbitPoint Orbit::at_time(double tau) const {
   if (tau >= stop) return rest(tau);
   if (on_axis()) return on_axis_at(tau, 1 - tau / stop);
   const double left = tau > stop / 2 ? scaled_of(stop - tau) : whole() - scaled_of(tau);
-  return point(tau, coordinate_at_time(tau), left);
+  return point_with_left(tau, coordinate_at_time(tau), left);
 }
 
 double Orbit::coordinate_at_time(double tau) const {
@@ -238,8 +245,8 @@ OrbitPoint Orbit::at_time_left(double time_left) const {
   if (time_left == 0) return rest(stop);
   const double tau = stop - time_left;
   if (on_axis()) return on_axis_at(tau, time_left / stop);
-  if (tau == 0) return point(0, xi0_, whole());
-  return point(tau, coordinate_at_left(scaled_of(time_left)), scaled_of(time_left));
+  if (tau == 0) return point_with_left(0, xi0_, whole());
+  return point_with_left(tau, coordinate_at_left(scaled_of(time_left)), scaled_of(time_left));
 }
 
 OrbitPoint Orbit::at_coordinate(double xi) const {
@@ -248,7 +255,7 @@ OrbitPoint Orbit::at_coordinate(double xi) const {
         "Orbit::at_coordinate: xi must be at most that of the start, {}, and the start not on an axis; got {}", xi0_,
         xi));
   }
-  return point(tau_of(scaled_elapsed(xi)), xi, scaled_left(xi));
+  return point(tau_of(scaled_elapsed(xi)), xi, progress(xi));
 }
 
 OrbitPoint Orbit::at_log_ratio(double ln_k) const {

@@ -61,9 +61,7 @@ class Examination {
     symmetry();
     if (start_.u != 0 && start_.v != 0) {
       add("generator on dv/du", slope_symmetry_residual(system_, beside_the_kink()), difference_quotient);
-      // On an invariant ray k does not change, and says nothing about where a motion is.
-      constexpr double beside_a_ray = 1e9;
-      if (steepness(orbit_.start_log_ratio()) < beside_a_ray) {
+      if (!on_a_ray(orbit_.start_log_ratio())) {
         separated_equation();
         first_integral(regularised, direct);
         times(regularised);
@@ -111,6 +109,7 @@ class Examination {
     double worst = 0;
     const Approach& approach = orbit_.approach();
     for (double xi : {orbit_.start_coordinate(), std::min(orbit_.start_coordinate(), approach.coordinate(0) + 0.5)}) {
+      if (on_a_ray(approach.log_ratio(xi - 1))) continue;  // k = 1 may be on it, or on its other side
       const auto [bottom, top] = std::minmax({approach.log_ratio(xi - 1), approach.log_ratio(xi)});
       const double sign = std::copysign(1.0, start_.u);
       const auto slope = [&](double ln_k) {
@@ -158,6 +157,9 @@ class Examination {
     const double drag = system_.r() * k * moment;
     return drag / std::abs(force - drag);
   }
+
+  /// Where k does not change, and says nothing about where a motion is.
+  bool on_a_ray(double ln_k) const { return steepness(ln_k) > 1e9; }
 
   void times(const Motion& regularised) {
     // tau(k) and beta(k) of the similarity solution where the stepper passed the same k. Beside an invariant ray k says

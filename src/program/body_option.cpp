@@ -30,9 +30,8 @@ const std::vector<std::pair<std::string, Body>>& bodies() {
 
 std::string Body::complaint(double mu) const {
   if (patch_ratio) return mu == *patch_ratio ? "" : "a puck rests on its whole face, so mu is 1: leave --mu out";
-  if (!(mu > 0)) return rolls_on_a_small_patch ? "0 < mu <= 1 is required" : "mu > 0 is required";
-  if (rolls_on_a_small_patch && mu > 1) return "mu is the patch radius over the ball's radius: 0 < mu <= 1 is required";
-  return "";
+  if (rolls_on_a_small_patch) return mu > 0 && mu <= 1 ? "" : "0 < mu <= 1 is required";
+  return mu > 0 ? "" : "mu > 0 is required";
 }
 
 void BodyOption::add(CLI::App& app) {

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
   const json stop = json_of("stop --mu 0.1 --u0 2 --v0 1 --format json");
-  CHECK(stop.size() == 9);
+  CHECK(stop.size() == 11);
   CHECK(stop.at("schema") == 1);
   CHECK(stop.at("law") == "pade");
   CHECK(stop.at("route") == "closed");
@@ -25,13 +25,15 @@ TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
   CHECK(stop.at("tau_stop").get<double>() == stop_time(system, {2, 1}).tau);
   CHECK(stop.at("bounds").at(0).get<double>() == system.stop_time_bounds({2, 1}).lower);
   CHECK(stop.at("bounds").at(1).get<double>() == system.stop_time_bounds({2, 1}).upper);
+  CHECK(stop.at("body") == json{{"chi", 3.5}, {"gamma", 2.5}});
+  CHECK(stop.at("T_stop").get<double>() == Approx(stop.at("tau_stop").get<double>() / 4.71238898038469).epsilon(1e-15));
   CHECK(stop.at("limits").at("sliding_only").get<double>() == system.sliding_limit(1));
   CHECK(stop.at("limits").at("pivoting_only").get<double>() == system.pivoting_limit(2));
 }
 
 TEST_CASE("stop of a ball has seconds and the final motion", "[cli]") {
   const json stop = json_of("stop --ball pool --format json");
-  CHECK(stop.size() == 11);
+  CHECK(stop.size() == 13);
   CHECK(stop.at("t_stop").get<double>() == Approx(10.2).margin(0.05));
   CHECK(stop.at("final").at("velocity").size() == 2);
   CHECK(stop.at("final").at("velocity").at(0).get<double>() == Approx(5.0 / 7).epsilon(1e-15));

@@ -40,5 +40,5 @@ TEST_CASE("terminal rejects what no body is", "[cli]") {
   rejected("terminal --mu 0.5 --body 1", "CHI,GAMMA");
   rejected("terminal --mu 0.5 --body 1,0", "positive");
   rejected("terminal --mu 0.5 --body 1,2,3", "two numbers");
-  rejected("terminal --mu -1 --body 1,2", "positive");
+  rejected("terminal --mu -1 --body 1,2", "mu > 0 is required");
 }

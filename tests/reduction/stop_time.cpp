@@ -224,7 +224,7 @@ TEST_CASE("routes have names and say what they do", "[stop_time]") {
   const std::vector<Route> all{Route::closed, Route::quadrature, Route::regularised, Route::direct};
   CHECK(routes(pade) == all);
   CHECK(routes(ReducedSystem(HertzLaw{}, 0.1)) == std::vector<Route>(all.begin() + 1, all.end()));
-  CHECK(routes(ReducedSystem(HertzLaw{}, 2)) == std::vector<Route>(all.begin() + 2, all.end()));
+  CHECK(routes(ReducedSystem(HertzLaw{}, 2)) == std::vector<Route>(all.begin() + 1, all.end()));
   for (Route route : all) {
     CHECK(find_route(name(route)) == route);
     CHECK(description(route).size() > 20);
@@ -239,7 +239,7 @@ TEST_CASE("routes have names and say what they do", "[stop_time]") {
   CHECK_FALSE(find_route(""));
   CHECK(stop_time(pade, {1, 1}).route == Route::closed);
   CHECK(stop_time(ReducedSystem(HertzLaw{}, 0.1), {1, 1}).route == Route::quadrature);
-  CHECK(stop_time(ReducedSystem(HertzLaw{}, 2), {1, 1}).route == Route::regularised);
+  CHECK(stop_time(ReducedSystem(HertzLaw{}, 2), {1, 1}).route == Route::quadrature);
 }
 
 TEST_CASE("the error a route answers for is its error", "[stop_time][table]") {
@@ -258,7 +258,6 @@ TEST_CASE("a route that the system does not have is refused", "[stop_time][domai
   using Catch::Matchers::Contains;
   const ReducedSystem exact(HertzLaw{}, 0.1);
   CHECK_THROWS_WITH(stop_time(exact, {1, 1}, Route::closed), Contains("exact") && Contains("closed form"));
-  CHECK_THROWS_AS(stop_time(ReducedSystem(HertzLaw{}, 2), {1, 1}, Route::quadrature), std::domain_error);
   CHECK_THROWS_AS(stop_time(ReducedSystem(PadeLaw{}, 1.3), {1, 1}, Route::closed), std::domain_error);
   for (Route route : {Route::quadrature, Route::regularised, Route::direct}) {
     for (const State bad :

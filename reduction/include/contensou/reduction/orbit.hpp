@@ -96,14 +96,17 @@ class Orbit {
  private:
   OrbitPoint rest(double tau) const;
   OrbitPoint on_axis_at(double tau, double left_share) const;
-  OrbitPoint point(double tau, double xi, double left) const;
 
-  /// What has changed since the start: ln w and ln v by how much, and the speeds, scaled.
+  /// What is left of the speeds of the start: w and v as shares, and their logarithms.
   struct Progress {
     double ln_w, ln_v;
     double w, v;
   };
   Progress progress(double xi) const;
+  Progress progress(double xi, double left) const;
+  OrbitPoint point(double tau, double xi, const Progress& now) const;
+  OrbitPoint point_with_left(double tau, double xi, double left) const;
+
   double whole() const { return pivoting_ + v_ * share0_; }  ///< the stop time, scaled
   double slip_left(double xi) const;
   double scaled_elapsed(double xi) const;
