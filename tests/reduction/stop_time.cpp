@@ -43,11 +43,11 @@ TEST_CASE("stop time of the Pade ball, closed form", "[stop_time][table]") {
 }
 
 TEST_CASE("stop time of the Pade ball, quadrature", "[stop_time][table]") {
-  CHECK_WITHIN_EPS(over_table("stop_pade", PadeLaw{}, Route::quadrature), 1e-13 / eps);
+  CHECK_WITHIN_EPS(over_table("stop_pade", PadeLaw{}, Route::quadrature), 8);
 }
 
 TEST_CASE("stop time of the exact ball, quadrature", "[stop_time][table]") {
-  CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}, Route::quadrature), 1e-13 / eps);
+  CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}, Route::quadrature), 8);
 }
 
 TEST_CASE("stop time by steppers over the tables", "[stop_time][table]") {
@@ -69,7 +69,7 @@ TEST_CASE("stop time of other bodies, by every route", "[stop_time][table][route
     }
   }
   CHECK_WITHIN_EPS(closed, 8);
-  CHECK_WITHIN_EPS(quadrature, 1e-13 / eps);
+  CHECK_WITHIN_EPS(quadrature, 8);
   CHECK_WITHIN_EPS(steppers, 3e-11 / eps);
 }
 
