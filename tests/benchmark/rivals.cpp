@@ -1,0 +1,235 @@
+#include "rivals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <boost/numeric/odeint.hpp>
+#include <boost/version.hpp>
+
+#ifdef CONTENSOU_GSL
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include <gsl/gsl_sf_hyperg.h>
+#include <gsl/gsl_version.h>
+#endif
+#ifdef CONTENSOU_SUNDIALS
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#endif
+
+namespace contensou::rivals {
+
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using std::numbers::pi;
+using State = std::array<double, 2>;
+
+constexpr double tolerance = 1e-12;
+
+/// Below this share of its start |u| falls linearly.
+constexpr double rest = 1e-8;
+
+/// What is negligible beside the speeds of a start.
+double negligible(double mu, double u0, double v0) { return 1e-14 * (mu * u0 + v0); }
+
+/// (2.6) for the Pade ball, u >= 0.
+struct Field {
+  double mu;
+  long evaluations = 0;
+
+  void operator()(const double* x, double* rate) {
+    ++evaluations;
+    rate[0] = -5 * mu * mu * x[0] / (16 * mu * x[0] + 15 * pi * x[1]);
+    rate[1] = -7 * x[1] / (8 * mu * x[0] + 3 * pi * x[1]);
+  }
+};
+
+/// Steps until |u| is small, halving what goes through the stop. try_step(tau, x, dt) moves them on if it accepts.
+template <class Step>
+double halving(double mu, double u0, double v0, Step try_step) {
+  double tau = 0;
+  double dt = 1e-6 * (u0 + v0);
+  State x{u0, v0};
+  while (x[0] > rest * u0) {
+    const double before = tau;
+    const State start = x;
+    const double tried = dt;
+    try_step(tau, x, dt);
+    x[1] = std::max(x[1], 0.0);
+    if (!(x[0] > 0)) {
+      tau = before;
+      x = start;
+      dt = tried / 2;
+    }
+    if (dt < 1e-18 * (u0 + v0)) return std::nan("");  // no step is small enough
+  }
+  return tau + 16 * x[0] / (5 * mu) + 3 * pi * x[1] / 7;
+}
+
+template <class Stepper>
+RivalResult by_odeint(double mu, double u0, double v0) {
+  Field field{mu};
+  auto stepper = odeint::make_controlled<Stepper>(negligible(mu, std::abs(u0), v0), tolerance);
+  const auto system = [&](const State& x, State& rate, double) { field(x.data(), rate.data()); };
+  const double tau = halving(mu, std::abs(u0), v0, [&](double& time, State& x, double& dt) {
+    stepper.try_step(system, x, time, dt);
+    if constexpr (requires { stepper.reset(); }) {
+      if (!(x[0] > 0)) stepper.reset();  // it remembers the rate where it left off
+    }
+  });
+  return {tau, field.evaluations};
+}
+
+#ifdef CONTENSOU_GSL
+RivalResult by_gsl_stepper(double mu, double u0, double v0) {
+  Field field{mu};
+  gsl_odeiv2_system system{[](double, const double x[], double rate[], void* data) {
+                             (*static_cast<Field*>(data))(x, rate);
+                             return int{GSL_SUCCESS};
+                           },
+                           nullptr, 2, &field};
+  gsl_odeiv2_driver* driver =
+      gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-6, negligible(mu, std::abs(u0), v0), tolerance);
+  const double tau = halving(mu, std::abs(u0), v0, [&](double& time, State& x, double& dt) {
+    const int status = gsl_odeiv2_evolve_apply(driver->e, driver->c, driver->s, &system, &time, 1e300, &dt, x.data());
+    if (status != GSL_SUCCESS) x[0] = -1;
+  });
+  gsl_odeiv2_driver_free(driver);
+  return {tau, field.evaluations};
+}
+
+RivalResult by_gsl_hypergeometric(double mu, double u0, double v0) {
+  const double r = 5 * mu * mu / 7;
+  const double a = r / (2 - r);
+  const double e = r / (5 - r);
+  const double big_a = 8 * (2 - r);
+  const double big_b = 3 * pi * (5 - r);
+  const double u = std::abs(u0);
+  const double y = big_a * mu * u / (big_a * mu * u + big_b * v0);
+  const double f = gsl_sf_hyperg_2F1(1, a - e + 1, a + 2, 1 - y);
+  return {16 * u / (5 * mu) + 3 * pi * v0 / 7 + 9 * pi / 14 * v0 * y * f, 0};
+}
+#endif
+
+#ifdef CONTENSOU_SUNDIALS
+RivalResult by_cvode(double mu, double u0, double v0) {
+  struct Data {
+    Field field;
+    double least;
+  } data{Field{mu}, rest * std::abs(u0)};
+  SUNContext context = nullptr;
+  SUNContext_Create(nullptr, &context);
+  N_Vector x = N_VNew_Serial(2, context);
+  N_Vector absolute = N_VNew_Serial(2, context);
+  NV_Ith_S(x, 0) = std::abs(u0);
+  NV_Ith_S(x, 1) = v0;
+  NV_Ith_S(absolute, 0) = negligible(mu, std::abs(u0), v0);
+  NV_Ith_S(absolute, 1) = negligible(mu, std::abs(u0), v0);
+  void* solver = CVodeCreate(CV_BDF, context);
+  CVodeInit(
+      solver,
+      [](realtype, N_Vector at, N_Vector rate, void* user) {
+        // A corrector may try a state beyond the stop: a recoverable error makes the step shorter.
+        if (!(NV_Ith_S(at, 0) > 0)) return 1;
+        static_cast<Data*>(user)->field(NV_DATA_S(at), NV_DATA_S(rate));
+        return 0;
+      },
+      0, x);
+  CVodeSVtolerances(solver, tolerance, absolute);
+  CVodeSetUserData(solver, &data);
+  CVodeSetMaxNumSteps(solver, 10'000'000);
+  CVodeSetInitStep(solver, 1e-6 * (std::abs(u0) + v0));
+  CVodeSetErrFile(solver, nullptr);
+  SUNMatrix matrix = SUNDenseMatrix(2, 2, context);
+  SUNLinearSolver linear = SUNLinSol_Dense(x, matrix, context);
+  CVodeSetLinearSolver(solver, linear, matrix);
+  CVodeRootInit(solver, 1, [](realtype, N_Vector at, realtype* value, void* user) {
+    *value = NV_Ith_S(at, 0) - static_cast<Data*>(user)->least;
+    return 0;
+  });
+  realtype tau = 0;
+  const int status = CVode(solver, 1e300, x, &tau, CV_NORMAL);
+  const double stop = status >= 0 ? tau + 16 * NV_Ith_S(x, 0) / (5 * mu) : std::nan("");
+  SUNLinSolFree(linear);
+  SUNMatDestroy(matrix);
+  N_VDestroy(absolute);
+  N_VDestroy(x);
+  CVodeFree(&solver);
+  SUNContext_Free(&context);
+  return {stop, data.field.evaluations};
+}
+#endif
+
+}  // namespace
+
+std::vector<Rival> all() {
+  std::vector<Rival> found{{"Odeint dopri5 on (2.6)", by_odeint<odeint::runge_kutta_dopri5<State>>},
+                           {"Odeint Fehlberg 7(8) on (2.6)", by_odeint<odeint::runge_kutta_fehlberg78<State>>}};
+#ifdef CONTENSOU_GSL
+  gsl_set_error_handler_off();
+  found.push_back({"GSL rk8pd on (2.6)", by_gsl_stepper});
+  found.push_back({"GSL 2F1 in the closed form", by_gsl_hypergeometric});
+#endif
+#ifdef CONTENSOU_SUNDIALS
+  found.push_back({"SUNDIALS CVODE, BDF, on (2.6)", by_cvode});
+#endif
+  return found;
+}
+
+double fehlberg_step_at_the_stop(double mu, double u0, double v0, double stop) {
+  const auto system = [&](const State& x, State& rate, double) {
+    const double u = std::abs(x[0]);
+    rate[0] = -5 * mu * mu * x[0] / (16 * mu * u + 15 * pi * x[1]);
+    rate[1] = -7 * x[1] / (8 * mu * u + 3 * pi * x[1]);
+  };
+  auto stepper = odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(tolerance, tolerance);
+  State x{u0, v0};
+  double tau = 0;
+  double before = 0;
+  double dt = 1e-6 * (u0 + v0);
+  while (tau < stop) {
+    before = tau;
+    stepper.try_step(system, x, tau, dt);
+    if (dt < 1e-15 * stop) return 0;
+  }
+  return (tau - before) / (stop - before);
+}
+
+Quadrature raw_tanh_sinh(double mu, double u0, double v0) {
+  // tau* = (3 pi/7) integral of w dk/D over (0, k0), w = w0 (k/k0)^a ((A + B k0)/(A + B k))^(a - e).
+  const double r = 5 * mu * mu / 7;
+  const double a = r / (2 - r);
+  const double e = r / (5 - r);
+  const double big_a = 8 * (2 - r);
+  const double big_b = 3 * pi * (5 - r);
+  const double k0 = v0 / (mu * u0);
+  const auto integrand = [&](double k) {
+    const double w = mu * u0 * std::pow(k / k0, a) * std::pow((big_a + big_b * k0) / (big_a + big_b * k), a - e);
+    return w * (8 + 3 * pi * k) * (16 + 15 * pi * k) / (3 * pi * k * (big_a + big_b * k));
+  };
+  boost::math::quadrature::tanh_sinh<double> rule;
+  double error = 0;
+  const double integral = rule.integrate(integrand, 0.0, k0, 1e-10, &error);
+  return {3 * pi / 7 * integral, error / integral};
+}
+
+std::string versions() {
+  std::string text = fmt::format("Boost {}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000);
+#ifdef CONTENSOU_GSL
+  text += fmt::format(", GSL {}", GSL_VERSION);
+#endif
+#ifdef CONTENSOU_SUNDIALS
+  text += fmt::format(", SUNDIALS {}", SUNDIALS_VERSION);
+#endif
+  return text;
+}
+
+}  // namespace contensou::rivals

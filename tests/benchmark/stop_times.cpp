@@ -1,0 +1,306 @@
+// What a stop time costs: this library beside others and beside the bandwidth of the machine, in one run.
+//   benchmark_stop_times            prints the tables of README.md in Markdown
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <new>
+#include <random>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/stop_time_profile.hpp"
+#include "reference_table.hpp"
+#include "rivals.hpp"
+#include "stop_time_kernel.hpp"
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace {
+
+using namespace contensou::reduction;
+using contensou::tests::ReferenceRow;
+
+/// Least time of one call, in nanoseconds, by name: of the processor, or of the clock where threads share the work.
+class Times : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+      const bool shared = run.run_name.function_name.ends_with(" cores");
+      const double seconds = shared ? run.real_accumulated_time : run.cpu_accumulated_time;
+      const double nanoseconds = 1e9 * seconds / static_cast<double>(run.iterations);
+      const auto [found, first] = least_.try_emplace(run.run_name.function_name, nanoseconds);
+      if (!first) found->second = std::min(found->second, nanoseconds);
+    }
+  }
+  double operator()(const std::string& name) const { return least_.at(name); }
+
+ private:
+  std::map<std::string, double> least_;
+};
+
+/// Registers a call to be measured.
+void measure(const std::string& name, std::function<void()> call, double seconds = 0.03, int repetitions = 5) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [call = std::move(call)](benchmark::State& state) {
+                                 for (auto _ : state) call();
+                               })
+      ->MinTime(seconds)
+      ->Repetitions(repetitions)
+      ->UseRealTime();
+}
+
+/// A start of tests/reference/stop_pade.csv, with its stop time to 40 digits.
+struct Start {
+  double mu, u0, v0;
+  long double tau;
+};
+
+std::vector<Start> starts() {
+  std::vector<Start> found;
+  for (const ReferenceRow& row : contensou::tests::reference_table("stop_pade")) {
+    const double mu = row.input("mu");
+    const double u0 = std::abs(row.input("u0"));
+    const double v0 = row.input("v0");
+    const double k0 = v0 / (mu * u0);
+    const bool common = mu >= 0.01 && mu <= 1 && u0 >= 1e-3 && u0 <= 1e3 && k0 >= 1e-3 && k0 <= 1e5;
+    if (common) found.push_back({mu, u0, v0, row.result("tau_stop")});
+  }
+  return found;
+}
+
+/// One start after the other by one method: how many evaluations it took, how wrong it was.
+struct Answers {
+  double evaluations = 0;  ///< mean
+  double error = 0;        ///< worst, relative
+};
+using Method = std::function<contensou::rivals::RivalResult(const Start&)>;
+Answers answers(const std::vector<Start>& all, const Method& method) {
+  Answers sum;
+  for (const Start& start : all) {
+    const auto [tau, evaluations] = method(start);
+    sum.evaluations += static_cast<double>(evaluations) / static_cast<double>(all.size());
+    const auto error = static_cast<double>(std::abs(tau / start.tau - 1));
+    sum.error = error <= sum.error ? sum.error : std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+  }
+  return sum;
+}
+
+/// Aligned as the streaming stores of the bandwidth loop need it.
+class Array {
+ public:
+  explicit Array(std::size_t size) : data_(new (std::align_val_t{64}) double[size]), size_(size) {}
+  double* data() const { return data_.get(); }
+  std::span<double> span() const { return {data_.get(), size_}; }
+
+ private:
+  struct Free {
+    void operator()(double* data) const { operator delete[](data, std::align_val_t{64}); }
+  };
+  std::unique_ptr<double[], Free> data_;
+  std::size_t size_;
+};
+
+/// out = u + v with stores past the caches: what reading and writing alone cost.
+void bandwidth_loop(std::span<const double> u, std::span<const double> v, std::span<double> out, unsigned threads) {
+  const auto part = [&](std::size_t begin, std::size_t end) {
+#ifdef __SSE2__
+    for (std::size_t i = begin; i < end; i += 2) {
+      _mm_stream_pd(&out[i], _mm_add_pd(_mm_load_pd(&u[i]), _mm_load_pd(&v[i])));
+    }
+    _mm_sfence();
+#else
+    for (std::size_t i = begin; i < end; ++i) out[i] = u[i] + v[i];
+#endif
+  };
+  const std::size_t share = out.size() / threads / 64 * 64;
+  std::vector<std::jthread> others;
+  for (unsigned i = 1; i < threads; ++i) {
+    others.emplace_back(part, i * share, i + 1 == threads ? out.size() : (i + 1) * share);
+  }
+  part(0, threads == 1 ? out.size() : share);
+}
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown processor";
+}
+
+std::string duration(double nanoseconds) {
+  if (nanoseconds < 1e3) return fmt::format("{:.3g} ns", nanoseconds);
+  return nanoseconds < 1e6 ? fmt::format("{:.3g} us", nanoseconds / 1e3) : fmt::format("{:.3g} ms", nanoseconds / 1e6);
+}
+
+}  // namespace
+
+int main() {
+  constexpr std::size_t points = std::size_t{1} << 23;  // 3 arrays of 64 MiB
+  const unsigned cores = std::min(2U, std::thread::hardware_concurrency());
+  const std::vector<Start> table = starts();
+
+  // One start at a time.
+  std::vector<std::pair<std::string, Method>> methods;
+  std::map<double, StopTimeProfile> profiles;
+  for (const Start& start : table) profiles.try_emplace(start.mu, ReducedSystem(PadeLaw{}, start.mu));
+  methods.emplace_back("profile of the system, one start", [&](const Start& s) {
+    return contensou::rivals::RivalResult{profiles.at(s.mu)(s.u0, s.v0), 0};
+  });
+  const auto by_route = [](Route route) {
+    return [route](const Start& s) {
+      const StopTime stop = stop_time(ReducedSystem(PadeLaw{}, s.mu), {s.u0, s.v0}, route);
+      return contensou::rivals::RivalResult{stop.tau, stop.evaluations};
+    };
+  };
+  methods.emplace_back("closed form", by_route(Route::closed));
+  methods.emplace_back("quadrature", by_route(Route::quadrature));
+  methods.emplace_back("Odeint on (2.7) in ln u, ln v", by_route(Route::regularised));
+  for (const auto& rival : contensou::rivals::all()) {
+    methods.emplace_back(rival.name, [rival](const Start& s) { return rival.stop_time(s.mu, s.u0, s.v0); });
+  }
+  for (const auto& [name, method] : methods) {
+    const bool slow = name.find("(2.6)") != std::string::npos;
+    measure(
+        name,
+        [&table, method = method] {
+          for (const Start& start : table) benchmark::DoNotOptimize(method(start));
+        },
+        slow ? 0.001 : 0.05, slow ? 2 : 7);
+  }
+
+  // Arrays.
+  const Array u(points), v(points), tau(points);
+  std::mt19937_64 generator(1);
+  std::uniform_real_distribution<double> ln(-3, 3);
+  for (double& x : u.span()) x = std::exp(ln(generator));
+  for (double& x : v.span()) x = std::exp(ln(generator));
+  std::ranges::fill(tau.span(), 0);
+  const StopTimeProfile pade(ReducedSystem(PadeLaw{}, 0.1)), hertz(ReducedSystem(HertzLaw{}, 0.1));
+  for (unsigned threads = 1; threads <= cores; ++threads) {
+    const std::string on = threads == 1 ? "" : fmt::format(" on {} cores", threads);
+    measure("loop" + on, [&, threads] { bandwidth_loop(u.span(), v.span(), tau.span(), threads); });
+    measure("pade" + on, [&, threads] { pade.evaluate(u.span(), v.span(), tau.span(), threads); });
+    measure("hertz" + on, [&, threads] { hertz.evaluate(u.span(), v.span(), tau.span(), threads); });
+    measure("row" + on, [&, threads] { pade.evaluate_row(u.span(), 1.0, tau.span(), threads); });
+  }
+  for (const StopTimeKernel& kernel : stop_time_kernels()) {
+    measure(fmt::format("kernel {}", kernel.name), [&] {
+      kernel.run(pade.table(), {u.data(), v.data(), 1, tau.data(), points, true});
+    });
+  }
+  measure("build pade", [] { benchmark::DoNotOptimize(StopTimeProfile(ReducedSystem(PadeLaw{}, 0.1))); });
+  measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeProfile(ReducedSystem(HertzLaw{}, 0.1))); });
+
+  // Orbits.
+  std::vector<Orbit> orbits;
+  const ReducedSystem pool(PadeLaw{}, 0.1);
+  for (int i = 0; i < 40; ++i) orbits.emplace_back(pool, State{1, 0.1 * std::exp(0.2 * (i - 20))});
+  measure("orbits", [&] {
+    for (const Orbit& orbit : orbits) benchmark::DoNotOptimize(orbit.sample(400));
+  });
+  measure("inversion", [&] {
+    for (const Orbit& orbit : orbits) benchmark::DoNotOptimize(orbit.at_time(0.3 * orbit.stop_time()));
+  });
+
+  // Small mu.
+  const std::vector<double> small{0.3, 0.1, 0.03, 0.01};
+  for (double mu : small) {
+    for (const auto& [name, method] : methods) {
+      if (name != "closed form" && name != "Odeint dopri5 on (2.6)" && name != "Odeint on (2.7) in ln u, ln v")
+        continue;
+      const Start start{mu, 1, 1, 1};
+      measure(
+          fmt::format("{} at {}", name, mu), [method = method, start] { benchmark::DoNotOptimize(method(start)); },
+          0.001, 3);
+    }
+  }
+
+  Times times;
+  benchmark::RunSpecifiedBenchmarks(&times);
+
+  fmt::print("{}, {} cores used, {}; GCC {}, {}.\n", processor(), cores, StopTimeProfile::instruction_set(),
+             __VERSION__, contensou::rivals::versions());
+
+  fmt::print("\n{} starts of tests/reference/stop_pade.csv, one after the other, steppers at 1e-12:\n\n", table.size());
+  fmt::print(
+      "| Pade ball, 0.01 <= mu <= 1 | time | against the closed form | evaluations | worst error "
+      "|\n|---|---|---|---|---|\n");
+  const double closed = times("closed form");
+  for (const auto& [name, method] : methods) {
+    const auto [evaluations, error] = answers(table, method);
+    fmt::print("| {} | {} | {:.3g} | {:.0f} | {:.1e} |\n", name,
+               duration(times(name) / static_cast<double>(table.size())), times(name) / closed, evaluations, error);
+  }
+
+  const auto each = [&](const std::string& name) { return times(name) / static_cast<double>(points); };
+  fmt::print("\n{} starts in arrays, mu = 0.1:\n\n", points);
+  fmt::print("| a point | 1 core | of the loop | {} cores | of the loop |\n|---|---|---|---|---|\n", cores);
+  for (const auto& [name, title] : {std::pair{"loop", "out = u + v, streaming stores"},
+                                    {"pade", "profile, Pade"},
+                                    {"row", "profile, Pade, a row of a grid"},
+                                    {"hertz", "profile, exact law"}}) {
+    const auto on = [&](const char* what, unsigned n) {
+      return each(n == 1 ? what : fmt::format("{} on {} cores", what, n));
+    };
+    fmt::print("| {} | {:.2f} ns | {:.0f} % | {:.2f} ns | {:.0f} % |\n", title, on(name, 1),
+               100 * on("loop", 1) / on(name, 1), on(name, cores), 100 * on("loop", cores) / on(name, cores));
+  }
+  for (const StopTimeKernel& kernel : stop_time_kernels()) {
+    const double time = each(fmt::format("kernel {}", kernel.name));
+    fmt::print("| profile, Pade, {} | {:.2f} ns | {:.0f} % | | |\n", kernel.name, time, 100 * each("loop") / time);
+  }
+  fmt::print(
+      "\nA profile is built in {} (Pade), {} (exact law). 40 orbits of 400 instants take {}, the state at an\n"
+      "instant {}.\n",
+      duration(times("build pade")), duration(times("build hertz")), duration(times("orbits")),
+      duration(times("inversion") / 40));
+
+  fmt::print("\n| u0 = v0 = 1, mu = |");
+  for (double mu : small) fmt::print(" {} |", mu);
+  fmt::print("\n|---|---|---|---|---|\n");
+  for (const auto& [name, method] : methods) {
+    if (name != "closed form" && name != "Odeint dopri5 on (2.6)" && name != "Odeint on (2.7) in ln u, ln v") continue;
+    fmt::print("| {} |", name);
+    for (double mu : small) {
+      const long evaluations = method({mu, 1, 1, 1}).evaluations;
+      const std::string time = duration(times(fmt::format("{} at {}", name, mu)));
+      fmt::print(" {}{} |", time, evaluations > 0 ? fmt::format(", {} evaluations", evaluations) : "");
+    }
+    fmt::print("\n");
+  }
+
+  fmt::print("\n| u0 = v0 = 1, mu = |");
+  for (double mu : {1.0, 0.3, 0.1, 0.05}) fmt::print(" {} |", mu);
+  fmt::print("\n|---|---|---|---|---|\n| Fehlberg 7(8) on (2.6) with abs(u) accepts a step of |");
+  for (double mu : {1.0, 0.3, 0.1, 0.05}) {
+    const double stop = stop_time(ReducedSystem(PadeLaw{}, mu), {1, 1}).tau;
+    fmt::print(" {:.3g} times the time left |", contensou::rivals::fehlberg_step_at_the_stop(mu, 1, 1, stop));
+  }
+  fmt::print("\n| tanh-sinh on the separated integral |");
+  for (double mu : {1.0, 0.3, 0.1, 0.05}) {
+    const double exact = stop_time(ReducedSystem(PadeLaw{}, mu), {1, 1}).tau;
+    const auto [wrong, claimed] = contensou::rivals::raw_tanh_sinh(mu, 1, 1);
+    fmt::print(" {:.2g} % wrong, claims {:.2g} % |", 100 * std::abs(wrong / exact - 1), 100 * claimed);
+  }
+  fmt::print("\n");
+}
