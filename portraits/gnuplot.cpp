@@ -134,9 +134,38 @@ const char* alignment(Label::Align align) {
   return "center";
 }
 
+/// From light to dark and from yellow to blue: in order also in grey, and for eyes that see red and green alike.
+constexpr const char* palette =
+    "set palette defined (0 '#fffbe0', 0.18 '#f3e6a1', 0.36 '#b9d8a6', 0.54 '#76bcb4', 0.72 '#4495b8', 0.87 '#3468a4', "
+    "1 '#2f4788')\n";
+
+/// The plot of a colour map: on axes of its own, which are linear. Its data follow by send_colours.
+std::string write_colours(Gnuplot& gp, const ColourMap& colours, double right, double bar_left) {
+  const double low = colours.scale.low;
+  const double high = colours.scale.high > low ? colours.scale.high : low + 1;
+  gp << palette;
+  write_axis(gp, "cb", {"", low, high, colours.scale.logarithmic, colours.scale.ticks});
+  gp << "set colorbox vertical user origin screen " << bar_left << ",0.19 size screen " << (right - bar_left) * 0.25
+     << ",0.65 noborder\n";
+  gp << "set label " << quoted(colours.scale.name) << " at screen " << bar_left + (right - bar_left) * 0.125
+     << ",0.87 center\n";
+  gp << "set x2range [0:" << colours.columns << "]\nset y2range [0:" << colours.values.size() / colours.columns
+     << "]\n";
+  return "'-' matrix using ($1+0.5):($2+0.5):3 axes x2y2 with image notitle";
+}
+
+void send_colours(Gnuplot& gp, const ColourMap& colours) {
+  for (std::size_t i = 0; i < colours.values.size(); ++i) {
+    gp << colours.values[i] << ((i + 1) % colours.columns == 0 ? "\n" : " ");
+  }
+  gp << "e\n";
+}
+
 /// Writes one panel into the strip [left, right] of the width.
-void write_panel(Gnuplot& gp, const Panel& panel, double left, double right) {
-  gp << "set lmargin at screen " << left << "\nset rmargin at screen " << right << "\n";
+void write_panel(Gnuplot& gp, const Panel& panel, double left, double right, double bar_room) {
+  const double bar_left = right - bar_room;
+  gp << "set lmargin at screen " << left << "\nset rmargin at screen "
+     << (panel.colours ? bar_left - 0.15 * bar_room : right) << "\n";
   gp << "set title " << quoted(panel.title) << " offset 0,-0.4\n";
   write_axis(gp, "x", panel.x);
   write_axis(gp, "y", panel.y);
@@ -148,6 +177,7 @@ void write_panel(Gnuplot& gp, const Panel& panel, double left, double right) {
 
   std::string separator = "plot ";
   const auto entry = [&](const std::string& text) { gp << std::exchange(separator, ", \\\n     ") << text; };
+  if (panel.colours) entry(write_colours(gp, *panel.colours, right, bar_left));
   for (const Lines& layer : panel.lines) {
     entry(fmt::format("'-' with lines {} notitle", line_style(layer.stroke)));
   }
@@ -159,6 +189,7 @@ void write_panel(Gnuplot& gp, const Panel& panel, double left, double right) {
     entry(fmt::format("'-' with points pt 7 ps {} lc {} notitle", layer.size, colour(layer.colour)));
   }
   gp << "\n";
+  if (panel.colours) send_colours(gp, *panel.colours);
   for (const Lines& layer : panel.lines) gp.send2d(rows(layer.lines));
   for (const Arrows& layer : panel.arrows) gp.send1d(heads(panel, layer.arrows));
   for (const Marks& layer : panel.marks) gp.send1d(rows({layer.points}).front());
@@ -213,7 +244,7 @@ std::string script(const Figure& figure, PictureFormat format) {
     const double label_room = 20 / figure.width_mm;
     for (std::size_t i = 0; i < figure.panels.size(); ++i) {
       const double left = static_cast<double>(i) / count;
-      write_panel(gp, figure.panels[i], left + label_room, left + 1 / count - 0.25 * label_room);
+      write_panel(gp, figure.panels[i], left + label_room, left + 1 / count - 0.25 * label_room, 22 / figure.width_mm);
     }
     gp << "unset multiplot\n";
   }

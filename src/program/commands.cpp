@@ -5,6 +5,7 @@ namespace contensou::program {
 std::vector<std::unique_ptr<Command>> make_commands() {
   std::vector<std::unique_ptr<Command>> commands;
   commands.push_back(make_stop_command());
+  commands.push_back(make_sweep_command());
   commands.push_back(make_orbit_command());
   commands.push_back(make_roll_command());
   commands.push_back(make_law_command());

@@ -93,3 +93,22 @@ TEST_CASE("Ctrl-C leaves no half file and says so", "[cli]") {
           "contensou: interrupted: " + scratch.file("table.csv") + " was not written, nothing is left of it\n");
   }
 }
+
+TEST_CASE("Ctrl-C in a sweep leaves no half file and says so", "[cli]") {
+  for (const std::string format : {"npy", "csv"}) {
+    const TemporaryDirectory scratch;
+    write_file(scratch.file("map." + format), "old");
+    const std::vector<std::string> before = scratch.names();
+    RunningProgram program({"sweep", "--mu", "0.1", "--u0", "0:1:1000000", "--v0", "0:1:100", "--threads", "2", "-o",
+                            scratch.file("map." + format)},
+                           "");
+    for (int i = 0; i < 1000 && scratch.names() == before; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    CHECK(program.end_by(SIGINT) == SIGINT);
+    CHECK(scratch.names() == before);
+    CHECK(read_file(scratch.file("map." + format)) == "old");
+    CHECK(program.err() ==
+          "contensou: interrupted: " + scratch.file("map." + format) + " was not written, nothing is left of it\n");
+  }
+}

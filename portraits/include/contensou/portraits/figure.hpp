@@ -75,7 +75,14 @@ struct Axis {
   std::vector<Tick> ticks;
 };
 
-/// One system of axes and what is drawn in it, in the order given: lines, arrows, marks, labels.
+/// A field of numbers as colours, stretched over all of a panel, whose axes may be logarithmic.
+struct ColourMap {
+  std::vector<double> values;  ///< rows from the bottom up, each from left to right
+  std::size_t columns = 1;
+  Axis scale{};  ///< of the numbers, shown beside the panel
+};
+
+/// One system of axes and what is drawn in it, in the order given: colours, lines, arrows, marks, labels.
 struct Panel {
   std::string title;
   Axis x;
@@ -84,6 +91,7 @@ struct Panel {
   std::vector<Arrows> arrows;
   std::vector<Marks> marks;
   std::vector<Label> labels;
+  std::optional<ColourMap> colours{};
 };
 
 /// A drawing as data: panels side by side under one title, one legend below. Text is UTF-8; _ and ^ begin an index or a

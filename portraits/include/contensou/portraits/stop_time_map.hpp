@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/reduction/stop_time_profile.hpp"
+
+namespace contensou::portraits {
+
+/// The axes of a map: equal steps or equal ratios from the first value to the last.
+struct MapAxes {
+  Eigen::ArrayXd u0;  ///< increasing, two values or more
+  Eigen::ArrayXd v0;  ///< the same, >= 0
+  bool logarithmic = false;
+};
+
+/// Stop times over starts (u0, v0) of one system, as data; nothing here is drawn.
+struct StopTimeMap {
+  std::string law;
+  double mu = 0;
+  MapAxes axes;
+  Eigen::ArrayXXd tau;                ///< a row for each v0, a column for each u0
+  std::vector<Isochrone> isochrones;  ///< at round stop times, each piece of one inside the map by itself
+};
+
+/// Computes the map. Isochrones come from the profile itself, not from the map's values: tau*(c u, c v) = c tau*(u, v)
+/// says where a ray through the origin meets each of them.
+///
+/// @throws std::domain_error  if an axis is not as MapAxes says, spans values outside 1e-100 .. 1e100, or a stop time
+///                            is beyond the largest double
+StopTimeMap stop_time_map(const reduction::StopTimeProfile& profile, const MapAxes& axes);
+
+}  // namespace contensou::portraits

@@ -1,0 +1,246 @@
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "run_program.hpp"
+
+using namespace contensou::reduction;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+/// A NumPy file, read by its format's description: magic, version, length of the dictionary, dictionary, data.
+struct NumpyFile {
+  explicit NumpyFile(const std::string& bytes) {
+    REQUIRE(bytes.starts_with(std::string("\x93NUMPY\x01\x00", 8)));
+    const auto byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at])); };
+    const std::size_t length = byte(8) + 256 * byte(9);
+    REQUIRE((10 + length) % 64 == 0);
+    dictionary = bytes.substr(10, length);
+    REQUIRE(dictionary.ends_with('\n'));
+    REQUIRE((bytes.size() - 10 - length) % sizeof(double) == 0);
+    values.resize((bytes.size() - 10 - length) / sizeof(double));
+    std::memcpy(values.data(), bytes.data() + 10 + length, values.size() * sizeof(double));
+  }
+
+  std::string dictionary;
+  std::vector<double> values;
+};
+
+}  // namespace
+
+TEST_CASE("a sweep as csv: u0 runs fastest, then v0, then mu", "[cli]") {
+  const Run run = run_program("sweep --mu 0.1:0.3:2 --u0 -1:1:3 --v0 0:0.5:2");
+  CHECK(run.status == 0);
+  CHECK(run.err.empty());
+  std::string expected = "mu,u0,v0,tau_stop\n";
+  for (double mu : {0.1, 0.3}) {
+    for (double v0 : {0.0, 0.5}) {
+      for (double u0 : {-1.0, 0.0, 1.0}) {
+        expected += fmt::format("{},{},{},{}\n", mu, u0, v0, stop_time({PadeLaw{}, mu}, {u0, v0}).tau);
+      }
+    }
+  }
+  CHECK(run.out == expected);
+  CHECK(run_program("sweep --mu 0.1:0.3:2 --u0 -1:1:3 --v0 0:0.5:2 -o - --format csv").out == expected);
+}
+
+TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string axes = " --u0 0:2:5 --v0 0.5:1.5:3 --law exact -o " + scratch.file("map.npy");
+  REQUIRE(run_program("sweep --mu 0.1" + axes).status == 0);
+  const NumpyFile map(read_file(scratch.file("map.npy")));
+  CHECK_THAT(map.dictionary, StartsWith("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 5), }"));
+  REQUIRE(map.values.size() == 15);
+  for (std::size_t i = 0; i < 15; ++i) {
+    const State start{0.5 * static_cast<double>(i % 5), 0.5 + 0.5 * static_cast<double>(i / 5)};
+    CHECK(map.values[i] == Approx(stop_time({HertzLaw{}, 0.1}, start).tau).epsilon(1e-14));
+  }
+
+  REQUIRE(run_program("sweep --mu 0.1:0.2:2" + axes).status == 0);
+  const NumpyFile cube(read_file(scratch.file("map.npy")));
+  CHECK_THAT(cube.dictionary, Contains("'shape': (2, 3, 5), }"));
+  REQUIRE(cube.values.size() == 30);
+  CHECK(std::vector<double>(cube.values.begin(), cube.values.begin() + 15) == map.values);
+  CHECK(cube.values[29] == Approx(stop_time({HertzLaw{}, 0.2}, {2, 1.5}).tau).epsilon(1e-14));
+  // An axis of its own also for a range of one; by the word of --format where no ending says so.
+  CHECK_THAT(NumpyFile(run_program("sweep --mu 1:1:1 --u0 1 --v0 0:1:2 -o - --format npy").out).dictionary,
+             Contains("'shape': (1, 2, 1), }"));
+  CHECK(scratch.names() == std::vector<std::string>{"map.npy"});
+}
+
+TEST_CASE("ends are exact and steps are rounded once", "[limit]") {
+  const auto column = [](const std::string& arguments) {
+    std::vector<std::string> values;
+    for (const auto& row : rows_of(run_program("sweep --mu 0.1 --v0 1 --u0 " + arguments).out))
+      values.push_back(row[1]);
+    values.erase(values.begin());
+    return values;
+  };
+  using Values = std::vector<std::string>;
+  CHECK(column("0:1:11") == Values{"0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1"});
+  CHECK(column("1e-3:1e3:7 --log") == Values{"0.001", "0.01", "0.1", "1", "10", "100", "1000"});
+  CHECK(column("-1.7e308:1.7e308:3") == Values{"-1.7e+308", "0", "1.7e+308"});
+  CHECK(column("5e-324:1e308:2 --log") == Values{"5e-324", "1e+308"});
+  CHECK(column("7") == Values{"7"});
+  CHECK(column("7:7:1") == Values{"7"});
+}
+
+TEST_CASE("a stop time that overflows is inf in a sweep", "[limit]") {
+  CHECK_THAT(run_program("sweep --mu 1e-100 --u0 1e300 --v0 0:1:2").out, Contains(",inf\n"));
+}
+
+TEST_CASE("a sweep has the same bytes for any number of threads", "[route]") {
+  for (const std::string format : {"npy", "csv"}) {
+    // Rows shorter and rows longer than what a thread takes at once.
+    for (const std::string axes :
+         {"--mu 0.1:0.5:3 --u0 -1:1:701 --v0 0:3:101", "--mu 0.1 --u0 0:2:100001 --v0 0:3:2"}) {
+      const std::string command = "sweep " + axes + " -o - --format " + format + " --threads ";
+      const Run one = run_program(command + "1");
+      REQUIRE(one.status == 0);
+      CHECK(run_program(command + "2").out == one.out);
+      CHECK(run_program(command + "13").out == one.out);
+    }
+  }
+}
+
+TEST_CASE("a sweep of a body other than the ball", "[cli]") {
+  const auto rows = rows_of(run_program("sweep --body disc --law uniform --u0 0:1:2 --v0 0:1:2").out);
+  REQUIRE(rows.size() == 5);
+  const ReducedSystem disc(PressureLaw(0), 1, {.chi = 1, .gamma = 2});
+  for (std::size_t i = 1; i < 5; ++i) {
+    CHECK(rows[i][0] == "1");
+    const double tau = stop_time(disc, {std::stod(rows[i][1]), std::stod(rows[i][2])}).tau;
+    CHECK(std::stod(rows[i][3]) == Approx(tau).epsilon(1e-12));
+  }
+  const Run bad = run_program("sweep --body disc --mu 0.5 --u0 0:1:2 --v0 0:1:2");
+  CHECK(bad.status == 2);
+  CHECK_THAT(bad.err, Contains("--mu 0.5: a puck rests on its whole face"));
+}
+
+TEST_CASE("bad ranges are refused with a way out", "[cli]") {
+  struct Mistake {
+    std::string arguments;
+    std::string words;
+  };
+  const std::vector<Mistake> mistakes{
+      {"", "--mu missing: give --mu M"},
+      {"--mu 0.1 --v0 0:1:2", "--u0 missing"},
+      {"--mu 0.1 --u0 0:1:2", "--v0 missing"},
+      {"--mu 0.1 --u0 0:1 --v0 0:1:2", "--u0 0:1: '0:1' is not a range; write it MIN:MAX:N, as in 0:2:201"},
+      {"--mu 0.1 --u0 0:1:2:3 --v0 0:1:2", "--u0 0:1:2:3: '0:1:2:3' is not a range"},
+      {"--mu 0.1 --u0 0::2 --v0 0:1:2", "--u0 0::2: '' is not a number"},
+      {"--mu 0.1 --u0 a:1:2 --v0 0:1:2", "--u0 a:1:2: 'a' is not a number"},
+      {"--mu 0.1 --u0 0:nan:2 --v0 0:1:2", "'nan' is not a finite number"},
+      {"--mu 0.1 --u0 0:1e999:2 --v0 0:1:2", "'1e999' does not fit a double"},
+      {"--mu 0.1 --u0 0:1:2.5 --v0 0:1:2", "'2.5' is not a whole number from 1"},
+      {"--mu 0.1 --u0 0:1:0 --v0 0:1:2", "'0' is not a whole number from 1"},
+      {"--mu 0.1 --u0 0:1:-3 --v0 0:1:2", "'-3' is not a whole number from 1"},
+      {"--mu 0.1 --u0 0:1:99999999999999999999 --v0 0:1:2", "is not a whole number from 1"},
+      {"--mu 0.1 --u0 0:1:1 --v0 0:1:2",
+       "--u0 0:1:1: one value cannot be both MIN = 0 and MAX = 1: give N = 2 or more"},
+      {"--mu 0.1 --u0 1:1:2 --v0 0:1:2", "--u0 1:1:2: all 2 values would be 1"},
+      {"--mu 0.1 --u0 1:0:2 --v0 0:1:2", "--u0 1:0:2: MIN = 1 exceeds MAX = 0"},
+      {"--mu 0.1 --u0 0:1:2 --v0 -1:1:2", "--v0 -1:1:2: a sliding speed is >= 0"},
+      {"--mu 0.1 --u0 0:1:2 --v0 1:2:2 --log", "--u0 0:1:2: logarithmic steps need MIN > 0, got 0"},
+      {"--mu 0:1:2 --u0 0:1:2 --v0 1:2:2", "--mu 0:1:2: 0 < mu <= 1 is required"},
+      {"--mu 0.1:1.1:2 --u0 0:1:2 --v0 1:2:2", "--mu 0.1:1.1:2: 0 < mu <= 1 is required"},
+      {"--mu 2 --u0 0:1:2 --v0 1:2:2", "--mu 2: 0 < mu <= 1 is required"},
+      {"--mu 0.1 --u0 0:1:9000000000000000000 --v0 0:1:2", "1.8e+19 starts are more than any file can hold"},
+      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 -o map.txt", "-o map.txt: a sweep is written as one of npy, csv, "},
+      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 -o map", "-o map: a sweep is written as one of npy, csv, "},
+      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 -o map.npy --format csv", "--format csv: the file map.npy says otherwise"},
+      {
+          "--mu 0.1 --u0 0:1:2 --v0 0:1:2 --progress often",
+          "--progress often: ",
+      },
+      {"--mu 0.1:0.2:2 --u0 0:1:2 --v0 0:1:2 -o map.svg", "--mu 0.1:0.2:2: a picture shows one mu"},
+      {"--mu 0.1 --u0 1 --v0 0:1:2 -o map.svg", "--u0 1: a picture needs a range"},
+      {"--mu 0.1 --u0 0:1:2 --v0 1 -o map.svg", "--v0 1: a picture needs a range"},
+      {"--mu 0.1 --u0 0:1:1001 --v0 0:1:1000 -o map.svg", "at most 1e+06 starts, not 1.001e+06: reduce N"},
+      {"--mu 0.1 --u0 0:1e200:2 --v0 0:1:2 -o map.svg", "u0 from 0 to 1e+200 cannot be drawn"},
+      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 --law pad", "did you mean 'pade'"},
+      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 --threads 0", "--threads: '0'"},
+  };
+  for (const auto& [arguments, words] : mistakes) {
+    const Run run = run_program("sweep " + arguments);
+    INFO(arguments << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains(words));
+  }
+}
+
+TEST_CASE("a sweep without room on the disk is status 4 and leaves nothing", "[cli]") {
+  const TemporaryDirectory scratch;
+  // 8 PB as an array; csv under a limit of the file size.
+  const Run huge = run_program("sweep --mu 0.1 --u0 0:1:1000000000 --v0 0:1:1000000 -o " + scratch.file("map.npy"));
+  CHECK(huge.status == 4);
+  CHECK_THAT(huge.err, Contains("cannot write " + scratch.file("map.npy") + ": "));
+  const std::string limited =
+      fmt::format("ulimit -f 64; exec '{}' sweep --mu 0.1 --u0 0:1:1000 --v0 0:1:1000 -o '{}' 2>'{}'",
+                  CONTENSOU_PROGRAM, scratch.file("map.csv"), scratch.file("err"));
+  CHECK(WEXITSTATUS(std::system(limited.c_str())) == 4);
+  CHECK_THAT(read_file(scratch.file("err")), Contains("map.csv: File too large"));
+  CHECK(scratch.names() == std::vector<std::string>{"err"});
+}
+
+#if !defined(__SANITIZE_ADDRESS__)  // which needs an address space without limit
+TEST_CASE("a sweep of any size takes constant memory", "[limit]") {
+  const TemporaryDirectory scratch;
+  const std::string command =
+      fmt::format("ulimit -v 120000; exec '{}' sweep --threads 1 --mu 0.3 --u0 0:1:20000000 --v0 1 -o '{}'",
+                  CONTENSOU_PROGRAM, scratch.file("map.npy"));
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(std::filesystem::file_size(scratch.file("map.npy")) == 128 + 20000000 * sizeof(double));
+}
+#endif
+
+TEST_CASE("progress is shown when asked for, on standard error, and not into a pipe", "[cli]") {
+  // Long enough for a line whatever the machine: a law without closed form, anew for each mu.
+  const std::string command = "sweep --mu 0.1:1:1500 --u0 1 --v0 1 --law exact --threads 1 -o /dev/null --format npy";
+  CHECK(run_program(command).err.empty());
+  CHECK(run_program(command + " --progress never").err.empty());
+  const Run shown = run_program(command + " --progress always");
+  CHECK(shown.status == 0);
+  CHECK(shown.out.empty());
+  CHECK_THAT(shown.err, Contains(" stop times/s, ") && Contains(" left") && Contains("\r1500 stop times in "));
+  CHECK(shown.err.ends_with('\n'));
+}
+
+TEST_CASE("a sweep by profile and one by single curves agree", "[route]") {
+  for (const std::string law : {"pade", "exact"}) {
+    // The same starts, once few for each mu and once among many.
+    const auto few = rows_of(run_program("sweep --mu 0.4 --u0 0:1:5 --v0 0:2:5 --law " + law).out);
+    const auto many = rows_of(run_program("sweep --mu 0.4 --u0 0:1:201 --v0 0:2:201 --law " + law).out);
+    REQUIRE(few.size() == 26);
+    REQUIRE(many.size() == 201 * 201 + 1);
+    for (std::size_t i = 0; i < 25; ++i) {
+      const auto& there = many[1 + 50 * 201 * (i / 5) + 50 * (i % 5)];
+      REQUIRE(few[i + 1][1] == there[1]);
+      REQUIRE(few[i + 1][2] == there[2]);
+      CHECK(std::stod(there[3]) == Approx(std::stod(few[i + 1][3])).epsilon(1e-14));
+    }
+  }
+}
+
+TEST_CASE("a sweep as a picture", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string command = "sweep --mu 0.3 --u0 -1:1:21 --v0 0:1:21 -o ";
+  REQUIRE(run_program(command + scratch.file("map.gp")).status == 0);
+  CHECK_THAT(read_file(scratch.file("map.gp")), Contains("with image") && Contains("law: pade"));
+  REQUIRE(run_program(command + scratch.file("map.svg")).status == 0);
+  CHECK_THAT(read_file(scratch.file("map.svg")), StartsWith("<?xml") && Contains("<image"));
+  CHECK(scratch.names() == std::vector<std::string>{"map.gp", "map.svg"});
+}
