@@ -124,7 +124,7 @@ class PadeMarch {
 
  private:
   static constexpr int near_terms = 72;  // x <= 1/2
-  static constexpr int far_terms = 20;   // |t| <= y/16
+  static constexpr int far_terms = 16;   // |t| <= y/16
 
   template <std::size_t terms>
   static long double polynomial(const std::array<long double, terms>& coefficients, long double t) {
