@@ -169,6 +169,7 @@ void write_panel(Gnuplot& gp, const Panel& panel, double left, double right, dou
   gp << "set title " << quoted(panel.title) << " offset 0,-0.4\n";
   write_axis(gp, "x", panel.x);
   write_axis(gp, "y", panel.y);
+  if (panel.bare) gp << "unset border\nunset xtics\nunset ytics\nunset xlabel\nunset ylabel\n";
   gp << "unset label\n";
   for (const Label& label : panel.labels) {
     gp << "set label " << quoted("{/*0.85 " + label.text + "}") << " at " << label.at.x << "," << label.at.y << " "
@@ -211,6 +212,7 @@ void write_heading(Gnuplot& gp, const Figure& figure) {
       gp << "NaN with lines " << line_style(layer.stroke) << " title " << quoted(layer.legend);
     }
   }
+  if (listed.empty()) gp << separator << "NaN notitle";
   gp << "\nunset key\nset border 3 lw 0.8 lc rgb '#444444'\n";
 }
 
@@ -238,7 +240,8 @@ std::string script(const Figure& figure, PictureFormat format) {
     gp << "set encoding utf8\n" << terminal(figure, format) << "\n";
     gp << "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.2,0.1\n";
     gp << "set multiplot\n";
-    gp << "set tmargin at screen 0.84\nset bmargin at screen 0.19\n";
+    const bool bare = std::ranges::all_of(figure.panels, &Panel::bare);  // no axis, no legend below
+    gp << "set tmargin at screen 0.84\nset bmargin at screen " << (bare ? 0.04 : 0.19) << "\n";
     write_heading(gp, figure);
     const double count = static_cast<double>(figure.panels.size());
     const double label_room = 20 / figure.width_mm;

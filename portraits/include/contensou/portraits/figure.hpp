@@ -92,6 +92,7 @@ struct Panel {
   std::vector<Marks> marks;
   std::vector<Label> labels;
   std::optional<ColourMap> colours{};
+  bool bare = false;  ///< no axes and no border: a drawing of things, to the scale of its own lines
 };
 
 /// A drawing as data: panels side by side under one title, one legend below. Text is UTF-8; _ and ^ begin an index or a

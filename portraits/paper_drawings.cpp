@@ -1,0 +1,244 @@
+#include "contensou/portraits/paper_drawings.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace contensou::portraits {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr Colour ink{0x222222};
+constexpr Colour guide{0x888888};
+constexpr Colour velocity_colour{0x0b4f8a};
+constexpr Colour force_colour{0xb3003b};
+constexpr Colour patch_colour{0xb9cfe4};
+
+/// Width over height of the only panel on paper (gnuplot.cpp).
+double panel_shape(const Figure& figure) { return (figure.width_mm - 25) / (0.8 * figure.height_mm); }
+
+/// An ellipse's arc; angles counter-clockwise from the x axis.
+Polyline arc(Point centre, double rx, double ry, double from, double to) {
+  constexpr int pieces = 90;
+  Polyline line;
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = from + (to - from) * i / pieces;
+    line.push_back({centre.x + rx * std::cos(angle), centre.y + ry * std::sin(angle)});
+  }
+  return line;
+}
+
+/// A drawing as it grows.
+class Sketch {
+ public:
+  Sketch(std::string title, std::string subtitle, double width_mm, double height_mm) {
+    figure_.title = std::move(title);
+    figure_.subtitle = std::move(subtitle);
+    figure_.width_mm = width_mm;
+    figure_.height_mm = height_mm;
+    panel_.bare = true;
+  }
+
+  void line(Polyline line, Stroke stroke) { panel_.lines.push_back({{std::move(line)}, stroke, ""}); }
+  void dot(Point at, Colour colour = ink) { panel_.marks.push_back({{at}, colour, 0.7}); }
+  void label(Point at, std::string text, Colour colour = ink, Label::Align align = Label::Align::centre) {
+    panel_.labels.push_back({at, std::move(text), colour, align});
+  }
+
+  /// A line that ends in an arrow head.
+  void arrow(Polyline shaft, Colour colour, double width) {
+    const Point& tip = shaft.back();
+    const Point& before = shaft[shaft.size() - 2];
+    panel_.arrows.push_back({{{tip, {tip.x - before.x, tip.y - before.y}}}, colour});
+    line(std::move(shaft), {colour, width, false});
+  }
+
+  /// With a head at either end.
+  void distance(Point from, Point to) {
+    arrow({from, to}, guide, 1);
+    panel_.arrows.push_back({{{from, {from.x - to.x, from.y - to.y}}}, guide});
+  }
+
+  /// The figure, of that height about a middle, to scale.
+  Figure framed(Point middle, double height) {
+    const double width = height * panel_shape(figure_);
+    panel_.x = {"", middle.x - width / 2, middle.x + width / 2, false, {}};
+    panel_.y = {"", middle.y - height / 2, middle.y + height / 2, false, {}};
+    figure_.panels = {panel_};
+    return figure_;
+  }
+
+ private:
+  Figure figure_;
+  Panel panel_;
+};
+
+std::string italic(const std::string& text) { return "{/:Italic " + text + "}"; }
+
+}  // namespace
+
+Figure patch_drawing() {
+  // Unit of length: eps. The slip of the patch's centre points along x.
+  constexpr double h = 1.65;
+  constexpr Point O{0, 0};
+  constexpr Point C{0, -h};
+  Sketch sketch("The contact patch and its centre of velocity",
+                "Zh98, Fig. 1: every element slips across its radius vector " + italic("r") + " from " + italic("C"),
+                150, 140);
+
+  const auto polar = [C](double r, double theta) {
+    return Point{C.x + r * std::sin(theta), C.y + r * std::cos(theta)};
+  };
+  // Hatched lightly, so that the patch is seen as a face.
+  for (int i = -18; i <= 18; ++i) {
+    const double x = i / 18.5;
+    const double half = std::sqrt(1 - x * x);
+    sketch.line({{x, -half}, {x, half}}, {patch_colour, 0.6, false});
+  }
+  sketch.line(arc(O, 1, 1, 0, 2 * pi), {ink, 2.2, false});
+
+  // The last chord touches the edge: sin(theta*) = eps/h.
+  const double last = std::asin(1 / h);
+  for (double side : {-1.0, 1.0}) sketch.line({C, polar(1.75, side * last)}, {guide, 0.9, true});
+  sketch.line({C, {0, 1.25}}, {guide, 0.9, true});
+  sketch.line(arc(C, 0.62, 0.62, pi / 2, pi / 2 + last), {guide, 1, false});
+  sketch.label({C.x - 0.15, C.y + 0.47}, italic("θ") + "*", guide);
+
+  // A chord and an element on it.
+  constexpr double theta = 0.33;
+  const double middle = h * std::cos(theta);
+  const double half = std::sqrt(1 - h * std::sin(theta) * (h * std::sin(theta)));
+  sketch.line({C, polar(middle + half + 0.12, theta)}, {ink, 1, false});
+  sketch.dot(polar(middle - half, theta));
+  sketch.dot(polar(middle + half, theta));
+  sketch.label({polar(middle - half, theta).x + 0.14, polar(middle - half, theta).y - 0.1}, italic("q_−"));
+  sketch.label({polar(middle + half, theta).x + 0.19, polar(middle + half, theta).y + 0.03}, italic("q_+"));
+  sketch.line(arc(C, 0.45, 0.45, pi / 2, pi / 2 - theta), {ink, 1.2, false});
+  sketch.label({C.x + 0.11, C.y + 0.58}, italic("θ"));
+  const Point label_r = polar(1.2, theta);
+  sketch.label({label_r.x + 0.13, label_r.y - 0.03}, italic("r"));
+
+  constexpr double r = 1.95;
+  constexpr double dr = 0.075;
+  constexpr double dtheta = 0.04;
+  Polyline element;
+  for (const auto& [dr_sign, dt_sign] : {std::pair{-1, -1}, {-1, 1}, {1, 1}, {1, -1}, {-1, -1}}) {
+    element.push_back(polar(r + dr_sign * dr, theta + dt_sign * dtheta));
+  }
+  sketch.line(element, {ink, 1.6, false});
+  const Point P = polar(r, theta);
+  const Point along{std::cos(theta), -std::sin(theta)};  // of the slip there
+  sketch.arrow({P, {P.x + 0.55 * along.x, P.y + 0.55 * along.y}}, velocity_colour, 1.8);
+  sketch.arrow({P, {P.x - 0.42 * along.x, P.y - 0.42 * along.y}}, force_colour, 2.2);
+  sketch.label({P.x - 0.5 * along.x, P.y - 0.5 * along.y + 0.1}, italic("dF"), force_colour);
+  sketch.label({P.x + 0.72 * along.x, P.y + 0.72 * along.y - 0.01}, italic("ω r"), velocity_colour);
+
+  // The motion of the patch.
+  sketch.arrow({O, {0.78, 0}}, velocity_colour, 2.4);
+  sketch.label({0.72, -0.13}, italic("v"), velocity_colour);
+  sketch.arrow(arc(O, 0.27, 0.27, pi * 1.05, pi * 0.2), velocity_colour, 1.6);
+  sketch.label({-0.3, 0.27}, italic("ω"), velocity_colour);
+  sketch.line({O, {std::cos(3.6), std::sin(3.6)}}, {ink, 1, false});
+  sketch.label({-0.52, -0.15}, italic("ε"));
+  sketch.dot(O);
+  sketch.label({0.13, -0.13}, italic("O"));
+  sketch.dot(C);
+  sketch.label({0.14, C.y - 0.06}, italic("C"));
+
+  // h, beside the drawing.
+  sketch.line({O, {-1.3, 0}}, {guide, 0.7, true});
+  sketch.line({C, {-1.3, C.y}}, {guide, 0.7, true});
+  sketch.distance({-1.22, -0.02}, {-1.22, C.y + 0.02});
+  sketch.label({-1.22, C.y / 2}, italic("h = v") + "/" + italic("ω"));
+
+  // The axes of the plane.
+  sketch.arrow({{1.3, C.y}, {1.75, C.y}}, ink, 1.2);
+  sketch.arrow({{1.3, C.y}, {1.3, C.y + 0.45}}, ink, 1.2);
+  sketch.label({1.82, C.y + 0.02}, italic("x"));
+  sketch.label({1.3, C.y + 0.54}, italic("y"));
+  return sketch.framed({0.12, -0.27}, 3.2);
+}
+
+Figure ball_drawing() {
+  // Unit of length: R. The plane is seen from above at an angle.
+  constexpr double depth_x = 0.6;
+  constexpr double depth_y = 0.27;
+  const auto seen = [](double x, double y, double z) { return Point{x + depth_x * y, z + depth_y * y}; };
+  Sketch sketch("The ball on the plane",
+                "Zh98, Fig. 3: it slides with " + italic("v") + ", spins with " + italic("ω_z") +
+                    " and touches on a spot of radius " + italic("ε = μR"),
+                190, 140);
+
+  // The ball hides what lies behind its outline, the circle of radius 1 about (0, 1).
+  constexpr double long_side = 1.3;
+  constexpr double short_side = 1.6;
+  const auto enters = [](double x) {  // y at which the line y -> (x, y, 0) meets the outline
+    const double square = depth_x * depth_x + depth_y * depth_y;
+    const double linear = depth_y - x * depth_x;
+    return (linear - std::sqrt(linear * linear - square * x * x)) / square;
+  };
+  const Point far_right = seen(long_side, short_side, 0);
+  const double hidden = std::sqrt(1 - (1 - far_right.y) * (1 - far_right.y));
+  sketch.line({seen(-long_side, enters(-long_side), 0),
+               seen(-long_side, -short_side, 0),
+               seen(long_side, -short_side, 0),
+               far_right,
+               {hidden, far_right.y}},
+              {guide, 1, false});
+
+  // The spot, a circle of the plane, hatched.
+  constexpr double eps = 0.36;
+  const auto circle = [&](double radius, double height, double from, double to) {
+    Polyline line;
+    for (int i = 0; i <= 90; ++i) {
+      const double angle = from + (to - from) * i / 90;
+      line.push_back(seen(radius * std::cos(angle), radius * std::sin(angle), height));
+    }
+    return line;
+  };
+  for (int i = -9; i <= 9; ++i) {
+    const double y = eps * i / 9.5;
+    const double half = std::sqrt(eps * eps - y * y);
+    sketch.line({seen(-half, y, 0), seen(half, y, 0)}, {patch_colour, 1, false});
+  }
+  sketch.line(circle(eps, 0, 0, 2 * pi), {velocity_colour, 1.6, false});
+
+  // The ball, with its equator: the near half drawn through.
+  constexpr Point centre{0, 1};
+  sketch.line(arc(centre, 1, 1, 0, 2 * pi), {ink, 2.4, false});
+  sketch.line(arc(centre, 1, 0.26, pi, 2 * pi), {guide, 0.9, false});
+  sketch.line(arc(centre, 1, 0.26, 0, pi), {guide, 0.9, true});
+
+  // Axes through the point of contact: x along the slip.
+  sketch.line({seen(0, 0, 0), {0, 2}}, {guide, 0.9, true});
+  sketch.arrow({{0, 2}, {0, 2.55}}, ink, 1.4);
+  sketch.arrow({{0, 0}, {1.8, 0}}, ink, 1.4);
+  constexpr double leaves = 2 * depth_y / (depth_x * depth_x + depth_y * depth_y);
+  sketch.line({{0, 0}, seen(0, leaves, 0)}, {guide, 0.9, true});
+  sketch.arrow({seen(0, leaves, 0), seen(0, 2.1, 0)}, ink, 1.4);
+  sketch.label({0.12, 2.5}, italic("z"));
+  sketch.label({1.9, 0}, italic("x"));
+  sketch.label({seen(0, 2.1, 0).x + 0.11, seen(0, 2.1, 0).y + 0.02}, italic("y"));
+
+  // Its motion.
+  sketch.arrow({seen(0, 0, 0), seen(0.95, 0, 0)}, velocity_colour, 2.6);
+  sketch.label({0.86, -0.14}, italic("v"), velocity_colour);
+  sketch.arrow(arc({0, 2.26}, 0.3, 0.1, -pi * 0.75, pi * 0.85), velocity_colour, 1.8);
+  sketch.label({0.47, 2.27}, italic("ω_z"), velocity_colour);
+  sketch.arrow({seen(0, 0, 0), seen(-0.72, 0, 0)}, force_colour, 2.4);
+  sketch.label({-0.82, 0.02}, italic("F"), force_colour);
+  sketch.dot({0, 0});
+
+  sketch.line({centre, {-std::cos(0.7), 1 + std::sin(0.7)}}, {ink, 1, false});
+  sketch.label({-0.34, 1.42}, italic("R"));
+  sketch.dot(centre);
+  sketch.line({seen(0, 0, 0), seen(-eps * std::cos(1.0), -eps * std::sin(1.0), 0)}, {ink, 1, false});
+  sketch.line({seen(-eps * 0.3, -eps * 0.5, 0), {-0.62, -0.24}}, {guide, 0.8, false});
+  sketch.label({-0.7, -0.27}, italic("ε"));
+  return sketch.framed({0, 1.02}, 3.3);
+}
+
+}  // namespace contensou::portraits
