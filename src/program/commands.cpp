@@ -13,6 +13,7 @@ std::vector<std::unique_ptr<Command>> make_commands() {
   commands.push_back(make_portrait_command());
   commands.push_back(make_explore_command());
   commands.push_back(make_terminal_command());
+  commands.push_back(make_paper_command());
   commands.push_back(make_balls_command());
   return commands;
 }

@@ -15,6 +15,7 @@ std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_portrait_command();
 std::unique_ptr<Command> make_sweep_command();
 std::unique_ptr<Command> make_terminal_command();
+std::unique_ptr<Command> make_paper_command();
 std::unique_ptr<Command> make_balls_command();
 std::unique_ptr<Command> make_explore_command();
 
