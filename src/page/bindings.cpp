@@ -272,33 +272,20 @@ class Plane {
 
   val branch(const std::vector<double>& log_ratios) const {
     const Orbit orbit = motions().orbit({.u = 1, .v = system().mu() * std::exp(log_ratios.front())});
-    const double stop = orbit.stop_time();
     std::vector<double> ln_k;
     std::vector<double> ln_u;
     std::vector<double> left;
-    const auto add = [&](const reduction::OrbitPoint& point, double time_left) {
+    // The time left is that of a start there: what is left of the stop time would have no digits near the stop.
+    const auto add = [&](const reduction::OrbitPoint& point) {
       ln_u.push_back(std::log(point.u));
       ln_k.push_back(point.ln_v - std::log(system().mu()) - ln_u.back());
-      left.push_back(time_left);
+      left.push_back(motions().orbit({.u = point.u, .v = point.v}).stop_time());
     };
-    for (double ratio : log_ratios) {
-      const auto point = orbit.at_log_ratio(ratio);
-      add(point, stop - point.tau);
-    }
+    for (double ratio : log_ratios) add(orbit.at_log_ratio(ratio));
     // From there by the time left, finely while it is seen on linear axes.
-    const double last =
-        motions()
-            .orbit({.u = std::exp(ln_u.back()), .v = system().mu() * std::exp(ln_u.back() + ln_k.back())})
-            .stop_time();
-    left.back() = last;
-    for (int i = 1; i <= 100; ++i) {
-      const double time_left = last * std::exp(-0.05 * i);
-      add(orbit.at_time_left(time_left), time_left);
-    }
-    for (int i = 1; i <= 40; ++i) {
-      const double time_left = last * std::exp(-5 - 0.6 * i);
-      add(orbit.at_time_left(time_left), time_left);
-    }
+    const double last = std::min(left.back(), orbit.stop_time());
+    for (int i = 1; i <= 100; ++i) add(orbit.at_time_left(last * std::exp(-0.05 * i)));
+    for (int i = 1; i <= 40; ++i) add(orbit.at_time_left(last * std::exp(-5 - 0.6 * i)));
     val result = val::object();
     result.set("lnK", column(ln_k));
     result.set("lnU", column(ln_u));

@@ -27,14 +27,15 @@ export class Frame {
     };
   }
 
-  /** The line through columns of numbers, without points that nobody would see. */
+  /** The line through columns of numbers, as long as the shorter one, without points that nobody would see. */
   line(xs, ys) {
     const line = [];
     let [lastX, lastY] = [NaN, NaN];
-    for (let i = 0; i < xs.length; ++i) {
+    const count = Math.min(xs.length, ys.length);
+    for (let i = 0; i < count; ++i) {
       const [x, y] = [this.bounded(this.px(xs[i]), this.left, this.width), this.bounded(this.py(ys[i]), this.top, this.height)];
       if (Number.isNaN(x) || Number.isNaN(y)) continue;
-      if (Math.abs(x - lastX) < 0.3 && Math.abs(y - lastY) < 0.3 && i + 1 < xs.length) continue;
+      if (Math.abs(x - lastX) < 0.3 && Math.abs(y - lastY) < 0.3 && i + 1 < count) continue;
       line.push(x, y);
       [lastX, lastY] = [x, y];
     }

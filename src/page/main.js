@@ -5,7 +5,7 @@ import { addNumberField, choiceButtons, fillSelect, numberField } from "./fields
 import { listen } from "./gestures.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
-import { bodies, bodyOf, fromFragment, initialState, toFragment } from "./page_state.js";
+import { bodies, bodyOf, fromFragment, initialState, takeBall, toFragment } from "./page_state.js";
 import { drawPanes } from "./panes_figure.js";
 import { drawPath } from "./path_figure.js";
 import { drawPlane, familyOf, isochroneOf, planeFrame } from "./plane_figure.js";
@@ -14,7 +14,7 @@ import { isDark, themeOf } from "./theme.js";
 import { states, viewNamed, views } from "./views.js";
 
 const $ = (id) => document.getElementById(id);
-const regimes = ["k → 0 at the stop: sliding dies out first", "k → k* at the stop: both die out together", "k → ∞ at the stop: spinning dies out first"];
+const regimes = ["k → 0: towards the stop only spin is left", "k → k*: sliding and spin die out together", "k → ∞: towards the stop only sliding is left"];
 const lawTitles = { pade: "Padé (the paper's system)", exact: "exact (Hertz)", uniform: "uniform pressure", punch: "flat punch", ring: "ring" };
 
 class Page {
@@ -286,11 +286,8 @@ class Page {
 
   chooseBall(name) {
     this.change((state) => {
-      if (!name) return Object.assign(state, { ball: null });
-      const ball = this.library.balls.find((entry) => entry.name === name);
-      state.ball = { ...ball, velocityX: ball.slip, velocityY: ball.slip / 2 };
-      const start = { u: ball.radius * ball.spin, v: ball.slip };
-      Object.assign(state, { body: "ball", orbits: [start], chosen: 0, share: 0, isochrone: 0, window: [1.25 * start.u, 1.25 * start.v].map((side) => Number(side.toPrecision(2))) });
+      if (name) takeBall(state, this.library.balls.find((ball) => ball.name === name));
+      else state.ball = null;
     });
   }
 

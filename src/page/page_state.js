@@ -36,6 +36,16 @@ export function initialState() {
   };
 }
 
+/** A real ball with the start that the library has for it; its centre moves across the slip, so that its path curves. */
+export function takeBall(state, ball) {
+  const start = { u: ball.radius * ball.spin, v: ball.slip };
+  Object.assign(state, {
+    ball: { ...ball, velocityX: 0, velocityY: ball.slip / 2 },
+    body: "ball", orbits: [start], chosen: 0, share: 0, isochrone: 0,
+    window: [start.u, start.v].map((side) => Number((1.25 * side).toPrecision(2))),
+  });
+}
+
 export function toFragment(state) {
   const query = new URLSearchParams();
   query.set("law", state.law);
@@ -83,12 +93,11 @@ export function fromFragment(fragment, { laws, views, balls }) {
   number("mu", (mu) => (state.mu = mu), (mu) => mu > 0);
   state.mu = bodyOf(state).mu ?? Math.min(state.mu, bodyOf(state).largestMu);
   choice("ball", balls.map((ball) => ball.name), (name) => {
-    state.ball = { ...balls.find((ball) => ball.name === name) };
+    takeBall(state, balls.find((entry) => entry.name === name));
     choice("patchBy", ["patch_radius", "spin_deceleration"], (by) => (state.ball.patchBy = by));
     for (const key of ballKeys) {
       number(key, (value) => (state.ball[key] = value), (value) => key.startsWith("velocity") || value > 0);
     }
-    state.body = "ball";
   });
   state.window = numbers(query.get("window") ?? "", 2, ([U, V]) => U > 0 && V > 0) ?? state.window;
   if (query.has("orbits")) {

@@ -22,7 +22,8 @@ export function drawPanes(surface, scene, theme) {
   const highestV = Math.max(...extreme((motion) => motion.v[0]), Number.MIN_VALUE);
   const us = extreme((motion) => motion.u[0]);
   const [lowestU, highestU] = [Math.min(0, ...us), Math.max(0, ...us)];
-  const logs = scene.motions.map((motion) => motion.k.map(Math.log10));
+  // Without the last instant: at rest there is no k.
+  const logs = scene.motions.map((motion) => motion.k.slice(0, -1).map(Math.log10));
   const starts = logs.map((column) => column[0]).filter(Number.isFinite);
   const highestK = Math.ceil(Math.max(0, ...starts) + 0.1);
   const lowestK = Math.floor(Math.min(deepest, ...starts) - 0.1);

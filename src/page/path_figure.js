@@ -25,7 +25,7 @@ export function drawPath(surface, scene, theme) {
     surface.disc(x, y, 4.5, { fill: theme.card, stroke: theme.ink });
     surface.text(x, y - 9, "rolls", { colour: theme.soft, size, align: "center", halo: theme.card });
     if (scene.now) {
-      surface.disc(frame.px(scene.now.x), frame.py(scene.now.y), Math.max(5, scene.radius / metresPerPixel), { fill: theme.swatch(scene.index), stroke: theme.card });
+      surface.disc(frame.px(scene.now.x), frame.py(scene.now.y), Math.min(14, Math.max(5, scene.radius / metresPerPixel)), { fill: theme.swatch(scene.index), stroke: theme.card });
     }
   });
 }

@@ -30,7 +30,7 @@ export class CanvasSurface {
       context.moveTo(line[0], line[1]);
       for (let i = 2; i < line.length; i += 2) context.lineTo(line[i], line[i + 1]);
     }
-    Object.assign(context, { strokeStyle: colour, lineWidth: width, lineJoin: "round", lineCap: "butt" });
+    Object.assign(context, { strokeStyle: colour, lineWidth: width, lineJoin: "round", lineCap: "round" });
     context.setLineDash(dash);
     context.stroke();
     context.setLineDash([]);
@@ -106,7 +106,7 @@ export class SvgSurface {
   lines(lines, { colour, width = 1, dash = [] }) {
     const path = lines.map((line) => this.path(line)).join("");
     if (path === "") return;
-    this.parts.push(`<path d="${path}" fill="none" stroke="${colour}" stroke-width="${width}" stroke-linejoin="round"` +
+    this.parts.push(`<path d="${path}" fill="none" stroke="${colour}" stroke-width="${width}" stroke-linejoin="round" stroke-linecap="round"` +
       (dash.length ? ` stroke-dasharray="${dash.join(" ")}"` : "") + "/>");
   }
 

@@ -358,3 +358,23 @@ test("every control has a name", async () => {
   assert.deepEqual(nameless, []);
   await close();
 });
+
+test("bodies that end on a ray, or with k growing, are explored like balls", async () => {
+  const cases = [
+    ["#law=uniform&body=disc&window=1,1&orbits=0.8,0.7;0.3,0.9;0.9,0.1", ["--body", "disc", "--law", "uniform"], /k\* = 0\.653/],
+    ["#law=exact&body=1,6&mu=1&window=1,1&orbits=0.8,0.7;0.3,0.9", ["--body", "1,6", "--mu", 1, "--law", "exact"], /k → ∞/],
+  ];
+  for (const [fragment, words, limit] of cases) {
+    await open(fragment);
+    assert.match(await page.textContent("#terminal"), limit);
+    for (const view of ["uv", "patch", "log", "similarity", "blowup", "disc"]) {
+      await page.click(`#views [data-name=${view}]`);
+      assert.ok(await page.evaluate(() => globalThis.page.planeScene.family.orbits.length) > 10, view);
+    }
+    const times = await stopTimes();
+    (await state()).orbits.forEach(({ u, v }, i) => {
+      assertClose(times[i], programStop("--u0", u, "--v0", v, ...words), 1e-12, `${words.join(" ")}, u0 = ${u}, v0 = ${v}`);
+    });
+    await close();
+  }
+});
