@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "contensou/reduction/pade_curve.hpp"
+#include "contensou/reduction/pade_stop_time.hpp"
 #include "dilogarithm.hpp"
 
 namespace contensou::reduction {
@@ -43,6 +44,10 @@ double PadeLaw::small_mu_share(int order, double r, double ln_k) const {
 SimilaritySolution PadeLaw::closed_solution(double r) const {
   if (r > PadeCurve::largest_r) return {};
   return std::make_shared<PadeCurve>(r);
+}
+
+double PadeLaw::closed_stop_time(double mu, const State& start, const Inertia& inertia) const {
+  return pade_stop_time(mu, start, inertia);
 }
 
 }  // namespace contensou::reduction

@@ -25,7 +25,7 @@ struct RouteText {
 
 constexpr std::array route_texts{
     RouteText{Route::closed, "closed",
-              "closed form of the similarity solution, relative error below 1e-14; only where the law has one"},
+              "closed form of the similarity solution, relative error below 1e-15; only where the law has one"},
     RouteText{Route::quadrature, "quadrature",
               "quadrature of the separated equation, relative error below 1e-13; any law and body"},
     RouteText{Route::regularised, "regularised",
@@ -60,7 +60,7 @@ std::optional<Route> find_route(std::string_view name) {
 
 std::vector<Route> routes(const ReducedSystem& system) {
   std::vector<Route> found;
-  if (system.law().closed_solution(system.r())) found.push_back(Route::closed);
+  if (system.law().closed_stop_time() || system.law().closed_solution(system.r())) found.push_back(Route::closed);
   found.push_back(Route::quadrature);
   found.push_back(Route::regularised);
   found.push_back(Route::direct);
@@ -70,6 +70,9 @@ std::vector<Route> routes(const ReducedSystem& system) {
 StopTime stop_time(const ReducedSystem& system, State start, Route route) {
   switch (route) {
     case Route::closed: {
+      if (const auto& closed = system.law().closed_stop_time()) {
+        return {closed(system.mu(), start, system.inertia()), route, 1e-15, 0};
+      }
       const SimilaritySolution solution = system.law().closed_solution(system.r());
       if (!solution) {
         throw std::domain_error(

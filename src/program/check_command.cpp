@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "certificate_report.hpp"
 #include "commands.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/verification.hpp"
@@ -64,10 +65,15 @@ class CheckCommand final : public Command {
   void add_options(CLI::App& app) override {
     start_.add(app);
     law_.add(app);
+    certify_ = app.add_flag("--certify");
+    certify_->description(
+        "for one start: the stop time of the closed form, an enclosure of the true one by ball "
+        "arithmetic, and the error in units of the last place");
     output_.add(app);
   }
 
   ExitStatus run() override {
+    if (certify_->count() > 0) return certify();
     const std::vector<Law> laws = law_.given() ? std::vector{law_.read()} : reduction::paper_laws();
     std::vector<Verdict> verdicts;
     if (start_.given() || start_.body().given()) {
@@ -88,6 +94,16 @@ class CheckCommand final : public Command {
   }
 
  private:
+  ExitStatus certify() const {
+    if (!start_.given()) throw BadInput("--certify is for one start: give --mu, --u0 and --v0, or --ball");
+    const GivenStart start = start_.read();
+    const CertificateReport report = make_certificate_report({law_.read(), start.mu, start.inertia}, start.state);
+    output_.write_as(
+        output_.format(), [&](int) { return certificate_as_text(report); }, [&] { return certificate_as_csv(report); },
+        [&] { return certificate_as_json(report); });
+    return report.passed() ? ExitStatus::done : ExitStatus::check_failed;
+  }
+
   std::string as_text(const std::vector<Verdict>& verdicts, int digits) const {
     const int width = digits + 8;
     std::string text;
@@ -136,6 +152,7 @@ class CheckCommand final : public Command {
 
   StartOptions start_;
   LawOption law_;
+  CLI::Option* certify_ = nullptr;
   OutputOptions output_{Format::text};
 };
 

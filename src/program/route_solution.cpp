@@ -3,7 +3,8 @@
 namespace contensou::program {
 
 reduction::SimilaritySolution route_solution(const reduction::ReducedSystem& system, reduction::Route route) {
-  if (route == reduction::Route::closed) return system.law().closed_solution(system.r());
+  // A law may have its stop time in closed form where its orbits are quadratures.
+  if (route == reduction::Route::closed) return similarity_solution(system.law(), system.r());
   if (route == reduction::Route::quadrature) return reduction::quadrature_solution(system.law(), system.r());
   return {};
 }

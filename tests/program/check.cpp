@@ -63,3 +63,40 @@ TEST_CASE("rest cannot be checked", "[cli]") {
   CHECK(run.status == 2);
   CHECK(run.out.empty());
 }
+
+TEST_CASE("check --certify encloses the stop time of one start", "[cli][certify]") {
+  const Run first = run_program("check --certify --mu 0.1 --u0 1 --v0 1 --format json");
+  if (first.status == 4) {  // built without Arb: it says so and how to get it
+    CHECK(first.out.empty());
+    CHECK_THAT(first.err, Catch::Matchers::Contains("Arb") && Catch::Matchers::Contains("libflint-arb-dev"));
+    return;
+  }
+  for (const std::string start : {"--mu 0.1 --u0 1 --v0 1", "--ball pool", "--mu 1 --u0 -1e-9 --v0 3e7",
+                                  "--mu 0.3 --u0 0 --v0 1", "--mu 1e-10 --u0 1 --v0 1"}) {
+    const auto document = json_of("check --certify " + start + " --format json");
+    INFO(start << document.dump(1));
+    const double tau = document.at("tau_stop");
+    CHECK(document.at("schema") == 1);
+    REQUIRE(document.at("enclosure").size() == 2);
+    const auto lower = std::stold(document.at("enclosure")[0].get<std::string>());
+    const auto upper = std::stold(document.at("enclosure")[1].get<std::string>());
+    CHECK(lower <= upper);
+    CHECK(upper / lower - 1 < 1e-18L);
+    CHECK(static_cast<double>(lower) == Approx(tau).epsilon(1e-15));
+    CHECK(document.at("error_ulp") <= 4);
+    CHECK(document.at("tau_stop") == json_of("stop " + start + " --format json").at("tau_stop"));
+  }
+  const Run row = run_program("check --certify --mu 0.1 --u0 1 --v0 1 --format csv");
+  CHECK(row.out.starts_with("law,mu,u0,v0,tau_stop,lower,upper,error_ulp\npade,0.1,1,1,33.58"));
+  CHECK(count_rows(run_program("check --certify --mu 0.1 --u0 1 --v0 1").out, "ok") == 1);
+}
+
+TEST_CASE("check --certify says what it needs", "[cli][certify]") {
+  const Run without_start = run_program("check --certify");
+  CHECK(without_start.status == 2);
+  CHECK_THAT(without_start.err, Catch::Matchers::Contains("--mu"));
+  const Run exact = run_program("check --certify --mu 0.1 --u0 1 --v0 1 --law exact");
+  CHECK(exact.status == 2);
+  CHECK(exact.out.empty());
+  CHECK_THAT(exact.err, Catch::Matchers::Contains("exact") && Catch::Matchers::Contains("--law pade"));
+}

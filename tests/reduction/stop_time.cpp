@@ -68,7 +68,7 @@ TEST_CASE("stop time of other bodies, by every route", "[stop_time][table][route
       worst.add(row.result("tau_stop"), stop_time(system, start, route).tau, row.where());
     }
   }
-  CHECK_WITHIN_EPS(closed, 8);
+  CHECK_WITHIN_EPS(closed, 4);
   CHECK_WITHIN_EPS(quadrature, 8);
   CHECK_WITHIN_EPS(steppers, 3e-11 / eps);
 }
@@ -117,16 +117,18 @@ TEST_CASE("beyond mu^2 = 14/5 the Pade ball stops by every route", "[stop_time][
                       {2.7, 1e-50, 1e+50, 1.34639685153848291921e50L},
                       {3, -3, 0.25, 3.87878960294202717238L},
                       {3, 1, 0, 1.06666666666666666667L}};
-  WorstCase regularised("regularised"), direct("direct"), quadrature("quadrature");
+  WorstCase closed("closed"), regularised("regularised"), direct("direct"), quadrature("quadrature");
   for (const Row& row : rows) {
     const ReducedSystem system(PadeLaw{}, row.mu);
     const State start{row.u0, row.v0};
     const std::string where = fmt::format("mu = {}, u0 = {}, v0 = {}", row.mu, row.u0, row.v0);
     regularised.add(row.tau, stop_time(system, start, Route::regularised).tau, where);
     direct.add(row.tau, stop_time(system, start, Route::direct).tau, where);
-    CHECK(routes(system).front() == Route::quadrature);
+    CHECK(routes(system).front() == Route::closed);
+    closed.add(row.tau, stop_time(system, start, Route::closed).tau, where);
     quadrature.add(row.tau, stop_time(system, start, Route::quadrature).tau, where);
   }
+  CHECK_WITHIN_EPS(closed, 4);
   CHECK_WITHIN_EPS(regularised, 1e-10 / eps);
   CHECK_WITHIN_EPS(direct, 1e-10 / eps);
   CHECK_WITHIN_EPS(quadrature, 8);
@@ -258,7 +260,6 @@ TEST_CASE("a route that the system does not have is refused", "[stop_time][domai
   using Catch::Matchers::Contains;
   const ReducedSystem exact(HertzLaw{}, 0.1);
   CHECK_THROWS_WITH(stop_time(exact, {1, 1}, Route::closed), Contains("exact") && Contains("closed form"));
-  CHECK_THROWS_AS(stop_time(ReducedSystem(PadeLaw{}, 1.3), {1, 1}, Route::closed), std::domain_error);
   for (Route route : {Route::quadrature, Route::regularised, Route::direct}) {
     for (const State bad :
          {State{1, -1}, State{not_a_number, 1}, State{1, not_a_number}, State{infinity, 1}, State{1, infinity}}) {

@@ -13,6 +13,9 @@
 
 namespace contensou::reduction {
 
+struct State;
+struct Inertia;
+
 /// A friction law of a circular patch is any value that turns a Slip into a Resistance.
 ///
 /// What the library relies on, and checks only where it says so:
@@ -27,6 +30,7 @@ namespace contensou::reduction {
 ///   - `SimilaritySolution closed_solution(double r) const`, its closed form for that r, or an empty one;
 ///   - `double small_mu_share(int order, double r, double ln_k) const`, its m of README (R4) up to r^(order - 1), order
 ///   1 or 2, in closed form;
+///   - `double closed_stop_time(double mu, const State&, const Inertia&) const`, its stop time in closed form, any r;
 ///   - `double inner_log_rim(double r, double k) const`, ln w(k) for k <= 1 where only that part is elementary: a
 ///   check.
 template <class L>
@@ -69,6 +73,13 @@ class Law {
                     { law.closed_solution(1.0) } -> std::convertible_to<SimilaritySolution>;
                   }) {
       closed_solution_ = [law](double r) { return law.closed_solution(r); };
+    }
+    if constexpr (requires(const State& start, const Inertia& inertia) {
+                    { law.closed_stop_time(1.0, start, inertia) } -> std::convertible_to<double>;
+                  }) {
+      closed_stop_time_ = [law](double mu, const State& start, const Inertia& inertia) {
+        return law.closed_stop_time(mu, start, inertia);
+      };
     }
     if constexpr (requires {
                     { law.inner_log_rim(1.0, 1.0) } -> std::convertible_to<double>;
@@ -116,6 +127,11 @@ class Law {
   /// The law's own expansion of m for small r; empty if it has none.
   const std::function<double(int order, double r, double ln_k)>& small_mu_share() const { return small_mu_share_; }
 
+  /// The law's own stop time, for any mu, state and body that ReducedSystem takes; empty if it has none.
+  const std::function<double(double mu, const State&, const Inertia&)>& closed_stop_time() const {
+    return closed_stop_time_;
+  }
+
   /// The law's own ln w(k) for k <= 1, up to a constant; empty if it has none.
   const std::function<double(double r, double k)>& inner_log_rim() const { return inner_log_rim_; }
 
@@ -127,6 +143,7 @@ class Law {
   std::function<double(Slip)> moment_deficit_;
   std::function<SimilaritySolution(double)> closed_solution_;
   std::function<double(int, double, double)> small_mu_share_;
+  std::function<double(double, const State&, const Inertia&)> closed_stop_time_;
   std::function<double(double, double)> inner_log_rim_;
   std::optional<SlidingShare> sliding_share_;
   double pivoting_moment_ = std::numeric_limits<double>::quiet_NaN();

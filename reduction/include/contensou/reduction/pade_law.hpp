@@ -29,6 +29,9 @@ struct PadeLaw {
 
   /// PadeCurve, for the r it is accurate for; empty beyond.
   SimilaritySolution closed_solution(double r) const;
+
+  /// pade_stop_time, for every r.
+  double closed_stop_time(double mu, const State& start, const Inertia& inertia) const;
 };
 
 }  // namespace contensou::reduction

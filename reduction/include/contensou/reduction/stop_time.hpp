@@ -38,8 +38,8 @@ struct StopTime {
 /// @throws std::domain_error   if start is not a state (finite, v >= 0), or the system does not have the route
 /// @throws std::runtime_error  if a stepper did not reach the stop; the message is its outcome's sentence
 ///
-/// Accuracy  closed 1e-14; quadrature 1e-13 (Pade, exact); steppers 3e-11; for all finite starts, v0/(mu u0) may
-/// overflow.
+/// Accuracy  closed 1e-15 (by closed_curve 1e-14); quadrature 1e-13 (Pade, exact); steppers 3e-11; for all
+/// finite starts, v0/(mu u0) may overflow.
 StopTime stop_time(const ReducedSystem& system, State start, Route route);
 
 /// By the default route.

@@ -1,0 +1,131 @@
+#include "contensou/reduction/pade_sliding_share.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <boost/math/quadrature/exp_sinh.hpp>
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/pade_curve.hpp"
+#include "worst_case.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double ratios[] = {1e-300,   1e-20, 1e-6, 0.1, 5.0 / 7,  0.7200001, 1,   1.5, 1.99, 2 - 1e-9, 2,
+                             2 + 1e-9, 2.1,   2.5,  3,   10.0 / 3, 4,         4.8, 5,   5.2,  6.4,      100};
+
+/// (e^(s t) - 1)/s.
+double growth(double s, double t) { return s == 0 ? t : std::expm1(s * t) / s; }
+
+/// m as the mean of 5 (1 + z)/(2 + 5 z) over the sliding speed V that is still to come, in a time in which the orbit is
+/// elementary: dz = -z (a + b z) dt, dV = -(2 + 5 z) V dt. Where k -> infinity the same in 1/z, and z dt is the time.
+double by_quadrature(double r, double k) {
+  const double z0 = 3 * pi / 8 * k;
+  const double a = 2 - r;
+  const double b = 5 - r;
+  boost::math::quadrature::exp_sinh<double> rule;
+  return rule.integrate(
+      [&](double x) {
+        if (b > 0) {
+          const double t = x / (1 + z0);
+          const double speed = std::exp(-2 * t - 5 * std::log1p(b * z0 * growth(-a, t)) / b);
+          const double z = 1 / (std::exp(a * t) / z0 + b * growth(a, t));
+          return 5 * (1 + z) * speed / (1 + z0);
+        }
+        const double t = x / (1 + 1 / z0);
+        const double speed = std::exp(-5 * t - 2 * std::log1p(-a / z0 * growth(b, t)) / -a);
+        const double inverse_z = 1 / (std::exp(-b * t) * z0 - a * growth(-b, t));
+        return 5 * (1 + inverse_z) * speed / (1 + 1 / z0);
+      },
+      0.0, infinity, 1e-15);
+}
+
+}  // namespace
+
+TEST_CASE("the sliding share of any r runs from 5/2 to 1", "[pade_sliding_share][limit]") {
+  for (double r : ratios) {
+    CAPTURE(r);
+    CHECK(pade_sliding_share(r, 0) == 2.5);
+    CHECK(pade_sliding_share(r, infinity) == 1);
+    double before = 2.5;
+    for (double ln_k = -45; ln_k < 60; ln_k += 0.25) {
+      const double here = pade_sliding_share(r, std::exp(ln_k));
+      CAPTURE(ln_k);
+      CHECK(here <= before * (1 + 1e-15));
+      CHECK(here >= 1);
+      before = here;
+    }
+  }
+}
+
+TEST_CASE("on the ray the sliding share is 5/r", "[pade_sliding_share][limit]") {
+  for (double r : {2.001, 2.3, 2.5, 3.0, 3.5, 4.0, 4.9}) {
+    const double k = 8 * (r - 2) / (3 * pi * (5 - r));
+    CAPTURE(r);
+    CHECK(pade_sliding_share(r, k) == Approx(5 / r).epsilon(1e-15));
+    CHECK(pade_sliding_share(r, std::nextafter(k, 0)) == Approx(5 / r).epsilon(1e-15));
+    CHECK(pade_sliding_share(r, std::nextafter(k, 100)) == Approx(5 / r).epsilon(1e-15));
+  }
+}
+
+TEST_CASE("the sliding share of any r is the mean over the sliding that is left", "[pade_sliding_share][route]") {
+  WorstCase share("m");
+  for (double r : ratios) {
+    for (double k : {1e-3, 0.05, 0.3, 0.8, 1.5, 4.0, 30.0, 1e3}) {
+      share.add(by_quadrature(r, k), pade_sliding_share(r, k), fmt::format("r = {}, k = {}", r, k));
+    }
+  }
+  CHECK_WITHIN_EPS(share, 100);
+}
+
+TEST_CASE("the sliding share solves its equation through r = 2 and r = 5", "[pade_sliding_share][invariant]") {
+  // z (a + b z) dm/dz + (2 + 5 z) m = 5 (1 + z), the derivative a difference of four points in ln z.
+  double worst = 0;
+  for (double r = 0.05; r < 7; r += 0.05) {
+    for (double ln_z = -8; ln_z < 8; ln_z += 0.37) {
+      const double h = 0.004;
+      const auto m = [&](double x) { return pade_sliding_share(r, 8 / (3 * pi) * std::exp(x)); };
+      const double slope = (8 * (m(ln_z + h) - m(ln_z - h)) - (m(ln_z + 2 * h) - m(ln_z - 2 * h))) / (12 * h);
+      const double z = std::exp(ln_z);
+      const double residual = ((2 - r + (5 - r) * z) * slope + (2 + 5 * z) * m(ln_z)) / (5 * (1 + z)) - 1;
+      worst = std::max(worst, std::abs(residual));
+    }
+  }
+  CAPTURE(worst);
+  CHECK(worst < 2e-11);
+}
+
+TEST_CASE("the sliding share is the closed curve's while k -> 0", "[pade_sliding_share][route]") {
+  WorstCase share("m");
+  for (double r : {1e-10, 1e-3, 0.2, 0.5, 0.7, 0.8, 1.0}) {
+    const PadeCurve curve(r);
+    for (double k = 1e-6; k < 1e12; k *= 1.7) {
+      share.add(curve.sliding_share(std::log(k)), pade_sliding_share(r, k), fmt::format("r = {}, k = {}", r, k));
+    }
+  }
+  CHECK_WITHIN_EPS(share, 16);
+}
+
+TEST_CASE("the sliding share has no seam", "[pade_sliding_share][limit]") {
+  // Where one formula takes over from another: r = 0.72, 2, 5, and along k.
+  WorstCase seam("m on the two sides");
+  for (double r : {0.72, 2.0, 5.0}) {
+    for (double k = 1e-6; k < 1e8; k *= 1.1) {
+      seam.add(pade_sliding_share(r, k), pade_sliding_share(std::nextafter(r, 10), k),
+               fmt::format("r = {}, k = {}", r, k));
+    }
+  }
+  for (double r : ratios) {
+    for (double k = 1e-3; k < 1e3; k *= 1.001) {
+      seam.add(pade_sliding_share(r, k), pade_sliding_share(r, std::nextafter(k, 1e9)),
+               fmt::format("r = {}, k = {}", r, k));
+    }
+  }
+  CHECK_WITHIN_EPS(seam, 6);
+}
