@@ -215,4 +215,29 @@ Certificate certify_stop_time(const ReducedSystem& system, State start, double t
                                        decimals(truth, true)));
 }
 
+ResistanceError certify_hertz_law(double k, Resistance computed) {
+  if (!(k > 0) || !std::isfinite(k)) {
+    throw std::domain_error(fmt::format("certify_hertz_law: k must be positive and finite, got {}", k));
+  }
+  Ball::precision = 160;
+  const Ball s = Ball::exact_product(k, k);
+  if (k <= 1) {
+    const Ball force = Ball::pi() * 3 * k * (Ball(4) - s) / 32;
+    const Ball moment = Ball::pi() * 3 * (Ball(8) - Ball(8) * s + Ball(3) * s * s) / 128;
+    return {error_in_ulps(force, computed.force), error_in_ulps(moment, computed.moment)};
+  }
+  const auto gauss = [&](double a, double c) {
+    Ball value;
+    const Ball x = Ball(1) / s;
+    arb_hypgeom_2f1(value.get(), Ball(a).get(), Ball(0.5).get(), Ball(c).get(), x.get(), 0, Ball::precision);
+    return value;
+  };
+  const Ball force = gauss(-0.5, 2.5);
+  const Ball moment = gauss(0.5, 3.5) / (Ball(5) * k);
+  if (force.accuracy() < wanted_bits || moment.accuracy() < wanted_bits) {
+    throw std::runtime_error(fmt::format("certify_hertz_law: no narrow enclosure at k = {}", k));
+  }
+  return {error_in_ulps(force, computed.force), error_in_ulps(moment, computed.moment)};
+}
+
 }  // namespace contensou::reduction

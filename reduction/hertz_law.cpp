@@ -25,13 +25,14 @@ using std::numbers::pi;
 constexpr double series_from = 1.25;
 constexpr std::size_t series_terms = 64;
 
-/// Taylor coefficients of 2F1(a, b; c; x).
-constexpr std::array<double, series_terms> gauss_coefficients(double a, double b, double c) {
+/// Taylor coefficients of 2F1(a, b; c; x), each rounded once.
+constexpr std::array<double, series_terms> gauss_coefficients(long double a, long double b, long double c) {
   std::array<double, series_terms> coefficients{};
-  coefficients[0] = 1;
-  for (std::size_t n = 0; n + 1 < series_terms; ++n) {
-    const double i = static_cast<double>(n);
-    coefficients[n + 1] = coefficients[n] * ((a + i) * (b + i)) / ((c + i) * (1 + i));
+  long double coefficient = 1;
+  for (std::size_t n = 0; n < series_terms; ++n) {
+    coefficients[n] = static_cast<double>(coefficient);
+    const auto i = static_cast<long double>(n);
+    coefficient *= (a + i) * (b + i) / ((c + i) * (1 + i));
   }
   return coefficients;
 }
@@ -41,12 +42,13 @@ constexpr auto moment_series = gauss_coefficients(0.5, 0.5, 3.5);
 
 Resistance fast_sliding(double inverse_k) {
   const double x = inverse_k * inverse_k;
+  std::size_t terms = 1;
+  for (double power = x; power > 1e-18 && terms < series_terms; power *= x) ++terms;
   double force = 0;
   double moment = 0;
-  double power = 1;
-  for (std::size_t n = 0; n < series_terms && power > 1e-18; ++n, power *= x) {
-    force += force_series[n] * power;
-    moment += moment_series[n] * power;
+  for (std::size_t n = terms; n-- > 0;) {  // from the small end
+    force = force * x + force_series[n];
+    moment = moment * x + moment_series[n];
   }
   return {force, moment * inverse_k / 5};
 }

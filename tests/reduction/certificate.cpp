@@ -141,6 +141,26 @@ TEST_CASE("other bodies against their enclosures, also at r = 2, r = 5 and on th
   bodies.judge();
 }
 
+TEST_CASE("the exact law at random k against its enclosure", "[certify]") {
+  Random random;
+  double worst_force = 0, worst_moment = 0, sum_force = 0, sum_moment = 0;
+  for (int i = 0; i < points; ++i) {
+    // Half of them around k = 1, where the formulas change over.
+    const double k = i % 2 == 0 ? random.log_uniform(1e-10, 1e10) : random.log_uniform(0.5, 2);
+    const auto [force, moment] = certify_hertz_law(k, HertzLaw{}({k, 1}));
+    worst_force = std::max(worst_force, force);
+    worst_moment = std::max(worst_moment, moment);
+    sum_force += force;
+    sum_moment += moment;
+  }
+  WARN(fmt::format("exact law: {} ratios, Phi worst {:.2f} ulp, mean {:.2f} ulp; Psi worst {:.2f} ulp, mean {:.2f} ulp",
+                   points, worst_force, sum_force / points, worst_moment, sum_moment / points));
+  CHECK(worst_force <= promised_ulp);
+  CHECK(worst_moment <= promised_ulp);
+  CHECK(certify_hertz_law(2, {HertzLaw{}({2, 1}).force * (1 + 1e-12), 1}).force_ulp > 1000);
+  CHECK_THROWS_AS(certify_hertz_law(0, {0, 1}), std::domain_error);
+}
+
 TEST_CASE("the enclosures hold the table", "[certify][table]") {
   for (const ReferenceRow& row : reference_table("stop_pade")) {
     const ReducedSystem system(PadeLaw{}, row.input("mu"));

@@ -22,4 +22,15 @@ struct Certificate {
 /// @throws std::domain_error  if start is not a state (finite, v >= 0), or the law is not pade
 Certificate certify_stop_time(const ReducedSystem& system, State start, double tau);
 
+/// What a computed Resistance misses the exact Hertz law by, in units of the last place.
+struct ResistanceError {
+  double force_ulp;
+  double moment_ulp;
+};
+
+/// Judges a value of the exact law at sliding k over pivoting 1, k > 0 and finite: Zh98 (1.3) up to k = 1, beyond
+///   Phi = 2F1(-1/2, 1/2; 5/2; 1/k^2),  Psi = 2F1(1/2, 1/2; 7/2; 1/k^2)/(5 k).
+/// @throws std::domain_error  for any other k
+ResistanceError certify_hertz_law(double k, Resistance computed);
+
 }  // namespace contensou::reduction
