@@ -97,7 +97,7 @@ class CheckCommand final : public Command {
   ExitStatus certify() const {
     if (!start_.given()) throw BadInput("--certify is for one start: give --mu, --u0 and --v0, or --ball");
     const GivenStart start = start_.read();
-    const CertificateReport report = make_certificate_report({law_.read(), start.body.mu, start.body.inertia}, start.state);
+    const CertificateReport report = make_certificate_report(start.body.system(law_.read()), start.state);
     output_.write_as(
         output_.format(), [&](int) { return certificate_as_text(report); }, [&] { return certificate_as_csv(report); },
         [&] { return certificate_as_json(report); });
