@@ -31,7 +31,8 @@ double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled
 /// a/b, and 0 for a = 0 where b has underflowed.
 double quotient(double a, double b) { return a == 0 ? 0 : a / b; }
 
-/// The root of an increasing function in [low, high] by Newton's method, kept inside by bisection.
+/// The root of an increasing function of xi in [low, high] by Newton's method, kept inside by bisection. The function
+/// changes by a factor over a unit of xi, and so a step that small leaves an error of its square: none.
 template <class Function>
 double increasing_root(Function value_and_slope, double guess, double low, double high) {
   double x = std::clamp(guess, low, high);
@@ -39,11 +40,13 @@ double increasing_root(Function value_and_slope, double guess, double low, doubl
     const auto [value, slope] = value_and_slope(x);
     if (value == 0) return x;
     (value > 0 ? high : low) = x;
+    constexpr double small_step = 1e-9;
+    const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(x);
     double next = x - value / slope;
-    if (!(next > low && next < high)) next = low + (high - low) / 2;
-    if (std::abs(next - x) <= 2 * std::numeric_limits<double>::epsilon() * std::abs(x) || next == low || next == high) {
-      return next;
-    }
+    const bool inside = next > low && next < high;
+    if (inside && std::abs(next - x) <= small_step) return next;
+    if (!inside) next = low + (high - low) / 2;
+    if (std::abs(next - x) <= rounding || next == low || next == high) return next;
     x = next;
   }
   return x;
