@@ -12,9 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
-#include <iterator>
 #include <memory>
 #include <sstream>
 #include <tuple>
@@ -254,37 +252,26 @@ std::string script(const Figure& figure, PictureFormat format) {
   return read_all(file.get());
 }
 
-/// A folder of its own, removed with what is in it.
-class ScratchFolder {
+/// A file without a name in the temporary folder: whatever ends the program, nothing is left of it.
+class ScratchFile {
  public:
-  ScratchFolder() {
+  ScratchFile() {
     std::error_code error;
     const auto parent = std::filesystem::temp_directory_path(error);
     if (error) {
       throw GnuplotError(fmt::format("no temporary folder for gnuplot: {}; set TMPDIR to one", error.message()));
     }
     std::string pattern = (parent / "contensou-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) {
-      throw GnuplotError(fmt::format("cannot make a temporary folder {}: {}", pattern, std::strerror(errno)));
-    }
-    path_ = pattern;
+    const int descriptor = mkstemp(pattern.data());
+    if (descriptor >= 0) unlink(pattern.c_str());
+    file_.reset(descriptor >= 0 ? fdopen(descriptor, "w+b") : nullptr);
+    if (!file_) throw GnuplotError(fmt::format("cannot make a temporary file {}: {}", pattern, std::strerror(errno)));
   }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
+  std::FILE* get() const { return file_.get(); }
 
  private:
-  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
 };
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::string first_lines(const std::string& text, int count) {
   std::istringstream stream(text);
@@ -316,11 +303,11 @@ bool is_picture(std::string_view bytes, PictureFormat format) {
   return true;
 }
 
-int run(const boost::filesystem::path& gnuplot, const std::filesystem::path& script,
-        const std::filesystem::path& picture, const std::filesystem::path& messages) {
+int run(const boost::filesystem::path& gnuplot, const ScratchFile& script, const ScratchFile& picture,
+        const ScratchFile& messages) {
   try {
-    return process::system(gnuplot, script.string(), process::std_out > picture.string(),
-                           process::std_err > messages.string());
+    return process::system(gnuplot, process::std_in<script.get(), process::std_out> picture.get(),
+                           process::std_err > messages.get());
   } catch (const process::process_error& error) {
     throw GnuplotError(fmt::format("gnuplot ({}) cannot be started: {}", gnuplot.string(), error.what()));
   }
@@ -355,22 +342,20 @@ std::string render(const Figure& figure, PictureFormat format) {
         "gnuplot was not found on PATH; install it (Debian: gnuplot-nox), or write .gp, .csv or .json, which need "
         "none");
   }
-  const ScratchFolder folder;
-  const auto script_path = folder / "figure.gp";
-  const auto picture_path = folder / "picture";
-  const auto message_path = folder / "messages";
-  {
-    std::ofstream stream(script_path, std::ios::binary);
-    stream << script(figure, format);
-    if (!stream.flush()) throw GnuplotError(fmt::format("cannot write the gnuplot script {}", script_path.string()));
+  const ScratchFile commands, drawing, messages_file;
+  const std::string text = script(figure, format);
+  const bool written = std::fwrite(text.data(), 1, text.size(), commands.get()) == text.size();
+  if (!written || std::fflush(commands.get()) != 0) {
+    throw GnuplotError(fmt::format("cannot write the gnuplot script: {}", std::strerror(errno)));
   }
+  std::rewind(commands.get());
 
-  const int status = run(gnuplot, script_path, picture_path, message_path);
-  const std::string messages = first_lines(read_file(message_path), 4);
+  const int status = run(gnuplot, commands, drawing, messages_file);
+  const std::string messages = first_lines(read_all(messages_file.get()), 4);
   if (status != 0) {
     throw GnuplotError(fmt::format("gnuplot ({}) ended with status {}{}", gnuplot.string(), status, messages));
   }
-  std::string picture = read_file(picture_path);
+  std::string picture = read_all(drawing.get());
   if (!is_picture(picture, format)) {
     throw GnuplotError(fmt::format("gnuplot ({}) drew nothing that is {}{}", gnuplot.string(), name(format), messages));
   }

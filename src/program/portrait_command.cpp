@@ -35,7 +35,7 @@ class PortraitCommand final : public Command {
   void add_options(CLI::App& app) override {
     start_.add(app);
     law_.add(app);
-    route_.add(app);
+    route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
     window_.add(app, "--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)");
     facts_ = app.add_flag("--facts");
     facts_->description(

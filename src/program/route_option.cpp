@@ -19,19 +19,22 @@ std::vector<std::string> names_of(const std::vector<Route>& routes) {
   return names;
 }
 
-const std::vector<Route> every_route{Route::closed, Route::quadrature, Route::regularised, Route::direct};
-
 }  // namespace
 
-void RouteOption::add(CLI::App& app) {
+const std::vector<Route>& RouteOption::every_route() {
+  static const std::vector<Route> routes{Route::closed, Route::quadrature, Route::regularised, Route::direct};
+  return routes;
+}
+
+void RouteOption::add(CLI::App& app, const std::vector<Route>& offered) {
   route_.add(app, "--route", "ROUTE",
-             fmt::format("{} (default: the first that the law has)", fmt::join(names_of(every_route), ", ")));
+             fmt::format("{} (default: the first that the law has)", fmt::join(names_of(offered), ", ")));
 }
 
 std::optional<Route> RouteOption::named() const {
   if (!route_.given()) return std::nullopt;
   if (const auto route = reduction::find_route(route_.text())) return route;
-  const auto names = names_of(every_route);
+  const auto names = names_of(every_route());
   route_.reject(
       fmt::format("no such route{}; routes: {}", si::suggestion(route_.text(), names), fmt::join(names, ", ")));
 }

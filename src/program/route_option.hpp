@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "argument.hpp"
 #include "contensou/reduction/stop_time.hpp"
@@ -10,7 +11,9 @@ namespace contensou::program {
 /// --route.
 class RouteOption {
  public:
-  void add(CLI::App& app);
+  /// @param offered  what the help names
+  void add(CLI::App& app, const std::vector<reduction::Route>& offered = every_route());
+  static const std::vector<reduction::Route>& every_route();
 
   /// The route that was named; nothing if none was.
   /// @throws BadInput  for an unknown name

@@ -1,5 +1,7 @@
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
@@ -111,4 +113,17 @@ TEST_CASE("Ctrl-C in a sweep leaves no half file and says so", "[cli]") {
     CHECK(program.err() ==
           "contensou: interrupted: " + scratch.file("map." + format) + " was not written, nothing is left of it\n");
   }
+}
+
+TEST_CASE("nothing is left in the temporary folder when the program is killed while gnuplot runs", "[cli]") {
+  const TemporaryDirectory scratch;
+  for (const char* folder : {"bin", "tmp"}) std::filesystem::create_directory(scratch.file(folder));
+  const std::string gnuplot = scratch.file("bin/gnuplot");
+  write_file(gnuplot, "#!/bin/sh\ntouch '" + scratch.file("ran") + "'\nkill -KILL $PPID\n");
+  std::filesystem::permissions(gnuplot, std::filesystem::perms::owner_all);
+  const std::string command = "PATH='" + scratch.file("bin") + "':\"$PATH\" TMPDIR='" + scratch.file("tmp") + "' '" +
+                              CONTENSOU_PROGRAM + "' portrait --mu 0.3 -o '" + scratch.file("picture.svg") + "'";
+  CHECK(std::system(command.c_str()) != 0);
+  CHECK(scratch.names() == std::vector<std::string>{"bin", "ran", "tmp"});
+  CHECK(std::filesystem::is_empty(scratch.file("tmp")));
 }
