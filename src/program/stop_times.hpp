@@ -24,7 +24,7 @@ class PatchStopTimes {
  private:
   reduction::ReducedSystem system_;
   reduction::Route route_;
-  reduction::SimilaritySolution solution_;  ///< empty for the steppers
+  reduction::SimilaritySolution solution_;  ///< empty where each start is by itself
 };
 
 /// Stop times of many starts of one body under one law. What depends on mu alone is computed once for each mu, and kept

@@ -54,8 +54,8 @@ class MapOfPatch {
   using By = std::variant<PatchStopTimes, reduction::StopTimeProfile>;
 
   static By choose(const reduction::ReducedSystem& system, long starts) {
-    // Measured: a profile takes as long to make as so many calls of a closed form, or of a curve by quadrature.
-    const long profile_pays = system.law().closed_solution(system.r()) ? 1 << 11 : 1 << 15;
+    // A profile takes about as long to make as so many calls of a closed form, or of a curve by quadrature.
+    const long profile_pays = system.law().closed_stop_time() ? 1 << 13 : 1 << 15;
     if (starts < profile_pays) return PatchStopTimes(system, RouteOption());
     return reduction::StopTimeProfile(system);
   }
