@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <iomanip>
 #include <memory>
 #include <sstream>
@@ -23,6 +25,9 @@
 #include <gnuplot-iostream.h>
 #include <boost/process.hpp>
 
+#include "contensou/portraits/layout.hpp"
+#include "contensou/portraits/pgfplots.hpp"
+
 namespace contensou::portraits {
 
 namespace process = boost::process;
@@ -30,36 +35,47 @@ namespace process = boost::process;
 namespace {
 
 constexpr std::array formats{
-    std::pair{std::string_view("svg"), PictureFormat::svg},
-    std::pair{std::string_view("pdf"), PictureFormat::pdf},
-    std::pair{std::string_view("png"), PictureFormat::png},
-    std::pair{std::string_view("gp"), PictureFormat::gp},
+    std::pair{std::string_view("svg"), PictureFormat::svg}, std::pair{std::string_view("pdf"), PictureFormat::pdf},
+    std::pair{std::string_view("png"), PictureFormat::png}, std::pair{std::string_view("eps"), PictureFormat::eps},
+    std::pair{std::string_view("gp"), PictureFormat::gp},   std::pair{std::string_view("tex"), PictureFormat::tex},
 };
 
-constexpr double points_per_mm = 72 / 25.4;
+/// The size of letters on paper, and the width of a line of width 1, mm.
+constexpr double letter_mm = 2.7;
+constexpr double line_mm = 0.2;
+/// The length of an arrow's head, mm.
+constexpr double head_mm = 2.0;
 
 std::string terminal(const Figure& figure, PictureFormat format) {
   const double width = figure.width_mm;
   const double height = figure.height_mm;
+  const double letter = letter_mm * figure.theme.letters;
+  const double line = line_mm * figure.theme.line;
+  // gnuplot's cairo terminals count a point as 1/96 inch in letters and as half a point in lines.
+  constexpr double letters_per_mm = 72 / 25.4 * 0.75;
+  constexpr double lines_per_mm = 72 / 25.4 / 0.5;
+  const std::string common = fmt::format("enhanced rounded background '#{:06x}'", figure.theme.ground.rgb);
   switch (format) {
     case PictureFormat::pdf:
-      return fmt::format(
-          "set terminal pdfcairo size {}cm,{}cm enhanced font 'sans,9' linewidth 0.75 background '#ffffff'", width / 10,
-          height / 10);
+    case PictureFormat::eps:
+      return fmt::format("set terminal {}cairo size {}cm,{}cm {} font 'sans,{:.4g}' fontscale 1 linewidth {:.4g}",
+                         format == PictureFormat::pdf ? "pdf" : "eps", width / 10, height / 10, common,
+                         letter * letters_per_mm, line * lines_per_mm);
     case PictureFormat::png: {
       constexpr double pixels_per_mm = 200 / 25.4;
-      return fmt::format(
-          "set terminal pngcairo size {:.0f},{:.0f} enhanced font 'sans,9' fontscale 2.1 linewidth 2 background "
-          "'#ffffff'",
-          width * pixels_per_mm, height * pixels_per_mm);
+      return fmt::format("set terminal pngcairo size {:.0f},{:.0f} {} font 'sans,{:.4g}' fontscale 1 linewidth {:.4g}",
+                         width * pixels_per_mm, height * pixels_per_mm, common, letter * pixels_per_mm * 0.75,
+                         line * pixels_per_mm);
     }
     case PictureFormat::svg:
     case PictureFormat::gp:
+    case PictureFormat::tex:
       break;
   }
   constexpr double pixels_per_mm = 5;
-  return fmt::format("set terminal svg size {:.0f},{:.0f} dynamic enhanced font 'sans-serif,13' background '#ffffff'",
-                     width * pixels_per_mm, height * pixels_per_mm);
+  return fmt::format("set terminal svg size {:.0f},{:.0f} dynamic {} font 'sans-serif,{:.4g}' linewidth {:.4g}",
+                     width * pixels_per_mm, height * pixels_per_mm, common, letter * pixels_per_mm,
+                     line * pixels_per_mm);
 }
 
 /// Text as a gnuplot string: between single quotes nothing is run and only the quote itself is special. Control
@@ -76,41 +92,45 @@ std::string quoted(const std::string& text) {
 std::string colour(Colour colour) { return fmt::format("rgb '#{:06x}'", colour.rgb); }
 
 std::string line_style(const Stroke& stroke) {
-  return fmt::format("lc {} lw {}{}", colour(stroke.colour), stroke.width, stroke.dashed ? " dt (9,5)" : " dt 1");
+  return fmt::format("lc {} lw {}{}", colour(stroke.colour), stroke.width, stroke.dashed ? " dt (4,8)" : " dt 1");
 }
 
 using Row = std::pair<double, double>;
 using Vector = std::tuple<double, double, double, double>;
 
-std::vector<std::vector<Row>> rows(const std::vector<Polyline>& lines) {
+std::vector<Row> rows(const Polyline& line) {
+  std::vector<Row> result;
+  for (const Point& point : line) result.emplace_back(point.x, point.y);
+  return result;
+}
+
+/// What of the lines is to be seen.
+std::vector<std::vector<Row>> rows(const Panel& panel, const std::vector<Polyline>& lines) {
   std::vector<std::vector<Row>> result;
   for (const Polyline& line : lines) {
-    auto& block = result.emplace_back();
-    for (const Point& point : line) block.emplace_back(point.x, point.y);
+    for (const Polyline& part : clipped(panel, line)) result.push_back(rows(thinned(panel, part)));
   }
   return result;
 }
 
-/// Vectors so short that only their heads show; of one length on paper whatever the axes.
-std::vector<Vector> heads(const Panel& panel, const std::vector<Arrow>& arrows) {
-  constexpr double length = 0.004;
-  const double x_range = panel.x.high - panel.x.low;
-  const double y_range = panel.y.high - panel.y.low;
+std::vector<Vector> heads(const Panel& panel, const Box& box, const std::vector<Arrow>& arrows) {
   std::vector<Vector> result;
   for (const Arrow& arrow : arrows) {
-    const double size = std::hypot(arrow.direction.x / x_range, arrow.direction.y / y_range);
-    const double dx = arrow.direction.x / size * length;
-    const double dy = arrow.direction.y / size * length;
-    result.emplace_back(arrow.at.x - dx, arrow.at.y - dy, dx, dy);
+    const std::optional<Arrow> head = short_arrow(panel, box, arrow);
+    if (head) result.emplace_back(head->at.x, head->at.y, arrow.at.x - head->at.x, arrow.at.y - head->at.y);
   }
   return result;
 }
 
-void write_axis(Gnuplot& gp, const char* which, const Axis& axis) {
-  gp << "set " << which << "label " << quoted(axis.name) << "\n";
+void write_axis(Gnuplot& gp, const char* which, const Axis& axis, bool shown) {
+  gp << "set " << which << "label " << quoted(shown ? axis.name : "") << "\n";
   gp << "set " << which << "range [" << axis.low << ":" << axis.high << "]\n";
   gp << (axis.logarithmic ? "set logscale " : "unset logscale ") << which << "\n";
-  gp << "set " << which << "tics nomirror out scale 0.6\n";
+  if (!shown) {
+    gp << "unset " << which << "tics\n";
+    return;
+  }
+  gp << "set " << which << "tics autofreq nomirror out scale 0.6\n";
   gp << "set format " << which << (axis.logarithmic ? " '10^{%T}'" : " '%g'") << "\n";
   if (axis.ticks.empty()) return;
   gp << "set " << which << "tics (";
@@ -138,18 +158,22 @@ constexpr const char* palette =
     "1 '#2f4788')\n";
 
 /// The plot of a colour map: on axes of its own, which are linear. Its data follow by send_colours.
-std::string write_colours(Gnuplot& gp, const ColourMap& colours, double right, double bar_left) {
+std::string write_colours(Gnuplot& gp, const Figure& figure, const ColourMap& colours, const Box& box) {
+  const auto across = [&](double mm) { return mm / figure.width_mm; };
+  const auto up = [&](double mm) { return mm / figure.height_mm; };
+  constexpr double gap_mm = 3, bar_mm = 4;
   const double low = colours.scale.low;
   const double high = colours.scale.high > low ? colours.scale.high : low + 1;
   gp << palette;
-  write_axis(gp, "cb", {"", low, high, colours.scale.logarithmic, colours.scale.ticks});
-  gp << "set colorbox vertical user origin screen " << bar_left << ",0.19 size screen " << (right - bar_left) * 0.25
-     << ",0.65 noborder\n";
-  gp << "set label " << quoted(colours.scale.name) << " at screen " << bar_left + (right - bar_left) * 0.125
-     << ",0.87 center\n";
+  write_axis(gp, "cb", {"", low, high, colours.scale.logarithmic, colours.scale.ticks}, true);
+  const double left = box.left + box.width + gap_mm;
+  gp << "set colorbox vertical user origin screen " << across(left) << "," << up(box.bottom) << " size screen "
+     << across(bar_mm) << "," << up(box.height) << " noborder\n";
+  gp << "set label " << quoted(colours.scale.name) << " at screen " << across(left + bar_mm / 2) << ","
+     << up(box.bottom + box.height + gap_mm) << " center\n";
   gp << "set x2range [0:" << colours.columns << "]\nset y2range [0:" << colours.values.size() / colours.columns
      << "]\n";
-  return "'-' matrix using ($1+0.5):($2+0.5):3 axes x2y2 with image notitle";
+  return "matrix using ($1+0.5):($2+0.5):3 axes x2y2 with image";
 }
 
 void send_colours(Gnuplot& gp, const ColourMap& colours) {
@@ -159,59 +183,132 @@ void send_colours(Gnuplot& gp, const ColourMap& colours) {
   gp << "e\n";
 }
 
-/// Writes one panel into the strip [left, right] of the width.
-void write_panel(Gnuplot& gp, const Panel& panel, double left, double right, double bar_room) {
-  const double bar_left = right - bar_room;
-  gp << "set lmargin at screen " << left << "\nset rmargin at screen "
-     << (panel.colours ? bar_left - 0.15 * bar_room : right) << "\n";
-  gp << "set title " << quoted(panel.title) << " offset 0,-0.4\n";
-  write_axis(gp, "x", panel.x);
-  write_axis(gp, "y", panel.y);
-  if (panel.bare) gp << "unset border\nunset xtics\nunset ytics\nunset xlabel\nunset ylabel\n";
+/// A number for each shape, and whether it is first painted out with the ground.
+struct PointType {
+  int type;
+  int ground;  ///< 0: none
+};
+
+PointType point_type(Marks::Shape shape) {
+  switch (shape) {
+    case Marks::Shape::circle:
+      return {6, 7};
+    case Marks::Shape::square:
+      return {4, 5};
+    case Marks::Shape::dot:
+      break;
+  }
+  return {7, 0};
+}
+
+std::string mark_style(const Marks& marks) {
+  return fmt::format("with points pt {} ps {} lw 1.6 lc {}", point_type(marks.shape).type, marks.size,
+                     colour(marks.colour));
+}
+
+void write_panel(Gnuplot& gp, const Figure& figure, const Panel& panel, const Box& box, double name) {
+  const auto across = [&](double mm) { return mm / figure.width_mm; };
+  const auto up = [&](double mm) { return mm / figure.height_mm; };
+  gp << "set lmargin at screen " << across(box.left) << "\nset rmargin at screen " << across(box.left + box.width)
+     << "\nset bmargin at screen " << up(box.bottom) << "\nset tmargin at screen " << up(box.bottom + box.height)
+     << "\n";
+  gp << (!panel.bare ? "set border 3" : "set border 0") << " lw 0.8 lc " << colour(figure.theme.ink) << "\n";
+  write_axis(gp, "x", panel.x, !panel.bare);
+  write_axis(gp, "y", panel.y, !panel.bare);
   gp << "unset label\n";
+  gp << "set label " << quoted(panel.title) << " at screen " << across(box.left + box.width / 2) << "," << up(name)
+     << " center tc " << colour(figure.theme.ink) << "\n";
   for (const Label& label : panel.labels) {
     gp << "set label " << quoted("{/*0.85 " + label.text + "}") << " at " << label.at.x << "," << label.at.y << " "
        << alignment(label.align) << " front boxed tc " << colour(label.colour) << "\n";
   }
 
+  // Each layer with data is a plot of '-' and, after the whole command, that data.
   std::string separator = "plot ";
-  const auto entry = [&](const std::string& text) { gp << std::exchange(separator, ", \\\n     ") << text; };
-  if (panel.colours) entry(write_colours(gp, *panel.colours, right, bar_left));
+  std::vector<std::function<void()>> data;
+  const auto entry = [&](const std::string& style, std::function<void()> send) {
+    gp << std::exchange(separator, ", \\\n     ") << "'-' " << style << " notitle";
+    data.push_back(std::move(send));
+  };
+  if (panel.colours) {
+    entry(write_colours(gp, figure, *panel.colours, box), [&gp, &panel] { send_colours(gp, *panel.colours); });
+  }
+  for (const Region& region : panel.regions) {
+    entry(fmt::format("with filledcurves closed lc {}", colour(region.colour)),
+          [&gp, &region] { gp.send1d(rows(region.border)); });
+  }
   for (const Lines& layer : panel.lines) {
-    entry(fmt::format("'-' with lines {} notitle", line_style(layer.stroke)));
+    auto blocks = rows(panel, layer.lines);
+    if (blocks.empty()) continue;
+    entry("with lines " + line_style(layer.stroke), [&gp, blocks = std::move(blocks)] { gp.send2d(blocks); });
   }
   for (const Arrows& layer : panel.arrows) {
-    entry(fmt::format("'-' with vectors head filled size screen 0.011,18,75 fixed lc {} lw 0.5 notitle",
-                      colour(layer.colour)));
+    auto vectors = heads(panel, box, layer.arrows);
+    if (vectors.empty()) continue;
+    entry(fmt::format("with vectors head filled size screen {:.4g},18,75 fixed lc {} lw 0.5",
+                      across(head_mm * figure.theme.letters), colour(layer.colour)),
+          [&gp, vectors = std::move(vectors)] { gp.send1d(vectors); });
   }
   for (const Marks& layer : panel.marks) {
-    entry(fmt::format("'-' with points pt 7 ps {} lc {} notitle", layer.size, colour(layer.colour)));
+    if (layer.points.empty()) continue;
+    const auto send = [&gp, &layer] { gp.send1d(rows(layer.points)); };
+    if (const int ground = point_type(layer.shape).ground) {
+      entry(fmt::format("with points pt {} ps {} lc {}", ground, layer.size, colour(figure.theme.ground)), send);
+    }
+    entry(mark_style(layer), send);
   }
+  if (data.empty()) gp << separator << "NaN notitle";
   gp << "\n";
-  if (panel.colours) send_colours(gp, *panel.colours);
-  for (const Lines& layer : panel.lines) gp.send2d(rows(layer.lines));
-  for (const Arrows& layer : panel.arrows) gp.send1d(heads(panel, layer.arrows));
-  for (const Marks& layer : panel.marks) gp.send1d(rows({layer.points}).front());
+  for (const auto& send : data) send();
 }
 
-/// Title, subtitle and legend, in a plot of its own that covers the page and shows nothing else.
-void write_heading(Gnuplot& gp, const Figure& figure) {
-  gp << "set lmargin at screen 0.02\nset rmargin at screen 0.98\nunset border\nunset tics\n";
-  gp << "set key at screen 0.5,0.02 center bottom horizontal maxrows 1 samplen 2.6 width 2\n";
-  gp << "set label " << quoted(figure.title) << " at screen 0.5,0.962 center font ',15'\n";
-  gp << "set label " << quoted(figure.subtitle) << " at screen 0.5,0.916 center tc rgb '#555555'\n";
+void write_colour_bar(Gnuplot& gp, const Figure& figure, const Layout& layout) {
+  const ColourBar& bar = *figure.colour_bar;
+  const Box& box = layout.colour_bar;
+  const auto across = [&](double mm) { return mm / figure.width_mm; };
+  const auto up = [&](double mm) { return mm / figure.height_mm; };
+  const double step = box.height / static_cast<double>(bar.colours.size());
+  constexpr double overlap = 0.1;  // so that there is no seam between them
+  for (std::size_t i = 0; i < bar.colours.size(); ++i) {
+    const double bottom = box.bottom + step * static_cast<double>(i);
+    gp << "set object rectangle from screen " << across(box.left) << "," << up(bottom) << " to screen "
+       << across(box.left + box.width) << "," << up(std::min(bottom + step + overlap, box.bottom + box.height))
+       << " fc " << colour(bar.colours[i]) << " fs solid noborder\n";
+  }
+  for (const Axis::Tick& tick : bar.ticks) {
+    gp << "set label " << quoted("{/*0.85 " + tick.text + "}") << " at screen "
+       << across(box.left + box.width + 0.5 * layout.letter) << "," << up(box.bottom + tick.at * box.height)
+       << " left tc " << colour(figure.theme.ink) << "\n";
+  }
+  gp << "set label " << quoted(bar.name) << " at screen " << across(box.left) << ","
+     << up(box.bottom + box.height + 1.3 * layout.letter) << " left tc " << colour(figure.theme.ink) << "\n";
+}
+
+/// Title, subtitle, colour bar and legend, in a plot of its own that covers the page and shows nothing else.
+void write_heading(Gnuplot& gp, const Figure& figure, const Layout& layout) {
+  const auto up = [&](double mm) { return mm / figure.height_mm; };
+  gp << "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset tmargin at screen 0.98\nset bmargin at screen "
+        "0.02\nunset border\nunset tics\n";
+  gp << "set key at screen 0.5," << up(layout.legend)
+     << " center center horizontal Left reverse samplen 2.2 width 1 tc " << colour(figure.theme.ink) << "\n";
+  gp << "set label " << quoted("{/*1.2 " + figure.title + "}") << " at screen 0.5," << up(layout.title) << " center tc "
+     << colour(figure.theme.ink) << "\n";
+  gp << "set label " << quoted(figure.subtitle) << " at screen 0.5," << up(layout.subtitle) << " center tc "
+     << colour(figure.theme.faint) << "\n";
+  if (figure.colour_bar) write_colour_bar(gp, figure, layout);
   std::string separator = "plot [0:1] [0:1] ";
   std::vector<std::string> listed;  // panels share entries
+  const auto entry = [&](const std::string& legend, const std::string& style) {
+    if (legend.empty() || std::ranges::find(listed, legend) != listed.end()) return;
+    listed.push_back(legend);
+    gp << std::exchange(separator, ", \\\n     ") << "NaN " << style << " title " << quoted(legend);
+  };
   for (const Panel& panel : figure.panels) {
-    for (const Lines& layer : panel.lines) {
-      if (layer.legend.empty() || std::ranges::find(listed, layer.legend) != listed.end()) continue;
-      listed.push_back(layer.legend);
-      gp << std::exchange(separator, ", \\\n     ");
-      gp << "NaN with lines " << line_style(layer.stroke) << " title " << quoted(layer.legend);
-    }
+    for (const Lines& layer : panel.lines) entry(layer.legend, "with lines " + line_style(layer.stroke));
+    for (const Marks& layer : panel.marks) entry(layer.legend, mark_style(layer));
   }
   if (listed.empty()) gp << separator << "NaN notitle";
-  gp << "\nunset key\nset border 3 lw 0.8 lc rgb '#444444'\n";
+  gp << "\nunset key\nunset object\n";
 }
 
 struct CloseFile {
@@ -236,16 +333,15 @@ std::string script(const Figure& figure, PictureFormat format) {
     gp << std::defaultfloat << std::setprecision(8);
     gp << "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n";
     gp << "set encoding utf8\n" << terminal(figure, format) << "\n";
-    gp << "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.2,0.1\n";
+    gp << "set style textbox opaque noborder fillcolor " << colour(figure.theme.ground) << " margins 0.2,0.1\n";
+    const std::string ink = colour(figure.theme.ink);
+    gp << "set xtics textcolor " << ink << "\nset ytics textcolor " << ink << "\n";
+    gp << "set xlabel textcolor " << ink << "\nset ylabel textcolor " << ink << "\n";
     gp << "set multiplot\n";
-    const bool bare = std::ranges::all_of(figure.panels, &Panel::bare);  // no axis, no legend below
-    gp << "set tmargin at screen 0.84\nset bmargin at screen " << (bare ? 0.04 : 0.19) << "\n";
-    write_heading(gp, figure);
-    const double count = static_cast<double>(figure.panels.size());
-    const double label_room = 20 / figure.width_mm;
+    const Layout layout = lay_out(figure);
+    write_heading(gp, figure, layout);
     for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-      const double left = static_cast<double>(i) / count;
-      write_panel(gp, figure.panels[i], left + label_room, left + 1 / count - 0.25 * label_room, 22 / figure.width_mm);
+      write_panel(gp, figure, figure.panels[i], layout.panels[i], layout.names[i]);
     }
     gp << "unset multiplot\n";
   }
@@ -297,7 +393,10 @@ bool is_picture(std::string_view bytes, PictureFormat format) {
       return bytes.starts_with("%PDF");
     case PictureFormat::png:
       return bytes.starts_with("\x89PNG");
+    case PictureFormat::eps:
+      return bytes.starts_with("%!PS-Adobe");
     case PictureFormat::gp:
+    case PictureFormat::tex:
       break;
   }
   return true;
@@ -313,14 +412,39 @@ int run(const boost::filesystem::path& gnuplot, const ScratchFile& script, const
   }
 }
 
-/// Italics cut a text into pieces, at whose ends some SVG viewers drop spaces unless told to keep them.
-std::string with_spaces(std::string svg) {
-  constexpr std::string_view plain = "<text>";
-  constexpr std::string_view preserving = "<text xml:space=\"preserve\">";
-  for (std::size_t at = 0; (at = svg.find(plain, at)) != std::string::npos; at += preserving.size()) {
-    svg.replace(at, plain.size(), preserving);
+void replace_all(std::string& text, std::string_view old, std::string_view with) {
+  for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += with.size()) {
+    text.replace(at, old.size(), with);
+  }
+}
+
+/// The size of the page in millimetres; and italics cut a text into pieces, at whose ends some SVG viewers drop spaces
+/// unless told to keep them.
+std::string finished_svg(std::string svg, const Figure& figure) {
+  replace_all(svg, "<text>", "<text xml:space=\"preserve\">");
+  const std::string_view view_box = "viewBox=";
+  if (const std::size_t at = svg.find(view_box); at != std::string::npos) {
+    svg.insert(at, fmt::format("width=\"{:g}mm\" height=\"{:g}mm\" ", figure.width_mm, figure.height_mm));
   }
   return svg;
+}
+
+/// Cairo writes the time of day into a picture; the same figure is the same bytes. No offset in the file changes.
+std::string without_date(std::string bytes, std::string_view before, std::string_view date) {
+  const std::size_t at = bytes.find(before);
+  if (at != std::string::npos && at + before.size() + date.size() <= bytes.size()) {
+    bytes.replace(at + before.size(), date.size(), date);
+  }
+  return bytes;
+}
+
+std::string finished(std::string picture, const Figure& figure, PictureFormat format) {
+  if (format == PictureFormat::svg) return finished_svg(std::move(picture), figure);
+  if (format == PictureFormat::pdf) return without_date(std::move(picture), "/CreationDate (D:", "19700101000000");
+  if (format == PictureFormat::eps) {
+    return without_date(std::move(picture), "%%CreationDate: ", "Thu Jan  1 00:00:00 1970");
+  }
+  return picture;
 }
 
 }  // namespace
@@ -335,12 +459,13 @@ std::string gnuplot_script(const Figure& figure) { return script(figure, Picture
 
 std::string render(const Figure& figure, PictureFormat format) {
   if (format == PictureFormat::gp) return gnuplot_script(figure);
+  if (format == PictureFormat::tex) return pgfplots(figure);
 
   const auto gnuplot = process::search_path("gnuplot");
   if (gnuplot.empty()) {
     throw GnuplotError(
-        "gnuplot was not found on PATH; install it (Debian: gnuplot-nox), or write .gp, .csv or .json, which need "
-        "none");
+        "gnuplot was not found on PATH; install it (Debian: gnuplot-nox), or write .gp, .tex, .csv or .json, which "
+        "need none");
   }
   const ScratchFile commands, drawing, messages_file;
   const std::string text = script(figure, format);
@@ -359,7 +484,7 @@ std::string render(const Figure& figure, PictureFormat format) {
   if (!is_picture(picture, format)) {
     throw GnuplotError(fmt::format("gnuplot ({}) drew nothing that is {}{}", gnuplot.string(), name(format), messages));
   }
-  return format == PictureFormat::svg ? with_spaces(std::move(picture)) : picture;
+  return finished(std::move(picture), figure, format);
 }
 
 }  // namespace contensou::portraits

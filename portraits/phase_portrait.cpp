@@ -1,7 +1,9 @@
 #include "contensou/portraits/phase_portrait.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -11,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::portraits {
 
@@ -28,57 +31,140 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Below this patch ratio the plane (u, v) alone shows a comb of verticals.
 constexpr double pair_below = 0.1;
 
-constexpr int orbits_per_side = 12;
-constexpr double isochrones_wanted = 7;
+/// Where whole curves begin, next to infinity: at k or 1/k; more where the window is steeper.
+constexpr double largest_k = 1e6;
 
-/// The largest of 1, 2, 5 times a power of ten that is at most x.
-double round_down(double x) {
-  const double power = std::pow(10, std::floor(std::log10(x)));
-  for (double digit : {5.0, 2.0}) {
-    if (digit * power <= x) return digit * power;
+/// Orbits on each side of u = 0: as many as leave room for the isochrones' labels.
+int standard_count(View view) { return view == View::pair ? 9 : 12; }
+
+constexpr std::array view_names{
+    std::pair{View::uv, "uv"},         std::pair{View::patch, "patch"},
+    std::pair{View::log, "log"},       std::pair{View::similarity, "similarity"},
+    std::pair{View::blowup, "blowup"}, std::pair{View::disc, "disc"},
+    std::pair{View::time, "time"},     std::pair{View::pair, "pair"},
+};
+
+/// @param shown  states that the window must contain
+Window default_window(const ReducedSystem& system, View view, const std::vector<State>& shown) {
+  State far{0, 0};
+  for (const State& state : shown) far = {std::max(far.u, std::abs(state.u)), std::max(far.v, state.v)};
+  constexpr double margin = 1.2;
+  if (view == View::patch || view == View::log || view == View::blowup) {
+    // Both axes are speeds at the patch.
+    const double side = margin * std::max(system.mu() * far.u, far.v);
+    return side > 0 ? Window{side / system.mu(), side} : Window{1, system.mu()};
   }
-  return power;
-}
-
-Window default_window(const ReducedSystem& system, const std::optional<State>& highlight) {
-  if (highlight && highlight->u != 0 && highlight->v != 0) return {1.2 * std::abs(highlight->u), 1.2 * highlight->v};
-  if (highlight && highlight->u != 0) return {1.2 * std::abs(highlight->u), 1.2 * std::abs(highlight->u)};
-  if (highlight && highlight->v != 0) return {1.2 * highlight->v, 1.2 * highlight->v};
+  if (far.u != 0 && far.v != 0) return {margin * far.u, margin * far.v};
+  if (far.u != 0 || far.v != 0) return {margin * std::max(far.u, far.v), margin * std::max(far.u, far.v)};
   // Sliding and pivoting take the same time along the two borders: neither is squeezed against an axis.
   return {1, round_down(system.pivoting_limit(1) / system.sliding_limit(1))};
 }
 
-/// States from first to stop; v and u may underflow, ln v does not.
-struct Track {
-  std::vector<OrbitPoint> points;
-  double stop_time;
+/// A state of an orbit with the time until its stop; v and u may underflow, ln v does not.
+struct Dated {
+  OrbitPoint point;
+  double left;
 };
+using Track = std::vector<Dated>;  // from first to stop
+
+/// How far apart two states may be that lie next to each other on an orbit: 1 and no more.
+using Distance = std::function<double(const OrbitPoint&, const OrbitPoint&)>;
+
+double log_ratio(const OrbitPoint& point, double mu) {
+  if (point.u == 0) return point.v > 0 ? infinity : -infinity;
+  return point.ln_v - std::log(mu * std::abs(point.u));
+}
+
+/// ln k where it is seen to change: beyond, orbits hug an axis.
+double seen_log_ratio(const OrbitPoint& point, double mu) { return std::clamp(log_ratio(point, mu), -20.0, 20.0); }
+
+/// Adds what lies between the last state of a track and those at the given places, halved until neighbours are near.
+template <class At>
+void refine(Track& track, double from, const std::vector<double>& places, At at, const Distance& distance) {
+  std::vector<std::pair<double, Dated>> open;  // the next at the back
+  for (double place : places) open.insert(open.begin(), {place, at(place)});
+  while (!open.empty()) {
+    const auto [place, state] = open.back();
+    constexpr double closest = 1e-5;
+    if (std::abs(place - from) > closest && distance(track.back().point, state.point) > 1) {
+      const double middle = (from + place) / 2;
+      open.emplace_back(middle, at(middle));
+      continue;
+    }
+    constexpr double near = 0.3;
+    if (distance(track.back().point, state.point) > near) track.push_back(state);
+    from = place;
+    open.pop_back();
+  }
+}
+
+/// The orbit, by its nearness xi to the terminal ratio while k is seen to change, then by the time left, whose
+/// logarithm falls in even steps.
+///
+/// @param left  the stop time of a state: more digits than a difference of times has
+Track exact_track(const Orbit& orbit, const std::function<double(State)>& left, const Distance& distance) {
+  const double stop = orbit.stop_time();
+  Track track{{orbit.at_time(0), stop}};
+  if (!orbit.on_axis()) {
+    constexpr double farthest = 20;
+    const double start = orbit.start_coordinate();
+    const auto at = [&](double xi) {
+      const OrbitPoint point = orbit.at_coordinate(xi);
+      return Dated{point, left({point.u, point.v})};
+    };
+    refine(track, start, {std::min(-farthest, start - farthest)}, at, distance);
+  }
+  const double begin = std::log(track.back().left);
+  std::vector<double> places;
+  constexpr int folds = 30;
+  for (int i = 1; i <= folds; ++i) places.push_back(begin - i);
+  const auto at = [&](double place) { return Dated{orbit.at_time_left(std::exp(place)), std::exp(place)}; };
+  refine(track, begin, places, at, distance);
+  track.push_back({orbit.at_time_left(0), 0});
+  return track;
+}
 
 class Painter {
  public:
-  Painter(const ReducedSystem& system, Window window, const PortraitRequest& request)
-      : system_(system), window_(window), request_(request) {
+  Painter(const ReducedSystem& system, View view, Window window, const PortraitRequest& request)
+      : system_(system), view_(view), window_(window), request_(request) {
     solution_ = request.route == Route::quadrature ? reduction::quadrature_solution(system.law(), system.r())
                                                    : reduction::similarity_solution(system.law(), system.r());
   }
 
   PortraitOrbit orbit(State start) const {
-    const Track track = request_.route == Route::regularised ? stepped(start) : exact(start);
-    std::vector<const OrbitPoint*> kept;
-    for (const OrbitPoint& point : track.points) {
-      const bool last = &point == &track.points.back();
-      if (last || kept.empty() || far_apart(*kept.back(), point)) kept.push_back(&point);
-    }
-    const auto rows = static_cast<Eigen::Index>(kept.size());
-    PortraitOrbit result{Eigen::ArrayXd(rows), Eigen::ArrayXd(rows), Eigen::ArrayXd(rows), Eigen::ArrayXd(rows)};
+    const Distance distance = [this](const OrbitPoint& a, const OrbitPoint& b) { return on_window(a, b); };
+    return columns(request_.route == Route::regularised ? stepped(start) : exact(start, distance));
+  }
+
+  /// The orbit through a point, from where it enters the window.
+  PortraitOrbit orbit_through(State point) const { return orbit(entry(point)); }
+
+  /// From next to an unstable node at infinity to the origin.
+  PortraitOrbit whole_curve(reduction::InvariantDirection birth) const {
+    const double mu = system_.mu();
+    const Distance distance = [mu](const OrbitPoint& a, const OrbitPoint& b) {
+      const double turn = std::abs(std::atan(a.k) - std::atan(b.k)) / 0.02;
+      const double ratio = std::abs(seen_log_ratio(a, mu) - seen_log_ratio(b, mu)) / 0.25;
+      const double shrink = std::abs(std::log(std::hypot(mu * a.u, a.v) / std::hypot(mu * b.u, b.v))) / 0.1;
+      return std::max({turn, ratio, std::isfinite(shrink) ? shrink : 0});
+    };
+    const double k = birth == reduction::InvariantDirection::sliding ? steepest_ : 1 / steepest_;
+    return columns(exact({1 / mu, k}, distance));
+  }
+
+  StopProfile profile() const {
+    const double farthest = std::log(steepest_);
+    constexpr double step = 0.1;
+    const auto rows = static_cast<Eigen::Index>(2 * farthest / step) + 3;
+    StopProfile profile{Eigen::ArrayXd(rows), Eigen::ArrayXd(rows)};
+    profile.ln_k << -infinity, Eigen::ArrayXd::LinSpaced(rows - 2, -farthest, farthest), infinity;
     for (Eigen::Index i = 0; i < rows; ++i) {
-      const OrbitPoint& point = *kept[static_cast<std::size_t>(i)];
-      result.u[i] = point.u;
-      result.v[i] = point.v;
-      result.ln_k[i] = ln_k(point);
-      result.tau_left[i] = std::max(0.0, track.stop_time - point.tau);
+      const double angle = std::atan(std::exp(profile.ln_k[i]));
+      const bool sliding = i == rows - 1;
+      profile.tau[i] = stop_time({sliding ? 0 : std::cos(angle) / system_.mu(), std::sin(angle)});
     }
-    return result;
+    return profile;
   }
 
   /// Starts along the right half of the border, at equal distances across the flow as it is seen on paper.
@@ -103,74 +189,93 @@ class Painter {
     walk([&](double share) { return State{share * window_.u, window_.v}; }, true);
     walk([&](double share) { return State{window_.u, (1 - share) * window_.v}; }, false);
 
+    const int count = request_.orbits_per_side.value_or(standard_count(view_));
     std::vector<State> result;
-    for (int i = 0; i < orbits_per_side; ++i) {
-      const double wanted = across * (i + 0.5) / orbits_per_side;
+    for (int i = 0; i < count; ++i) {
+      const double wanted = across * (i + 0.5) / count;
       result.push_back(std::ranges::lower_bound(border, wanted, {}, &Step::across)->at);
     }
     return result;
   }
 
   std::vector<Isochrone> isochrones() const {
-    const double longest = stop_time({window_.u, window_.v});
-    const double step = round_down(longest / request_.time_unit / isochrones_wanted * 1.7) * request_.time_unit;
     std::vector<Isochrone> result;
+    if (request_.isochrones == 0) return result;
+    const double longest = stop_time({window_.u, window_.v});
+    const double step = round_down(longest / request_.time_unit / request_.isochrones * 1.7) * request_.time_unit;
     for (int i = 1; i * step < 0.95 * longest; ++i) add_isochrone(i * step, result);
     return result;
   }
 
  private:
-  double stop_time(State start) const { return Orbit(system_, start, solution_).stop_time(); }
+  double stop_time(State start) const { return motion(start).stop_time(); }
 
-  double ln_k(const OrbitPoint& point) const {
-    return point.u == 0 ? (point.v > 0 ? infinity : -infinity)
-                        : point.ln_v - std::log(system_.mu() * std::abs(point.u));
+  Orbit motion(State start) const { return {system_, start, solution_}; }
+
+  Track exact(State start, const Distance& distance) const {
+    return exact_track(
+        motion(start), [this](State state) { return stop_time(state); }, distance);
   }
 
-  /// Far enough apart to matter on paper, in (u, v) or in ln k.
-  bool far_apart(const OrbitPoint& a, const OrbitPoint& b) const {
-    constexpr double smallest = 1.0 / 300;
-    const double distance = std::hypot((a.u - b.u) / window_.u, (a.v - b.v) / window_.v);
-    return distance > smallest || std::abs(ln_k(a) - ln_k(b)) > 1;
+  PortraitOrbit columns(const Track& track) const {
+    const auto rows = static_cast<Eigen::Index>(track.size());
+    const Eigen::ArrayXd empty(rows);
+    PortraitOrbit result{empty, empty, empty, empty, empty};
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const auto& [point, left] = track[static_cast<std::size_t>(i)];
+      result.u[i] = point.u;
+      result.v[i] = point.v;
+      result.ln_v[i] = point.ln_v;
+      result.ln_k[i] = log_ratio(point, system_.mu());
+      result.tau_left[i] = left;
+    }
+    return result;
   }
 
-  Track exact(State start) const {
-    const Orbit orbit(system_, start, solution_);
-    Track track{{}, orbit.stop_time()};
-    constexpr int instants = 100;
-    double left = track.stop_time;
-    if (start.u != 0 && start.v != 0) {
-      // While sliding is seen, by k, in steps that neither speed shows on paper; then by time, in which u falls evenly.
-      constexpr double share_of_window = 0.02;
-      constexpr double invisible = 1e-6;
-      double xi = orbit.start_coordinate();
-      OrbitPoint point = orbit.at_coordinate(xi);
-      while (point.v > invisible * window_.v && track.points.size() < 2000) {
-        track.points.push_back(point);
-        const auto rate = system_.field({point.u, point.v});
-        const double speed = std::hypot(rate.u / window_.u, rate.v / window_.v) * orbit.curve().time_rate(xi) *
-                             (system_.mu() * std::abs(point.u) + point.v) / system_.scaled_time_rate();
-        xi -= std::min(share_of_window / speed, 0.4);
-        point = orbit.at_coordinate(xi);
-      }
-      track.points.push_back(point);
-      left = track.stop_time - point.tau;
-    } else {
-      track.points.push_back(orbit.at_time(0));
+  double on_window(const OrbitPoint& a, const OrbitPoint& b) const {
+    const double u = std::abs(a.u - b.u) / window_.u / 0.02;
+    const double v = std::abs(a.v - b.v) / window_.v / 0.02;
+    const double ratio = std::abs(seen_log_ratio(a, system_.mu()) - seen_log_ratio(b, system_.mu())) / 0.4;
+    // By ratio next to the axes, where the curve may turn sharply.
+    const auto fold = [](double x, double y) { return std::abs(std::log(std::max(x, 1e-3) / std::max(y, 1e-3))); };
+    const double folds = std::max(fold(std::abs(a.u) / window_.u, std::abs(b.u) / window_.u) / 0.15,
+                                  fold(a.v / window_.v, b.v / window_.v) / 0.4);
+    return std::max({u, v, ratio, folds});
+  }
+
+  /// Where the orbit through a point enters the window: backwards k leaves its limit, and the state at any earlier k is
+  /// found by scaling an orbit that starts there onto the point.
+  State entry(State point) const {
+    const double mu = system_.mu();
+    const double ln_k = std::log(point.v / (mu * std::abs(point.u)));
+    const auto upstream = [&](double earlier) {
+      const double k = std::exp(earlier);
+      const double factor = std::abs(point.u) / motion({1 / mu, k}).at_log_ratio(ln_k).u;
+      return State{std::copysign(factor / mu, point.u), factor * k};
+    };
+    const auto outside = [this](State state) { return std::abs(state.u) > window_.u || state.v > window_.v; };
+    const double away = ln_k >= std::log(terminal_k_) ? 1 : -1;
+    double inside = ln_k;
+    double step = 1;
+    while (!outside(upstream(inside + away * step))) {
+      inside += away * step;
+      step *= 1.5;
     }
-    // Finer towards the stop, where ln k falls fastest.
-    for (int i = instants - 1; i >= 0; --i) {
-      const double share = static_cast<double>(i) / instants;
-      track.points.push_back(orbit.at_time_left(left * share * share));
+    for (int i = 0; i < 50; ++i) {
+      step /= 2;
+      if (!outside(upstream(inside + away * step))) inside += away * step;
     }
-    return track;
+    return upstream(inside);
   }
 
   Track stepped(State start) const {
     const auto motion = reduction::integrate_regularised(system_, start);
     if (!motion.outcome.ok()) throw std::runtime_error(motion.outcome.sentence);
-    Track track{{}, motion.stop_time};
-    for (Eigen::Index i = 0; i < motion.points.rows(); ++i) track.points.push_back(motion.points.row(i));
+    Track track;
+    for (Eigen::Index i = 0; i < motion.points.rows(); ++i) {
+      const OrbitPoint point = motion.points.row(i);
+      track.push_back({point, std::max(0.0, motion.stop_time - point.tau)});
+    }
     return track;
   }
 
@@ -230,8 +335,11 @@ class Painter {
   }
 
   const ReducedSystem& system_;
+  View view_;
   Window window_;
   const PortraitRequest& request_;
+  double steepest_ = std::max(largest_k, 1e3 * window_.v / (system_.mu() * window_.u));
+  double terminal_k_ = reduction::terminal_ratio(system_.law(), system_.r()).k;
   reduction::SimilaritySolution solution_;
 };
 
@@ -240,16 +348,25 @@ PortraitOrbit mirrored(PortraitOrbit orbit) {
   return orbit;
 }
 
-}  // namespace
-
-std::string_view name(View view) { return view == View::uv ? "uv" : "pair"; }
-
-PhasePortrait phase_portrait(const ReducedSystem& system, const PortraitRequest& request) {
+void require(const PortraitRequest& request) {
   if (request.route == Route::direct) {
     throw std::domain_error("phase_portrait: orbits are drawn by closed, quadrature or regularised, not by direct");
   }
+  if (request.orbits_per_side.value_or(0) < 0 || request.isochrones < 0) {
+    throw std::domain_error(fmt::format("phase_portrait: numbers of orbits and isochrones must be >= 0, got {} and {}",
+                                        request.orbits_per_side.value_or(0), request.isochrones));
+  }
   if (request.highlight) reduction::require_state("phase_portrait", *request.highlight);
-  const Window window = request.window.value_or(default_window(system, request.highlight));
+  for (const State& point : request.through) {
+    reduction::require_state("phase_portrait", point);
+    if (point.u != 0 && point.v != 0) continue;
+    throw std::domain_error(fmt::format(
+        "phase_portrait: the orbit through ({}, {}) is an axis, which is drawn anyway; u and v must not be 0", point.u,
+        point.v));
+  }
+}
+
+void require(Window window, const PortraitRequest& request) {
   // Stop times and squares of speeds across the window must be doubles.
   constexpr double smallest = 1e-150;
   const auto reasonable = [](double side) { return side >= smallest && side <= 1 / smallest; };
@@ -258,22 +375,79 @@ PhasePortrait phase_portrait(const ReducedSystem& system, const PortraitRequest&
         "phase_portrait: the sides of the window must be between {} and {}, got {} by {}: use another unit of speed",
         smallest, 1 / smallest, window.u, window.v));
   }
-  const Painter painter(system, window, request);
-  const double pivoting = system.r() * system.law().pivoting_moment();
+  for (const State& point : request.through) {
+    if (std::abs(point.u) <= window.u && point.v <= window.v) continue;
+    throw std::domain_error(fmt::format("phase_portrait: the point ({}, {}) lies outside the window |u| <= {}, v <= {}",
+                                        point.u, point.v, window.u, window.v));
+  }
+}
 
-  PhasePortrait portrait;
-  portrait.law = system.law().name();
-  portrait.mu = system.mu();
-  portrait.view = system.mu() < pair_below ? View::pair : View::uv;
-  portrait.window = window;
-  portrait.pivoting_slope = system.law().force_slope() / pivoting - 1;
+PhasePortrait portrait_in(const ReducedSystem& system, View view, Window window, const PortraitRequest& request) {
+  const Painter painter(system, view, window, request);
+  PhasePortrait portrait{system, reduction::phase_plane(system), view, window, {}, {}, painter.isochrones(), {}, {}, {},
+                         {}};
   for (const State& seed : painter.seeds()) {
     portrait.orbits.push_back(painter.orbit(seed));
     portrait.orbits.push_back(mirrored(portrait.orbits.back()));
   }
-  portrait.isochrones = painter.isochrones();
+  if (!request.window_only) portrait.profile = painter.profile();
+  for (const reduction::SingularPoint& point : portrait.plane.points) {
+    if (request.window_only) break;
+    if (point.place != reduction::SingularPlace::infinity || point.direction == portrait.plane.tangent) continue;
+    portrait.curves.push_back(painter.whole_curve(point.direction));
+  }
   if (request.highlight && (request.highlight->u != 0 || request.highlight->v != 0)) {
     portrait.highlight = painter.orbit(*request.highlight);
+  }
+  for (const State& point : request.through) portrait.through.push_back(painter.orbit_through(point));
+  return portrait;
+}
+
+}  // namespace
+
+std::string_view name(View view) {
+  return std::ranges::find(view_names, view, [](const auto& entry) { return entry.first; })->second;
+}
+
+std::optional<View> find_view(std::string_view name) {
+  for (const auto& [view, its_name] : view_names) {
+    if (name == its_name) return view;
+  }
+  return std::nullopt;
+}
+
+const std::vector<View>& views() {
+  static const std::vector<View> all = [] {
+    std::vector<View> list;
+    for (const auto& entry : view_names) list.push_back(entry.first);
+    return list;
+  }();
+  return all;
+}
+
+double round_down(double x) {
+  const double power = std::pow(10, std::floor(std::log10(x)));
+  for (double digit : {5.0, 2.0}) {
+    if (digit * power <= x) return digit * power;
+  }
+  return power;
+}
+
+PortraitOrbit::Instant PortraitOrbit::at(Eigen::Index row, double factor) const {
+  return {factor * u[row], factor * v[row], ln_v[row] + std::log(factor), ln_k[row], factor * tau_left[row]};
+}
+
+PhasePortrait phase_portrait(const ReducedSystem& system, const PortraitRequest& request) {
+  require(request);
+  std::vector<State> shown = request.through;
+  if (request.highlight) shown.push_back(*request.highlight);
+  const View view = request.view.value_or(system.mu() < pair_below ? View::pair : View::uv);
+  const Window window = request.window.value_or(default_window(system, view, shown));
+  require(window, request);
+  PhasePortrait portrait = portrait_in(system, view, window, request);
+  if (request.against) {
+    const ReducedSystem rival(*request.against, system.mu(), system.inertia());
+    portrait.against.push_back(portrait_in(rival, view, window, request));
   }
   return portrait;
 }

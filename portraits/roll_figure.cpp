@@ -20,8 +20,8 @@ constexpr Colour speed_colour{0xc8761a};
 
 constexpr double width_mm = 290;
 constexpr double height_mm = 125;
-/// Width over height of a panel on paper (gnuplot.cpp).
-constexpr double panel_shape = (width_mm / 2 - 25) / (0.65 * height_mm);
+/// Width over height of a panel on paper, beside what layout.cpp leaves for its names and ticks.
+constexpr double panel_shape = (width_mm / 2 - 22.3) / (height_mm - 42.7);
 
 /// A path that bends less than this share of its length is straight to the eye.
 constexpr double straight = 0.01;

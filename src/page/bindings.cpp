@@ -108,6 +108,7 @@ class Plane {
   val portrait(double window_u, double window_v, double time_unit) const {
     return answer([&] {
       portraits::PortraitRequest request;
+      request.window_only = true;
       if (window_u > 0 && window_v > 0) request.window = portraits::Window{window_u, window_v};
       request.time_unit = time_unit;
       const portraits::PhasePortrait portrait = portraits::phase_portrait(system(), request);

@@ -11,6 +11,12 @@ void Argument::add(CLI::App& app, const std::string& names, const std::string& v
   option_->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void Argument::add_optional(CLI::App& app, const std::string& names, const std::string& value_name,
+                            const std::string& help) {
+  add(app, names, value_name, help);
+  option_->expected(0, 1);
+}
+
 const std::string& Argument::text() const {
   if (option_->count() > 1)
     throw BadInput(fmt::format("{} is given {} times; once is allowed", name(), option_->count()));
@@ -37,6 +43,19 @@ std::vector<double> Argument::numbers(Infinity infinity) const {
 
 long Argument::integer(long lowest, long highest) const {
   return read([=](const std::string& typed) { return parse_integer(typed, lowest, highest); });
+}
+
+std::vector<std::vector<double>> Argument::number_lists() const {
+  std::vector<std::vector<double>> lists;
+  if (!given()) return lists;
+  for (const std::string& typed : option_->results()) {
+    try {
+      lists.push_back(parse_numbers(typed, Infinity::forbidden));
+    } catch (const BadInput& error) {
+      throw BadInput(fmt::format("{}: {}", name(), error.what()));
+    }
+  }
+  return lists;
 }
 
 void Argument::reject(const std::string& message) const {

@@ -17,6 +17,9 @@ class Argument {
   /// @param value_name  what the help calls the value
   void add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help);
 
+  /// An option that may stand without its value, whose text is then empty.
+  void add_optional(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help);
+
   /// False for an argument that a verb does not have.
   bool given() const { return option_ != nullptr && option_->count() > 0; }
   std::string name() const { return option_->get_name(); }
@@ -28,6 +31,9 @@ class Argument {
   double number() const;
   std::vector<double> numbers(Infinity infinity = Infinity::forbidden) const;
   long integer(long lowest, long highest) const;
+
+  /// The numbers of each time that an option was given, which may be often.
+  std::vector<std::vector<double>> number_lists() const;
 
   /// Throws BadInput with the option and its value before the message.
   [[noreturn]] void reject(const std::string& message) const;

@@ -43,7 +43,8 @@ class LawCommand final : public Command {
     }
     if (!k_.given() && !batch_.given()) {
       throw BadInput(
-          "--k missing: give --k K1,K2,... or --batch FILE; or -o FILE with a picture's ending svg, pdf, png, gp");
+          "--k missing: give --k K1,K2,... or --batch FILE; or -o FILE with a picture's ending svg, pdf, png, eps, gp, "
+          "tex");
     }
 
     const std::vector<Column> columns = evaluate(law, k_.given() ? listed() : from_table());

@@ -39,6 +39,10 @@ void LawOption::add(CLI::App& app) {
                        fmt::join(law_forms(), ", "), law_names().front()));
 }
 
+void LawOption::add(CLI::App& app, const std::string& name, const std::string& value_name, const std::string& help) {
+  law_.add(app, name, value_name, help);
+}
+
 reduction::Law LawOption::read() const {
   if (!law_.given()) return reduction::named_laws().front();
   if (auto law = reduction::find_law(law_.text())) return *law;

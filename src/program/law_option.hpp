@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "argument.hpp"
 #include "contensou/reduction/friction_law.hpp"
 
@@ -9,6 +11,9 @@ namespace contensou::program {
 class LawOption {
  public:
   void add(CLI::App& app);
+
+  /// Under another name, for a second law.
+  void add(CLI::App& app, const std::string& name, const std::string& value_name, const std::string& help);
   bool given() const { return law_.given(); }
 
   /// The law of that name, of that exponent (pressure:P), or of the table in that file (with a / or ending in .csv);

@@ -14,6 +14,7 @@
 #include "output_options.hpp"
 #include "phase_plane_report.hpp"
 #include "picture.hpp"
+#include "portrait_options.hpp"
 #include "route_option.hpp"
 #include "start_options.hpp"
 
@@ -22,7 +23,7 @@ namespace contensou::program {
 namespace {
 
 constexpr const char* standard_file = "portrait.svg";
-constexpr const char* endings = "svg, pdf, png, gp, csv, json";
+constexpr const char* endings = "svg, pdf, png, eps, gp, tex, csv, json";
 
 class PortraitCommand final : public Command {
  public:
@@ -36,7 +37,7 @@ class PortraitCommand final : public Command {
     start_.add(app);
     law_.add(app);
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
-    window_.add(app, "--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)");
+    options_.add(app);
     facts_ = app.add_flag("--facts");
     facts_->description(
         "print the plane's facts instead: regime, singular points at the origin and at infinity with eigenvalues and "
@@ -58,7 +59,8 @@ class PortraitCommand final : public Command {
       throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
     }
     request.highlight = given.state;
-    if (window_.given()) request.window = read_window();
+    options_.read(request);
+    const portraits::PortraitStyle style = options_.style();
     if (given.shot) request.time_unit = 1 / si::seconds(*given.shot, 1);
 
     const Argument& file = output_.file_argument();
@@ -71,7 +73,7 @@ class PortraitCommand final : public Command {
     }
     const portraits::PhasePortrait portrait = portraits::phase_portrait(system, request);
     if (picture) {
-      write_output(path, drawn(portraits::draw(portrait, caption(given, system)), *picture));
+      write_output(path, drawn(portraits::draw(portrait, caption(given, portrait), style), *picture));
     } else {
       write_output(path, format == "csv" ? portraits::to_csv(portrait) : portraits::to_json(portrait));
     }
@@ -80,7 +82,11 @@ class PortraitCommand final : public Command {
 
  private:
   ExitStatus print_facts(const reduction::ReducedSystem& system) const {
-    if (window_.given()) window_.reject("--facts prints the whole plane: leave one of them out");
+    if (!options_.given_names().empty()) {
+      throw BadInput(
+          fmt::format("--facts and {} exclude each other: facts are of the whole plane, and print no picture",
+                      options_.given_names()));
+    }
     if (route_.named()) throw BadInput("--facts and --route exclude each other: facts follow no orbit");
     const reduction::PhasePlane plane = reduction::phase_plane(system);
     output_.write_as(
@@ -101,13 +107,6 @@ class PortraitCommand final : public Command {
     return {start.body, start.state, start.shot};
   }
 
-  portraits::Window read_window() const {
-    const std::vector<double> sides = window_.numbers();
-    if (sides.size() != 2) window_.reject("two numbers are needed, U,V");
-    if (!(sides[0] > 0 && sides[1] > 0)) window_.reject("both sides of the window must be positive");
-    return {sides[0], sides[1]};
-  }
-
   std::string read_format(const std::string& path) const {
     const Argument& format = output_.format_argument();
     const std::string by_ending = ending(path);
@@ -120,7 +119,8 @@ class PortraitCommand final : public Command {
     return format.text();
   }
 
-  static portraits::PortraitCaption caption(const Given& given, const reduction::ReducedSystem& system) {
+  static portraits::PortraitCaption caption(const Given& given, const portraits::PhasePortrait& portrait) {
+    const reduction::ReducedSystem& system = portrait.system;
     portraits::PortraitCaption caption;
     if (!given.state) return caption;
     const double stop = reduction::stop_time(system, *given.state).tau;
@@ -131,8 +131,10 @@ class PortraitCommand final : public Command {
       return caption;
     }
     const si::Shot& shot = *given.shot;
-    caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot.ball.name),
-                                system.mu(), portraits::literal(system.law().name()));
+    std::string law = portraits::literal(system.law().name());
+    for (const auto& rival : portrait.against) law += " against " + portraits::literal(rival.system.law().name());
+    caption.title =
+        fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot.ball.name), system.mu(), law);
     caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", si::slip_at_start(shot),
                                    si::spin_at_start(shot), si::seconds(shot, stop));
     caption.speed_unit = "m/s";
@@ -146,7 +148,7 @@ class PortraitCommand final : public Command {
   StartOptions start_;
   LawOption law_;
   RouteOption route_;
-  Argument window_;
+  PortraitOptions options_;
   CLI::Option* facts_ = nullptr;
   OutputOptions output_{Format::text};
 };

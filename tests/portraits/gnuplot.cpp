@@ -65,6 +65,8 @@ TEST_CASE("Endings name formats", "[table]") {
   CHECK(portraits::find_picture_format("pdf") == PictureFormat::pdf);
   CHECK(portraits::find_picture_format("png") == PictureFormat::png);
   CHECK(portraits::find_picture_format("gp") == PictureFormat::gp);
+  CHECK(portraits::find_picture_format("eps") == PictureFormat::eps);
+  CHECK(portraits::find_picture_format("tex") == PictureFormat::tex);
   CHECK_FALSE(portraits::find_picture_format("jpg"));
   CHECK_FALSE(portraits::find_picture_format(""));
 }
@@ -88,6 +90,7 @@ TEST_CASE("A script is whole: it needs no file, has no gaps, and is the same eac
 TEST_CASE("Scripts and the picture formats that need none are written without gnuplot", "[limit]") {
   const Sandbox sandbox;
   CHECK(portraits::render(sample(), PictureFormat::gp) == portraits::gnuplot_script(sample()));
+  CHECK(portraits::render(sample(), PictureFormat::tex).find("\\documentclass") != std::string::npos);
   CHECK(sandbox.left_nothing());
 }
 
@@ -109,7 +112,7 @@ TEST_CASE("A failing gnuplot is an error with its words", "[domain]") {
   sandbox.fake_gnuplot("exit 0");
   CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::png), Catch::Contains("drew nothing"));
   sandbox.fake_gnuplot("echo picture");
-  for (PictureFormat format : {PictureFormat::svg, PictureFormat::pdf, PictureFormat::png}) {
+  for (PictureFormat format : {PictureFormat::svg, PictureFormat::pdf, PictureFormat::png, PictureFormat::eps}) {
     CHECK_THROWS_WITH(portraits::render(sample(), format), Catch::Contains("drew nothing"));
   }
   sandbox.not_a_program();
@@ -130,7 +133,7 @@ TEST_CASE("Text is data: nothing in it is run, and it cannot end its line", "[do
   figure.title = "a`touch pwned`b\n!touch pwned\nquote ' and \" $(touch pwned)";
   const std::string script = portraits::gnuplot_script(figure);
   CHECK(script.find("\n!") == std::string::npos);
-  CHECK(script.find("'a`touch pwned`b !touch pwned quote '' and \" $(touch pwned)'") != std::string::npos);
+  CHECK(script.find("a`touch pwned`b !touch pwned quote '' and \" $(touch pwned)") != std::string::npos);
 
   std::string folder = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
   REQUIRE(mkdtemp(folder.data()) != nullptr);
@@ -148,4 +151,36 @@ TEST_CASE("gnuplot draws each format", "[table]") {
   CHECK(portraits::render(sample(), PictureFormat::svg).ends_with("</svg>\n\n"));
   CHECK(portraits::render(sample(), PictureFormat::pdf).starts_with("%PDF"));
   CHECK(portraits::render(sample(), PictureFormat::png).starts_with("\x89PNG"));
+  CHECK(portraits::render(sample(), PictureFormat::eps).starts_with("%!PS-Adobe"));
+}
+
+TEST_CASE("A picture has the size of its figure and no date: the same bytes at any time", "[invariant]") {
+  CHECK(portraits::render(sample(), PictureFormat::svg).find("width=\"300mm\" height=\"125mm\"") != std::string::npos);
+  // Whatever the time of day in a picture, it is not what cairo wrote.
+  CHECK(portraits::render(sample(), PictureFormat::pdf).find("/CreationDate (D:19700101000000") != std::string::npos);
+  CHECK(portraits::render(sample(), PictureFormat::eps).find("%%CreationDate: Thu Jan  1 00:00:00 1970") !=
+        std::string::npos);
+  for (PictureFormat format : {PictureFormat::svg, PictureFormat::pdf, PictureFormat::png, PictureFormat::eps}) {
+    CHECK(portraits::render(sample(), format) == portraits::render(sample(), format));
+  }
+}
+
+TEST_CASE("gnuplot has nothing to say about any view", "[route]") {
+  for (portraits::View view : portraits::views()) {
+    for (double mu : {0.5, 0.001}) {
+      portraits::PortraitRequest request;
+      request.view = view;
+      const auto figure = portraits::draw(portraits::phase_portrait({reduction::PadeLaw{}, mu}, request));
+      std::string folder = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
+      REQUIRE(mkdtemp(folder.data()) != nullptr);
+      std::ofstream(fs::path(folder) / "figure.gp") << portraits::gnuplot_script(figure);
+      CHECK(std::system(("cd " + folder + " && gnuplot figure.gp >svg 2>messages").c_str()) == 0);
+      std::ifstream messages(fs::path(folder) / "messages");
+      std::string words;
+      std::getline(messages, words);
+      CAPTURE(portraits::name(view), mu);
+      CHECK(words == "");
+      fs::remove_all(folder);
+    }
+  }
 }

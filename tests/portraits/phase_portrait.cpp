@@ -42,7 +42,7 @@ void for_each_portrait(Check check) {
 
 TEST_CASE("Every orbit runs unbroken from the border of the window to the origin", "[invariant]") {
   for_each_portrait([](const ReducedSystem&, const PhasePortrait& portrait) {
-    REQUIRE(portrait.orbits.size() == 24);
+    REQUIRE(portrait.orbits.size() == (portrait.view == portraits::View::pair ? 18 : 24));
     for (const PortraitOrbit& orbit : portrait.orbits) {
       const Eigen::Index last = orbit.u.size() - 1;
       const bool on_top = orbit.v[0] == portrait.window.v && std::abs(orbit.u[0]) <= portrait.window.u;
@@ -186,7 +186,7 @@ TEST_CASE("The order of contact with the axis v = 0 is that of the printed expon
   // k ~ u^(1/a), a = 5 mu^2/(14 - 5 mu^2)
   const double mu = 0.3;
   const auto portrait = portraits::phase_portrait({reduction::PadeLaw{}, mu}, {});
-  CHECK(portrait.pivoting_slope == Approx((14 - 5 * mu * mu) / (5 * mu * mu)).epsilon(1e-14));
+  CHECK(portrait.plane.contact_order == Approx((14 - 5 * mu * mu) / (5 * mu * mu)).epsilon(1e-14));
 }
 
 TEST_CASE("A window that is given is kept; a highlighted start lies in the window that is chosen", "[table]") {
@@ -253,4 +253,109 @@ TEST_CASE("What cannot be drawn is rejected", "[domain]") {
     bad.window = window;
     CHECK_THROWS_AS(portraits::phase_portrait(system, bad), std::domain_error);
   }
+}
+
+TEST_CASE("Views have names, and the names lead back", "[table]") {
+  CHECK(portraits::views().size() == 8);
+  for (portraits::View view : portraits::views()) CHECK(portraits::find_view(portraits::name(view)) == view);
+  CHECK_FALSE(portraits::find_view("vu"));
+}
+
+TEST_CASE("Numbers of orbits and isochrones are those asked for", "[table]") {
+  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
+  portraits::PortraitRequest request;
+  request.orbits_per_side = 5;
+  request.isochrones = 0;
+  CHECK(portraits::phase_portrait(system, request).orbits.size() == 10);
+  CHECK(portraits::phase_portrait(system, request).isochrones.empty());
+  request.orbits_per_side = 0;
+  request.isochrones = 20;
+  CHECK(portraits::phase_portrait(system, request).orbits.empty());
+  CHECK(portraits::phase_portrait(system, request).isochrones.size() >= 14);
+  request.orbits_per_side = -1;
+  CHECK_THROWS_AS(portraits::phase_portrait(system, request), std::domain_error);
+}
+
+TEST_CASE("An orbit through a point begins on the border and passes through it", "[route]") {
+  for (const reduction::Law& law : laws) {
+    for (double mu : {0.01, 0.3, 1.0}) {
+      const ReducedSystem system(law, mu);
+      portraits::PortraitRequest request;
+      request.window = portraits::Window{1, 3};
+      request.through = {{0.5, 0.2}, {-0.9, 2.9}, {0.3, 1e-3}};
+      const PhasePortrait portrait = portraits::phase_portrait(system, request);
+      REQUIRE(portrait.through.size() == request.through.size());
+      for (std::size_t i = 0; i < request.through.size(); ++i) {
+        const reduction::State point = request.through[i];
+        const PortraitOrbit& orbit = portrait.through[i];
+        CAPTURE(law.name(), mu, point.u, point.v, orbit.u[0], orbit.v[0]);
+        const double reach = std::max(std::abs(orbit.u[0]) / 1, orbit.v[0] / 3);
+        CHECK(reach == Approx(1).epsilon(1e-6));
+        const auto there =
+            Orbit(system, {orbit.u[0], orbit.v[0]}).at_log_ratio(std::log(point.v / (mu * std::abs(point.u))));
+        CHECK(there.u == Approx(point.u).epsilon(1e-10));
+        CHECK(there.v == Approx(point.v).epsilon(1e-10));
+      }
+    }
+  }
+}
+
+TEST_CASE("A point on an axis or outside the window is no orbit to draw", "[domain]") {
+  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
+  portraits::PortraitRequest request;
+  request.window = portraits::Window{1, 1};
+  for (reduction::State point : {reduction::State{0, 1}, {1, 0}, {1.5, 0.5}, {0.5, 1.5}}) {
+    request.through = {point};
+    CHECK_THROWS_AS(portraits::phase_portrait(system, request), std::domain_error);
+  }
+}
+
+TEST_CASE("The whole curve scaled is each orbit", "[symmetry]") {
+  for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
+    REQUIRE(portrait.curves.size() == 1);
+    const PortraitOrbit& curve = portrait.curves.front();
+    CHECK(curve.ln_k[0] > std::log(1e5));
+    CHECK(curve.u[curve.rows() - 1] == 0);
+    const Orbit orbit(system, {curve.u[0], curve.v[0]});
+    for (Eigen::Index i = 1; i + 1 < curve.rows(); ++i) {
+      CHECK(curve.tau_left[i] < curve.tau_left[i - 1]);
+      // No gap that a stretched view would show.
+      const double turn = std::atan(std::exp(curve.ln_k[i - 1])) - std::atan(std::exp(curve.ln_k[i]));
+      CHECK(turn < 0.05);
+      if (curve.ln_k[i] > -15) CHECK(curve.ln_k[i - 1] - curve.ln_k[i] < 0.6);
+    }
+    const Eigen::Index row = curve.rows() / 2;
+    const auto scaled = curve.at(row, 7);
+    const double stop = Orbit(system, {scaled.u, scaled.v}).stop_time();
+    CHECK(scaled.tau_left == Approx(stop).epsilon(1e-10));
+    CHECK(scaled.ln_v == Approx(std::log(7) + curve.ln_v[row]));
+  });
+}
+
+TEST_CASE("The profile is the stop time on the circle mu u = cos, v = sin", "[route]") {
+  for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
+    const auto& [ln_k, tau] = portrait.profile;
+    const auto solution = reduction::quadrature_solution(system.law(), system.r());
+    CHECK(tau[0] == Approx(system.pivoting_limit(1 / system.mu())).epsilon(1e-13));
+    CHECK(tau[tau.size() - 1] == Approx(system.sliding_limit(1)).epsilon(1e-13));
+    for (Eigen::Index i = 1; i + 1 < tau.size(); i += 40) {
+      const double angle = std::atan(std::exp(ln_k[i]));
+      const double stop = Orbit(system, {std::cos(angle) / system.mu(), std::sin(angle)}, solution).stop_time();
+      CHECK(tau[i] == Approx(stop).epsilon(1e-12));
+    }
+  });
+}
+
+TEST_CASE("Another law is drawn in the same window", "[table]") {
+  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
+  portraits::PortraitRequest request;
+  request.against = reduction::HertzLaw{};
+  const PhasePortrait both = portraits::phase_portrait(system, request);
+  REQUIRE(both.against.size() == 1);
+  CHECK(both.against[0].system.law().name() == "exact");
+  request.window = both.window;
+  request.against.reset();
+  const PhasePortrait alone = portraits::phase_portrait({reduction::HertzLaw{}, 0.3}, request);
+  REQUIRE(both.against[0].orbits.size() == alone.orbits.size());
+  CHECK((both.against[0].orbits[4].v == alone.orbits[4].v).all());
 }

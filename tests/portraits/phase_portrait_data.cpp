@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 
 using namespace contensou;
@@ -17,6 +18,8 @@ namespace {
 portraits::PhasePortrait sample() {
   portraits::PortraitRequest request;
   request.highlight = reduction::State{-1, 2};
+  request.through = {{0.5, 1}, {0.25, 1}};
+  request.against = reduction::HertzLaw{};
   return portraits::phase_portrait({reduction::PadeLaw{}, 0.3}, request);
 }
 
@@ -40,6 +43,11 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
   CHECK(json["isochrones"][1]["tau_stop"] == portrait.isochrones[1].tau_stop);
   CHECK(json["isochrones"][1]["u"].get<std::vector<double>>() == list(portrait.isochrones[1].u));
   CHECK(json["highlight"]["v"].get<std::vector<double>>() == list(portrait.highlight->v));
+  CHECK(json["body"]["chi"] == 3.5);
+  CHECK(json["through"].size() == 2);
+  CHECK(json["through"][1]["u"].get<std::vector<double>>() == list(portrait.through[1].u));
+  CHECK(json["against"]["law"] == "exact");
+  CHECK(json["against"]["orbits"][3]["v"].get<std::vector<double>>() == list(portrait.against[0].orbits[3].v));
   CHECK(portraits::to_json(portrait).find("null") == std::string::npos);
 }
 
@@ -54,6 +62,9 @@ TEST_CASE("CSV has one row for each point", "[table]") {
   std::map<std::string, Eigen::Index> wanted;
   for (const auto& orbit : portrait.orbits) wanted["orbit"] += orbit.u.size();
   for (const auto& isochrone : portrait.isochrones) wanted["isochrone"] += isochrone.u.size();
+  for (const auto& orbit : portrait.through) wanted["through"] += orbit.u.size();
+  for (const auto& orbit : portrait.against[0].orbits) wanted["against_orbit"] += orbit.u.size();
+  for (const auto& isochrone : portrait.against[0].isochrones) wanted["against_isochrone"] += isochrone.u.size();
   wanted["highlight"] = portrait.highlight->u.size();
   CHECK(rows == wanted);
 }

@@ -60,10 +60,90 @@ TEST_CASE("portrait --facts excludes what it does not draw", "[cli]") {
   };
   rejected("--facts", "--mu missing");
   rejected("--mu 2 --facts", "0 < mu <= 1");
-  rejected("--mu 0.3 --facts --window 1,1", "--window 1,1: --facts prints the whole plane");
+  rejected("--mu 0.3 --facts --window 1,1 --view disc", "--facts and --view, --window exclude each other");
   rejected("--mu 0.3 --facts --route closed", "--facts and --route exclude each other");
   rejected("--mu 0.3 --facts --format svg", "--format svg: unknown format");
   rejected("--mu 0.3 --facts --format csv --digits 3", "--digits 3: csv and json always have all digits");
   rejected("--mu 0.3 --digits 3", "--digits 3: a picture has no digits");
   rejected("--mu 0.3 --facts --law pad", "no such law");
+}
+
+TEST_CASE("portrait writes every view as script, as LaTeX and as data", "[cli]") {
+  const TemporaryDirectory scratch;
+  for (const std::string view : {"uv", "patch", "log", "similarity", "blowup", "disc", "time", "pair"}) {
+    CAPTURE(view);
+    const std::string start = "portrait --mu 0.3 --view " + view + " -o ";
+    const Run script = run_program(start + scratch.file("p.gp"));
+    CHECK(script.status == 0);
+    CHECK(script.out.empty());
+    CHECK(script.err.empty());
+    CHECK_THAT(read_file(scratch.file("p.gp")), Contains("set terminal svg"));
+    CHECK(run_program(start + scratch.file("p.tex")).status == 0);
+    CHECK_THAT(read_file(scratch.file("p.tex")), Contains("\\begin{tikzpicture}"));
+    CHECK(json_of(start + "- --format json")["view"] == view);
+    CHECK(run_program(start + "- --format gp").out == read_file(scratch.file("p.gp")));
+  }
+}
+
+TEST_CASE("portrait shows what its switches say", "[cli]") {
+  const auto json = json_of(
+      "portrait --mu 0.3 --orbits 4 --isochrones 0 --through 0.5,1 --through -0.25,2 --against exact --format json -o "
+      "-");
+  CHECK(json["orbits"].size() == 8);
+  CHECK(json["isochrones"].empty());
+  CHECK(json["through"].size() == 2);
+  CHECK(json["through"][1]["u"][0].get<double>() < 0);
+  CHECK(json["against"]["law"] == "exact");
+  CHECK(json_of("portrait --mu 0.3 --isochrones --format json -o -")["isochrones"].size() ==
+        json_of("portrait --mu 0.3 --format json -o -")["isochrones"].size());
+  const auto script = [](const std::string& options) {
+    const Run run = run_program("portrait --mu 0.3 -o - --format gp " + options);
+    CHECK(run.status == 0);
+    CHECK(run.err.empty());
+    return run.out;
+  };
+  CHECK_THAT(script("--field"), Contains("direction of (2.6)"));
+  CHECK_THAT(script("--field regularised"), Contains("direction of (2.7)"));
+  CHECK_THAT(script("--axes off"), !Contains("invariant axes"));
+  CHECK_THAT(script("--arrows none"), !Contains("with vectors"));
+  CHECK_THAT(script("--colour none"), Contains("'orbits'"));
+  CHECK_THAT(script("--style screen"), Contains("background '#10141c'"));
+  CHECK_THAT(script("--size 100x80"), Contains("size 500,400"));
+  // The same bytes for the same input.
+  CHECK(script("--view disc") == script("--view disc"));
+  // A ball's units.
+  CHECK_THAT(run_program("portrait --ball pool --view patch --format gp -o -").out, Contains("m/s") && Contains(", s"));
+}
+
+TEST_CASE("portrait says what is wrong with a switch, and draws nothing", "[cli]") {
+  const TemporaryDirectory scratch;
+  const auto rejected = [&](const std::string& arguments, const std::string& words) {
+    CAPTURE(arguments);
+    const Run run = run_program("portrait --mu 0.3 -o " + scratch.file("p.gp") + " " + arguments);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains(words));
+  };
+  rejected("--view dics", "--view dics: no such view; did you mean 'disc'");
+  rejected("--window 1", "--window 1: two numbers");
+  rejected("--window 0,1", "--window 0,1: both sides");
+  rejected("--orbits -1", "--orbits: '-1'");
+  rejected("--orbits 1.5", "--orbits: '1.5'");
+  rejected("--isochrones many", "--isochrones: 'many'");
+  rejected("--through 1", "--through 1: two numbers");
+  rejected("--through 0,1", "--through 0,1: U must not be 0");
+  rejected("--through 1,nan", "--through: 'nan'");
+  rejected("--through 2,2 --window 1,3", "--through 2,2: outside the window --window 1,3");
+  rejected("--arrows all", "--arrows all: one of time, one, none");
+  rejected("--field moton", "did you mean 'motion'");
+  rejected("--axes yes", "--axes yes: one of on, off");
+  rejected("--colour red", "--colour red: one of time, none");
+  rejected("--style dark", "--style dark: one of print, screen");
+  rejected("--size 100", "--size 100: width and height in mm");
+  rejected("--size 100xinf", "--size 100xinf: ");
+  rejected("--size 10x100", "must be 40 to 2000 mm");
+  rejected("--against exakt", "--against exakt: no such law");
+  rejected("--view disc --view uv", "--view is given 2 times");
+  CHECK(scratch.names().empty());
+  CHECK_THAT(run_program("portrait --mu 0.3 -o p.jpg").err, Contains("svg, pdf, png, eps, gp, tex, csv, json"));
 }

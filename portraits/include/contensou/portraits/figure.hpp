@@ -47,14 +47,22 @@ struct Arrows {
   Colour colour;
 };
 
-/// A dot on a curve.
+/// Signs at points; one entry of the legend. A circle and a square are open, on the figure's ground.
 struct Marks {
   std::vector<Point> points;
   Colour colour;
   double size = 0.6;  ///< relative to the text's dots
+  enum class Shape { dot, circle, square } shape = Shape::dot;
+  std::string legend = {};  ///< empty: not in the legend
 };
 
-/// A text at a point of a panel, on a white ground so that it stays legible over lines.
+/// A filled area under everything else.
+struct Region {
+  Polyline border;
+  Colour colour;
+};
+
+/// A text at a point of a panel, on the figure's ground so that it stays legible over lines.
 struct Label {
   Point at;
   std::string text;
@@ -82,7 +90,8 @@ struct ColourMap {
   Axis scale{};  ///< of the numbers, shown beside the panel
 };
 
-/// One system of axes and what is drawn in it, in the order given: colours, lines, arrows, marks, labels.
+/// One system of axes and what is drawn in it, in the order given: colours, regions, lines, arrows, marks, labels. Only
+/// labels may lie beyond the axes.
 struct Panel {
   std::string title;
   Axis x;
@@ -93,17 +102,40 @@ struct Panel {
   std::vector<Label> labels;
   std::optional<ColourMap> colours{};
   bool bare = false;  ///< no axes and no border: a drawing of things, to the scale of its own lines
+  std::vector<Region> regions = {};
+  bool to_scale = false;  ///< one unit of x is as long as one of y
 };
 
-/// A drawing as data: panels side by side under one title, one legend below. Text is UTF-8; _ and ^ begin an index or a
-/// power, {/:Italic x} is a letter in italics.
+/// What the colours of lines mean: a strip beside the panels.
+struct ColourBar {
+  std::string name;
+  std::vector<Colour> colours;    ///< from the bottom up, in steps of one height
+  std::vector<Axis::Tick> ticks;  ///< at: share of the height
+};
+
+/// The colours and letters of a whole figure.
+struct Theme {
+  Colour ground{0xffffff};
+  Colour ink{0x222222};    ///< title, names, ticks
+  Colour faint{0x555555};  ///< subtitle
+  double line = 1;         ///< factor of all widths
+  double letters = 1;      ///< factor of the size of letters
+};
+
+/// A drawing as data: panels side by side under one title, a colour bar beside them, one legend below. Text is UTF-8; _
+/// and ^ begin an index or a power, {/:Italic x} is a letter in italics.
 struct Figure {
   std::string title;
   std::string subtitle;
   double width_mm = 180;
   double height_mm = 120;
   std::vector<Panel> panels;
+  std::optional<ColourBar> colour_bar = {};
+  Theme theme = {};
 };
+
+/// The number of characters of a text as it is shown, without its markup.
+std::size_t shown_length(std::string_view text);
 
 /// A text of somebody else's, such as a name, as a figure's text that shows just these characters; cut with an ellipsis
 /// after the given number of them.

@@ -9,8 +9,9 @@
 
 namespace contensou::portraits {
 
-/// What a figure can be written as. A script holds its data; the others are drawn by gnuplot.
-enum class PictureFormat { svg, pdf, png, gp };
+/// What a figure can be written as. gp is a gnuplot script with its data, tex is LaTeX (pgfplots.hpp); the others are
+/// drawn by gnuplot.
+enum class PictureFormat { svg, pdf, png, eps, gp, tex };
 
 /// The format of that file ending, without its dot.
 std::optional<PictureFormat> find_picture_format(std::string_view ending);
@@ -23,7 +24,8 @@ class GnuplotError : public std::runtime_error {
 /// The figure as a gnuplot script with its data inside: `gnuplot FILE.gp > FILE.svg` draws it.
 std::string gnuplot_script(const Figure& figure);
 
-/// The bytes of the figure in a format. gnuplot is looked up on PATH, run once, and its status checked.
+/// The bytes of the figure in a format; the same for the same figure. gnuplot is looked up on PATH, run once, and its
+/// status checked.
 ///
 /// @throws GnuplotError  if gnuplot is not found or fails; nothing is left behind
 std::string render(const Figure& figure, PictureFormat format);

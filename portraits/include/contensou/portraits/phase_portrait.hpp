@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/phase_plane.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/reduction/stop_time.hpp"
 
@@ -21,18 +22,36 @@ struct Window {
 
 /// Which axes.
 enum class View {
-  uv,    ///< the paper's plane (u, v)
-  pair,  ///< beside it (u, ln k), where orbits of small mu have a shape
+  uv,          ///< the paper's plane (u, v)
+  patch,       ///< (mu u, v): the rim speed of pivoting and the speed of sliding, on axes that compare
+  log,         ///< the same, both logarithmic
+  similarity,  ///< (q, p) and (ln k, p): orbits are translates of one curve
+  blowup,      ///< the origin blown up: to a half-circle, and in the chart (u, k)
+  disc,        ///< the Poincare disc: the whole half-plane, infinity included
+  time,        ///< u, v and k against tau/tau*
+  pair,        ///< the plane beside (u, ln k), where orbits of small mu have a shape
 };
 
 std::string_view name(View view);
+std::optional<View> find_view(std::string_view name);
 
-/// One orbit from the border of the window to the origin. Equal lengths; the last entry is the stop: 0, 0, -inf, 0.
+/// In the order in which they are listed.
+const std::vector<View>& views();
+
+/// One orbit. Equal lengths; the last entry is the stop: 0, 0, -inf, -inf, 0.
 struct PortraitOrbit {
   Eigen::ArrayXd u;
   Eigen::ArrayXd v;
+  Eigen::ArrayXd ln_v;
   Eigen::ArrayXd ln_k;
   Eigen::ArrayXd tau_left;
+
+  /// The state of a row scaled by a factor > 0, as scaling symmetry allows.
+  struct Instant {
+    double u, v, ln_v, ln_k, tau_left;
+  };
+  Instant at(Eigen::Index row, double factor = 1) const;
+  Eigen::Index rows() const { return u.size(); }
 };
 
 /// All states of one stop time, from one end of the half-plane to the other.
@@ -42,33 +61,53 @@ struct Isochrone {
   Eigen::ArrayXd v;
 };
 
-/// The phase plane of one system as data; nothing here is drawn.
-struct PhasePortrait {
-  std::string law;
-  double mu = 0;
-  View view = View::uv;
-  Window window{};
-  double pivoting_slope = 0;  ///< d ln k/d ln |u| as k -> 0: the order at which orbits touch v = 0
-  std::vector<PortraitOrbit> orbits;
-  std::vector<Isochrone> isochrones;
-  std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
+/// Stop times of the states mu u = cos(theta), v = sin(theta), k = tan(theta); by scaling, all stop times.
+struct StopProfile {
+  Eigen::ArrayXd ln_k;  ///< increasing, from -infinity to infinity
+  Eigen::ArrayXd tau;
 };
 
-/// What to show. Left empty, the window, the view and the isochrones follow from mu.
+/// The phase plane of one system as data; nothing here is drawn.
+struct PhasePortrait {
+  reduction::ReducedSystem system;
+  reduction::PhasePlane plane;
+  View view;
+  Window window;
+  std::vector<PortraitOrbit> orbits;  ///< from the border of the window to the origin
+  /// From next to infinity to the origin, mu u = 1 where k = 1 (on the ray's other side: where they start), u > 0:
+  /// every orbit off the invariant half-lines is one of them, scaled. One on each side of the ray.
+  std::vector<PortraitOrbit> curves;
+  std::vector<Isochrone> isochrones;
+  StopProfile profile;
+  std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
+  std::vector<PortraitOrbit> through;      ///< the orbits through the points asked for, from the border
+  std::vector<PhasePortrait> against;      ///< the same window for another law, if asked for
+};
+
+/// What to show. Left empty, the window and the view follow from mu.
 struct PortraitRequest {
+  std::optional<View> view;
   std::optional<Window> window;
   std::optional<reduction::State> highlight;  ///< the window then contains it
+  std::vector<reduction::State> through;
+  std::optional<int> orbits_per_side;
+  int isochrones = 7;  ///< about so many
+  std::optional<reduction::Law> against;
   /// closed or quadrature: the similarity solution. regularised: (2.7) stepped in beta.
   reduction::Route route = reduction::Route::closed;
-  double time_unit = 1;  ///< isochrones are at round multiples of this many tau
+  bool window_only = false;  ///< leave out what only drawings need: whole curves and profile
+  double time_unit = 1;      ///< isochrones are at round multiples of this many tau
 };
 
 /// Computes the portrait: orbits seeded along the border at equal distances across the flow, u of both signs, and
 /// isochrones by scaling one curve.
 ///
-/// @throws std::domain_error  if the window is not positive and finite, or the route is direct, or r is beyond the
-/// regime
-///                            k -> 0
+/// @throws std::domain_error  if the window is not positive and finite, a point lies on no orbit (u or v is 0) or out
+/// of
+///                            the window, a number is negative, or the route is direct
 PhasePortrait phase_portrait(const reduction::ReducedSystem& system, const PortraitRequest& request);
+
+/// The largest of 1, 2, 5 times a power of ten that is at most x > 0.
+double round_down(double x);
 
 }  // namespace contensou::portraits

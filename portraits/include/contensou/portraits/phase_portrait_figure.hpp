@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "contensou/portraits/figure.hpp"
@@ -10,7 +11,7 @@ namespace contensou::portraits {
 /// Words and units of a drawing; the defaults are those of the paper's plane.
 struct PortraitCaption {
   std::string title;               ///< empty: the law and mu
-  std::string subtitle;            ///< empty: what orbits and axes are
+  std::string subtitle;            ///< empty: what the view shows
   std::string speed_unit;          ///< of u and v, "m/s" for a ball; empty: any one unit
   std::string time_symbol = "τ*";  ///< what isochrones are labelled with
   std::string time_unit_name;      ///< "s" for a ball
@@ -18,7 +19,18 @@ struct PortraitCaption {
   std::string highlight;           ///< legend of the highlighted orbit
 };
 
-/// The portrait as a drawing: orbits with arrows, labelled isochrones, both invariant axes, legend.
-Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {});
+/// What is drawn and how.
+struct PortraitStyle {
+  enum class Arrows { time, one, none } arrows = Arrows::time;         ///< at equal times, one on each orbit, none
+  enum class Field { none, motion, regularised } field = Field::none;  ///< directions of (2.6), (2.7)
+  bool invariant = true;                                               ///< axes and ray, which are the nullclines
+  bool colour_by_time = true;  ///< orbits by the time left; not where two laws are compared
+  bool screen = false;         ///< light on dark, for a projector, instead of dark on light, for paper
+  std::optional<double> width_mm;
+  std::optional<double> height_mm;
+};
+
+/// The portrait as a drawing in its view. A pure function: all numbers come from the portrait.
+Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {}, const PortraitStyle& style = {});
 
 }  // namespace contensou::portraits

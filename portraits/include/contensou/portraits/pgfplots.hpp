@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "contensou/portraits/figure.hpp"
+
+namespace contensou::portraits {
+
+/// The figure as a LaTeX document that pdflatex compiles, with its data inside. It needs the packages pgfplots and
+/// amsmath (Debian: texlive-pictures); the tikzpicture in it can be moved into a paper.
+std::string pgfplots(const Figure& figure);
+
+/// A figure's text as TeX: italics and indices become mathematics, characters that neither Latin letters nor known
+/// signs of mathematics are become '?'.
+std::string tex_text(std::string_view text);
+
+}  // namespace contensou::portraits

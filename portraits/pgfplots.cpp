@@ -1,0 +1,288 @@
+#include "contensou/portraits/pgfplots.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "contensou/portraits/layout.hpp"
+
+namespace contensou::portraits {
+
+namespace {
+
+constexpr double line_pt = 0.57;  // of a line of width 1
+constexpr double letter_pt = 7.7;
+
+/// Signs beyond Latin letters, as mathematics.
+constexpr std::array signs{
+    std::pair{"α", "\\alpha"},  std::pair{"β", "\\beta"},    std::pair{"γ", "\\gamma"},  std::pair{"θ", "\\theta"},
+    std::pair{"μ", "\\mu"},     std::pair{"π", "\\pi"},      std::pair{"ρ", "\\rho"},    std::pair{"τ", "\\tau"},
+    std::pair{"χ", "\\chi"},    std::pair{"ω", "\\omega"},   std::pair{"Φ", "\\Phi"},    std::pair{"Ψ", "\\Psi"},
+    std::pair{"·", "\\cdot{}"}, std::pair{"×", "\\times"},   std::pair{"∝", "\\propto"}, std::pair{"∞", "\\infty"},
+    std::pair{"≤", "\\le"},     std::pair{"≥", "\\ge"},      std::pair{"→", "\\to"},     std::pair{"−", "-"},
+    std::pair{"±", "\\pm"},     std::pair{"°", "{}^\\circ"}, std::pair{"…", "\\ldots"},  std::pair{"′", "'"},
+    std::pair{"|", "|"},        std::pair{"<", "<"},         std::pair{">", ">"},
+};
+
+/// Reads a figure's text (figure.hpp) and writes TeX.
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : text_(text) {}
+
+  /// Up to the closing brace or the end.
+  std::string read(bool mathematics) {
+    std::string tex;
+    while (at_ < text_.size() && text_[at_] != '}') tex += piece(mathematics);
+    return tex;
+  }
+
+ private:
+  std::string piece(bool mathematics) {
+    const char c = text_[at_];
+    if (c == '{') return group(mathematics);
+    if (c == '_' || c == '^') {
+      ++at_;
+      const std::string below = at_ < text_.size() ? (text_[at_] == '{' ? group(true) : character(true)) : "";
+      const std::string index = fmt::format("{}{{{}}}", c, below);
+      return mathematics ? index : fmt::format("\\ensuremath{{{}}}", index);
+    }
+    if (c == '\\' && at_ + 1 < text_.size()) ++at_;
+    return character(mathematics);
+  }
+
+  std::string group(bool mathematics) {
+    ++at_;
+    bool italic = false;
+    if (text_.substr(at_).starts_with("/")) {  // {/:Italic ...} or {/*0.85 ...}
+      italic = text_.substr(at_).starts_with("/:Italic");
+      at_ = std::min(text_.find(' ', at_), text_.size() - 1) + 1;
+    }
+    const std::string inside = read(mathematics || italic);
+    if (at_ < text_.size()) ++at_;
+    return italic && !mathematics ? fmt::format("\\ensuremath{{{}}}", inside) : inside;
+  }
+
+  std::string character(bool mathematics) {
+    for (const auto& [sign, tex] : signs) {
+      if (!text_.substr(at_).starts_with(sign)) continue;
+      at_ += std::string_view(sign).size();
+      return mathematics ? fmt::format("{} ", tex) : fmt::format("\\ensuremath{{{}}}", tex);
+    }
+    const auto first = static_cast<unsigned char>(text_[at_]);
+    const std::size_t size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    const std::string one(text_.substr(at_, size));
+    at_ += size;
+    if (first >= 0x80) return first >= 0xC3 && first <= 0xC5 && one.size() == 2 ? one : "?";  // Latin with accents
+    if (first < ' ') return " ";
+    if (one == "*" && mathematics) return "{*}";
+    if (one == "\\") return mathematics ? "\\backslash " : "\\textbackslash{}";
+    if (one == "~") return "\\textasciitilde{}";
+    if (one == "^") return "\\textasciicircum{}";
+    if (std::string_view("#$%&_{}").find(one) != std::string_view::npos) return "\\" + one;
+    return one;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+std::string name(Colour colour) { return fmt::format("c{:06X}", colour.rgb); }
+
+class Writer {
+ public:
+  explicit Writer(const Figure& figure) : figure_(figure), layout_(lay_out(figure)) {}
+
+  std::string document() {
+    const double letter = letter_pt * figure_.theme.letters;
+    put("% Drawn by contensou; pdflatex. The tikzpicture can be moved into a paper that loads the same packages.\n"
+        "\\documentclass{{article}}\n\\usepackage[utf8]{{inputenc}}\n\\usepackage{{amsmath}}\n"
+        "\\usepackage{{pgfplots}}\n\\usetikzlibrary{{arrows.meta}}\n\\pgfplotsset{{compat=1.16}}\n"
+        "\\IfFileExists{{lmodern.sty}}{{\\usepackage{{lmodern}}}}{{}}\n"
+        "\\usepackage[paperwidth={:.6g}mm,paperheight={:.6g}mm,margin=0mm]{{geometry}}\n"
+        "\\pagestyle{{empty}}\n\\setlength{{\\parindent}}{{0pt}}\\setlength{{\\topskip}}{{0pt}}\n"
+        "\\pdfinfoomitdate=1 \\pdftrailerid{{}}\n",
+        figure_.width_mm, figure_.height_mm + 0.1);
+    for (unsigned rgb : colours()) put("\\definecolor{{c{0:06X}}}{{HTML}}{{{0:06X}}}\n", rgb);
+    put("\\begin{{document}}%\n"
+        "\\begin{{tikzpicture}}[x=1mm,y=1mm,text={},font=\\fontsize{{{:.3g}}}{{{:.3g}}}\\selectfont]\n",
+        name(figure_.theme.ink), letter, 1.2 * letter);
+    put("\\fill[{}] (0,0) rectangle ({:.6g},{:.6g});\n", name(figure_.theme.ground), figure_.width_mm,
+        figure_.height_mm);
+    node(figure_.width_mm / 2, layout_.title, figure_.title,
+         fmt::format("font=\\fontsize{{{:.3g}}}{{{:.3g}}}\\selectfont", 1.2 * letter, 1.44 * letter));
+    node(figure_.width_mm / 2, layout_.subtitle, figure_.subtitle, "text=" + name(figure_.theme.faint));
+    for (std::size_t i = 0; i < figure_.panels.size(); ++i) panel(i);
+    colour_bar();
+    legend();
+    put("\\end{{tikzpicture}}%\n\\end{{document}}\n");
+    return std::move(tex_);
+  }
+
+ private:
+  template <class... Values>
+  void put(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(tex_), format, std::forward<Values>(values)...);
+  }
+
+  std::set<unsigned> colours() const {
+    std::set<unsigned> used{figure_.theme.ground.rgb, figure_.theme.ink.rgb, figure_.theme.faint.rgb};
+    for (const Panel& panel : figure_.panels) {
+      for (const Region& region : panel.regions) used.insert(region.colour.rgb);
+      for (const Lines& lines : panel.lines) used.insert(lines.stroke.colour.rgb);
+      for (const Arrows& arrows : panel.arrows) used.insert(arrows.colour.rgb);
+      for (const Marks& marks : panel.marks) used.insert(marks.colour.rgb);
+      for (const Label& label : panel.labels) used.insert(label.colour.rgb);
+    }
+    if (figure_.colour_bar) {
+      for (Colour colour : figure_.colour_bar->colours) used.insert(colour.rgb);
+    }
+    return used;
+  }
+
+  void node(double x, double y, const std::string& text, const std::string& style) {
+    if (!text.empty()) put("\\node[{}] at ({:.6g},{:.6g}) {{{}}};\n", style, x, y, tex_text(text));
+  }
+
+  std::string line_style(const Stroke& stroke) const {
+    return fmt::format("draw={},line width={:.3g}pt,line cap=round,line join=round{}", name(stroke.colour),
+                       stroke.width * line_pt * figure_.theme.line,
+                       stroke.dashed ? ",dash pattern=on 2.2pt off 2.4pt" : "");
+  }
+
+  std::string mark_style(const Marks& marks) const {
+    const double size = 2.6 * marks.size;  // pt
+    const bool open = marks.shape != Marks::Shape::dot;
+    return fmt::format("mark={},mark size={:.3g}pt,mark options={{draw={},fill={},line width=0.7pt}}",
+                       marks.shape == Marks::Shape::square ? "square*" : "*", size, name(marks.colour),
+                       name(open ? figure_.theme.ground : marks.colour));
+  }
+
+  void axis_options(const char* which, const Axis& axis) {
+    put("  {0}min={1:.8g},{0}max={2:.8g}", which, axis.low, axis.high);
+    if (axis.logarithmic) put(",{}mode=log", which);
+    put(",{}label={{{}}}", which, tex_text(axis.name));
+    if (!axis.ticks.empty()) {
+      std::vector<std::string> places, texts;
+      for (const Axis::Tick& tick : axis.ticks) {
+        places.push_back(fmt::format("{:.8g}", tick.at));
+        texts.push_back("{" + tex_text(tick.text) + "}");
+      }
+      put(",{0}tick={{{1}}},{0}ticklabels={{{2}}}", which, fmt::join(places, ","), fmt::join(texts, ","));
+    }
+    put(",\n");
+  }
+
+  /// pgfplots draws the axes; what is in them is placed here, in millimetres, which is faster by far.
+  void panel(std::size_t i) {
+    const Panel& panel = figure_.panels[i];
+    const Box& box = layout_.panels[i];
+    const auto at = [&](Point point) {
+      const Point place = on_paper(panel, point);
+      return fmt::format("({:.2f},{:.2f})", box.left + place.x * box.width, box.bottom + place.y * box.height);
+    };
+    const auto path = [&](const Polyline& line) {
+      std::vector<std::string> places;
+      for (const Point& point : line) places.push_back(at(point));
+      return fmt::format("{}", fmt::join(places, "--"));
+    };
+    node(box.left + box.width / 2, layout_.names[i], panel.title, "");
+    for (const Region& region : panel.regions) put("\\fill[{}] {};\n", name(region.colour), path(region.border));
+    if (!panel.bare) {
+      put("\\begin{{axis}}[at={{({:.6g}mm,{:.6g}mm)}},anchor=south west,scale only "
+          "axis,width={:.6g}mm,height={:.6g}mm,\n",
+          box.left, box.bottom, box.width, box.height);
+      axis_options("x", panel.x);
+      axis_options("y", panel.y);
+      put("  axis lines=left,axis line style={{-}},tick align=outside]\n\\end{{axis}}\n");
+    }
+    for (const Lines& layer : panel.lines) {
+      std::string paths;
+      for (const Polyline& line : layer.lines) {
+        for (const Polyline& part : clipped(panel, line)) paths += "\n  " + path(thinned(panel, part));
+      }
+      if (!paths.empty()) put("\\draw[{}]{};\n", line_style(layer.stroke), paths);
+    }
+    for (const Arrows& layer : panel.arrows) {
+      for (const Arrow& arrow : layer.arrows) {
+        const std::optional<Arrow> head = short_arrow(panel, box, arrow);
+        if (!head) continue;
+        const Point tail = on_paper(panel, head->at), tip = on_paper(panel, arrow.at);
+        put("\\draw[-{{Stealth[length=2mm,width=1.3mm]}},draw={0},fill={0},line width=0.3pt] "
+            "({1:.4f},{2:.4f})--({3:.4f},{4:.4f});\n",
+            name(layer.colour), box.left + tail.x * box.width, box.bottom + tail.y * box.height,
+            box.left + tip.x * box.width, box.bottom + tip.y * box.height);
+      }
+    }
+    for (const Marks& layer : panel.marks) {
+      put("\\draw plot[only marks,{}] coordinates {{", mark_style(layer));
+      for (const Point& point : layer.points) tex_ += at(point);
+      put("}};\n");
+    }
+    for (const Label& label : panel.labels) {
+      const char* anchor = label.align == Label::Align::left    ? ",anchor=west"
+                           : label.align == Label::Align::right ? ",anchor=east"
+                                                                : "";
+      put("\\node[text={},fill={},inner sep=0.8pt,scale=0.85{}] at {} {{{}}};\n", name(label.colour),
+          name(figure_.theme.ground), anchor, at(label.at), tex_text(label.text));
+    }
+  }
+
+  void colour_bar() {
+    if (!figure_.colour_bar) return;
+    const ColourBar& bar = *figure_.colour_bar;
+    const Box& box = layout_.colour_bar;
+    const double step = box.height / static_cast<double>(bar.colours.size());
+    for (std::size_t i = 0; i < bar.colours.size(); ++i) {
+      const double bottom = box.bottom + step * static_cast<double>(i);
+      put("\\fill[{}] ({:.6g},{:.6g}) rectangle ({:.6g},{:.6g});\n", name(bar.colours[i]), box.left, bottom,
+          box.left + box.width, std::min(bottom + step + 0.1, box.bottom + box.height));
+    }
+    for (const Axis::Tick& tick : bar.ticks) {
+      node(box.left + box.width, box.bottom + tick.at * box.height, tick.text, "anchor=west,scale=0.85");
+    }
+    node(box.left - 1, box.bottom + box.height + 1.3 * layout_.letter, bar.name, "anchor=west");
+  }
+
+  void legend() {
+    std::vector<std::string> listed, entries;
+    const auto entry = [&](const std::string& legend, const std::string& sample) {
+      if (legend.empty() || std::ranges::find(listed, legend) != listed.end()) return;
+      listed.push_back(legend);
+      entries.push_back(fmt::format("\\mbox{{\\tikz[baseline=-0.6ex]{}\\ {}}}", sample, tex_text(legend)));
+    };
+    for (const Panel& panel : figure_.panels) {
+      for (const Lines& layer : panel.lines) {
+        entry(layer.legend, fmt::format("\\draw[{}] (0,0)--(7mm,0);", line_style(layer.stroke)));
+      }
+      for (const Marks& layer : panel.marks) {
+        entry(layer.legend, fmt::format("\\draw plot[only marks,{}] coordinates {{(0,0)}};", mark_style(layer)));
+      }
+    }
+    if (entries.empty()) return;
+    put("\\node[align=center,text width={:.6g}mm] at ({:.6g},{:.6g}) {{{}}};\n", figure_.width_mm - 8,
+        figure_.width_mm / 2, layout_.legend, fmt::join(entries, "\\hspace{5mm}"));
+  }
+
+  const Figure& figure_;
+  Layout layout_;
+  std::string tex_;
+};
+
+}  // namespace
+
+std::string tex_text(std::string_view text) {
+  Reader reader(text);
+  return reader.read(false);
+}
+
+std::string pgfplots(const Figure& figure) { return Writer(figure).document(); }
+
+}  // namespace contensou::portraits

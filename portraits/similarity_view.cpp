@@ -1,0 +1,67 @@
+// Canonical coordinates: the symmetry (u, v) -> (c u, c v) moves p = ln v alone, so orbits are translates of one curve.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "portrait_views.hpp"
+
+namespace contensou::portraits {
+
+namespace {
+
+constexpr double half_height = 5;  // of the panels, in p
+constexpr double step = 0.8;       // between translates
+
+/// One panel: translates of each curve, with the arrow of the symmetry.
+Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
+                 double ray_at) {
+  const PhasePortrait& portrait = drawing.portrait;
+  const double middle = std::log(portrait.window.v);
+  axes.y = {"{/:Italic p} = ln {/:Italic v}", middle - half_height, middle + half_height, false, {}};
+  const double below = middle - 100 * half_height;
+  PortraitPanel layers(drawing, std::move(axes), [abscissa, below](const Instant& at) {
+    return Point{abscissa(at.ln_k), std::max(at.ln_v, below)};
+  });
+  std::vector<PortraitPanel::Copy> copies;
+  for (const PortraitOrbit& curve : portrait.curves) {
+    const Instant at = at_log_ratio(curve, curve.ln_k[0] > 0 ? 1 : -1);
+    constexpr int most = 12;
+    for (int i = -most; i <= most; ++i) copies.push_back({curve, std::exp(middle + i * step - at.ln_v)});
+  }
+  layers.add_orbits(copies);
+  const Axis& y = layers.panel().y;
+  if (std::isfinite(ray_at)) layers.add_invariant({}, {{{ray_at, y.low}, {ray_at, y.high}}});
+  layers.add_highlights();
+  // What the symmetry does: from one translate to the next but one.
+  Panel panel = std::move(layers).finished();
+  const double x = panel.x.low + 0.82 * (panel.x.high - panel.x.low);
+  const double low = middle - half_height + 0.12 * 2 * half_height, high = low + 2 * step;
+  panel.lines.push_back(
+      {{{{x, low}, {x, high}}}, {drawing.palette.highlight, 2, false}, "symmetry {/:Italic p → p} + ln {/:Italic c}"});
+  panel.arrows.push_back({{{{x, high}, {0, 1}}}, drawing.palette.highlight});
+  return panel;
+}
+
+}  // namespace
+
+std::vector<Panel> similarity_view(const Drawing& drawing) {
+  using reduction::InvariantDirection;
+  const PhasePortrait& portrait = drawing.portrait;
+  const double mu = portrait.system.mu();
+  const double k_star = portrait.plane.tangent == InvariantDirection::ray ? portrait.plane.terminal.k
+                                                                          : std::numeric_limits<double>::infinity();
+  const double centre = std::isfinite(k_star) ? std::log(k_star) : 0;
+  Panel by_q, by_ratio;
+  by_q.title = "{/:Italic q = v}/{/:Italic u}: the symmetry moves {/:Italic p} alone";
+  by_q.x = {"{/:Italic q = μk}", 0, mu * (std::isfinite(k_star) ? 3 * k_star : 4), false, {}};
+  by_ratio.title = "the same against ln {/:Italic k}";
+  by_ratio.x = {"ln {/:Italic k}", centre - 4, centre + 4, false, {}};
+  std::vector<Panel> panels;
+  panels.push_back(translates(
+      drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); }, mu * k_star));
+  panels.push_back(translates(
+      drawing, std::move(by_ratio), [](double ln_k) { return std::max(ln_k, -1e3); }, std::log(k_star)));
+  return panels;
+}
+
+}  // namespace contensou::portraits
