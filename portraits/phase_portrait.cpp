@@ -226,7 +226,8 @@ class Painter {
       result.u[i] = point.u;
       result.v[i] = point.v;
       result.ln_v[i] = point.ln_v;
-      result.ln_k[i] = log_ratio(point, system_.mu());
+      const bool rest = point.u == 0 && point.v == 0;
+      result.ln_k[i] = rest ? std::log(terminal_k_) : log_ratio(point, system_.mu());
       result.tau_left[i] = left;
     }
     return result;

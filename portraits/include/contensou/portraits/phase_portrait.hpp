@@ -38,7 +38,7 @@ std::optional<View> find_view(std::string_view name);
 /// In the order in which they are listed.
 const std::vector<View>& views();
 
-/// One orbit. Equal lengths; the last entry is the stop: 0, 0, -inf, -inf, 0.
+/// One orbit. Equal lengths; the last entry is the stop: 0, 0, -inf, ln k of the terminal ratio, 0.
 struct PortraitOrbit {
   Eigen::ArrayXd u;
   Eigen::ArrayXd v;
