@@ -12,6 +12,7 @@ set(pictures
   "gallery/blowup.svg: --mu 0.3 --view blowup"
   "gallery/disc.svg: --mu 0.3 --view disc --style screen"
   "gallery/time.svg: --mu 0.3 --view time"
+  "gallery/puck.svg: --body disc --law uniform"
   "gallery/against.svg: --mu 0.5 --against exact --orbits 8"
   "gallery/field.svg: --mu 0.5 --view patch --field --orbits 5 --isochrones 0")
 

@@ -70,5 +70,5 @@ TEST_CASE("Fig. 1 and Fig. 3 are drawn inside their frames and to scale", "[pape
 
 TEST_CASE("a bare panel has no axes, and its figure a heading without a legend", "[paper_drawings][gnuplot]") {
   const std::string script = gnuplot_script(patch_drawing());
-  CHECK_THAT(script, Contains("unset border\nunset xtics") && Contains("NaN notitle") && Contains("Fig. 1"));
+  CHECK_THAT(script, Contains("unset border\nunset tics") && Contains("NaN notitle") && Contains("Fig. 1"));
 }

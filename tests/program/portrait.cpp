@@ -124,7 +124,7 @@ TEST_CASE("portrait says what is wrong with a switch, and draws nothing", "[cli]
     CHECK(run.out.empty());
     CHECK_THAT(run.err, Contains(words));
   };
-  rejected("--view dics", "--view dics: no such view; did you mean 'disc'");
+  rejected("--view dics", "--view dics: no such view (did you mean 'disc'?)");
   rejected("--window 1", "--window 1: two numbers");
   rejected("--window 0,1", "--window 0,1: both sides");
   rejected("--orbits -1", "--orbits: '-1'");
