@@ -8,7 +8,8 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
 TEST_CASE("every verb has help with an example", "[cli]") {
-  for (const std::string verb : {"stop", "sweep", "orbit", "roll", "law", "portrait", "check", "explore", "paper", "balls"}) {
+  for (const std::string verb :
+       {"stop", "sweep", "orbit", "roll", "law", "portrait", "check", "explore", "paper", "balls"}) {
     const Run run = run_program(verb + " --help");
     INFO(verb);
     CHECK(run.status == 0);
