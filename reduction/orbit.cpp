@@ -99,7 +99,6 @@ Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution&
   xi0_ = curve_->approach().coordinate(ln_k0_);
   log_rim0_ = curve_->log_rim(xi0_);
   share0_ = curve_->sliding_share(xi0_);
-  slip0_ = slip_left(xi0_);
 }
 
 const SimilarityCurve& Orbit::curve() const {
@@ -234,7 +233,7 @@ double Orbit::slip_length(double tau) const {
     const double v = u0_ == 0 && tau < stop ? v_ * (1 - tau / stop) : 0;
     slip = (v_ - v) * (v_ + v) / 2;
   } else {
-    slip = slip0_ - (tau < stop ? slip_left(coordinate_at_time(tau)) : 0);
+    slip = slip_left(xi0_) - (tau < stop ? slip_left(coordinate_at_time(tau)) : 0);
   }
   return std::ldexp(slip / system_.scaled_time_rate(), 2 * exponent_);
 }

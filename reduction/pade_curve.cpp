@@ -24,10 +24,16 @@ constexpr double lowest_ln_k = -40;
 /// Terms of a series in powers of 1/2 or less.
 constexpr int terms = 56;
 
+/// Terms of a series in powers of x <= 1/2: the first that is below half an eps ends it.
+int terms_for(double x) {
+  const int exponent = x > 0 ? std::ilogb(x) + 1 : -terms;  // x < 2^exponent
+  return exponent < -1 ? 54 / -exponent + 2 : terms;
+}
+
 /// 2F1(1, beta; gamma; x) for 0 <= x <= 1/2 and |beta| <= gamma: the Taylor series, summed from its small end.
 double gauss_series(double beta, double gamma, double x) {
   double sum = 1;
-  for (int n = terms - 1; n >= 0; --n) sum = 1 + sum * x * ((beta + n) / (gamma + n));
+  for (int n = terms_for(x) - 1; n >= 0; --n) sum = 1 + sum * x * ((beta + n) / (gamma + n));
   return sum;
 }
 
@@ -50,7 +56,8 @@ double connected_gauss(double a, double e, double connection, double x, double y
   double power = 1;
   double rising = 1;  // (a + 1)_n/n!
   double regular = 0;
-  for (int n = 0; n < terms; ++n) {
+  const int count = terms_for(y);
+  for (int n = 0; n < count; ++n) {
     sum += power * (regular + rising * pole);
     regular = regular * ((b + 1 + n) / (1 - e + n)) + rising * a / ((1 - e + n) * (1 + n));
     rising *= (a + 1 + n) / (1 + n);
@@ -120,6 +127,7 @@ double PadeCurve::regularised_age(double ln_k) const {
   // (R11): x^a times the integral of t^(-a-1) (1-t)^e from x to 1/2, term by term, and from 1/2 to 1.
   const double to_half = -std::numbers::ln2 - at.ln_x;
   const double x_to_a = std::exp(a_ * at.ln_x);
+  const double scale = x_to_a * std::exp2(a_);
   double sum = expm1_over(-a_, to_half);
   double coefficient = 1;
   double power = 1;
@@ -130,7 +138,7 @@ double PadeCurve::regularised_age(double ln_k) const {
     half_power *= 0.5;
     const double s = n - a_;
     const double integral =
-        std::abs(s) * to_half < 1 ? power * expm1_over(s, to_half) : (x_to_a * half_power * std::exp2(a_) - power) / s;
+        std::abs(s) * to_half < 1 ? power * expm1_over(s, to_half) : (scale * half_power - power) / s;
     sum += coefficient * integral;
   }
   const double unit = (1 + std::exp(ln_k)) / (3 * pi * A_);

@@ -21,7 +21,9 @@
 
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/orbit_family.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/stop_time_profile.hpp"
 #include "reference_table.hpp"
@@ -211,11 +213,37 @@ int main() {
   measure("build pade", [] { benchmark::DoNotOptimize(StopTimeProfile(ReducedSystem(PadeLaw{}, 0.1))); });
   measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeProfile(ReducedSystem(HertzLaw{}, 0.1))); });
 
+  // A mu of its own for each start: log-uniform in 1e-4 .. 1, as v0/(mu u0) is in 1e-3 .. 1e5.
+  constexpr std::size_t own = std::size_t{1} << 16;
+  const Array own_mu(own), own_u(own), own_v(own), own_tau(own);
+  std::uniform_real_distribution<double> ln_mu(std::log(1e-4), 0), ln_k(std::log(1e-3), std::log(1e5));
+  for (std::size_t i = 0; i < own; ++i) {
+    own_mu.span()[i] = std::exp(ln_mu(generator));
+    own_u.span()[i] = 1;
+    own_v.span()[i] = own_mu.span()[i] * std::exp(ln_k(generator));
+  }
+  measure("own mu", [&] {
+    for (std::size_t i = 0; i < own; ++i) {
+      own_tau.span()[i] = pade_stop_time(own_mu.span()[i], {own_u.span()[i], own_v.span()[i]});
+    }
+    benchmark::ClobberMemory();
+  });
+  measure("own mu in arrays", [&] {
+    pade_stop_times(own_mu.span(), own_u.span(), own_v.span(), own_tau.span());
+    benchmark::ClobberMemory();
+  });
+
   // Orbits.
   std::vector<Orbit> orbits;
   const ReducedSystem pool(PadeLaw{}, 0.1);
   for (int i = 0; i < 40; ++i) orbits.emplace_back(pool, State{1, 0.1 * std::exp(0.2 * (i - 20))});
+  std::vector<State> family_starts;
+  for (const Orbit& orbit : orbits) family_starts.push_back({orbit.at_time(0).u, orbit.at_time(0).v});
   measure("orbits", [&] {
+    const OrbitFamily family(pool, family_starts, 400);
+    for (const State& start : family_starts) benchmark::DoNotOptimize(family.orbit(start));
+  });
+  measure("orbits by time", [&] {
     for (const Orbit& orbit : orbits) benchmark::DoNotOptimize(orbit.sample(400));
   });
   measure("inversion", [&] {
@@ -270,10 +298,14 @@ int main() {
     fmt::print("| profile, Pade, {} | {:.2f} ns | {:.0f} % | | |\n", kernel.name, time, 100 * each("loop") / time);
   }
   fmt::print(
-      "\nA profile is built in {} (Pade), {} (exact law). 40 orbits of 400 instants take {}, the state at an\n"
-      "instant {}.\n",
-      duration(times("build pade")), duration(times("build hertz")), duration(times("orbits")),
-      duration(times("inversion") / 40));
+      "\nA profile is built in {} (Pade), {} (exact law). With a mu of its own a start takes {}, and {} in arrays of\n"
+      "them (Pade). 40 orbits of 400 instants take {} as copies of one curve, {} at equidistant times; the state at "
+      "one\n"
+      "instant takes {}.\n",
+      duration(times("build pade")), duration(times("build hertz")),
+      duration(times("own mu") / static_cast<double>(own)),
+      duration(times("own mu in arrays") / static_cast<double>(own)), duration(times("orbits")),
+      duration(times("orbits by time")), duration(times("inversion") / 40));
 
   fmt::print("\n| u0 = v0 = 1, mu = |");
   for (double mu : small) fmt::print(" {} |", mu);

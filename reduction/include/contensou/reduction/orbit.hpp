@@ -127,7 +127,6 @@ class Orbit {
   double ln_k0_;
   double xi0_ = 0;
   double log_rim0_ = 0;
-  double slip0_ = 0;      ///< integral of v ds until the stop, scaled
   double share0_ = 1;     ///< m(k0)
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };
