@@ -46,6 +46,50 @@ bool inside(Point place, double margin) {
   return place.x >= margin && place.x <= 1 - margin && place.y >= margin && place.y <= 1 - margin;
 }
 
+/// Points on paper that a label of some size keeps off, sorted into cells so that only near ones are asked.
+class Obstacles {
+ public:
+  /// Room beyond which nobody looks, in half sizes of the label.
+  static constexpr double most = 2;
+
+  Obstacles(const std::vector<Point>& points, double half_width, double half_height)
+      : half_width_(half_width), half_height_(half_height), cells_(columns() * rows()) {
+    for (const Point& point : points) {
+      if (inside(point, -most * std::max(half_width, half_height)))
+        cells_[cell(column(point.x), row(point.y))].push_back(point);
+    }
+  }
+
+  /// How far a place is from the nearest point, in half widths or half heights, whichever is more.
+  double room(Point at) const {
+    double room = most;
+    for (int i = column(at.x) - 1; i <= column(at.x) + 1; ++i) {
+      for (int j = row(at.y) - 1; j <= row(at.y) + 1; ++j) {
+        if (i < 0 || j < 0 || i >= columns() || j >= rows()) continue;
+        for (const Point& other : cells_[cell(i, j)]) {
+          room =
+              std::min(room, std::max(std::abs(other.x - at.x) / half_width_, std::abs(other.y - at.y) / half_height_));
+        }
+      }
+    }
+    return room;
+  }
+
+ private:
+  // The paper and one cell around it.
+  int columns() const { return static_cast<int>(1 / (most * half_width_)) + 3; }
+  int rows() const { return static_cast<int>(1 / (most * half_height_)) + 3; }
+  int column(double x) const { return place(x / (most * half_width_), columns()); }
+  int row(double y) const { return place(y / (most * half_height_), rows()); }
+  static int place(double cells, int count) {
+    return std::clamp(static_cast<int>(std::floor(cells)) + 1, 0, count - 1);
+  }
+  std::size_t cell(int i, int j) const { return static_cast<std::size_t>(i * rows() + j); }
+
+  double half_width_, half_height_;
+  std::vector<std::vector<Point>> cells_;
+};
+
 }  // namespace
 
 Palette palette(bool screen) {
@@ -300,6 +344,14 @@ void PortraitPanel::add_rival_isochrones(const std::vector<double>& times, const
 
 void PortraitPanel::add_isochrones(const std::vector<double>& times) {
   if (times.empty()) return;
+  std::vector<Point> obstacles = heads_;
+  for (const Polyline& orbit : orbits_) {
+    for (std::size_t i = 1; i < orbit.size(); ++i) {
+      const Point a = on_paper(panel_, orbit[i - 1]), b = on_paper(panel_, orbit[i]);
+      const int pieces = 1 + static_cast<int>(std::min(100.0, std::hypot(a.x - b.x, a.y - b.y) / 0.01));
+      for (int j = 0; j <= pieces; ++j) obstacles.push_back(between(a, b, static_cast<double>(j) / pieces));
+    }
+  }
   Lines lines{{},
               {drawing_.palette.isochrone, 1.1, true},
               fmt::format("time left {}{}{}", drawing_.caption.time_symbol,
@@ -320,26 +372,22 @@ void PortraitPanel::add_isochrones(const std::vector<double>& times) {
     const double letters = drawing_.palette.theme.letters;
     const double half_width = letters * (0.75 * static_cast<double>(shown_length(text)) + 0.4) / drawing_.panel_mm.x;
     const double half_height = letters * 1.9 / drawing_.panel_mm.y;
+    const Obstacles near(obstacles, half_width, half_height);
     double best = 0;
     Point where{};
     for (const Point& candidate : candidates) {
       const Point at = on_paper(panel_, candidate);
       if (!inside(at, 0.05)) continue;
-      double room = 2;
-      const auto keep_off = [&](Point other, double spare) {
+      double room = Obstacles::most;
+      for (const Label& label : panel_.labels) {
+        const Point other = on_paper(panel_, label.at);
+        constexpr double spare = 2.2;
         room = std::min(room, std::max(std::abs(other.x - at.x) / (half_width * spare),
                                        std::abs(other.y - at.y) / (half_height * spare)));
-      };
-      for (const Label& label : panel_.labels) keep_off(on_paper(panel_, label.at), 2.2);
-      for (const Point& head : heads_) keep_off(head, 1);
-      if (panel_.x.low < 0) keep_off({on_paper(panel_, {0, 0}).x, at.y}, 1);  // the axis u = 0
-      for (const Polyline& orbit : orbits_) {
-        for (std::size_t i = 1; i < orbit.size() && room > best; ++i) {
-          const Point a = on_paper(panel_, orbit[i - 1]), b = on_paper(panel_, orbit[i]);
-          const int pieces = 1 + static_cast<int>(std::min(100.0, std::hypot(a.x - b.x, a.y - b.y) / 0.01));
-          for (int j = 0; j <= pieces; ++j) keep_off(between(a, b, static_cast<double>(j) / pieces), 1);
-        }
       }
+      // The axis u = 0.
+      if (panel_.x.low < 0) room = std::min(room, std::abs(on_paper(panel_, {0, 0}).x - at.x) / half_width);
+      if (room > best) room = std::min(room, near.room(at));
       if (room > best) {
         best = room;
         where = candidate;
