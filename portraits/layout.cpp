@@ -90,7 +90,9 @@ Polyline thinned(const Panel& panel, const Polyline& line, double tolerance) {
     std::size_t middle = first;
     for (std::size_t i = first + 1; i < last; ++i) {
       const double off = off_chord(places[first], places[last], places[i]);
-      if (off > farthest) {
+      // Of equal ones the first, whatever the last digits.
+      constexpr double same = 1e-9;
+      if (off > farthest * (1 + same)) {
         farthest = off;
         middle = i;
       }

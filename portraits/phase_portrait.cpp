@@ -203,7 +203,13 @@ class Painter {
     if (request_.isochrones == 0) return result;
     const double longest = stop_time({window_.u, window_.v});
     const double step = round_down(longest / request_.time_unit / request_.isochrones * 1.7) * request_.time_unit;
-    for (int i = 1; i * step < 0.95 * longest; ++i) add_isochrone(i * step, result);
+    for (int i = 1; i * step < 0.95 * longest; ++i) {
+      if (request_.drawn_only) {
+        result.push_back({i * step, {}, {}});
+      } else {
+        add_isochrone(i * step, result);
+      }
+    }
     return result;
   }
 
@@ -385,15 +391,19 @@ void require(Window window, const PortraitRequest& request) {
 
 PhasePortrait portrait_in(const ReducedSystem& system, View view, Window window, const PortraitRequest& request) {
   const Painter painter(system, view, window, request);
-  PhasePortrait portrait{system, reduction::phase_plane(system), view, window, {}, {}, painter.isochrones(), {}, {}, {},
+  PhasePortrait portrait{system, reduction::phase_plane(system), view, window, {}, {}, {}, painter.profile(), {}, {},
                          {}};
-  for (const State& seed : painter.seeds()) {
-    portrait.orbits.push_back(painter.orbit(seed));
-    portrait.orbits.push_back(mirrored(portrait.orbits.back()));
+  const bool whole = !request.drawn_only || view == View::pair;
+  const bool speeds = view == View::uv || view == View::patch;
+  if (whole || speeds) {
+    portrait.isochrones = painter.isochrones();
+    for (const State& seed : painter.seeds()) {
+      portrait.orbits.push_back(painter.orbit(seed));
+      portrait.orbits.push_back(mirrored(portrait.orbits.back()));
+    }
   }
-  if (!request.window_only) portrait.profile = painter.profile();
   for (const reduction::SingularPoint& point : portrait.plane.points) {
-    if (request.window_only) break;
+    if (!whole && speeds) break;
     if (point.place != reduction::SingularPlace::infinity || point.direction == portrait.plane.tangent) continue;
     portrait.curves.push_back(painter.whole_curve(point.direction));
   }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -302,6 +303,7 @@ void PortraitPanel::add_arrows(const Copy& copy, Arrows& arrows) {
 }
 
 void PortraitPanel::add_highlights() {
+  if (!drawing_.style.asked) return;
   const PhasePortrait& portrait = drawing_.portrait;
   Stroke stroke{drawing_.palette.highlight, 2.6, false};
   if (!portrait.through.empty()) {
@@ -356,6 +358,8 @@ void PortraitPanel::add_isochrones(const std::vector<double>& times) {
               {drawing_.palette.isochrone, 1.1, true},
               fmt::format("time left {}{}{}", drawing_.caption.time_symbol,
                           drawing_.caption.time_unit_name.empty() ? "" : ", ", drawing_.caption.time_unit_name)};
+  std::optional<Obstacles> near;  // for labels of one width
+  double width_of_near = 0;
   for (double time : times) {
     Polyline candidates;
     for (Polyline& part : isochrone(drawing_.portrait, time)) {
@@ -372,7 +376,10 @@ void PortraitPanel::add_isochrones(const std::vector<double>& times) {
     const double letters = drawing_.palette.theme.letters;
     const double half_width = letters * (0.75 * static_cast<double>(shown_length(text)) + 0.4) / drawing_.panel_mm.x;
     const double half_height = letters * 1.9 / drawing_.panel_mm.y;
-    const Obstacles near(obstacles, half_width, half_height);
+    if (!near || half_width != width_of_near) {
+      near.emplace(obstacles, half_width, half_height);
+      width_of_near = half_width;
+    }
     double best = 0;
     Point where{};
     for (const Point& candidate : candidates) {
@@ -387,8 +394,10 @@ void PortraitPanel::add_isochrones(const std::vector<double>& times) {
       }
       // The axis u = 0.
       if (panel_.x.low < 0) room = std::min(room, std::abs(on_paper(panel_, {0, 0}).x - at.x) / half_width);
-      if (room > best) room = std::min(room, near.room(at));
-      if (room > best) {
+      // Of places with equal room the first, whatever the last digits: portraits have two equal halves.
+      constexpr double same = 1e-9;
+      if (room > best * (1 + same)) room = std::min(room, near->room(at));
+      if (room > best * (1 + same)) {
         best = room;
         where = candidate;
       }

@@ -79,6 +79,7 @@ std::vector<Panel> time_view(const Drawing& drawing) {
     k.lines.push_back(
         {{{{0, std::log(limit)}, {1, std::log(limit)}}}, {drawing.palette.rival, 1.6, true}, "{/:Italic k}*"});
   }
+  if (!drawing.style.asked) return {std::move(u), std::move(v), std::move(k)};
   std::vector<const PortraitOrbit*> asked;
   for (const PortraitOrbit& orbit : portrait.through) asked.push_back(&orbit);
   if (portrait.highlight) asked.push_back(&*portrait.highlight);

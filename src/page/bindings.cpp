@@ -19,7 +19,8 @@
 
 #include <fmt/format.h>
 
-#include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/portraits/pgfplots.hpp"
+#include "contensou/portraits/phase_portrait_data.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pressure_law.hpp"
@@ -32,6 +33,8 @@
 #include "contensou/si/final_motion.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "contensou/si/whole_motion.hpp"
+#include "javascript.hpp"
+#include "program/portrait_question.hpp"
 
 namespace contensou::page {
 
@@ -42,16 +45,6 @@ using reduction::Law;
 using reduction::Orbit;
 using reduction::ReducedSystem;
 using reduction::State;
-
-val column(const double* data, Eigen::Index size) {
-  return val(emscripten::typed_memory_view(static_cast<std::size_t>(size), data)).call<val>("slice");
-}
-
-val column(const Eigen::ArrayXd& values) { return column(values.data(), values.size()); }
-
-val column(const std::vector<double>& values) {
-  return column(values.data(), static_cast<Eigen::Index>(values.size()));
-}
 
 /// The answer of a function, or what the library says against the question.
 template <class Function>
@@ -101,40 +94,6 @@ class Plane {
       facts.set("slidingLimit", system().sliding_limit(1));
       facts.set("pivotingLimit", system().pivoting_limit(1));
       return facts;
-    });
-  }
-
-  /// The portrait that the program draws. Sides of the window that are not positive: the program's own choice.
-  val portrait(double window_u, double window_v, double time_unit) const {
-    return answer([&] {
-      portraits::PortraitRequest request;
-      request.window_only = true;
-      if (window_u > 0 && window_v > 0) request.window = portraits::Window{window_u, window_v};
-      request.time_unit = time_unit;
-      const portraits::PhasePortrait portrait = portraits::phase_portrait(system(), request);
-      val orbits = val::array();
-      for (const auto& orbit : portrait.orbits) {
-        val entry = val::object();
-        entry.set("u", column(orbit.u));
-        entry.set("v", column(orbit.v));
-        entry.set("lnK", column(orbit.ln_k));
-        entry.set("left", column(orbit.tau_left));
-        orbits.call<void>("push", entry);
-      }
-      val isochrones = val::array();
-      for (const auto& isochrone : portrait.isochrones) {
-        val entry = val::object();
-        entry.set("tau", isochrone.tau_stop);
-        entry.set("u", column(isochrone.u));
-        entry.set("v", column(isochrone.v));
-        isochrones.call<void>("push", entry);
-      }
-      val result = val::object();
-      result.set("windowU", portrait.window.u);
-      result.set("windowV", portrait.window.v);
-      result.set("orbits", orbits);
-      result.set("isochrones", isochrones);
-      return result;
     });
   }
 
@@ -192,20 +151,27 @@ class Plane {
     });
   }
 
-  /// The curves that all motions are scaled copies of, one for each side that k comes to its terminal value from:
-  /// columns ln k, ln u and the time left, by falling time left.
-  val branches() const {
+  /// A state of the motion from one start that lies in the window: the start itself, or where it comes in.
+  val inside(double u, double v, double window_u, double window_v) const {
     return answer([&] {
-      constexpr double far = 20;
-      const auto end = reduction::terminal_ratio(system().law(), system().r());
-      std::vector<std::vector<double>> sides;
-      if (end.regime != reduction::TerminalRegime::infinity) sides.push_back(log_ratios(far, end));
-      if (end.regime != reduction::TerminalRegime::zero) sides.push_back(log_ratios(-far, end));
-      val result = val::array();
-      for (const std::vector<double>& side : sides) result.call<void>("push", branch(side));
-      val all = val::object();
-      all.set("branches", result);
-      return all;
+      const auto is_inside = [&](State state) { return std::abs(state.u) <= window_u && state.v <= window_v; };
+      State state{.u = u, .v = v};
+      if (!is_inside(state)) {
+        const Orbit orbit = motions().orbit(state);
+        double outside = 0;
+        double inside = orbit.stop_time();
+        for (int i = 0; i < 60; ++i) {
+          const double middle = (outside + inside) / 2;
+          const auto point = orbit.at_time(middle);
+          (is_inside({point.u, point.v}) ? inside : outside) = middle;
+        }
+        const auto point = orbit.at_time(inside);
+        state = {.u = point.u, .v = point.v};
+      }
+      val result = val::object();
+      result.set("u", state.u);
+      result.set("v", state.v);
+      return result;
     });
   }
 
@@ -255,45 +221,6 @@ class Plane {
   }
 
  private:
-  /// From one ln k towards the terminal one, close enough to be seen as there.
-  static std::vector<double> log_ratios(double from, const reduction::TerminalRatio& end) {
-    constexpr double step = 0.1;
-    constexpr double seen = 12;
-    std::vector<double> values;
-    if (end.regime == reduction::TerminalRegime::ray) {
-      const double ray = std::log(end.k);
-      for (double distance = std::abs(from); distance > 1e-3; distance -= std::min(step, 0.1 * distance)) {
-        values.push_back(ray + std::copysign(distance, from));
-      }
-    } else {
-      for (int i = 0; i * step <= std::abs(from) + seen; ++i) values.push_back(from - std::copysign(i * step, from));
-    }
-    return values;
-  }
-
-  val branch(const std::vector<double>& log_ratios) const {
-    const Orbit orbit = motions().orbit({.u = 1, .v = system().mu() * std::exp(log_ratios.front())});
-    std::vector<double> ln_k;
-    std::vector<double> ln_u;
-    std::vector<double> left;
-    // The time left is that of a start there: what is left of the stop time would have no digits near the stop.
-    const auto add = [&](const reduction::OrbitPoint& point) {
-      ln_u.push_back(std::log(point.u));
-      ln_k.push_back(point.ln_v - std::log(system().mu()) - ln_u.back());
-      left.push_back(motions().orbit({.u = point.u, .v = point.v}).stop_time());
-    };
-    for (double ratio : log_ratios) add(orbit.at_log_ratio(ratio));
-    // From there by the time left, finely while it is seen on linear axes.
-    const double last = std::min(left.back(), orbit.stop_time());
-    for (int i = 1; i <= 100; ++i) add(orbit.at_time_left(last * std::exp(-0.05 * i)));
-    for (int i = 1; i <= 40; ++i) add(orbit.at_time_left(last * std::exp(-5 - 0.6 * i)));
-    val result = val::object();
-    result.set("lnK", column(ln_k));
-    result.set("lnU", column(ln_u));
-    result.set("left", column(left));
-    return result;
-  }
-
   const Motions& motions() const {
     if (!motions_) throw std::domain_error("no law and body were chosen yet");
     return *motions_;
@@ -302,6 +229,9 @@ class Plane {
 
   std::unique_ptr<Motions> motions_;
 };
+
+/// Of the laws pressure:P.
+double largest_exponent() { return reduction::PressureLaw::largest_p; }
 
 val names_of_laws() {
   val names = val::array();
@@ -321,6 +251,68 @@ si::Shot shot_of(const val& fields) {
   if (fields["patchBy"].as<std::string>() == "spin_deceleration") shot.contact.patch = si::SpinDeceleration{patch};
   si::require_shot(shot);
   return shot;
+}
+
+/// The question of portrait_request.js.
+program::PortraitQuestion question_of(const val& asked) {
+  const auto has = [&](const char* key) { return !asked[key].isNull(); };
+  const auto state = [](const val& point) { return State{point["u"].as<double>(), point["v"].as<double>()}; };
+  program::PortraitQuestion question{
+      .law = law_of(asked["law"].as<std::string>()),
+      .mu = asked["mu"].as<double>(),
+      .inertia = {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()}};
+  if (has("start")) question.start = state(asked["start"]);
+  if (has("ball")) {
+    question.shot = shot_of(asked["ball"]);
+    question.shot->ball.name = asked["ball"]["title"].as<std::string>();
+    question.mu = si::patch_ratio(*question.shot);
+    question.start = si::reduced_start(*question.shot);
+  }
+  portraits::PortraitRequest& request = question.request;
+  request.view = portraits::find_view(asked["view"].as<std::string>());
+  if (has("window")) {
+    request.window = portraits::Window{asked["window"][0].as<double>(), asked["window"][1].as<double>()};
+  }
+  for (const val& point : emscripten::vecFromJSArray<val>(asked["through"])) request.through.push_back(state(point));
+  request.isochrones = asked["isochrones"].as<int>();
+  if (has("against")) request.against = law_of(asked["against"].as<std::string>());
+  const auto field = asked["field"].as<std::string>();
+  using Field = portraits::PortraitStyle::Field;
+  question.style.field = field == "motion" ? Field::motion : field == "regularised" ? Field::regularised : Field::none;
+  question.style.screen = asked["screen"].as<bool>();
+  return question;
+}
+
+/// What the program draws when asked so; but the orbits that were asked for come by themselves, for the page to draw.
+val portrait(const val& asked) {
+  return answer([&] {
+    program::PortraitQuestion question = question_of(asked);
+    question.request.drawn_only = true;
+    question.style.asked = false;
+    const portraits::PhasePortrait portrait = question.portrait();
+    val through = val::array();
+    for (const portraits::PortraitOrbit& orbit : portrait.through) through.call<void>("push", orbit_value(orbit));
+    val result = val::object();
+    result.set("figure", figure_value(question.figure(portrait)));
+    result.set("windowU", portrait.window.u);
+    result.set("windowV", portrait.window.v);
+    result.set("through", through);
+    result.set("highlight", portrait.highlight ? orbit_value(*portrait.highlight) : val::null());
+    return result;
+  });
+}
+
+/// The file that the program writes when asked so.
+val portrait_file(const val& asked, const std::string& ending) {
+  return answer([&] {
+    const program::PortraitQuestion question = question_of(asked);
+    const portraits::PhasePortrait portrait = question.portrait();
+    val result = val::object();
+    result.set("text", ending == "tex"    ? portraits::pgfplots(question.figure(portrait))
+                       : ending == "json" ? portraits::to_json(portrait)
+                                          : portraits::to_csv(portrait));
+    return result;
+  });
 }
 
 val catalogue() {
@@ -410,13 +402,15 @@ EMSCRIPTEN_BINDINGS(contensou) {
   emscripten::class_<Plane>("Plane")
       .constructor<>()
       .function("choose", &Plane::choose)
-      .function("portrait", &Plane::portrait)
+      .function("inside", &Plane::inside)
       .function("stop", &Plane::stop)
       .function("motion", &Plane::motion)
       .function("instant", &Plane::instant)
-      .function("branches", &Plane::branches)
       .function("isochrone", &Plane::isochrone)
       .function("checks", &Plane::checks);
+  emscripten::function("portrait", &contensou::page::portrait);
+  emscripten::function("portraitFile", &contensou::page::portrait_file);
+  emscripten::function("largestExponent", &contensou::page::largest_exponent);
   emscripten::function("namesOfLaws", &contensou::page::names_of_laws);
   emscripten::function("catalogue", &contensou::page::catalogue);
   emscripten::function("contact", &contensou::page::contact);

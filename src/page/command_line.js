@@ -1,30 +1,38 @@
-// The command line of the program that gives the same picture.
-
+// The command line of the program that draws what the page shows.
 import { bodyOf } from "./page_state.js";
 
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
 
-/** @param builtIn  the state's ball as the program knows it, if there is one */
-export function commandLine(state, builtIn) {
+/**
+ * @param request  of portrait_request.js
+ * @param builtIn  the state's ball as the program knows it, if there is one
+ */
+export function commandLine(state, request, builtIn) {
   const words = ["contensou", "portrait"];
-  const orbit = state.orbits[state.chosen];
-  if (state.ball) {
-    words.push("--ball", state.ball.name);
+  const { ball, start } = request;
+  if (ball) {
+    words.push("--ball", ball.name);
     const options = { radius: "--radius", mass: "--mass", friction: "--friction", gravity: "--gravity" };
     for (const [key, option] of Object.entries(options)) {
-      if (state.ball[key] !== builtIn[key]) words.push(option, state.ball[key]);
+      if (ball[key] !== builtIn[key]) words.push(option, ball[key]);
     }
-    if (state.ball.patchBy !== builtIn.patchBy || state.ball.patch !== builtIn.patch) {
-      words.push(state.ball.patchBy === "patch_radius" ? "--patch-radius" : "--spin-deceleration", state.ball.patch);
+    if (ball.patchBy !== builtIn.patchBy || ball.patch !== builtIn.patch) {
+      words.push(ball.patchBy === "patch_radius" ? "--patch-radius" : "--spin-deceleration", ball.patch);
     }
-    if (orbit) {
-      words.push("--slip", orbit.v, "--spin", orbit.u / state.ball.radius);
-    }
+    words.push("--slip", ball.velocityX, "--spin", ball.omegaZ);
   } else {
     if (state.body !== "ball") words.push("--body", state.body === "own" ? `${state.chi},${state.gamma}` : state.body);
     if (bodyOf(state).mu === undefined) words.push("--mu", state.mu);
-    if (orbit) words.push("--u0", orbit.u, "--v0", orbit.v);
+    if (start) words.push("--u0", start.u, "--v0", start.v);
   }
-  words.push("--law", state.law, "--window", state.window.join(","), "-o", "portrait.svg");
+  words.push("--law", request.law);
+  if (request.against) words.push("--against", request.against);
+  words.push("--view", request.view);
+  if (request.window) words.push("--window", request.window.join(","));
+  for (const { u, v } of request.through) words.push("--through", `${u},${v}`);
+  if (request.isochrones !== 7) words.push("--isochrones", request.isochrones);
+  if (request.field !== "none") words.push("--field", request.field);
+  if (request.screen) words.push("--style", "screen");
+  words.push("-o", "portrait.svg");
   return words.map((word) => quoted(String(word))).join(" ");
 }

@@ -4,7 +4,8 @@ import { ticks, tickText } from "./numbers.js";
 export class Frame {
   /**
    * @param place  {left, top, width, height} in pixels
-   * @param x, y   {low, high, label, tick}: the range; tick, if given, turns a tick into its text
+   * @param x, y   {low, high, label, tick, ticks}: the range; tick, if given, turns a tick into its text; ticks, if given
+   *               and not empty, are {at, text}. A label of undefined: nothing is written below the axis
    */
   constructor(place, x, y) {
     Object.assign(this, place, { x, y });
@@ -18,6 +19,11 @@ export class Frame {
     return this.top + ((this.y.high - value) / (this.y.high - this.y.low)) * this.height;
   }
 
+  /** Whether a pixel is in the frame, its border included. */
+  contains(pixelX, pixelY) {
+    return pixelX >= this.left - 1 && pixelX <= this.left + this.width + 1 && pixelY >= this.top - 1 && pixelY <= this.top + this.height + 1;
+  }
+
   /** The numbers at a pixel, kept inside the frame. */
   at(pixelX, pixelY) {
     const within = (share) => Math.min(1, Math.max(0, share));
@@ -25,6 +31,30 @@ export class Frame {
       x: this.x.low + within((pixelX - this.left) / this.width) * (this.x.high - this.x.low),
       y: this.y.high - within((pixelY - this.top) / this.height) * (this.y.high - this.y.low),
     };
+  }
+
+  /** The line through a flat column of points x0, y0, x1, y1, ...; what lies beyond one side is left out. */
+  path(points) {
+    const { left, top, width, height } = this;
+    const [perX, perY] = [width / (this.x.high - this.x.low), height / (this.y.high - this.y.low)];
+    const sideOf = (x, y) => (x < left ? 1 : x > left + width ? 2 : 0) | (y < top ? 4 : y > top + height ? 8 : 0);
+    const line = [];
+    let [lastX, lastY, lastSide] = [NaN, NaN, 0];
+    let waiting = false;  // whether the last point was left out
+    for (let i = 0; i < points.length; i += 2) {
+      const x = this.bounded(left + (points[i] - this.x.low) * perX, left, width);
+      const y = this.bounded(top + (this.y.high - points[i + 1]) * perY, top, height);
+      if (Number.isNaN(x) || Number.isNaN(y)) continue;
+      const side = sideOf(x, y);
+      const leftOut = i + 2 < points.length && line.length > 0 &&
+        ((side & lastSide) !== 0 || (Math.abs(x - line.at(-2)) < 0.3 && Math.abs(y - line.at(-1)) < 0.3));
+      // The line comes back from where it was last, not from where it went out.
+      if (!leftOut && waiting && (side & lastSide) === 0) line.push(lastX, lastY);
+      if (!leftOut) line.push(x, y);
+      waiting = leftOut;
+      [lastX, lastY, lastSide] = [x, y, side];
+    }
+    return line;
   }
 
   /** The line through columns of numbers, as long as the shorter one, without points that nobody would see. */
@@ -50,24 +80,27 @@ export class Frame {
   draw(surface, theme) {
     const size = theme.textSize;
     const style = { colour: theme.soft, size };
-    const grid = { x: ticks(this.x.low, this.x.high, Math.max(2, this.width / 85)), y: ticks(this.y.low, this.y.high, Math.max(2, this.height / 55)) };
+    const own = (axis) => axis.ticks?.length && axis.ticks.map(({ at }) => at);
+    const grid = { x: own(this.x) || ticks(this.x.low, this.x.high, Math.max(2, this.width / 85)), y: own(this.y) || ticks(this.y.low, this.y.high, Math.max(2, this.height / 55)) };
     const step = (values) => (values.length > 1 ? values[1] - values[0] : 1);
+    const textOf = (axis, value, all) =>
+      own(axis) ? axis.ticks.find(({ at }) => at === value).text : axis.tick ? axis.tick(value) : tickText(value, step(all));
     const bottom = this.top + this.height;
     surface.lines([[this.left, this.top, this.left, bottom, this.left + this.width, bottom]], { colour: theme.soft });
     for (const value of grid.x) {
       const x = this.px(value);
       surface.lines([[x, bottom, x, bottom + 4]], { colour: theme.soft });
       if (this.x.label === undefined) continue;
-      const text = this.x.tick ? this.x.tick(value) : tickText(value, step(grid.x));
+      const text = textOf(this.x, value, grid.x);
       surface.text(x, bottom + 6, text, { ...style, align: "center", baseline: "top" });
     }
     for (const value of grid.y) {
       const y = this.py(value);
       surface.lines([[this.left - 4, y, this.left, y]], { colour: theme.soft });
-      const text = this.y.tick ? this.y.tick(value) : tickText(value, step(grid.y));
+      const text = textOf(this.y, value, grid.y);
       surface.text(this.left - 6, y, text, { ...style, align: "right", baseline: "middle" });
     }
-    const label = { colour: theme.ink, size: size + 3, italic: true };
+    const label = { colour: theme.ink, size: size + 1 };
     if (this.x.label) {
       surface.text(this.left + this.width / 2, bottom + 6 + 1.5 * size, this.x.label, { ...label, align: "center", baseline: "top" });
     }

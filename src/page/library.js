@@ -17,9 +17,10 @@ export async function loadLibrary() {
   const module = await globalThis.loadContensou();
   return {
     laws: module.namesOfLaws(),
+    largestExponent: module.largestExponent(),
     balls: module.catalogue(),
     plane: checking(new module.Plane(),
-      ["choose", "portrait", "branches", "stop", "motion", "instant", "isochrone", "checks"]),
-    ...checking(module, ["contact", "roll", "place"]),
+      ["choose", "inside", "stop", "motion", "instant", "isochrone", "checks"]),
+    ...checking(module, ["contact", "roll", "place", "portrait", "portraitFile"]),
   };
 }

@@ -3,31 +3,35 @@ import { commandLine } from "./command_line.js";
 import { csvOf, pngOf, save, textFile } from "./exports.js";
 import { addNumberField, choiceButtons, fillSelect, numberField } from "./fields.js";
 import { listen } from "./gestures.js";
+import { lawField } from "./law_field.js";
 import { loadLibrary } from "./library.js";
+import { plain } from "./markup.js";
 import { shown } from "./numbers.js";
-import { bodies, bodyOf, fromFragment, initialState, takeBall, toFragment } from "./page_state.js";
+import { bodies, bodyOf, fields, fromFragment, initialState, takeBall, toFragment } from "./page_state.js";
 import { drawPanes } from "./panes_figure.js";
 import { drawPath } from "./path_figure.js";
-import { drawPlane, familyOf, isochroneOf, planeFrame } from "./plane_figure.js";
+import { drawPortrait } from "./portrait_figure.js";
+import { rowsOf } from "./portrait_layout.js";
+import { portraitRequest } from "./portrait_request.js";
 import { CanvasSurface, SvgSurface } from "./surface.js";
 import { isDark, themeOf } from "./theme.js";
-import { states, viewNamed, views } from "./views.js";
+import { viewNamed, views } from "./views.js";
 
 const $ = (id) => document.getElementById(id);
 const regimes = ["k → 0: towards the stop only spin is left", "k → k*: sliding and spin die out together", "k → ∞: towards the stop only sliding is left"];
-const lawTitles = { pade: "Padé (the paper's system)", exact: "exact (Hertz)", uniform: "uniform pressure", punch: "flat punch", ring: "ring" };
+const fieldTitles = { none: "none", motion: "of the motion (2.6)", regularised: "regularised (2.7)" };
 
 class Page {
   constructor(library) {
     this.library = library;
-    this.known = { laws: library.laws, views: views.map((view) => view.name), balls: library.balls };
+    this.known = { laws: library.laws, largestExponent: library.largestExponent, views: views.map((view) => view.name), balls: library.balls };
     this.state = fromFragment(location.hash, this.known);
     this.cross = null;
     this.redraws = [];
     this.makeControls();
     this.listenToThePlane();
     new ResizeObserver(() => this.draw()).observe($("columns"));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.change(() => {}));
     addEventListener("hashchange", () => {
       if (location.hash.slice(1) === toFragment(this.state)) return;
       this.state = fromFragment(location.hash, this.known);
@@ -71,10 +75,16 @@ class Page {
     }
     const { chi, gamma } = bodyOf(state);
     this.facts = plane.choose(state.law, state.mu, chi, gamma);
-    this.context = { mu: state.mu, window: state.window, regime: this.facts.regime, terminalRatio: this.facts.terminalRatio };
+    this.request = portraitRequest(state, plane, isDark(state.theme));
+    const asked = JSON.stringify(this.request);
+    if (this.portraitKey !== asked) {
+      this.portraitKey = null;
+      this.portrait = this.library.portrait(this.request);
+      this.portraitKey = asked;
+    }
+    this.context = { mu: state.mu, window: [this.portrait.windowU, this.portrait.windowV] };
     this.unitIsochrone = state.isochrone ? plane.isochrone() : null;
     this.motions = state.orbits.map(({ u, v }) => plane.motion(u, v));
-    this.family = null;
   }
 
   get timeFactor() {
@@ -115,40 +125,38 @@ class Page {
     this.checkSoon();
   }
 
-  scene(width, height) {
-    const { state } = this;
-    const view = viewNamed(state.view);
-    const frame = planeFrame(view, this.context, width, height, this.theme);
-    const context = { ...this.context, aspect: frame.height / frame.width };
-    const familyKey = `${view.name} ${context.aspect}`;
-    if (!this.family || this.familyKey !== familyKey) {
-      this.family = familyOf(view, context, this.library, 1 / this.timeFactor);
-      this.familyKey = familyKey;
-    }
+  scene() {
+    const { state, portrait, context } = this;
     const now = this.now;
+    // The library answers with the chosen orbit by itself, and with the others that are none of the axes.
+    const others = state.orbits.map((start, index) => ({ start, index }))
+      .filter(({ start, index }) => index !== state.chosen && start.u !== 0 && start.v !== 0)
+      .map((entry, i) => ({ ...entry, orbit: portrait.through[i], chosen: false }));
+    const chosen = portrait.highlight ? [{ orbit: portrait.highlight, start: state.orbits[state.chosen], index: state.chosen, chosen: true }] : [];
     return {
-      view, context, frame,
-      family: this.family,
-      own: this.motions.map((motion, index) => ({
-        columns: { u: motion.u, v: motion.v, lnU: motion.u.map((u) => Math.log(Math.abs(u))), lnV: motion.lnV },
-        chosen: index === state.chosen,
-      })),
-      isochrone: state.isochrone ? isochroneOf(this.unitIsochrone, state.isochrone, view) : null,
-      marker: now && now.tau < this.motion.stop ? { ...states([now.u], [now.v]), lnV: [now.lnV] } : null,
-      markerIndex: state.chosen,
+      figure: portrait.figure, view: viewNamed(state.view), context,
+      own: [...others, ...chosen],
+      isochrone: state.isochrone ? { u: this.unitIsochrone.u.map((u) => u * state.isochrone), v: this.unitIsochrone.v.map((v) => v * state.isochrone) } : null,
+      marker: now && now.tau < this.motion.stop
+        ? { index: state.chosen, state: { ...now, lnK: Math.log(now.k), left: this.motion.stop - now.tau, start: { ...state.orbits[state.chosen], left: this.motion.stop } } }
+        : null,
       cross: this.cross,
-      timeFactor: this.timeFactor,
-      shortTitle: `μ = ${shown(state.mu, 3)}, ${state.law}`,
-      title: `μ = ${shown(state.mu, 4)}, law ${state.law}${state.ball ? `, ${state.ball.title}` : state.body === "ball" ? "" : `, ${bodies[state.body].title}`}`,
     };
   }
 
   drawPlane() {
-    const surface = new CanvasSurface($("plane"));
-    this.planeScene = this.scene(surface.width, surface.height);
-    drawPlane(surface, this.planeScene, this.theme);
-    $("plane").setAttribute("aria-label",
-      `Phase plane, ${this.planeScene.title}, ${this.state.orbits.length} orbits of yours` +
+    const canvas = $("plane");
+    const rows = String(rowsOf(this.portrait.figure.panels.length, canvas.clientWidth));
+    if (canvas.dataset.rows !== rows) {
+      canvas.dataset.rows = rows;
+      canvas.style.setProperty("--rows", rows);
+    }
+    this.planeScene = this.scene();
+    this.frames = drawPortrait(new CanvasSurface(canvas), this.planeScene, this.theme);
+    const legend = this.portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
+    canvas.setAttribute("aria-label",
+      `Phase portrait, view ${this.planeScene.view.title}: ${plain(this.portrait.figure.title)}; drawn are ` +
+      `${[...new Set(legend)].join(", ") || "orbits"}; ${this.state.orbits.length} orbits of yours` +
       (this.motion ? `; the chosen one stops at ${this.stopText(this.motion.stop)}` : ""));
   }
 
@@ -211,14 +219,24 @@ class Page {
   makeControls() {
     const { library } = this;
     fillSelect($("ball"), [{ name: "", title: "any ball, any unit" }, ...library.balls.map(({ name, title }) => ({ name, title }))]);
-    fillSelect($("law"), library.laws.map((name) => ({ name, title: lawTitles[name] ?? name })));
+    this.lawField = lawField($("law"), $("law-exponent"), {
+      library, key: "exponent", use: (law) => this.change((state) => (state.law = law)),
+    });
+    this.againstField = lawField($("against"), $("against-exponent"), {
+      library, key: "against-exponent", none: "no other law", use: (law) => this.change((state) => (state.against = law)),
+    });
+    fillSelect($("field"), fields.map((name) => ({ name, title: fieldTitles[name] })));
+    $("field").addEventListener("change", () => this.change((state) => (state.field = $("field").value)));
+    $("isochrones").addEventListener("change", () => this.change((state) => (state.isochrones = $("isochrones").checked ? initialState().isochrones : 0)));
     fillSelect($("body"), Object.entries(bodies).map(([name, { title }]) => ({ name, title })));
-    this.viewButtons = choiceButtons($("views"), views, (name) => this.change((state) => (state.view = name)));
+    this.viewButtons = choiceButtons($("views"), views, (name) => {
+      this.cross = null;
+      this.change((state) => (state.view = name));
+    });
     this.partButtons = choiceButtons($("span"), [{ name: "whole", title: "whole motion" }, { name: "sliding", title: "while it slides" }],
       (name) => this.change((state) => Object.assign(state, { part: name, share: 0 })));
 
     $("ball").addEventListener("change", () => this.try(() => this.chooseBall($("ball").value)));
-    $("law").addEventListener("change", () => this.try(() => this.change((state) => (state.law = $("law").value))));
     $("body").addEventListener("change", () => this.try(() => this.change((state) => {
       state.body = $("body").value;
       state.mu = bodyOf(state).mu ?? Math.min(state.mu, bodyOf(state).largestMu);
@@ -232,10 +250,10 @@ class Page {
     this.windowFields = ["U", "V"].map((name, side) => addNumberField($("window"), {
       key: `window-${name}`, label: name, use: (value) => {
         if (!(value > 0)) throw new Error("a positive number is needed");
-        this.change((state) => (state.window[side] = value));
+        this.change((state) => (state.window = this.context.window.map((shown, i) => (i === side ? value : shown))));
       },
     }));
-    $("fit").addEventListener("click", () => this.change((state) => (state.window = this.fittingWindow())));
+    $("fit").addEventListener("click", () => this.change((state) => (state.window = null)));
     this.muField = numberField($("mu"), $("mu-error"), (mu) => this.setMu(mu));
     $("mu-slider").addEventListener("input", () => this.try(() => this.setMu(sliderToMu(Number($("mu-slider").value), bodyOf(this.state).largestMu))));
 
@@ -249,18 +267,8 @@ class Page {
     this.makeExports();
   }
 
-  /** Round sides that contain the orbits, and along which sliding and pivoting take about the same time. */
-  fittingWindow() {
-    const { orbits } = this.state;
-    const largest = (key) => Math.max(0, ...orbits.map((orbit) => Math.abs(orbit[key])));
-    const aspect = this.facts.pivotingLimit / this.facts.slidingLimit;
-    const U = largest("u") || largest("v") / aspect || 1;
-    const V = largest("v") || U * aspect;
-    return [U, V].map((side) => Number((1.25 * side).toPrecision(2)));
-  }
-
   zoom(factor) {
-    this.change((state) => (state.window = state.window.map((side) => Number((side * factor).toPrecision(4)))));
+    this.change((state) => (state.window = this.context.window.map((side) => Number((side * factor).toPrecision(4)))));
   }
 
   /** Runs what may be rejected, and says so beside mu: it is the field that all choices meet in. */
@@ -334,21 +342,27 @@ class Page {
     $("copy-command").addEventListener("click", () => copy($("command").textContent, "Command"));
     $("save-svg").addEventListener("click", () => save("portrait.svg", textFile(this.svg(), "image/svg+xml")));
     $("save-png").addEventListener("click", async () => save("portrait.png", await pngOf(this.svg())));
+    for (const ending of ["tex", "json"]) {
+      $(`save-${ending}`).addEventListener("click", () =>
+        save(`portrait.${ending}`, textFile(this.library.portraitFile(this.request, ending).text, ending === "json" ? "application/json" : "text/x-tex")));
+    }
     $("save-csv").addEventListener("click", () => save("orbits.csv", textFile(csvOf(this.motions), "text/csv")));
   }
 
   svg() {
     const { width, height } = $("plane").getBoundingClientRect();
-    const surface = new SvgSurface(Math.round(width), Math.round(height), this.planeScene.title);
-    drawPlane(surface, { ...this.scene(surface.width, surface.height), cross: null }, this.theme);
+    const surface = new SvgSurface(Math.round(width), Math.round(height), plain(this.portrait.figure.title));
+    drawPortrait(surface, { ...this.scene(), cross: null }, this.theme);
     return surface.toString();
   }
 
   showControls() {
     const { state } = this;
     $("ball").value = state.ball?.name ?? "";
-    if (![...$("law").options].some((option) => option.value === state.law)) $("law").add(new Option(state.law, state.law));
-    $("law").value = state.law;
+    this.lawField.show(state.law);
+    this.againstField.show(state.against);
+    $("field").value = state.field;
+    $("isochrones").checked = state.isochrones > 0;
     $("body").value = state.body;
     $("body-label").hidden = Boolean(state.ball);
     $("inertia").hidden = state.body !== "own";
@@ -357,14 +371,14 @@ class Page {
     $("mu-slider").setAttribute("aria-valuetext", shown(state.mu));
     $("mu-slider").disabled = $("mu").disabled = bodyOf(state).mu !== undefined;
     this.muField.show(state.mu);
-    this.windowFields.forEach((field, side) => field.show(state.window[side]));
+    this.windowFields.forEach((field, side) => field.show(Number(this.context.window[side].toPrecision(6))));
     this.viewButtons.show(state.view);
     this.partButtons.show(state.part);
     $("view-hint").textContent = viewNamed(state.view).hint;
     $("terminal").textContent = regimes[this.facts.regime] + (this.facts.regime === 1 ? `, k* = ${shown(this.facts.terminalRatio, 6)}` : "");
     $("theme").setAttribute("aria-label", `Theme: ${state.theme === "auto" ? "as the system" : state.theme}`);
     $("time").value = Math.round(1000 * state.share);
-    $("command").textContent = commandLine(state, this.library.balls.find((ball) => ball.name === state.ball?.name));
+    $("command").textContent = commandLine(state, this.request, this.library.balls.find((ball) => ball.name === state.ball?.name));
     this.showOrbits();
     this.showBall();
   }
@@ -434,6 +448,8 @@ class Page {
 
   startOrbit(start) {
     this.change((state) => {
+      // What is pointed at stays where it is.
+      if (Math.abs(start.u) <= this.context.window[0] && start.v <= this.context.window[1]) state.window ??= this.context.window;
       state.orbits.push(start);
       Object.assign(state, { chosen: state.orbits.length - 1, share: 0, isochrone: 0 });
     });
@@ -443,17 +459,26 @@ class Page {
   // --- the plane under the pointer ---------------------------------------------------------------------------------
 
   listenToThePlane() {
+    // The panel under a pixel, with the numbers there; of several none between them.
+    const panelAt = (x, y) => {
+      const index = this.frames.length === 1 ? 0 : this.frames.findIndex((frame) => frame.contains(x, y));
+      return index < 0 ? null : { index, panel: this.planeScene.view.panels[index], ...this.frames[index].at(x, y) };
+    };
     const pointed = (x, y) => {
-      const { view, frame, context } = this.planeScene;
-      const numbers = frame.at(x, y);
-      const state = view.state(numbers.x, numbers.y, context);
-      return state && Math.hypot(state.u, state.v) > 0 ? state : null;
+      const at = panelAt(x, y);
+      const state = at?.panel.state?.(at.x, at.y, this.context);
+      return state && Math.hypot(state.u, state.v) > 0 && Number.isFinite(state.u) && Number.isFinite(state.v) ? state : null;
+    };
+    const choose = (x, y) => {
+      const at = panelAt(x, y);
+      if (at?.panel.moment && this.motion) return this.setShare(Math.min(1, (at.panel.moment(at.x) * this.motion.stop) / this.end));
+      const start = pointed(x, y);
+      if (start) this.startOrbit(rounded(start, this.context));
     };
     listen($("plane"), {
       tap: (x, y) => {
         this.cross = null;
-        const start = pointed(x, y);
-        if (start) this.startOrbit(rounded(start, this.context));
+        choose(x, y);
       },
       drag: (x, y) => {
         const at = pointed(x, y);
@@ -466,18 +491,18 @@ class Page {
         this.drawPlane();
       },
       move: (dx, dy) => {
-        const { frame } = this.planeScene;
+        const panel = Math.min(this.cross?.panel ?? 0, this.frames.length - 1);
+        const frame = this.frames[panel];
         const { x, y } = this.cross ?? { x: (frame.x.low + 2 * frame.x.high) / 3, y: (frame.y.low + frame.y.high) / 2 };
         const moved = frame.at(frame.px(x) + dx * frame.width / 40, frame.py(y) - dy * frame.height / 40);
-        this.cross = moved;
+        this.cross = { panel, ...moved };
         this.drawPlane();
         this.describe(pointed(frame.px(moved.x), frame.py(moved.y)));
       },
       enter: () => {
         if (!this.cross) return;
-        const { frame } = this.planeScene;
-        const start = pointed(frame.px(this.cross.x), frame.py(this.cross.y));
-        if (start) this.startOrbit(rounded(start, this.context));
+        const frame = this.frames[this.cross.panel];
+        choose(frame.px(this.cross.x), frame.py(this.cross.y));
       },
       zoom: (factor) => this.zoom(factor),
       remove: () => this.motion && this.removeOrbit(this.state.chosen),

@@ -1,4 +1,5 @@
 // Everything that a link has to reproduce, and its text after the # of the address.
+import { isLaw } from "./law_field.js";
 
 export const bodies = {
   "ball": { title: "ball", chi: 3.5, gamma: 2.5, largestMu: 1 },
@@ -15,6 +16,8 @@ export function bodyOf(state) {
   return state.body === "own" ? { chi: state.chi, gamma: state.gamma, largestMu: largestOwnMu } : bodies[state.body];
 }
 
+export const fields = ["none", "motion", "regularised"];
+
 export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "velocityX", "velocityY"];
 
 export function initialState() {
@@ -25,7 +28,10 @@ export function initialState() {
     gamma: 2,
     mu: 0.3,
     view: "uv",
-    window: [1, 5],
+    window: null,   // [U, V]: |u| <= U, v <= V are shown; null: the library's choice for the orbits
+    against: null,  // another law, whose portrait is drawn into the same figure
+    field: "none",  // of directions: "motion" or "regularised"
+    isochrones: 7,  // of the stop time, about so many
     orbits: [{ u: 0.8, v: 3.5 }],
     chosen: 0,
     share: 0,       // of the stop time (or of the part that is shown) that the moving point has reached
@@ -42,7 +48,7 @@ export function takeBall(state, ball) {
   Object.assign(state, {
     ball: { ...ball, velocityX: 0, velocityY: ball.slip / 2 },
     body: "ball", orbits: [start], chosen: 0, share: 0, isochrone: 0,
-    window: [start.u, start.v].map((side) => Number((1.25 * side).toPrecision(2))),
+    window: null,
   });
 }
 
@@ -58,7 +64,10 @@ export function toFragment(state) {
     query.set("mu", state.mu);
   }
   query.set("view", state.view);
-  query.set("window", state.window.join(","));
+  if (state.window) query.set("window", state.window.join(","));
+  if (state.against) query.set("against", state.against);
+  if (state.field !== "none") query.set("field", state.field);
+  if (state.isochrones !== 7) query.set("isochrones", state.isochrones);
   query.set("orbits", state.orbits.map(({ u, v }) => `${u},${v}`).join(";"));
   query.set("chosen", state.chosen);
   if (state.share) query.set("at", Number(state.share.toFixed(4)));
@@ -68,8 +77,13 @@ export function toFragment(state) {
   return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":");
 }
 
-/** The state of a fragment; what cannot be read in it keeps its first value. */
-export function fromFragment(fragment, { laws, views, balls }) {
+/**
+ * The state of a fragment; what cannot be read in it keeps its first value.
+ *
+ * @param known  {laws, largestExponent, views, balls}
+ */
+export function fromFragment(fragment, known) {
+  const { views, balls } = known;
   const state = initialState();
   const query = new URLSearchParams(fragment.replace(/^#/, ""));
   const choice = (key, allowed, use) => allowed.includes(query.get(key)) && use(query.get(key));
@@ -82,8 +96,11 @@ export function fromFragment(fragment, { laws, views, balls }) {
     return values.length === count && values.every(Number.isFinite) && allowed(values) ? values : null;
   };
 
-  choice("law", laws, (law) => (state.law = law));
-  if (/^pressure:-?[0-9.]+$/.test(query.get("law") ?? "")) state.law = query.get("law");
+  for (const key of ["law", "against"]) {
+    if (isLaw(query.get(key), known)) state[key] = query.get(key);
+  }
+  choice("field", fields, (field) => (state.field = field));
+  number("isochrones", (count) => (state.isochrones = count), (count) => count === 0 || count === 7);
   choice("view", views, (view) => (state.view = view));
   choice("theme", ["light", "dark"], (theme) => (state.theme = theme));
   choice("part", ["sliding"], (part) => (state.part = part));

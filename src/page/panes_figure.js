@@ -29,10 +29,10 @@ export function drawPanes(surface, scene, theme) {
   const lowestK = Math.floor(Math.min(deepest, ...starts) - 0.1);
 
   const panes = [
-    { frame: new Frame(place(0), x(undefined), { low: 0, high: 1.06 * highestV, label: `v${scene.speedUnit}` }), column: (m) => m.v, now: (n) => n.v },
-    { frame: new Frame(place(1), x(undefined), { low: 1.06 * lowestU, high: 1.06 * highestU || 1, label: `u${scene.speedUnit}` }), column: (m) => m.u, now: (n) => n.u },
+    { frame: new Frame(place(0), x(undefined), { low: 0, high: 1.06 * highestV, label: `{/:Italic v}${scene.speedUnit}` }), column: (m) => m.v, now: (n) => n.v },
+    { frame: new Frame(place(1), x(undefined), { low: 1.06 * lowestU, high: 1.06 * highestU || 1, label: `{/:Italic u}${scene.speedUnit}` }), column: (m) => m.u, now: (n) => n.u },
     {
-      frame: new Frame(place(2), x(scene.timeLabel), { low: lowestK, high: highestK, label: "k", tick: (value) => `10${superscript(Math.round(value))}` }),
+      frame: new Frame(place(2), x(scene.timeLabel), { low: lowestK, high: highestK, label: "{/:Italic k}", tick: (value) => `10${superscript(Math.round(value))}` }),
       column: (m, i) => logs[i], now: (n) => Math.log10(n.k),
     },
   ];

@@ -14,8 +14,8 @@ export function drawPath(surface, scene, theme) {
   const [low, high] = range(scene.y, scene.textbookY);
   const metresPerPixel = Math.max((right - left) / place.width, (high - low) / place.height) * 1.06;
   const around = (middle, pixels) => ({ low: middle - (pixels * metresPerPixel) / 2, high: middle + (pixels * metresPerPixel) / 2 });
-  const frame = new Frame(place, { ...around((left + right) / 2, place.width), label: "x (m)" },
-    { ...around((low + high) / 2, place.height), label: "y (m)" });
+  const frame = new Frame(place, { ...around((left + right) / 2, place.width), label: "{/:Italic x} (m)" },
+    { ...around((low + high) / 2, place.height), label: "{/:Italic y} (m)" });
   frame.draw(surface, theme);
   surface.inside(frame, () => {
     surface.lines([[frame.px(frame.x.low), frame.py(0), frame.px(frame.x.high), frame.py(0)]], { colour: theme.line });

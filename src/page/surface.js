@@ -1,10 +1,34 @@
 // What figures are drawn on: a canvas, or the text of an SVG file. Both take pixels, x to the right and y down.
 //
-// A line is a flat array x0, y0, x1, y1, ...
+// A line is a flat array x0, y0, x1, y1, ...; a text may have the library's markup.
+import { runsOf } from "./markup.js";
 
-const family = (style) => (style.italic ? "italic " : "") + `${style.bold ? "600 " : ""}${style.size}px `;
 const fonts = 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
 const mathematics = '"STIX Two Text", "Cambria Math", "DejaVu Serif", Georgia, serif';
+
+const scriptSize = 0.72;
+const scriptShift = { 1: -0.38, 0: 0, "-1": 0.24 };  // of an index or a power, in sizes of the text
+
+/** The runs of a text with their fonts, widths and places from the text's left end. */
+function setRuns(context, text, style) {
+  let left = 0;
+  return runsOf(text, style.italic).map((run) => {
+    const size = style.size * (run.level === 0 ? 1 : scriptSize);
+    const font = `${run.italic ? "italic " : ""}${style.bold ? "600 " : ""}${size}px ${run.italic ? mathematics : fonts}`;
+    context.font = font;
+    const width = context.measureText(run.text).width;
+    const set = { ...run, font, size, left, width, down: scriptShift[run.level] * style.size };
+    left += width;
+    return set;
+  });
+}
+
+const measuring = document.createElement("canvas").getContext("2d");
+
+/** How wide a text is, in pixels. */
+export function widthOf(text, style) {
+  return setRuns(measuring, text, style).reduce((sum, { width }) => sum + width, 0);
+}
 
 export class CanvasSurface {
   /** Fits the canvas to its place on the page, sharp on any screen. */
@@ -64,15 +88,20 @@ export class CanvasSurface {
     context.save();
     context.translate(x, y);
     if (style.turned) context.rotate(-Math.PI / 2);
-    context.font = family(style) + (style.italic ? mathematics : fonts);
-    context.textAlign = style.align ?? "left";
     context.textBaseline = style.baseline ?? "alphabetic";
+    const runs = setRuns(context, text, style);
+    const whole = runs.reduce((sum, { width }) => sum + width, 0);
+    const start = -whole * { left: 0, center: 0.5, right: 1 }[style.align ?? "left"];
+    const each = (draw) => runs.forEach((run) => {
+      context.font = run.font;
+      draw(run.text, start + run.left, run.down);
+    });
     if (style.halo) {
       Object.assign(context, { strokeStyle: style.halo, lineWidth: 4, lineJoin: "round" });
-      context.strokeText(text, 0, 0);
+      each((...run) => context.strokeText(...run));
     }
     context.fillStyle = style.colour;
-    context.fillText(text, 0, 0);
+    each((...run) => context.fillText(...run));
     context.restore();
   }
 
@@ -132,9 +161,15 @@ export class SvgSurface {
       ? `transform="translate(${coordinate(x + lower)} ${coordinate(y)}) rotate(-90)"`
       : `x="${coordinate(x)}" y="${coordinate(y + lower)}"`;
     const halo = style.halo ? ` stroke="${style.halo}" stroke-width="4" stroke-linejoin="round" paint-order="stroke"` : "";
-    this.parts.push(`<text ${place} font-family='${style.italic ? mathematics : fonts}' font-size="${style.size}"` +
-      `${style.italic ? ' font-style="italic"' : ""}${style.bold ? ' font-weight="600"' : ""} ` +
-      `text-anchor="${anchor}" fill="${style.colour}"${halo}>${escaped(text)}</text>`);
+    let down = 0;
+    const runs = runsOf(text, style.italic).map((run) => {
+      const shift = scriptShift[run.level] * style.size - down;
+      down += shift;
+      return `<tspan${shift ? ` dy="${coordinate(shift)}"` : ""}${run.level ? ` font-size="${coordinate(style.size * scriptSize)}"` : ""}` +
+        `${run.italic ? ` font-style="italic" font-family='${mathematics}'` : ""}>${escaped(run.text)}</tspan>`;
+    });
+    this.parts.push(`<text ${place} font-family='${fonts}' font-size="${style.size}" xml:space="preserve"` +
+      `${style.bold ? ' font-weight="600"' : ""} text-anchor="${anchor}" fill="${style.colour}"${halo}>${runs.join("")}</text>`);
   }
 
   inside({ left, top, width, height }, draw) {

@@ -1,4 +1,3 @@
-#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -6,15 +5,14 @@
 #include "commands.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_data.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/phase_plane.hpp"
-#include "contensou/si/bridge.hpp"
 #include "law_option.hpp"
 #include "output.hpp"
 #include "output_options.hpp"
 #include "phase_plane_report.hpp"
 #include "picture.hpp"
 #include "portrait_options.hpp"
+#include "portrait_question.hpp"
 #include "route_option.hpp"
 #include "start_options.hpp"
 
@@ -49,19 +47,16 @@ class PortraitCommand final : public Command {
   }
 
   ExitStatus run() override {
-    const Given given = read_start();
-    const reduction::ReducedSystem system = given.body.system(law_.read());
+    PortraitQuestion question = read_start();
+    const reduction::ReducedSystem system = question.system();
     if (facts_->count() > 0) return print_facts(system);
     if (output_.digits_argument().given()) output_.digits_argument().reject("a picture has no digits: add --facts");
-    portraits::PortraitRequest request;
-    request.route = route_.read(system);
-    if (request.route == reduction::Route::direct) {
+    question.request.route = route_.read(system);
+    if (question.request.route == reduction::Route::direct) {
       throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
     }
-    request.highlight = given.state;
-    options_.read(request);
-    const portraits::PortraitStyle style = options_.style();
-    if (given.shot) request.time_unit = 1 / si::seconds(*given.shot, 1);
+    options_.read(question.request);
+    question.style = options_.style();
 
     const Argument& file = output_.file_argument();
     const std::string path = file.given() ? file.text() : standard_file;
@@ -71,9 +66,9 @@ class PortraitCommand final : public Command {
       throw BadInput(
           fmt::format("-o {}: a portrait is written as one of {}; '{}' is none of them", path, endings, format));
     }
-    const portraits::PhasePortrait portrait = portraits::phase_portrait(system, request);
+    const portraits::PhasePortrait portrait = question.portrait();
     if (picture) {
-      write_output(path, drawn(portraits::draw(portrait, caption(given, portrait), style), *picture));
+      write_output(path, drawn(question.figure(portrait), *picture));
     } else {
       write_output(path, format == "csv" ? portraits::to_csv(portrait) : portraits::to_json(portrait));
     }
@@ -95,16 +90,17 @@ class PortraitCommand final : public Command {
     return ExitStatus::done;
   }
 
-  struct Given {
-    GivenBody body;
-    std::optional<reduction::State> state;
-    std::optional<si::Shot> shot;
-  };
-
-  Given read_start() const {
-    if (start_.without_motion()) return {start_.read_body(), std::nullopt, std::nullopt};
+  PortraitQuestion read_start() const {
+    if (start_.without_motion()) {
+      const GivenBody body = start_.read_body();
+      return {.law = law_.read(), .mu = body.mu, .inertia = body.inertia};
+    }
     const GivenStart start = start_.read();
-    return {start.body, start.state, start.shot};
+    return {.law = law_.read(),
+            .mu = start.body.mu,
+            .inertia = start.body.inertia,
+            .start = start.state,
+            .shot = start.shot};
   }
 
   std::string read_format(const std::string& path) const {
@@ -117,32 +113,6 @@ class PortraitCommand final : public Command {
       format.reject(fmt::format("the file {} says otherwise: leave out one of them", path));
     }
     return format.text();
-  }
-
-  static portraits::PortraitCaption caption(const Given& given, const portraits::PhasePortrait& portrait) {
-    const reduction::ReducedSystem& system = portrait.system;
-    portraits::PortraitCaption caption;
-    if (!given.state) return caption;
-    const double stop = reduction::stop_time(system, *given.state).tau;
-    caption.highlight = "this motion";
-    if (!given.shot) {
-      caption.subtitle =
-          fmt::format("u_0 = {:g}, v_0 = {:g}: it stops after τ* = {:.4g}", given.state->u, given.state->v, stop);
-      return caption;
-    }
-    const si::Shot& shot = *given.shot;
-    std::string law = portraits::literal(system.law().name());
-    for (const auto& rival : portrait.against) law += " against " + portraits::literal(rival.system.law().name());
-    caption.title =
-        fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot.ball.name), system.mu(), law);
-    caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", si::slip_at_start(shot),
-                                   si::spin_at_start(shot), si::seconds(shot, stop));
-    caption.speed_unit = "m/s";
-    caption.time_symbol = "{/:Italic t}*";
-    caption.time_unit_name = "s";
-    caption.time_unit = 1 / si::seconds(shot, 1);
-    caption.highlight = "this ball";
-    return caption;
   }
 
   StartOptions start_;

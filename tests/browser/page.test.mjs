@@ -28,7 +28,7 @@ after(async () => {
   rmSync(folder, { recursive: true });
 });
 
-async function open(fragment = "", options = {}) {
+async function open(fragment = "", options = {}, orbits = true) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...options });
   page = await context.newPage();
   complaints = [];
@@ -36,7 +36,7 @@ async function open(fragment = "", options = {}) {
   page.on("pageerror", (error) => complaints.push(error.message));
   page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks for ${request.url()}`));
   await page.goto(address + fragment);
-  await page.waitForSelector("#orbits li");
+  await (orbits ? page.waitForSelector("#orbits li") : page.waitForFunction(() => globalThis.page?.planeScene));
 }
 
 async function close() {
@@ -56,14 +56,14 @@ function assertClose(measured, wanted, tolerance, what) {
   assert.ok(error <= tolerance, `${what}: got ${measured}, wanted ${wanted}, relative error ${error}`);
 }
 
-/** Clicks the plane where u and v are, in the view that shows them. */
-async function clickPlane(u, v) {
-  const { x, y } = await page.evaluate(([u, v]) => {
-    const { frame, view, context } = globalThis.page.planeScene;
-    const s = { u: [u], v: [v], lnU: [Math.log(Math.abs(u))], lnV: [Math.log(v)] };
+/** Clicks where u and v are in a panel of the view. */
+async function clickPlane(u, v, panel = 0) {
+  const { x, y } = await page.evaluate(([u, v, panel]) => {
+    const { frames, planeScene: { view, context } } = globalThis.page;
+    const [x, y] = view.panels[panel].place({ u, v, lnV: Math.log(v), lnK: Math.log(v / (context.mu * Math.abs(u))) }, context);
     const box = document.getElementById("plane").getBoundingClientRect();
-    return { x: box.left + frame.px(view.x(s, 0, context)), y: box.top + frame.py(view.y(s, 0, context)) };
-  }, [u, v]);
+    return { x: box.left + frames[panel].px(x), y: box.top + frames[panel].py(y) };
+  }, [u, v, panel]);
   await page.mouse.click(x, y);
 }
 
@@ -77,6 +77,62 @@ async function dragSlider(id, from, to, steps) {
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
   }
   await page.mouse.up();
+}
+
+const views = ["uv", "patch", "log", "similarity", "blowup", "disc", "time", "pair"];
+
+/** Texts that are equal but for their numbers, and numbers that are equal but for the last digits of two C libraries. */
+function assertSameText(text, wanted, what) {
+  const number = /-?\d+(\.\d+)?(e[-+]?\d+)?/g;
+  assert.equal(text.replace(number, "0"), wanted.replace(number, "0"), what);
+  const [numbers, wantedNumbers] = [text, wanted].map((all) => all.match(number).map(Number));
+  const largest = Math.max(...wantedNumbers.filter((value) => Math.abs(value) < 1e3).map(Math.abs));
+  numbers.forEach((value, i) => {
+    const error = Math.abs(value - wantedNumbers[i]);
+    assert.ok(error <= 1e-9 * (largest + Math.abs(value)), `${what}: number ${i} is ${value}, not ${wantedNumbers[i]}`);
+  });
+}
+
+/** Runs the page's command line, and compares what the program draws with what the page shows. */
+async function assertSamePicture(what) {
+  const words = (await page.textContent("#command")).split(" ");
+  assert.deepEqual(words.splice(0, 2), ["contensou", "portrait"]);
+  const written = (ending) => {
+    const name = join(folder, `portrait.${ending}`);
+    execFileSync(program, ["portrait", ...words.map((word) => (word === "portrait.svg" ? name : word))]);
+    return readFileSync(name, "utf8");
+  };
+  for (const ending of ["json", "tex"]) {
+    const text = await page.evaluate((ending) => globalThis.page.library.portraitFile(globalThis.page.request, ending).text, ending);
+    assertSameText(text, written(ending), `${what}, ${words.join(" ")}: ${ending}`);
+  }
+  // Of what the page itself draws: the orbits of its list, and those that fill a plane, begin where the program's do.
+  const portrait = JSON.parse(written("json"));
+  const { state, own, drawn, mu, isochrones } = await page.evaluate(() => {
+    const { state, planeScene: { own, figure, context } } = globalThis.page;
+    return {
+      state, mu: context.mu,
+      own: own.map(({ orbit, chosen }) => ({ chosen, u: [...orbit.u], v: [...orbit.v] })),
+      drawn: figure.panels[0].lines.flatMap(({ lines }) => lines.map((line) => [line[0], line[1]])),
+      isochrones: figure.panels[0].lines.some(({ legend }) => legend.startsWith("time left")),
+    };
+  });
+  assert.equal(portrait.view, state.view);
+  const axes = state.orbits.filter(({ u, v }, index) => index !== state.chosen && (u === 0 || v === 0)).length;
+  assert.equal(own.length, state.orbits.length - axes, `${what}: orbits of the list`);
+  const listed = [...(portrait.through ?? []), ...(portrait.highlight ? [portrait.highlight] : [])];
+  assert.equal(listed.length, own.length, `${what}: --through and the start`);
+  const near = (a, b) => Math.abs(a - b) <= 1e-9 * (1 + Math.abs(b));
+  listed.forEach((orbit, i) => {
+    assert.equal(orbit.u.length, own[i].u.length, `${what}: points of orbit ${i}`);
+    orbit.u.forEach((u, j) => assert.ok(near(own[i].u[j], u) && near(own[i].v[j], orbit.v[j]), `${what}: point ${j} of orbit ${i}`));
+  });
+  const speeds = { uv: 1, pair: 1, patch: mu }[state.view];
+  if (!speeds) return;
+  assert.equal(isochrones, portrait.isochrones.length > 0, `${what}: isochrones`);
+  for (const orbit of [...portrait.orbits, ...(portrait.against?.orbits ?? [])]) {
+    assert.ok(drawn.some(([x, y]) => near(x, speeds * orbit.u[0]) && near(y, orbit.v[0])), `${what}: an orbit from ${orbit.u[0]}, ${orbit.v[0]}`);
+  }
 }
 
 test("opens from disk and asks the network for nothing", async () => {
@@ -126,18 +182,26 @@ test("mu is dragged, and everything follows", async (t) => {
 test("all views are drawn, and a click in each starts the orbit that it points at", async () => {
   await open("#law=exact&mu=0.3&window=1,5&orbits=0.8,3.5");
   const pictures = new Set();
-  for (const view of ["uv", "patch", "log", "similarity", "blowup", "disc"]) {
+  let orbits = 1;
+  for (const view of views) {
     await page.click(`#views [data-name=${view}]`);
     assert.equal(await page.getAttribute(`#views [data-name=${view}]`, "aria-checked"), "true");
     const picture = await page.evaluate(() => document.getElementById("plane").toDataURL());
     pictures.add(picture);
-    await clickPlane(0.52, 0.21);
-    const { u, v } = (await state()).orbits.at(-1);
-    assertClose(u, 0.52, 0.06, `u in ${view}`);
-    assertClose(v, 0.21, 0.06, `v in ${view}`);
+    const panels = await page.evaluate(() => globalThis.page.planeScene.view.panels.map((panel) => Boolean(panel.state)));
+    assert.equal(panels.length, await page.evaluate(() => globalThis.page.frames.length));
+    for (const panel of panels.keys()) {
+      if (!panels[panel]) continue;
+      await clickPlane(0.52, 0.21, panel);
+      orbits += 1;
+      const { u, v } = (await state()).orbits.at(-1);
+      assertClose(u, 0.52, 0.06, `u in panel ${panel} of ${view}`);
+      assertClose(v, 0.21, 0.06, `v in panel ${panel} of ${view}`);
+    }
   }
-  assert.equal(pictures.size, 6);
-  assert.equal((await stopTimes()).length, 7);
+  assert.equal(pictures.size, 8);
+  assert.equal((await stopTimes()).length, orbits);
+  assert.equal(orbits, 1 + 10);
   await close();
 });
 
@@ -152,15 +216,15 @@ test("a drag shows the isochrone through the pointer", async () => {
   await page.mouse.up();
   assert.equal(orbits.length, 1);
   const at = await page.evaluate(([x, y]) => {
-    const { frame, view, context } = globalThis.page.planeScene;
+    const { frames: [frame], planeScene: { view, context } } = globalThis.page;
     const corner = document.getElementById("plane").getBoundingClientRect();
     const numbers = frame.at(x - corner.left, y - corner.top);
-    return view.state(numbers.x, numbers.y, context);
+    return view.panels[0].state(numbers.x, numbers.y, context);
   }, end);
   assertClose(isochrone, programStop("--mu", 0.3, "--u0", at.u, "--v0", at.v, "--law", "pade"), 1e-12, "its time");
   // Each of its points has that stop time.
   const points = await page.evaluate(() => {
-    const [{ u, v }] = globalThis.page.planeScene.isochrone;
+    const { u, v } = globalThis.page.planeScene.isochrone;
     return [1, 20, 60].map((i) => [u[i], v[i]]);
   });
   for (const [u, v] of points) {
@@ -231,23 +295,92 @@ test("a real ball: seconds, its fields, its path, and its command line", async (
   assert.match(await page.textContent("#patch-error"), /patch/);
   assertClose((await stopTimes())[0], program_("--law", law, "--friction", "0.3").tau_stop, 1e-12, "the last good state");
 
-  const words = (await page.textContent("#command")).split(" ");
-  assert.equal(words.shift(), "contensou");
   assert.match(await page.textContent("#path-facts"), /Rolls after/);
-  const drawn = join(folder, "portrait.json");
-  words[words.indexOf("portrait.svg")] = drawn;
-  execFileSync(program, words);
-  const portrait = JSON.parse(readFileSync(drawn, "utf8"));
-  const shown = await page.evaluate(() => {
-    const { context, family } = globalThis.page.planeScene;
-    return { mu: context.mu, window: context.window, u: family.orbits.map((orbit) => orbit.u[0]), v: family.orbits.map((orbit) => orbit.v[0]) };
+  await assertSamePicture("the pool ball");
+  await close();
+});
+
+test("the command line draws the same picture", async () => {
+  const three = "orbits=0.8,3.5;-0.5,1;0.2,0.05&chosen=1";
+  for (const view of views) {
+    await open(`#law=exact&mu=0.3&view=${view}&${three}`);
+    await assertSamePicture(view);
+    await close();
+  }
+  const states = [
+    "#ball=pool&law=exact",  // mu < 0.1: the program by itself would take another view
+    "#ball=pool&law=pade&view=pair&radius=0.03&patch=0.001&orbits=0.5,1;-0.2,0.3;0.4,0.01",
+    "#ball=pool&law=exact&view=time&orbits=",
+    `#law=pade&mu=0.05&window=1,5&${three}`,
+    `#law=exact&mu=0.02&view=pair&against=pade&${three}`,
+    "#law=uniform&body=disc&view=disc&orbits=0.8,0.7;0.3,0.9&against=ring",
+    "#law=pressure:2.5&against=pressure:-0.25&mu=0.4&field=motion&orbits=0.8,2;0,1;0.3,0",
+    `#law=potential8&mu=0.3&field=regularised&isochrones=0&theme=dark&${three}`,
+    "#law=exact&body=1,6&mu=2&view=blowup&orbits=0.8,0.7;0.3,0.9",
+    "#law=exact&mu=0.3&window=0.25,0.5&orbits=0.8,3.5;-0.5,1;0.2,0.05&chosen=2",  // some start outside
+    "#law=pade&mu=0.3&orbits=0,2;0.5,1",  // the chosen one is an axis
+    "#law=pade&mu=0.3&orbits=",
+  ];
+  for (const fragment of states) {
+    const query = new URLSearchParams(fragment.slice(1));
+    await open(fragment, {}, query.get("orbits") !== "");
+    assert.equal((await state()).law, query.get("law"));
+    await assertSamePicture(fragment);
+    await close();
+  }
+});
+
+test("another law is drawn against the first, and leaves again", async () => {
+  await open("#law=exact&mu=0.3&orbits=0.8,3.5");
+  const legend = () => page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map((layer) => layer.legend).filter(Boolean));
+  assert.ok(!(await legend()).includes("law pade"));
+  await page.selectOption("#against", "pade");
+  assert.ok((await legend()).includes("law pade") && (await legend()).includes("law exact"));
+  assert.match(await page.getAttribute("#plane", "aria-label"), /exact against pade/);
+  assert.match(await page.textContent("#command"), / --against pade /);
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-svg")]);
+  assert.match(readFileSync(await download.path(), "utf8"), />law pade</);
+  await page.click("#copy-link");
+  assert.match(page.url(), /against=pade/);
+  await page.selectOption("#against", "");
+  assert.ok(!(await legend()).includes("law pade"));
+  assert.doesNotMatch(await page.textContent("#command"), /against/);
+  await close();
+});
+
+test("the exponent of a pressure law has a field of its own", async () => {
+  await open("#law=exact&mu=0.3&orbits=0.8,3.5");
+  assert.ok(!(await page.isVisible("#law-exponent")));
+  await page.selectOption("#law", "pressure");
+  assert.ok(await page.isVisible("#law-exponent input"));
+  await page.fill("#law-exponent input", "2.5");
+  const times = await stopTimes();
+  assertClose(times[0], programStop("--mu", 0.3, "--u0", 0.8, "--v0", 3.5, "--law", "pressure:2.5"), 1e-12, "pressure:2.5");
+  for (const [text, complaint] of [["-1", /ring/], ["26", /≤ 25/], ["-2", /−1 < P/], ["x", /'x' is not a finite number/], ["", /needed/]]) {
+    await page.fill("#law-exponent input", text);
+    assert.match(await page.textContent("#exponent-error"), complaint);
+    assert.equal(await page.getAttribute("#law-exponent input", "aria-invalid"), "true");
+    assert.deepEqual(await stopTimes(), times);
+    assert.equal((await state()).law, "pressure:2.5");
+  }
+  await page.fill("#law-exponent input", "1");
+  assert.equal(await page.textContent("#exponent-error"), "");
+  assert.equal((await state()).law, "pressure:1");
+  await page.selectOption("#law", "pade");
+  assert.ok(!(await page.isVisible("#law-exponent")));
+  await close();
+});
+
+test("a click in the view of time is a moment", async () => {
+  await open("#law=exact&mu=0.3&view=time&orbits=0.8,3.5");
+  const [x, y] = await page.evaluate(() => {
+    const frame = globalThis.page.frames[1];
+    const box = document.getElementById("plane").getBoundingClientRect();
+    return [box.left + frame.px(0.25), box.top + frame.py(0.5)];
   });
-  assertClose(portrait.mu, shown.mu, 1e-14, "mu of the picture");
-  assert.deepEqual(portrait.window, shown.window);
-  assert.equal(portrait.orbits.length, shown.u.length);
-  portrait.orbits.forEach((orbit, i) => {
-    assert.ok(Math.abs(orbit.u[0] - shown.u[i]) < 1e-12 && Math.abs(orbit.v[0] - shown.v[i]) < 1e-12, `orbit ${i}`);
-  });
+  await page.mouse.click(x, y);
+  assert.ok(Math.abs((await state()).share - 0.25) < 0.01);
+  assert.equal((await stopTimes()).length, 1);
   await close();
 });
 
@@ -336,7 +469,7 @@ test("a new size of the window is a new drawing, sharp", async () => {
     await page.setViewportSize({ width, height: 900 });
     await page.waitForFunction(() => {
       const canvas = document.getElementById("plane");
-      return canvas.width === Math.round(canvas.clientWidth * devicePixelRatio) && globalThis.page.planeScene.frame.width < canvas.clientWidth;
+      return canvas.width === Math.round(canvas.clientWidth * devicePixelRatio) && globalThis.page.frames[0].width < canvas.clientWidth;
     });
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   }
@@ -367,9 +500,10 @@ test("bodies that end on a ray, or with k growing, are explored like balls", asy
   for (const [fragment, words, limit] of cases) {
     await open(fragment);
     assert.match(await page.textContent("#terminal"), limit);
-    for (const view of ["uv", "patch", "log", "similarity", "blowup", "disc"]) {
+    for (const view of views) {
       await page.click(`#views [data-name=${view}]`);
-      assert.ok(await page.evaluate(() => globalThis.page.planeScene.family.orbits.length) > 10, view);
+      assert.ok(await page.evaluate(() => globalThis.page.planeScene.figure.panels.every((panel) =>
+        panel.lines.reduce((sum, { lines }) => sum + lines.length, 0) >= 5)), view);
     }
     const times = await stopTimes();
     (await state()).orbits.forEach(({ u, v }, i) => {

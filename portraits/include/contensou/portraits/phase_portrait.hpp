@@ -95,8 +95,10 @@ struct PortraitRequest {
   std::optional<reduction::Law> against;
   /// closed or quadrature: the similarity solution. regularised: (2.7) stepped in beta.
   reduction::Route route = reduction::Route::closed;
-  bool window_only = false;  ///< leave out what only drawings need: whole curves and profile
-  double time_unit = 1;      ///< isochrones are at round multiples of this many tau
+  /// Leave out what the view is not drawn from: orbits and isochrones, or whole curves; of isochrones, all but the
+  /// times.
+  bool drawn_only = false;
+  double time_unit = 1;  ///< isochrones are at round multiples of this many tau
 };
 
 /// Computes the portrait: orbits seeded along the border at equal distances across the flow, u of both signs, and

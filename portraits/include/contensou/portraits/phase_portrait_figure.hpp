@@ -25,6 +25,7 @@ struct PortraitStyle {
   enum class Field { none, motion, regularised } field = Field::none;  ///< directions of (2.6), (2.7)
   bool invariant = true;                                               ///< axes and ray, which are the nullclines
   bool colour_by_time = true;  ///< orbits by the time left; not where two laws are compared
+  bool asked = true;           ///< the highlighted orbit and those through points; else the caller draws them
   bool screen = false;         ///< light on dark, for a projector, instead of dark on light, for paper
   std::optional<double> width_mm;
   std::optional<double> height_mm;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/reduction/inertia.hpp"
+#include "contensou/si/shot.hpp"
+
+namespace contensou::program {
+
+/// Everything that a portrait is asked for by: the options of `portrait`, or the state of the page. Equal questions
+/// have equal answers, so that the page's command line draws what the page shows.
+struct PortraitQuestion {
+  reduction::Law law;
+  double mu;
+  reduction::Inertia inertia = reduction::homogeneous_ball;
+  std::optional<reduction::State> start = {};  ///< of the highlighted orbit
+  std::optional<si::Shot> shot = {};           ///< where mu and start came from, if it is a ball in SI units
+  portraits::PortraitRequest request = {};     ///< highlight and time unit follow from start and shot
+  portraits::PortraitStyle style = {};
+
+  reduction::ReducedSystem system() const { return {law, mu, inertia}; }
+
+  /// @throws std::domain_error  as phase_portrait
+  portraits::PhasePortrait portrait() const;
+
+  /// The drawing of that portrait, with the units of a ball.
+  portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
+
+ private:
+  portraits::PortraitCaption caption(const portraits::PhasePortrait& portrait) const;
+};
+
+}  // namespace contensou::program
