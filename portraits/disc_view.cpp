@@ -145,7 +145,7 @@ Panel polar_panel(const Drawing& drawing, double hole) {
   panel.labels.push_back({{-1.03, -0.07}, "{/:Italic u} → −∞", ink, Label::Align::centre});
   panel.labels.push_back({{0, 1.08}, "{/:Italic v} → ∞", ink, Label::Align::centre});
   if (hole > 0) {
-    panel.labels.push_back({{0, 0.42 * hole}, "the stop, blown up", ink, Label::Align::centre});
+    panel.labels.push_back({{0, 0.42 * hole}, "the stop", ink, Label::Align::centre});
   } else {
     panel.marks.push_back({{{0, 0}}, drawing.palette.highlight, 1.4});
     panel.labels.push_back({{0, -0.07}, "stop", ink, Label::Align::centre});

@@ -25,8 +25,15 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
   std::vector<PortraitPanel::Copy> copies;
   for (const PortraitOrbit& curve : portrait.curves) {
     const Instant at = at_log_ratio(curve, curve.ln_k[0] > 0 ? 1 : -1);
-    constexpr int most = 12;
-    for (int i = -most; i <= most; ++i) copies.push_back({curve, std::exp(middle + i * step - at.ln_v)});
+    constexpr int most = 12, lowest = -40;
+    // Down to the one that only touches the lower border.
+    double rise = 0;
+    for (Eigen::Index i = 0; i < curve.rows(); ++i) {
+      const double x = abscissa(curve.ln_k[i]);
+      if (x >= layers.panel().x.low && x <= layers.panel().x.high) rise = std::max(rise, curve.ln_v[i] - at.ln_v);
+    }
+    const int first = std::clamp(static_cast<int>(-(half_height + rise) / step), lowest, -most);
+    for (int i = first; i <= most; ++i) copies.push_back({curve, std::exp(middle + i * step - at.ln_v)});
   }
   layers.add_orbits(copies);
   const Axis& y = layers.panel().y;

@@ -370,7 +370,7 @@ class Page {
     $("mu-slider").value = muToSlider(state.mu, bodyOf(state).largestMu ?? 1);
     $("mu-slider").setAttribute("aria-valuetext", shown(state.mu));
     $("mu-slider").disabled = $("mu").disabled = bodyOf(state).mu !== undefined;
-    this.muField.show(state.mu);
+    this.muField.show(state.ball ? Number(state.mu.toPrecision(6)) : state.mu);
     this.windowFields.forEach((field, side) => field.show(Number(this.context.window[side].toPrecision(6))));
     this.viewButtons.show(state.view);
     this.partButtons.show(state.part);

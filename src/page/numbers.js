@@ -37,12 +37,16 @@ export function roundDown(x) {
   return (x >= 5 * power ? 5 : x >= 2 * power ? 2 : 1) * power;
 }
 
-/** Round numbers in [low, high], about `wanted` of them. */
+/** Round numbers in [low, high], about `wanted` of them, but two if more fit than one. */
 export function ticks(low, high, wanted) {
+  const of = (step) => {
+    const values = [];
+    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) values.push(i * step);
+    return values;
+  };
   const step = roundDown(((high - low) / wanted) * 1.4);
-  const values = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) values.push(i * step);
-  return values;
+  const values = of(step);
+  return values.length >= 2 ? values : of(roundDown(0.6 * step));
 }
 
 /** The text of a tick, with no more digits than its step needs. */

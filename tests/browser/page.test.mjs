@@ -453,6 +453,7 @@ test("the keyboard alone is enough", async () => {
 
 test("touch, at the width of a phone, in the dark", async () => {
   await open("#law=exact&mu=0.3&window=1,5&orbits=0.8,3.5", { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, colorScheme: "dark" });
+  await page.locator("#plane").scrollIntoViewIfNeeded();
   const box = await page.locator("#plane").boundingBox();
   await page.touchscreen.tap(box.x + 0.3 * box.width, box.y + 0.5 * box.height);
   assert.equal((await stopTimes()).length, 2);
