@@ -124,7 +124,7 @@ Panel polar_panel(const Drawing& drawing, double hole) {
     return map.at(rho, theta, std::copysign(1, at.u));
   });
   layers.set_arrows(0.4, 0.02);
-  layers.add_orbits(evenly(portrait, map, 10));
+  layers.add_orbits([&](const PhasePortrait& of) { return evenly(of, map, 10); });
   std::vector<Polyline> axes, ray;
   for (double theta : invariant_angles(portrait)) {
     std::vector<Polyline>& lines = theta > 0 && theta < pi / 2 ? ray : axes;
@@ -164,6 +164,10 @@ std::vector<double> invariant_angles(const PhasePortrait& portrait) {
   return angles;
 }
 
+bool reaches(const PortraitOrbit& curve, double ln_k) {
+  return (curve.ln_k[0] - ln_k) * (curve.ln_k[curve.rows() - 1] - ln_k) < 0;
+}
+
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k) {
   for (Eigen::Index i = 1; i < curve.rows(); ++i) {
     const double before = curve.ln_k[i - 1], now = curve.ln_k[i];
@@ -200,15 +204,19 @@ std::vector<Panel> blowup_view(const Drawing& drawing) {
   PortraitPanel layers(drawing, std::move(chart), [top](const Instant& at) {
     return Point{at.u, std::min(std::exp(at.ln_k), 100 * top)};
   });
-  std::vector<PortraitPanel::Copy> copies;
-  for (const PortraitOrbit& curve : portrait.curves) {
-    constexpr int count = 12;
-    const bool from_above = curve.ln_k[0] > 0;
-    const double k = from_above ? (k_star > 0 ? 1.6 * k_star : top) : (k_star > 0 ? 0.45 * k_star : top / 3);
-    const double u = at_log_ratio(curve, std::log(k)).u;
-    for (int i = 0; i < count; ++i) copies.push_back({curve, (i + 0.5) / count * U * (k_star > 0 ? 1.6 : 1) / u});
-  }
-  layers.add_orbits(copies);
+  layers.add_orbits([&](const PhasePortrait& of) {
+    const bool ray = of.plane.tangent == InvariantDirection::ray;
+    std::vector<PortraitPanel::Copy> copies;
+    for (const PortraitOrbit& curve : of.curves) {
+      constexpr int count = 12;
+      const bool from_above = curve.ln_k[0] > 0;
+      const double on_ray = of.plane.terminal.k;
+      const double k = from_above ? (ray ? 1.6 * on_ray : top) : (ray ? 0.45 * on_ray : top / 3);
+      const double u = at_log_ratio(curve, std::log(k)).u;
+      for (int i = 0; i < count; ++i) copies.push_back({curve, (i + 0.5) / count * U * (ray ? 1.6 : 1) / u});
+    }
+    return copies;
+  });
   std::vector<Polyline> ray;
   if (k_star > 0) ray = {{{0, k_star}, {U, k_star}}};
   layers.add_invariant({{{0, 0}, {U, 0}}, {{0, 0}, {0, top}}}, std::move(ray));

@@ -100,18 +100,13 @@ void refine(Track& track, double from, const std::vector<double>& places, At at,
 
 /// The orbit, by its nearness xi to the terminal ratio while k is seen to change, then by the time left, whose
 /// logarithm falls in even steps.
-///
-/// @param left  the stop time of a state: more digits than a difference of times has
-Track exact_track(const Orbit& orbit, const std::function<double(State)>& left, const Distance& distance) {
+Track exact_track(const Orbit& orbit, const Distance& distance) {
   const double stop = orbit.stop_time();
   Track track{{orbit.at_time(0), stop}};
   if (!orbit.on_axis()) {
     constexpr double farthest = 20;
     const double start = orbit.start_coordinate();
-    const auto at = [&](double xi) {
-      const OrbitPoint point = orbit.at_coordinate(xi);
-      return Dated{point, left({point.u, point.v})};
-    };
+    const auto at = [&](double xi) { return Dated{orbit.at_coordinate(xi), orbit.time_left_at_coordinate(xi)}; };
     refine(track, start, {std::min(-farthest, start - farthest)}, at, distance);
   }
   const double begin = std::log(track.back().left);
@@ -218,10 +213,7 @@ class Painter {
 
   Orbit motion(State start) const { return {system_, start, solution_}; }
 
-  Track exact(State start, const Distance& distance) const {
-    return exact_track(
-        motion(start), [this](State state) { return stop_time(state); }, distance);
-  }
+  Track exact(State start, const Distance& distance) const { return exact_track(motion(start), distance); }
 
   PortraitOrbit columns(const Track& track) const {
     const auto rows = static_cast<Eigen::Index>(track.size());

@@ -39,10 +39,7 @@ Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   panel.x = {drawing.speed(name), -unit * U, unit * U, false, {}};
   panel.y = {drawing.speed("{/:Italic v}"), 0, V, false, {}};
   PortraitPanel layers(drawing, std::move(panel), [unit](const Instant& at) { return Point{unit * at.u, at.v}; });
-  layers.add_orbits(seeded(drawing.portrait));
-  for (const PhasePortrait& rival : drawing.portrait.against) {
-    layers.add_rivals(seeded(rival), rival.system.law().name());
-  }
+  layers.add_orbits(seeded);
   layers.add_isochrones(stop_times(drawing.portrait));
   for (const PhasePortrait& rival : drawing.portrait.against) {
     layers.add_rival_isochrones(stop_times(drawing.portrait), rival);
@@ -59,6 +56,7 @@ Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
 
 /// Copies of the whole curves that pass, at a given ln k, through evenly spaced u of both signs.
 void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double farthest, int count) {
+  if (!reaches(curve, ln_k)) return;
   const double u = at_log_ratio(curve, ln_k).u;
   for (int i = 0; i < count; ++i) {
     for (double sign : {1.0, -1.0}) copies.push_back({curve, (i + 0.5) / count * farthest / u, sign});
@@ -73,45 +71,53 @@ Panel contact_panel(const Drawing& drawing) {
   const double order = portrait.plane.contact_order;
   constexpr double shrinks = 20;  // u falls to this share
   constexpr int per_side = 12;
+  constexpr double reach = 3;
   Panel panel;
   panel.x = {drawing.speed("{/:Italic u} = {/:Italic R ω_z}"), -U, U, false, {}};
   panel.y = {"ln {/:Italic k},   {/:Italic k = v}/({/:Italic μ}|{/:Italic u}|)", 0, 0, false, {}};
-  Copies copies;
-  if (portrait.plane.tangent == InvariantDirection::pivoting) {
-    const double top = std::log(portrait.window.v / (portrait.system.mu() * U));
+  const bool pivoting = portrait.plane.tangent == InvariantDirection::pivoting;
+  // Where orbits are seeded: at the top, or around the middle.
+  const double top = std::log(portrait.window.v / (portrait.system.mu() * U));
+  const double middle = portrait.plane.tangent == InvariantDirection::ray ? std::log(portrait.plane.terminal.k) : 2;
+  if (pivoting) {
     const double depth = std::max(order * std::log(shrinks), 8.0);
     panel.title = fmt::format("orbits touch the axis {{/:Italic v}} = 0:  {{/:Italic k}} ∝ |{{/:Italic u}}|^{{{}}}",
                               number(std::stod(fmt::format("{:.4g}", order))));
     panel.y.low = top - depth;
     panel.y.high = top + 0.02 * depth;
-    const PortraitOrbit& curve = portrait.curves.front();
-    add_evenly(copies, curve, top, U, per_side);
-    // Orbits that enter from the sides, evenly down to the bottom.
-    const double u = at_log_ratio(curve, top).u;
-    for (int i = 1; i <= per_side; ++i) {
-      const double factor = std::pow(shrinks, static_cast<double>(i) / (per_side + 0.5));
-      for (double sign : {1.0, -1.0}) copies.push_back({curve, factor * U / u, sign});
-    }
   } else {
-    const double middle = portrait.plane.tangent == InvariantDirection::ray ? std::log(portrait.plane.terminal.k) : 2;
-    constexpr double reach = 3;
     panel.title = portrait.plane.tangent == InvariantDirection::ray
                       ? "orbits touch the ray {/:Italic k} = {/:Italic k}*"
                       : "orbits touch the axis {/:Italic u} = 0";
     panel.y.low = middle - reach;
     panel.y.high = middle + reach;
-    for (const PortraitOrbit& curve : portrait.curves) {
-      const double side = curve.ln_k[0] > middle ? 1 : -1;
-      add_evenly(copies, curve, middle + side * reach, U, per_side);
-      add_evenly(copies, curve, middle + side * 0.3 * reach, 3 * U, per_side);
-    }
   }
+  const auto copies_of = [=](const PhasePortrait& of) {
+    Copies copies;
+    for (const PortraitOrbit& curve : of.curves) {
+      if (!pivoting) {
+        const double side = curve.ln_k[0] > middle ? 1 : -1;
+        add_evenly(copies, curve, middle + side * reach, U, per_side);
+        add_evenly(copies, curve, middle + side * 0.3 * reach, 3 * U, per_side);
+        continue;
+      }
+      add_evenly(copies, curve, top, U, per_side);
+      if (!reaches(curve, top)) continue;
+      // Orbits that enter from the sides, evenly down to the bottom.
+      const double u = at_log_ratio(curve, top).u;
+      for (int i = 1; i <= per_side; ++i) {
+        const double factor = std::pow(shrinks, static_cast<double>(i) / (per_side + 0.5));
+        for (double sign : {1.0, -1.0}) copies.push_back({curve, factor * U / u, sign});
+      }
+    }
+    return copies;
+  };
   const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // -infinity is below the border
   PortraitPanel layers(drawing, std::move(panel), [low](const Instant& at) {
     return Point{at.u, std::clamp(at.ln_k, low, 1e300)};
   });
   layers.set_arrows(0.3, 0.06);
-  layers.add_orbits(copies);
+  layers.add_orbits(copies_of);
   layers.add_highlights();
   std::vector<Polyline> ray;
   if (k_of_ray(portrait) > 0) ray = {{{-U, std::log(k_of_ray(portrait))}, {U, std::log(k_of_ray(portrait))}}};
@@ -160,18 +166,22 @@ std::vector<Panel> log_view(const Drawing& drawing) {
   PortraitPanel layers(drawing, panel, [=](const Instant& at) {
     return Point{at.u == 0 ? nowhere.x : ln_mu + std::log(std::abs(at.u)), std::max(at.ln_v, nowhere.y)};
   });
-  Copies copies;
-  for (const PortraitOrbit& curve : portrait.curves) {
+  layers.add_orbits([&](const PhasePortrait& of) {
     // Translates along the diagonal, evenly across the panel.
     constexpr int count = 14;
-    const Instant at =
-        at_log_ratio(curve, k_star > 0 ? std::log(k_star) + (curve.ln_k[0] > std::log(k_star) ? 1 : -1) : 0);
-    const double w = ln_mu + std::log(at.u);
-    const double first = spins_last && k_star == 0 ? panel.x.low : panel.x.low - 6;
-    const double last = spins_last && k_star == 0 ? panel.x.high + shrinks : panel.x.high + 6;
-    for (int i = 0; i < count; ++i) copies.push_back({curve, std::exp(first + (i + 0.5) * (last - first) / count - w)});
-  }
-  layers.add_orbits(copies);
+    const double ray = k_of_ray(of) > 0 ? std::log(k_of_ray(of)) : 0;
+    Copies copies;
+    for (const PortraitOrbit& curve : of.curves) {
+      const double ln_k = k_of_ray(of) > 0 ? ray + (curve.ln_k[0] > ray ? 1 : -1) : 0;
+      if (!reaches(curve, ln_k)) continue;
+      const double w = ln_mu + std::log(at_log_ratio(curve, ln_k).u);
+      const double first = spins_last && k_star == 0 ? panel.x.low : panel.x.low - 6;
+      const double last = spins_last && k_star == 0 ? panel.x.high + shrinks : panel.x.high + 6;
+      for (int i = 0; i < count; ++i)
+        copies.push_back({curve, std::exp(first + (i + 0.5) * (last - first) / count - w)});
+    }
+    return copies;
+  });
   constexpr double squeezed = 200;  // from which the diagonal is the upper border
   if (x_range < squeezed && y_range < squeezed)
     layers.panel().lines.push_back({{{{panel.y.low, panel.y.low}, {panel.y.high, panel.y.high}}},

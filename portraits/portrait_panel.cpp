@@ -196,14 +196,21 @@ Polyline PortraitPanel::line_of(const Copy& copy) const {
   return line;
 }
 
-void PortraitPanel::add_orbits(const std::vector<Copy>& copies) {
-  if (!drawing_.coloured()) {
-    add_plain(copies, {drawing_.palette.orbit, 1.3, false},
-              drawing_.portrait.against.empty()
-                  ? "orbits"
-                  : fmt::format("law {}", literal(drawing_.portrait.system.law().name())));
-    return;
+void PortraitPanel::add_orbits(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies) {
+  const PhasePortrait& portrait = drawing_.portrait;
+  const auto law = [](const PhasePortrait& of) { return fmt::format("law {}", literal(of.system.law().name())); };
+  if (drawing_.coloured()) {
+    add_coloured(copies(portrait));
+  } else {
+    add_plain(copies(portrait), {drawing_.palette.orbit, 1.3, false},
+              portrait.against.empty() ? "orbits" : law(portrait));
   }
+  for (const PhasePortrait& rival : portrait.against) {
+    add_plain(copies(rival), {drawing_.palette.rival, 1.3, true}, law(rival));
+  }
+}
+
+void PortraitPanel::add_coloured(const std::vector<Copy>& copies) {
   // A piece of line for each band that an orbit crosses; one layer for each band, the last moments on top.
   std::map<std::size_t, std::vector<Polyline>, std::greater<>> layers;
   std::map<std::size_t, Arrows, std::greater<>> heads;
@@ -260,10 +267,6 @@ void PortraitPanel::add_plain(const std::vector<Copy>& copies, Stroke stroke, co
   }
   panel_.lines.push_back(std::move(lines));
   panel_.arrows.push_back(std::move(arrows));
-}
-
-void PortraitPanel::add_rivals(const std::vector<Copy>& copies, const std::string& law) {
-  add_plain(copies, {drawing_.palette.rival, 1.3, true}, fmt::format("law {}", literal(law)));
 }
 
 /// Heads where equal times are left, halfway between isochrones; at least one on an orbit, where it is seen best.

@@ -75,8 +75,8 @@ class PortraitPanel {
     double sign = 1;
   };
 
-  void add_orbits(const std::vector<Copy>& copies);
-  void add_rivals(const std::vector<Copy>& copies, const std::string& law);
+  /// Orbits of the portrait, and in the same way those of the laws that it is compared with.
+  void add_orbits(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies);
   void add_highlights();
   /// Isochrones of those stop times, labelled where orbits leave room; left and right.
   void add_isochrones(const std::vector<double>& times);
@@ -91,6 +91,7 @@ class PortraitPanel {
   Panel finished() && { return std::move(panel_); }
 
  private:
+  void add_coloured(const std::vector<Copy>& copies);
   Polyline line_of(const Copy& copy) const;
   void add_arrows(const Copy& copy, Arrows& arrows);
   void add_plain(const std::vector<Copy>& copies, Stroke stroke, const std::string& legend);

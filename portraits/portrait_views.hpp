@@ -18,6 +18,9 @@ std::vector<Panel> disc_view(const Drawing& drawing);        ///< the Poincare d
 std::vector<Panel> time_view(const Drawing& drawing);        ///< u, v, k against time
 std::vector<Panel> pair_view(const Drawing& drawing);        ///< (u, v) beside (u, ln k)
 
+/// Whether ln k passes that value along a whole curve.
+bool reaches(const PortraitOrbit& curve, double ln_k);
+
 /// The state at which a whole curve has that ln k, interpolated between its rows; the last that it reaches otherwise.
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 

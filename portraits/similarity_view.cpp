@@ -15,27 +15,28 @@ constexpr double step = 0.8;       // between translates
 /// One panel: translates of each curve, with the arrow of the symmetry.
 Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
                  double ray_at) {
-  const PhasePortrait& portrait = drawing.portrait;
-  const double middle = std::log(portrait.window.v);
+  const double middle = std::log(drawing.portrait.window.v);
   axes.y = {"{/:Italic p} = ln {/:Italic v}", middle - half_height, middle + half_height, false, {}};
   const double below = middle - 100 * half_height;
   PortraitPanel layers(drawing, std::move(axes), [abscissa, below](const Instant& at) {
     return Point{abscissa(at.ln_k), std::max(at.ln_v, below)};
   });
-  std::vector<PortraitPanel::Copy> copies;
-  for (const PortraitOrbit& curve : portrait.curves) {
-    const Instant at = at_log_ratio(curve, curve.ln_k[0] > 0 ? 1 : -1);
-    constexpr int most = 12, lowest = -40;
-    // Down to the one that only touches the lower border.
-    double rise = 0;
-    for (Eigen::Index i = 0; i < curve.rows(); ++i) {
-      const double x = abscissa(curve.ln_k[i]);
-      if (x >= layers.panel().x.low && x <= layers.panel().x.high) rise = std::max(rise, curve.ln_v[i] - at.ln_v);
+  layers.add_orbits([&](const PhasePortrait& of) {
+    std::vector<PortraitPanel::Copy> copies;
+    for (const PortraitOrbit& curve : of.curves) {
+      const Instant at = at_log_ratio(curve, curve.ln_k[0] > 0 ? 1 : -1);
+      constexpr int most = 12, lowest = -40;
+      // Down to the one that only touches the lower border.
+      double rise = 0;
+      for (Eigen::Index i = 0; i < curve.rows(); ++i) {
+        const double x = abscissa(curve.ln_k[i]);
+        if (x >= layers.panel().x.low && x <= layers.panel().x.high) rise = std::max(rise, curve.ln_v[i] - at.ln_v);
+      }
+      const int first = std::clamp(static_cast<int>(-(half_height + rise) / step), lowest, -most);
+      for (int i = first; i <= most; ++i) copies.push_back({curve, std::exp(middle + i * step - at.ln_v)});
     }
-    const int first = std::clamp(static_cast<int>(-(half_height + rise) / step), lowest, -most);
-    for (int i = first; i <= most; ++i) copies.push_back({curve, std::exp(middle + i * step - at.ln_v)});
-  }
-  layers.add_orbits(copies);
+    return copies;
+  });
   const Axis& y = layers.panel().y;
   if (std::isfinite(ray_at)) layers.add_invariant({}, {{{ray_at, y.low}, {ray_at, y.high}}});
   layers.add_highlights();

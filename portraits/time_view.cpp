@@ -63,17 +63,30 @@ std::vector<Panel> time_view(const Drawing& drawing) {
     k.lines.push_back({{line.ln_k}, stroke, legend});
   };
   constexpr double deepest = 60;
-  for (std::size_t i = 0; i < std::size(shares); ++i) {
-    const double ln_k = std::log(shares[i] / (system.r() * system.law().pivoting_moment()));
-    for (const PortraitOrbit& curve : portrait.curves) {
-      const bool from_above = curve.ln_k[0] > 0;
-      const bool reached = from_above ? ln_k > std::log(limit) : std::isinf(limit) || ln_k < std::log(limit);
-      if (!reached) continue;
-      const std::vector<Colour>& times = drawing.palette.times;
-      add(course(curve, at_log_ratio(curve, ln_k), deepest),
-          {times[i * (times.size() - 1) / (std::size(shares) - 1)], 1.8, false},
-          fmt::format("{{/:Italic k}}_0 = {}", number(std::stod(fmt::format("{:.3g}", std::exp(ln_k))))));
+  const auto add_courses = [&](const PhasePortrait& of, auto stroke, auto legend) {
+    for (std::size_t i = 0; i < std::size(shares); ++i) {
+      const double ln_k = std::log(shares[i] / (system.r() * system.law().pivoting_moment()));
+      for (const PortraitOrbit& curve : of.curves) {
+        if (reaches(curve, ln_k)) add(course(curve, at_log_ratio(curve, ln_k), deepest), stroke(i), legend(ln_k));
+      }
     }
+  };
+  const std::vector<Colour>& times = drawing.palette.times;
+  add_courses(
+      portrait,
+      [&](std::size_t i) {
+        return Stroke{times[i * (times.size() - 1) / (std::size(shares) - 1)], 1.8, false};
+      },
+      [](double ln_k) {
+        return fmt::format("{{/:Italic k}}_0 = {}", number(std::stod(fmt::format("{:.3g}", std::exp(ln_k)))));
+      });
+  for (const PhasePortrait& rival : portrait.against) {
+    add_courses(
+        rival,
+        [&](std::size_t) {
+          return Stroke{drawing.palette.rival, 1.3, true};
+        },
+        [&](double) { return fmt::format("law {}", literal(rival.system.law().name())); });
   }
   if (limit > 0 && std::isfinite(limit) && drawing.style.invariant) {
     k.lines.push_back(

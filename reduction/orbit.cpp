@@ -251,12 +251,19 @@ OrbitPoint Orbit::at_time_left(double time_left) const {
   return point_with_left(tau, coordinate_at_left(scaled_of(time_left)), scaled_of(time_left));
 }
 
+void Orbit::require_coordinate(const char* function, double xi) const {
+  if (!on_axis() && xi <= xi0_) return;
+  throw std::domain_error(fmt::format(
+      "Orbit::{}: xi must be at most that of the start, {}, and the start not on an axis; got {}", function, xi0_, xi));
+}
+
+double Orbit::time_left_at_coordinate(double xi) const {
+  require_coordinate("time_left_at_coordinate", xi);
+  return tau_of(scaled_left(xi));
+}
+
 OrbitPoint Orbit::at_coordinate(double xi) const {
-  if (on_axis() || !(xi <= xi0_)) {
-    throw std::domain_error(fmt::format(
-        "Orbit::at_coordinate: xi must be at most that of the start, {}, and the start not on an axis; got {}", xi0_,
-        xi));
-  }
+  require_coordinate("at_coordinate", xi);
   return point(tau_of(scaled_elapsed(xi)), xi, progress(xi));
 }
 

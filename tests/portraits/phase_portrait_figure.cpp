@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "contensou/portraits/layout.hpp"
+#include "contensou/portraits/pgfplots.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/similarity_solution.hpp"
 
 using namespace contensou;
@@ -393,6 +396,45 @@ TEST_CASE("The field points along the motion, and its needles lengthen with the 
       longest = std::max(longest, size);
     }
     CHECK(longest > 1.5 * shortest);
+  }
+}
+
+TEST_CASE("Every panel of every view draws the other law too", "[invariant]") {
+  using reduction::PressureLaw;
+  // The puck's orbits end on a ray under the first law, along the axis u = 0 under the other.
+  const reduction::ReducedSystem ball(reduction::HertzLaw{}, 0.3),
+      puck(PressureLaw::uniform(), 1, {.chi = 1, .gamma = 2});
+  for (const auto& [system, rival] : {std::pair<reduction::ReducedSystem, reduction::Law>{ball, reduction::PadeLaw{}},
+                                      std::pair<reduction::ReducedSystem, reduction::Law>{puck, PressureLaw::ring()}}) {
+    portraits::PortraitRequest request;
+    request.against = rival;
+    for (View view : portraits::views()) {
+      request.view = view;
+      const Figure figure = portraits::draw(portraits::phase_portrait(system, request));
+      for (const Panel& panel : figure.panels) {
+        INFO(portraits::name(view) << ", law " << rival.name() << ", " << panel.title);
+        const portraits::Lines& lines = layer(panel, "law " + rival.name());
+        CHECK(lines.stroke.dashed);
+        std::size_t seen = 0;
+        for (const auto& other : panel.lines) {
+          if (other.legend != lines.legend) continue;
+          for (const auto& line : other.lines) seen += portraits::clipped(panel, line).size();
+        }
+        CHECK(seen >= 5);
+      }
+    }
+  }
+}
+
+TEST_CASE("A portrait without what its view does not draw is the same drawing", "[route]") {
+  for (View view : portraits::views()) {
+    portraits::PortraitRequest request;
+    request.view = view;
+    request.through = {{0.3, 0.5}};
+    const reduction::ReducedSystem system(reduction::HertzLaw{}, 0.3);
+    const std::string whole = portraits::pgfplots(portraits::draw(portraits::phase_portrait(system, request)));
+    request.drawn_only = true;
+    CHECK(portraits::pgfplots(portraits::draw(portraits::phase_portrait(system, request))) == whole);
   }
 }
 

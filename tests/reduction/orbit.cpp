@@ -263,6 +263,24 @@ TEST_CASE("a body at rest stays at rest", "[orbit][limit]") {
   CHECK(orbit.sample(3).rows() == 3);
 }
 
+TEST_CASE("the time left at a coordinate is the stop time of the state there", "[orbit][route]") {
+  WorstCase left("time left");
+  for (const Law& law : paper_laws()) {
+    for (double mu : {0.1, 0.8}) {
+      const ReducedSystem system(law, mu);
+      const Orbit orbit(system, {-2, 2 * mu * 20});
+      for (double step : {0.0, 0.01, 0.5, 2.0, 5.0, 20.0, 60.0}) {
+        const double xi = orbit.start_coordinate() - step;
+        const OrbitPoint there = orbit.at_coordinate(xi);
+        left.add(Orbit(system, {there.u, there.v}).stop_time(), orbit.time_left_at_coordinate(xi),
+                 fmt::format("{}, mu = {}, step {}", law.name(), mu, step));
+      }
+      CHECK_THROWS_AS(orbit.time_left_at_coordinate(orbit.start_coordinate() + 1), std::domain_error);
+    }
+  }
+  CHECK_WITHIN_EPS(left, 100);
+}
+
 TEST_CASE("a state is found again by its ratio and by its time", "[orbit][route]") {
   WorstCase by_time("u by tau"), by_ratio("ln k by tau");
   for (const Law& law : paper_laws()) {

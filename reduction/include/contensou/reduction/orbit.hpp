@@ -61,6 +61,10 @@ class Orbit {
   /// @throws std::domain_error  on an axis, or if xi is above the start's
   OrbitPoint at_coordinate(double xi) const;
 
+  /// The time left there, to the last digits also next to the stop, where stop_time() less its tau has none. Throws as
+  /// at_coordinate.
+  double time_left_at_coordinate(double xi) const;
+
   /// The state at which ln k has the given value. Not on the axes.
   /// @throws std::domain_error  on an axis, or if ln_k is not between the start's and the terminal ratio's
   OrbitPoint at_log_ratio(double ln_k) const;
@@ -94,6 +98,7 @@ class Orbit {
   OrbitColumns sample(Eigen::Index count) const;
 
  private:
+  void require_coordinate(const char* function, double xi) const;
   OrbitPoint rest(double tau) const;
   OrbitPoint on_axis_at(double tau, double left_share) const;
 
