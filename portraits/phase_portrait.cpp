@@ -123,6 +123,10 @@ class Painter {
  public:
   Painter(const ReducedSystem& system, View view, Window window, const PortraitRequest& request)
       : system_(system), view_(view), window_(window), request_(request) {
+    if (request.solution) {
+      solution_ = *request.solution;
+      return;
+    }
     solution_ = request.route == Route::quadrature ? reduction::quadrature_solution(system.law(), system.r())
                                                    : reduction::similarity_solution(system.law(), system.r());
   }
@@ -450,7 +454,9 @@ PhasePortrait phase_portrait(const ReducedSystem& system, const PortraitRequest&
   PhasePortrait portrait = portrait_in(system, view, window, request);
   if (request.against) {
     const ReducedSystem rival(*request.against, system.mu(), system.inertia());
-    portrait.against.push_back(portrait_in(rival, view, window, request));
+    PortraitRequest of_rival = request;
+    of_rival.solution.reset();
+    portrait.against.push_back(portrait_in(rival, view, window, of_rival));
   }
   return portrait;
 }

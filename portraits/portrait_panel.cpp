@@ -61,12 +61,14 @@ class Obstacles {
     }
   }
 
-  /// How far a place is from the nearest point, in half widths or half heights, whichever is more.
-  double room(Point at) const {
+  /// How far a place is from the nearest point, in half widths or half heights, whichever is more; not looked for
+  /// further once it is less than enough.
+  double room(Point at, double enough) const {
     double room = most;
     for (int i = column(at.x) - 1; i <= column(at.x) + 1; ++i) {
       for (int j = row(at.y) - 1; j <= row(at.y) + 1; ++j) {
         if (i < 0 || j < 0 || i >= columns() || j >= rows()) continue;
+        if (room < enough) return room;
         for (const Point& other : cells_[cell(i, j)]) {
           room =
               std::min(room, std::max(std::abs(other.x - at.x) / half_width_, std::abs(other.y - at.y) / half_height_));
@@ -399,7 +401,7 @@ void PortraitPanel::add_isochrones(const std::vector<double>& times) {
       if (panel_.x.low < 0) room = std::min(room, std::abs(on_paper(panel_, {0, 0}).x - at.x) / half_width);
       // Of places with equal room the first, whatever the last digits: portraits have two equal halves.
       constexpr double same = 1e-9;
-      if (room > best * (1 + same)) room = std::min(room, near->room(at));
+      if (room > best * (1 + same)) room = std::min(room, near->room(at, best));
       if (room > best * (1 + same)) {
         best = room;
         where = candidate;

@@ -72,6 +72,7 @@ class Motions {
       : system_(std::move(system)), solution_(reduction::similarity_solution(system_.law(), system_.r())) {}
 
   const ReducedSystem& system() const { return system_; }
+  const reduction::SimilaritySolution& solution() const { return solution_; }
   Orbit orbit(State start) const { return {system_, start, solution_}; }
 
  private:
@@ -96,6 +97,9 @@ class Plane {
       return facts;
     });
   }
+
+  /// Of the law and body that were chosen.
+  const reduction::SimilaritySolution& solution() const { return motions().solution(); }
 
   /// The stop time of one start, its bounds and its limits.
   val stop(double u, double v) const {
@@ -283,10 +287,12 @@ program::PortraitQuestion question_of(const val& asked) {
   return question;
 }
 
-/// What the program draws when asked so; but the orbits that were asked for come by themselves, for the page to draw.
-val portrait(const val& asked) {
+/// What the program draws when asked so of the plane's system; but the orbits that were asked for come by themselves,
+/// for the page to draw.
+val portrait(const val& asked, const Plane& plane) {
   return answer([&] {
     program::PortraitQuestion question = question_of(asked);
+    question.request.solution = plane.solution();
     question.request.drawn_only = true;
     question.style.asked = false;
     const portraits::PhasePortrait portrait = question.portrait();

@@ -15,12 +15,14 @@ function checking(object, names) {
 
 export async function loadLibrary() {
   const module = await globalThis.loadContensou();
+  const plane = new module.Plane();
   return {
     laws: module.namesOfLaws(),
     largestExponent: module.largestExponent(),
     balls: module.catalogue(),
-    plane: checking(new module.Plane(),
-      ["choose", "inside", "stop", "motion", "instant", "isochrone", "checks"]),
-    ...checking(module, ["contact", "roll", "place", "portrait", "portraitFile"]),
+    plane: checking(plane, ["choose", "inside", "stop", "motion", "instant", "isochrone", "checks"]),
+    // Of the system that the plane has chosen.
+    portrait: (request) => checked(module.portrait(request, plane)),
+    ...checking(module, ["contact", "roll", "place", "portraitFile"]),
   };
 }

@@ -363,6 +363,7 @@ class Page {
     this.againstField.show(state.against);
     $("field").value = state.field;
     $("isochrones").checked = state.isochrones > 0;
+    $("field").disabled = $("isochrones").disabled = !viewNamed(state.view).layered;
     $("body").value = state.body;
     $("body-label").hidden = Boolean(state.ball);
     $("inertia").hidden = state.body !== "own";

@@ -2,7 +2,8 @@
 // what is drawn there (portraits/*_view.cpp); these are the same maps, for what the page draws and points at itself.
 //
 // A state is {u, v, lnV, lnK, left, start}: near the stop v underflows long before its logarithm does; `left` is the time
-// left and `start` the state that its orbit is drawn from. A context has mu and the window [U, V].
+// left and `start` the state that its orbit is drawn from. A context has mu and the window [U, V]. A view is layered where
+// isochrones and a field are drawn.
 
 const quarter = Math.PI / 2;
 
@@ -41,12 +42,14 @@ export const views = [
     name: "uv",
     title: "plane",
     hint: "The paper's plane: sliding v against pivoting u = R ω, ω the spin about the vertical. Every orbit runs into the origin.",
+    layered: true,
     panels: [speeds],
   },
   {
     name: "patch",
     title: "patch",
     hint: "Both speeds as the rim of the patch has them: the slope of a ray is k = v/(μ|u|).",
+    layered: true,
     panels: [{
       place: ({ u, v }, { mu }) => [mu * u, v],
       state: (x, y, { mu }) => ({ u: x / mu, v: y }),
@@ -101,6 +104,7 @@ export const views = [
     name: "pair",
     title: "pair",
     hint: "The plane, and beside it ln k against u: how orbits enter the origin, also where μ is so small that the plane is a comb of verticals.",
+    layered: true,
     panels: [speeds, {
       place: ({ u, lnK }) => [u, lnK],
       state: (x, y, { mu }) => (x === 0 ? null : { u: x, v: mu * Math.abs(x) * Math.exp(y) }),

@@ -348,6 +348,24 @@ test("another law is drawn against the first, and leaves again", async () => {
   await close();
 });
 
+test("fields and isochrones are switched where a view draws them", async () => {
+  await open("#law=exact&mu=0.3&orbits=0.8,3.5");
+  const legend = () => page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map((layer) => layer.legend).join(";"));
+  assert.match(await legend(), /time left/);
+  await page.uncheck("#isochrones");
+  assert.doesNotMatch(await legend(), /time left/);
+  assert.match(await page.textContent("#command"), / --isochrones 0 /);
+  await page.selectOption("#field", "regularised");
+  assert.match(await legend(), /direction of \(2\.7\)/);
+  await page.click("#copy-link");
+  assert.match(page.url(), /field=regularised&isochrones=0/);
+  await page.click("#views [data-name=disc]");
+  assert.ok((await page.isDisabled("#field")) && (await page.isDisabled("#isochrones")));
+  await page.click("#views [data-name=pair]");
+  assert.match(await legend(), /direction of \(2\.7\)/);
+  await close();
+});
+
 test("the exponent of a pressure law has a field of its own", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5");
   assert.ok(!(await page.isVisible("#law-exponent")));

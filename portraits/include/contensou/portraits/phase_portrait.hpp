@@ -10,6 +10,7 @@
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/phase_plane.hpp"
 #include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 #include "contensou/reduction/stop_time.hpp"
 
 namespace contensou::portraits {
@@ -98,6 +99,8 @@ struct PortraitRequest {
   /// Leave out what the view is not drawn from: orbits and isochrones, or whole curves; of isochrones, all but the
   /// times.
   bool drawn_only = false;
+  /// Made before, for many questions about one system; empty: made here. Of the system and for the route.
+  std::optional<reduction::SimilaritySolution> solution;
   double time_unit = 1;  ///< isochrones are at round multiples of this many tau
 };
 
