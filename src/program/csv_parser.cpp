@@ -4,8 +4,16 @@
 
 namespace contensou::program {
 
+namespace {
+
+/// A field's buffer grows by so much at a time: by libcsv's 128 bytes, a long field costs the square of its length.
+constexpr std::size_t buffer_growth = std::size_t{1} << 20;
+
+}  // namespace
+
 CsvParser::CsvParser(long first_line, TakeRecord take) : take_(std::move(take)), line_(first_line - 1) {
   csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI);
+  csv_set_blk_size(&parser_, buffer_growth);
   csv_set_space_func(&parser_, [](unsigned char) { return 0; });  // spaces belong to the field
 }
 
