@@ -1,5 +1,7 @@
 #include <immintrin.h>
 
+#include "stop_time_pair.hpp"
+
 namespace contensou::reduction {
 namespace {
 
@@ -7,33 +9,20 @@ constexpr int width = 8;
 using Vector = __m512d;
 using Bits [[gnu::vector_size(64)]] = unsigned long long;
 
-inline Vector larger(Vector a, Vector b) { return _mm512_maskz_max_pd(0xff, a, b); }
 inline Vector fused(Vector a, Vector b, Vector c) { return _mm512_fmadd_pd(a, b, c); }
 inline bool any_negative(Bits x) { return _mm512_movepi64_mask(reinterpret_cast<__m512i>(x)) != 0; }
 
-struct Columns {
-  Vector zeroth, first, second, third;
+struct Halves {
+  Vector low, high;
 };
 
-inline __m256d folded(const double* panel, const double& t4) {
-  return _mm256_fmadd_pd(_mm256_broadcast_sd(&t4), _mm256_load_pd(panel + 4), _mm256_load_pd(panel));
+inline Vector joined(__m256d first, __m256d second) {
+  return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-/// Lanes i and i + 4, one after the other.
-inline Vector joined(const double* const (&panels)[width], const double* t4, int i) {
-  return __builtin_shufflevector(folded(panels[i], t4[i]), folded(panels[i + 4], t4[i + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
-}
-inline Columns columns(const double* const (&panels)[width], const double* t4) {
-  const Vector a = joined(panels, t4, 0), b = joined(panels, t4, 1);
-  const Vector c = joined(panels, t4, 2), d = joined(panels, t4, 3);
-  return {
-      __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14),
-                              __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14), 0, 1, 8, 9, 4, 5, 12, 13),
-      __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15),
-                              __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15), 0, 1, 8, 9, 4, 5, 12, 13),
-      __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14),
-                              __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14), 2, 3, 10, 11, 6, 7, 14, 15),
-      __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15),
-                              __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15), 2, 3, 10, 11, 6, 7, 14, 15)};
+inline Halves halves(const double* const (&panels)[width], const double* t) {
+  const __m256d ab = pair(panels[0], panels[1], t), cd = pair(panels[2], panels[3], t + 2);
+  const __m256d ef = pair(panels[4], panels[5], t + 4), gh = pair(panels[6], panels[7], t + 6);
+  return {joined(low(ab, cd), low(ef, gh)), joined(high(ab, cd), high(ef, gh))};
 }
 
 inline void stream(double* to, Vector vector) { _mm512_stream_pd(to, vector); }

@@ -9,24 +9,26 @@ constexpr int width = 2;
 using Vector [[gnu::vector_size(16)]] = double;
 using Bits [[gnu::vector_size(16)]] = unsigned long long;
 
-inline Vector larger(Vector a, Vector b) { return a > b ? a : b; }
 inline Vector fused(Vector a, Vector b, Vector c) { return a * b + c; }
 inline bool any_negative(Bits x) { return (x[0] | x[1]) >> 63 != 0; }
 
-struct Columns {
-  Vector zeroth, first, second, third;
+struct Halves {
+  Vector low, high;
 };
 
-/// Coefficients j and j + 1 of a panel, with four more each.
-inline Vector folded(const double* panel, double t4, int j) {
-  const auto* pairs = reinterpret_cast<const Vector*>(panel + j);
-  return pairs[0] + t4 * pairs[2];
+/// Of the panels a and b the half whose coefficients begin there.
+inline Vector half(const double* a, const double* b, Vector t) {
+  const auto* as = reinterpret_cast<const Vector*>(a);
+  const auto* bs = reinterpret_cast<const Vector*>(b);
+  const Vector a01 = as[0], b01 = bs[0], a23 = as[2], b23 = bs[2];
+  const Vector c0 = __builtin_shufflevector(a01, b01, 0, 2), c1 = __builtin_shufflevector(a01, b01, 1, 3);
+  const Vector c2 = __builtin_shufflevector(a23, b23, 0, 2), c3 = __builtin_shufflevector(a23, b23, 1, 3);
+  return ((c3 * t + c2) * t + c1) * t + c0;
 }
-inline Columns columns(const double* const (&panels)[width], const double* t4) {
-  const Vector a = folded(panels[0], t4[0], 0), b = folded(panels[1], t4[1], 0);
-  const Vector c = folded(panels[0], t4[0], 2), d = folded(panels[1], t4[1], 2);
-  return {__builtin_shufflevector(a, b, 0, 2), __builtin_shufflevector(a, b, 1, 3), __builtin_shufflevector(c, d, 0, 2),
-          __builtin_shufflevector(c, d, 1, 3)};
+
+inline Halves halves(const double* const (&panels)[width], const double* t) {
+  const Vector ts = *reinterpret_cast<const Vector*>(t);
+  return {half(panels[0], panels[1], ts), half(panels[0] + 2, panels[1] + 2, ts)};
 }
 
 #ifdef __SSE2__

@@ -18,7 +18,7 @@ struct StopTimePanels {
   static constexpr int cut_bits = 4;
   static constexpr int terms = 8;
   static constexpr int octaves = 64;
-  static constexpr double lowest = 0x1p-63;  ///< y below it count as it: y ln y is below the last bit of 1
+  static constexpr double lowest = 0x1p-63;  ///< it is added to y: y ln y is below the last bit of 1
   static constexpr int mantissa_bits = 52 - cut_bits;
   static constexpr std::size_t per_sheet = std::size_t{octaves} << cut_bits;
   static constexpr std::size_t at_one = per_sheet - (std::size_t{1} << cut_bits);  ///< the last panel that has a y
@@ -26,9 +26,16 @@ struct StopTimePanels {
   /// The exponents of lowest to 1 are the numbers 0 to 63 modulo 64: no y whatever, nor what is none, is off its sheet.
   static constexpr std::size_t index(std::uint64_t bits_of_y) { return bits_of_y >> mantissa_bits & (per_sheet - 1); }
 
-  /// Coefficients of powers of y - left, the lowest first.
+  /// A polynomial in t = y - left. Its coefficients lie so that both halves of a panel, with those of another panel
+  /// between them, make Horner's rule for two starts and for the powers 0 to 3 and 4 to 7 at once.
   struct alignas(64) Panel {
     double coefficients[terms];
+
+    double& of_power(int n) { return coefficients[places[n]]; }
+    double of_power(int n) const { return coefficients[places[n]]; }
+
+   private:
+    static constexpr int places[terms] = {0, 1, 4, 5, 2, 3, 6, 7};
   };
 
   /// Where a panel lies on its sheet.
@@ -46,15 +53,14 @@ struct StopTimePanels {
 struct StopTimeTable {
   double pivoting;  ///< P/|u0|
   double sliding;   ///< S/v0
-  double rim;       ///< w/|u0|; with one sheet, fold w/|u0|
+  double lever;     ///< |u0|/w; with one sheet, |u0|/(fold w)
   bool one_sheet;
   bool ordinary;  ///< the three are so far from the ends of the double range that only u0 and v0 can lead there
   const StopTimePanels::Panel* panels;
-  long double wide_pivoting, wide_sliding, wide_rim;  ///< the same three, for careful()
+  long double wide_pivoting, wide_sliding, wide_lever;  ///< the same three, for careful()
 
-  /// Where the sum P + S lies for starts that need no care.
-  static constexpr double least_ordinary = 0x1p-800;
-  static constexpr double most_ordinary = 0x1p900;
+  /// The sum P + S needs no care from 2^-511 to here: half of all exponents, which one subtraction tells.
+  static constexpr double ordinary_below = 0x1p513;
 
   /// One stop time without overflow or underflow on the way; NaN for a start that is none.
   double careful(double u0, double v0) const;

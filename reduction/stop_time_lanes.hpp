@@ -2,10 +2,9 @@
 // namespace contensou::reduction and there without a name,
 //   width                         doubles in a vector
 //   Vector, Bits                  of so many doubles and unsigned 64-bit integers
-//   Vector larger(a, b)           a > b ? a : b, so b if a is not a number
 //   Vector fused(a, b, c)         a b + c
 //   bool any_negative(Bits)       whether the first bit of any lane is set
-//   Columns columns(panels, t4)   c_j + t4 c_(j+4) for j = 0..3, the coefficients c of the panel of each lane
+//   Halves halves(panels, t)      of each lane's polynomial: the sum of c_n t^n over n = 0..3, of c_(n+4) t^n likewise
 //   void stream(double*, Vector)  to an aligned address, past the caches; void streamed() ends a run of them
 // Nothing from the standard library is called: an inline function compiled here for a larger instruction set could be
 // the one that the linker keeps for everybody.
@@ -32,12 +31,12 @@ inline Bits bits(Vector x) { return reinterpret_cast<Bits>(x); }
 inline Vector magnitude(Vector x) { return reinterpret_cast<Vector>(bits(x) & 0x7fffffffffffffff); }
 
 struct Scales {
-  Vector pivoting, sliding, rim, lowest;
+  Vector pivoting, sliding, lever, lowest;
 
   explicit Scales(const StopTimeTable& table)
       : pivoting(every(table.pivoting)),
         sliding(every(table.sliding)),
-        rim(every(table.rim)),
+        lever(every(table.lever)),
         lowest(every(StopTimePanels::lowest)) {}
 };
 
@@ -55,49 +54,48 @@ class Block {
     const Vector u = magnitude(u0);
     // Not fused, so that it is the same everywhere.
     const Vector sum = scales.pivoting * u + scales.sliding * v;
-    const Vector w = scales.rim * u;
     Vector y;
     Bits sheet{};
     if constexpr (one_sheet) {
-      y = w / (v + w);
+      y = u / fused(scales.lever, v, u);
     } else {
-      const Vector smaller = v < w ? v : w;
-      const Vector distance = magnitude(v - w);
+      const Vector levered = scales.lever * v;
+      const Vector smaller = levered < u ? levered : u;
+      const Vector distance = magnitude(levered - u);
       const auto near = distance < smaller;
-      const auto above = v > w;
+      const auto above = levered > u;
       const auto start = [](Panels::Sheet number) { return Bits{} + number * Panels::per_sheet * panel_size; };
-      y = (near ? distance : smaller) / (v + w);
+      y = (near ? distance : smaller) / (levered + u);
       sheet = near ? (above ? start(Panels::above_one) : start(Panels::below_one))
                    : (above ? start(Panels::fast) : start(Panels::slow));
     }
-    y = larger(y, scales.lowest);
+    y += scales.lowest;
     const Vector t = y - reinterpret_cast<Vector>(bits(y) & ~0ULL << Panels::mantissa_bits);
     const Bits offset = (bits(y) >> (Panels::mantissa_bits - 6) & (Panels::per_sheet - 1) * panel_size) + sheet;
     store(sum_ + i, sum);
     store(t_ + i, t);
-    store(t4_ + i, (t * t) * (t * t));
     __builtin_memcpy(offset_ + i, &offset, sizeof offset);
-    return (bits(sum) - least) | (most - bits(sum)) | bits(v);
+    return (last_ordinary - (bits(sum) << 1)) | bits(v);
   }
 
   Vector finish(const char* origin, std::size_t i) const {
     const double* panels[width];
     for (int lane = 0; lane < width; ++lane) panels[lane] = reinterpret_cast<const double*>(origin + offset_[i + lane]);
-    const Columns c = columns(panels, t4_ + i);
+    const Halves polynomial = halves(panels, t_ + i);
     const Vector sum = load(sum_ + i), t = load(t_ + i);
-    return fused(sum, fused(fused(fused(c.third, t, c.second), t, c.first), t, c.zeroth), sum);
+    return fused(sum, fused(polynomial.high, (t * t) * (t * t), polynomial.low), sum);
   }
 
  private:
   using Panels = StopTimePanels;
   static constexpr unsigned long long panel_size = sizeof(Panels::Panel);
-  static constexpr auto least = __builtin_bit_cast(unsigned long long, StopTimeTable::least_ordinary);
-  static constexpr auto most = __builtin_bit_cast(unsigned long long, StopTimeTable::most_ordinary);
+  /// Without a sign, which v has already told: what is larger, and what is less by half of all exponents, is off.
+  static constexpr auto last_ordinary = (__builtin_bit_cast(unsigned long long, StopTimeTable::ordinary_below) - 1)
+                                        << 1;
   static_assert(panel_size == 64);
 
   alignas(64) double sum_[size];
-  alignas(64) double t_[size];  ///< y - left edge of the panel
-  alignas(64) double t4_[size];
+  alignas(64) double t_[size];                   ///< y - left edge of the panel
   alignas(64) unsigned long long offset_[size];  ///< of the panel, in bytes
 };
 
@@ -121,6 +119,10 @@ template <bool one_sheet>
     }
   }
 }
+
+/// In doubles.
+constexpr std::size_t cache_line = 8;
+constexpr std::size_t page = 512;
 
 template <bool one_sheet, bool row, bool streaming>
 void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
@@ -165,9 +167,23 @@ void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
     ahead = next + Block::size <= job.size;
     if (ahead) {
       odd = Bits{};
-      for (std::size_t i = 0; i < Block::size; i += width) {
-        odd |= start_at(blocks[1 - turn], next, i);
-        end_at(block, begin, i);
+      if (streaming && begin % page < Block::size && begin + 2 * page <= job.size) {
+        // To find a page of memory takes long: it is asked for while the page before is in use.
+        const std::size_t next_page = begin + page + page / 2;
+        __builtin_prefetch(u0 + next_page);
+        if (!row) __builtin_prefetch(v0 + next_page);
+        __builtin_prefetch(tau + next_page, 1);
+      }
+      const std::size_t coming = next + 2 * Block::size <= job.size ? next + Block::size : next;
+      for (std::size_t line = 0; line < Block::size; line += cache_line) {
+        if (streaming) {
+          __builtin_prefetch(u0 + coming + line);
+          if (!row) __builtin_prefetch(v0 + coming + line);
+        }
+        for (std::size_t i = line; i < line + cache_line; i += width) {
+          odd |= start_at(blocks[1 - turn], next, i);
+          end_at(block, begin, i);
+        }
       }
     } else {
       for (std::size_t i = 0; i < Block::size; i += width) end_at(block, begin, i);

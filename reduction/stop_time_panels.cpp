@@ -86,8 +86,7 @@ Panel panel_through(const WideValues& values, double width) {
   c[0] += constant;
   Panel panel{};
   long double unit = 1;
-  for (int n = 0; n < Panels::terms; ++n, unit *= width / 2.0L)
-    panel.coefficients[n] = static_cast<double>(c[n] / unit);
+  for (int n = 0; n < Panels::terms; ++n, unit *= width / 2.0L) panel.of_power(n) = static_cast<double>(c[n] / unit);
   return panel;
 }
 

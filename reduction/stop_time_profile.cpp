@@ -39,11 +39,11 @@ struct StoredTable : StopTimeTable {
     panels = storage.data();
     wide_pivoting = 3 * pi / 2 / system.inertia().gamma / law.pivoting_moment() / mu;
     wide_sliding = 3 * pi / 2 / system.inertia().chi;
-    wide_rim = one_sheet ? mu * pade_fold(r) : mu;
+    wide_lever = 1 / (one_sheet ? mu * pade_fold(r) : mu);
     pivoting = static_cast<double>(wide_pivoting);
     sliding = static_cast<double>(wide_sliding);
-    rim = static_cast<double>(wide_rim);
-    ordinary = moderate(pivoting) && moderate(sliding) && moderate(rim);
+    lever = static_cast<double>(wide_lever);
+    ordinary = moderate(pivoting) && moderate(sliding) && moderate(lever);
   }
 
   std::vector<Panel> storage;
@@ -63,7 +63,7 @@ double StopTimeTable::careful(double u0, double v0) const {
   const long double u = std::abs(u0);
   const long double v = v0;
   if (u == 0 && v == 0) return 0;
-  const long double w = wide_rim * u;
+  const long double w = u / wide_lever;
   long double numerator = w;
   std::size_t sheet = 0;
   if (!one_sheet) {
@@ -73,12 +73,12 @@ double StopTimeTable::careful(double u0, double v0) const {
     numerator = near ? distance : smaller;
     sheet = near ? (v > w ? Panels::above_one : Panels::below_one) : (v > w ? Panels::fast : Panels::slow);
   }
-  const double y = std::max(static_cast<double>(numerator / (v + w)), Panels::lowest);
+  const double y = static_cast<double>(numerator / (v + w)) + Panels::lowest;
   const std::size_t index = Panels::index(std::bit_cast<std::uint64_t>(y));
   const double t = y - Panels::span(index).left;
   double g = 0;
   const Panel& panel = panels[sheet * Panels::per_sheet + index];
-  for (int n = Panels::terms; n-- > 0;) g = g * t + panel.coefficients[n];
+  for (int n = Panels::terms; n-- > 0;) g = g * t + panel.of_power(n);
   const long double sum = wide_pivoting * u + wide_sliding * v;
   return static_cast<double>(sum + sum * g);
 }
