@@ -13,10 +13,18 @@
 
 namespace contensou::reduction {
 
+namespace {
+
+/// Speeds that start no further than this below the first row's are scaled from it; an underflow there is one here.
+constexpr double most_scaled = 0x1p100;
+
+}  // namespace
+
 /// One curve at falling xi.
 struct OrbitFamily::Sampling {
   SimilaritySolution::Curve curve;
   Eigen::ArrayXd xi, log_rim, ln_k, k, sliding_share, regularised_age;
+  Eigen::ArrayXd w, v;  ///< the speeds of one orbit, in those of its first row
 };
 
 OrbitFamily::OrbitFamily(const ReducedSystem& system, std::span<const State> starts, Eigen::Index count)
@@ -45,13 +53,11 @@ std::shared_ptr<const OrbitFamily::Sampling> OrbitFamily::sampling(const Similar
                                                                    double highest) const {
   const Eigen::Index along = count_ / 2;
   const Eigen::Index over = count_ - along;
-  Sampling at{curve,
-              Eigen::ArrayXd(count_),
-              Eigen::ArrayXd(count_),
-              Eigen::ArrayXd(count_),
-              Eigen::ArrayXd(count_),
-              Eigen::ArrayXd(count_),
-              Eigen::ArrayXd(count_)};
+  Sampling at{};
+  at.curve = curve;
+  for (Eigen::ArrayXd* column : {&at.xi, &at.log_rim, &at.ln_k, &at.sliding_share, &at.regularised_age}) {
+    column->resize(count_);
+  }
   const double limit = std::min(curve->limit(), highest);
   at.xi.head(along) = Eigen::ArrayXd::LinSpaced(along, highest, limit);
   // Below the limit the time left is a power of exp(xi), that of w or of v: the slower.
@@ -69,6 +75,8 @@ std::shared_ptr<const OrbitFamily::Sampling> OrbitFamily::sampling(const Similar
     at.regularised_age[i] = curve->regularised_age(xi);
   }
   at.k = at.ln_k.exp();
+  at.w = (at.log_rim - at.log_rim[0]).exp();
+  at.v = (at.log_rim - at.log_rim[0] + (at.ln_k - at.ln_k[0])).exp();
   return std::make_shared<const Sampling>(std::move(at));
 }
 
@@ -96,23 +104,34 @@ OrbitColumns OrbitFamily::orbit(State start) const {
   const SimilarityCurve& curve = orbit.curve();
   const double xi0 = orbit.start_coordinate();
   const double ln_k0 = orbit.start_log_ratio();
-  const auto sampled = [&](const Eigen::ArrayXd& all) { return all.tail(rows); };
-  const auto column = [&](Eigen::ArrayXd& all) { return all.segment(1, rows); };
-
-  const Eigen::ArrayXd w_share = (sampled(at.log_rim) - curve.log_rim(xi0)).exp();
-  const Eigen::ArrayXd ln_v_share = sampled(at.log_rim) + sampled(at.ln_k) - (curve.log_rim(xi0) + ln_k0);
-  const Eigen::ArrayXd v_share = ln_v_share.exp();
-  column(columns.u) = start.u * w_share;
-  column(columns.v) = start.v * v_share;
-  column(columns.ln_v) = std::log(start.v) + ln_v_share;
-  column(columns.k) = sampled(at.k);
-  column(columns.tau) = (stop - system_.pivoting_limit(start.u) * w_share -
-                         system_.sliding_limit(start.v) * v_share * sampled(at.sliding_share))
-                            .max(0);
+  const double ln_w0 = curve.log_rim(xi0);
+  const double ln_v0 = ln_w0 + ln_k0;
   const double w0 = system_.mu() * std::abs(start.u);
   const double age0 = curve.regularised_age(xi0) / (w0 + start.v);
-  column(columns.beta) =
-      (sampled(at.regularised_age) / (w0 * w_share + start.v * v_share) - age0).max(0) / system_.scaled_time_rate();
+  const double pivoting = system_.pivoting_limit(start.u);
+  const double sliding = system_.sliding_limit(start.v);
+  const double beta_unit = 1 / system_.scaled_time_rate();
+
+  const auto sampled = [&](const Eigen::ArrayXd& all) { return all.tail(rows); };
+  const auto column = [&](Eigen::ArrayXd& all) { return all.segment(1, rows); };
+  // From the shares of w0 and v0.
+  const auto fill = [&](const auto& w, const auto& v) {
+    column(columns.tau) = (stop - pivoting * w - sliding * v * sampled(at.sliding_share)).max(0);
+    column(columns.u) = start.u * w;
+    column(columns.v) = start.v * v;
+    column(columns.ln_v) = sampled(at.log_rim) + sampled(at.ln_k) - (ln_v0 - std::log(start.v));
+    column(columns.k) = sampled(at.k);
+    column(columns.beta) = beta_unit * (sampled(at.regularised_age) / (w0 * w + start.v * v) - age0).max(0);
+  };
+  const double w_scale = std::exp(at.log_rim[0] - ln_w0);
+  const double v_scale = std::exp(at.log_rim[0] + at.ln_k[0] - ln_v0);
+  if (std::max(w_scale, v_scale) <= most_scaled) {
+    fill(w_scale * sampled(at.w), v_scale * sampled(at.v));
+  } else {
+    const Eigen::ArrayXd w = (sampled(at.log_rim) - ln_w0).exp();
+    const Eigen::ArrayXd v = (sampled(at.log_rim) + sampled(at.ln_k) - ln_v0).exp();
+    fill(w, v);
+  }
   return columns;
 }
 

@@ -94,6 +94,14 @@ PadeCurve::PadeCurve(double r)
   if (!(r > 0 && r <= largest_r)) {
     throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", largest_r, r));
   }
+  double coefficient = -e_;
+  double half_power = 0.5 * std::exp2(a_);
+  for (int n = 2; n < terms; ++n) {
+    coefficient *= (n - 1 - e_) / n;
+    half_power *= 0.5;
+    age_terms_[n] = coefficient / (n - a_);
+    far_age_ += age_terms_[n] * half_power;
+  }
 }
 
 double PadeCurve::log_rim(double ln_k) const {
@@ -124,25 +132,17 @@ double PadeCurve::regularised_age(double ln_k) const {
       ln_k > 0 ? A_ * (1 + std::exp(-ln_k)) / (B_ + A_ * std::exp(-ln_k)) : at.y * (1 + std::exp(ln_k));
   if (at.y <= 0.5) return bounded / (3 * pi * A_ * (e_ + 1)) * gauss_series(1 - b(), e_ + 2, at.y);
 
-  // (R11): x^a times the integral of t^(-a-1) (1-t)^e from x to 1/2, term by term, and from 1/2 to 1.
+  // (R11): x^a times the integral of t^(-a-1) (1-t)^e from x to 1/2, term by term, and from 1/2 to 1. The terms of
+  // t^-a and, for r = 1, t^(1-a) may be all but logarithms.
   const double to_half = -std::numbers::ln2 - at.ln_x;
   const double x_to_a = std::exp(a_ * at.ln_x);
-  const double scale = x_to_a * std::exp2(a_);
-  double sum = expm1_over(-a_, to_half);
-  double coefficient = 1;
-  double power = 1;
-  double half_power = 1;
-  for (int n = 1; n < terms; ++n) {
-    coefficient *= (n - 1 - e_) / n;
-    power *= at.x;
-    half_power *= 0.5;
-    const double s = n - a_;
-    const double integral =
-        std::abs(s) * to_half < 1 ? power * expm1_over(s, to_half) : (scale * half_power - power) / s;
-    sum += coefficient * integral;
-  }
+  const double s = 1 - a_;
+  const double first = s * to_half < 1 ? at.x * expm1_over(s, to_half) : (x_to_a * std::exp2(-s) - at.x) / s;
+  double rest = 0;
+  for (int n = terms_for(at.x) - 1; n >= 2; --n) rest = rest * at.x + age_terms_[n];
+  const double sum = expm1_over(-a_, to_half) - e_ * first - at.x * at.x * rest;
   const double unit = (1 + std::exp(ln_k)) / (3 * pi * A_);
-  return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * half_age_);
+  return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * (far_age_ + half_age_));
 }
 
 double PadeCurve::time_rate(double ln_k) const {

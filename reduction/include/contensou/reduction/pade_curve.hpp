@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
@@ -7,8 +9,8 @@ namespace contensou::reduction {
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
 /// Source    README (R8) orbit, (R9) and (R10) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time,
-/// (R14) slip. Accuracy  sliding_share, slip_excess and regularised_age about 5 eps relative, log_rim eps (|ln_rim| +
-/// r) absolute.
+///           (R14) slip.
+/// Accuracy  sliding_share, slip_excess and regularised_age about 5 eps relative, log_rim eps (|ln_rim| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
   /// Largest r of the closed form: the connection formula (R10) loses digits as r -> 2. A ball has r <= 5/7.
@@ -38,7 +40,11 @@ class PadeCurve final : public SimilarityCurve {
   double log_ratio_;        ///< ln(B/A)
   double time_connection_;  ///< C of (R10)
   double slip_connection_;  ///< the same for (R14)
-  double half_age_;         ///< the integral of (R11) over [1/2, 1]
+  double half_age_;         ///< the integral of (R11) over (1/2, 1)
+
+  /// (R11): terms 2, 3, .. of the integral from x to 1/2 are x^a far_age_ less the sum of age_terms_[n] x^n.
+  std::array<double, 56> age_terms_{};
+  double far_age_ = 0;
 };
 
 }  // namespace contensou::reduction
