@@ -52,6 +52,16 @@ struct Field {
   }
 };
 
+/// The exponents of the closed orbit, and A and B of its A + B k.
+struct ClosedOrbit {
+  double a, e, big_a, big_b;
+};
+
+ClosedOrbit closed_orbit(double mu) {
+  const double r = 5 * mu * mu / 7;
+  return {r / (2 - r), r / (5 - r), 8 * (2 - r), 3 * pi * (5 - r)};
+}
+
 /// Steps until |u| is small, halving what goes through the stop. try_step(tau, x, dt) moves them on if it accepts.
 template <class Step>
 double halving(double mu, double u0, double v0, Step try_step) {
@@ -107,11 +117,7 @@ RivalResult by_gsl_stepper(double mu, double u0, double v0) {
 }
 
 RivalResult by_gsl_hypergeometric(double mu, double u0, double v0) {
-  const double r = 5 * mu * mu / 7;
-  const double a = r / (2 - r);
-  const double e = r / (5 - r);
-  const double big_a = 8 * (2 - r);
-  const double big_b = 3 * pi * (5 - r);
+  const auto [a, e, big_a, big_b] = closed_orbit(mu);
   const double u = std::abs(u0);
   const double y = big_a * mu * u / (big_a * mu * u + big_b * v0);
   const double f = gsl_sf_hyperg_2F1(1, a - e + 1, a + 2, 1 - y);
@@ -205,11 +211,7 @@ double fehlberg_step_at_the_stop(double mu, double u0, double v0, double stop) {
 
 Quadrature raw_tanh_sinh(double mu, double u0, double v0) {
   // tau* = (3 pi/7) integral of w dk/D over (0, k0), w = w0 (k/k0)^a ((A + B k0)/(A + B k))^(a - e).
-  const double r = 5 * mu * mu / 7;
-  const double a = r / (2 - r);
-  const double e = r / (5 - r);
-  const double big_a = 8 * (2 - r);
-  const double big_b = 3 * pi * (5 - r);
+  const auto [a, e, big_a, big_b] = closed_orbit(mu);
   const double k0 = v0 / (mu * u0);
   const auto integrand = [&](double k) {
     const double w = mu * u0 * std::pow(k / k0, a) * std::pow((big_a + big_b * k0) / (big_a + big_b * k), a - e);

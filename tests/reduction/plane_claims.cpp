@@ -2,17 +2,17 @@
 
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <set>
 #include <string>
 
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_curve.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "lying_curve.hpp"
 
 using namespace contensou::reduction;
+using namespace contensou::tests;
 
 namespace {
 
@@ -32,37 +32,6 @@ Names changed(const std::function<void(PrintedPlane&)>& lie) {
   lie(printed);
   return changed(ReducedSystem(PadeLaw{}, 0.3), printed);
 }
-
-/// The curve of the Pade law with functions that are not its own.
-struct CurveLie {
-  using Lie = std::function<double(double ln_k, double truth)>;
-  Lie log_rim = [](double, double truth) { return truth; };
-  Lie sliding_share = [](double, double truth) { return truth; };
-  Lie regularised_age = [](double, double truth) { return truth; };
-};
-
-class LyingCurve final : public SimilarityCurve {
- public:
-  LyingCurve(double r, CurveLie lie) : SimilarityCurve(r, Approach::to_zero(), -1e6), truth_(r), lie_(std::move(lie)) {}
-  double log_rim(double ln_k) const override { return lie_.log_rim(ln_k, truth_.log_rim(ln_k)); }
-  double sliding_share(double ln_k) const override { return lie_.sliding_share(ln_k, truth_.sliding_share(ln_k)); }
-  double slip_excess(double ln_k) const override { return truth_.slip_excess(ln_k); }
-  double regularised_age(double ln_k) const override {
-    return lie_.regularised_age(ln_k, truth_.regularised_age(ln_k));
-  }
-  double time_rate(double ln_k) const override { return truth_.time_rate(ln_k); }
-  double accuracy() const override { return truth_.accuracy(); }
-
- private:
-  PadeCurve truth_;
-  CurveLie lie_;
-};
-
-struct CurveLiar : PadeLaw {
-  CurveLie lie;
-  explicit CurveLiar(CurveLie told) : lie(std::move(told)) {}
-  SimilaritySolution closed_solution(double r) const { return std::make_shared<LyingCurve>(r, lie); }
-};
 
 struct BoundTooLow : PadeLaw {
   static constexpr SlidingShare sliding_share{1, 1.01};

@@ -12,6 +12,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "reference_table.hpp"
 #include "stepper_checks.hpp"
+#include "stops_above_one.hpp"
 #include "user_laws.hpp"
 #include "worst_case.hpp"
 
@@ -96,29 +97,8 @@ TEST_CASE("all routes give one stop time", "[stop_time][route]") {
 }
 
 TEST_CASE("beyond mu^2 = 14/5 the Pade ball stops by every route", "[stop_time][route]") {
-  // 21 of 40 digits; mu^2 = 14/5 and 7 are where the exponents of the closed form blow up.
-  struct Row {
-    double mu, u0, v0;
-    long double tau;
-  };
-  const Row rows[] = {{1.2, 0.18257418583505539, 5.477225575051661, 8.31045593884147672145L},
-                      {1.5, 0.18257418583505539, 5.477225575051661, 8.20837927116421390378L},
-                      {1.5, 0.01, 100, 134.692464400053529770L},
-                      {1.6, 0.18257418583505539, 5.477225575051661, 8.17647038933488985902L},
-                      {1.6733190530681512, 10, 0.1, 19.4568100757566333412L},
-                      {1.6733200530681511, 1, 1, 4.15342340481639836815L},
-                      {1.7, 10, 0.1, 19.1566155174126698610L},
-                      {2, 0.18257418583505539, 5.477225575051661, 8.05708357543749598176L},
-                      {2, 0.01, 100, 134.679670279953883460L},
-                      {2.3, 10, 0.1, 14.2413358586138421760L},
-                      {2.3, 1.8257418583505538, 0.5477225575051661, 3.96266741630060515806L},
-                      {2.6457513110645907, 1.8257418583505538, 0.5477225575051661, 3.56662177991221488753L},
-                      {2.6467513110645906, 1, 1, 3.26721691286522866075L},
-                      {2.7, 1e-50, 1e+50, 1.34639685153848291921e50L},
-                      {3, -3, 0.25, 3.87878960294202717238L},
-                      {3, 1, 0, 1.06666666666666666667L}};
   WorstCase closed("closed"), regularised("regularised"), direct("direct"), quadrature("quadrature");
-  for (const Row& row : rows) {
+  for (const StopAboveOne& row : stops_above_one) {
     const ReducedSystem system(PadeLaw{}, row.mu);
     const State start{row.u0, row.v0};
     const std::string where = fmt::format("mu = {}, u0 = {}, v0 = {}", row.mu, row.u0, row.v0);

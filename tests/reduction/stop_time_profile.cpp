@@ -22,6 +22,7 @@
 #include "contensou/reduction/stop_time.hpp"
 #include "reference_table.hpp"
 #include "stop_time_kernel.hpp"
+#include "stops_above_one.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;
@@ -98,29 +99,8 @@ TEST_CASE("profiles of other bodies", "[stop_time_profile][table]") {
 }
 
 TEST_CASE("profiles where k tends to a ray or to infinity", "[stop_time_profile][table]") {
-  // As in stop_time.cpp: 21 of 40 digits; mu^2 = 14/5 and 7 are where the regimes meet.
-  struct Row {
-    double mu, u0, v0;
-    long double tau;
-  };
-  const Row rows[] = {{1.2, 0.18257418583505539, 5.477225575051661, 8.31045593884147672145L},
-                      {1.5, 0.18257418583505539, 5.477225575051661, 8.20837927116421390378L},
-                      {1.5, 0.01, 100, 134.692464400053529770L},
-                      {1.6, 0.18257418583505539, 5.477225575051661, 8.17647038933488985902L},
-                      {1.6733190530681512, 10, 0.1, 19.4568100757566333412L},
-                      {1.6733200530681511, 1, 1, 4.15342340481639836815L},
-                      {1.7, 10, 0.1, 19.1566155174126698610L},
-                      {2, 0.18257418583505539, 5.477225575051661, 8.05708357543749598176L},
-                      {2, 0.01, 100, 134.679670279953883460L},
-                      {2.3, 10, 0.1, 14.2413358586138421760L},
-                      {2.3, 1.8257418583505538, 0.5477225575051661, 3.96266741630060515806L},
-                      {2.6457513110645907, 1.8257418583505538, 0.5477225575051661, 3.56662177991221488753L},
-                      {2.6467513110645906, 1, 1, 3.26721691286522866075L},
-                      {2.7, 1e-50, 1e+50, 1.34639685153848291921e50L},
-                      {3, -3, 0.25, 3.87878960294202717238L},
-                      {3, 1, 0, 1.06666666666666666667L}};
   WorstCase worst("all regimes");
-  for (const auto& [mu, u0, v0, tau] : rows) {
+  for (const auto& [mu, u0, v0, tau] : stops_above_one) {
     worst.add(tau, StopTimeProfile(ReducedSystem(PadeLaw{}, mu))(u0, v0), fmt::format("mu = {}, u0 = {}", mu, u0));
   }
   CHECK_WITHIN_EPS(worst, 2);

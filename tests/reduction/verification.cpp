@@ -14,6 +14,7 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_curve.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "lying_curve.hpp"
 #include "user_laws.hpp"
 
 using namespace contensou::reduction;
@@ -23,37 +24,6 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 using Names = std::set<std::string>;
-
-/// The closed curve of the Pade law with one of its functions replaced by a lie.
-struct CurveLie {
-  using Lie = std::function<double(double ln_k, double truth)>;
-  Lie log_rim = [](double, double truth) { return truth; };
-  Lie sliding_share = [](double, double truth) { return truth; };
-  Lie regularised_age = [](double, double truth) { return truth; };
-};
-
-class LyingCurve final : public SimilarityCurve {
- public:
-  LyingCurve(double r, CurveLie lie) : SimilarityCurve(r, Approach::to_zero(), -40), truth_(r), lie_(std::move(lie)) {}
-  double log_rim(double ln_k) const override { return lie_.log_rim(ln_k, truth_.log_rim(ln_k)); }
-  double sliding_share(double ln_k) const override { return lie_.sliding_share(ln_k, truth_.sliding_share(ln_k)); }
-  double slip_excess(double ln_k) const override { return truth_.slip_excess(ln_k); }
-  double regularised_age(double ln_k) const override {
-    return lie_.regularised_age(ln_k, truth_.regularised_age(ln_k));
-  }
-  double time_rate(double ln_k) const override { return truth_.time_rate(ln_k); }
-  double accuracy() const override { return truth_.accuracy(); }
-
- private:
-  PadeCurve truth_;
-  CurveLie lie_;
-};
-
-struct CurveLiar : PadeLaw {
-  CurveLie lie;
-  explicit CurveLiar(CurveLie told) : lie(std::move(told)) {}
-  SimilaritySolution closed_solution(double r) const { return std::make_shared<LyingCurve>(r, lie); }
-};
 
 /// The closed form of another r.
 struct WrongBody : PadeLaw {
