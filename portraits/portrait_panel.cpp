@@ -192,7 +192,8 @@ Polyline PortraitPanel::line_of(const Copy& copy) const {
   Polyline line;
   for (Eigen::Index i = 0; i < copy.orbit.rows(); ++i) {
     Instant instant = copy.orbit.at(i, copy.factor);
-    instant.u *= copy.sign;
+    // Also at rest, where u is 0, the side that the orbit comes from.
+    instant.u = std::copysign(instant.u, copy.sign * copy.orbit.u[0]);
     line.push_back(place_(instant));
   }
   return line;

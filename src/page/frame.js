@@ -1,5 +1,6 @@
 // A rectangle of a figure with its two axes: from numbers to pixels, and back.
 import { ticks, tickText } from "./numbers.js";
+import { widthOf } from "./surface.js";
 
 export class Frame {
   /**
@@ -77,27 +78,32 @@ export class Frame {
     return Math.min(start + 50 * size, Math.max(start - 49 * size, pixel));
   }
 
+  /** The texts of the ticks: {at, text} of each, about `wanted` of them. */
+  ticksOf(axis, wanted) {
+    if (axis.ticks?.length) return axis.ticks;
+    const values = ticks(axis.low, axis.high, Math.max(2, wanted));
+    const step = values.length > 1 ? values[1] - values[0] : 1;
+    return values.map((at) => ({ at, text: axis.tick ? axis.tick(at) : tickText(at, step) }));
+  }
+
+  /** The room that the ticks of y need beside the frame. */
+  roomForTicks(size) {
+    return 6 + Math.max(0, ...this.ticksOf(this.y, this.height / 55).map(({ text }) => widthOf(text, { size })));
+  }
+
   draw(surface, theme) {
     const size = theme.textSize;
     const style = { colour: theme.soft, size };
-    const own = (axis) => axis.ticks?.length && axis.ticks.map(({ at }) => at);
-    const grid = { x: own(this.x) || ticks(this.x.low, this.x.high, Math.max(2, this.width / 85)), y: own(this.y) || ticks(this.y.low, this.y.high, Math.max(2, this.height / 55)) };
-    const step = (values) => (values.length > 1 ? values[1] - values[0] : 1);
-    const textOf = (axis, value, all) =>
-      own(axis) ? axis.ticks.find(({ at }) => at === value).text : axis.tick ? axis.tick(value) : tickText(value, step(all));
     const bottom = this.top + this.height;
     surface.lines([[this.left, this.top, this.left, bottom, this.left + this.width, bottom]], { colour: theme.soft });
-    for (const value of grid.x) {
-      const x = this.px(value);
+    for (const { at, text } of this.ticksOf(this.x, this.width / 85)) {
+      const x = this.px(at);
       surface.lines([[x, bottom, x, bottom + 4]], { colour: theme.soft });
-      if (this.x.label === undefined) continue;
-      const text = textOf(this.x, value, grid.x);
-      surface.text(x, bottom + 6, text, { ...style, align: "center", baseline: "top" });
+      if (this.x.label !== undefined) surface.text(x, bottom + 6, text, { ...style, align: "center", baseline: "top" });
     }
-    for (const value of grid.y) {
-      const y = this.py(value);
+    for (const { at, text } of this.ticksOf(this.y, this.height / 55)) {
+      const y = this.py(at);
       surface.lines([[this.left - 4, y, this.left, y]], { colour: theme.soft });
-      const text = textOf(this.y, value, grid.y);
       surface.text(this.left - 6, y, text, { ...style, align: "right", baseline: "middle" });
     }
     const label = { colour: theme.ink, size: size + 1 };
@@ -105,7 +111,7 @@ export class Frame {
       surface.text(this.left + this.width / 2, bottom + 6 + 1.5 * size, this.x.label, { ...label, align: "center", baseline: "top" });
     }
     if (this.y.label) {
-      surface.text(this.left - 3.6 * size, this.top + this.height / 2, this.y.label, { ...label, align: "center", baseline: "middle", turned: true });
+      surface.text(this.left - Math.max(3.6 * size, this.roomForTicks(size) + size), this.top + this.height / 2, this.y.label, { ...label, align: "center", baseline: "middle", turned: true });
     }
   }
 }

@@ -78,11 +78,16 @@ export function layOut(figure, width, height, size) {
       ? { left: 0.3 * size, right: 0.3 * size, bottom: 0.3 * size }
       : { left: (panel.y.name ? 4.8 : 3.2) * size, right: size, bottom: (panel.x.name ? 3.4 : 1.8) * size };
     const above = titled ? 1.9 * size : 0.6 * size;
+    const names = ({ name, low, high, ticks }) => ({ low, high, label: name || undefined, ticks });
+    const height = Math.max(20, cell.height - above - room.bottom);
+    if (!panel.bare) {
+      const needed = new Frame({ left: 0, top: 0, width: cell.width, height }, names(panel.x), names(panel.y)).roomForTicks(size);
+      room.left = Math.max(room.left, needed + (panel.y.name ? 2 * size : 0));
+    }
     const place = {
       left: left + room.left, top: cellTop + above,
-      width: Math.max(20, cell.width - room.left - room.right), height: Math.max(20, cell.height - above - room.bottom),
+      width: Math.max(20, cell.width - room.left - room.right), height,
     };
-    const names = ({ name, low, high, ticks }) => ({ low, high, label: name || undefined, ticks });
     titles.push({
       x: left + room.left + place.width / 2, y: cellTop + 1.3 * size,
       size: size * Math.min(1, cell.width / Math.max(1, widthOf(panel.title, { size }))),

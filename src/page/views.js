@@ -15,11 +15,12 @@ const speeds = {
 /** The half-plane of the patch in polar coordinates, its radius made finite; the origin is a circle of radius `hole`. */
 function polar(hole) {
   return {
-    place({ u, v, lnK }, { mu, window: [, V] }) {
+    place({ u, v, lnK, start }, { mu, window: [, V] }) {
       const distance = Math.hypot(mu * u, v) / V;
       const radius = hole === 0 ? distance / Math.hypot(1, distance) : hole + ((1 - hole) * distance) / (1 + distance);
       const angle = lnK > 0 ? quarter - Math.atan(Math.exp(-lnK)) : Math.atan(Math.exp(lnK));
-      return [(u < 0 ? -1 : 1) * radius * Math.cos(angle), radius * Math.sin(angle)];
+      // Also at rest, where u is 0, the side that the orbit comes from.
+      return [((start ?? { u }).u < 0 ? -1 : 1) * radius * Math.cos(angle), radius * Math.sin(angle)];
     },
     state(x, y, { mu, window: [, V] }) {
       const radius = Math.hypot(x, y);

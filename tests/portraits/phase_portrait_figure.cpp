@@ -463,6 +463,22 @@ TEST_CASE("A highlighted orbit is marked at its start, and points asked for have
   CHECK(layer(figure.panels[0], "through").lines.size() == 2);
 }
 
+TEST_CASE("An orbit stays on its side of the blown-up origin to the end", "[invariant]") {
+  for (double sign : {1.0, -1.0}) {
+    const Panel panel = figure_of(0.3, View::blowup, reduction::State{sign * 0.5, 2}).panels.front();
+    REQUIRE(panel.marks.size() > 1);
+    std::size_t found = 0;
+    for (const auto& lines : panel.lines) {
+      for (const auto& line : lines.lines) {
+        if (line.front().x != panel.marks[0].points[0].x || line.front().y != panel.marks[0].points[0].y) continue;
+        ++found;
+        CHECK(line.back().x * sign > 0);
+      }
+    }
+    CHECK(found == 1);
+  }
+}
+
 TEST_CASE("Size, axes and the screen style are as asked", "[table]") {
   portraits::PortraitStyle style;
   style.width_mm = 100;
