@@ -353,7 +353,11 @@ void PortraitPanel::add_rival_isochrones(const std::vector<double>& times, const
 void PortraitPanel::add_isochrones(const std::vector<double>& times) {
   if (times.empty()) return;
   std::vector<Point> obstacles = heads_;
-  for (const Polyline& orbit : orbits_) {
+  std::vector<Polyline> crossed = orbits_;
+  // Those asked for are drawn later, on top.
+  for (const PortraitOrbit& orbit : drawing_.portrait.through) crossed.push_back(line_of({orbit}));
+  if (drawing_.portrait.highlight) crossed.push_back(line_of({*drawing_.portrait.highlight}));
+  for (const Polyline& orbit : crossed) {
     for (std::size_t i = 1; i < orbit.size(); ++i) {
       const Point a = on_paper(panel_, orbit[i - 1]), b = on_paper(panel_, orbit[i]);
       const int pieces = 1 + static_cast<int>(std::min(100.0, std::hypot(a.x - b.x, a.y - b.y) / 0.01));

@@ -479,6 +479,22 @@ TEST_CASE("An orbit stays on its side of the blown-up origin to the end", "[inva
   }
 }
 
+TEST_CASE("Times keep off the orbits that were asked for", "[invariant]") {
+  for (double u : {0.2, 0.4, 0.6, 0.7, 0.8, 0.9}) {
+    portraits::PortraitRequest request;
+    request.window = portraits::Window{1, 4};
+    request.through = {{u, 3.5}};
+    const Panel panel = portraits::draw(portraits::phase_portrait({reduction::HertzLaw{}, 0.3}, request)).panels[0];
+    REQUIRE(panel.labels.size() >= 4);
+    for (const auto& label : panel.labels) {
+      for (const auto& point : layer(panel, "through").lines.front()) {
+        INFO("u = " << u << ", " << label.text);
+        CHECK(portraits::paper_distance(panel, label.at, point) > 0.008);
+      }
+    }
+  }
+}
+
 TEST_CASE("Size, axes and the screen style are as asked", "[table]") {
   portraits::PortraitStyle style;
   style.width_mm = 100;
