@@ -12,14 +12,17 @@ using Bits [[gnu::vector_size(32)]] = unsigned long long;
 inline Vector fused(Vector a, Vector b, Vector c) { return _mm256_fmadd_pd(a, b, c); }
 inline bool any_negative(Bits x) { return _mm256_movemask_pd(reinterpret_cast<Vector>(x)) != 0; }
 
+struct Pairs {
+  Vector ab, cd;
+};
+inline Pairs pairs(const double* const (&panels)[width], const double* t) {
+  return {pair(panels[0], panels[1], t), pair(panels[2], panels[3], t + 2)};
+}
+
 struct Halves {
   Vector low, high;
 };
-
-inline Halves halves(const double* const (&panels)[width], const double* t) {
-  const Vector ab = pair(panels[0], panels[1], t), cd = pair(panels[2], panels[3], t + 2);
-  return {low(ab, cd), high(ab, cd)};
-}
+inline Halves halves(Pairs of) { return {low(of.ab, of.cd), high(of.ab, of.cd)}; }
 
 inline void stream(double* to, Vector vector) { _mm256_stream_pd(to, vector); }
 inline void streamed() { _mm_sfence(); }

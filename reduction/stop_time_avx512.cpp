@@ -12,17 +12,22 @@ using Bits [[gnu::vector_size(64)]] = unsigned long long;
 inline Vector fused(Vector a, Vector b, Vector c) { return _mm512_fmadd_pd(a, b, c); }
 inline bool any_negative(Bits x) { return _mm512_movepi64_mask(reinterpret_cast<__m512i>(x)) != 0; }
 
-struct Halves {
-  Vector low, high;
+struct Pairs {
+  __m256d ab, cd, ef, gh;
 };
+inline Pairs pairs(const double* const (&panels)[width], const double* t) {
+  return {pair(panels[0], panels[1], t), pair(panels[2], panels[3], t + 2), pair(panels[4], panels[5], t + 4),
+          pair(panels[6], panels[7], t + 6)};
+}
 
 inline Vector joined(__m256d first, __m256d second) {
   return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-inline Halves halves(const double* const (&panels)[width], const double* t) {
-  const __m256d ab = pair(panels[0], panels[1], t), cd = pair(panels[2], panels[3], t + 2);
-  const __m256d ef = pair(panels[4], panels[5], t + 4), gh = pair(panels[6], panels[7], t + 6);
-  return {joined(low(ab, cd), low(ef, gh)), joined(high(ab, cd), high(ef, gh))};
+struct Halves {
+  Vector low, high;
+};
+inline Halves halves(const Pairs& of) {
+  return {joined(low(of.ab, of.cd), low(of.ef, of.gh)), joined(high(of.ab, of.cd), high(of.ef, of.gh))};
 }
 
 inline void stream(double* to, Vector vector) { _mm512_stream_pd(to, vector); }

@@ -26,7 +26,9 @@ inline Vector half(const double* a, const double* b, Vector t) {
   return ((c3 * t + c2) * t + c1) * t + c0;
 }
 
-inline Halves halves(const double* const (&panels)[width], const double* t) {
+using Pairs = Halves;
+inline Halves halves(Pairs of) { return of; }
+inline Pairs pairs(const double* const (&panels)[width], const double* t) {
   const Vector ts = *reinterpret_cast<const Vector*>(t);
   return {half(panels[0], panels[1], ts), half(panels[0] + 2, panels[1] + 2, ts)};
 }

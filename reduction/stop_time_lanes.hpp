@@ -4,7 +4,8 @@
 //   Vector, Bits                  of so many doubles and unsigned 64-bit integers
 //   Vector fused(a, b, c)         a b + c
 //   bool any_negative(Bits)       whether the first bit of any lane is set
-//   Halves halves(panels, t)      of each lane's polynomial: the sum of c_n t^n over n = 0..3, of c_(n+4) t^n likewise
+//   Pairs pairs(panels, t)        the polynomial of each lane in two halves, in whatever order they come about
+//   Halves halves(Pairs)          in that of the lanes: low, the sum of c_n t^n over n = 0..3, and high, of c_(n+4) t^n
 //   void stream(double*, Vector)  to an aligned address, past the caches; void streamed() ends a run of them
 // Nothing from the standard library is called: an inline function compiled here for a larger instruction set could be
 // the one that the linker keeps for everybody.
@@ -32,58 +33,72 @@ inline Vector magnitude(Vector x) { return reinterpret_cast<Vector>(bits(x) & 0x
 
 struct Scales {
   Vector pivoting, sliding, lever, lowest;
+  Bits sheets[4];  ///< the addresses of their first panels
+  static constexpr std::size_t sheet_size = StopTimePanels::per_sheet * sizeof(StopTimePanels::Panel);
 
   explicit Scales(const StopTimeTable& table)
       : pivoting(every(table.pivoting)),
         sliding(every(table.sliding)),
         lever(every(table.lever)),
-        lowest(every(StopTimePanels::lowest)) {}
+        lowest(every(StopTimePanels::lowest)) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      sheets[i] = Bits{} + (reinterpret_cast<std::uintptr_t>(table.panels) + i * sheet_size);
+    }
+  }
 };
 
-/// Starts on the way to their stop times, in two steps: which panel each lies on, and the polynomials.
-///
-/// The way from a division to the end of its polynomial is long, and a processor looks ahead by a few vectors only: so
-/// the first step of a block goes with the second step of the block before.
+/// Where starts lie: y, and on which sheet.
+struct Fractions {
+  Vector y;
+  Bits sheet;
+};
+
+/// Starts on the way to their stop times: four steps, because the way through a division and a polynomial is long and a
+/// processor looks ahead by a few vectors only.
 class Block {
  public:
   static constexpr std::size_t size = 128;
 
-  /// @return  negative in the lanes that need care: v0 is, or P + S is not ordinary
+  /// @param odd  becomes negative in the lanes that need care: v0 is, or P + S is not ordinary
   template <bool one_sheet>
-  Bits locate(const Scales& scales, Vector u0, Vector v, std::size_t i) {
+  Fractions divide(const Scales& scales, Vector u0, Vector v, std::size_t i, Bits& odd) {
     const Vector u = magnitude(u0);
     // Not fused, so that it is the same everywhere.
     const Vector sum = scales.pivoting * u + scales.sliding * v;
-    Vector y;
-    Bits sheet{};
+    store(sum_ + i, sum);
+    odd |= (last_ordinary - (bits(sum) << 1)) | bits(v);
     if constexpr (one_sheet) {
-      y = u / fused(scales.lever, v, u);
+      return {u / fused(scales.lever, v, u), scales.sheets[0]};
     } else {
       const Vector levered = scales.lever * v;
       const Vector smaller = levered < u ? levered : u;
       const Vector distance = magnitude(levered - u);
       const auto near = distance < smaller;
       const auto above = levered > u;
-      const auto start = [](Panels::Sheet number) { return Bits{} + number * Panels::per_sheet * panel_size; };
-      y = (near ? distance : smaller) / (levered + u);
-      sheet = near ? (above ? start(Panels::above_one) : start(Panels::below_one))
-                   : (above ? start(Panels::fast) : start(Panels::slow));
+      const Bits beside_one = above ? scales.sheets[Panels::above_one] : scales.sheets[Panels::below_one];
+      const Bits beyond = above ? scales.sheets[Panels::fast] : scales.sheets[Panels::slow];
+      return {(near ? distance : smaller) / (levered + u), near ? beside_one : beyond};
     }
-    y += scales.lowest;
-    const Vector t = y - reinterpret_cast<Vector>(bits(y) & ~0ULL << Panels::mantissa_bits);
-    const Bits offset = (bits(y) >> (Panels::mantissa_bits - 6) & (Panels::per_sheet - 1) * panel_size) + sheet;
-    store(sum_ + i, sum);
-    store(t_ + i, t);
-    __builtin_memcpy(offset_ + i, &offset, sizeof offset);
-    return (last_ordinary - (bits(sum) << 1)) | bits(v);
   }
 
-  Vector finish(const char* origin, std::size_t i) const {
+  void place(const Scales& scales, const Fractions& at, std::size_t i) {
+    const Vector y = at.y + scales.lowest;
+    const Vector t = y - reinterpret_cast<Vector>(bits(y) & ~0ULL << Panels::mantissa_bits);
+    const Bits panel = (bits(y) >> (Panels::mantissa_bits - 6) & (Panels::per_sheet - 1) * panel_size) + at.sheet;
+    store(t_ + i, t);
+    __builtin_memcpy(panel_ + i, &panel, sizeof panel);
+  }
+
+  Pairs polynomials(std::size_t i) const {
     const double* panels[width];
-    for (int lane = 0; lane < width; ++lane) panels[lane] = reinterpret_cast<const double*>(origin + offset_[i + lane]);
-    const Halves polynomial = halves(panels, t_ + i);
+    for (int lane = 0; lane < width; ++lane) panels[lane] = reinterpret_cast<const double*>(panel_[i + lane]);
+    return pairs(panels, t_ + i);
+  }
+
+  Vector finish(const Pairs& polynomials, std::size_t i) const {
     const Vector sum = load(sum_ + i), t = load(t_ + i);
-    return fused(sum, fused(polynomial.high, (t * t) * (t * t), polynomial.low), sum);
+    const Halves g = halves(polynomials);
+    return fused(sum, fused(g.high, (t * t) * (t * t), g.low), sum);
   }
 
  private:
@@ -95,8 +110,8 @@ class Block {
   static_assert(panel_size == 64);
 
   alignas(64) double sum_[size];
-  alignas(64) double t_[size];                   ///< y - left edge of the panel
-  alignas(64) unsigned long long offset_[size];  ///< of the panel, in bytes
+  alignas(64) double t_[size];             ///< y - left edge of the panel
+  alignas(64) std::uint64_t panel_[size];  ///< its address
 };
 
 /// A few starts, or some that need care.
@@ -112,8 +127,9 @@ template <bool one_sheet>
       some_u0[lane] = u0[i + lane];
       some_v0[lane] = v0[(i + lane) * v0_step];
     }
-    const Bits odd = block.locate<one_sheet>(scales, some_u0, some_v0, 0);
-    const Vector some_tau = block.finish(reinterpret_cast<const char*>(table.panels), 0);
+    Bits odd{};
+    block.place(scales, block.divide<one_sheet>(scales, some_u0, some_v0, 0, odd), 0);
+    const Vector some_tau = block.finish(block.polynomials(0), 0);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       tau[i + lane] = odd[lane] >> 63 == 0 ? some_tau[lane] : table.careful(some_u0[lane], some_v0[lane]);
     }
@@ -127,16 +143,15 @@ constexpr std::size_t page = 512;
 template <bool one_sheet, bool row, bool streaming>
 void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
   const Scales scales(table);
-  const char* const origin = reinterpret_cast<const char*>(table.panels);
   const double* const u0 = job.u0;
   const double* const v0 = job.v0;
   double* const tau = job.tau;
   const Vector row_v0 = every(*v0);
-  const auto start_at = [=](Block& block, std::size_t begin, std::size_t i) {
-    return block.locate<one_sheet>(scales, load(u0 + begin + i), row ? row_v0 : load(v0 + begin + i), i);
+  const auto divide = [=](Block& block, std::size_t begin, std::size_t i, Bits& odd) {
+    return block.divide<one_sheet>(scales, load(u0 + begin + i), row ? row_v0 : load(v0 + begin + i), i, odd);
   };
-  const auto end_at = [=](const Block& block, std::size_t begin, std::size_t i) {
-    const Vector result = block.finish(origin, i);
+  const auto finish = [=](const Block& block, const Pairs& polynomials, std::size_t begin, std::size_t i) {
+    const Vector result = block.finish(polynomials, i);
     streaming ? stream(tau + begin + i, result) : store(tau + begin + i, result);
   };
   const auto few = [&](std::size_t begin, std::size_t count) {
@@ -151,12 +166,14 @@ void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
   }
   Block blocks[2];
   Bits odd{};
-  bool ahead = false;  // the block that begins here is located
+  bool ahead = false;  // the block that begins here is placed
   for (int turn = 0; begin + Block::size <= job.size; begin += Block::size, turn = 1 - turn) {
     Block& block = blocks[turn];
     if (!ahead) {
       odd = Bits{};
-      for (std::size_t i = 0; i < Block::size; i += width) odd |= start_at(block, begin, i);
+      for (std::size_t i = 0; i < Block::size; i += width) {
+        block.place(scales, divide(block, begin, i, odd), i);
+      }
     }
     if (any_negative(odd)) {
       few(begin, Block::size);
@@ -165,28 +182,48 @@ void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
     }
     const std::size_t next = begin + Block::size;
     ahead = next + Block::size <= job.size;
-    if (ahead) {
-      odd = Bits{};
-      if (streaming && begin % page < Block::size && begin + 2 * page <= job.size) {
-        // To find a page of memory takes long: it is asked for while the page before is in use.
-        const std::size_t next_page = begin + page + page / 2;
-        __builtin_prefetch(u0 + next_page);
-        if (!row) __builtin_prefetch(v0 + next_page);
-        __builtin_prefetch(tau + next_page, 1);
+    if (!ahead) {
+      for (std::size_t i = 0; i < Block::size; i += width) finish(block, block.polynomials(i), begin, i);
+      continue;
+    }
+
+    if (streaming && begin % page < Block::size && begin + 2 * page <= job.size) {
+      // To find a page of memory takes long: it is asked for while the page before is in use.
+      const std::size_t next_page = begin + page + page / 2;
+      __builtin_prefetch(u0 + next_page);
+      if (!row) __builtin_prefetch(v0 + next_page);
+      __builtin_prefetch(tau + next_page, 1);
+    }
+    const std::size_t coming = next + 2 * Block::size <= job.size ? next + Block::size : next;
+
+    // This block goes through its last two steps and the next one through its first two, every second step a cache line
+    // behind the first; what lies between is in registers.
+    Block& other = blocks[1 - turn];
+    constexpr std::size_t vectors = cache_line / width;
+    Fractions fractions[vectors];
+    Pairs polynomials[vectors];
+    odd = Bits{};
+    for (std::size_t n = 0; n < vectors; ++n) {
+      polynomials[n] = block.polynomials(n * width);
+      fractions[n] = divide(other, next, n * width, odd);
+    }
+    std::size_t line = 0;
+    for (; line + cache_line < Block::size; line += cache_line) {
+      if (streaming) {
+        __builtin_prefetch(u0 + coming + line);
+        if (!row) __builtin_prefetch(v0 + coming + line);
       }
-      const std::size_t coming = next + 2 * Block::size <= job.size ? next + Block::size : next;
-      for (std::size_t line = 0; line < Block::size; line += cache_line) {
-        if (streaming) {
-          __builtin_prefetch(u0 + coming + line);
-          if (!row) __builtin_prefetch(v0 + coming + line);
-        }
-        for (std::size_t i = line; i < line + cache_line; i += width) {
-          odd |= start_at(blocks[1 - turn], next, i);
-          end_at(block, begin, i);
-        }
+      for (std::size_t n = 0; n < vectors; ++n) {
+        const std::size_t i = line + n * width;
+        finish(block, polynomials[n], begin, i);
+        polynomials[n] = block.polynomials(i + cache_line);
+        other.place(scales, fractions[n], i);
+        fractions[n] = divide(other, next, i + cache_line, odd);
       }
-    } else {
-      for (std::size_t i = 0; i < Block::size; i += width) end_at(block, begin, i);
+    }
+    for (std::size_t n = 0; n < vectors; ++n) {
+      finish(block, polynomials[n], begin, line + n * width);
+      other.place(scales, fractions[n], line + n * width);
     }
   }
   few(begin, job.size - begin);
