@@ -15,6 +15,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/stop_time_profile.hpp"
 #include "reference_table.hpp"
 
 using namespace contensou::reduction;
@@ -110,6 +111,27 @@ TEST_CASE("random stop times of arrays against their enclosures", "[certify]") {
   pade_stop_times(mu, u0, v0, tau);
   for (std::size_t i = 0; i < tau.size(); ++i) arrays.add(ReducedSystem(PadeLaw{}, mu[i]), {u0[i], v0[i]}, tau[i]);
   arrays.judge();
+}
+
+TEST_CASE("random stop times of profiles against their enclosures", "[certify]") {
+  Random random;
+  Sample profiles("profiles, mu in [1e-10, 1], k0 in [1e-8, 1e8]"), wide("profiles, mu in [1, 3], k0 in [1e-4, 1e4]");
+  constexpr int starts = 500;
+  const auto add = [&](Sample& sample, double mu, double largest_k0) {
+    const ReducedSystem system(PadeLaw{}, mu);
+    std::vector<double> u0, v0;
+    for (int i = 0; i < starts; ++i) {
+      u0.push_back(random.uniform(-2, 2));
+      v0.push_back(mu * std::abs(u0.back()) * random.log_uniform(1 / largest_k0, largest_k0));
+    }
+    std::vector<double> tau(u0.size());
+    StopTimeProfile(system).evaluate(u0, v0, tau);
+    for (std::size_t i = 0; i < tau.size(); ++i) sample.add(system, {u0[i], v0[i]}, tau[i]);
+  };
+  for (int i = 0; i < points / starts; ++i) add(profiles, random.log_uniform(1e-10, 1), 1e8);
+  for (int i = 0; i < points / starts / 4; ++i) add(wide, random.uniform(1, 3), 1e4);
+  profiles.judge();
+  wide.judge();
 }
 
 TEST_CASE("stop times at the ends of the double range against their enclosures", "[certify]") {
