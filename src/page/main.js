@@ -361,6 +361,7 @@ class Page {
     $("ball").value = state.ball?.name ?? "";
     this.lawField.show(state.law);
     this.againstField.show(state.against);
+    for (const option of $("against").options) option.disabled = option.value === state.law;
     $("field").value = state.field;
     $("isochrones").checked = state.isochrones > 0;
     $("field").disabled = $("isochrones").disabled = !viewNamed(state.view).layered;

@@ -20,6 +20,7 @@ export function portraitRequest(state, plane, screen) {
     view: state.view, window: state.window,
     through: state.orbits.filter((orbit, index) => index !== state.chosen && orbit.u !== 0 && orbit.v !== 0)
       .map(({ u, v }) => (state.window ? plane.inside(u, v, ...state.window) : { u, v })),
-    isochrones: state.isochrones, field: state.field, against: state.against, screen,
+    // A law is not compared with itself.
+    isochrones: state.isochrones, field: state.field, against: state.against === state.law ? null : state.against, screen,
   };
 }

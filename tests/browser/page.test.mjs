@@ -342,6 +342,11 @@ test("another law is drawn against the first, and leaves again", async () => {
   assert.match(readFileSync(await download.path(), "utf8"), />law pade</);
   await page.click("#copy-link");
   assert.match(page.url(), /against=pade/);
+  assert.ok(await page.evaluate(() => document.querySelector("#against option[value=exact]").disabled));
+  await page.selectOption("#law", "pade");
+  assert.doesNotMatch(await page.textContent("#command"), /against/);
+  await page.selectOption("#law", "exact");
+  assert.match(await page.textContent("#command"), / --against pade /);
   await page.selectOption("#against", "");
   assert.ok(!(await legend()).includes("law pade"));
   assert.doesNotMatch(await page.textContent("#command"), /against/);
