@@ -9,6 +9,7 @@ constexpr int width = 4;
 using Vector = __m256d;
 using Bits [[gnu::vector_size(32)]] = unsigned long long;
 
+inline Vector magnitude(Vector x) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x); }
 inline Vector fused(Vector a, Vector b, Vector c) { return _mm256_fmadd_pd(a, b, c); }
 inline bool any_negative(Bits x) { return _mm256_movemask_pd(reinterpret_cast<Vector>(x)) != 0; }
 

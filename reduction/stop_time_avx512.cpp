@@ -9,6 +9,7 @@ constexpr int width = 8;
 using Vector = __m512d;
 using Bits [[gnu::vector_size(64)]] = unsigned long long;
 
+inline Vector magnitude(Vector x) { return _mm512_abs_pd(x); }
 inline Vector fused(Vector a, Vector b, Vector c) { return _mm512_fmadd_pd(a, b, c); }
 inline bool any_negative(Bits x) { return _mm512_movepi64_mask(reinterpret_cast<__m512i>(x)) != 0; }
 

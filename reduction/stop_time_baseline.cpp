@@ -9,6 +9,7 @@ constexpr int width = 2;
 using Vector [[gnu::vector_size(16)]] = double;
 using Bits [[gnu::vector_size(16)]] = unsigned long long;
 
+inline Vector magnitude(Vector x) { return reinterpret_cast<Vector>(reinterpret_cast<Bits>(x) & 0x7fffffffffffffff); }
 inline Vector fused(Vector a, Vector b, Vector c) { return a * b + c; }
 inline bool any_negative(Bits x) { return (x[0] | x[1]) >> 63 != 0; }
 

@@ -23,7 +23,7 @@ struct StopTimePanels {
   static constexpr std::size_t per_sheet = std::size_t{octaves} << cut_bits;
   static constexpr std::size_t at_one = per_sheet - (std::size_t{1} << cut_bits);  ///< the last panel that has a y
 
-  /// The exponents of lowest to 1 are the numbers 0 to 63 modulo 64: no y whatever, nor what is none, is off its sheet.
+  /// The exponents of lowest to 1 are the numbers 0 to 63 modulo 64.
   static constexpr std::size_t index(std::uint64_t bits_of_y) { return bits_of_y >> mantissa_bits & (per_sheet - 1); }
 
   /// A polynomial in t = y - left. Its coefficients lie so that both halves of a panel, with those of another panel

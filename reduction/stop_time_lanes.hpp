@@ -2,6 +2,7 @@
 // namespace contensou::reduction and there without a name,
 //   width                         doubles in a vector
 //   Vector, Bits                  of so many doubles and unsigned 64-bit integers
+//   Vector magnitude(x)           its absolute value
 //   Vector fused(a, b, c)         a b + c
 //   bool any_negative(Bits)       whether the first bit of any lane is set
 //   Pairs pairs(panels, t)        the polynomial of each lane in two halves, in whatever order they come about
@@ -29,11 +30,11 @@ inline void store(double* to, Vector vector) { __builtin_memcpy(to, &vector, siz
 
 inline Vector every(double value) { return value - Vector{}; }
 inline Bits bits(Vector x) { return reinterpret_cast<Bits>(x); }
-inline Vector magnitude(Vector x) { return reinterpret_cast<Vector>(bits(x) & 0x7fffffffffffffff); }
 
 struct Scales {
   Vector pivoting, sliding, lever, lowest;
-  Bits sheets[4];  ///< the addresses of their first panels
+  Bits sheets[4];  ///< the addresses of their first panels, less the panel bits of lowest
+  static constexpr int panel_shift = StopTimePanels::mantissa_bits - 6;  ///< panels have 2^6 bytes
   static constexpr std::size_t sheet_size = StopTimePanels::per_sheet * sizeof(StopTimePanels::Panel);
 
   explicit Scales(const StopTimeTable& table)
@@ -41,8 +42,9 @@ struct Scales {
         sliding(every(table.sliding)),
         lever(every(table.lever)),
         lowest(every(StopTimePanels::lowest)) {
+    const auto lowest_panel = bits(lowest) >> panel_shift;
     for (std::size_t i = 0; i < 4; ++i) {
-      sheets[i] = Bits{} + (reinterpret_cast<std::uintptr_t>(table.panels) + i * sheet_size);
+      sheets[i] = Bits{} + (reinterpret_cast<std::uintptr_t>(table.panels) + i * sheet_size) - lowest_panel;
     }
   }
 };
@@ -81,10 +83,12 @@ class Block {
     }
   }
 
+  /// y must not be beyond [0, 1]: it tells an address.
   void place(const Scales& scales, const Fractions& at, std::size_t i) {
     const Vector y = at.y + scales.lowest;
-    const Vector t = y - reinterpret_cast<Vector>(bits(y) & ~0ULL << Panels::mantissa_bits);
-    const Bits panel = (bits(y) >> (Panels::mantissa_bits - 6) & (Panels::per_sheet - 1) * panel_size) + at.sheet;
+    const Bits left = bits(y) & ~0ULL << Panels::mantissa_bits;
+    const Vector t = y - reinterpret_cast<Vector>(left);
+    const Bits panel = (left >> Scales::panel_shift) + at.sheet;
     store(t_ + i, t);
     __builtin_memcpy(panel_ + i, &panel, sizeof panel);
   }
@@ -103,11 +107,10 @@ class Block {
 
  private:
   using Panels = StopTimePanels;
-  static constexpr unsigned long long panel_size = sizeof(Panels::Panel);
   /// Without a sign, which v has already told: what is larger, and what is less by half of all exponents, is off.
   static constexpr auto last_ordinary = (__builtin_bit_cast(unsigned long long, StopTimeTable::ordinary_below) - 1)
                                         << 1;
-  static_assert(panel_size == 64);
+  static_assert(sizeof(Panels::Panel) == 64);
 
   alignas(64) double sum_[size];
   alignas(64) double t_[size];             ///< y - left edge of the panel
@@ -128,7 +131,11 @@ template <bool one_sheet>
       some_v0[lane] = v0[(i + lane) * v0_step];
     }
     Bits odd{};
-    block.place(scales, block.divide<one_sheet>(scales, some_u0, some_v0, 0, odd), 0);
+    Fractions fractions = block.divide<one_sheet>(scales, some_u0, some_v0, 0, odd);
+    for (int lane = 0; lane < width; ++lane) {
+      if (odd[lane] >> 63 != 0) fractions.y[lane] = 1;  // any y that there is a panel for
+    }
+    block.place(scales, fractions, 0);
     const Vector some_tau = block.finish(block.polynomials(0), 0);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       tau[i + lane] = odd[lane] >> 63 == 0 ? some_tau[lane] : table.careful(some_u0[lane], some_v0[lane]);
