@@ -179,6 +179,56 @@ test("mu is dragged, and everything follows", async (t) => {
   }
 });
 
+/** The highlighted line of each panel in a gnuplot script of the program: its points, in the panel's coordinates. */
+function highlightedLines(script) {
+  return script.split(/^plot (?='-')/m).slice(1).map((panel) => {
+    const [entries, ...blocks] = panel.split(/(?<!\\)\n/);
+    const data = blocks.join("\n").split(/^e$/m);
+    const line = entries.split("\n").findIndex((entry) => /with lines lc rgb '#c2185b' lw 2.6/.test(entry));
+    return line < 0 ? [] : data[line].trim().split(/\n+/).map((row) => row.trim().split(/\s+/).map(Number));
+  });
+}
+
+/** How far points are from a chain of others at most, in shares of its extent. */
+function farthestFrom(chain, points) {
+  const [low, high] = [Math.min, Math.max].map((most) => [0, 1].map((axis) => most(...chain.map((point) => point[axis]))));
+  const scaled = (all) => all.map((point) => point.map((value, axis) => (value - low[axis]) / (high[axis] - low[axis] || 1)));
+  const ends = scaled(chain);
+  return Math.max(...scaled(points).map(([x, y]) => Math.min(...ends.slice(1).map(([bx, by], i) => {
+    const [ax, ay] = ends[i];
+    const [dx, dy] = [bx - ax, by - ay];
+    const share = Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
+    return Math.hypot(ax + share * dx - x, ay + share * dy - y);
+  }))));
+}
+
+test("the page places its own orbits where the program draws them", async () => {
+  for (const u0 of [0.8, -0.8]) {
+    await open(`#law=exact&mu=0.3&window=1,5&orbits=${u0},3.5`);
+    for (const view of views) {
+      await page.click(`#views [data-name=${view}]`);
+      const words = (await page.textContent("#command")).split(" ").slice(1);
+      const name = join(folder, "portrait.gp");
+      execFileSync(program, words.map((word) => (word === "portrait.svg" ? name : word)));
+      const drawn = highlightedLines(readFileSync(name, "utf8"));
+      const own = await page.evaluate(() => {
+        const { view, context, own } = globalThis.page.planeScene;
+        const { orbit } = own.find(({ chosen }) => chosen);
+        const row = (i) => ({ u: orbit.u[i], v: orbit.v[i], lnV: orbit.lnV[i], lnK: orbit.lnK[i], left: orbit.left[i], start: null });
+        const rows = Array.from(orbit.u, (_, i) => ({ ...row(i), start: row(0) }));
+        return view.panels.map((panel) => rows.map((state) => panel.place(state, context)).filter((point) => point.every(Number.isFinite)));
+      });
+      assert.equal(drawn.length, own.length, `panels of ${view}`);
+      drawn.forEach((line, panel) => {
+        if (u0 > 0) assert.ok(line.length > 1, `panel ${panel} of ${view}: ${line.length} points`);
+        const error = line.length === 0 ? 0 : farthestFrom(own[panel], line);
+        assert.ok(error < 1e-3, `panel ${panel} of ${view}, u0 = ${u0}: ${error}`);
+      });
+    }
+    await close();
+  }
+});
+
 test("all views are drawn, and a click in each starts the orbit that it points at", async () => {
   await open("#law=exact&mu=0.3&window=1,5&orbits=0.8,3.5");
   const pictures = new Set();
