@@ -1,8 +1,6 @@
 // The views whose axes are the two speeds: plane, patch, log, and the plane beside (u, ln k).
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 

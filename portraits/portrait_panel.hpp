@@ -86,7 +86,6 @@ class PortraitPanel {
   /// @param state  the state at a point of the panel; u = v = 0 where there is none
   void add_field(const std::function<reduction::State(Point)>& state);
 
-  const Place& place() const { return place_; }
   Panel& panel() { return panel_; }
   Panel finished() && { return std::move(panel_); }
 

@@ -10,7 +10,8 @@ namespace contensou::portraits {
 namespace {
 
 constexpr double half_height = 5;  // of the panels, in p
-constexpr double step = 0.8;       // between translates
+constexpr double step = 0.8;       // between translates, or more where k hardly changes while p does
+constexpr int most = 24;           // translates of a curve
 
 /// One panel: translates of each curve, with the arrow of the symmetry.
 Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
@@ -23,24 +24,32 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
   });
   layers.add_orbits([&](const PhasePortrait& of) {
     std::vector<PortraitPanel::Copy> copies;
+    const double ray = of.plane.tangent == reduction::InvariantDirection::ray ? std::log(of.plane.terminal.k) : 0;
     for (const PortraitOrbit& curve : of.curves) {
-      const Instant at = at_log_ratio(curve, curve.ln_k[0] > 0 ? 1 : -1);
-      constexpr int most = 12, lowest = -40;
-      // Down to the one that only touches the lower border.
-      double rise = 0;
+      const Instant at = at_log_ratio(curve, ray + (curve.ln_k[0] > ray ? 1 : -1));
+      // From the one that only touches the lower border to the one that only touches the upper, but next to an axis or
+      // a ray, which no number of them would reach.
+      const Axis& x = layers.panel().x;
+      const double margin = 0.02 * (x.high - x.low);
+      double rise = 0, fall = 0;
       for (Eigen::Index i = 0; i < curve.rows(); ++i) {
-        const double x = abscissa(curve.ln_k[i]);
-        if (x >= layers.panel().x.low && x <= layers.panel().x.high) rise = std::max(rise, curve.ln_v[i] - at.ln_v);
+        const double there = abscissa(curve.ln_k[i]);
+        const bool seen = there >= x.low + margin && there <= x.high - margin;
+        if (!seen || std::abs(there - ray_at) < margin) continue;
+        rise = std::max(rise, curve.ln_v[i] - at.ln_v);
+        fall = std::max(fall, at.ln_v - curve.ln_v[i]);
       }
-      const int first = std::clamp(static_cast<int>(-(half_height + rise) / step), lowest, -most);
-      for (int i = first; i <= most; ++i) copies.push_back({curve, std::exp(middle + i * step - at.ln_v)});
+      const double apart = std::max(step, (2 * half_height + rise + fall) / most);
+      const int first = -static_cast<int>(std::ceil((half_height + rise) / apart));
+      const int last = static_cast<int>(std::ceil((half_height + fall) / apart));
+      for (int i = first; i <= last; ++i) copies.push_back({curve, std::exp(middle + i * apart - at.ln_v)});
     }
     return copies;
   });
   const Axis& y = layers.panel().y;
   if (std::isfinite(ray_at)) layers.add_invariant({}, {{{ray_at, y.low}, {ray_at, y.high}}});
   layers.add_highlights();
-  // What the symmetry does: from one translate to the next but one.
+  // What the symmetry does.
   Panel panel = std::move(layers).finished();
   const double x = panel.x.low + 0.82 * (panel.x.high - panel.x.low);
   const double low = middle - half_height + 0.12 * 2 * half_height, high = low + 2 * step;

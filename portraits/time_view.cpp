@@ -1,6 +1,5 @@
 // u, v and k against the share of the stop time that has passed: by scaling, only k at the start matters.
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 

@@ -21,8 +21,7 @@ using std::numbers::pi;
 /// Below, x is 0 to the last bit beside 1.
 constexpr double lowest_ln_k = -40;
 
-/// Terms of a series in powers of 1/2 or less.
-constexpr int terms = 56;
+constexpr int terms = PadeCurve::terms;
 
 /// Terms of a series in powers of x <= 1/2: the first that is below half an eps ends it.
 int terms_for(double x) {

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -25,7 +27,6 @@
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/similarity_solution.hpp"
-#include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/bridge.hpp"
@@ -169,8 +170,11 @@ class Plane {
           const auto point = orbit.at_time(middle);
           (is_inside({point.u, point.v}) ? inside : outside) = middle;
         }
+        // Next to an axis a speed may underflow; the orbit is not the axis.
+        constexpr double least = std::numeric_limits<double>::min();
         const auto point = orbit.at_time(inside);
-        state = {.u = point.u, .v = point.v};
+        state.u = u == 0 ? 0 : std::copysign(std::max(std::abs(point.u), least), u);
+        state.v = v == 0 ? 0 : std::max(point.v, least);
       }
       val result = val::object();
       result.set("u", state.u);

@@ -48,9 +48,9 @@ export class Frame {
       if (Number.isNaN(x) || Number.isNaN(y)) continue;
       const side = sideOf(x, y);
       const leftOut = i + 2 < points.length && line.length > 0 &&
-        ((side & lastSide) !== 0 || (Math.abs(x - line.at(-2)) < 0.3 && Math.abs(y - line.at(-1)) < 0.3));
+        ((side !== 0 && side === lastSide) || (Math.abs(x - line.at(-2)) < 0.3 && Math.abs(y - line.at(-1)) < 0.3));
       // The line comes back from where it was last, not from where it went out.
-      if (!leftOut && waiting && (side & lastSide) === 0) line.push(lastX, lastY);
+      if (!leftOut && waiting && side !== lastSide) line.push(lastX, lastY);
       if (!leftOut) line.push(x, y);
       waiting = leftOut;
       [lastX, lastY, lastSide] = [x, y, side];

@@ -129,7 +129,6 @@ val orbit_value(const portraits::PortraitOrbit& orbit) {
 val figure_value(const portraits::Figure& figure) {
   val value = val::object();
   value.set("title", figure.title);
-  value.set("subtitle", figure.subtitle);
   value.set("panels", list(figure.panels, panel_value));
   value.set("ground", colour_value(figure.theme.ground));
   value.set("ink", colour_value(figure.theme.ink));

@@ -22,9 +22,10 @@ export function isLaw(law, { laws, largestExponent }) {
  * @param place    where the exponent's field goes
  * @param library  {laws, largestExponent}
  * @param none     the title of no law at all, if that is a choice
+ * @param attempt  runs what may be rejected, and tells the reader
  * @param use      called with a law's name, or null for none; throws an Error whose message says why it will not do
  */
-export function lawField(select, place, { library, key, none, use }) {
+export function lawField(select, place, { library, key, none, attempt, use }) {
   fillSelect(select, [
     ...(none ? [{ name: "", title: none }] : []),
     ...library.laws.map((name) => ({ name, title: titles[name] ?? name })),
@@ -40,7 +41,7 @@ export function lawField(select, place, { library, key, none, use }) {
       exponent = value;
     },
   });
-  select.addEventListener("change", () => use(select.value === family ? `${family}:${exponent}` : select.value || null));
+  select.addEventListener("change", () => attempt(() => use(select.value === family ? `${family}:${exponent}` : select.value || null)));
   return {
     show(law) {
       const value = exponentOf(law);

@@ -31,13 +31,13 @@ class Page {
     this.makeControls();
     this.listenToThePlane();
     new ResizeObserver(() => this.draw()).observe($("columns"));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.change(() => {}));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.ask(() => {}));
     addEventListener("hashchange", () => {
       if (location.hash.slice(1) === toFragment(this.state)) return;
-      this.state = fromFragment(location.hash, this.known);
-      this.change(() => {});
+      const asked = fromFragment(location.hash, this.known);
+      this.ask((state) => Object.assign(state, asked));
     });
-    this.change(() => {});
+    this.ask(() => {});
   }
 
   // --- the state, and what follows from it -------------------------------------------------------------------------
@@ -52,7 +52,7 @@ class Page {
     try {
       this.compute(next);
     } catch (error) {
-      if (this.facts) this.compute(before);
+      if (this.settled) this.compute(before);
       else if (JSON.stringify(before) !== JSON.stringify(initialState())) {
         this.state = initialState();
         this.change(() => {});
@@ -60,6 +60,7 @@ class Page {
       throw error;
     }
     this.state = next;
+    this.settled = true;
     this.draw();
     this.measure(performance.now() - started);
     this.rememberSoon();
@@ -218,29 +219,30 @@ class Page {
 
   makeControls() {
     const { library } = this;
+    const attempt = (action) => this.try(action);
     fillSelect($("ball"), [{ name: "", title: "any ball, any unit" }, ...library.balls.map(({ name, title }) => ({ name, title }))]);
     this.lawField = lawField($("law"), $("law-exponent"), {
-      library, key: "exponent", use: (law) => this.change((state) => (state.law = law)),
+      library, key: "exponent", attempt, use: (law) => this.change((state) => (state.law = law)),
     });
     this.againstField = lawField($("against"), $("against-exponent"), {
-      library, key: "against-exponent", none: "no other law", use: (law) => this.change((state) => (state.against = law)),
+      library, key: "against-exponent", none: "no other law", attempt, use: (law) => this.change((state) => (state.against = law)),
     });
     fillSelect($("field"), fields.map((name) => ({ name, title: fieldTitles[name] })));
-    $("field").addEventListener("change", () => this.change((state) => (state.field = $("field").value)));
-    $("isochrones").addEventListener("change", () => this.change((state) => (state.isochrones = $("isochrones").checked ? initialState().isochrones : 0)));
+    $("field").addEventListener("change", () => this.ask((state) => (state.field = $("field").value)));
+    $("isochrones").addEventListener("change", () => this.ask((state) => (state.isochrones = $("isochrones").checked ? initialState().isochrones : 0)));
     fillSelect($("body"), Object.entries(bodies).map(([name, { title }]) => ({ name, title })));
     this.viewButtons = choiceButtons($("views"), views, (name) => {
       this.cross = null;
-      this.change((state) => (state.view = name));
+      this.ask((state) => (state.view = name));
     });
     this.partButtons = choiceButtons($("span"), [{ name: "whole", title: "whole motion" }, { name: "sliding", title: "while it slides" }],
-      (name) => this.change((state) => Object.assign(state, { part: name, share: 0 })));
+      (name) => this.ask((state) => Object.assign(state, { part: name, share: 0 })));
 
     $("ball").addEventListener("change", () => this.try(() => this.chooseBall($("ball").value)));
-    $("body").addEventListener("change", () => this.try(() => this.change((state) => {
+    $("body").addEventListener("change", () => this.ask((state) => {
       state.body = $("body").value;
       state.mu = bodyOf(state).mu ?? Math.min(state.mu, bodyOf(state).largestMu);
-    })));
+    }));
     this.inertiaFields = [["chi", "χ = 1 + mR²/J_h"], ["gamma", "γ = mR²/J_z"]].map(([key, label]) => [key, addNumberField($("inertia"), {
       key, label, use: (value) => {
         if (!(value > 0)) throw new Error("a positive number is needed");
@@ -253,11 +255,11 @@ class Page {
         this.change((state) => (state.window = this.context.window.map((shown, i) => (i === side ? value : shown))));
       },
     }));
-    $("fit").addEventListener("click", () => this.change((state) => (state.window = null)));
+    $("fit").addEventListener("click", () => this.ask((state) => (state.window = null)));
     this.muField = numberField($("mu"), $("mu-error"), (mu) => this.setMu(mu));
     $("mu-slider").addEventListener("input", () => this.try(() => this.setMu(sliderToMu(Number($("mu-slider").value), bodyOf(this.state).largestMu))));
 
-    $("theme").addEventListener("click", () => this.change((state) => {
+    $("theme").addEventListener("click", () => this.ask((state) => {
       state.theme = state.theme === "auto" ? (isDark("auto") ? "light" : "dark") : "auto";
     }));
     $("play").addEventListener("click", () => this.togglePlay());
@@ -268,7 +270,12 @@ class Page {
   }
 
   zoom(factor) {
-    this.change((state) => (state.window = this.context.window.map((side) => Number((side * factor).toPrecision(4)))));
+    this.ask((state) => (state.window = this.context.window.map((side) => Number((side * factor).toPrecision(4)))));
+  }
+
+  /** Changes the state, or says beside mu why not. */
+  ask(edit) {
+    this.try(() => this.change(edit));
   }
 
   /** Runs what may be rejected, and says so beside mu: it is the field that all choices meet in. */
@@ -311,7 +318,7 @@ class Page {
     fillSelect(this.patchBy, [{ name: "patch_radius", title: "its radius ε (m)" }, { name: "spin_deceleration", title: "spin deceleration (rad/s²)" }]);
     by.append("patch known by", this.patchBy);
     $("ball-fields").append(by);
-    this.patchBy.addEventListener("change", () => this.try(() => this.change((state) => this.describePatch(state, this.patchBy.value))));
+    this.patchBy.addEventListener("change", () => this.ask((state) => this.describePatch(state, this.patchBy.value)));
     this.ballFields.patch = addNumberField($("ball-fields"), { key: "patch", label: "patch", use: use("patch") });
     for (const [key, label] of [["velocityX", "centre: along the slip (m/s)"], ["velocityY", "across it (m/s)"]]) {
       this.ballFields[key] = addNumberField($("path-fields"), { key, label, use: use(key) });
@@ -420,14 +427,14 @@ class Page {
     choose.append(Object.assign(document.createElement("span"), { className: "start" }), Object.assign(document.createElement("span"), { className: "stop" }));
     const remove = Object.assign(document.createElement("button"), { type: "button", textContent: "✕", className: "remove" });
     const index = () => [...item.parentElement.children].indexOf(item);
-    choose.addEventListener("click", () => this.change((state) => Object.assign(state, { chosen: index(), share: 0 })));
+    choose.addEventListener("click", () => this.ask((state) => Object.assign(state, { chosen: index(), share: 0 })));
     remove.addEventListener("click", () => this.removeOrbit(index()));
     item.append(choose, remove);
     return item;
   }
 
   removeOrbit(index) {
-    this.change((state) => {
+    this.ask((state) => {
       state.orbits.splice(index, 1);
       if (state.chosen >= index) state.chosen -= 1;
       state.share = 0;
@@ -444,7 +451,7 @@ class Page {
     else if (u === 0 && v === 0) problem.textContent = "u₀ = v₀ = 0 is rest";
     else {
       problem.textContent = "";
-      this.startOrbit({ u, v });
+      this.try(() => this.startOrbit({ u, v }));
     }
   }
 
@@ -461,9 +468,9 @@ class Page {
   // --- the plane under the pointer ---------------------------------------------------------------------------------
 
   listenToThePlane() {
-    // The panel under a pixel, with the numbers there; of several none between them.
+    // The panel under a pixel, with the numbers there; none beside and between them.
     const panelAt = (x, y) => {
-      const index = this.frames.length === 1 ? 0 : this.frames.findIndex((frame) => frame.contains(x, y));
+      const index = this.frames.findIndex((frame) => frame.contains(x, y));
       return index < 0 ? null : { index, panel: this.planeScene.view.panels[index], ...this.frames[index].at(x, y) };
     };
     const pointed = (x, y) => {
@@ -475,7 +482,7 @@ class Page {
       const at = panelAt(x, y);
       if (at?.panel.moment && this.motion) return this.setShare(Math.min(1, (at.panel.moment(at.x) * this.motion.stop) / this.end));
       const start = pointed(x, y);
-      if (start) this.startOrbit(rounded(start, this.context));
+      if (start) this.try(() => this.startOrbit(rounded(start, this.context)));
     };
     listen($("plane"), {
       tap: (x, y) => {
@@ -484,7 +491,7 @@ class Page {
       },
       drag: (x, y) => {
         const at = pointed(x, y);
-        if (at) this.change((state) => (state.isochrone = this.library.plane.stop(at.u, at.v).tau));
+        if (at) this.ask((state) => (state.isochrone = this.library.plane.stop(at.u, at.v).tau));
       },
       point: (x, y) => this.describe(pointed(x, y)),
       leave: () => {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
@@ -308,6 +311,36 @@ TEST_CASE("In (ln k, p) orbits are translates of one curve along p", "[symmetry]
     }
   }
   CHECK(layer(figure.panels[1], "symmetry").lines.size() == 1);
+}
+
+TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[limit]") {
+  struct Case {
+    reduction::Law law;
+    double gamma;
+  };
+  for (const auto& [law, gamma] : {Case{*reduction::find_law("uniform"), 3.9}, Case{*reduction::find_law("uniform"), 2},
+                                   Case{reduction::PadeLaw{}, 2.5}}) {
+    portraits::PortraitRequest request;
+    request.view = View::similarity;
+    const auto portrait = portraits::phase_portrait({law, 1, {.chi = 1, .gamma = gamma}}, request);
+    REQUIRE(portrait.plane.tangent == reduction::InvariantDirection::ray);
+    const Panel panel = portraits::draw(portrait, {}, plain()).panels.at(1);
+    // In eighths of the panel's width: the ray is in the middle.
+    std::map<int, int> lines;
+    for (const auto& line : layer(panel, "orbits").lines) {
+      std::set<int> eighths;
+      for (const auto& part : portraits::clipped(panel, line)) {
+        for (const auto& point : part) {
+          eighths.insert(static_cast<int>(std::floor(8 * (point.x - panel.x.low) / (panel.x.high - panel.x.low))));
+        }
+      }
+      for (int eighth : eighths) lines[eighth] += 1;
+    }
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      CAPTURE(law.name(), gamma, eighth);
+      CHECK(lines[eighth] >= 2);
+    }
+  }
 }
 
 TEST_CASE("The disc holds everything; its singular points are those of the plane", "[table]") {

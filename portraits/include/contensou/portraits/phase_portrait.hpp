@@ -96,8 +96,8 @@ struct PortraitRequest {
   std::optional<reduction::Law> against;
   /// closed or quadrature: the similarity solution. regularised: (2.7) stepped in beta.
   reduction::Route route = reduction::Route::closed;
-  /// Leave out what the view is not drawn from: orbits and isochrones, or whole curves; of isochrones, all but the
-  /// times.
+  /// Keep only what the view is drawn from: no whole curves for uv and patch, no orbits and isochrones for the others,
+  /// all for pair. Isochrones keep their times, without points.
   bool drawn_only = false;
   /// Made before, for many questions about one system; empty: made here. Of the system and for the route.
   std::optional<reduction::SimilaritySolution> solution;

@@ -20,7 +20,7 @@ namespace contensou::reduction {
 /// Cost      some 100 ns for each instant of the sampling, once; then some 5 ns for each row.
 class OrbitFamily {
  public:
-  /// @param starts  the states that orbits will be asked for, or others with k no further from the terminal ratio
+  /// @param starts  on each side of the ray one at least as far from the terminal ratio as any orbit asked for
   /// @param count   instants of the sampling, 4 or more
   /// @throws std::domain_error  for fewer, and as Orbit
   OrbitFamily(const ReducedSystem& system, std::span<const State> starts, Eigen::Index count);

@@ -16,6 +16,9 @@ class PadeCurve final : public SimilarityCurve {
   /// Largest r of the closed form: the connection formula (R10) loses digits as r -> 2. A ball has r <= 5/7.
   static constexpr double largest_r = 1;
 
+  /// Of a series in powers of 1/2 or less.
+  static constexpr int terms = 56;
+
   /// @throws std::domain_error  unless 0 < r <= largest_r
   explicit PadeCurve(double r);
 
@@ -43,7 +46,7 @@ class PadeCurve final : public SimilarityCurve {
   double half_age_;         ///< the integral of (R11) over (1/2, 1)
 
   /// (R11): terms 2, 3, .. of the integral from x to 1/2 are x^a far_age_ less the sum of age_terms_[n] x^n.
-  std::array<double, 56> age_terms_{};
+  std::array<double, terms> age_terms_{};
   double far_age_ = 0;
 };
 
