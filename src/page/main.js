@@ -61,7 +61,10 @@ class Page {
     }
     this.state = next;
     this.settled = true;
+    this.theme = themeOf(next.theme);
     this.draw();
+    this.showControls();
+    this.checkSoon();
     this.measure(performance.now() - started);
     this.rememberSoon();
   }
@@ -118,12 +121,9 @@ class Page {
   // --- drawing -----------------------------------------------------------------------------------------------------
 
   draw() {
-    if (!this.facts || $("plane").clientWidth < smallestWidth) return;
-    this.theme = themeOf(this.state.theme);
+    if (!this.settled || $("plane").clientWidth < smallestWidth) return;
     this.drawPlane();
     this.drawMoment();
-    this.showControls();
-    this.checkSoon();
   }
 
   scene() {

@@ -307,6 +307,45 @@ test("a link that nobody can read opens the page all the same", async () => {
   await close();
 });
 
+test("a link that the library rejects opens the page all the same, and says why", async () => {
+  for (const fragment of ["#law=exact&mu=0.3&window=1e200,1&orbits=0.8,3.5", "#mu=0.3&orbits=1e200,1"]) {
+    await open(fragment);
+    assert.equal((await state()).mu, 0.3);
+    assert.match(await page.textContent("#mu-error"), /window must be between/);
+    assert.equal((await stopTimes()).length, 1);
+    await page.fill("#mu", "0.5");
+    assert.equal((await state()).mu, 0.5);
+    // The same for a link that is opened in the page.
+    await page.waitForFunction(() => /mu=0.5/.test(location.hash));
+    await page.evaluate((fragment) => (location.hash = fragment), fragment);
+    await page.waitForFunction(() => document.getElementById("mu-error").textContent !== "");
+    assert.equal((await state()).mu, 0.5);
+    await close();
+  }
+});
+
+test("where sliding has underflowed inside the window, its orbits are drawn all the same", async () => {
+  await open("#law=exact&mu=0.01&window=0.1,1&orbits=0.8,3.5;0.05,0.5&chosen=1");
+  assert.equal((await state()).mu, 0.01);
+  assert.equal(await page.textContent("#mu-error"), "");
+  await assertSamePicture("a small window");
+  await close();
+});
+
+test("beside the plane a click starts nothing", async () => {
+  await open("#law=exact&mu=0.3&orbits=0.8,3.5");
+  const { left, right, top, bottom } = await page.evaluate(() => {
+    const [frame] = globalThis.page.frames;
+    const box = document.getElementById("plane").getBoundingClientRect();
+    return { left: box.left + 5, right: box.left + frame.left + frame.width / 2, top: box.top + 5, bottom: box.bottom - 5 };
+  });
+  for (const [x, y] of [[right, top], [right, bottom], [left, (top + bottom) / 2]]) {
+    await page.mouse.click(x, y);
+    assert.equal((await state()).orbits.length, 1);
+  }
+  await close();
+});
+
 test("a wrong number is named beside its field, and the last good state stays", async () => {
   await open("#law=exact&mu=0.25&orbits=0.8,3.5");
   const times = await stopTimes();
