@@ -64,17 +64,21 @@ constexpr std::array makers{
 
 std::string title(const PhasePortrait& portrait) {
   const reduction::ReducedSystem& system = portrait.system;
-  std::string law = literal(system.law().name());
-  for (const PhasePortrait& rival : portrait.against) law += " against " + literal(rival.system.law().name());
   const auto [chi, gamma] = system.inertia();
   const bool ball = chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
   const std::string body =
       ball ? "Sliding and spinning ball"
            : fmt::format("Sliding and spinning body,  {{/:Italic χ}} = {:.4g}, {{/:Italic γ}} = {:.4g}", chi, gamma);
-  return fmt::format("{},  {{/:Italic μ}} = {},  law: {}", body, number(system.mu()), law);
+  return fmt::format("{},  {{/:Italic μ}} = {},  law: {}", body, number(system.mu()), law_names(portrait));
 }
 
 }  // namespace
+
+std::string law_names(const PhasePortrait& portrait) {
+  std::string names = literal(portrait.system.law().name());
+  for (const PhasePortrait& rival : portrait.against) names += " against " + literal(rival.system.law().name());
+  return names;
+}
 
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, const PortraitStyle& style) {
   const Maker& maker = *std::ranges::find(makers, portrait.view, &Maker::view);

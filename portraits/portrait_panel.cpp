@@ -199,17 +199,20 @@ Polyline PortraitPanel::line_of(const Copy& copy) const {
   return line;
 }
 
+std::string law_legend(const PhasePortrait& portrait) {
+  return fmt::format("law {}", literal(portrait.system.law().name()));
+}
+
 void PortraitPanel::add_orbits(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies) {
   const PhasePortrait& portrait = drawing_.portrait;
-  const auto law = [](const PhasePortrait& of) { return fmt::format("law {}", literal(of.system.law().name())); };
   if (drawing_.coloured()) {
     add_coloured(copies(portrait));
   } else {
     add_plain(copies(portrait), {drawing_.palette.orbit, 1.3, false},
-              portrait.against.empty() ? "orbits" : law(portrait));
+              portrait.against.empty() ? "orbits" : law_legend(portrait));
   }
   for (const PhasePortrait& rival : portrait.against) {
-    add_plain(copies(rival), {drawing_.palette.rival, 1.3, true}, law(rival));
+    add_plain(copies(rival), {drawing_.palette.rival, 1.3, true}, law_legend(rival));
   }
 }
 

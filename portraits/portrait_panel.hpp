@@ -55,6 +55,9 @@ using Instant = PortraitOrbit::Instant;
 /// Where a state lies in a panel.
 using Place = std::function<Point(const Instant&)>;
 
+/// The legend of a portrait's orbits where two laws are compared.
+std::string law_legend(const PhasePortrait& portrait);
+
 /// A panel that fills with layers of the phase plane, placed by one function of the state.
 class PortraitPanel {
  public:

@@ -85,7 +85,7 @@ std::vector<Panel> time_view(const Drawing& drawing) {
         [&](std::size_t) {
           return Stroke{drawing.palette.rival, 1.3, true};
         },
-        [&](double) { return fmt::format("law {}", literal(rival.system.law().name())); });
+        [&](double) { return law_legend(rival); });
   }
   if (limit > 0 && std::isfinite(limit) && drawing.style.invariant) {
     k.lines.push_back(

@@ -28,9 +28,8 @@ portraits::PortraitCaption PortraitQuestion::caption(const portraits::PhasePortr
     caption.subtitle = fmt::format("u_0 = {:g}, v_0 = {:g}: it stops after τ* = {:.4g}", start->u, start->v, stop);
     return caption;
   }
-  std::string laws = portraits::literal(law.name());
-  for (const auto& rival : portrait.against) laws += " against " + portraits::literal(rival.system.law().name());
-  caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot->ball.name), mu, laws);
+  caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot->ball.name), mu,
+                              portraits::law_names(portrait));
   caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", si::slip_at_start(*shot),
                                  si::spin_at_start(*shot), si::seconds(*shot, stop));
   caption.speed_unit = "m/s";

@@ -31,6 +31,9 @@ struct PortraitStyle {
   std::optional<double> height_mm;
 };
 
+/// The law, and those against it, in the words of a title.
+std::string law_names(const PhasePortrait& portrait);
+
 /// The portrait as a drawing in its view. A pure function: all numbers come from the portrait.
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {}, const PortraitStyle& style = {});
 

@@ -17,7 +17,7 @@ namespace contensou::reduction {
 /// the same k in the rows that they share.
 ///
 /// Accuracy  as Orbit; tau to eps of the stop time, a speed at least to 1e-290 of the start's.
-/// Cost      some 100 ns for each instant of the sampling, once; then some 5 ns for each row.
+/// Cost      some 150 ns for each instant of the sampling, once; then some 5 ns for each row.
 class OrbitFamily {
  public:
   /// @param starts  on each side of the ray one at least as far from the terminal ratio as any orbit asked for

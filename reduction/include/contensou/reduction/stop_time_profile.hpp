@@ -13,7 +13,8 @@ struct StopTimeTable;
 /// The stop times of one system, for very many starts: at fixed law, mu and body
 ///   tau* = (P + S) (1 + g(k0)),  P = pivoting_limit(u0),  S = sliding_limit(v0),
 /// and g is a smooth function of one variable, small while mu is: a table of polynomials whose panels are the exponent
-/// and four bits of the mantissa of a fraction in k0, so that an array costs little more than reading and writing it.
+/// and four bits of the mantissa of a fraction in k0, so that an array costs some half as much again as reading and
+/// writing it.
 ///
 /// A start (u0, v0) is as for stop_time: u0 of either sign, v0 >= 0, any size: a result that a double cannot hold is
 /// infinity. An array may hold others, too, and each that stop_time rejects becomes NaN.
