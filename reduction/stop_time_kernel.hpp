@@ -10,15 +10,16 @@ namespace contensou::reduction {
 /// What StopTimeProfile has in common with its kernels, one translation unit for each instruction set.
 ///
 /// A fraction y in [0, 1] says where a start lies; the exponent of y and `cut_bits` bits of its mantissa say which
-/// panel holds g there. Two maps from k to y:
-///   - one sheet:    y = fold w/(fold w + v), for a curve that is singular at k = infinity alone;
-///   - four sheets:  y = min(v, w, |v - w|)/(v + w), for one that may be singular at k = 0, 1 and infinity.
+/// panel holds G = tau*/D there, D = |u0| + lever v0. Two maps from k to y:
+///   - one sheet:    y = |u0|/D, for a curve that is singular at k = infinity alone;
+///   - four sheets:  y = min(|u0|, lever v0, their distance)/D, for one that may be singular at k = 0, 1 and infinity;
+///                   lever v0/|u0| is k there.
 /// Panels become narrow where y -> 0, on every sheet.
 struct StopTimePanels {
   static constexpr int cut_bits = 4;
   static constexpr int terms = 8;
   static constexpr int octaves = 64;
-  static constexpr double lowest = 0x1p-63;  ///< it is added to y: y ln y is below the last bit of 1
+  static constexpr double lowest = 0x1p-63;  ///< it is added to y, so that there is no y without a panel
   static constexpr int mantissa_bits = 52 - cut_bits;
   static constexpr std::size_t per_sheet = std::size_t{octaves} << cut_bits;
   static constexpr std::size_t at_one = per_sheet - (std::size_t{1} << cut_bits);  ///< the last panel that has a y
@@ -51,15 +52,14 @@ struct StopTimePanels {
 
 /// A profile as its kernels read it.
 struct StopTimeTable {
-  double pivoting;  ///< P/|u0|
-  double sliding;   ///< S/v0
-  double lever;     ///< |u0|/w; with one sheet, |u0|/(fold w)
-  bool one_sheet;
-  bool ordinary;  ///< the three are so far from the ends of the double range that only u0 and v0 can lead there
-  const StopTimePanels::Panel* panels;
-  long double wide_pivoting, wide_sliding, wide_lever;  ///< the same three, for careful()
+  double lever;
+  bool one_sheet;  ///< and not four
+  bool ordinary;   ///< what it holds is so far from the ends of the double range that only u0 and v0 can lead there
+  bool flat;       ///< tau* is P + S to the last bit: there are no panels
+  const StopTimePanels::Panel* panels;            ///< of G/unit; the unit is 1 if the table is ordinary
+  long double wide_pivoting, wide_sliding, unit;  ///< the first two P/|u0| and S/v0: for careful()
 
-  /// The sum P + S needs no care from 2^-511 to here: half of all exponents, which one subtraction tells.
+  /// D needs no care from 2^-511 to here: half of all exponents, which one addition tells.
   static constexpr double ordinary_below = 0x1p513;
 
   /// One stop time without overflow or underflow on the way; NaN for a start that is none.

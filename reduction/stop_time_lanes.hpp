@@ -3,7 +3,7 @@
 //   width                         doubles in a vector
 //   Vector, Bits                  of so many doubles and unsigned 64-bit integers
 //   Vector magnitude(x)           its absolute value
-//   Vector fused(a, b, c)         a b + c
+//   Vector fused(a, b, c)         a b + c, rounded once, so that bits are the same everywhere
 //   bool any_negative(Bits)       whether the first bit of any lane is set
 //   Pairs pairs(panels, t)        the polynomial of each lane in two halves, in whatever order they come about
 //   Halves halves(Pairs)          in that of the lanes: low, the sum of c_n t^n over n = 0..3, and high, of c_(n+4) t^n
@@ -32,21 +32,37 @@ inline Vector every(double value) { return value - Vector{}; }
 inline Bits bits(Vector x) { return reinterpret_cast<Bits>(x); }
 
 struct Scales {
-  Vector pivoting, sliding, lever, lowest;
+  Vector lever, lowest;
   Bits sheets[4];  ///< the addresses of their first panels, less the panel bits of lowest
   static constexpr int panel_shift = StopTimePanels::mantissa_bits - 6;  ///< panels have 2^6 bytes
   static constexpr std::size_t sheet_size = StopTimePanels::per_sheet * sizeof(StopTimePanels::Panel);
 
-  explicit Scales(const StopTimeTable& table)
-      : pivoting(every(table.pivoting)),
-        sliding(every(table.sliding)),
-        lever(every(table.lever)),
-        lowest(every(StopTimePanels::lowest)) {
+  explicit Scales(const StopTimeTable& table) : lever(every(table.lever)), lowest(every(StopTimePanels::lowest)) {
     const auto lowest_panel = bits(lowest) >> panel_shift;
     for (std::size_t i = 0; i < 4; ++i) {
       sheets[i] = Bits{} + (reinterpret_cast<std::uintptr_t>(table.panels) + i * sheet_size) - lowest_panel;
     }
   }
+};
+
+/// Of some starts, which need care: those whose v0 is negative, or whose D is not ordinary.
+class Care {
+ public:
+  void look_at(Vector v, Vector total) {
+    signs_ |= bits(v);
+    ordinary_ &= bits(total) + raise;
+  }
+
+  /// The first bit of each lane.
+  Bits needed() const { return signs_ | ~ordinary_ << 1; }
+
+ private:
+  /// Half of all exponents are ordinary: raised by this, they have the bit after the sign and the others have not.
+  static constexpr std::uint64_t raise =
+      (std::uint64_t{1} << 63) - __builtin_bit_cast(std::uint64_t, StopTimeTable::ordinary_below);
+
+  Bits signs_{};
+  Bits ordinary_ = ~Bits{};
 };
 
 /// Where starts lie: y, and on which sheet.
@@ -55,31 +71,29 @@ struct Fractions {
   Bits sheet;
 };
 
-/// Starts on the way to their stop times: four steps, because the way through a division and a polynomial is long and a
-/// processor looks ahead by a few vectors only.
-class Block {
- public:
-  static constexpr std::size_t size = 128;
+constexpr std::size_t cache_line = 8;  ///< in doubles
 
-  /// @param odd  becomes negative in the lanes that need care: v0 is, or P + S is not ordinary
+/// Starts on the way to their stop times, a cache line of each array. There are four steps, because the way through a
+/// division and a polynomial is long and a processor looks ahead by a few vectors only.
+class Line {
+ public:
   template <bool one_sheet>
-  Fractions divide(const Scales& scales, Vector u0, Vector v, std::size_t i, Bits& odd) {
+  Fractions divide(const Scales& scales, Vector u0, Vector v, std::size_t i, Care& care) {
     const Vector u = magnitude(u0);
-    // Not fused, so that it is the same everywhere.
-    const Vector sum = scales.pivoting * u + scales.sliding * v;
-    store(sum_ + i, sum);
-    odd |= (last_ordinary - (bits(sum) << 1)) | bits(v);
+    const Vector total = fused(scales.lever, v, u);
+    store(total_ + i, total);
+    care.look_at(v, total);
     if constexpr (one_sheet) {
-      return {u / fused(scales.lever, v, u), scales.sheets[0]};
+      return {u / total, scales.sheets[0]};
     } else {
       const Vector levered = scales.lever * v;
       const Vector smaller = levered < u ? levered : u;
-      const Vector distance = magnitude(levered - u);
+      const Vector distance = magnitude(fused(scales.lever, v, -u));
       const auto near = distance < smaller;
       const auto above = levered > u;
       const Bits beside_one = above ? scales.sheets[Panels::above_one] : scales.sheets[Panels::below_one];
       const Bits beyond = above ? scales.sheets[Panels::fast] : scales.sheets[Panels::slow];
-      return {(near ? distance : smaller) / (levered + u), near ? beside_one : beyond};
+      return {(near ? distance : smaller) / total, near ? beside_one : beyond};
     }
   }
 
@@ -100,28 +114,25 @@ class Block {
   }
 
   Vector finish(const Pairs& polynomials, std::size_t i) const {
-    const Vector sum = load(sum_ + i), t = load(t_ + i);
+    const Vector t = load(t_ + i);
     const Halves g = halves(polynomials);
-    return fused(sum, fused(g.high, (t * t) * (t * t), g.low), sum);
+    return load(total_ + i) * fused(g.high, (t * t) * (t * t), g.low);
   }
 
  private:
   using Panels = StopTimePanels;
-  /// Without a sign, which v has already told: what is larger, and what is less by half of all exponents, is off.
-  static constexpr auto last_ordinary = (__builtin_bit_cast(unsigned long long, StopTimeTable::ordinary_below) - 1)
-                                        << 1;
   static_assert(sizeof(Panels::Panel) == 64);
 
-  alignas(64) double sum_[size];
-  alignas(64) double t_[size];             ///< y - left edge of the panel
-  alignas(64) std::uint64_t panel_[size];  ///< its address
+  alignas(64) double total_[cache_line];  ///< D
+  double t_[cache_line];                  ///< y - left edge of the panel
+  std::uint64_t panel_[cache_line];       ///< its address
 };
 
 /// A few starts, or some that need care.
 template <bool one_sheet>
 [[gnu::noinline]] void run_few(const StopTimeTable& table, const double* u0, const double* v0, std::size_t v0_step,
                                double* tau, std::size_t count) {
-  Block block;
+  Line line;
   const Scales scales(table);
   for (std::size_t i = 0; i < count; i += width) {
     Vector some_u0 = every(1), some_v0 = every(1);
@@ -130,22 +141,28 @@ template <bool one_sheet>
       some_u0[lane] = u0[i + lane];
       some_v0[lane] = v0[(i + lane) * v0_step];
     }
-    Bits odd{};
-    Fractions fractions = block.divide<one_sheet>(scales, some_u0, some_v0, 0, odd);
+    Care care;
+    Fractions fractions = line.divide<one_sheet>(scales, some_u0, some_v0, 0, care);
+    const Bits odd = care.needed();
     for (int lane = 0; lane < width; ++lane) {
       if (odd[lane] >> 63 != 0) fractions.y[lane] = 1;  // any y that there is a panel for
     }
-    block.place(scales, fractions, 0);
-    const Vector some_tau = block.finish(block.polynomials(0), 0);
+    line.place(scales, fractions, 0);
+    const Vector some_tau = line.finish(line.polynomials(0), 0);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       tau[i + lane] = odd[lane] >> 63 == 0 ? some_tau[lane] : table.careful(some_u0[lane], some_v0[lane]);
     }
   }
 }
 
-/// In doubles.
-constexpr std::size_t cache_line = 8;
-constexpr std::size_t page = 512;
+/// Starts that are looked at together: if one needs care, they all take the slow way.
+struct Block {
+  static constexpr std::size_t lines = 16;
+  static constexpr std::size_t size = lines * cache_line;
+  Line line[lines];
+};
+
+constexpr std::size_t page = 512;  ///< in doubles
 
 template <bool one_sheet, bool row, bool streaming>
 void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
@@ -154,13 +171,6 @@ void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
   const double* const v0 = job.v0;
   double* const tau = job.tau;
   const Vector row_v0 = every(*v0);
-  const auto divide = [=](Block& block, std::size_t begin, std::size_t i, Bits& odd) {
-    return block.divide<one_sheet>(scales, load(u0 + begin + i), row ? row_v0 : load(v0 + begin + i), i, odd);
-  };
-  const auto finish = [=](const Block& block, const Pairs& polynomials, std::size_t begin, std::size_t i) {
-    const Vector result = block.finish(polynomials, i);
-    streaming ? stream(tau + begin + i, result) : store(tau + begin + i, result);
-  };
   const auto few = [&](std::size_t begin, std::size_t count) {
     run_few<one_sheet>(table, u0 + begin, v0 + begin * job.v0_step, job.v0_step, tau + begin, count);
   };
@@ -171,18 +181,47 @@ void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
     if (beyond != 0) begin = width - beyond < job.size ? width - beyond : job.size;
     few(0, begin);
   }
+
+  // What lies between two steps is in registers.
+  constexpr std::size_t vectors = cache_line / width;
+  struct Divided {
+    Fractions of[vectors];
+  };
+  struct Evaluated {
+    Pairs of[vectors];
+  };
+  Care care;
+  const auto divide = [&](Line& line, std::size_t at) {
+    Divided divided;
+    for (std::size_t n = 0, i = 0; n < vectors; ++n, i += width) {
+      divided.of[n] = line.divide<one_sheet>(scales, load(u0 + at + i), row ? row_v0 : load(v0 + at + i), i, care);
+    }
+    return divided;
+  };
+  const auto place = [&](Line& line, const Divided& divided) {
+    for (std::size_t n = 0; n < vectors; ++n) line.place(scales, divided.of[n], n * width);
+  };
+  const auto evaluate = [](const Line& line) {
+    Evaluated evaluated;
+    for (std::size_t n = 0; n < vectors; ++n) evaluated.of[n] = line.polynomials(n * width);
+    return evaluated;
+  };
+  const auto finish = [=](const Line& line, const Evaluated& evaluated, std::size_t at) {
+    for (std::size_t n = 0, i = 0; n < vectors; ++n, i += width) {
+      const Vector result = line.finish(evaluated.of[n], i);
+      streaming ? stream(tau + at + i, result) : store(tau + at + i, result);
+    }
+  };
+
   Block blocks[2];
-  Bits odd{};
   bool ahead = false;  // the block that begins here is placed
   for (int turn = 0; begin + Block::size <= job.size; begin += Block::size, turn = 1 - turn) {
-    Block& block = blocks[turn];
+    Line* line = blocks[turn].line;
     if (!ahead) {
-      odd = Bits{};
-      for (std::size_t i = 0; i < Block::size; i += width) {
-        block.place(scales, divide(block, begin, i, odd), i);
-      }
+      care = Care{};
+      for (std::size_t i = 0; i < Block::lines; ++i) place(line[i], divide(line[i], begin + i * cache_line));
     }
-    if (any_negative(odd)) {
+    if (any_negative(care.needed())) {
       few(begin, Block::size);
       ahead = false;
       continue;
@@ -190,48 +229,40 @@ void run_blocks(const StopTimeTable& table, const StopTimeJob& job) {
     const std::size_t next = begin + Block::size;
     ahead = next + Block::size <= job.size;
     if (!ahead) {
-      for (std::size_t i = 0; i < Block::size; i += width) finish(block, block.polynomials(i), begin, i);
+      for (std::size_t i = 0; i < Block::lines; ++i) finish(line[i], evaluate(line[i]), begin + i * cache_line);
       continue;
     }
 
     if (streaming && begin % page < Block::size && begin + 2 * page <= job.size) {
-      // To find a page of memory takes long: it is asked for while the page before is in use.
+      // To find a page of memory takes long: it is asked for while the page before is in use, and for what is written
+      // at another place in it than for what is read, because like places get into each other's way.
       const std::size_t next_page = begin + page + page / 2;
-      __builtin_prefetch(u0 + next_page);
-      if (!row) __builtin_prefetch(v0 + next_page);
+      __builtin_prefetch(u0 + next_page + Block::size);
+      if (!row) __builtin_prefetch(v0 + next_page + Block::size);
       __builtin_prefetch(tau + next_page, 1);
     }
-    const std::size_t coming = next + 2 * Block::size <= job.size ? next + Block::size : next;
+    const std::size_t coming = next + 3 * Block::size <= job.size ? 2 * Block::size : 0;
 
-    // This block goes through its last two steps and the next one through its first two, every second step a cache line
-    // behind the first; what lies between is in registers.
-    Block& other = blocks[1 - turn];
-    constexpr std::size_t vectors = cache_line / width;
-    Fractions fractions[vectors];
-    Pairs polynomials[vectors];
-    odd = Bits{};
-    for (std::size_t n = 0; n < vectors; ++n) {
-      polynomials[n] = block.polynomials(n * width);
-      fractions[n] = divide(other, next, n * width, odd);
-    }
-    std::size_t line = 0;
-    for (; line + cache_line < Block::size; line += cache_line) {
+    // This block goes through its last two steps and the next one through its first two, every second step a line
+    // behind the first.
+    Line* other = blocks[1 - turn].line;
+    care = Care{};
+    std::size_t at = begin;
+    Divided divided = divide(*other, at + Block::size);
+    Evaluated evaluated = evaluate(*line);
+    for (std::size_t i = 1; i < Block::lines; ++i) {
       if (streaming) {
-        __builtin_prefetch(u0 + coming + line);
-        if (!row) __builtin_prefetch(v0 + coming + line);
+        __builtin_prefetch(u0 + at + Block::size + coming);
+        if (!row) __builtin_prefetch(v0 + at + Block::size + coming);
       }
-      for (std::size_t n = 0; n < vectors; ++n) {
-        const std::size_t i = line + n * width;
-        finish(block, polynomials[n], begin, i);
-        polynomials[n] = block.polynomials(i + cache_line);
-        other.place(scales, fractions[n], i);
-        fractions[n] = divide(other, next, i + cache_line, odd);
-      }
+      place(*other, divided);
+      finish(*line, evaluated, at);
+      at += cache_line;
+      divided = divide(*++other, at + Block::size);
+      evaluated = evaluate(*++line);
     }
-    for (std::size_t n = 0; n < vectors; ++n) {
-      finish(block, polynomials[n], begin, line + n * width);
-      other.place(scales, fractions[n], line + n * width);
-    }
+    place(*other, divided);
+    finish(*line, evaluated, at);
   }
   few(begin, job.size - begin);
   if (streaming) streamed();

@@ -1,9 +1,9 @@
-// Notation (README (R18) to (R20)): n = m - 1, so that tau* = (P + S)(1 + g), g = n S/(P + S); P/S = 1/(r Psi(0) k).
-//   Pade, r < 2:  y = A/(A + B k), x = 1 - y, a = r/(2 - r), e = r/(5 - r)
+// Notation (README (R18) to (R20)): n = m - 1, so that tau* = P + S (1 + n) = D G, D = |u0| + lever v0,
+//     G = (P/|u0|) [|u0|/D + l (1 + n) lever v0/D],  l = S/P where v0 = |u0|/lever
+//   Pade, r < 2:  y = A/(A + B k) = |u0|/D, x = 1 - y, a = r/(2 - r), e = r/(5 - r), 1/(mu lever) = A/B
 //     x y dn/dx + [(1 + a) y + (1 + e) x] n = (3/2)(1 + a) y
-//     S/(P + S) = l x/(l x + y),  l = (A/B) r Psi(0)
-//   any law:  D dn/d ln k + Phi n = delta - Phi,  D = Phi - r k Psi,  delta = 1 - Psi/Psi(0)
-// On a panel y = left + width (1 + t)/2, -1 <= t <= 1.
+//   any law:  drag dn/d ln k + Phi n = delta - Phi,  drag = Phi - r k Psi,  delta = 1 - Psi/Psi(0), 1/(mu lever) = 1
+// On a panel y = left + width (1 + t)/2, -1 <= t <= 1; the y of a start is less by `lowest`.
 #include "stop_time_panels.hpp"
 
 #include <algorithm>
@@ -142,22 +142,23 @@ class PadeMarch {
 
 long double pade_fold(long double r) { return 8 * (2 - r) / (3 * pi * (5 - r)); }
 
-std::vector<Panel> pade_panels(long double r, long double pivoting_moment) {
+std::vector<Panel> pade_panels(long double r, long double fold, const PanelScales& scales) {
   PadeMarch march(r);
-  const long double l = pade_fold(r) * r * pivoting_moment;
+  const auto [l, unit] = scales;
+  const long double unfold = pade_fold(r) / fold - 1;
   std::vector<Panel> panels(Panels::per_sheet);
   for (std::size_t i = Panels::at_one + 1; i-- > 0;) {
     const auto [left, width] = Panels::span(i);
     const bool near = left >= 0.5;
     if (!near) march.move_to(left + width / 2);
-    WideValues g;
+    WideValues values;
     for (int j = 0; j < Panels::terms; ++j) {
-      const long double t = width / 2 * Interpolation::chebyshev().points[j];
-      const long double y = left + width / 2 + t;
-      const long double n = near ? march.near(y) : march.series(t);
-      g[j] = n * l * (1 - y) / (l * (1 - y) + y);
+      const long double pivoting = left - Panels::lowest + width / 2 * (1 + Interpolation::chebyshev().points[j]);
+      const long double y = pivoting + unfold * pivoting * (1 - pivoting);
+      const long double n = near ? march.near(y) : march.series(y - (left + width / 2));
+      values[j] = (pivoting + l * (1 + n) * (1 - pivoting)) / unit;
     }
-    panels[i] = panel_through(g, width);
+    panels[i] = panel_through(values, width);
   }
   return panels;
 }
@@ -184,10 +185,29 @@ Place place(Panels::Sheet sheet, double y) {
   return {{1, y / (1 - y)}, (1 - y) / y, -1 / (y * (1 - y))};
 }
 
+/// |u0|/D and lever v0/D of a fraction y.
+struct Shares {
+  long double pivoting, sliding;
+};
+Shares shares(Panels::Sheet sheet, long double y) {
+  switch (sheet) {
+    case Panels::slow:
+      return {1 - y, y};
+    case Panels::below_one:
+      return {(1 + y) / 2, (1 - y) / 2};
+    case Panels::above_one:
+      return {(1 - y) / 2, (1 + y) / 2};
+    case Panels::fast:
+      break;
+  }
+  return {y, 1 - y};
+}
+
 /// The solution of (R19) on every panel of four sheets.
 class LawMarch {
  public:
-  LawMarch(const Law& law, double r) : law_(law), r_(r), panels_(4 * Panels::per_sheet), ends_(panels_.size()) {
+  LawMarch(const Law& law, double r, const PanelScales& scales)
+      : law_(law), r_(r), scales_(scales), panels_(4 * Panels::per_sheet), ends_(panels_.size()) {
     const auto [regime, k, low, high] = terminal_ratio(law, r);
     terminal_ = k;
     if (regime == TerminalRegime::ray) {
@@ -216,17 +236,14 @@ class LawMarch {
 
   /// The law at the points of a panel, with what turns d/d ln k into d/dt.
   struct Sampled {
-    Values drag;    ///< D
+    Values drag;
     Values force;   ///< Phi times d ln k/dt
     Values source;  ///< (delta - Phi) times d ln k/dt
-    Values share;   ///< S/(P + S)
-    double width;
-    bool lost;  ///< D is lost in rounding: (R19) without its derivative
+    bool lost;      ///< it is lost in rounding: (R19) without its derivative
   };
   Sampled sampled(Position at) const {
     Sampled values;
     const auto [left, width] = Panels::span(at.index);
-    values.width = width;
     values.lost = true;
     const Values points = Interpolation::chebyshev().points.cast<double>();
     for (int j = 0; j < Panels::terms; ++j) {
@@ -239,7 +256,6 @@ class LawMarch {
       values.lost = values.lost && std::abs(values.drag[j]) < 0x1p-44 * force;
       values.force[j] = rate * force;
       values.source[j] = rate * (deficit - force);
-      values.share[j] = 1 / (1 + 1 / (r_ * law_.pivoting_moment() * k));
     }
     return values;
   }
@@ -253,14 +269,14 @@ class LawMarch {
     return std::min(k, other_k) > terminal_ ? 1 : 0;
   }
 
-  /// The one solution that is regular where D = 0.
+  /// The one solution that is regular where the drag is 0.
   void solve_across(Position at) {
     const Sampled law = sampled(at);
     const auto& polynomials = Interpolation::chebyshev();
     Matrix system = law.drag.asDiagonal() * polynomials.derivative;
     system.diagonal() += law.force;
     const Values n = system.partialPivLu().solve(law.source);
-    keep(at, law, n);
+    keep(at, n);
     ends_[number(at)] = {polynomials.end[0].dot(n), polynomials.end[1].dot(n)};
   }
 
@@ -273,18 +289,26 @@ class LawMarch {
     }
     const auto& polynomials = Interpolation::chebyshev();
     const auto start = static_cast<double>(value);
-    // D dn/dt + force n = source, for the values of dn/dt.
+    // drag dn/dt + force n = source, for the values of dn/dt.
     Matrix system = law.force.asDiagonal() * polynomials.integral[static_cast<std::size_t>(side)];
     system.diagonal() += law.drag;
     const Values slope = system.partialPivLu().solve(law.source - start * law.force);
     const Values n = (polynomials.integral[static_cast<std::size_t>(side)] * slope).array() + start;
-    keep(at, law, n);
+    keep(at, n);
     const double rise = polynomials.whole.dot(slope);
     ends_[number(at)] = side == 0 ? Ends{value, value + rise} : Ends{value - rise, value};
   }
 
-  void keep(Position at, const Sampled& law, const Values& n) {
-    panels_[number(at)] = panel_through(n.cwiseProduct(law.share).cast<long double>(), law.width);
+  void keep(Position at, const Values& n) {
+    const auto [left, width] = Panels::span(at.index);
+    const auto [l, unit] = scales_;
+    WideValues values;
+    for (int j = 0; j < Panels::terms; ++j) {
+      const long double y = left + width / 2 * (1 + Interpolation::chebyshev().points[j]) - Panels::lowest;
+      const auto [pivoting, sliding] = shares(at.sheet, y);
+      values[j] = (pivoting + l * (1 + static_cast<long double>(n[j])) * sliding) / unit;
+    }
+    panels_[number(at)] = panel_through(values, width);
   }
 
   /// Towards larger k for direction 1, the panels above the terminal ratio; the mirror image for -1.
@@ -319,6 +343,7 @@ class LawMarch {
 
   const Law& law_;
   double r_;
+  PanelScales scales_;
   double terminal_ = 0;
   std::vector<Panel> panels_;
   std::vector<Ends> ends_;
@@ -326,6 +351,8 @@ class LawMarch {
 
 }  // namespace
 
-std::vector<Panel> law_panels(const Law& law, double r) { return LawMarch(law, r).panels(); }
+std::vector<Panel> law_panels(const Law& law, double r, const PanelScales& scales) {
+  return LawMarch(law, r, scales).panels();
+}
 
 }  // namespace contensou::reduction

@@ -26,7 +26,7 @@ using Panel = Panels::Panel;
 
 constexpr long double pi = std::numbers::pi_v<long double>;
 
-bool moderate(double x) { return x > 0x1p-100 && x < 0x1p100; }
+bool moderate(long double x) { return x > 0x1p-100 && x < 0x1p100; }
 
 /// A table that owns its panels.
 struct StoredTable : StopTimeTable {
@@ -35,16 +35,21 @@ struct StoredTable : StopTimeTable {
     const long double r = system.r();
     const long double mu = system.mu();
     one_sheet = law.as<PadeLaw>() && system.r() <= largest_pade_r;
-    storage = one_sheet ? pade_panels(r, law.pivoting_moment()) : law_panels(law, system.r());
-    panels = storage.data();
     wide_pivoting = 3 * pi / 2 / system.inertia().gamma / law.pivoting_moment() / mu;
     wide_sliding = 3 * pi / 2 / system.inertia().chi;
-    wide_lever = 1 / (one_sheet ? mu * pade_fold(r) : mu);
-    pivoting = static_cast<double>(wide_pivoting);
-    sliding = static_cast<double>(wide_sliding);
-    lever = static_cast<double>(wide_lever);
-    ordinary = moderate(pivoting) && moderate(sliding) && moderate(lever);
+    lever = static_cast<double>(1 / (one_sheet ? mu * pade_fold(r) : mu));
+    const long double sliding_share = wide_sliding / wide_pivoting / lever;
+    flat = sliding_share < flat_below;
+    if (flat) return;
+    ordinary = moderate(wide_pivoting) && moderate(wide_sliding) && moderate(lever);
+    unit = ordinary ? 1 : wide_pivoting;
+    const PanelScales scales{sliding_share, unit / wide_pivoting};
+    storage = one_sheet ? pade_panels(r, 1 / (mu * lever), scales) : law_panels(law, system.r(), scales);
+    panels = storage.data();
   }
+
+  /// The stop time is P + S then but for less than the last bit, and `lowest` would not be below it.
+  static constexpr long double flat_below = 0x1p-61L;
 
   std::vector<Panel> storage;
 };
@@ -62,25 +67,26 @@ double StopTimeTable::careful(double u0, double v0) const {
   if (!std::isfinite(u0) || !std::isfinite(v0) || v0 < 0) return std::numeric_limits<double>::quiet_NaN();
   const long double u = std::abs(u0);
   const long double v = v0;
-  if (u == 0 && v == 0) return 0;
-  const long double w = u / wide_lever;
-  long double numerator = w;
+  if (flat || (u == 0 && v == 0)) return static_cast<double>(wide_pivoting * u + wide_sliding * v);
+  const long double levered = lever * v;
+  const long double total = levered + u;
+  long double numerator = u;
   std::size_t sheet = 0;
   if (!one_sheet) {
-    const long double smaller = std::min(v, w);
-    const long double distance = std::abs(v - w);
+    const long double smaller = std::min(levered, u);
+    const long double distance = std::abs(levered - u);
     const bool near = distance < smaller;
+    const bool above = levered > u;
     numerator = near ? distance : smaller;
-    sheet = near ? (v > w ? Panels::above_one : Panels::below_one) : (v > w ? Panels::fast : Panels::slow);
+    sheet = near ? (above ? Panels::above_one : Panels::below_one) : (above ? Panels::fast : Panels::slow);
   }
-  const double y = static_cast<double>(numerator / (v + w)) + Panels::lowest;
+  const double y = static_cast<double>(numerator / total) + Panels::lowest;
   const std::size_t index = Panels::index(std::bit_cast<std::uint64_t>(y));
-  const double t = y - Panels::span(index).left;
-  double g = 0;
+  const long double t = y - Panels::span(index).left;
+  long double sum = 0;
   const Panel& panel = panels[sheet * Panels::per_sheet + index];
-  for (int n = Panels::terms; n-- > 0;) g = g * t + panel.of_power(n);
-  const long double sum = wide_pivoting * u + wide_sliding * v;
-  return static_cast<double>(sum + sum * g);
+  for (int n = Panels::terms; n-- > 0;) sum = sum * t + panel.of_power(n);
+  return static_cast<double>(total * sum * unit);
 }
 
 std::span<const StopTimeKernel> stop_time_kernels() {

@@ -11,20 +11,21 @@ namespace contensou::reduction {
 struct StopTimeTable;
 
 /// The stop times of one system, for very many starts: at fixed law, mu and body
-///   tau* = (P + S) (1 + g(k0)),  P = pivoting_limit(u0),  S = sliding_limit(v0),
-/// and g is a smooth function of one variable, small while mu is: a table of polynomials whose panels are the exponent
-/// and four bits of the mantissa of a fraction in k0, so that an array costs some half as much again as reading and
-/// writing it.
+///   tau* = D G(y),  D = |u0| + lever v0,  y = |u0|/D,
+/// with a lever that belongs to the system, and G is a smooth function of one variable: a table of polynomials whose
+/// panels are the exponent and four bits of the mantissa of a fraction in k0, so that an array costs some half as much
+/// again as reading and writing it.
 ///
 /// A start (u0, v0) is as for stop_time: u0 of either sign, v0 >= 0, any size: a result that a double cannot hold is
 /// infinity. An array may hold others, too, and each that stop_time rejects becomes NaN.
 ///
 /// Source    README (R18) to (R20): Taylor series for Pade's law and r <= 7/4, any ball with mu <= 1 among them;
 ///           collocation for other laws, smooth on either side of k = 1, and every r.
-/// Accuracy  2 eps relative for the laws of laws.hpp and every r; a law with kinks or noise, somewhat more.
+/// Accuracy  Pade 4 ulp for mu <= 3; the other laws of laws.hpp 4 eps relative, every r; a law with kinks or noise,
+///           somewhat more.
 /// Cost      built in 1 ms (Pade, r <= 7/4), 20 ms (others).
-/// Bits      the same for one start and for many, however they are cut into arrays and threads; within 1 ulp between
-///           processors of different instruction sets (baseline, AVX2 with FMA, AVX-512: chosen at run time).
+/// Bits      the same for one start and for many, however they are cut into arrays and threads, and on processors of
+///           different instruction sets (baseline, AVX2 with FMA, AVX-512: chosen at run time).
 class StopTimeProfile {
  public:
   /// Assumes  of the law what terminal_ratio does
