@@ -109,7 +109,7 @@ class Line {
 
   Pairs polynomials(std::size_t i) const {
     const double* panels[width];
-    for (int lane = 0; lane < width; ++lane) panels[lane] = reinterpret_cast<const double*>(panel_[i + lane]);
+    for (std::size_t lane = 0; lane < width; ++lane) panels[lane] = reinterpret_cast<const double*>(panel_[i + lane]);
     return pairs(panels, t_ + i);
   }
 
