@@ -135,17 +135,19 @@ template <bool one_sheet>
   Line line;
   const Scales scales(table);
   for (std::size_t i = 0; i < count; i += width) {
-    Vector some_u0 = every(1), some_v0 = every(1);
     const std::size_t lanes = count - i < width ? count - i : width;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    Vector some_u0 = every(u0[i]), some_v0 = every(v0[i * v0_step]);
+    for (std::size_t lane = 1; lane < lanes; ++lane) {
       some_u0[lane] = u0[i + lane];
       some_v0[lane] = v0[(i + lane) * v0_step];
     }
     Care care;
     Fractions fractions = line.divide<one_sheet>(scales, some_u0, some_v0, 0, care);
     const Bits odd = care.needed();
-    for (int lane = 0; lane < width; ++lane) {
-      if (odd[lane] >> 63 != 0) fractions.y[lane] = 1;  // any y that there is a panel for
+    if (any_negative(odd)) {
+      for (int lane = 0; lane < width; ++lane) {
+        if (odd[lane] >> 63 != 0) fractions.y[lane] = 1;  // any y that there is a panel for
+      }
     }
     line.place(scales, fractions, 0);
     const Vector some_tau = line.finish(line.polynomials(0), 0);
@@ -278,8 +280,11 @@ void run_sheets(const StopTimeTable& table, const StopTimeJob& job) {
 }
 
 inline void run(const StopTimeTable& table, const StopTimeJob& job) {
-  if (job.size == 0) return;
-  table.one_sheet ? run_sheets<true>(table, job) : run_sheets<false>(table, job);
+  if (job.size < Block::size) {
+    (table.one_sheet ? run_few<true> : run_few<false>)(table, job.u0, job.v0, job.v0_step, job.tau, job.size);
+  } else {
+    table.one_sheet ? run_sheets<true>(table, job) : run_sheets<false>(table, job);
+  }
 }
 
 }  // namespace
