@@ -52,12 +52,12 @@ struct StopTimePanels {
 
 /// A profile as its kernels read it.
 struct StopTimeTable {
-  double lever;
+  double lever;    ///< of D
   bool one_sheet;  ///< and not four
   bool ordinary;   ///< what it holds is so far from the ends of the double range that only u0 and v0 can lead there
   bool flat;       ///< tau* is P + S to the last bit: there are no panels
   const StopTimePanels::Panel* panels;            ///< of G/unit; the unit is 1 if the table is ordinary
-  long double wide_pivoting, wide_sliding, unit;  ///< the first two P/|u0| and S/v0: for careful()
+  long double wide_pivoting, wide_sliding, unit;  ///< P/|u0|, S/v0 and that unit, for careful()
 
   /// D needs no care from 2^-511 to here: half of all exponents, which one addition tells.
   static constexpr double ordinary_below = 0x1p513;

@@ -61,9 +61,6 @@ class Times : public benchmark::BenchmarkReporter {
   std::map<std::string, double> least_;
 };
 
-/// How often what memory decides is measured: other users of the machine are in it, too.
-constexpr int many = 15;
-
 /// Registers a call to be measured.
 void measure(const std::string& name, std::function<void()> call, double seconds = 0.03, int repetitions = 5) {
   benchmark::RegisterBenchmark(name.c_str(),
@@ -73,6 +70,11 @@ void measure(const std::string& name, std::function<void()> call, double seconds
       ->MinTime(seconds)
       ->Repetitions(repetitions)
       ->UseRealTime();
+}
+
+/// What memory decides, and others use, too: more often.
+void measure_in_memory(const std::string& name, std::function<void()> call) {
+  measure(name, std::move(call), 0.03, 15);
 }
 
 /// A start of tests/reference/stop_pade.csv, with its stop time to 40 digits.
@@ -126,41 +128,38 @@ class Array {
   std::size_t size_;
 };
 
-#ifdef __SSE2__
-[[gnu::target("avx")]] void stream_in_fours(const double* u, const double* v, double* out, std::size_t size) {
-  for (std::size_t i = 0; i < size; i += 4) {
-    _mm256_stream_pd(out + i, _mm256_add_pd(_mm256_load_pd(u + i), _mm256_load_pd(v + i)));
-  }
-}
+/// out = u + v with stores past the caches: what reading and writing alone cost.
+using BareLoop = void(const double* u, const double* v, double* out, std::size_t size);
 
-void stream(const double* u, const double* v, double* out, std::size_t size) {
+#ifdef __SSE2__
+void bare_loop(const double* u, const double* v, double* out, std::size_t size) {
   for (std::size_t i = 0; i < size; i += 2) {
     _mm_stream_pd(out + i, _mm_add_pd(_mm_load_pd(u + i), _mm_load_pd(v + i)));
   }
+  _mm_sfence();
+}
+
+[[gnu::target("avx")]] void wide_loop(const double* u, const double* v, double* out, std::size_t size) {
+  for (std::size_t i = 0; i < size; i += 4) {
+    _mm256_stream_pd(out + i, _mm256_add_pd(_mm256_load_pd(u + i), _mm256_load_pd(v + i)));
+  }
+  _mm_sfence();
 }
 #else
-void stream(const double* u, const double* v, double* out, std::size_t size) {
+void bare_loop(const double* u, const double* v, double* out, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) out[i] = u[i] + v[i];
 }
 #endif
 
-/// out = u + v with stores past the caches, 16 bytes at a time or 32: what reading and writing alone cost.
-void bandwidth_loop(std::span<const double> u, std::span<const double> v, std::span<double> out, unsigned threads,
-                    bool in_fours) {
-  const auto part = [&](std::size_t begin, std::size_t size) {
-#ifdef __SSE2__
-    (in_fours ? stream_in_fours : stream)(&u[begin], &v[begin], &out[begin], size);
-    _mm_sfence();
-#else
-    stream(&u[begin], &v[begin], &out[begin], size);
-#endif
-  };
+void run_shared(BareLoop* loop, std::span<const double> u, std::span<const double> v, std::span<double> out,
+                unsigned threads) {
   const std::size_t share = out.size() / threads / 64 * 64;
   std::vector<std::jthread> others;
   for (unsigned i = 1; i < threads; ++i) {
-    others.emplace_back(part, i * share, (i + 1 == threads ? out.size() : (i + 1) * share) - i * share);
+    const std::size_t begin = i * share, end = i + 1 == threads ? out.size() : begin + share;
+    others.emplace_back(loop, &u[begin], &v[begin], &out[begin], end - begin);
   }
-  part(0, threads == 1 ? out.size() : share);
+  loop(u.data(), v.data(), out.data(), threads == 1 ? out.size() : share);
 }
 
 std::string processor() {
@@ -222,27 +221,20 @@ int main() {
   const StopTimeProfile pade(ReducedSystem(PadeLaw{}, 0.1)), hertz(ReducedSystem(HertzLaw{}, 0.1));
   for (unsigned threads = 1; threads <= cores; ++threads) {
     const std::string on = threads == 1 ? "" : fmt::format(" on {} cores", threads);
-    measure(
-        "loop" + on, [&, threads] { bandwidth_loop(u.span(), v.span(), tau.span(), threads, false); }, 0.03, many);
-    measure(
-        "pade" + on, [&, threads] { pade.evaluate(u.span(), v.span(), tau.span(), threads); }, 0.03, many);
-    measure(
-        "hertz" + on, [&, threads] { hertz.evaluate(u.span(), v.span(), tau.span(), threads); }, 0.03, many);
-    measure(
-        "row" + on, [&, threads] { pade.evaluate_row(u.span(), 1.0, tau.span(), threads); }, 0.03, many);
+    measure_in_memory("loop" + on, [&, threads] { run_shared(bare_loop, u.span(), v.span(), tau.span(), threads); });
+    measure_in_memory("pade" + on, [&, threads] { pade.evaluate(u.span(), v.span(), tau.span(), threads); });
+    measure_in_memory("hertz" + on, [&, threads] { hertz.evaluate(u.span(), v.span(), tau.span(), threads); });
+    measure_in_memory("row" + on, [&, threads] { pade.evaluate_row(u.span(), 1.0, tau.span(), threads); });
 #ifdef __SSE2__
     if (!__builtin_cpu_supports("avx")) continue;
-    measure(
-        "wide loop" + on, [&, threads] { bandwidth_loop(u.span(), v.span(), tau.span(), threads, true); }, 0.03, many);
+    measure_in_memory("wide loop" + on,
+                      [&, threads] { run_shared(wide_loop, u.span(), v.span(), tau.span(), threads); });
 #endif
   }
   for (const StopTimeKernel& kernel : stop_time_kernels()) {
-    measure(
-        fmt::format("kernel {}", kernel.name),
-        [&] {
-          kernel.run(pade.table(), {u.data(), v.data(), 1, tau.data(), points, true});
-        },
-        0.03, many);
+    measure_in_memory(fmt::format("kernel {}", kernel.name), [&] {
+      kernel.run(pade.table(), {u.data(), v.data(), 1, tau.data(), points, true});
+    });
   }
   constexpr std::size_t cached = 2048;
   measure("in cache", [&] {

@@ -84,6 +84,13 @@ std::vector<double> evaluated(const StopTimeProfile& profile, const Starts& star
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
+/// How many places of two arrays of one size differ.
+std::size_t differ(const std::vector<double>& a, const std::vector<double>& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += !same_bits(a[i], b[i]);
+  return count;
+}
+
 WorstCase over_table(const char* table, const Law& law) {
   WorstCase worst(table);
   std::map<double, StopTimeProfile> profiles;
@@ -152,12 +159,7 @@ TEST_CASE("one start and many, cut and shared in any way, have the same bits", "
     const StopTimeProfile profile(ReducedSystem(law, mu));
     const Starts starts = random_starts(mu, (std::size_t{1} << 18) + 77);  // large enough for streaming stores
     const auto whole = evaluated(profile, starts);
-    const auto differ = [&](const std::vector<double>& tau) {
-      std::size_t count = 0;
-      for (std::size_t i = 0; i < tau.size(); ++i) count += !same_bits(tau[i], whole[i]);
-      return count;
-    };
-    for (unsigned threads : {2U, 3U, 16U}) CHECK(differ(evaluated(profile, starts, threads)) == 0);
+    for (unsigned threads : {2U, 3U, 16U}) CHECK(differ(evaluated(profile, starts, threads), whole) == 0);
 
     std::vector<double> pieces(whole.size());
     std::size_t begin = 0;
@@ -166,13 +168,13 @@ TEST_CASE("one start and many, cut and shared in any way, have the same bits", "
       profile.evaluate(std::span(starts.u0).subspan(begin, size), std::span(starts.v0).subspan(begin, size),
                        std::span(pieces).subspan(begin, size));
     }
-    CHECK(differ(pieces) == 0);
+    CHECK(differ(pieces, whole) == 0);
 
     for (bool over_u0 : {true, false}) {
       std::vector<double> in_place = over_u0 ? starts.u0 : starts.v0;
       profile.evaluate(over_u0 ? std::span<const double>(in_place) : starts.u0,
                        over_u0 ? starts.v0 : std::span<const double>(in_place), in_place, 2);
-      CHECK(differ(in_place) == 0);
+      CHECK(differ(in_place, whole) == 0);
     }
 
     std::vector<double> row(300);
@@ -200,11 +202,6 @@ TEST_CASE("every instruction set makes the same bits", "[stop_time_profile][inva
         std::vector<double> tau(size + 1);  // one double off what vectors like
         kernel.run(profile.table(), {starts.u0.data(), v0, v0_step, tau.data() + 1, size, streaming});
         return tau;
-      };
-      const auto differ = [&](const std::vector<double>& a, const std::vector<double>& b) {
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < a.size(); ++i) count += !same_bits(a[i], b[i]);
-        return count;
       };
       const StopTimeKernel& baseline = stop_time_kernels().front();
       const auto of_starts = run(baseline, starts.v0.data(), 1, false);
