@@ -7,7 +7,7 @@ set(forbidden_reduction "portraits|si|program")
 set(forbidden_portraits "si|program")
 
 set(faults "")
-set(odeint_allowed reduction/direct_motion.cpp reduction/regularised_motion.cpp src/si/integrated_motion.cpp)
+set(odeint_allowed reduction/steppers/direct_motion.cpp reduction/steppers/regularised_motion.cpp src/si/integrated_motion.cpp)
 set(read 0)
 set(gnuplot_files "")
 set(odeint_files "")

@@ -35,7 +35,7 @@
 #include "contensou/si/uncoupled_motion.hpp"
 #include "contensou/si/whole_motion.hpp"
 #include "javascript.hpp"
-#include "program/portrait_question.hpp"
+#include "program/options/portrait_question.hpp"
 
 namespace contensou::page {
 

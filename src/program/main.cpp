@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "contensou/si/nearest_name.hpp"
 #include "contensou/si/run_file.hpp"
-#include "output.hpp"
+#include "output/output.hpp"
 
 namespace contensou::program {
 

@@ -22,14 +22,13 @@
 
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/orbit.hpp"
-#include "contensou/reduction/orbit_family.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/stop_time_profile.hpp"
 #include "reference_table.hpp"
 #include "rivals.hpp"
-#include "stop_time_kernel.hpp"
+#include "stop_times/stop_time_kernel.hpp"
 
 #ifdef __SSE2__
 #include <immintrin.h>
@@ -269,12 +268,6 @@ int main() {
   std::vector<Orbit> orbits;
   const ReducedSystem pool(PadeLaw{}, 0.1);
   for (int i = 0; i < 40; ++i) orbits.emplace_back(pool, State{1, 0.1 * std::exp(0.2 * (i - 20))});
-  std::vector<State> family_starts;
-  for (const Orbit& orbit : orbits) family_starts.push_back({orbit.at_time(0).u, orbit.at_time(0).v});
-  measure("orbits", [&] {
-    const OrbitFamily family(pool, family_starts, 400);
-    for (const State& start : family_starts) benchmark::DoNotOptimize(family.orbit(start));
-  });
   measure("orbits by time", [&] {
     for (const Orbit& orbit : orbits) benchmark::DoNotOptimize(orbit.sample(400));
   });

@@ -1,4 +1,4 @@
-#include "dilogarithm.hpp"
+#include "numerics/dilogarithm.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "gauss_function.hpp"
+#include "numerics/gauss_function.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "legendre_series.hpp"
+#include "numerics/legendre_series.hpp"
 
 #include <cmath>
 

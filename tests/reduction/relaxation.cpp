@@ -1,4 +1,4 @@
-#include "relaxation.hpp"
+#include "numerics/relaxation.hpp"
 
 #include <cmath>
 

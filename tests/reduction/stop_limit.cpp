@@ -1,4 +1,4 @@
-#include "stop_limit.hpp"
+#include "steppers/stop_limit.hpp"
 
 #include <cmath>
 #include <limits>

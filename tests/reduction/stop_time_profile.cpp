@@ -21,20 +21,13 @@
 #include "contensou/reduction/quadrature_curve.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "reference_table.hpp"
-#include "stop_time_kernel.hpp"
+#include "stop_times/stop_time_kernel.hpp"
 #include "stops_above_one.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;
 using namespace contensou::tests;
 using Catch::Matchers::Contains;
-
-#ifdef CONTENSOU_X86_64
-namespace contensou::reduction {
-/// stop_time_avx512_in_halves.cpp
-StopTimeLoop run_avx512_in_halves;
-}  // namespace contensou::reduction
-#endif
 
 namespace {
 
@@ -51,14 +44,9 @@ struct Starts {
   std::vector<double> u0, v0;
 };
 
-/// Those of this processor, and that of AVX-512 in halves where AVX2 is.
 std::vector<StopTimeKernel> kernels() {
   const auto own = stop_time_kernels();
-  std::vector<StopTimeKernel> all(own.begin(), own.end());
-#ifdef CONTENSOU_X86_64
-  if (all.size() > 1) all.push_back({"AVX-512 in halves", run_avx512_in_halves});
-#endif
-  return all;
+  return {own.begin(), own.end()};
 }
 
 /// Starts that are all alike to a profile with one sheet or four: every k0 that a profile distinguishes, and beyond.

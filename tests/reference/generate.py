@@ -957,42 +957,6 @@ def table_bodies():
 # Special functions of the small-mu estimates
 # ---------------------------------------------------------------------------------------------
 
-def omega_newton(x):
-    """w + ln w = x by Newton, in ln w where w is small."""
-    if x < 1:
-        y = x
-        for _ in range(400):
-            step = (y + mp.exp(y) - x) / (1 + mp.exp(y))
-            y -= step
-            if abs(step) < mpf(10) ** (3 - mp.dps) * max(1, abs(y)):
-                break
-        return mp.exp(y)
-    w = mpf(x) - mp.log(x) + mpf(1) / 2
-    for _ in range(400):
-        step = (w + mp.log(w) - x) * w / (1 + w)
-        w -= step
-        if abs(step) < mpf(10) ** (3 - mp.dps) * w:
-            break
-    return w
-
-
-def omega_lambert(x):
-    """W(exp(x)); mpmath's exponents have no bound that matters while x has few digits."""
-    return mp.lambertw(mp.exp(x)) if x < 10 ** 6 else mp.findroot(lambda w: w + mp.log(w) - x, x - mp.log(x))
-
-
-def table_wright_omega():
-    """w + ln w = x."""
-    yield ["x", "x_hex", "omega", "digits"]
-    points = [-700.0, -300.25, -41.0, -40.0, -39.5, -20.0, -5.0, -1.5, -1.0, -0.5, -0.1, -1e-10, 0.0, 1e-10, 0.1, 0.5,
-              1.0, 1.5, 2.0, 2.718281828459045, 3.7, 5.0, 10.0, 33.3, 100.0, 331.1, 499.99, 500.0, 500.5, 700.0,
-              750.125, 1e3, 1e5, 1e9, 1e15, 1e100, 1e308]
-    for x in points:
-        with mp.workdps(mp.dps + 20 + max(0, int(mp.log10(abs(x) + 1)) if abs(x) < 1e20 else 0)):
-            first, second = omega_lambert(mpf(x)), omega_newton(mpf(x))
-        yield exact(x) + [text(first), check([(first, second)], "omega(%r)" % x)]
-
-
 def dilogarithm_integral(ln_z):
     """Minus the integral of t/(1 - exp(-t)) over (0, ln(1 + z))."""
     top = mp.log1p(mp.exp(ln_z))
@@ -1019,7 +983,6 @@ TABLES = {
     "trajectory_pade": table_trajectory_pade,
     "trajectory_hertz": table_trajectory_hertz,
     "bodies": table_bodies,
-    "wright_omega": table_wright_omega,
     "dilogarithm": table_dilogarithm,
 }
 

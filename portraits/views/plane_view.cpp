@@ -1,0 +1,196 @@
+// The views whose axes are the two speeds: plane, patch, log, and the plane beside (u, ln k).
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "views/portrait_views.hpp"
+
+namespace contensou::portraits {
+
+namespace {
+
+using Copies = std::vector<PortraitPanel::Copy>;
+
+std::vector<double> stop_times(const PhasePortrait& portrait) {
+  std::vector<double> times;
+  for (const Isochrone& isochrone : portrait.isochrones) {
+    if (times.empty() || isochrone.tau_stop > times.back()) times.push_back(isochrone.tau_stop);
+  }
+  return times;
+}
+
+Copies seeded(const PhasePortrait& portrait) {
+  Copies copies;
+  for (const PortraitOrbit& orbit : portrait.orbits) copies.push_back({orbit});
+  return copies;
+}
+
+double k_of_ray(const PhasePortrait& portrait) {
+  return portrait.plane.tangent == reduction::InvariantDirection::ray ? portrait.plane.terminal.k : 0;
+}
+
+/// The half-plane with the sides of the window in units of u and v.
+Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
+  Panel panel;
+  const auto [U, V] = drawing.portrait.window;
+  panel.x = {drawing.speed(name), -unit * U, unit * U, false, {}};
+  panel.y = {drawing.speed("{/:Italic v}"), 0, V, false, {}};
+  PortraitPanel layers(drawing, std::move(panel), [unit](const Instant& at) { return Point{unit * at.u, at.v}; });
+  layers.add_orbits(seeded);
+  layers.add_isochrones(stop_times(drawing.portrait));
+  for (const PhasePortrait& rival : drawing.portrait.against) {
+    layers.add_rival_isochrones(stop_times(drawing.portrait), rival);
+  }
+  layers.add_field([unit](Point at) { return reduction::State{at.x / unit, at.y}; });
+  const double x = unit * U;
+  const double slope = k_of_ray(drawing.portrait) * drawing.portrait.system.mu() / unit;  // v over x on the ray
+  std::vector<Polyline> ray;
+  if (slope > 0) ray = {{{0, 0}, {x, slope * x}}, {{0, 0}, {-x, slope * x}}};
+  layers.add_invariant({{{-x, 0}, {x, 0}}, {{0, V}, {0, 0}}}, std::move(ray));
+  layers.add_highlights();
+  return std::move(layers).finished();
+}
+
+/// Copies of the whole curves that pass, at a given ln k, through evenly spaced u of both signs.
+void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double farthest, int count) {
+  if (!reaches(curve, ln_k)) return;
+  const double u = at_log_ratio(curve, ln_k).u;
+  for (int i = 0; i < count; ++i) {
+    for (double sign : {1.0, -1.0}) copies.push_back({curve, (i + 0.5) / count * farthest / u, sign});
+  }
+}
+
+/// How orbits near the origin: (u, ln k), where even a contact of order 10^5 with an axis has a shape.
+Panel contact_panel(const Drawing& drawing) {
+  using reduction::InvariantDirection;
+  const PhasePortrait& portrait = drawing.portrait;
+  const double U = portrait.window.u;
+  const double order = portrait.plane.contact_order;
+  constexpr double shrinks = 20;  // u falls to this share
+  constexpr int per_side = 12;
+  constexpr double reach = 3;
+  Panel panel;
+  panel.x = {drawing.speed("{/:Italic u} = {/:Italic R ω_z}"), -U, U, false, {}};
+  panel.y = {"ln {/:Italic k},   {/:Italic k = v}/({/:Italic μ}|{/:Italic u}|)", 0, 0, false, {}};
+  const bool pivoting = portrait.plane.tangent == InvariantDirection::pivoting;
+  // Where orbits are seeded: at the top, or around the middle.
+  const double top = std::log(portrait.window.v / (portrait.system.mu() * U));
+  const double middle = portrait.plane.tangent == InvariantDirection::ray ? std::log(portrait.plane.terminal.k) : 2;
+  if (pivoting) {
+    const double depth = std::max(order * std::log(shrinks), 8.0);
+    panel.title = fmt::format("orbits touch the axis {{/:Italic v}} = 0:  {{/:Italic k}} ∝ |{{/:Italic u}}|^{{{}}}",
+                              number(std::stod(fmt::format("{:.4g}", order))));
+    panel.y.low = top - depth;
+    panel.y.high = top + 0.02 * depth;
+  } else {
+    panel.title = portrait.plane.tangent == InvariantDirection::ray
+                      ? "orbits touch the ray {/:Italic k} = {/:Italic k}*"
+                      : "orbits touch the axis {/:Italic u} = 0";
+    panel.y.low = middle - reach;
+    panel.y.high = middle + reach;
+  }
+  const auto copies_of = [=](const PhasePortrait& of) {
+    Copies copies;
+    for (const PortraitOrbit& curve : of.curves) {
+      if (!pivoting) {
+        const double side = curve.ln_k[0] > middle ? 1 : -1;
+        add_evenly(copies, curve, middle + side * reach, U, per_side);
+        add_evenly(copies, curve, middle + side * 0.3 * reach, 3 * U, per_side);
+        continue;
+      }
+      add_evenly(copies, curve, top, U, per_side);
+      if (!reaches(curve, top)) continue;
+      // Orbits that enter from the sides, evenly down to the bottom.
+      const double u = at_log_ratio(curve, top).u;
+      for (int i = 1; i <= per_side; ++i) {
+        const double factor = std::pow(shrinks, static_cast<double>(i) / (per_side + 0.5));
+        for (double sign : {1.0, -1.0}) copies.push_back({curve, factor * U / u, sign});
+      }
+    }
+    return copies;
+  };
+  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // -infinity is below the border
+  PortraitPanel layers(drawing, std::move(panel), [low](const Instant& at) {
+    return Point{at.u, std::clamp(at.ln_k, low, 1e300)};
+  });
+  layers.set_arrows(0.3, 0.06);
+  layers.add_orbits(copies_of);
+  layers.add_highlights();
+  std::vector<Polyline> ray;
+  if (k_of_ray(portrait) > 0) ray = {{{-U, std::log(k_of_ray(portrait))}, {U, std::log(k_of_ray(portrait))}}};
+  layers.add_invariant({}, std::move(ray));
+  return std::move(layers).finished();
+}
+
+}  // namespace
+
+std::vector<Panel> plane_view(const Drawing& drawing) {
+  return {half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}")};
+}
+
+std::vector<Panel> patch_view(const Drawing& drawing) {
+  return {half_plane(drawing, drawing.portrait.system.mu(), "{/:Italic μ u},  rim speed of the patch")};
+}
+
+std::vector<Panel> pair_view(const Drawing& drawing) {
+  std::vector<Panel> panels{half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}"), contact_panel(drawing)};
+  panels.front().title = "the plane of Zh98, Fig. 4";
+  return panels;
+}
+
+std::vector<Panel> log_view(const Drawing& drawing) {
+  using reduction::InvariantDirection;
+  const PhasePortrait& portrait = drawing.portrait;
+  const double ln_mu = std::log(portrait.system.mu());
+  const double corner = std::log(portrait.window.v);
+  constexpr double shrinks = 3;  // e-folds of the speed that outlives
+  constexpr double above = 3;    // from which k = 1 is seen
+  const double slope = 1 + portrait.plane.contact_order;
+  const bool spins_last = portrait.plane.tangent != InvariantDirection::sliding;
+  const double x_range = spins_last ? shrinks + 1 : shrinks * slope + above;
+  const double y_range = spins_last ? shrinks * slope + above : shrinks + 1;
+  const double k_star = k_of_ray(portrait);
+  Panel panel;
+  panel.x = {"ln {/:Italic μ}|{/:Italic u}|", corner - x_range, corner, false, {}};
+  panel.y = {
+      "ln {/:Italic v}", corner + (spins_last ? above : 1) - y_range, corner + (spins_last ? above : 1), false, {}};
+  if (k_star > 0) {
+    panel.x.low = corner - 6;
+    panel.y = {"ln {/:Italic v}", corner - 6 + std::log(k_star), corner + 1 + std::log(k_star), false, {}};
+  }
+  // Minus infinity is a point far beyond the borders.
+  const Point nowhere{panel.x.low - 10 * x_range, panel.y.low - 10 * y_range};
+  PortraitPanel layers(drawing, panel, [=](const Instant& at) {
+    return Point{at.u == 0 ? nowhere.x : ln_mu + std::log(std::abs(at.u)), std::max(at.ln_v, nowhere.y)};
+  });
+  layers.add_orbits([&](const PhasePortrait& of) {
+    // Translates along the diagonal, evenly across the panel.
+    constexpr int count = 14;
+    const double ray = k_of_ray(of) > 0 ? std::log(k_of_ray(of)) : 0;
+    Copies copies;
+    for (const PortraitOrbit& curve : of.curves) {
+      const double ln_k = k_of_ray(of) > 0 ? ray + (curve.ln_k[0] > ray ? 1 : -1) : 0;
+      if (!reaches(curve, ln_k)) continue;
+      const double w = ln_mu + std::log(at_log_ratio(curve, ln_k).u);
+      const double first = spins_last && k_star == 0 ? panel.x.low : panel.x.low - 6;
+      const double last = spins_last && k_star == 0 ? panel.x.high + shrinks : panel.x.high + 6;
+      for (int i = 0; i < count; ++i)
+        copies.push_back({curve, std::exp(first + (i + 0.5) * (last - first) / count - w)});
+    }
+    return copies;
+  });
+  constexpr double squeezed = 200;  // from which the diagonal is the upper border
+  if (x_range < squeezed && y_range < squeezed)
+    layers.panel().lines.push_back({{{{panel.y.low, panel.y.low}, {panel.y.high, panel.y.high}}},
+                                    {drawing.palette.isochrone, 1.1, true},
+                                    "{/:Italic k} = 1"});
+  std::vector<Polyline> ray;
+  const double shift = k_star > 0 ? std::log(k_star) : 0;
+  if (k_star > 0) ray = {{{panel.y.low - shift, panel.y.low}, {panel.y.high - shift, panel.y.high}}};
+  layers.add_invariant({}, std::move(ray));
+  layers.add_highlights();
+  return {std::move(layers).finished()};
+}
+
+}  // namespace contensou::portraits

@@ -1,0 +1,84 @@
+// Canonical coordinates: the symmetry (u, v) -> (c u, c v) moves p = ln v alone, so orbits are translates of one curve.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "views/portrait_views.hpp"
+
+namespace contensou::portraits {
+
+namespace {
+
+constexpr double half_height = 5;  // of the panels, in p
+constexpr double step = 0.8;       // between translates, or more where k hardly changes while p does
+constexpr int most = 24;           // translates of a curve
+
+/// One panel: translates of each curve, with the arrow of the symmetry.
+Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
+                 double ray_at) {
+  const double middle = std::log(drawing.portrait.window.v);
+  axes.y = {"{/:Italic p} = ln {/:Italic v}", middle - half_height, middle + half_height, false, {}};
+  const double below = middle - 100 * half_height;
+  PortraitPanel layers(drawing, std::move(axes), [abscissa, below](const Instant& at) {
+    return Point{abscissa(at.ln_k), std::max(at.ln_v, below)};
+  });
+  layers.add_orbits([&](const PhasePortrait& of) {
+    std::vector<PortraitPanel::Copy> copies;
+    const double ray = of.plane.tangent == reduction::InvariantDirection::ray ? std::log(of.plane.terminal.k) : 0;
+    for (const PortraitOrbit& curve : of.curves) {
+      const Instant at = at_log_ratio(curve, ray + (curve.ln_k[0] > ray ? 1 : -1));
+      // From the one that only touches the lower border to the one that only touches the upper, but next to an axis or
+      // a ray, which no number of them would reach.
+      const Axis& x = layers.panel().x;
+      const double margin = 0.02 * (x.high - x.low);
+      double rise = 0, fall = 0;
+      for (Eigen::Index i = 0; i < curve.rows(); ++i) {
+        const double there = abscissa(curve.ln_k[i]);
+        const bool seen = there >= x.low + margin && there <= x.high - margin;
+        if (!seen || std::abs(there - ray_at) < margin) continue;
+        rise = std::max(rise, curve.ln_v[i] - at.ln_v);
+        fall = std::max(fall, at.ln_v - curve.ln_v[i]);
+      }
+      const double apart = std::max(step, (2 * half_height + rise + fall) / most);
+      const int first = -static_cast<int>(std::ceil((half_height + rise) / apart));
+      const int last = static_cast<int>(std::ceil((half_height + fall) / apart));
+      for (int i = first; i <= last; ++i) copies.push_back({curve, std::exp(middle + i * apart - at.ln_v)});
+    }
+    return copies;
+  });
+  const Axis& y = layers.panel().y;
+  if (std::isfinite(ray_at)) layers.add_invariant({}, {{{ray_at, y.low}, {ray_at, y.high}}});
+  layers.add_highlights();
+  // What the symmetry does.
+  Panel panel = std::move(layers).finished();
+  const double x = panel.x.low + 0.82 * (panel.x.high - panel.x.low);
+  const double low = middle - half_height + 0.12 * 2 * half_height, high = low + 2 * step;
+  panel.lines.push_back(
+      {{{{x, low}, {x, high}}}, {drawing.palette.highlight, 2, false}, "symmetry {/:Italic p → p} + ln {/:Italic c}"});
+  panel.arrows.push_back({{{{x, high}, {0, 1}}}, drawing.palette.highlight});
+  return panel;
+}
+
+}  // namespace
+
+std::vector<Panel> similarity_view(const Drawing& drawing) {
+  using reduction::InvariantDirection;
+  const PhasePortrait& portrait = drawing.portrait;
+  const double mu = portrait.system.mu();
+  const double k_star = portrait.plane.tangent == InvariantDirection::ray ? portrait.plane.terminal.k
+                                                                          : std::numeric_limits<double>::infinity();
+  const double centre = std::isfinite(k_star) ? std::log(k_star) : 0;
+  Panel by_q, by_ratio;
+  by_q.title = "{/:Italic q = v}/{/:Italic u}: the symmetry moves {/:Italic p} alone";
+  by_q.x = {"{/:Italic q = μk}", 0, mu * (std::isfinite(k_star) ? 3 * k_star : 4), false, {}};
+  by_ratio.title = "the same against ln {/:Italic k}";
+  by_ratio.x = {"ln {/:Italic k}", centre - 4, centre + 4, false, {}};
+  std::vector<Panel> panels;
+  panels.push_back(translates(
+      drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); }, mu * k_star));
+  panels.push_back(translates(
+      drawing, std::move(by_ratio), [](double ln_k) { return std::max(ln_k, -1e3); }, std::log(k_star)));
+  return panels;
+}
+
+}  // namespace contensou::portraits

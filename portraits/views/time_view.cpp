@@ -1,0 +1,106 @@
+// u, v and k against the share of the stop time that has passed: by scaling, only k at the start matters.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "views/portrait_views.hpp"
+
+namespace contensou::portraits {
+
+namespace {
+
+/// A motion from one ratio, every quantity over its start.
+struct Course {
+  Polyline u, v, ln_k;
+};
+
+Course course(const PortraitOrbit& orbit, const Instant& start, double deepest) {
+  Course course{{{0, 1}}, {{0, 1}}, {{0, start.ln_k}}};
+  for (Eigen::Index i = 0; i < orbit.rows(); ++i) {
+    if (orbit.tau_left[i] >= start.tau_left) continue;
+    const double passed = 1 - orbit.tau_left[i] / start.tau_left;
+    course.u.push_back({passed, orbit.u[i] / start.u});
+    course.v.push_back({passed, orbit.v[i] / start.v});
+    course.ln_k.push_back({passed, std::clamp(orbit.ln_k[i], -deepest, deepest)});
+  }
+  // At rest k is only a limit, that the last rows are next to.
+  course.ln_k.back().y = course.ln_k[course.ln_k.size() - 2].y;
+  return course;
+}
+
+}  // namespace
+
+std::vector<Panel> time_view(const Drawing& drawing) {
+  const PhasePortrait& portrait = drawing.portrait;
+  const reduction::ReducedSystem& system = portrait.system;
+  // Sliding alone takes this many times as long as pivoting alone.
+  constexpr double shares[] = {0.1, 0.3, 1, 3, 10};
+  Panel u, v, k;
+  const std::string time = "{/:Italic τ}/{/:Italic τ}*";
+  u.title = "spinning  {/:Italic u}/{/:Italic u}_0";
+  v.title = "sliding  {/:Italic v}/{/:Italic v}_0";
+  k.title = "ln {/:Italic k}";
+  for (Panel* panel : {&u, &v}) panel->y = {"", 0, 1.04, false, {}};
+  for (Panel* panel : {&u, &v, &k}) panel->x = {time, 0, 1, false, {}};
+  const double limit = portrait.plane.terminal.k;
+  const double highest = std::log(shares[4] / (system.r() * system.law().pivoting_moment()));
+  k.y = {"", 0, 0, false, {}};
+  if (limit == 0) {
+    k.y.low = std::min(-6.0, highest - 10);
+    k.y.high = highest + 1;
+  } else if (std::isinf(limit)) {
+    k.y.low = highest - 6;
+    k.y.high = highest + 6;
+  } else {
+    k.y.low = std::log(limit) - 3;
+    k.y.high = std::log(limit) + 3;
+  }
+
+  const auto add = [&](const Course& line, Stroke stroke, const std::string& legend) {
+    u.lines.push_back({{line.u}, stroke, legend});
+    v.lines.push_back({{line.v}, stroke, legend});
+    k.lines.push_back({{line.ln_k}, stroke, legend});
+  };
+  constexpr double deepest = 60;
+  const auto add_courses = [&](const PhasePortrait& of, auto stroke, auto legend) {
+    for (std::size_t i = 0; i < std::size(shares); ++i) {
+      const double ln_k = std::log(shares[i] / (system.r() * system.law().pivoting_moment()));
+      for (const PortraitOrbit& curve : of.curves) {
+        if (reaches(curve, ln_k)) add(course(curve, at_log_ratio(curve, ln_k), deepest), stroke(i), legend(ln_k));
+      }
+    }
+  };
+  const std::vector<Colour>& times = drawing.palette.times;
+  add_courses(
+      portrait,
+      [&](std::size_t i) {
+        return Stroke{times[i * (times.size() - 1) / (std::size(shares) - 1)], 1.8, false};
+      },
+      [](double ln_k) {
+        return fmt::format("{{/:Italic k}}_0 = {}", number(std::stod(fmt::format("{:.3g}", std::exp(ln_k)))));
+      });
+  for (const PhasePortrait& rival : portrait.against) {
+    add_courses(
+        rival,
+        [&](std::size_t) {
+          return Stroke{drawing.palette.rival, 1.3, true};
+        },
+        [&](double) { return law_legend(rival); });
+  }
+  if (limit > 0 && std::isfinite(limit) && drawing.style.invariant) {
+    k.lines.push_back(
+        {{{{0, std::log(limit)}, {1, std::log(limit)}}}, {drawing.palette.rival, 1.6, true}, "{/:Italic k}*"});
+  }
+  if (!drawing.style.asked) return {std::move(u), std::move(v), std::move(k)};
+  std::vector<const PortraitOrbit*> asked;
+  for (const PortraitOrbit& orbit : portrait.through) asked.push_back(&orbit);
+  if (portrait.highlight) asked.push_back(&*portrait.highlight);
+  for (const PortraitOrbit* orbit : asked) {
+    if (orbit->u[0] == 0 || orbit->v[0] == 0) continue;
+    add(course(*orbit, orbit->at(0), deepest), {drawing.palette.highlight, 2.6, false},
+        portrait.highlight && orbit == &*portrait.highlight ? drawing.caption.highlight : "through the points given");
+  }
+  return {std::move(u), std::move(v), std::move(k)};
+}
+
+}  // namespace contensou::portraits

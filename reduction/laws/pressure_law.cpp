@@ -1,0 +1,88 @@
+#include "contensou/reduction/pressure_law.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <boost/math/special_functions/gamma.hpp>
+
+#include "numerics/gauss_function.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+/// C = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)) = Psi(0).
+long double pivoting_moment(long double p) {
+  return std::sqrt(std::numbers::pi_v<long double>) / 2 * boost::math::tgamma_delta_ratio(p + 2, 0.5L);
+}
+
+/// The smaller speed over the larger, its square, and 1 minus its square without the subtraction.
+struct Ratio {
+  double ratio;
+  double square;
+  double rest;
+};
+
+Ratio ratio(double smaller, double larger) {
+  const double q = smaller / larger;
+  return {q, q * q, (larger - smaller) / larger * (1 + q)};
+}
+
+}  // namespace
+
+struct PressureLaw::Series {
+  explicit Series(long double p)
+      : inner_force(0.5L, -p - 0.5L, 2),
+        inner_moment(0.5L, -p - 1.5L, 1),
+        outer_force(-0.5L, 0.5L, p + 2),
+        outer_moment(0.5L, 0.5L, p + 3),
+        force_slope(static_cast<double>(reduction::pivoting_moment(p) * (p + 1.5L))),
+        pivoting_moment(static_cast<double>(reduction::pivoting_moment(p))),
+        outer_scale(static_cast<double>(1 / (2 * (p + 2)))) {}
+
+  GaussFunction inner_force;
+  GaussFunction inner_moment;
+  GaussFunction outer_force;
+  GaussFunction outer_moment;
+  double force_slope;
+  double pivoting_moment;
+  double outer_scale;
+};
+
+PressureLaw::PressureLaw(double p, std::string name)
+    : p_(p), name_(std::move(name)), series_(std::make_shared<const Series>(p)) {}
+
+PressureLaw::PressureLaw(double p)
+    : PressureLaw(p > -1 && p <= largest_p
+                      ? p
+                      : throw std::domain_error(
+                            fmt::format("PressureLaw: the exponent p must be > -1 and <= {}, got {}", largest_p, p)),
+                  fmt::format("pressure:{}", p)) {}
+
+PressureLaw PressureLaw::uniform() { return {0, "uniform"}; }
+PressureLaw PressureLaw::punch() { return {-0.5, "punch"}; }
+PressureLaw PressureLaw::ring() { return {-1, "ring"}; }
+
+Resistance PressureLaw::operator()(Slip slip) const {
+  require_slip("PressureLaw", slip);
+  const Series& series = *series_;
+  if (slip.sliding <= slip.pivoting) {
+    const auto [k, square, rest] = ratio(slip.sliding, slip.pivoting);
+    return {series.force_slope * k * series.inner_force(square, rest),
+            series.pivoting_moment * series.inner_moment(square, rest)};
+  }
+  const auto [inverse_k, square, rest] = ratio(slip.pivoting, slip.sliding);
+  return {series.outer_force(square, rest), series.outer_scale * inverse_k * series.outer_moment(square, rest)};
+}
+
+double PressureLaw::moment_deficit(Slip slip) const {
+  if (slip.sliding > slip.pivoting) return 1 - (*this)(slip).moment / series_->pivoting_moment;
+  require_slip("PressureLaw", slip);
+  const auto [k, square, rest] = ratio(slip.sliding, slip.pivoting);
+  return square * series_->inner_moment.deficit(square, rest);
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,93 @@
+#include "numerics/legendre_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace contensou::reduction {
+
+namespace {
+
+constexpr int order = LegendreSeries::order;
+using Rule = boost::math::quadrature::gauss<long double, order>;
+using Matrix = Eigen::Matrix<double, order, order>;
+
+/// Points, the matrix samples -> coefficients (discrete orthogonality of the Gauss rule), and its inverse. Made in long
+/// double: errors of the matrix add up at the ends of the interval, where all P_j are 1.
+struct Transform {
+  LegendreSeries::Samples points;
+  Matrix analysis;
+  Eigen::Matrix<double, order, order + 1> synthesis;
+
+  Transform() {
+    const auto& half_points = Rule::abscissa();
+    const auto& half_weights = Rule::weights();
+    for (int i = 0; i < order; ++i) {
+      const auto half = static_cast<std::size_t>(i < order / 2 ? order / 2 - 1 - i : i - order / 2);
+      const long double point = i < order / 2 ? -half_points[half] : half_points[half];
+      points[i] = static_cast<double>(point);
+      long double before = 0;
+      long double here = 1;
+      for (int j = 0; j <= order; ++j) {
+        synthesis(i, j) = static_cast<double>(here);
+        if (j < order) analysis(j, i) = static_cast<double>((2 * j + 1) / 2.0L * half_weights[half] * here);
+        before = std::exchange(here, ((2 * j + 1) * point * here - j * before) / (j + 1));
+      }
+    }
+  }
+};
+
+const Transform& transform() {
+  static const Transform instance;
+  return instance;
+}
+
+}  // namespace
+
+const LegendreSeries::Samples& LegendreSeries::points() { return transform().points; }
+
+LegendreSeries LegendreSeries::through(const Samples& samples) {
+  LegendreSeries series;
+  series.coefficients_.head<order>() = (transform().analysis * samples.matrix()).array();
+  return series;
+}
+
+LegendreSeries LegendreSeries::antiderivative() const {
+  // The integral of P_j from -1 to t is (P_{j+1} - P_{j-1})/(2j + 1), and t + 1 for j = 0. The highest term is dropped.
+  LegendreSeries integral;
+  integral.coefficients_[0] = coefficients_[0];
+  integral.coefficients_[1] = coefficients_[0];
+  for (int j = 1; j < order; ++j) {
+    const double share = coefficients_[j] / (2 * j + 1);
+    integral.coefficients_[j + 1] += share;
+    integral.coefficients_[j - 1] -= share;
+  }
+  return integral;
+}
+
+LegendreSeries LegendreSeries::mirrored() const {
+  LegendreSeries mirror = *this;
+  for (int j = 1; j <= order; j += 2) mirror.coefficients_[j] = -mirror.coefficients_[j];
+  return mirror;
+}
+
+double LegendreSeries::operator()(double t) const {
+  // Clenshaw: (j + 1) P_{j+1} = (2j + 1) t P_j - j P_{j-1}.
+  double next = 0;
+  double after_next = 0;
+  for (int j = order; j >= 1; --j) {
+    const double current = coefficients_[j] + (2 * j + 1) / (j + 1.0) * t * next - (j + 1) / (j + 2.0) * after_next;
+    after_next = std::exchange(next, current);
+  }
+  return coefficients_[0] + t * next - 0.5 * after_next;
+}
+
+LegendreSeries::Samples LegendreSeries::samples() const {
+  return (transform().synthesis * coefficients_.matrix()).array();
+}
+
+double LegendreSeries::tail() const {
+  return std::max(std::abs(coefficients_[order - 1]), std::abs(coefficients_[order - 2]));
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,126 @@
+// In scaled units (README (R1)):  d ln w/ds = -r Psi/w,  d ln v/ds = -Phi/v,  and dbeta/ds = 1/W beside them.
+#include "contensou/reduction/direct_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+
+#include "steppers/stepper_report.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+using std::numbers::pi;
+namespace odeint = boost::numeric::odeint;
+
+using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + age/age_unit)
+using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
+
+struct DirectEquations {
+  const ReducedSystem& system;
+  double age_unit;
+  long evaluations = 0;
+
+  void operator()(const Values& x, Values& rate, double /*s*/) {
+    ++evaluations;
+    const double w = std::exp(x[0]);
+    const double v = std::exp(x[1]);
+    const double k = std::exp(x[1] - x[0]);
+    if (std::isnan(k)) {  // the law had no number before: the run ends with its outcome
+      rate.fill(k);
+      return;
+    }
+    const auto [force, moment] = system.law()(slip_of_ratio(k));
+    rate[0] = -system.r() * (k > 1 ? k * moment / v : moment / w);
+    rate[1] = -(k > 1 ? force / v : force / k / w);
+    const double weight = (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);
+    rate[2] = std::exp(-x[2]) / (age_unit * weight);
+  }
+};
+
+}  // namespace
+
+Motion integrate_directly(const ReducedSystem& system, State start, const Eigen::ArrayXd& times,
+                          const Stepping& stepping) {
+  StepperReport report("integrate_directly", system, start, times);
+  if (start.u == 0 && start.v == 0) return report.finish_at_rest();
+
+  LogState here = report.start();
+  // The age grows without bound towards the stop: its logarithm, shifted to start at 0, is of the size of the others.
+  const double speed = 16 * std::exp(here.ln_w) + 15 * pi * std::exp(here.ln_v);
+  const double age_unit = 1 / speed;
+  DirectEquations equations{system, age_unit};
+  auto stepper = odeint::make_controlled(stepping.tolerance, 0.0, Fehlberg());
+
+  Values x{here.ln_w, here.ln_v, 0};
+  double s = 0;
+  double step = 1e-3 * std::max(std::exp(here.ln_w), std::exp(here.ln_v));
+  const auto log_state = [&] { return LogState{x[0], x[1], s, age_unit * std::expm1(x[2])}; };
+
+  for (long steps = 0; steps < stepping.step_limit; ++steps) {
+    if (const auto tail = StopLimit::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
+
+    // Up to the next instant asked for, which must not shorten the steps after it.
+    const double wanted = report.next_time();
+    const double limit = wanted - s;
+    double trial = std::min(step, limit);
+    const Values before = x;
+    const double s_before = s;
+    double taken = trial;  // not s - s_before, which near the stop is all rounding
+    while (stepper.try_step(std::ref(equations), x, s, trial) == odeint::fail) {
+      if (!(trial > std::numeric_limits<double>::min())) {
+        return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
+      }
+      taken = trial;
+    }
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2])) {
+      return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
+    }
+    const bool reached = s >= wanted;
+    step = reached ? std::max(step, trial) : trial;
+
+    const double side = before[1] - before[0];
+    if (side != 0 && (side > 0) != (x[1] > x[0])) {
+      // Land on k = 1: the length of the step that ends there, by the secant method from both its ends.
+      Fehlberg base;
+      double low = 0;
+      double high = taken;
+      double at_low = side;
+      double at_high = x[1] - x[0];
+      Values landed = x;
+      double length = high;
+      for (int i = 0; i < 60 && landed[1] != landed[0]; ++i) {
+        length = std::clamp(high - at_high * (high - low) / (at_high - at_low), low, high);
+        if (length == low || length == high) break;
+        base.do_step(std::ref(equations), before, s_before, landed, length);
+        const double gap = landed[1] - landed[0];
+        const bool same_side = (gap > 0) == (side > 0);
+        (same_side ? low : high) = length;
+        (same_side ? at_low : at_high) = gap;
+        // Illinois: halve the end that stays, so that both close in.
+        (same_side ? at_high : at_low) *= 0.5;
+        if (std::abs(gap) < 4 * std::numeric_limits<double>::epsilon()) break;
+      }
+      x = landed;
+      x[1] = x[0];
+      s = s_before + length;
+    }
+    here = log_state();
+    if (report.every_step()) {
+      report.add(here);
+    } else {
+      while (report.next_time() <= s) report.add(here);
+    }
+  }
+  return report.fail(Outcome::Kind::step_limit, stepping.step_limit, equations.evaluations);
+}
+
+}  // namespace contensou::reduction

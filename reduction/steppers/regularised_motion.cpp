@@ -1,0 +1,119 @@
+// In scaled units (README (R1)) with the weight of (2.8), W = (16 w + 15 pi v)(8 w + 3 pi v):
+//   d ln w/dbeta = -W r Psi/w,  d ln v/dbeta = -W Phi/v,  ds/dbeta = W
+#include "contensou/reduction/regularised_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <boost/numeric/odeint/stepper/generation/generation_dense_output_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+
+#include "steppers/stepper_report.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+using std::numbers::pi;
+namespace odeint = boost::numeric::odeint;
+
+using Values = std::array<double, 3>;  // ln w, ln v, s in units of the whole time
+using DormandPrince = odeint::runge_kutta_dopri5<Values>;
+
+struct RegularisedEquations {
+  const ReducedSystem& system;
+  double time_scale;
+  long evaluations = 0;
+
+  void operator()(const Values& x, Values& rate, double /*beta*/) {
+    ++evaluations;
+    const double w = std::exp(x[0]);
+    const double v = std::exp(x[1]);
+    const double k = std::exp(x[1] - x[0]);
+    if (std::isnan(k)) {  // the law had no number before: the run ends with its outcome
+      rate.fill(k);
+      return;
+    }
+    const auto [force, moment] = system.law()(slip_of_ratio(k));
+    // Weight over the larger speed, so that neither quotient divides by a speed that vanishes.
+    const double weight = (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);
+    rate[0] = -(k > 1 ? weight / v * (k * moment) : weight / w * moment) * system.r();
+    rate[1] = -(k > 1 ? weight / v * force : weight / w * (force / k));
+    rate[2] = weight / time_scale;
+  }
+};
+
+}  // namespace
+
+Motion integrate_regularised(const ReducedSystem& system, State start, const Eigen::ArrayXd& times,
+                             const Stepping& stepping) {
+  StepperReport report("integrate_regularised", system, start, times);
+  if (start.u == 0 && start.v == 0) return report.finish_at_rest();
+
+  LogState here = report.start();
+  RegularisedEquations equations{system, report.time_scale()};
+  const auto log_state = [&](const Values& x, double beta) {
+    return LogState{x[0], x[1], x[2] * report.time_scale(), beta};
+  };
+
+  auto stepper = odeint::make_dense_output(stepping.tolerance, 0.0, DormandPrince());
+  Values x{here.ln_w, here.ln_v, 0};
+  const double speed = 16 * std::exp(x[0]) + 15 * pi * std::exp(x[1]);
+  double step = 1e-3 / speed;
+  bool fresh = true;
+
+  for (long steps = 0; steps < stepping.step_limit; ++steps) {
+    if (const auto tail = StopLimit::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
+    if (fresh) stepper.initialize(x, here.age, step);
+    fresh = false;
+
+    std::pair<double, double> interval;
+    try {
+      interval = stepper.do_step(std::ref(equations));
+    } catch (const odeint::odeint_error&) {
+      return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
+    }
+    x = stepper.current_state();
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2])) {
+      return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
+    }
+
+    // The beta in this step at which an increasing function of the state passes 0, by bisection of the dense output.
+    const auto locate = [&](auto passed) {
+      auto [low, high] = interval;
+      Values at{};
+      for (int i = 0; i < 60; ++i) {
+        const double middle = low + (high - low) / 2;
+        stepper.calc_state(middle, at);
+        (passed(at) ? high : low) = middle;
+      }
+      return low;
+    };
+
+    double end = interval.second;
+    const bool crosses = (here.ln_v > here.ln_w) != (x[1] > x[0]) && here.ln_v != here.ln_w;
+    if (crosses) {
+      const bool above = here.ln_v > here.ln_w;
+      end = locate([&](const Values& at) { return (at[1] > at[0]) != above; });
+      stepper.calc_state(end, x);
+      x[1] = x[0];
+      step = interval.second - end + 1e-3 * (end - interval.first);
+      fresh = true;
+    }
+    while (report.next_time() <= x[2] * report.time_scale()) {
+      const double wanted = report.next_time() / report.time_scale();
+      const double beta = locate([&](const Values& at) { return at[2] >= wanted; });
+      Values at{};
+      stepper.calc_state(beta, at);
+      report.add(log_state(at, beta));
+    }
+    here = log_state(x, end);
+    if (report.every_step()) report.add(here);
+  }
+  return report.fail(Outcome::Kind::step_limit, stepping.step_limit, equations.evaluations);
+}
+
+}  // namespace contensou::reduction

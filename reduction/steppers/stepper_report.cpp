@@ -1,0 +1,111 @@
+#include "steppers/stepper_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace contensou::reduction {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Reported steps of a tail that is closed in one.
+constexpr int tail_instants = 64;
+}  // namespace
+
+StepperReport::StepperReport(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times)
+    : caller_(caller),
+      scaled_time_rate_(system.scaled_time_rate()),
+      mu_(system.mu()),
+      given_(start),
+      every_step_(times.size() == 0),
+      times_(times.data(), times.data() + times.size()) {
+  require_state(caller, start);
+  double previous = 0;
+  for (double time : times_) {
+    if (!(time >= previous) || !std::isfinite(time)) {
+      throw std::domain_error(
+          fmt::format("{}: times must be finite, >= 0 and not decrease; got {} after {}", caller, time, previous));
+    }
+    previous = time;
+  }
+  const double largest = std::max(std::abs(start.u), start.v);
+  if (largest > 0) exponent_ = std::ilogb(largest);
+  const double unit = exponent_ * std::log(2.0);
+  start_ = {std::log(mu_) + std::log(std::abs(start.u)) - unit, std::log(start.v) - unit, 0, 0};
+  time_scale_ = std::exp(start_.ln_w) / (system.r() * system.law().pivoting_moment()) + std::exp(start_.ln_v);
+
+  // As it was given, not by way of its logarithms.
+  const double k = given_.u == 0 ? infinity : given_.v / (mu_ * std::abs(given_.u));
+  const OrbitPoint at_start{0, given_.u, given_.v, std::log(given_.v), k, 0};
+  if (every_step_) points_.push_back(at_start);
+  while (points_.size() < times_.size() && times_[points_.size()] == 0) points_.push_back(at_start);
+}
+
+double StepperReport::next_time() const {
+  if (points_.size() >= times_.size()) return infinity;
+  return std::ldexp(times_[points_.size()], -exponent_) * scaled_time_rate_;
+}
+
+void StepperReport::add(const LogState& state) {
+  const double unit = exponent_ * std::log(2.0);
+  const double ln_v = state.ln_v + unit;
+  const double ln_u = state.ln_w + unit - std::log(mu_);
+  OrbitPoint point{std::ldexp(state.s / scaled_time_rate_, exponent_),
+                   std::copysign(std::exp(ln_u), given_.u),
+                   std::exp(ln_v),
+                   ln_v,
+                   std::exp(state.ln_v - state.ln_w),
+                   std::ldexp(state.age / scaled_time_rate_, -exponent_)};
+  if (!every_step_) point.tau = times_[points_.size()];
+  if (given_.u == 0) point.u = 0;
+  points_.push_back(point);
+}
+
+Motion StepperReport::close(double stop_time, long steps, long evaluations, Outcome outcome) {
+  Motion motion;
+  motion.stop_time = stop_time;
+  motion.steps = steps;
+  motion.evaluations = evaluations;
+  motion.outcome = std::move(outcome);
+  const double k = given_.u == 0 && given_.v > 0 ? infinity : 0.0;
+  if (motion.outcome.ok()) {
+    if (every_step_) points_.push_back({stop_time, 0, 0, -infinity, k, infinity});
+    while (points_.size() < times_.size()) points_.push_back({times_[points_.size()], 0, 0, -infinity, k, infinity});
+  }
+  motion.points = OrbitColumns(static_cast<Eigen::Index>(points_.size()));
+  for (std::size_t i = 0; i < points_.size(); ++i) motion.points.set(static_cast<Eigen::Index>(i), points_[i]);
+  return motion;
+}
+
+Motion StepperReport::finish(const StopLimit& tail, long steps, long evaluations) {
+  while (next_time() < tail.stop()) add(tail.at_time(next_time()));
+  if (every_step_) {
+    for (int i = tail_instants - 1; i > 0; --i) {
+      const LogState state = tail.at_share(static_cast<double>(i) / tail_instants);
+      if (state.s < tail.stop()) add(state);  // a tail shorter than rounding has no instants, and is no exact limit
+    }
+  }
+  const double stop_time = std::ldexp(tail.stop() / scaled_time_rate_, exponent_);
+  return close(stop_time, steps, evaluations, Outcome{});
+}
+
+Motion StepperReport::finish_at_rest() {
+  points_.clear();
+  return close(0, 0, 0, Outcome{});
+}
+
+Motion StepperReport::fail(Outcome::Kind kind, long steps, long evaluations) {
+  const char* why = kind == Outcome::Kind::step_limit ? "the step limit was reached before the stop"
+                                                      : "the step size fell to nothing or a value was not finite";
+  const double reached = points_.empty() ? 0.0 : points_.back().tau;
+  return close(std::numeric_limits<double>::quiet_NaN(), steps, evaluations,
+               {kind, fmt::format("{}: {} after {} steps from u = {}, v = {} (last reported tau = {})", caller_, why,
+                                  steps, given_.u, given_.v, reached)});
+}
+
+}  // namespace contensou::reduction

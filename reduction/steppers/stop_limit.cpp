@@ -1,0 +1,47 @@
+#include "steppers/stop_limit.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace contensou::reduction {
+
+using std::numbers::pi;
+
+std::optional<StopLimit> StopLimit::at(const ReducedSystem& system, const LogState& state) {
+  const double ln_k = state.ln_v - state.ln_w;
+  const double pivoting_rate = system.r() * system.law().pivoting_moment();
+  // Pure pivoting: v has become too small to be felt. Pure sliding: all pivoting would take no time.
+  if (ln_k < std::log(1e-17)) return StopLimit(system, state, true);
+  if (ln_k + std::log(pivoting_rate) > std::log(1e18)) return StopLimit(system, state, false);
+  // Neither, but next to nothing is left (k tends to a finite ratio, or very slowly to 0).
+  const double most = std::exp(state.ln_w) / pivoting_rate + std::exp(state.ln_v);
+  if (most < 1e-17 * state.s) return StopLimit(system, state, ln_k < 0);
+  return std::nullopt;
+}
+
+StopLimit::StopLimit(const ReducedSystem& system, const LogState& from, bool pivoting) : from_(from) {
+  const Law& law = system.law();
+  const double pivoting_rate = system.r() * law.pivoting_moment();
+  if (pivoting) {
+    const double w = std::exp(from.ln_w);
+    left_ = w / pivoting_rate;
+    ln_w_slope_ = 1;
+    ln_v_slope_ = law.force_slope() / pivoting_rate;
+    age_scale_ = left_ / (128 * w * w);
+  } else {
+    constexpr double fast = 0x1p100;
+    const double v = std::exp(from.ln_v);
+    left_ = v;
+    ln_v_slope_ = 1;
+    ln_w_slope_ = system.r() * fast * law({fast, 1}).moment;
+    age_scale_ = left_ / (45 * pi * pi * v * v);
+  }
+}
+
+LogState StopLimit::at_share(double share) const {
+  const double ln_share = std::log(share);
+  return {from_.ln_w + ln_w_slope_ * ln_share, from_.ln_v + ln_v_slope_ * ln_share, from_.s + left_ * (1 - share),
+          from_.age + age_scale_ * (1 / share - 1)};
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,150 @@
+// Notation (README (R21), (R23)): g = (1 - Psi/Psi(0))/Phi, q = k Psi/Phi,
+//   k m0 = integral of g dk over (0, k),   k m1 = integral of q (g - m0) dk over (0, k)
+// In y = ln k each integrand gains a factor k.
+#include "contensou/reduction/small_mu.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "numerics/legendre_series.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+using Samples = LegendreSeries::Samples;
+
+/// Beyond these, m is its limit to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
+constexpr double lowest_ln_k = -40;
+constexpr double highest_ln_k = 44;
+
+double share_rate(const Law& law, double k) {
+  const Slip slip = slip_of_ratio(k);
+  return law.moment_deficit(slip) / law(slip).force;
+}
+
+/// Edges of panels of width 1, halved again and again towards y = 0, where k = 1 and a law may have a kink.
+std::vector<double> panel_edges(double low, double high) {
+  constexpr int halvings = 40;
+  std::vector<double> edges{low};
+  const auto add = [&](double edge) {
+    if (edge > edges.back() && edge < high) edges.push_back(edge);
+  };
+  for (double edge = std::ceil(low); edge <= -1; ++edge) add(edge);
+  for (int i = 1; i <= halvings; ++i) add(-std::exp2(-i));
+  add(0);
+  for (int i = halvings; i >= 1; --i) add(std::exp2(-i));
+  for (double edge = 1; edge < high; ++edge) add(edge);
+  edges.push_back(high);
+  return edges;
+}
+
+/// Calls visit(y, half) with the Gauss points of every panel between low and high, in order.
+template <class Visit>
+void for_each_panel(double low, double high, Visit visit) {
+  const std::vector<double> edges = panel_edges(low, high);
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const double half = (edges[i] - edges[i - 1]) / 2;
+    visit(Samples(edges[i - 1] + half * (1 + LegendreSeries::points())), half);
+  }
+}
+
+}  // namespace
+
+ShareExpansion share_expansion(const Law& law, double ln_k) {
+  if (!std::isfinite(ln_k)) {
+    throw std::domain_error(fmt::format("share_expansion: ln k must be finite, got {}", ln_k));
+  }
+  const double top = std::min(ln_k, highest_ln_k);
+  // So little is left below that its rate may count as constant.
+  const double k_low = std::exp(std::clamp(top, std::log(std::numeric_limits<double>::min()), lowest_ln_k));
+  double first = k_low * share_rate(law, k_low);
+  double second = 0;
+  if (top <= lowest_ln_k) return {first / k_low, 0};
+
+  for_each_panel(lowest_ln_k, top, [&](const Samples& y, double half) {
+    const Samples k = y.exp();
+    Samples rate, moment_over_force;
+    for (int i = 0; i < LegendreSeries::order; ++i) {
+      const Slip slip = slip_of_ratio(k[i]);
+      const auto [force, moment] = law(slip);
+      rate[i] = law.moment_deficit(slip) / force;
+      moment_over_force[i] = k[i] * moment / force;
+    }
+    LegendreSeries gain = LegendreSeries::through(k * rate).antiderivative();
+    gain *= half;
+    LegendreSeries change =
+        LegendreSeries::through(moment_over_force * (k * rate - (first + gain.samples()))).antiderivative();
+    change *= half;
+    first += gain(1);
+    second += change(1);
+  });
+  const double k = std::exp(top);
+  return {first / k, second / k};
+}
+
+std::optional<FarShare> far_share(const Law& law) {
+  constexpr double far = 0x1p20;
+  if (std::abs(1 - law(slip_of_ratio(far)).force) * far > 1e-3) return std::nullopt;
+  constexpr double fastest = 0x1p100;
+  const double c = fastest * law(slip_of_ratio(fastest)).moment / law.pivoting_moment();
+
+  // From here on g - 1 + c/k is its last term, in 1/k^2; before, rounding is small enough.
+  constexpr double ln_top = 11;
+  const auto rest = [&](double k) { return share_rate(law, k) - 1 + c / k; };
+  double integral = 0;
+  for_each_panel(0, ln_top, [&](const Samples& y, double half) {
+    Samples integrand;
+    for (int i = 0; i < LegendreSeries::order; ++i) integrand[i] = std::exp(y[i]) * rest(std::exp(y[i]));
+    integral += half * LegendreSeries::through(integrand).antiderivative()(1);
+  });
+  const double top = std::exp(ln_top);
+  integral += top * rest(top);
+  return FarShare{c, 1 - share_expansion(law, 0).first - integral};
+}
+
+std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start) {
+  require_state("small_mu_estimates", start);
+  const Law& law = system.law();
+  const double limit = law.force_slope() / law.pivoting_moment();
+  if (!(system.r() < limit)) {
+    throw std::domain_error(fmt::format(
+        "small_mu_estimates: r = gamma mu^2/chi = {:.6g} is not small: law {} has estimates for r << {:.6g} "
+        "only, where k tends to 0",
+        system.r(), law.name(), limit));
+  }
+  const double pivoting = system.pivoting_limit(start.u);
+  const double sliding = system.sliding_limit(start.v);
+  const bool on_axis = start.u == 0 || start.v == 0;
+  const double ln_k = on_axis ? 0 : std::log(start.v) - std::log(system.mu()) - std::log(std::abs(start.u));
+
+  std::vector<StopEstimate> estimates;
+  const auto far = far_share(law);
+  if (far && (start.u == 0 || ln_k > 0)) {
+    // S/k0 is the time in which sliding at the rim speed would end.
+    const double rim = on_axis ? 0 : sliding * std::exp(-ln_k) * (far->logarithm * ln_k + far->constant);
+    estimates.push_back({"log", "E1 for k0 >> 1, P + S (1 - (c ln k0 + d)/k0)", pivoting + sliding - rim});
+  }
+  double first = 0;
+  double second = 0;
+  if (!on_axis) {
+    if (const auto& closed = law.small_mu_share()) {
+      first = closed(1, system.r(), ln_k);
+      second = closed(2, system.r(), ln_k);
+    } else {
+      const ShareExpansion share = share_expansion(law, ln_k);
+      first = share.first;
+      second = share.first + system.r() * share.second;
+    }
+  }
+  const auto with_share = [&](double share) { return start.v == 0 ? pivoting : pivoting + share * sliding; };
+  estimates.push_back({"E1", "relative error O(mu^4 ln^2 mu)", start.u == 0 ? sliding : with_share(first)});
+  estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)", start.u == 0 ? sliding : with_share(second)});
+  return estimates;
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "contensou/reduction/friction_law.hpp"
+#include "options/argument.hpp"
+
+namespace contensou::program {
+
+/// --law.
+class LawOption {
+ public:
+  void add(CLI::App& app);
+
+  /// Under another name, for a second law.
+  void add(CLI::App& app, const std::string& name, const std::string& value_name, const std::string& help);
+  bool given() const { return law_.given(); }
+
+  /// The law of that name, of that exponent (pressure:P), or of the table in that file (with a / or ending in .csv);
+  /// the first of named_laws() if none was given.
+  /// @throws BadInput           for an unknown name or an exponent out of range; BadLine for a bad line of the file
+  /// @throws std::system_error  if the file cannot be read
+  reduction::Law read() const;
+
+ private:
+  reduction::Law of_the_family() const;
+
+  Argument law_;
+};
+
+}  // namespace contensou::program

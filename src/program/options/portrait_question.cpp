@@ -1,0 +1,43 @@
+#include "options/portrait_question.hpp"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "contensou/si/bridge.hpp"
+
+namespace contensou::program {
+
+portraits::PhasePortrait PortraitQuestion::portrait() const {
+  portraits::PortraitRequest asked = request;
+  asked.highlight = start;
+  if (shot) asked.time_unit = 1 / si::seconds(*shot, 1);
+  return portraits::phase_portrait(system(), asked);
+}
+
+portraits::Figure PortraitQuestion::figure(const portraits::PhasePortrait& portrait) const {
+  return portraits::draw(portrait, caption(portrait), style);
+}
+
+portraits::PortraitCaption PortraitQuestion::caption(const portraits::PhasePortrait& portrait) const {
+  portraits::PortraitCaption caption;
+  if (!start) return caption;
+  const double stop = portrait.highlight ? portrait.highlight->tau_left[0] : 0;
+  caption.highlight = "this motion";
+  if (!shot) {
+    caption.subtitle = fmt::format("u_0 = {:g}, v_0 = {:g}: it stops after τ* = {:.4g}", start->u, start->v, stop);
+    return caption;
+  }
+  caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot->ball.name), mu,
+                              portraits::law_names(portrait));
+  caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", si::slip_at_start(*shot),
+                                 si::spin_at_start(*shot), si::seconds(*shot, stop));
+  caption.speed_unit = "m/s";
+  caption.time_symbol = "{/:Italic t}*";
+  caption.time_unit_name = "s";
+  caption.time_unit = 1 / si::seconds(*shot, 1);
+  caption.highlight = "this ball";
+  return caption;
+}
+
+}  // namespace contensou::program

@@ -1,0 +1,60 @@
+#include "options/pressure_profile.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+#include <Eigen/Core>
+
+#include "contensou/reduction/profile_law.hpp"
+#include "input/csv_table.hpp"
+#include "input/number.hpp"
+
+namespace contensou::program {
+
+reduction::Law read_pressure_profile(const std::string& path) {
+  const CsvTable table = CsvTable::read(path);
+  const std::size_t rho_column = table.column("rho");
+  const std::size_t pressure_column = table.column("pressure");
+  if (table.rows().size() < 2) {
+    throw table.complaint(table.header().line(), "two or more rows are needed, from rho = 0 to rho = 1");
+  }
+  std::vector<double> rho, pressure;
+  bool loaded = false;
+  for (const CsvRecord& row : table.rows()) {
+    table.require_complete(row);
+    const auto number = [&](const char* name, std::size_t column) {
+      try {
+        return parse_number(row.fields[column]);
+      } catch (const BadInput& error) {
+        throw table.complaint(row.line, fmt::format("{}: {}", name, error.what()));
+      }
+    };
+    const double before = rho.empty() ? -1 : rho.back();
+    rho.push_back(number("rho", rho_column));
+    pressure.push_back(number("pressure", pressure_column));
+    if (before < 0 && rho.back() != 0) {
+      throw table.complaint(row.line, fmt::format("rho must begin at 0, the centre, got {}", rho.back()));
+    }
+    if (!(rho.back() > before)) {
+      throw table.complaint(row.line, fmt::format("rho must increase, got {} after {}", rho.back(), before));
+    }
+    if (rho.back() > 1) {
+      throw table.complaint(row.line, fmt::format("rho must end at 1, the edge of the patch, got {}", rho.back()));
+    }
+    if (pressure.back() < 0) {
+      throw table.complaint(row.line, fmt::format("the pressure must be >= 0, got {}", pressure.back()));
+    }
+    loaded = loaded || pressure.back() > 0;
+  }
+  const long last_line = table.rows().back().line;
+  if (rho.back() != 1) {
+    throw table.complaint(last_line, fmt::format("rho must end at 1, the edge of the patch, got {}", rho.back()));
+  }
+  if (!loaded) throw table.complaint(last_line, "the pressure is 0 in every row");
+  const auto rows = static_cast<Eigen::Index>(rho.size());
+  return reduction::ProfileLaw(path, Eigen::Map<const Eigen::ArrayXd>(rho.data(), rows),
+                               Eigen::Map<const Eigen::ArrayXd>(pressure.data(), rows));
+}
+
+}  // namespace contensou::program

@@ -1,0 +1,108 @@
+#include "verbs/phase_plane_report.hpp"
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "input/csv_table.hpp"
+#include "output/json.hpp"
+
+namespace contensou::program {
+
+using reduction::InvariantDirection;
+using reduction::PhasePlane;
+using reduction::ReducedSystem;
+using reduction::SingularKind;
+using reduction::SingularPoint;
+
+namespace {
+
+/// In the order of TerminalRegime, as `terminal` says it.
+constexpr std::array<std::string_view, 3> limits{"zero", "ray", "infinity"};
+
+/// In the order of InvariantDirection: what tends to what along an orbit that enters the origin.
+constexpr std::array<std::string_view, 3> approaches{"along v = 0: k falls", "along the ray: k - k* falls",
+                                                     "along u = 0: 1/k falls"};
+
+std::string_view limit(const PhasePlane& plane) { return limits[static_cast<std::size_t>(plane.terminal.regime)]; }
+
+bool is_separatrix(const SingularPoint& point) { return point.kind == SingularKind::saddle; }
+
+}  // namespace
+
+std::string phase_plane_as_text(const ReducedSystem& system, const PhasePlane& plane, int digits) {
+  const auto number = [&](double value) { return fmt::format("{:.{}g}", value, digits); };
+  std::string text = fmt::format(
+      "law    {}\n"
+      "r      {} = gamma mu^2/chi, gamma = {}, mu = {}, chi = {}\n"
+      "ray    v = k* mu |u| exists for {} < r < {}, that is {} < mu < {}; here k tends to {}\n\n",
+      system.law().name(), number(system.r()), number(system.inertia().gamma), number(system.mu()),
+      number(system.inertia().chi), number(plane.terminal.low), number(plane.terminal.high), number(plane.mu_low),
+      number(plane.mu_high), number(plane.terminal.k));
+  const int width = digits + 8;  // sign, point, exponent and two spaces
+  text += fmt::format("{:<11}{:<9}{:>{}}{:>{}}{:>{}}{:>{}}  {}\n", "half-line", "at", "k", width, "q = v/|u|", width,
+                      "radial", width, "angular", width, "kind");
+  for (const SingularPoint& point : plane.points) {
+    text += fmt::format("{:<11}{:<9}{:>{}}{:>{}}{:>{}}{:>{}}  {}\n", name(point.direction), name(point.place),
+                        number(point.k), width, number(point.q), width, number(point.radial), width,
+                        number(point.angular), width, name(point.kind));
+  }
+  text += fmt::format(
+      "\n"
+      "radial, angular   eigenvalues of (2.7) blown up at the origin, v = q |u|, and divided by |u| (by v at u = 0);\n"
+      "                  at infinity multiplied by it. The field itself has no linear part at the origin\n"
+      "kind              a half-line is a separatrix of its saddle; u < 0 is the mirror image\n"
+      "every other orbit is born at infinity in an unstable node and enters the origin {}",
+      approaches[static_cast<std::size_t>(plane.tangent)]);
+  const std::string_view speed = plane.tangent == InvariantDirection::sliding ? "v" : "|u|";
+  text += plane.contact_order > 0 ? fmt::format(" like {}^{}\n", speed, number(plane.contact_order))
+                                  : fmt::format(" slower than any power of {}\n", speed);
+  return text;
+}
+
+std::string phase_plane_as_csv(const PhasePlane& plane) {
+  std::string text = csv_line({"half_line", "place", "k", "q", "radial", "angular", "kind", "separatrix"});
+  for (const SingularPoint& point : plane.points) {
+    text += csv_line({std::string(name(point.direction)), std::string(name(point.place)), fmt::format("{}", point.k),
+                      fmt::format("{}", point.q), fmt::format("{}", point.radial), fmt::format("{}", point.angular),
+                      std::string(name(point.kind)), is_separatrix(point) ? "yes" : "no"});
+  }
+  return text;
+}
+
+std::string phase_plane_as_json(const ReducedSystem& system, const PhasePlane& plane) {
+  std::vector<std::string> points;
+  for (const SingularPoint& point : plane.points) {
+    points.push_back(
+        JsonObject()
+            .add("half_line", json(name(point.direction)))
+            .add("place", json(name(point.place)))
+            .add("k", json(point.k))
+            .add("q", json(point.q))
+            .add("eigenvalues",
+                 JsonObject().add("radial", json(point.radial)).add("angular", json(point.angular)).inline_text())
+            .add("kind", json(name(point.kind)))
+            .add("separatrix", is_separatrix(point) ? "true" : "false")
+            .inline_text());
+  }
+  return JsonObject::document()
+      .add("law", json(system.law().name()))
+      .add("mu", json(system.mu()))
+      .add("body",
+           JsonObject().add("chi", json(system.inertia().chi)).add("gamma", json(system.inertia().gamma)).inline_text())
+      .add("r", json(system.r()))
+      .add("r_low", json(plane.terminal.low))
+      .add("r_high", json(plane.terminal.high))
+      .add("mu_low", json(plane.mu_low))
+      .add("mu_high", json(plane.mu_high))
+      .add("limit", json(limit(plane)))
+      .add("k_star", json(plane.terminal.k))
+      .add("tangent", json(name(plane.tangent)))
+      .add("contact_order", json(plane.contact_order))
+      .add("singular_points", json_array(points))
+      .text();
+}
+
+}  // namespace contensou::program

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "contensou/reduction/friction_law.hpp"
+#include "exit_status.hpp"
+#include "input/csv_stream.hpp"
+#include "options/body_option.hpp"
+#include "options/route_option.hpp"
+#include "output/output.hpp"
+
+namespace contensou::program {
+
+/// How a batch of stop times is computed.
+struct BatchRequest {
+  reduction::Law law;
+  Body body;
+  const RouteOption& route;
+  bool keep_going = false;  ///< report a bad row on standard error and leave its tau_stop empty
+  int threads = 1;
+};
+
+/// Stop times of a table of any length, in the memory of a few blocks of it: writes the table with a column tau_stop.
+/// The rows keep their order and the bytes do not depend on the number of threads.
+///
+/// @param table   with columns mu, u0 and v0; the others pass through
+/// @param output  not finished here
+/// @return        what the worst row was that was kept without a result; done if none was
+/// @throws BadLine             for a table that lacks a column or is not CSV and, unless keep_going, for a bad row
+/// @throws std::runtime_error  for a row that cannot be computed, unless keep_going
+ExitStatus stop_batch(CsvStream& table, OutputFile& output, const BatchRequest& request);
+
+}  // namespace contensou::program

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contensou/reduction/small_mu.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "options/start_options.hpp"
+
+namespace contensou::program {
+
+/// Everything that `stop` says about one start.
+struct StopReport {
+  GivenStart start;
+  reduction::ReducedSystem system;
+  reduction::StopTime stop;
+  double T_stop;  ///< f g t, the stop time without the paper's factor 3 pi/2
+  reduction::Bounds bounds;
+  double sliding_only;                                  ///< tau of a body that did not pivot
+  double pivoting_only;                                 ///< tau of a body that did not slide
+  std::vector<reduction::StopEstimate> estimates = {};  ///< for small mu; none unless asked for
+};
+
+StopReport make_stop_report(const GivenStart& start, const reduction::Law& law, reduction::Route route);
+
+std::string stop_report_as_json(const StopReport& report);
+std::string stop_report_as_csv(const StopReport& report);
+
+/// For people: with the time under another law beside it.
+std::string stop_report_as_text(const StopReport& report, int digits);
+
+}  // namespace contensou::program

@@ -1,0 +1,145 @@
+#include <string>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "contensou/portraits/stop_time_map_figure.hpp"
+#include "options/body_option.hpp"
+#include "options/law_option.hpp"
+#include "options/thread_option.hpp"
+#include "output/output.hpp"
+#include "output/picture.hpp"
+#include "output/progress.hpp"
+#include "verbs/sweep.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+constexpr const char* endings = "npy, csv, svg, pdf, png, gp";
+
+class SweepCommand final : public Command {
+ public:
+  std::string name() const override { return "sweep"; }
+  std::string summary() const override { return "A map of stop times over starts, of any size: numbers or a picture"; }
+  std::string example() const override { return "contensou sweep --mu 0.1 --u0 0:2:201 --v0 0:2:201 -o map.npy"; }
+
+  void add_options(CLI::App& app) override {
+    mu_.add(app, "--mu", "M|MIN:MAX:N", "patch ratio, 0 < M <= 1, or N values of it");
+    u0_.add(app, "--u0", "MIN:MAX:N", "N values of the pivoting R omega_z at the start, MIN and MAX among them");
+    v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed at the start, MIN >= 0");
+    log_ = app.add_flag("--log");
+    log_->description("values in equal ratios instead of equal steps; MIN > 0");
+    law_.add(app);
+    body_.add(app);
+    threads_.add(app);
+    progress_.add(app);
+    file_.add(
+        app, "-o,--output", "FILE",
+        fmt::format("write to FILE (default: csv on standard output), whole or not at all; its ending is one of {}",
+                    endings));
+    format_.add(app, "--format", "FORMAT", fmt::format("instead of the ending, as with -o -: {}", endings));
+  }
+
+  ExitStatus run() override {
+    const Body body = body_.read();
+    const SweepGrid grid = read_grid(body);
+    const std::string path = file_.given() ? file_.text() : "-";
+    if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
+    const std::string format = read_format(path);
+    const reduction::Law law = law_.read();
+    const int threads = threads_.read();
+    const bool progress = progress_.read();
+    if (const auto picture = portraits::find_picture_format(format)) {
+      write_output(path,
+                   drawn(portraits::draw(make_map(reduction::ReducedSystem(law, grid.mu.least(), body.inertia), grid)),
+                         *picture));
+      return ExitStatus::done;
+    }
+    if (format != "npy" && format != "csv") {
+      throw BadInput(
+          fmt::format("-o {}: a sweep is written as one of {}; '{}' is none of them", path, endings, format));
+    }
+    OutputFile output(path);
+    sweep({.law = law,
+           .body = body.inertia,
+           .grid = grid,
+           .format = format == "npy" ? SweepFormat::npy : SweepFormat::csv,
+           .threads = threads,
+           .progress = progress},
+          output);
+    output.finish();
+    return ExitStatus::done;
+  }
+
+ private:
+  static Range read_range(const Argument& argument, Steps steps) {
+    if (!argument.given()) {
+      throw BadInput(fmt::format("{} missing: a sweep is --mu M --u0 MIN:MAX:N --v0 MIN:MAX:N", argument.name()));
+    }
+    try {
+      return parse_range(argument.text(), steps);
+    } catch (const BadInput& error) {
+      argument.reject(error.what());
+    }
+  }
+
+  SweepGrid read_grid(const Body& body) const {
+    const Steps steps = log_->count() > 0 ? Steps::logarithmic : Steps::linear;
+    const bool mu_is_range = mu_.given() && mu_.text().find(':') != std::string::npos;
+    const SweepGrid grid{.mu = mu_is_range ? read_range(mu_, steps) : Range(BodyOption::read_patch_ratio(mu_, body)),
+                         .mu_is_range = mu_is_range,
+                         .u0 = read_range(u0_, steps),
+                         .v0 = read_range(v0_, steps)};
+    for (double mu : {grid.mu.least(), grid.mu.most()}) {
+      if (const std::string wrong = body.complaint(mu); !wrong.empty()) mu_.reject(wrong);
+    }
+    if (grid.v0.least() < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
+    return grid;
+  }
+
+  portraits::StopTimeMap make_map(const reduction::ReducedSystem& system, const SweepGrid& grid) const {
+    constexpr double most_points = 1e6;
+    if (grid.mu_is_range) mu_.reject("a picture shows one mu: give --mu M, or write npy or csv");
+    if (grid.u0.count() < 2) u0_.reject("a picture needs a range, MIN:MAX:N");
+    if (grid.v0.count() < 2) v0_.reject("a picture needs a range, MIN:MAX:N");
+    if (grid.points() > most_points) {
+      throw BadInput(fmt::format("a picture shows at most {:g} starts, not {:g}: reduce N, or write npy or csv",
+                                 most_points, grid.points()));
+    }
+    const auto values = [](const Range& range) {
+      Eigen::ArrayXd array(range.count());
+      for (long i = 0; i < range.count(); ++i) array[i] = range[i];
+      return array;
+    };
+    return portraits::stop_time_map(reduction::StopTimeProfile(system),
+                                    {values(grid.u0), values(grid.v0), log_->count() > 0});
+  }
+
+  std::string read_format(const std::string& path) const {
+    const std::string by_ending = ending(path);
+    if (!format_.given()) return path == "-" ? "csv" : by_ending;
+    if (is_format(by_ending) && by_ending != format_.text()) {
+      format_.reject(fmt::format("the file {} says otherwise: leave out one of them", path));
+    }
+    return format_.text();
+  }
+
+  static bool is_format(const std::string& name) {
+    return name == "npy" || name == "csv" || portraits::find_picture_format(name).has_value();
+  }
+
+  Argument mu_, u0_, v0_;
+  CLI::Option* log_ = nullptr;
+  LawOption law_;
+  BodyOption body_;
+  ThreadOption threads_;
+  ProgressOption progress_;
+  Argument file_, format_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_sweep_command() { return std::make_unique<SweepCommand>(); }
+
+}  // namespace contensou::program

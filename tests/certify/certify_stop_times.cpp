@@ -1,0 +1,221 @@
+#include "certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pade_stop_time.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/stop_time_profile.hpp"
+#include "reference_table.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<double>::max();
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int points = 5'000;
+#else
+constexpr int points = 100'000;
+#endif
+
+/// What the library promises of the closed route.
+constexpr double promised_ulp = 4;
+
+/// Worst and mean error of the closed route over random starts.
+class Sample {
+ public:
+  explicit Sample(std::string name) : name_(std::move(name)) {}
+
+  void add(const ReducedSystem& system, State start) {
+    add(system, start, stop_time(system, start, Route::closed).tau);
+  }
+
+  void add(const ReducedSystem& system, State start, double tau) {
+    const double error = certify_stop_time(system, start, tau).error_ulp;
+    sum_ += error;
+    ++count_;
+    if (error < worst_) return;
+    worst_ = error;
+    where_ = fmt::format("mu = {}, u0 = {}, v0 = {}", system.mu(), start.u, start.v);
+  }
+
+  /// Prints the result, and checks it.
+  void judge() const {
+    WARN(fmt::format("{}: {} starts, worst {:.2f} ulp, mean {:.2f} ulp; worst at {}", name_, count_, worst_,
+                     sum_ / count_, where_));
+    CHECK(worst_ <= promised_ulp);
+  }
+
+ private:
+  std::string name_;
+  double worst_ = 0;
+  double sum_ = 0;
+  int count_ = 0;
+  std::string where_;
+};
+
+class Random {
+ public:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  double log_uniform(double low, double high) { return low * std::exp(uniform(0, std::log(high) - std::log(low))); }
+
+ private:
+  std::mt19937_64 engine_{20'240'817};
+};
+
+}  // namespace
+
+TEST_CASE("random stop times of the Pade ball against their enclosures", "[certify]") {
+  Random random;
+  Sample ordinary("mu in [1e-10, 1], k0 in [1e-8, 1e8]"), wide("mu in [1, 3], k0 in [1e-4, 1e4]"),
+      critical("mu^2 within 1e-3 of 14/5 and 7, k0 in [1e-3, 1e3]");
+  const auto add = [&](Sample& sample, double mu, double k0) {
+    const double u0 = random.uniform(-2, 2);
+    sample.add(ReducedSystem(PadeLaw{}, mu), {u0, mu * std::abs(u0) * k0});
+  };
+  for (int i = 0; i < points; ++i) add(ordinary, random.log_uniform(1e-10, 1), random.log_uniform(1e-8, 1e8));
+  for (int i = 0; i < points / 4; ++i) add(wide, random.uniform(1, 3), random.log_uniform(1e-4, 1e4));
+  for (int i = 0; i < points / 20; ++i) {
+    const double distance = random.log_uniform(1e-16, 1e-3) * (i % 2 == 0 ? 1 : -1);
+    add(critical, std::sqrt((i % 4 < 2 ? 2.8 : 7.0) * (1 + distance)), random.log_uniform(1e-3, 1e3));
+  }
+  ordinary.judge();
+  wide.judge();
+  critical.judge();
+}
+
+TEST_CASE("random stop times of arrays against their enclosures", "[certify]") {
+  Random random;
+  Sample arrays("arrays, mu in [1e-4, 1], k0 in [1e-3, 1e5]");
+  std::vector<double> mu, u0, v0;
+  for (int i = 0; i < points; ++i) {
+    mu.push_back(random.log_uniform(1e-4, 1));
+    u0.push_back(random.uniform(-2, 2));
+    v0.push_back(mu.back() * std::abs(u0.back()) * random.log_uniform(1e-3, 1e5));
+  }
+  std::vector<double> tau(mu.size());
+  pade_stop_times(mu, u0, v0, tau);
+  for (std::size_t i = 0; i < tau.size(); ++i) arrays.add(ReducedSystem(PadeLaw{}, mu[i]), {u0[i], v0[i]}, tau[i]);
+  arrays.judge();
+}
+
+TEST_CASE("random stop times of profiles against their enclosures", "[certify]") {
+  Random random;
+  Sample profiles("profiles, mu in [1e-10, 1], k0 in [1e-8, 1e8]"), wide("profiles, mu in [1, 3], k0 in [1e-4, 1e4]");
+  constexpr int starts = 500;
+  const auto add = [&](Sample& sample, double mu, double largest_k0) {
+    const ReducedSystem system(PadeLaw{}, mu);
+    std::vector<double> u0, v0;
+    for (int i = 0; i < starts; ++i) {
+      u0.push_back(random.uniform(-2, 2));
+      v0.push_back(mu * std::abs(u0.back()) * random.log_uniform(1 / largest_k0, largest_k0));
+    }
+    std::vector<double> tau(u0.size());
+    StopTimeProfile(system).evaluate(u0, v0, tau);
+    for (std::size_t i = 0; i < tau.size(); ++i) sample.add(system, {u0[i], v0[i]}, tau[i]);
+  };
+  for (int i = 0; i < points / starts; ++i) add(profiles, random.log_uniform(1e-10, 1), 1e8);
+  for (int i = 0; i < points / starts / 4; ++i) add(wide, random.uniform(1, 3), 1e4);
+  profiles.judge();
+  wide.judge();
+}
+
+TEST_CASE("stop times at the ends of the double range against their enclosures", "[certify]") {
+  Random random;
+  Sample ends("speeds from 5e-324 to 1.8e308");
+  for (int i = 0; i < points / 20; ++i) {
+    const auto speed = [&] {
+      return std::ldexp(random.uniform(0.5, 1), static_cast<int>(random.uniform(-1074, 1023)));
+    };
+    ends.add(ReducedSystem(PadeLaw{}, random.log_uniform(1e-10, 3)), {speed(), speed()});
+  }
+  for (double mu : {1e-10, 0.1, 1.0, 1.7, 2.5, 2.8}) {
+    for (double fraction = 0.999999; fraction < 1.000001; fraction += 1e-7) {
+      // P alone next to the largest double, from both sides.
+      const double u = std::min(largest / 3.2 * mu * fraction, largest);
+      ends.add(ReducedSystem(PadeLaw{}, mu), {u, u * (mu * 1e-9)});
+      ends.add(ReducedSystem(PadeLaw{}, mu), {std::ldexp(random.uniform(0.5, 1), -1060), 5e-324});
+    }
+  }
+  ends.judge();
+}
+
+TEST_CASE("other bodies against their enclosures, also at r = 2, r = 5 and on the ray", "[certify]") {
+  Sample bodies("chi, gamma of other bodies");
+  for (const Inertia body : {Inertia{1, 2}, Inertia{1, 5}, Inertia{1, 1}, Inertia{2.5, 1.5}, Inertia{1, 3},
+                             Inertia{1, 40}, Inertia{3, 1e-9}}) {
+    for (double k0 = 1e-6; k0 < 1e6; k0 *= 1.3) bodies.add(ReducedSystem(PadeLaw{}, 1, body), {1, k0});
+  }
+  bodies.judge();
+}
+
+TEST_CASE("the exact law at random k against its enclosure", "[certify]") {
+  Random random;
+  double worst_force = 0, worst_moment = 0, sum_force = 0, sum_moment = 0;
+  for (int i = 0; i < points; ++i) {
+    // Half of them around k = 1, where the formulas change over.
+    const double k = i % 2 == 0 ? random.log_uniform(1e-10, 1e10) : random.log_uniform(0.5, 2);
+    const auto [force, moment] = certify_hertz_law(k, HertzLaw{}({k, 1}));
+    worst_force = std::max(worst_force, force);
+    worst_moment = std::max(worst_moment, moment);
+    sum_force += force;
+    sum_moment += moment;
+  }
+  WARN(fmt::format("exact law: {} ratios, Phi worst {:.2f} ulp, mean {:.2f} ulp; Psi worst {:.2f} ulp, mean {:.2f} ulp",
+                   points, worst_force, sum_force / points, worst_moment, sum_moment / points));
+  CHECK(worst_force <= promised_ulp);
+  CHECK(worst_moment <= promised_ulp);
+  CHECK(certify_hertz_law(2, {HertzLaw{}({2, 1}).force * (1 + 1e-12), 1}).force_ulp > 1000);
+  CHECK_THROWS_AS(certify_hertz_law(0, {0, 1}), std::domain_error);
+}
+
+TEST_CASE("the enclosures hold the table", "[certify][table]") {
+  for (const ReferenceRow& row : reference_table("stop_pade")) {
+    const ReducedSystem system(PadeLaw{}, row.input("mu"));
+    const State start{row.input("u0"), row.input("v0")};
+    const auto rounded = static_cast<double>(row.result("tau_stop"));
+    CAPTURE(row.where());
+    CHECK(certify_stop_time(system, start, rounded).error_ulp <= 0.501);
+    if (!std::isfinite(rounded) || rounded == 0) continue;
+    const Certificate certificate = certify_stop_time(system, start, rounded);
+    CHECK(std::stold(certificate.lower) <= row.result("tau_stop") * (1 + 1e-18L));
+    CHECK(std::stold(certificate.upper) >= row.result("tau_stop") * (1 - 1e-18L));
+    CHECK(std::stold(certificate.lower) <= std::stold(certificate.upper));
+    if (!std::isnormal(rounded)) continue;
+    CHECK(certify_stop_time(system, start, rounded * (1 + 1e-12)).error_ulp > 2000);
+  }
+}
+
+TEST_CASE("infinity is right where the stop time exceeds the largest double", "[certify]") {
+  const ReducedSystem system(PadeLaw{}, 0.1);
+  CHECK(certify_stop_time(system, {largest, 1}, infinity).error_ulp == 0);
+  CHECK(certify_stop_time(system, {1e300, 1}, infinity).error_ulp > 1e6);
+  CHECK(certify_stop_time(system, {largest, 1}, largest).error_ulp > 1e6);
+}
+
+TEST_CASE("rest and the axes are certified", "[certify][limit]") {
+  const ReducedSystem system(PadeLaw{}, 0.1);
+  CHECK(certify_stop_time(system, {0, 0}, 0).error_ulp == 0);
+  CHECK(certify_stop_time(system, {0, 0}, 0).error_ulp == 0);
+  CHECK(certify_stop_time(system, {0, 7}, stop_time(system, {0, 7}).tau).error_ulp <= 1);
+  CHECK(certify_stop_time(system, {1, 0}, stop_time(system, {1, 0}).tau).error_ulp <= 1);
+}
+
+TEST_CASE("what cannot be certified is refused", "[certify][domain]") {
+  CHECK_THROWS_AS(certify_stop_time(ReducedSystem(PadeLaw{}, 0.1), {1, -1}, 1), std::domain_error);
+  CHECK_THROWS_WITH(certify_stop_time(ReducedSystem(HertzLaw{}, 0.1), {1, 1}, 1), Catch::Matchers::Contains("exact"));
+}
