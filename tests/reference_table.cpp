@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace contensou::tests {
 
 namespace {
@@ -54,7 +56,7 @@ std::string ReferenceRow::where() const {
 }
 
 std::vector<ReferenceRow> reference_table(const std::string& name) {
-  const std::string path = std::string(CONTENSOU_REFERENCE_FOLDER) + "/" + name + ".csv";
+  const std::string path = fmt::format("{}/{}.csv", CONTENSOU_REFERENCE_FOLDER, name);
   std::ifstream file(path);
   std::string line;
   if (!std::getline(file, line)) throw std::runtime_error("reference table: cannot read " + path);

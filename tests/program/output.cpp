@@ -64,8 +64,8 @@ TEST_CASE("what cannot be written is status 4 and leaves nothing", "[cli]") {
 }
 
 TEST_CASE("a full standard output is status 4", "[cli]") {
-  const std::string command = std::string("'") + CONTENSOU_PROGRAM + "' stop --ball pool >/dev/full 2>/dev/null";
-  const int ended = std::system(command.c_str());
+  const char* const command = "'" CONTENSOU_PROGRAM "' stop --ball pool >/dev/full 2>/dev/null";
+  const int ended = std::system(command);
   CHECK(WEXITSTATUS(ended) == 4);
 }
 
