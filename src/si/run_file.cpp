@@ -41,8 +41,99 @@ std::string shortest(double value) {
 
 /// What the user calls a key: `key` in [section].
 std::string place(const Section& section, std::string_view key) {
-  return section.path.empty() ? fmt::format("'{}'", key) : fmt::format("'{}' in [{}]", key, section.path);
+  return section.path.empty() ? fmt::format("'{:.80}'", key) : fmt::format("'{:.80}' in [{}]", key, section.path);
 }
+
+constexpr std::size_t max_size = 1 << 16;
+constexpr int max_depth = 16;
+
+/// Text that is not for the parser, and why.
+struct Misfit {
+  toml::source_position where;
+  std::string reason;
+};
+
+/// The first place of a text that toml++ 3.3 answers with a failed assertion, undefined behaviour or a stack overflow
+/// instead of a parse_error: a character that TOML has only in strings and comments, quotes or a header where TOML
+/// has none, or deep nesting.
+class Screen {
+ public:
+  explicit Screen(std::string_view text) : rest_(text) {}
+
+  std::optional<Misfit> misfit() {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+    for (char before = '\n', c; !rest_.empty(); before = contains(blanks, c) ? before : c) {
+      c = rest_.front();
+      if (c == '#') {
+        skip(std::min(rest_.find('\n'), rest_.size()));
+      } else if (c == '"' || c == '\'') {
+        if (!contains("=,[{.\n", before)) return Misfit{here_, "not TOML: quotes begin a key or a value"};
+        skip_string(c);
+      } else if (!is_key_letter(c) && !contains(marks, c)) {
+        return Misfit{here_,
+                      fmt::format("not TOML: only letters, digits and _-{} stand outside quotes", visible_marks)};
+      } else if (before == '\n' && brackets_ == 0 && c == '[' && !header_begins_with_key()) {
+        return Misfit{here_, "not TOML: a header is a name in brackets, such as [ball]"};
+      } else {
+        if (c == '[' || c == '{') ++brackets_;
+        if (c == ']' || c == '}') --brackets_;
+        if (c == '.') ++dots_;
+        if (contains("[]{},=\n", c)) dots_ = 0;
+        if (std::max(brackets_, dots_) > max_depth) {
+          return Misfit{here_, fmt::format("nested more than {} deep: no table of a run file is", max_depth)};
+        }
+        skip(1);
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::string_view visible_marks = "+.:,=[]{}";
+  static constexpr std::string_view marks = "+.:,=[]{} \t\r\n";
+  static constexpr std::string_view blanks = " \t";
+
+  static bool contains(std::string_view letters, char c) { return letters.find(c) != std::string_view::npos; }
+  static bool is_key_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  }
+
+  bool header_begins_with_key() const {
+    std::string_view header = rest_.substr(rest_.starts_with("[[") ? 2 : 1);
+    header.remove_prefix(std::min(header.find_first_not_of(blanks), header.size()));
+    return header.empty() || is_key_letter(header.front()) || contains("\"']", header.front());
+  }
+
+  void skip(std::size_t bytes) {
+    for (char c : rest_.substr(0, bytes)) {
+      const bool within_letter = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+      if (!within_letter) ++here_.column;
+      if (c == '\n') here_ = {here_.line + 1, 1};
+    }
+    rest_.remove_prefix(bytes);
+  }
+
+  /// A string on one line ends with it at the latest; one of three quotes may have two more before its end.
+  void skip_string(char quote) {
+    const std::string three(3, quote);
+    const bool is_long = rest_.starts_with(three);
+    std::size_t end = is_long ? 3 : 1;
+    while (end < rest_.size()) {
+      if (is_long ? rest_.substr(end).starts_with(three) : rest_[end] == quote) break;
+      if (!is_long && rest_[end] == '\n') return skip(end);
+      end += quote == '"' && rest_[end] == '\\' ? 2 : 1;
+    }
+    end += is_long ? 3 : 1;
+    for (int more = 0; is_long && more < 2 && end < rest_.size() && rest_[end] == quote; ++more) ++end;
+    skip(std::min(end, rest_.size()));
+  }
+
+  std::string_view rest_;
+  toml::source_position here_{1, 1};
+  int brackets_ = 0;
+  int dots_ = 0;  ///< of the key that is being read
+};
 
 class Reader {
  public:
@@ -93,6 +184,10 @@ class Reader {
   }
 
   toml::table parse(std::string_view text) const {
+    if (text.size() > max_size) {
+      throw RunFileError(fmt::format("{}: too long for a run file, which has at most {} bytes", source_, max_size));
+    }
+    if (const auto misfit = Screen(text).misfit()) fail(misfit->where, misfit->reason);
     try {
       return toml::parse(text);
     } catch (const toml::parse_error& error) {
@@ -279,7 +374,7 @@ Shot parse_run_file(std::string_view text, std::string_view source, const Overri
 }
 
 Shot read_run_file(const std::string& path, const Overrides& overrides, const StartOverride& start) {
-  return parse_run_file(read_text_file(path), path, overrides, start);
+  return parse_run_file(read_text_file(path, max_size + 1), path, overrides, start);
 }
 
 std::string run_file(const Shot& shot, std::string_view remark) {

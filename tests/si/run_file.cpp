@@ -172,6 +172,8 @@ TEST_CASE("mistakes are found with their place", "[table]") {
       {with(good, "[ball]", "ball = 3\n[bull]"), "x.toml:1:", {"'ball' must be a table"}},
       {"", "x.toml:1:1: ", {"'mass' in [ball] is missing"}},
       {with(good, "mass = 0.1701", "mass = 1\nmass = 2"), "x.toml:4:", {"not TOML"}},
+      {with(good, "mass = 0.1701", "m\xC3\xA4ss = 1"), "x.toml:3:2: ", {"not TOML", "outside quotes"}},
+      {"# \xC3\xA4 'b'\na = '\xC3\xA4' (", "x.toml:2:9: ", {"outside quotes"}},
   };
   for (const auto& [text, place, words] : mistakes) {
     INFO(text);
@@ -179,6 +181,46 @@ TEST_CASE("mistakes are found with their place", "[table]") {
     CHECK_THROWS_WITH(parse_run_file(text, "x.toml"), StartsWith(place));
     for (const std::string& word : words) CHECK_THROWS_WITH(parse_run_file(text, "x.toml"), Contains(word));
   }
+}
+
+TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
+  const auto refused = [](const std::string& text, const std::string& message) {
+    INFO(text.substr(0, 80));
+    CHECK_THROWS_AS(parse_run_file(text, "x.toml"), RunFileError);
+    CHECK_THROWS_WITH(parse_run_file(text, "x.toml"), Contains(message));
+  };
+  const auto repeated = [](const std::string& piece, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += piece;
+    return text;
+  };
+  // A failed assertion: a header that does not begin with a key.
+  for (const char* header : {"[(x]", "[,x]", "[ .x]", "[[=x]]", "[[[x]]]", "[\n]", "[#]", "a = 1\n [+1]"}) {
+    refused(header, "not TOML: ");
+  }
+  // Undefined behaviour: a letter within quotes that begin no string.
+  refused("a = 0'\xC9\xA0", "x.toml:1:6: not TOML: quotes begin a key or a value");
+  refused("a = \"b\" 'c'", "x.toml:1:9: not TOML: quotes begin a key or a value");
+  // A stack overflow, from 80 kB on; a header, a key, arrays and tables.
+  refused("[" + repeated("a.", 40) + "a]", "x.toml:1:35: nested more than 16 deep");
+  refused(repeated("a . \"b\" . ", 20) + "a = 1", "nested more than 16 deep");
+  refused("a = " + repeated("[", 40), "x.toml:1:21: nested more than 16 deep");
+  refused("a = " + repeated("{a = ", 40), "nested more than 16 deep");
+  refused("[" + repeated("a.", 60000) + "b]", "too long for a run file, which has at most 65536 bytes");
+
+  // Strings and comments may have all of it.
+  const std::string dots = repeated("([{.", 20);
+  for (const std::string quotes : {"\"", "'", "\"\"\"", "'''"}) {
+    const std::string named = with(good, "\"pool ball on cloth\"", quotes + dots + quotes + " # " + dots);
+    CHECK(parse_run_file(named, "x.toml").ball.name == dots);
+  }
+  CHECK(parse_run_file(with(good, "\"pool ball on cloth\"", R"("""a "q""""")"), "x.toml").ball.name == R"(a "q"")");
+  refused(with(good, "pool ball on cloth", R"(\"([)" + dots + "\" ("), "x.toml:2:95: not TOML");
+  CHECK(parse_run_file("\xEF\xBB\xBF" + good, "x.toml").ball.mass == 0.1701);
+}
+
+TEST_CASE("a run file that never ends", "[limit]") {
+  CHECK_THROWS_WITH(read_run_file("/dev/zero"), StartsWith("/dev/zero: too long for a run file"));
 }
 
 TEST_CASE("overrides act as if the file had said so", "[invariant]") {
