@@ -1,4 +1,5 @@
-# The direction of the arrows, read from the includes:  src -> portraits -> reduction,  src -> reduction.
+# The direction of the arrows, read from the includes:  src -> portraits -> reduction,  src -> reduction; and between
+# the rooms of reduction, floor by floor.
 #   cmake -D ROOT=<top of the tree> -P layers_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -35,6 +36,65 @@ foreach(folder IN ITEMS reduction portraits src)
   endforeach()
 endforeach()
 
+# The rooms of reduction: a file may use its own room and those of the floors before it.
+set(floors numerics laws system "similarity symmetry steppers" stop_times check)
+set(floor_count 0)
+foreach(floor IN LISTS floors)
+  string(REPLACE " " ";" rooms "${floor}")
+  foreach(room IN LISTS rooms)
+    set(floor_of_${room} ${floor_count})
+  endforeach()
+  math(EXPR floor_count "${floor_count} + 1")
+endforeach()
+
+# The rooms of what a file includes. A private header lies in its room. A public header belongs to the room of the source
+# of its name, and one that has no source to the rooms of what it includes itself.
+function(included_rooms file result)
+  set(rooms "")
+  file(STRINGS ${file} includes REGEX "^[ \t]*#[ \t]*include")
+  foreach(include IN LISTS includes)
+    if(include MATCHES "[<\"]contensou/reduction/([a-z0-9_]+)\\.hpp")
+      rooms_of_public(${CMAKE_MATCH_1} found)
+      list(APPEND rooms ${found})
+    elseif(include MATCHES "\"([a-z_]+)/[a-z0-9_]+\\.hpp\"")
+      list(APPEND rooms ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES rooms)
+  set(${result} ${rooms} PARENT_SCOPE)
+endfunction()
+
+function(rooms_of_public name result)
+  file(GLOB rooms RELATIVE ${ROOT}/reduction ${ROOT}/reduction/*/${name}.cpp)
+  list(TRANSFORM rooms REPLACE "/.*" "")
+  if(NOT rooms)
+    included_rooms(${ROOT}/reduction/include/contensou/reduction/${name}.hpp rooms)
+  endif()
+  set(${result} ${rooms} PARENT_SCOPE)
+endfunction()
+
+file(GLOB_RECURSE files ${ROOT}/reduction/*.hpp ${ROOT}/reduction/*.cpp)
+foreach(file IN LISTS files)
+  file(RELATIVE_PATH name ${ROOT}/reduction ${file})
+  string(REGEX REPLACE "/.*" "" room ${name})
+  if(room STREQUAL "include")
+    get_filename_component(stem ${file} NAME_WE)
+    rooms_of_public(${stem} room)
+    list(LENGTH room count)
+    if(NOT count EQUAL 1)
+      continue()  # it has no source: judged where it is included
+    endif()
+  endif()
+  included_rooms(${file} used)
+  foreach(other IN LISTS room used)
+    if(NOT DEFINED floor_of_${other})
+      list(APPEND faults "reduction/${name}: no such room: ${other}")
+    elseif(NOT other STREQUAL room AND NOT floor_of_${other} LESS floor_of_${room})
+      list(APPEND faults "reduction/${name}: ${room} uses ${other}")
+    endif()
+  endforeach()
+endforeach()
+
 list(REMOVE_DUPLICATES gnuplot_files)
 list(REMOVE_DUPLICATES odeint_files)
 list(LENGTH gnuplot_files gnuplot_count)
@@ -51,6 +111,6 @@ endif()
 
 if(faults)
   list(JOIN faults "\n  " text)
-  message(FATAL_ERROR "An arrow that is not in the picture (src -> portraits -> reduction, src -> reduction):\n  ${text}")
+  message(FATAL_ERROR "An arrow that is not in the picture (src -> portraits -> reduction, src -> reduction; ${floors}):\n  ${text}")
 endif()
 message(STATUS "${read} sources, every include along the arrows")

@@ -24,8 +24,8 @@ constexpr Look pade_look{{0x0b4f8a}, {0xb3003b}, 1.6, true};
 constexpr Look other_look{{0x4aa3df}, {0xf0709a}, 1.6, false};
 
 const Look& look_of(const reduction::Law& law) {
-  if (law.name() == reduction::HertzLaw::name) return exact_look;
-  return law.name() == reduction::PadeLaw::name ? pade_look : other_look;
+  if (law.as<reduction::HertzLaw>()) return exact_look;
+  return law.as<reduction::PadeLaw>() ? pade_look : other_look;
 }
 
 constexpr Colour guide_colour{0x999999};

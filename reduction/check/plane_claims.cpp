@@ -30,8 +30,9 @@ constexpr double limit = 1e-6;  ///< a limit read off at a small distance from i
 
 class PlaneExamination {
  public:
-  PlaneExamination(const ReducedSystem& system, State start, const PrintedPlane& printed)
-      : system_(system), mu_(system.mu()), start_(start), orbit_(system, start), printed_(printed) {}
+  PlaneExamination(const ReducedSystem& system, State start, const PrintedPlane& printed,
+                   const SimilaritySolution& solution)
+      : system_(system), mu_(system.mu()), start_(start), orbit_(system, start, solution), printed_(printed) {}
 
   std::vector<PaperClaim> run() {
     equations();
@@ -193,7 +194,12 @@ PrintedPlane printed_plane() {
 }
 
 std::vector<PaperClaim> plane_claims(const ReducedSystem& system, State start, const PrintedPlane& printed) {
-  return PlaneExamination(system, start, printed).run();
+  return plane_claims(system, start, printed, similarity_solution(system.law(), system.r()));
+}
+
+std::vector<PaperClaim> plane_claims(const ReducedSystem& system, State start, const PrintedPlane& printed,
+                                     const SimilaritySolution& solution) {
+  return PlaneExamination(system, start, printed, solution).run();
 }
 
 }  // namespace contensou::reduction

@@ -10,6 +10,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/hertz_inner_orbit.hpp"
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 #include "contensou/reduction/similarity.hpp"
@@ -209,15 +211,14 @@ class Examination {
   }
 
   void inner_orbit() {
-    const auto& elementary = system_.law().inner_log_rim();
-    if (!elementary || !(system_.r() * system_.law().pivoting_moment() < system_.law().force_slope())) return;
-    const SimilarityCurve& curve = *quadrature_.through(0);
+    if (!system_.law().as<HertzLaw>() || !(system_.r() < 2)) return;
+    const SimilarityCurve& curve = *(closed_ ? closed_ : quadrature_).through(0);
     // ln w changes by r times a number of order 1, and more as r -> 2.
     double worst = 0;
     for (double k : {1e-6, 1e-3, 0.03, 0.3, 0.7, 0.99}) {
-      const double change = elementary(system_.r(), 1) - elementary(system_.r(), k);
-      const double by_quadrature = curve.log_rim(0) - curve.log_rim(std::log(k));
-      worst = worse(std::abs(by_quadrature - change) / std::max(system_.r(), std::abs(by_quadrature)), worst);
+      const double elementary = hertz_inner_log_rim(system_.r(), 1) - hertz_inner_log_rim(system_.r(), k);
+      const double change = curve.log_rim(0) - curve.log_rim(std::log(k));
+      worst = worse(std::abs(change - elementary) / std::max(system_.r(), std::abs(change)), worst);
     }
     add("elementary orbit for k <= 1", worst, rounding);
   }
@@ -232,14 +233,14 @@ class Examination {
 
 }  // namespace
 
-std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts) {
+std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts,
+                          const SimilaritySolution& closed) {
   constexpr double smallest_r = 1e-100;
   if (system.r() < smallest_r) {
     throw std::domain_error(fmt::format(
         "verify: mu = {} is too small, the fields underflow; gamma mu^2/chi >= {} is needed", system.mu(), smallest_r));
   }
   const SimilaritySolution quadrature = quadrature_solution(system.law(), system.r());
-  const SimilaritySolution closed = system.law().closed_solution(system.r());
   std::vector<Check> all;
   for (const State& start : starts) {
     require_state("verify", start);
@@ -256,6 +257,14 @@ std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>&
     }
   }
   return all;
+}
+
+std::vector<Check> verify(const ReducedSystem& system, State start, const SimilaritySolution& closed) {
+  return verify(system, std::vector{start}, closed);
+}
+
+std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts) {
+  return verify(system, starts, closed_solution(system.law(), system.r()));
 }
 
 std::vector<Check> verify(const ReducedSystem& system, State start) { return verify(system, std::vector{start}); }

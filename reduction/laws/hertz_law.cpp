@@ -13,8 +13,6 @@
 #include <cstddef>
 #include <numbers>
 
-#include "contensou/reduction/hertz_inner_orbit.hpp"
-
 namespace contensou::reduction {
 
 namespace {
@@ -83,7 +81,5 @@ double HertzLaw::moment_deficit(Slip slip) const {
   }
   return 1 - (*this)(slip).moment / (3 * pi / 16);
 }
-
-double HertzLaw::inner_log_rim(double r, double k) const { return hertz_inner_log_rim(r, k); }
 
 }  // namespace contensou::reduction

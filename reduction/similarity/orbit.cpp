@@ -54,21 +54,6 @@ double increasing_root(Function value_and_slope, double guess, double low, doubl
 
 }  // namespace
 
-OrbitColumns::OrbitColumns(Eigen::Index rows) : tau(rows), u(rows), v(rows), ln_v(rows), k(rows), beta(rows) {}
-
-void OrbitColumns::set(Eigen::Index row, const OrbitPoint& point) {
-  tau[row] = point.tau;
-  u[row] = point.u;
-  v[row] = point.v;
-  ln_v[row] = point.ln_v;
-  k[row] = point.k;
-  beta[row] = point.beta;
-}
-
-OrbitPoint OrbitColumns::row(Eigen::Index row) const {
-  return {tau[row], u[row], v[row], ln_v[row], k[row], beta[row]};
-}
-
 Orbit::Orbit(const ReducedSystem& system, State start)
     : Orbit(system, start,
             start.u == 0 || start.v == 0 ? SimilaritySolution() : similarity_solution(system.law(), system.r())) {}

@@ -2,10 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/pade_curve.hpp"
+#include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/quadrature_curve.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 
@@ -32,8 +35,13 @@ SimilaritySolution quadrature_solution(const Law& law, double r) {
   return {curve(Side::above, terminal.k), curve(Side::below, terminal.k)};
 }
 
+SimilaritySolution closed_solution(const Law& law, double r) {
+  if (law.as<PadeLaw>() && r <= PadeCurve::largest_r) return std::make_shared<PadeCurve>(r);
+  return {};
+}
+
 SimilaritySolution similarity_solution(const Law& law, double r) {
-  if (auto closed = law.closed_solution(r)) return closed;
+  if (auto closed = closed_solution(law, r)) return closed;
   return quadrature_solution(law, r);
 }
 

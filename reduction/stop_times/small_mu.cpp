@@ -6,16 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/pade_law.hpp"
+#include "numerics/dilogarithm.hpp"
 #include "numerics/legendre_series.hpp"
 
 namespace contensou::reduction {
 
 namespace {
 
+using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
 
 /// Beyond these, m is its limit to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
@@ -53,6 +57,16 @@ void for_each_panel(double low, double high, Visit visit) {
   }
 }
 
+/// (R22); its limit r -> 0 is m0.
+double pade_share(double r, double ln_k) {
+  const double ln_z = ln_k + std::log(3 * pi * (5 - r) / (8 * (2 - r)));  // z = B k/A of (R8)
+  const double z = std::exp(ln_z);
+  if (z == 0) return 2.5;
+  const double log_1p = ln_z > 0 ? ln_z + std::log1p(1 / z) : std::log1p(z);
+  const double bracket = log_1p + r / 2 * dilogarithm_of_minus_exp(ln_z) + 3 * r / 20 * log_1p * log_1p;
+  return 1 + 1.5 * (2 / (2 - r)) * bracket / z;
+}
+
 }  // namespace
 
 ShareExpansion share_expansion(const Law& law, double ln_k) {
@@ -85,6 +99,12 @@ ShareExpansion share_expansion(const Law& law, double ln_k) {
   });
   const double k = std::exp(top);
   return {first / k, second / k};
+}
+
+ShareEstimates share_estimates(const Law& law, double r, double ln_k) {
+  if (law.as<PadeLaw>() && std::isfinite(ln_k)) return {pade_share(0, ln_k), pade_share(r, ln_k)};
+  const ShareExpansion share = share_expansion(law, ln_k);
+  return {share.first, share.first + r * share.second};
 }
 
 std::optional<FarShare> far_share(const Law& law) {
@@ -129,21 +149,10 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
     const double rim = on_axis ? 0 : sliding * std::exp(-ln_k) * (far->logarithm * ln_k + far->constant);
     estimates.push_back({"log", "E1 for k0 >> 1, P + S (1 - (c ln k0 + d)/k0)", pivoting + sliding - rim});
   }
-  double first = 0;
-  double second = 0;
-  if (!on_axis) {
-    if (const auto& closed = law.small_mu_share()) {
-      first = closed(1, system.r(), ln_k);
-      second = closed(2, system.r(), ln_k);
-    } else {
-      const ShareExpansion share = share_expansion(law, ln_k);
-      first = share.first;
-      second = share.first + system.r() * share.second;
-    }
-  }
-  const auto with_share = [&](double share) { return start.v == 0 ? pivoting : pivoting + share * sliding; };
-  estimates.push_back({"E1", "relative error O(mu^4 ln^2 mu)", start.u == 0 ? sliding : with_share(first)});
-  estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)", start.u == 0 ? sliding : with_share(second)});
+  const ShareEstimates share = on_axis ? ShareEstimates{} : share_estimates(law, system.r(), ln_k);
+  const auto with_share = [&](double m) { return start.v == 0 ? pivoting : pivoting + m * sliding; };
+  estimates.push_back({"E1", "relative error O(mu^4 ln^2 mu)", start.u == 0 ? sliding : with_share(share.first)});
+  estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)", start.u == 0 ? sliding : with_share(share.second)});
   return estimates;
 }
 

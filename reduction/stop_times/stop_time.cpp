@@ -10,6 +10,8 @@
 
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 #include "contensou/reduction/similarity_solution.hpp"
 
@@ -58,9 +60,14 @@ std::optional<Route> find_route(std::string_view name) {
   return found->route;
 }
 
+std::optional<double> closed_stop_time(const ReducedSystem& system, State start) {
+  if (!system.law().as<PadeLaw>()) return std::nullopt;
+  return pade_stop_time(system.mu(), start, system.inertia());
+}
+
 std::vector<Route> routes(const ReducedSystem& system) {
   std::vector<Route> found;
-  if (system.law().closed_stop_time() || system.law().closed_solution(system.r())) found.push_back(Route::closed);
+  if (system.law().as<PadeLaw>()) found.push_back(Route::closed);
   found.push_back(Route::quadrature);
   found.push_back(Route::regularised);
   found.push_back(Route::direct);
@@ -70,15 +77,8 @@ std::vector<Route> routes(const ReducedSystem& system) {
 StopTime stop_time(const ReducedSystem& system, State start, Route route) {
   switch (route) {
     case Route::closed: {
-      if (const auto& closed = system.law().closed_stop_time()) {
-        return {closed(system.mu(), start, system.inertia()), route, 1e-15, 0};
-      }
-      const SimilaritySolution solution = system.law().closed_solution(system.r());
-      if (!solution) {
-        throw std::domain_error(
-            fmt::format("stop_time: law {} has no closed form for r = {}", system.law().name(), system.r()));
-      }
-      return by_similarity(route, Orbit(system, start, solution));
+      if (const auto tau = closed_stop_time(system, start)) return {*tau, route, 1e-15, 0};
+      throw std::domain_error(fmt::format("stop_time: law {} has no closed form", system.law().name()));
     }
     case Route::quadrature:
       return by_similarity(route, Orbit(system, start, quadrature_solution(system.law(), system.r())));

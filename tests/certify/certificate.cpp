@@ -13,6 +13,8 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/pade_law.hpp"
+
 namespace contensou::reduction {
 
 namespace {
@@ -200,7 +202,7 @@ double error_in_ulps(const Ball& truth, double tau) {
 
 Certificate certify_stop_time(const ReducedSystem& system, State start, double tau) {
   require_state("certify_stop_time", start);
-  if (system.law().name() != "pade") {
+  if (!system.law().as<PadeLaw>()) {
     throw std::domain_error(
         fmt::format("certify_stop_time: only law pade has a closed form, got {}", system.law().name()));
   }

@@ -16,6 +16,7 @@
 #include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/stop_time_profile.hpp"
+#include "reduction/user_laws.hpp"
 #include "reference_table.hpp"
 
 using namespace contensou::reduction;
@@ -218,4 +219,5 @@ TEST_CASE("rest and the axes are certified", "[certify][limit]") {
 TEST_CASE("what cannot be certified is refused", "[certify][domain]") {
   CHECK_THROWS_AS(certify_stop_time(ReducedSystem(PadeLaw{}, 0.1), {1, -1}, 1), std::domain_error);
   CHECK_THROWS_WITH(certify_stop_time(ReducedSystem(HertzLaw{}, 0.1), {1, 1}, 1), Catch::Matchers::Contains("exact"));
+  CHECK_THROWS_AS(certify_stop_time(ReducedSystem(Impostor{}, 0.1), {1, 1}, 1), std::domain_error);
 }

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -63,17 +65,10 @@ TEST_CASE("a law keeps what it offers", "[friction_law]") {
   REQUIRE(exact.sliding_share());
   CHECK(exact.sliding_share()->least == 0);
   CHECK(exact.sliding_share()->most == 1);
-  CHECK_FALSE(exact.closed_solution(0.1));
-  REQUIRE(exact.inner_log_rim());
-  CHECK(exact.inner_log_rim()(0.5, 0.25) == HertzLaw{}.inner_log_rim(0.5, 0.25));
   CHECK(exact.moment_deficit({1e-9, 1}) == HertzLaw{}.moment_deficit({1e-9, 1}));
 
   const Law pade = PadeLaw{};
   CHECK(pade.name() == "pade");
-  REQUIRE(pade.closed_solution(0.1));
-  CHECK(pade.closed_solution(0.1).through(0)->r() == 0.1);
-  CHECK_FALSE(pade.closed_solution(1.5));
-  CHECK_FALSE(pade.inner_log_rim());
 
   CHECK(Law(Named{}).name() == "mine");
 }
@@ -84,8 +79,6 @@ TEST_CASE("a law of one function has the defaults", "[friction_law]") {
   CHECK(law.pivoting_moment() == law({0, 1}).moment);
   CHECK(law.force_slope() == 1 / 0.8);
   CHECK_FALSE(law.sliding_share());
-  CHECK_FALSE(law.closed_solution(0.1));
-  CHECK_FALSE(law.inner_log_rim());
   CHECK(law.moment_deficit({1, 1}) == 1 - law({1, 1}).moment / law.pivoting_moment());
 
   const ReducedSystem system(law, 0.1);
@@ -98,7 +91,23 @@ TEST_CASE("a copy of a law is the same law", "[friction_law]") {
   const Law pade = PadeLaw{};
   const Law copy = pade;  // NOLINT(performance-unnecessary-copy-initialization)
   CHECK(copy.name() == "pade");
-  CHECK(copy.closed_solution(0.5));
+  CHECK(copy.as<PadeLaw>() == pade.as<PadeLaw>());  // one function for both
+}
+
+TEST_CASE("a law is known by its type alone", "[friction_law][domain]") {
+  CHECK(Law(PadeLaw{}).as<PadeLaw>());
+  CHECK_FALSE(Law(PadeLaw{}).as<HertzLaw>());
+  CHECK_FALSE(Law(Impostor{}).as<PadeLaw>());
+  CHECK_FALSE(Law(Impostor{}).as<HertzLaw>());
+  CHECK(Law(Impostor{}).as<Impostor>());
+}
+
+TEST_CASE("a law that was moved from is still a law", "[friction_law]") {
+  Law pade = PadeLaw{};
+  const Law other = std::move(pade);
+  CHECK(pade.name() == other.name());  // NOLINT(bugprone-use-after-move)
+  CHECK(pade({1, 1}).force == other({1, 1}).force);
+  STATIC_REQUIRE(sizeof(Law) == sizeof(std::shared_ptr<int>));
 }
 
 TEMPLATE_TEST_CASE("everything works with a user's law of one function", "[friction_law][route]", RootLaw, OcticLaw,

@@ -14,7 +14,6 @@ TEST_CASE("a law is found by its name", "[laws]") {
     CHECK(found->name() == law.name());
     CHECK((*found)({2, 1}).force == law({2, 1}).force);
   }
-  CHECK(find_law("exact")->inner_log_rim());
   for (const char* name : {"uniform", "punch", "ring", "potential8"}) CHECK(find_law(name));
   CHECK_FALSE(find_law("Pade"));
   CHECK_FALSE(find_law(""));

@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include "contensou/reduction/pade_curve.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::tests {
 
@@ -17,30 +17,30 @@ struct CurveLie {
   Lie regularised_age = [](double, double truth) { return truth; };
 };
 
-/// The closed curve of the Pade law with functions that are not its own.
+/// A curve with functions that are not its own.
 class LyingCurve final : public reduction::SimilarityCurve {
  public:
   // It never comes to its limit: every ln k is asked for.
-  LyingCurve(double r, CurveLie lie)
-      : SimilarityCurve(r, reduction::Approach::to_zero(), -1e6), truth_(r), lie_(std::move(lie)) {}
-  double log_rim(double ln_k) const override { return lie_.log_rim(ln_k, truth_.log_rim(ln_k)); }
-  double sliding_share(double ln_k) const override { return lie_.sliding_share(ln_k, truth_.sliding_share(ln_k)); }
-  double slip_excess(double ln_k) const override { return truth_.slip_excess(ln_k); }
+  LyingCurve(reduction::SimilaritySolution::Curve truth, CurveLie lie)
+      : SimilarityCurve(truth->r(), truth->approach(), -1e6), truth_(std::move(truth)), lie_(std::move(lie)) {}
+  double log_rim(double ln_k) const override { return lie_.log_rim(ln_k, truth_->log_rim(ln_k)); }
+  double sliding_share(double ln_k) const override { return lie_.sliding_share(ln_k, truth_->sliding_share(ln_k)); }
+  double slip_excess(double ln_k) const override { return truth_->slip_excess(ln_k); }
   double regularised_age(double ln_k) const override {
-    return lie_.regularised_age(ln_k, truth_.regularised_age(ln_k));
+    return lie_.regularised_age(ln_k, truth_->regularised_age(ln_k));
   }
-  double time_rate(double ln_k) const override { return truth_.time_rate(ln_k); }
-  double accuracy() const override { return truth_.accuracy(); }
+  double time_rate(double ln_k) const override { return truth_->time_rate(ln_k); }
+  double accuracy() const override { return truth_->accuracy(); }
 
  private:
-  reduction::PadeCurve truth_;
+  reduction::SimilaritySolution::Curve truth_;
   CurveLie lie_;
 };
 
-struct CurveLiar : reduction::PadeLaw {
-  CurveLie lie;
-  explicit CurveLiar(CurveLie told) : lie(std::move(told)) {}
-  reduction::SimilaritySolution closed_solution(double r) const { return std::make_shared<LyingCurve>(r, lie); }
-};
+/// The solution of a ball with mu < 1, lied about.
+inline reduction::SimilaritySolution lying_solution(const reduction::ReducedSystem& system, CurveLie lie) {
+  const auto truth = reduction::similarity_solution(system.law(), system.r());
+  return std::make_shared<LyingCurve>(truth.through(0), std::move(lie));
+}
 
 }  // namespace contensou::tests

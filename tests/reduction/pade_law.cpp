@@ -52,10 +52,4 @@ TEST_CASE("the Pade law misses the exact one by as much as its header says", "[p
   CHECK(moment == Approx(0.4785).margin(5e-5));
 }
 
-TEST_CASE("the Pade law offers its closed form up to the r where it keeps its digits", "[pade_law][domain]") {
-  CHECK(PadeLaw{}.closed_solution(1e-20));
-  CHECK(PadeLaw{}.closed_solution(1));
-  CHECK_FALSE(PadeLaw{}.closed_solution(std::nextafter(1.0, 2.0)));
-}
-
 TEST_CASE("the Pade law rejects what is no slip", "[pade_law][domain]") { check_domain(PadeLaw{}, "PadeLaw"); }

@@ -166,3 +166,11 @@ TEST_CASE("where k goes must not depend on the start", "[similarity_solution][do
                                                          Catch::Matchers::Contains("one of several ratios") &&
                                                          Catch::Matchers::Contains("regularised"));
 }
+
+TEST_CASE("the Pade law has a closed form up to the r where it keeps its digits", "[similarity_solution][domain]") {
+  CHECK(closed_solution(PadeLaw{}, 1e-20));
+  CHECK(closed_solution(PadeLaw{}, 1));
+  CHECK(closed_solution(PadeLaw{}, 0.1).through(0)->r() == 0.1);
+  CHECK_FALSE(closed_solution(PadeLaw{}, std::nextafter(1.0, 2.0)));
+  CHECK_FALSE(closed_solution(HertzLaw{}, 0.1));
+}

@@ -23,6 +23,7 @@
 #include "reference_table.hpp"
 #include "stop_times/stop_time_kernel.hpp"
 #include "stops_above_one.hpp"
+#include "user_laws.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;
@@ -34,11 +35,6 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-/// The exact law by the name of the other.
-struct Impostor : HertzLaw {
-  static constexpr std::string_view name = "pade";
-};
 
 struct Starts {
   std::vector<double> u0, v0;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/slip.hpp"
 
 namespace contensou::tests {
@@ -35,6 +37,11 @@ struct OcticLaw {
     return {x * (8 * s * s * s + 4.8 * s * s * p + 4 * 0.321466 * s * p * p + 16 * c * p * p * p) / slope,
             y * (1.6 * s * s * s + 4 * 0.321466 * s * s * p + 48 * c * s * p * p + 8 * c * p * p * p) / slope};
   }
+};
+
+/// The exact law by the name of the other: a law is known by its type.
+struct Impostor : reduction::HertzLaw {
+  static constexpr std::string_view name = "pade";
 };
 
 /// Only the call of another law: what is left when its closed form, its bounds and its deficit are hidden.

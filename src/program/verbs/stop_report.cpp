@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/final_motion.hpp"
 #include "input/csv_table.hpp"
@@ -28,7 +29,7 @@ struct TimeLine {
 /// The law of the paper that stands beside another: the first that is not the same.
 const reduction::Law& other_law(const reduction::Law& law) {
   const auto& laws = reduction::paper_laws();
-  return laws[laws.front().name() == law.name() ? 1 : 0];
+  return laws[law.as<reduction::PadeLaw>() ? 1 : 0];
 }
 
 std::string difference(double other, double tau) {

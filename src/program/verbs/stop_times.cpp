@@ -14,8 +14,7 @@ constexpr std::size_t most_patches = 256;
 
 PatchStopTimes::PatchStopTimes(const reduction::ReducedSystem& system, const RouteOption& route)
     : system_(system), route_(route.read(system_)) {
-  const bool in_one_call = route_ == reduction::Route::closed && system_.law().closed_stop_time();
-  if (!in_one_call) solution_ = route_solution(system_, route_);
+  if (route_ != reduction::Route::closed) solution_ = route_solution(system_, route_);
 }
 
 double PatchStopTimes::operator()(reduction::State start) const {

@@ -55,7 +55,8 @@ class MapOfPatch {
 
   static By choose(const reduction::ReducedSystem& system, long starts) {
     // A profile takes about as long to make as so many calls of a closed form, or of a curve by quadrature.
-    const long profile_pays = system.law().closed_stop_time() ? 1 << 13 : 1 << 15;
+    const bool closed = reduction::routes(system).front() == reduction::Route::closed;
+    const long profile_pays = closed ? 1 << 13 : 1 << 15;
     if (starts < profile_pays) return PatchStopTimes(system, RouteOption());
     return reduction::StopTimeProfile(system);
   }

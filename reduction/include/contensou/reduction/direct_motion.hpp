@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contensou/reduction/motion.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::reduction {
 

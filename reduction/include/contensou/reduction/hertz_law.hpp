@@ -8,9 +8,8 @@ namespace contensou::reduction {
 
 /// Friction of a circular patch under Hertz pressure that slides and pivots at once: Coulomb's law, integrated exactly.
 ///
-/// Source    Zh98 (1.3), (1.5) for k < 1.25, with atan2 for the angle just above k = 1; beyond, the 2F1 series in
-/// 1/k^2,
-///           because (1.5) as printed cancels like k^4 (no digit is left at k = 1e4).
+/// Source    Zh98 (1.3), (1.5) for k < 1.25, with atan2 for the angle just above k = 1; beyond, the 2F1 series
+///           in 1/k^2, because (1.5) as printed cancels like k^4 (no digit is left at k = 1e4).
 /// Accuracy  4 eps relative for every k (tests/reference/laws.csv).
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 struct HertzLaw {
@@ -22,9 +21,6 @@ struct HertzLaw {
 
   /// 1 - Psi/Psi(0), without cancellation for k <= 1.
   double moment_deficit(Slip slip) const;
-
-  /// hertz_inner_log_rim.
-  double inner_log_rim(double r, double k) const;
 };
 
 }  // namespace contensou::reduction

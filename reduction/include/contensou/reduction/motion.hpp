@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/orbit_point.hpp"
 
 namespace contensou::reduction {
 

@@ -23,15 +23,6 @@ struct PadeLaw {
 
   /// 1 - Psi/Psi(0) = 15 pi k/(16 + 15 pi k).
   double moment_deficit(Slip slip) const;
-
-  /// m of README (R4) without its terms in r^order and higher: (R22), order 1 or 2.
-  double small_mu_share(int order, double r, double ln_k) const;
-
-  /// PadeCurve, for the r it is accurate for; empty beyond.
-  SimilaritySolution closed_solution(double r) const;
-
-  /// pade_stop_time, for every r.
-  double closed_stop_time(double mu, const State& start, const Inertia& inertia) const;
 };
 
 }  // namespace contensou::reduction

@@ -5,6 +5,7 @@
 
 #include "contensou/reduction/paper_claim.hpp"
 #include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::reduction {
 
@@ -23,7 +24,10 @@ PrintedPlane printed_plane();
 ///
 /// @param system  a ball under the law of (2.6): what the printed equations are held against
 /// @param start   u > 0, v > 0
+/// @param solution  of that system; by default the library's
 std::vector<PaperClaim> plane_claims(const ReducedSystem& system, State start,
                                      const PrintedPlane& printed = printed_plane());
+std::vector<PaperClaim> plane_claims(const ReducedSystem& system, State start, const PrintedPlane& printed,
+                                     const SimilaritySolution& solution);
 
 }  // namespace contensou::reduction

@@ -4,11 +4,10 @@
 #include <memory>
 #include <utility>
 
+#include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
-
-class Law;
 
 /// All motions under a law and an r: one curve, or, where there is an invariant ray, one for either side of it.
 ///
@@ -43,7 +42,10 @@ class SimilaritySolution {
 /// @throws std::domain_error  as QuadratureCurve
 SimilaritySolution quadrature_solution(const Law& law, double r);
 
-/// What the library uses: the law's own closed form where it has one, quadrature otherwise.
+/// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::largest_r; empty for all else.
+SimilaritySolution closed_solution(const Law& law, double r);
+
+/// What the library uses: the closed form where there is one, quadrature otherwise.
 SimilaritySolution similarity_solution(const Law& law, double r);
 
 }  // namespace contensou::reduction

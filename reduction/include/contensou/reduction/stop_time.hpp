@@ -33,12 +33,18 @@ struct StopTime {
   long evaluations;  ///< of the friction law; 0 for a closed form
 };
 
+/// The stop time in closed form, found by the law's type: pade_stop_time for PadeLaw, for every r; empty for all else.
+///
+/// @return  the paper's time; infinity where it exceeds the largest double
+/// @throws std::domain_error  if start is not a state (finite, v >= 0)
+std::optional<double> closed_stop_time(const ReducedSystem& system, State start);
+
 /// The time until u = v = 0, 0 at rest.
 ///
 /// @throws std::domain_error   if start is not a state (finite, v >= 0), or the system does not have the route
 /// @throws std::runtime_error  if a stepper did not reach the stop; the message is its outcome's sentence
 ///
-/// Accuracy  closed 1e-15 (by closed_curve 1e-14); quadrature 1e-13 (Pade, exact); steppers 3e-11; for all
+/// Accuracy  closed 1e-15; quadrature 1e-13 (Pade, exact); steppers 3e-11; for all
 /// finite starts, v0/(mu u0) may overflow.
 StopTime stop_time(const ReducedSystem& system, State start, Route route);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::reduction {
 
@@ -19,10 +20,18 @@ struct Check {
 /// scaling generator on (2.6), (2.7) and dv/du, the separated equation, the first integral, beta against (2.8), both
 /// limits, the law's own bounds, and for the exact law its elementary orbit inside k = 1.
 ///
-/// @throws std::domain_error  if start is not a state or is at rest, r is outside the regime k -> 0, or r < 1e-100
+/// @param closed  what is held against quadrature: the closed form of the system's law, or a solution of your own;
+///                empty where there is none
+/// @throws std::domain_error  if start is not a state or is at rest, the law has no solution by quadrature
+///                            (QuadratureCurve), or r < 1e-100
+std::vector<Check> verify(const ReducedSystem& system, State start, const SimilaritySolution& closed);
+
+/// With the closed form that the library has for the system's law, if it has one.
 std::vector<Check> verify(const ReducedSystem& system, State start);
 
 /// The same over several starts of one system: each row the worst of them.
+std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts,
+                          const SimilaritySolution& closed);
 std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts);
 
 }  // namespace contensou::reduction
