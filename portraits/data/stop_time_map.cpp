@@ -13,7 +13,7 @@ namespace contensou::portraits {
 namespace {
 
 using reduction::State;
-using reduction::StopTimeProfile;
+using reduction::StopTimeTable;
 
 void require_axis(const char* name, const Eigen::ArrayXd& values, bool logarithmic) {
   const auto fail = [name](const std::string& what) {
@@ -67,7 +67,7 @@ std::vector<double> round_ratios(double least, double most) {
 /// The isochrones of one map.
 class Isochrones {
  public:
-  Isochrones(const StopTimeProfile& profile, const MapAxes& axes) : profile_(profile), axes_(axes) {
+  Isochrones(const StopTimeTable& table, const MapAxes& axes) : table_(table), axes_(axes) {
     const Eigen::ArrayXd &u = axes.u0, &v = axes.v0;
     low_ = {u[0], v[0]};
     high_ = {u[u.size() - 1], v[v.size() - 1]};
@@ -104,7 +104,7 @@ class Isochrones {
       const double width = std::max(std::abs(low_.u), std::abs(high_.u));
       ray = {width * std::cos(direction), high_.v * std::sin(direction)};
     }
-    const double scale = tau / profile_(ray.u, std::max(ray.v, 0.0));
+    const double scale = tau / table_(ray.u, std::max(ray.v, 0.0));
     return {scale * ray.u, scale * std::max(ray.v, 0.0)};
   }
 
@@ -131,7 +131,7 @@ class Isochrones {
     return result;
   }
 
-  const StopTimeProfile& profile_;
+  const StopTimeTable& table_;
   const MapAxes& axes_;
   State low_{}, high_{};
   double first_, last_;
@@ -139,18 +139,18 @@ class Isochrones {
 
 }  // namespace
 
-StopTimeMap stop_time_map(const StopTimeProfile& profile, const MapAxes& axes) {
+StopTimeMap stop_time_map(const StopTimeTable& table, const MapAxes& axes) {
   require_axis("u0", axes.u0, axes.logarithmic);
   require_axis("v0", axes.v0, axes.logarithmic);
   if (axes.v0[0] < 0) throw std::domain_error(fmt::format("stop_time_map: v0 must be >= 0, got {}", axes.v0[0]));
 
-  const reduction::ReducedSystem& system = profile.system();
+  const reduction::ReducedSystem& system = table.system();
   StopTimeMap map{system.law().name(), system.mu(), axes, {}, {}};
   map.tau.resize(axes.v0.size(), axes.u0.size());
   Eigen::ArrayXd row(axes.u0.size());
   for (Eigen::Index i = 0; i < axes.v0.size(); ++i) {
-    profile.evaluate_row({axes.u0.data(), static_cast<std::size_t>(axes.u0.size())}, axes.v0[i],
-                         {row.data(), static_cast<std::size_t>(row.size())});
+    table.evaluate_row({axes.u0.data(), static_cast<std::size_t>(axes.u0.size())}, axes.v0[i],
+                       {row.data(), static_cast<std::size_t>(row.size())});
     map.tau.row(i) = row;
   }
   if (!map.tau.allFinite()) {
@@ -158,7 +158,7 @@ StopTimeMap stop_time_map(const StopTimeProfile& profile, const MapAxes& axes) {
   }
   const double least = map.tau.minCoeff();
   const double most = map.tau.maxCoeff();
-  const Isochrones isochrones(profile, axes);
+  const Isochrones isochrones(table, axes);
   for (double tau : axes.logarithmic ? round_ratios(least, most) : round_levels(least, most)) {
     isochrones.append(tau, map.isochrones);
   }

@@ -25,13 +25,13 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/reduction/stop_time_profile.hpp"
+#include "contensou/reduction/stop_time_table.hpp"
 #include "reference_table.hpp"
 #include "rivals.hpp"
-#include "stop_times/stop_time_kernel.hpp"
+#include "stop_times/stop_time_loop.hpp"
 
 #ifdef __SSE2__
-#include <immintrin.h>
+#include <emmintrin.h>
 #endif
 
 namespace {
@@ -53,7 +53,6 @@ class Times : public benchmark::BenchmarkReporter {
       if (!first) found->second = std::min(found->second, nanoseconds);
     }
   }
-  bool has(const std::string& name) const { return least_.contains(name); }
   double operator()(const std::string& name) const { return least_.at(name); }
 
  private:
@@ -138,12 +137,6 @@ void bare_loop(const double* u, const double* v, double* out, std::size_t size) 
   _mm_sfence();
 }
 
-[[gnu::target("avx")]] void wide_loop(const double* u, const double* v, double* out, std::size_t size) {
-  for (std::size_t i = 0; i < size; i += 4) {
-    _mm256_stream_pd(out + i, _mm256_add_pd(_mm256_load_pd(u + i), _mm256_load_pd(v + i)));
-  }
-  _mm_sfence();
-}
 #else
 void bare_loop(const double* u, const double* v, double* out, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) out[i] = u[i] + v[i];
@@ -183,10 +176,10 @@ int main() {
 
   // One start at a time.
   std::vector<std::pair<std::string, Method>> methods;
-  std::map<double, StopTimeProfile> profiles;
-  for (const Start& start : table) profiles.try_emplace(start.mu, ReducedSystem(PadeLaw{}, start.mu));
-  methods.emplace_back("profile of the system, one start", [&](const Start& s) {
-    return contensou::rivals::RivalResult{profiles.at(s.mu)(s.u0, s.v0), 0};
+  std::map<double, StopTimeTable> tables;
+  for (const Start& start : table) tables.try_emplace(start.mu, ReducedSystem(PadeLaw{}, start.mu));
+  methods.emplace_back("table of the system, one start", [&](const Start& s) {
+    return contensou::rivals::RivalResult{tables.at(s.mu)(s.u0, s.v0), 0};
   });
   const auto by_route = [](Route route) {
     return [route](const Start& s) {
@@ -217,60 +210,48 @@ int main() {
   for (double& x : u.span()) x = std::exp(ln(generator));
   for (double& x : v.span()) x = std::exp(ln(generator));
   std::ranges::fill(tau.span(), 0);
-  const StopTimeProfile pade(ReducedSystem(PadeLaw{}, 0.1)), hertz(ReducedSystem(HertzLaw{}, 0.1));
+  const StopTimeTable pade(ReducedSystem(PadeLaw{}, 0.1)), hertz(ReducedSystem(HertzLaw{}, 0.1));
   for (unsigned threads = 1; threads <= cores; ++threads) {
     const std::string on = threads == 1 ? "" : fmt::format(" on {} cores", threads);
     measure_in_memory("loop" + on, [&, threads] { run_shared(bare_loop, u.span(), v.span(), tau.span(), threads); });
     measure_in_memory("pade" + on, [&, threads] { pade.evaluate(u.span(), v.span(), tau.span(), threads); });
     measure_in_memory("hertz" + on, [&, threads] { hertz.evaluate(u.span(), v.span(), tau.span(), threads); });
-    measure_in_memory("row" + on, [&, threads] { pade.evaluate_row(u.span(), 1.0, tau.span(), threads); });
-#ifdef __SSE2__
-    if (!__builtin_cpu_supports("avx")) continue;
-    measure_in_memory("wide loop" + on,
-                      [&, threads] { run_shared(wide_loop, u.span(), v.span(), tau.span(), threads); });
-#endif
   }
-  for (const StopTimeKernel& kernel : stop_time_kernels()) {
-    measure_in_memory(fmt::format("kernel {}", kernel.name), [&] {
-      kernel.run(pade.table(), {u.data(), v.data(), 1, tau.data(), points, true});
-    });
-  }
+  measure_in_memory("row", [&] { pade.evaluate_row(u.span(), 1.0, tau.span()); });
+  // The loop alone, on panels that all hold one polynomial.
+  const std::vector<StopTimePanels::Panel> panels(StopTimePanels::sheets * StopTimePanels::per_sheet, {{1, 0.5, 0.25}});
+  const StopTimePanels plain{10, 32, panels.data(), {}};
+  measure_in_memory("plain", [&] { run_plain(plain, u.data(), v.data(), tau.data(), points); });
   constexpr std::size_t cached = 2048;
   measure("in cache", [&] {
     for (std::size_t i = 0; i < points / cached; ++i) {
       pade.evaluate(u.span().first(cached), v.span().first(cached), tau.span().first(cached));
     }
   });
-  measure("build pade", [] { benchmark::DoNotOptimize(StopTimeProfile(ReducedSystem(PadeLaw{}, 0.1))); });
-  measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeProfile(ReducedSystem(HertzLaw{}, 0.1))); });
+  measure("build pade", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(PadeLaw{}, 0.1))); });
+  measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(HertzLaw{}, 0.1))); });
 
   // A mu of its own for each start: log-uniform in 1e-4 .. 1, as v0/(mu u0) is in 1e-3 .. 1e5.
   constexpr std::size_t own = std::size_t{1} << 16;
-  const Array own_mu(own), own_u(own), own_v(own), own_tau(own);
+  const Array own_mu(own), own_v(own);
   std::uniform_real_distribution<double> ln_mu(std::log(1e-4), 0), ln_k(std::log(1e-3), std::log(1e5));
   for (std::size_t i = 0; i < own; ++i) {
     own_mu.span()[i] = std::exp(ln_mu(generator));
-    own_u.span()[i] = 1;
     own_v.span()[i] = own_mu.span()[i] * std::exp(ln_k(generator));
   }
   measure("own mu", [&] {
     for (std::size_t i = 0; i < own; ++i) {
-      own_tau.span()[i] = pade_stop_time(own_mu.span()[i], {own_u.span()[i], own_v.span()[i]});
+      benchmark::DoNotOptimize(pade_stop_time(own_mu.span()[i], {1, own_v.span()[i]}));
     }
-    benchmark::ClobberMemory();
   });
-  measure("own mu in arrays", [&] {
-    pade_stop_times(own_mu.span(), own_u.span(), own_v.span(), own_tau.span());
-    benchmark::ClobberMemory();
+  measure("own mu, exact", [] {
+    benchmark::DoNotOptimize(stop_time(ReducedSystem(HertzLaw{}, 0.1), {1, 1}, Route::quadrature));
   });
 
   // Orbits.
   std::vector<Orbit> orbits;
   const ReducedSystem pool(PadeLaw{}, 0.1);
   for (int i = 0; i < 40; ++i) orbits.emplace_back(pool, State{1, 0.1 * std::exp(0.2 * (i - 20))});
-  measure("orbits by time", [&] {
-    for (const Orbit& orbit : orbits) benchmark::DoNotOptimize(orbit.sample(400));
-  });
   measure("inversion", [&] {
     for (const Orbit& orbit : orbits) benchmark::DoNotOptimize(orbit.at_time(0.3 * orbit.stop_time()));
   });
@@ -296,8 +277,8 @@ int main() {
   Times times;
   benchmark::RunSpecifiedBenchmarks(&times);
 
-  fmt::print("{}, {} cores used, {}; GCC {}, {}.\n", processor(), cores, StopTimeProfile::instruction_set(),
-             __VERSION__, contensou::rivals::versions());
+  fmt::print("{}, {} cores used, {}; GCC {}, {}.\n", processor(), cores,
+             &run_fastest() == &run_plain ? "no AVX2" : "AVX2", __VERSION__, contensou::rivals::versions());
 
   fmt::print("\n{} starts of tests/reference/stop_pade.csv, one after the other, steppers at 1e-12:\n\n", table.size());
   fmt::print(
@@ -313,33 +294,25 @@ int main() {
   const auto each = [&](const std::string& name) { return times(name) / static_cast<double>(points); };
   fmt::print("\n{} starts in arrays, mu = 0.1:\n\n", points);
   fmt::print("| a point | 1 core | of the loop | {} cores | of the loop |\n|---|---|---|---|---|\n", cores);
-  for (const auto& [name, title] : {std::pair{"loop", "out = u + v, streaming stores"},
-                                    {"wide loop", "the same, 32 bytes a store"},
-                                    {"pade", "profile, Pade"},
-                                    {"row", "profile, Pade, a row of a grid"},
-                                    {"hertz", "profile, exact law"}}) {
-    if (!times.has(name)) continue;
+  for (const auto& [name, title] :
+       {std::pair{"loop", "out = u + v, streaming stores"}, {"pade", "table, Pade"}, {"hertz", "table, exact law"}}) {
     const auto on = [&](const char* what, unsigned n) {
       return each(n == 1 ? what : fmt::format("{} on {} cores", what, n));
     };
     fmt::print("| {} | {:.2f} ns | {:.0f} % | {:.2f} ns | {:.0f} % |\n", title, on(name, 1),
                100 * on("loop", 1) / on(name, 1), on(name, cores), 100 * on("loop", cores) / on(name, cores));
   }
-  for (const StopTimeKernel& kernel : stop_time_kernels()) {
-    const double time = each(fmt::format("kernel {}", kernel.name));
-    fmt::print("| profile, Pade, {} | {:.2f} ns | {:.0f} % | | |\n", kernel.name, time, 100 * each("loop") / time);
+  for (const auto& [name, title] : {std::pair{"row", "table, Pade, a row of a grid"},
+                                    {"in cache", "table, Pade, 2048 starts again and again"},
+                                    {"plain", "table, as where there is no AVX2"}}) {
+    fmt::print("| {} | {:.2f} ns | {:.0f} % | | |\n", title, each(name), 100 * each("loop") / each(name));
   }
-  fmt::print("| profile, Pade, {} starts again and again | {:.2f} ns | {:.0f} % | | |\n", cached, each("in cache"),
-             100 * each("loop") / each("in cache"));
   fmt::print(
-      "\nA profile is built in {} (Pade), {} (exact law). With a mu of its own a start takes {}, and {} in arrays of\n"
-      "them (Pade). 40 orbits of 400 instants take {} as copies of one curve, {} at equidistant times; the state at "
-      "one\n"
-      "instant takes {}.\n",
+      "\nA table is built and proved in {} (Pade), {} (exact law). With a mu of its own a start takes {} (Pade), {} "
+      "(exact\nlaw). The state at one instant of an orbit takes {}.\n",
       duration(times("build pade")), duration(times("build hertz")),
-      duration(times("own mu") / static_cast<double>(own)),
-      duration(times("own mu in arrays") / static_cast<double>(own)), duration(times("orbits")),
-      duration(times("orbits by time")), duration(times("inversion") / 40));
+      duration(times("own mu") / static_cast<double>(own)), duration(times("own mu, exact")),
+      duration(times("inversion") / 40));
 
   fmt::print("\n| u0 = v0 = 1, mu = |");
   for (double mu : small) fmt::print(" {} |", mu);

@@ -15,7 +15,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/reduction/stop_time_profile.hpp"
+#include "contensou/reduction/stop_time_table.hpp"
 #include "reduction/user_laws.hpp"
 #include "reference_table.hpp"
 
@@ -114,9 +114,9 @@ TEST_CASE("random stop times of arrays against their enclosures", "[certify]") {
   arrays.judge();
 }
 
-TEST_CASE("random stop times of profiles against their enclosures", "[certify]") {
+TEST_CASE("random stop times of tables against their enclosures", "[certify]") {
   Random random;
-  Sample profiles("profiles, mu in [1e-10, 1], k0 in [1e-8, 1e8]"), wide("profiles, mu in [1, 3], k0 in [1e-4, 1e4]");
+  Sample tables("tables, mu in [1e-10, 1], k0 in [1e-8, 1e8]"), wide("tables, mu in [1, 3], k0 in [1e-4, 1e4]");
   constexpr int starts = 500;
   const auto add = [&](Sample& sample, double mu, double largest_k0) {
     const ReducedSystem system(PadeLaw{}, mu);
@@ -126,12 +126,12 @@ TEST_CASE("random stop times of profiles against their enclosures", "[certify]")
       v0.push_back(mu * std::abs(u0.back()) * random.log_uniform(1 / largest_k0, largest_k0));
     }
     std::vector<double> tau(u0.size());
-    StopTimeProfile(system).evaluate(u0, v0, tau);
+    StopTimeTable(system).evaluate(u0, v0, tau);
     for (std::size_t i = 0; i < tau.size(); ++i) sample.add(system, {u0[i], v0[i]}, tau[i]);
   };
-  for (int i = 0; i < points / starts; ++i) add(profiles, random.log_uniform(1e-10, 1), 1e8);
+  for (int i = 0; i < points / starts; ++i) add(tables, random.log_uniform(1e-10, 1), 1e8);
   for (int i = 0; i < points / starts / 4; ++i) add(wide, random.uniform(1, 3), 1e4);
-  profiles.judge();
+  tables.judge();
   wide.judge();
 }
 

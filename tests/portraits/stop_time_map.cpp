@@ -18,7 +18,7 @@ namespace {
 Eigen::ArrayXd even(Eigen::Index count, double low, double high) { return Eigen::ArrayXd::LinSpaced(count, low, high); }
 
 StopTimeMap map_of(const reduction::Law& law, double mu, const MapAxes& axes) {
-  return portraits::stop_time_map(reduction::StopTimeProfile(reduction::ReducedSystem(law, mu)), axes);
+  return portraits::stop_time_map(reduction::StopTimeTable(reduction::ReducedSystem(law, mu)), axes);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using namespace contensou::portraits;
 namespace {
 
 Figure figure_of(double mu, const MapAxes& axes) {
-  return draw(stop_time_map(reduction::StopTimeProfile(reduction::ReducedSystem(reduction::PadeLaw{}, mu)), axes));
+  return draw(stop_time_map(reduction::StopTimeTable(reduction::ReducedSystem(reduction::PadeLaw{}, mu)), axes));
 }
 
 Eigen::ArrayXd even(Eigen::Index count, double low, double high) { return Eigen::ArrayXd::LinSpaced(count, low, high); }
@@ -39,14 +39,14 @@ TEST_CASE("The colours of a map are its stop times, from the lower left", "[tabl
       return axis.logarithmic ? axis.low * std::pow(axis.high / axis.low, share)
                               : axis.low + share * (axis.high - axis.low);
     };
-    const reduction::StopTimeProfile profile(
+    const reduction::StopTimeTable table(
         reduction::ReducedSystem(reduction::PadeLaw{}, panel.x.logarithmic ? 0.1 : 0.3));
     double worst = 0;
     for (std::size_t i = 0; i < rows; i += 7) {
       for (std::size_t j = 0; j < colours.columns; j += 7) {
         const double u = at(panel.x, (static_cast<double>(j) + 0.5) / static_cast<double>(colours.columns));
         const double v = at(panel.y, (static_cast<double>(i) + 0.5) / static_cast<double>(rows));
-        const double tau = profile(u, v);
+        const double tau = table(u, v);
         const double unit = panel.x.logarithmic ? tau : colours.scale.high;
         worst = std::max(worst, std::abs(colours.values[i * colours.columns + j] - tau) / unit);
       }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -219,7 +220,7 @@ TEST_CASE("progress is shown when asked for, on standard error, and not into a p
   CHECK(shown.err.ends_with('\n'));
 }
 
-TEST_CASE("a sweep by profile and one by single curves agree", "[route]") {
+TEST_CASE("a sweep by table and one by single curves agree", "[route]") {
   for (const std::string law : {"pade", "exact"}) {
     // The same starts, once few for each mu and once among many.
     const auto few = rows_of(run_program("sweep --mu 0.4 --u0 0:1:5 --v0 0:2:5 --law " + law).out);
@@ -233,6 +234,39 @@ TEST_CASE("a sweep by profile and one by single curves agree", "[route]") {
       CHECK(std::stod(there[3]) == Approx(std::stod(few[i + 1][3])).epsilon(1e-14));
     }
   }
+}
+
+TEST_CASE("a sweep whose invariant ray lies at k = 1 is what stop says", "[route]") {
+  // Once 4.2 % wrong, from 32768 starts on.
+  const auto rows = rows_of(run_program("sweep --law ring --body ring --u0 1:2:182 --v0 1:2:182").out);
+  REQUIRE(rows.size() == 182 * 182 + 1);
+  const ReducedSystem ring(PressureLaw::ring(), 1, {.chi = 1, .gamma = 1});
+  for (std::size_t i = 1; i < rows.size(); i += 1999) {
+    const double tau = stop_time(ring, {std::stod(rows[i][1]), std::stod(rows[i][2])}).tau;
+    CHECK(std::stod(rows[i][3]) == Approx(tau).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("a sweep says once that its tables are not whole, and has the numbers all the same", "[cli]") {
+  const TemporaryDirectory scratch;
+  // The mean of a disc and of a smaller one: a kink at k = 0.6.
+  write_file(scratch.file("two.csv"), "rho,pressure\n0,2\n0.6,2\n0.61,1\n1,1\n");
+  const std::string law = " --law " + scratch.file("two.csv");
+  const Run run = run_program("sweep --mu 0.3:0.4:2 --u0 1:2:182 --v0 0.1:0.3:182 --threads 2" + law);
+  CHECK(run.status == 0);
+  CHECK_THAT(run.err, StartsWith("contensou: the table of stop times misses 4 eps in ") &&
+                          Contains(" % of its panels (law " + scratch.file("two.csv") + ", mu = 0."));
+  CHECK(std::ranges::count(run.err, '\n') == 1);
+  const auto rows = rows_of(run.out);
+  REQUIRE(rows.size() == 2 * 182 * 182 + 1);
+  for (std::size_t i = 1; i < 182 * 182; i += 5003) {
+    const auto one = rows_of(
+        run_program(fmt::format("stop --mu 0.3 --u0 {} --v0 {} --format csv", rows[i][1], rows[i][2]) + law).out);
+    const auto column = std::ranges::find(one[0], "tau_stop") - one[0].begin();
+    CHECK(std::stod(rows[i][3]) == Approx(std::stod(one[1][static_cast<std::size_t>(column)])).epsilon(1e-14));
+  }
+  CHECK_THAT(run_program("sweep --mu 0.3 --u0 1:2:20 --v0 0.1:0.3:20 -o " + scratch.file("map.gp") + law).err,
+             Contains("misses 4 eps"));
 }
 
 TEST_CASE("a sweep as a picture", "[cli]") {

@@ -17,7 +17,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/reduction/stop_time_profile.hpp"
+#include "contensou/reduction/stop_time_table.hpp"
 #include "lying_curve.hpp"
 #include "user_laws.hpp"
 
@@ -288,7 +288,7 @@ TEST_CASE("the exact law by the name of the other is the exact law", "[verificat
   CHECK_FALSE(closed_stop_time(impostor, start));
   CHECK(stop_time(impostor, start).tau == stop_time(exact, start).tau);
   CHECK(Orbit(impostor, start).at_time(1).ln_v == Orbit(exact, start).at_time(1).ln_v);
-  CHECK(StopTimeProfile(impostor)(start.u, start.v) == StopTimeProfile(exact)(start.u, start.v));
+  CHECK(StopTimeTable(impostor)(start.u, start.v) == StopTimeTable(exact)(start.u, start.v));
   CHECK(small_mu_estimates(impostor, start).back().tau == small_mu_estimates(exact, start).back().tau);
   for (const Check& check : verify(impostor, start)) {
     CAPTURE(check.name, check.measured);

@@ -1,5 +1,10 @@
 #include "verbs/stop_times.hpp"
 
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
 #include "contensou/reduction/orbit.hpp"
 #include "options/route_solution.hpp"
 
@@ -7,8 +12,13 @@ namespace contensou::program {
 
 namespace {
 
-/// A curve by quadrature takes some 300 kB. A table in which each row has its own mu gains nothing.
-constexpr std::size_t most_patches = 256;
+/// A curve by quadrature takes some 300 kB, and a table as much. In rows that each have a mu of their own nothing is
+/// used twice, and of a grid one mu at a time.
+constexpr std::size_t max_curves = 256;
+constexpr std::size_t max_tables = 16;
+
+/// A table takes about as long to make as so many calls of a closed form or a curve.
+constexpr long starts_that_pay = 1 << 15;
 
 }  // namespace
 
@@ -17,21 +27,52 @@ PatchStopTimes::PatchStopTimes(const reduction::ReducedSystem& system, const Rou
   if (route_ != reduction::Route::closed) solution_ = route_solution(system_, route_);
 }
 
+PatchStopTimes::PatchStopTimes(reduction::StopTimeTable table)
+    : system_(table.system()), route_(reduction::routes(system_).front()), table_(std::move(table)) {}
+
 double PatchStopTimes::operator()(reduction::State start) const {
+  if (table_) return (*table_)(start.u, start.v);
   if (!solution_) return reduction::stop_time(system_, start, route_).tau;
   return reduction::Orbit(system_, start, solution_).stop_time();
 }
 
+void PatchStopTimes::row(std::span<const double> u0, double v0, std::span<double> taus) const {
+  if (table_) return table_->evaluate_row(u0, v0, taus);
+  std::ranges::transform(u0, taus.begin(), [&](double u) { return (*this)({.u = u, .v = v0}); });
+}
+
+StopTimes::StopTimes(reduction::Law law, reduction::Inertia body, long starts)
+    : law_(std::move(law)), body_(body), by_table_(starts >= starts_that_pay) {}
+
+StopTimes::Patch StopTimes::made(double mu) {
+  const reduction::ReducedSystem system(law_, mu, body_);
+  if (!by_table_) return std::make_shared<const PatchStopTimes>(system, route_);
+  reduction::StopTimeTable table(system);
+  if (!table.proved() && !told_.exchange(true)) tell_if_not_proved(table);
+  return std::make_shared<const PatchStopTimes>(std::move(table));
+}
+
 std::shared_ptr<const PatchStopTimes> StopTimes::of_patch(double mu) {
+  std::shared_future<Patch> patch;
   {
     const std::lock_guard lock(guard_);
-    if (const auto known = patches_.find(mu); known != patches_.end()) return known->second;
+    if (const auto known = patches_.find(mu); known != patches_.end()) {
+      patch = known->second;
+    } else {
+      if (patches_.size() == (by_table_ ? max_tables : max_curves)) patches_.clear();
+      patch = patches_.emplace(mu, std::async(std::launch::deferred, [this, mu] { return made(mu); })).first->second;
+    }
   }
-  // Not under the lock: two threads that meet a new mu at once both make it, and the same.
-  const auto patch = std::make_shared<const PatchStopTimes>(reduction::ReducedSystem(law_, mu, body_), route_);
-  const std::lock_guard lock(guard_);
-  if (patches_.size() == most_patches) patches_.clear();
-  return patches_.emplace(mu, patch).first->second;
+  return patch.get();  // the first thread makes it, and others wait
+}
+
+void tell_if_not_proved(const reduction::StopTimeTable& table) {
+  if (table.proved()) return;
+  std::fputs(fmt::format("contensou: the table of stop times misses 4 eps in {:.2g} % of its panels (law {}, mu = {}): "
+                         "starts there are computed one by one\n",
+                         100 * table.refused(), table.system().law().name(), table.system().mu())
+                 .c_str(),
+             stderr);
 }
 
 }  // namespace contensou::program

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <atomic>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 
 #include "contensou/reduction/similarity_solution.hpp"
 #include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/stop_time_table.hpp"
 #include "options/route_option.hpp"
 
 namespace contensou::program {
@@ -13,36 +18,56 @@ namespace contensou::program {
 /// Stop times of many starts that share law and mu. Threads may share it.
 class PatchStopTimes {
  public:
+  /// By a route, start by start.
   /// @throws  as RouteOption::read and the making of the solution
   PatchStopTimes(const reduction::ReducedSystem& system, const RouteOption& route);
+
+  /// By a table.
+  explicit PatchStopTimes(reduction::StopTimeTable table);
 
   double mu() const { return system_.mu(); }
 
   /// @throws  as reduction::stop_time
   double operator()(reduction::State start) const;
 
+  /// The stop times of (u0[i], v0).
+  /// @param taus  as many as u0
+  void row(std::span<const double> u0, double v0, std::span<double> taus) const;
+
  private:
   reduction::ReducedSystem system_;
   reduction::Route route_;
   reduction::SimilaritySolution solution_;  ///< empty where each start is by itself
+  std::optional<reduction::StopTimeTable> table_;
 };
 
-/// Stop times of many starts of one body under one law. What depends on mu alone is computed once for each mu, and kept
-/// for as many of them as take a bounded memory. Threads may share it.
+/// Stop times of many starts of one body under one law. What depends on mu alone is computed once for each mu, by the
+/// first thread that needs it, and kept for as many of them as take a bounded memory. Threads may share it.
 class StopTimes {
  public:
   StopTimes(reduction::Law law, reduction::Inertia body, const RouteOption& route)
       : law_(std::move(law)), body_(body), route_(route) {}
 
+  /// By the best route, for so many starts of each mu: by a table where they pay for it.
+  StopTimes(reduction::Law law, reduction::Inertia body, long starts);
+
   /// @throws  as PatchStopTimes
   std::shared_ptr<const PatchStopTimes> of_patch(double mu);
 
  private:
+  using Patch = std::shared_ptr<const PatchStopTimes>;
+  Patch made(double mu);
+
   reduction::Law law_;
   reduction::Inertia body_;
-  const RouteOption& route_;
+  RouteOption route_;
+  bool by_table_ = false;
+  std::atomic<bool> told_ = false;  ///< that a table is not whole
   std::mutex guard_;
-  std::map<double, std::shared_ptr<const PatchStopTimes>> patches_;
+  std::map<double, std::shared_future<Patch>> patches_;
 };
+
+/// Says on standard error if some starts are computed one by one because the table's panels there fail their proof.
+void tell_if_not_proved(const reduction::StopTimeTable& table);
 
 }  // namespace contensou::program

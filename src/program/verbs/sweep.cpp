@@ -4,12 +4,10 @@
 #include <array>
 #include <memory>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/stop_time_profile.hpp"
 #include "exit_status.hpp"
 #include "output/npy.hpp"
 #include "output/ordered_work.hpp"
@@ -38,38 +36,13 @@ std::vector<double> values_of(const Range& range, long begin, long count) {
   return values;
 }
 
-/// Stop times of one mu: by its profile, or by its curve where a profile would cost more than the few starts.
-class MapOfPatch {
- public:
-  MapOfPatch(const reduction::ReducedSystem& system, long starts) : by_(choose(system, starts)) {}
-
-  /// @param u0  as many as taus
-  void row(std::span<const double> u0, double v0, std::span<double> taus) const {
-    if (const auto* profile = std::get_if<reduction::StopTimeProfile>(&by_)) return profile->evaluate_row(u0, v0, taus);
-    const auto& stop_time = std::get<PatchStopTimes>(by_);
-    std::ranges::transform(u0, taus.begin(), [&](double u) { return stop_time({.u = u, .v = v0}); });
-  }
-
- private:
-  using By = std::variant<PatchStopTimes, reduction::StopTimeProfile>;
-
-  static By choose(const reduction::ReducedSystem& system, long starts) {
-    // A profile takes about as long to make as so many calls of a closed form, or of a curve by quadrature.
-    const bool closed = reduction::routes(system).front() == reduction::Route::closed;
-    const long profile_pays = closed ? 1 << 13 : 1 << 15;
-    if (starts < profile_pays) return PatchStopTimes(system, RouteOption());
-    return reduction::StopTimeProfile(system);
-  }
-
-  By by_;
-};
-
 /// What all workers share.
 struct Sweep {
   const SweepRequest& request;
   OutputFile& output;
   long map;     ///< points of one mu
   long points;  ///< of all
+  StopTimes stop_times;
   Progress progress;
   std::vector<double> u0;  ///< all values; empty if they are too many to be kept
   long next = 0;           ///< point that is not taken yet
@@ -93,8 +66,7 @@ class SweepWorker final : public PieceWorker {
     if (mu_place != mu_place_) {
       mu_place_ = mu_place;
       mu_ = grid().mu[mu_place];
-      const reduction::ReducedSystem system(sweep_.request.law, mu_, sweep_.request.body);
-      map_ = std::make_unique<MapOfPatch>(system, sweep_.map);
+      patch_ = sweep_.stop_times.of_patch(mu_);
     }
     taus_.resize(static_cast<std::size_t>(end_ - begin_));
     text_.clear();
@@ -127,7 +99,7 @@ class SweepWorker final : public PieceWorker {
     } else {
       u0 = std::span(sweep_.u0).subspan(static_cast<std::size_t>(column), taus.size());
     }
-    map_->row(u0, v0, taus);
+    patch_->row(u0, v0, taus);
     if (sweep_.request.format == SweepFormat::csv) append_lines(u0, v0, taus);
   }
 
@@ -147,7 +119,7 @@ class SweepWorker final : public PieceWorker {
   long end_ = 0;
   long mu_place_ = -1;
   double mu_ = 0;
-  std::unique_ptr<const MapOfPatch> map_;  ///< of mu_
+  std::shared_ptr<const PatchStopTimes> patch_;  ///< of mu_
   std::vector<double> taus_;
   std::string text_;
 };
@@ -177,6 +149,7 @@ void sweep(const SweepRequest& request, OutputFile& output) {
               .output = output,
               .map = map,
               .points = map * grid.mu.count(),
+              .stop_times = {request.law, request.body, map},
               .progress = {grid.points(), "stop times", request.progress},
               .u0 = {}};
   if (grid.u0.count() <= longest_kept_axis) sweep.u0 = values_of(grid.u0, 0, grid.u0.count());

@@ -10,6 +10,7 @@
 #include "output/output.hpp"
 #include "output/picture.hpp"
 #include "output/progress.hpp"
+#include "verbs/stop_times.hpp"
 #include "verbs/sweep.hpp"
 
 namespace contensou::program {
@@ -112,8 +113,9 @@ class SweepCommand final : public Command {
       for (long i = 0; i < range.count(); ++i) array[i] = range[i];
       return array;
     };
-    return portraits::stop_time_map(reduction::StopTimeProfile(system),
-                                    {values(grid.u0), values(grid.v0), log_->count() > 0});
+    const reduction::StopTimeTable table(system);
+    tell_if_not_proved(table);
+    return portraits::stop_time_map(table, {values(grid.u0), values(grid.v0), log_->count() > 0});
   }
 
   std::string read_format(const std::string& path) const {

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace contensou::reduction {
+
+/// What StopTimeTable's loops read: stop times tau* = pivoting |u0| + v0 M(k0), the function M as polynomials.
+///
+/// With lv = lever v0 and D = |u0| + lv a start lies on one of four sheets, which meet at lv/|u0| = 1/2, 1 and 2, at
+///   y = min(|u0|, lv, ||u0| - lv|)/D,
+/// 0 where M may be singular: at k0 = 0, 1 and infinity. The exponent of y + lowest and `cut_bits` bits of its mantissa
+/// number the panels of a sheet: they become narrow towards y = 0.
+struct StopTimePanels {
+  static constexpr int terms = 8;
+  static constexpr int cut_bits = 4;
+  static constexpr int octaves = 64;
+  static constexpr double lowest = 0x1p-63;  ///< its exponent is 0 modulo 64
+  static constexpr std::size_t per_sheet = std::size_t{octaves} << cut_bits;
+  static constexpr std::size_t used = (std::size_t{octaves - 3} << cut_bits) + 6;  ///< of a sheet: y <= 1/3
+  static constexpr std::size_t sheets = 4;
+  static constexpr std::size_t near_one = per_sheet;       ///< 1/2 < lv/|u0| < 2
+  static constexpr std::size_t above_one = 2 * per_sheet;  ///< lv/|u0| > 1
+
+  /// Coefficients of the powers of y + lowest - left edge.
+  struct alignas(64) Panel {
+    double c[terms];
+  };
+
+  double lever = 0;
+  double pivoting = 0;            ///< P/|u0|
+  const Panel* panels = nullptr;  ///< sheets times per_sheet; of NaN where a panel is not to be used
+
+  /// The stop time of a start for which `usable` rejects what the polynomials say: of every start that is none, too.
+  std::function<double(double u0, double v0)> otherwise;
+};
+
+/// The stop times of starts (u0[i], v0[i]), i < size. No product and sum are fused, and each start is treated alike
+/// wherever it stands: both functions give the same bits.
+using StopTimeLoop = void(const StopTimePanels&, const double* u0, const double* v0, double* tau, std::size_t size);
+StopTimeLoop run_plain;
+#if defined(__x86_64__) && defined(__GNUC__)
+StopTimeLoop run_avx2;
+#endif
+
+/// The fastest that this processor can run.
+StopTimeLoop& run_fastest();
+
+/// What the polynomials say of one start; NaN if `otherwise` is to be asked.
+double from_panels(const StopTimePanels& table, double u0, double v0);
+
+/// The number of the panel that it lies in.
+std::size_t panel_of(const StopTimePanels& table, double u0, double v0);
+
+}  // namespace contensou::reduction

@@ -1,0 +1,367 @@
+#include "contensou/reduction/stop_time_table.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "reference_table.hpp"
+#include "stop_times/stop_time_loop.hpp"
+#include "stops_above_one.hpp"
+#include "user_laws.hpp"
+#include "worst_case.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+struct Starts {
+  std::vector<double> u0, v0;
+};
+
+/// Starts at the k that a table tells apart: all sizes, and every distance from k = 1 and from another k.
+Starts random_starts(double mu, std::size_t count, double other_k = 1) {
+  std::mt19937_64 generator(17);
+  std::uniform_real_distribution<double> ln_k(-45, 45), ln_u(-3, 3);
+  Starts starts;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double u0 = (i % 2 == 0 ? 1 : -1) * std::exp(ln_u(generator));
+    const double beside = 1 + 0.1 * std::sinh(ln_k(generator) / 4) / std::sinh(45.0 / 4);
+    const double k = i % 3 == 0 ? beside : i % 3 == 1 ? other_k * beside : std::exp(ln_k(generator));
+    starts.u0.push_back(u0);
+    starts.v0.push_back(mu * std::abs(u0) * k);
+  }
+  return starts;
+}
+
+std::vector<double> evaluated(const StopTimeTable& table, const Starts& starts, unsigned threads = 1) {
+  std::vector<double> tau(starts.u0.size());
+  table.evaluate(starts.u0, starts.v0, tau, threads);
+  return tau;
+}
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+/// How many places of two arrays of one size differ.
+std::size_t differ(std::span<const double> a, std::span<const double> b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += !same_bits(a[i], b[i]);
+  return count;
+}
+
+/// The stop times of many starts, one by one: stop_time, its curve made once.
+class OneByOne {
+ public:
+  explicit OneByOne(const ReducedSystem& system)
+      : system_(system), solution_(similarity_solution(system.law(), system.r())) {}
+
+  double operator()(double u0, double v0) const {
+    const auto closed = closed_stop_time(system_, {u0, v0});
+    return closed ? *closed : Orbit(system_, {u0, v0}, solution_).stop_time();
+  }
+
+ private:
+  ReducedSystem system_;
+  SimilaritySolution solution_;
+};
+
+/// A table against stop_time, also beside the given k.
+void compare(WorstCase& worst, const ReducedSystem& system, double k, std::size_t count) {
+  const StopTimeTable table(system);
+  const OneByOne one_by_one(system);
+  const Starts starts = random_starts(system.mu(), count, k);
+  const auto tau = evaluated(table, starts);
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    worst.add(one_by_one(starts.u0[i], starts.v0[i]), tau[i],
+              fmt::format("law {}, mu = {}, r = {}, u0 = {}, v0 = {}", system.law().name(), system.mu(), system.r(),
+                          starts.u0[i], starts.v0[i]));
+  }
+}
+
+/// A table on the invariant ray at k, where both speeds fall at one rate, and, of random starts, against stop_time.
+void compare_ray(WorstCase& worst, const ReducedSystem& system, double k, std::size_t count) {
+  const double v0 = system.mu() * k;
+  const double tau = StopTimeTable(system)(1, v0);
+  worst.add(system.sliding_limit(v0) / system.law()({v0, system.mu()}).force, tau,
+            fmt::format("law {}, r = {}, on the ray k = {}", system.law().name(), system.r(), k));
+  compare(worst, system, 1, count);
+}
+
+/// r of the system whose invariant ray lies at k.
+double r_of_ray(const Law& law, double k) {
+  const auto [force, moment] = law(slip_of_ratio(k));
+  return force / (k * moment);
+}
+
+WorstCase over_table(const char* name, const Law& law) {
+  WorstCase worst(name);
+  std::map<double, StopTimeTable> tables;
+  for (const ReferenceRow& row : reference_table(name)) {
+    const double mu = row.input("mu");
+    const auto& table = tables.try_emplace(mu, ReducedSystem(law, mu)).first->second;
+    worst.add(row.result("tau_stop"), table(row.input("u0"), row.input("v0")), row.where());
+  }
+  return worst;
+}
+
+/// A law with a second kink, at k = 0.7: what a table's panels cannot follow.
+struct KinkedLaw {
+  Resistance operator()(Slip slip) const {
+    const auto [force, moment] = HertzLaw{}(slip);
+    const double k = slip.sliding / slip.pivoting;
+    return {k < 0.7 ? force : force + 0.01 * (1 - 0.7 / k) * (1 - force), moment};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("tables against 40 digits", "[stop_time_table][table]") {
+  CHECK_WITHIN_EPS(over_table("stop_pade", PadeLaw{}), 2);
+  CHECK_WITHIN_EPS(over_table("stop_hertz", HertzLaw{}), 2);
+  WorstCase bodies("bodies"), regimes("all regimes");
+  for (const ReferenceRow& row : reference_table("bodies")) {
+    const Law law = row.text("law") == "pade" ? Law(PadeLaw{}) : Law(HertzLaw{});
+    const StopTimeTable table(ReducedSystem(law, row.input("mu"), {row.input("chi"), row.input("gamma")}));
+    bodies.add(row.result("tau_stop"), table(row.input("u0"), row.input("v0")), row.where());
+  }
+  for (const auto& [mu, u0, v0, tau] : stops_above_one) {
+    regimes.add(tau, StopTimeTable(ReducedSystem(PadeLaw{}, mu))(u0, v0), fmt::format("mu = {}, u0 = {}", mu, u0));
+  }
+  CHECK_WITHIN_EPS(bodies, 2);
+  CHECK_WITHIN_EPS(regimes, 2);
+}
+
+TEST_CASE("tables of balls are stop_time, and proved", "[stop_time_table][route]") {
+  for (const Law& law : named_laws()) {
+    WorstCase worst(law.name());
+    for (double mu : {1e-9, 1e-3, 0.1, 0.7, 1.0}) {
+      const ReducedSystem system(law, mu);
+      const StopTimeTable table(system);
+      CAPTURE(law.name(), mu, table.worst_error());
+      CHECK(table.proved());
+      CHECK(table.refused() == 0);
+      CHECK(table.worst_error() > 0);
+      CHECK(table.worst_error() <= 4 * eps);
+      compare(worst, system, 1, 2000);
+    }
+    CHECK_WITHIN_EPS(worst, 4);
+  }
+}
+
+TEST_CASE("tables of random bodies and laws are stop_time, wherever the invariant ray lies",
+          "[stop_time_table][route]") {
+  // Once up to 28 % wrong where the ray lay at k = 1 or at the edge of a panel, for every start or on the ray alone.
+  WorstCase found("rays at the edges of panels, as they were found");
+  const auto body = [](double r) { return Inertia{1, r}; };
+  compare(found, {PressureLaw::ring(), 1, body(1)}, 1, 300);
+  compare(found, {PressureLaw::ring(), std::sqrt(0.477 / 3.059), {0.477, 3.059}}, 1, 300);
+  compare(found, {PressureLaw(-0.95), 1, body(1.1)}, 1, 300);
+  compare(found, {PressureLaw(1), 1, body(5)}, 1, 300);
+  compare(found, {PressureLaw(25), 1, body(53)}, 1, 300);
+  compare(found, {HertzLaw{}, 1, body(4.0000000000000115)}, 1, 300);
+  compare(found, {PressureLaw::punch(), 1, body(2.000000000000001)}, 1, 300);
+  for (double p : {-0.3, 2.0, 3.0, 4.5}) compare(found, {PressureLaw(p), 1, body(2 * p + 3)}, 1, 300);
+  CHECK_WITHIN_EPS(found, 4);
+
+  // y = 1/2^n and what lies between is an edge on each of the four sheets.
+  WorstCase edges("rays at edges of panels");
+  for (const Law& law : {Law(HertzLaw{}), Law(PressureLaw::ring()), Law(PressureLaw::uniform()), Law(PadeLaw{})}) {
+    for (double y : {0x1.5p-2, 0x1.4p-2, 0x1p-2, 0x1.9p-4, 0x1p-6}) {
+      for (double k : {y / (1 - y), (1 - y) / (1 + y), (1 + y) / (1 - y), (1 - y) / y}) {
+        const double r = r_of_ray(law, k);
+        if (std::isfinite(r)) compare_ray(edges, {law, 1, body(r)}, k, 60);
+      }
+    }
+  }
+  CHECK_WITHIN_EPS(edges, 4);
+
+  WorstCase random("random bodies and laws");
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 60; ++i) {
+    const Law law = i % 3 == 0   ? named_laws()[static_cast<std::size_t>(i / 3) % named_laws().size()]
+                    : i % 3 == 1 ? Law(PressureLaw(-1 + 3 * uniform(generator)))
+                                 : Law(RootLaw{0.5 + uniform(generator)});
+    const Inertia inertia{0.3 + 4 * uniform(generator), 0.3 + 4 * uniform(generator)};
+    const ReducedSystem system(law, 0.02 * std::pow(100, uniform(generator)), inertia);
+    compare(random, system, std::exp(4 * uniform(generator) - 2), 300);
+  }
+  CHECK_WITHIN_EPS(random, 4);
+}
+
+TEST_CASE("panels that fail their proof are not used, and the table says so", "[stop_time_table][invariant]") {
+  const ReducedSystem system(KinkedLaw{}, 0.3);
+  const StopTimeTable table(system);
+  const OneByOne one_by_one(system);
+  CHECK_FALSE(table.proved());
+  CHECK(table.refused() > 0);
+  CHECK(table.refused() < 0.1);
+  CHECK(table.worst_error() <= 4 * eps);
+  // Around the kink they are those of the curve to the last bit, alone and in company.
+  std::vector<double> u0(1000, 1.0), v0(1000);
+  for (std::size_t i = 0; i < v0.size(); ++i) v0[i] = 0.3 * (0.6 + 0.0002 * static_cast<double>(i));
+  const auto tau = evaluated(table, {u0, v0});
+  WorstCase worst("around a kink");
+  for (std::size_t i = 0; i < v0.size(); ++i) worst.add(one_by_one(1, v0[i]), tau[i], fmt::format("v0 = {}", v0[i]));
+  CHECK_WITHIN_EPS(worst, 4);
+  CHECK(tau[500] == one_by_one(1, v0[500]));
+  CHECK(table(-1, v0[500]) == tau[500]);
+}
+
+TEST_CASE("a law is known by its type, not by its name", "[stop_time_table][route]") {
+  CHECK(StopTimeTable(ReducedSystem(Impostor{}, 0.3))(1, 0.3) ==
+        Approx(stop_time(ReducedSystem(HertzLaw{}, 0.3), {1, 0.3}).tau).epsilon(1e-14));
+}
+
+TEST_CASE("one start and many, cut and shared in any way, have the same bits", "[stop_time_table][invariant]") {
+  for (const Law& law : paper_laws()) {
+    const double mu = 0.3;
+    const StopTimeTable table(ReducedSystem(law, mu));
+    Starts starts = random_starts(mu, 20'077);
+    // Some that the table leaves to the curve, alone and in company.
+    for (std::size_t i : {3U, 4U, 11'000U, 20'076U}) starts.v0[i] = i % 2 == 0 ? -1 : 1e-300;
+    for (std::size_t i : {4U, 500U, 12'001U}) starts.u0[i] = i % 2 == 0 ? infinity : 1e300;
+    const auto whole = evaluated(table, starts);
+    CHECK(std::isnan(whole[4]));
+    for (unsigned threads : {2U, 3U, 16U}) CHECK(differ(evaluated(table, starts, threads), whole) == 0);
+
+    std::vector<double> pieces(whole.size());
+    std::size_t begin = 0;
+    for (std::size_t size = 0; begin < whole.size(); begin += size, ++size) {
+      size = std::min(size, whole.size() - begin);
+      table.evaluate(std::span(starts.u0).subspan(begin, size), std::span(starts.v0).subspan(begin, size),
+                     std::span(pieces).subspan(begin, size));
+    }
+    CHECK(differ(pieces, whole) == 0);
+
+    for (bool over_u0 : {true, false}) {
+      std::vector<double> in_place = over_u0 ? starts.u0 : starts.v0;
+      table.evaluate(over_u0 ? std::span<const double>(in_place) : starts.u0,
+                     over_u0 ? starts.v0 : std::span<const double>(in_place), in_place, 2);
+      CHECK(differ(in_place, whole) == 0);
+    }
+
+    std::vector<double> row(1300);
+    for (std::size_t i = 0; i < 15'000; i += 501) {
+      table.evaluate_row(std::span(starts.u0).subspan(i, row.size()), starts.v0[i], row);
+      const std::vector<double> repeated(row.size(), starts.v0[i]);
+      std::vector<double> wanted(row.size());
+      table.evaluate(std::span(starts.u0).subspan(i, row.size()), repeated, wanted);
+      CHECK(differ(row, wanted) == 0);
+    }
+    for (std::size_t i = 20; i < 400; ++i) {
+      if (std::isfinite(whole[i])) CHECK(same_bits(table(starts.u0[i], starts.v0[i]), whole[i]));
+    }
+  }
+}
+
+TEST_CASE("the loop for one start at a time and the fastest have the same bits", "[stop_time_table][invariant]") {
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::vector<StopTimePanels::Panel> panels(StopTimePanels::sheets * StopTimePanels::per_sheet);
+  for (auto& panel : panels) {
+    for (double& c : panel.c) c = any(generator);
+    panel.c[0] += 2;
+  }
+  const StopTimePanels table{0.7, 2.3, panels.data(), [](double u0, double v0) { return u0 - v0; }};
+  const Starts starts = random_starts(1 / 0.7, 10'007);
+  std::vector<double> plain(starts.u0.size()), fastest(plain);
+  run_plain(table, starts.u0.data(), starts.v0.data(), plain.data(), plain.size());
+  run_fastest()(table, starts.u0.data(), starts.v0.data(), fastest.data(), fastest.size());
+  CHECK(differ(plain, fastest) == 0);
+}
+
+TEST_CASE("bodies and speeds at the ends of the double range", "[stop_time_table][limit]") {
+  for (const Law& law : paper_laws()) {
+    for (double mu : {1e-8, 0.1, 2.0}) {
+      const StopTimeTable table(ReducedSystem(law, mu));
+      const Starts starts = random_starts(mu, 500);
+      const auto tau = evaluated(table, starts);
+      for (int power : {-300, -120, 90, 300}) {
+        const Inertia far{std::ldexp(table.system().inertia().chi, -power),
+                          std::ldexp(table.system().inertia().gamma, -power)};
+        const auto far_tau = evaluated(StopTimeTable(ReducedSystem(law, mu, far)), starts);
+        WorstCase worst(law.name());
+        for (std::size_t i = 0; i < tau.size(); ++i) {
+          worst.add(tau[i], std::ldexp(far_tau[i], -power), fmt::format("mu = {}, start {}, 2^{}", mu, i, power));
+        }
+        CHECK_WITHIN_EPS(worst, 4);
+      }
+    }
+    for (double mu : {1e-300, 1e-10, 0.1, 1.0}) {
+      CAPTURE(law.name(), mu);
+      const ReducedSystem system(law, mu);
+      const StopTimeTable table(system);
+      CHECK(table(0, 0) == 0);
+      CHECK(table(-0.0, 0) == 0);
+      CHECK(table(0, 3) == Approx(system.sliding_limit(3)).epsilon(4 * eps));
+      CHECK(table(0.1, 0) == Approx(system.pivoting_limit(0.1)).epsilon(4 * eps));
+      CHECK(table(0.1, -0.0) == Approx(system.pivoting_limit(0.1)).epsilon(4 * eps));
+      CHECK(table(-2, 1) == table(2, 1));
+      CHECK(table(0, std::numeric_limits<double>::max()) == infinity);
+      // Alike but for a power of two, in the middle of the double range and near its ends.
+      for (int power : {-1030, -950, -850, 850, 950, 1000}) {
+        const double scaled = table(std::ldexp(1.3, power), std::ldexp(0.7, power));
+        const double u = std::ldexp(std::ldexp(1.3, power), -power), v = std::ldexp(std::ldexp(0.7, power), -power);
+        const double wanted = std::ldexp(table(u, v), power);
+        CAPTURE(power, scaled, wanted);
+        CHECK((scaled == wanted || std::abs(scaled - wanted) <= std::max(2 * eps * wanted, 1e-323)));
+      }
+    }
+  }
+}
+
+TEST_CASE("what is no start is refused alone and is not a number among others", "[stop_time_table][domain]") {
+  const StopTimeTable table(ReducedSystem(PadeLaw{}, 0.1));
+  for (double x : {infinity, -infinity, not_a_number}) {
+    CHECK_THROWS_WITH(table(x, 1), Contains("StopTimeTable"));
+    CHECK_THROWS_WITH(table(1, x), Contains("StopTimeTable"));
+  }
+  CHECK_THROWS_WITH(table(1, -1e-300), Contains("v >= 0"));
+
+  for (const Law& law : paper_laws()) {
+    for (double mu : {1e-300, 0.1}) {
+      const StopTimeTable many(ReducedSystem(law, mu));
+      for (double x : {infinity, -infinity, not_a_number, -1.0, -1e-300}) {
+        for (std::size_t place = 0; place < 39; ++place) {
+          Starts starts{std::vector<double>(39, 2.0), std::vector<double>(39, 1.0)};
+          starts.v0[place] = x;
+          const std::size_t other = (place + 1) % 39;
+          if (!std::isfinite(x)) starts.u0[other] = x;
+          const auto tau = evaluated(many, starts);
+          for (std::size_t i = 0; i < tau.size(); ++i) {
+            const bool bad = i == place || (!std::isfinite(x) && i == other);
+            CHECK((bad ? std::isnan(tau[i]) : same_bits(tau[i], many(2, 1))));
+          }
+        }
+      }
+    }
+  }
+
+  std::vector<double> two(2), three(3);
+  CHECK_THROWS_WITH(table.evaluate(two, three, two), Contains("2 u0, 3 v0, 2 tau"));
+  CHECK_THROWS_WITH(table.evaluate(two, two, three), Contains("3 tau"));
+  CHECK_THROWS_WITH(table.evaluate(two, two, two, 0), Contains("0 threads"));
+  CHECK_THROWS_WITH(table.evaluate_row(two, 1, three), Contains("3 tau"));
+  CHECK_NOTHROW(table.evaluate({}, {}, {}, 4));
+}
