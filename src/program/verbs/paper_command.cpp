@@ -17,15 +17,12 @@
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/patch_claims.hpp"
-#include "contensou/reduction/plane_claims.hpp"
-#include "contensou/si/ball_claims.hpp"
-#include "contensou/si/catalogue.hpp"
 #include "input/csv_table.hpp"
 #include "options/output_options.hpp"
 #include "output/json.hpp"
 #include "output/output.hpp"
 #include "output/picture.hpp"
+#include "paper/statements.hpp"
 
 namespace contensou::program {
 
@@ -33,28 +30,30 @@ namespace {
 
 using portraits::Figure;
 using portraits::PictureFormat;
-using reduction::PaperClaim;
 
 /// mu of the statements on the plane, and of Fig. 4: there the largest of a ball, so that the orbits' way into the
 /// origin is seen.
 constexpr double stated_patch_ratio = 0.3;
 constexpr double drawn_patch_ratio = 1;
 
-/// A pool ball whose slip is oblique and which spins about all three axes.
-si::Shot oblique_shot() {
-  si::Shot shot = si::find_ball("pool")->shot;
-  shot.start = si::Velocities{.velocity = {1, 0.3}, .angular_velocity = {20, -15, -60}};
-  return shot;
-}
+/// A statement and what was found, for people.
+struct Row {
+  Statement statement;
+  Finding found = statement.examine();
+  std::string correction = fmt::format(fmt::runtime(statement.correction), fmt::arg("computed", found.computed),
+                                       fmt::arg("percent", 100 * found.computed));
+  std::string where = fmt::format(fmt::runtime(statement.where), statement.at);
 
-/// Every statement in the order of the paper.
-std::vector<PaperClaim> recompute() {
-  std::vector<PaperClaim> claims = reduction::patch_claims();
-  const reduction::ReducedSystem system(reduction::PadeLaw{}, stated_patch_ratio);
-  for (const auto& more : {si::ball_claims(oblique_shot()), reduction::plane_claims(system, {.u = 1, .v = 0.5})}) {
-    claims.insert(claims.end(), more.begin(), more.end());
+  bool as_recorded() const { return found.verdict == statement.recorded; }
+};
+
+/// All statements in the order of the paper.
+std::vector<Row> recompute() {
+  std::vector<Row> rows;
+  for (const auto& section : {patch_statements(), ball_statements(), plane_statements(stated_patch_ratio)}) {
+    for (const Statement& statement : section) rows.push_back({.statement = statement});
   }
-  return claims;
+  return rows;
 }
 
 struct NamedFigure {
@@ -117,76 +116,75 @@ class PaperCommand final : public Command {
   ExitStatus run() override {
     output_.digits();  // a mistake there is found before anything is drawn
     if (out_.given() && out_.text().empty()) out_.reject("a folder's name is needed");
-    const std::vector<PaperClaim> claims = recompute();
+    const std::vector<Row> rows = recompute();
     if (out_.given()) {
       const std::vector<File> files = draw_figures(out_.text());
       make_folder(out_, out_.text());
       for (const auto& [path, content] : files) write_output(path, content);
     }
     output_.write_as(
-        output_.format(), [&](int digits) { return as_text(claims, digits); }, [&] { return as_csv(claims); },
-        [&] { return as_json(claims); });
-    return std::ranges::all_of(claims, &PaperClaim::as_recorded) ? ExitStatus::done : ExitStatus::check_failed;
+        output_.format(), [&](int digits) { return as_text(rows, digits); }, [&] { return as_csv(rows); },
+        [&] { return as_json(rows); });
+    return std::ranges::all_of(rows, &Row::as_recorded) ? ExitStatus::done : ExitStatus::check_failed;
   }
 
  private:
-  static std::string as_text(const std::vector<PaperClaim>& claims, int digits) {
+  static std::string as_text(const std::vector<Row>& rows, int digits) {
     const int width = digits + 8;
     std::string text =
         fmt::format("{:<7}{:<67}{:>{}}{:>{}}  verdict\n", "Zh98", "says", "printed", width, "computed", width);
-    const std::string* equation = nullptr;
-    for (const PaperClaim& claim : claims) {
-      const bool repeated = equation != nullptr && *equation == claim.equation;
-      const auto& [printed, computed, allowed, at, corrected, at_least] = claim.evidence;
+    std::string_view equation = "none";
+    for (const Row& row : rows) {
+      const auto& [printed, computed, corrected, verdict] = row.found;
       const std::string bound =
-          at_least ? fmt::format(">= {:.{}g}", printed, digits) : fmt::format("{:.{}g}", printed, digits);
-      text += fmt::format(
-          "{:<7}{:<67}{:>{}}{:>{}.{}g}  {}{}\n", repeated ? "" : claim.equation, claim.statement, bound, width,
-          computed, width, digits, reduction::name(claim.found()),
-          claim.as_recorded() ? "" : fmt::format("  FAIL: recorded as {}", reduction::name(claim.recorded)));
-      equation = &claim.equation;
-      if (claim.correction.empty()) continue;
-      const std::string arrow = "         -> " + claim.correction;
+          fmt::format("{}{:.{}g}", row.statement.allowed == lower_bound ? ">= " : "", printed, digits);
+      text += fmt::format("{:<7}{:<67}{:>{}}{:>{}.{}g}  {}{}\n",
+                          row.statement.equation == equation ? "" : row.statement.equation, row.statement.says, bound,
+                          width, computed, width, digits, word(verdict),
+                          row.as_recorded() ? "" : fmt::format("  FAIL: recorded as {}", word(row.statement.recorded)));
+      equation = row.statement.equation;
+      if (row.correction.empty()) continue;
+      const std::string arrow = "         -> " + row.correction;
       text += corrected ? fmt::format("{:<74}{:>{}.{}g}\n", arrow, *corrected, width, digits) : arrow + "\n";
     }
-    const auto count = [&](reduction::Verdict verdict) {
-      return std::ranges::count_if(claims, [&](const PaperClaim& claim) { return claim.found() == verdict; });
+    const auto count = [&](Verdict verdict) {
+      return std::ranges::count_if(rows, [&](const Row& row) { return row.found.verdict == verdict; });
     };
-    const auto failed = std::ranges::count_if(claims, [](const PaperClaim& claim) { return !claim.as_recorded(); });
-    return text + fmt::format("\n{} statements: {} hold, {} are slips, {} are false; {} not as recorded\n",
-                              claims.size(), count(reduction::Verdict::holds), count(reduction::Verdict::slip),
-                              count(reduction::Verdict::not_true), failed);
+    return text + fmt::format("\n{} statements: {} hold, {} are slips, {} are false; {} not as recorded\n", rows.size(),
+                              count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
+                              std::ranges::count(rows, false, &Row::as_recorded));
   }
 
-  static std::string as_csv(const std::vector<PaperClaim>& claims) {
+  static std::string as_csv(const std::vector<Row>& rows) {
     std::string text =
         csv_line({"equation", "statement", "printed", "computed", "verdict", "recorded", "correction", "at"});
-    for (const PaperClaim& claim : claims) {
-      text += csv_line({claim.equation, claim.statement, fmt::format("{}", claim.evidence.printed),
-                        fmt::format("{}", claim.evidence.computed), std::string(reduction::name(claim.found())),
-                        std::string(reduction::name(claim.recorded)), claim.correction, claim.evidence.at});
+    for (const Row& row : rows) {
+      text += csv_line({std::string(row.statement.equation), std::string(row.statement.says),
+                        fmt::format("{}", row.found.printed), fmt::format("{}", row.found.computed),
+                        std::string(word(row.found.verdict)), std::string(word(row.statement.recorded)), row.correction,
+                        row.where});
     }
     return text;
   }
 
-  static std::string as_json(const std::vector<PaperClaim>& claims) {
+  static std::string as_json(const std::vector<Row>& rows) {
     const auto number = [](double value) {
       return json(std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
     };
-    std::vector<std::string> rows;
-    for (const PaperClaim& claim : claims) {
-      rows.push_back(JsonObject()
-                         .add("equation", json(claim.equation))
-                         .add("statement", json(claim.statement))
-                         .add("printed", number(claim.evidence.printed))
-                         .add("computed", number(claim.evidence.computed))
-                         .add("verdict", json(reduction::name(claim.found())))
-                         .add("recorded", json(reduction::name(claim.recorded)))
-                         .add("correction", json(claim.correction))
-                         .add("at", json(claim.evidence.at))
-                         .inline_text());
+    std::vector<std::string> claims;
+    for (const Row& row : rows) {
+      claims.push_back(JsonObject()
+                           .add("equation", json(row.statement.equation))
+                           .add("statement", json(row.statement.says))
+                           .add("printed", number(row.found.printed))
+                           .add("computed", number(row.found.computed))
+                           .add("verdict", json(word(row.found.verdict)))
+                           .add("recorded", json(word(row.statement.recorded)))
+                           .add("correction", json(row.correction))
+                           .add("at", json(row.where))
+                           .inline_text());
     }
-    return JsonObject::document().add("claims", json_array(rows)).text();
+    return JsonObject::document().add("claims", json_array(claims)).text();
   }
 
   Argument out_;
