@@ -1,6 +1,9 @@
 # Builds and runs the programs of README.md in a project of their own and compares what they print with what it shows.
-#   cmake -D ROOT=<source tree> -D BUILD=<build tree> -D WORK=<scratch folder> -D MODE=find|add -P consumer_test.cmake
-# find: against an installation of BUILD; add: with add_subdirectory.
+#   cmake -D ROOT=<source tree> -D BUILD=<build tree> -D WORK=<scratch folder> -D MODE=<mode> -P consumer_test.cmake
+# MODE  find     against an installation of BUILD
+#       compile  with add_subdirectory, no further than to the programs' objects: the library is not built again
+#       add      with add_subdirectory, to the end
+#       shared   against an installation of shared libraries, built for it
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -28,7 +31,7 @@ macro(next_block fence result)
 endmacro()
 
 file(REMOVE_RECURSE ${WORK})
-file(COPY ${ROOT}/tests/consumer/CMakeLists.txt DESTINATION ${WORK}/source)
+configure_file(${ROOT}/tests/consumer/project.cmake ${WORK}/source/CMakeLists.txt COPYONLY)
 file(READ ${ROOT}/README.md rest)
 set(programs "")
 while(TRUE)
@@ -47,8 +50,13 @@ if(count LESS 2)
   message(FATAL_ERROR "README.md shows ${count} programs, 2 or more are expected")
 endif()
 
-set(options "")
-if(MODE STREQUAL "find")
+set(options -G Ninja -D CMAKE_BUILD_TYPE=Debug)
+if(MODE STREQUAL "shared")
+  set(BUILD ${WORK}/shared)
+  run(${CMAKE_COMMAND} -S ${ROOT} -B ${BUILD} ${options} -D BUILD_TESTING=OFF -D BUILD_SHARED_LIBS=ON)
+  run(${CMAKE_COMMAND} --build ${BUILD})
+endif()
+if(MODE STREQUAL "find" OR MODE STREQUAL "shared")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
   list(APPEND options -D CMAKE_PREFIX_PATH=${WORK}/installed)
   # The installed program runs from where it is, with nothing in its environment.
@@ -59,11 +67,14 @@ if(MODE STREQUAL "find")
     message(FATAL_ERROR "the installed program ended with ${status} and printed '${output}'")
   endif()
 else()
-  # The library is compiled once more, without optimisation: that takes a third of the time.
-  list(APPEND options -D CONTENSOU_SOURCE=${ROOT} -D CMAKE_BUILD_TYPE=Debug)
+  list(APPEND options -D CONTENSOU_SOURCE=${ROOT})
 endif()
 
-run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/source -B ${WORK}/build ${options})
+run(${CMAKE_COMMAND} -S ${WORK}/source -B ${WORK}/build ${options})
+if(MODE STREQUAL "compile")
+  run(${CMAKE_COMMAND} --build ${WORK}/build --target objects)
+  return()
+endif()
 run(${CMAKE_COMMAND} --build ${WORK}/build --target programs)
 foreach(program IN LISTS programs)
   execute_process(COMMAND ${WORK}/build/${program} RESULT_VARIABLE status OUTPUT_VARIABLE printed)
