@@ -448,6 +448,12 @@ std::string finished(std::string picture, const Figure& figure, PictureFormat fo
 
 }  // namespace
 
+std::vector<std::string_view> picture_formats() {
+  std::vector<std::string_view> endings;
+  for (const auto& [ending, format] : formats) endings.push_back(ending);
+  return endings;
+}
+
 std::optional<PictureFormat> find_picture_format(std::string_view ending) {
   const auto found = std::ranges::find(formats, ending, &std::pair<std::string_view, PictureFormat>::first);
   if (found == formats.end()) return std::nullopt;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <ranges>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -8,103 +9,116 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "commands.hpp"
 #include "contensou/si/nearest_name.hpp"
 #include "contensou/si/run_file.hpp"
+#include "input/quotation.hpp"
 #include "output/output.hpp"
+#include "verb.hpp"
 
 namespace contensou::program {
 
+std::vector<VerbEntry>& verbs() {
+  static std::vector<VerbEntry> entries;
+  return entries;
+}
+
 namespace {
 
-using Commands = std::vector<std::unique_ptr<Command>>;
-
-std::string help(const Commands& commands) {
-  std::string text =
-      "A ball that slides and spins on a plane under combined dry friction.\n\n"
-      "Usage: contensou VERB [options]\n\n";
-  for (const auto& command : commands) text += fmt::format("  {:<10}{}\n", command->name(), command->summary());
-  text += "\nExamples:\n";
-  for (const auto& command : commands) text += fmt::format("  {}\n", command->example());
-  text +=
-      "\n'contensou VERB --help' lists the options of a verb, 'contensou --version' names the version.\n"
-      "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot failed.\n";
-  return text;
+std::string footer() {
+  std::string text = "Examples:\n";
+  for (const VerbEntry& entry : verbs()) text += fmt::format("  {}\n", entry.example);
+  return text +
+         "\n'contensou VERB --help' lists the options of a verb.\n"
+         "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot failed.";
 }
 
-std::vector<std::string> option_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
-/// An option whose value was forgotten takes the next option for it.
-void reject_forgotten_values(const CLI::App& app) {
-  const std::vector<std::string> names = option_names(app);
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& value : option->results()) {
-      if (std::ranges::find(names, value) == names.end()) continue;
-      throw BadInput(fmt::format("{} needs a value before '{}'", option->get_name(), value));
-    }
-  }
-}
-
-/// What CLI11 could not place: an option that does not exist or a word too many.
-void reject_extras(const CLI::App& app) {
+/// What CLI11 could not place: a verb or an option that does not exist, or a word too many.
+void reject_extras(const CLI::App& app, const std::vector<std::string>& names) {
   if (app.remaining_size() == 0) return;
   const std::string typed = app.remaining().front();
   const std::string option = typed.substr(0, typed.find('='));
-  if (!option.starts_with('-')) throw BadInput(fmt::format("unexpected argument '{}'", typed));
-  throw BadInput(fmt::format("unknown option '{}'{}", option, si::suggestion(option, option_names(app))));
+  if (option.starts_with('-') && option != "--") {
+    std::vector<std::string> options;
+    for (const CLI::Option* known : app.get_options()) {
+      for (const std::string& name : known->get_lnames()) options.push_back("--" + name);
+    }
+    throw BadInput(fmt::format("unknown option {}{}", quotation(option), si::suggestion(option, options)));
+  }
+  if (names.empty()) throw BadInput(fmt::format("unexpected argument {}", quotation(typed)));
+  throw BadInput(fmt::format("unknown verb {}{}; verbs: {}", quotation(typed), si::suggestion(typed, names),
+                             fmt::join(names, ", ")));
 }
 
-ExitStatus run(Command& command, std::vector<std::string> arguments) {
-  CLI::App app(command.summary(), "contensou " + command.name());
-  app.footer("Example:\n  " + command.example());
-  app.allow_extras();
-  command.add_options(app);
+/// CLI11 takes any word for the value of a flag, and a last -- for nothing.
+void reject_what_means_nothing(const CLI::App& app, const std::vector<std::string>& arguments) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_items_expected_max() > 0) continue;
+    for (const std::string& typed : arguments) {
+      if (!typed.starts_with(option->get_name() + "=")) continue;
+      throw BadInput(fmt::format("{}: {} takes no value", quotation(typed), option->get_name()));
+    }
+  }
+  if (!arguments.empty() && arguments.back() == "--") throw BadInput("unexpected argument '--'");
+}
+
+void parse(CLI::App& app, std::vector<std::string> arguments) {
+  std::ranges::reverse(arguments);  // as CLI11 wants them
   try {
-    std::ranges::reverse(arguments);  // as CLI11 wants them
     app.parse(std::move(arguments));
-  } catch (const CLI::CallForHelp&) {
-    write_output("-", app.help());
-    return ExitStatus::done;
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string message = error.what();
     throw BadInput(fmt::format("{} needs a value", message.substr(0, message.find(':'))));
+  } catch (const CLI::ExcludesError& error) {
+    std::string message = error.what();
+    message.replace(message.find(" excludes "), 10, " and ");
+    throw BadInput(message + " exclude each other: give one of them");
+  } catch (const CLI::RequiresError& error) {
+    std::string message = error.what();
+    message.replace(message.find(" requires "), 10, " needs ");
+    throw BadInput(message);
+  }
+}
+
+/// @param verb  becomes the name of the verb, once it is known
+ExitStatus run(const std::vector<std::string>& arguments, std::string& verb) {
+  std::ranges::sort(verbs(), {}, &VerbEntry::name);
+  std::vector<std::string> names;
+  for (const VerbEntry& entry : verbs()) names.push_back(entry.name);
+  CLI::App app("A ball that slides and spins on a plane under combined dry friction.\n", "contensou");
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
+  app.set_version_flag("--version", "contensou " CONTENSOU_VERSION, "name the version");
+  app.footer(footer());
+  app.require_subcommand(0, 1)->allow_extras();
+  std::vector<std::unique_ptr<Verb>> made;
+  for (const VerbEntry& entry : verbs()) {
+    CLI::App& of_verb = *app.add_subcommand(entry.name, entry.summary)->allow_extras()->group("Verbs");
+    of_verb.footer("Example:\n  " + entry.example);
+    made.push_back(entry.make());
+    made.back()->add_options(of_verb);
+  }
+  try {
+    const bool known = !arguments.empty() && std::ranges::find(names, arguments.front()) != names.end();
+    if (known) verb = arguments.front();
+    reject_what_means_nothing(known ? *app.get_subcommand(verb) : app, arguments);
+    parse(app, arguments);
+  } catch (const CLI::CallForHelp&) {
+    reject_extras(app, names);
+    write_output("-", app.help());
+    return ExitStatus::done;
+  } catch (const CLI::CallForVersion& version) {
+    reject_extras(app, names);
+    write_output("-", version.what() + std::string("\n"));
+    return ExitStatus::done;
   } catch (const CLI::ParseError& error) {
     throw BadInput(error.what());
   }
-  reject_forgotten_values(app);
-  reject_extras(app);
-  return command.run();
-}
-
-/// @param help  the command line that helps with what was typed so far
-ExitStatus dispatch(const std::vector<std::string>& arguments, std::string& help_line) {
-  const Commands commands = make_commands();
-  std::vector<std::string> names;
-  for (const auto& command : commands) names.push_back(command->name());
-
-  if (arguments.empty()) throw BadInput(fmt::format("a verb is missing; verbs: {}", fmt::join(names, ", ")));
-  const std::string& verb = arguments.front();
-  if (verb == "--help" || verb == "-h" || verb == "help") {
-    write_output("-", help(commands));
-    return ExitStatus::done;
+  reject_extras(app, names);
+  if (app.get_subcommands().empty()) {
+    throw BadInput(fmt::format("a verb is missing; verbs: {}", fmt::join(names, ", ")));
   }
-  if (verb == "--version") {
-    write_output("-", "contensou " CONTENSOU_VERSION "\n");
-    return ExitStatus::done;
-  }
-  const auto command = std::ranges::find(commands, verb, &Command::name);
-  if (command == commands.end()) {
-    throw BadInput(fmt::format("unknown {} '{}'{}; verbs: {}", verb.starts_with('-') ? "option" : "verb", verb,
-                               si::suggestion(verb, names), fmt::join(names, ", ")));
-  }
-  help_line = fmt::format("contensou {} --help", verb);
-  return run(**command, {arguments.begin() + 1, arguments.end()});
+  reject_extras(*app.get_subcommands().front(), {});
+  const auto place = std::ranges::find(verbs(), verb, &VerbEntry::name) - verbs().begin();
+  return made[static_cast<std::size_t>(place)]->run();
 }
 
 ExitStatus complain(ExitStatus status, const std::string& message) {
@@ -113,15 +127,16 @@ ExitStatus complain(ExitStatus status, const std::string& message) {
 }
 
 ExitStatus guarded(const std::vector<std::string>& arguments) {
-  std::string help_line = "contensou --help";
+  std::string verb;
   try {
-    return dispatch(arguments, help_line);
+    return arguments == std::vector<std::string>{"help"} ? run({"--help"}, verb) : run(arguments, verb);
   } catch (const BadLine& error) {
     return complain(ExitStatus::bad_input, error.what());
   } catch (const si::RunFileError& error) {
     return complain(ExitStatus::bad_input, error.what());
   } catch (const std::domain_error& error) {
-    return complain(ExitStatus::bad_input, fmt::format("contensou: {}\nTry '{}'.", error.what(), help_line));
+    return complain(ExitStatus::bad_input, fmt::format("contensou: {}\nTry 'contensou {}{}--help'.", error.what(), verb,
+                                                       verb.empty() ? "" : " "));
   } catch (const FileFailure& error) {
     return complain(ExitStatus::file_failure, fmt::format("contensou: {}", error.what()));
   } catch (const std::system_error& error) {

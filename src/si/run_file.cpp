@@ -45,7 +45,7 @@ std::string place(const Section& section, std::string_view key) {
 }
 
 constexpr std::size_t max_size = 1 << 16;
-constexpr int max_depth = 16;
+constexpr std::size_t max_depth = 16;
 
 /// Text that is not for the parser, and why.
 struct Misfit {
@@ -54,8 +54,8 @@ struct Misfit {
 };
 
 /// The first place of a text that toml++ 3.3 answers with a failed assertion, undefined behaviour or a stack overflow
-/// instead of a parse_error: a character that TOML has only in strings and comments, quotes or a header where TOML
-/// has none, or deep nesting.
+/// instead of a parse_error: a character that TOML has only in strings and comments, a string of several lines, quotes,
+/// brackets or '=' where TOML has none, or deep nesting.
 class Screen {
  public:
   explicit Screen(std::string_view text) : rest_(text) {}
@@ -67,20 +67,27 @@ class Screen {
       c = rest_.front();
       if (c == '#') {
         skip(std::min(rest_.find('\n'), rest_.size()));
+      } else if (contains("\"'[{", c) && !contains("=,[{\n", before)) {
+        return Misfit{here_, fmt::format("{} has no place here: it begins a key or a value", c)};
       } else if (c == '"' || c == '\'') {
-        if (!contains("=,[{.\n", before)) return Misfit{here_, "not TOML: quotes begin a key or a value"};
+        if (rest_.starts_with(std::string(3, c))) return Misfit{here_, "text of several lines has no place here"};
         skip_string(c);
       } else if (!is_key_letter(c) && !contains(marks, c)) {
         return Misfit{here_,
                       fmt::format("not TOML: only letters, digits and _-{} stand outside quotes", visible_marks)};
-      } else if (before == '\n' && brackets_ == 0 && c == '[' && !header_begins_with_key()) {
+      } else if (before == '\n' && open_.empty() && c == '[' && !header_begins_with_key()) {
         return Misfit{here_, "not TOML: a header is a name in brackets, such as [ball]"};
       } else {
-        if (c == '[' || c == '{') ++brackets_;
-        if (c == ']' || c == '}') --brackets_;
+        if (c == '[' || c == '{') open_ += c;
+        if (c == ']' || c == '}') {
+          if (!open_.ends_with(c == ']' ? '[' : '{')) return Misfit{here_, "not TOML: a bracket that closes none"};
+          open_.pop_back();
+        }
+        if (c == '=' && (assigned_ || open_.ends_with('['))) return Misfit{here_, "not TOML: '=' follows no key"};
+        assigned_ = c == '=' || (assigned_ && !contains("{,\n", c));
         if (c == '.') ++dots_;
         if (contains("[]{},=\n", c)) dots_ = 0;
-        if (std::max(brackets_, dots_) > max_depth) {
+        if (std::max(open_.size(), dots_) > max_depth) {
           return Misfit{here_, fmt::format("nested more than {} deep: no table of a run file is", max_depth)};
         }
         skip(1);
@@ -114,25 +121,21 @@ class Screen {
     rest_.remove_prefix(bytes);
   }
 
-  /// A string on one line ends with it at the latest; one of three quotes may have two more before its end.
+  /// To the closing quote, or to the end of the line.
   void skip_string(char quote) {
-    const std::string three(3, quote);
-    const bool is_long = rest_.starts_with(three);
-    std::size_t end = is_long ? 3 : 1;
-    while (end < rest_.size()) {
-      if (is_long ? rest_.substr(end).starts_with(three) : rest_[end] == quote) break;
-      if (!is_long && rest_[end] == '\n') return skip(end);
+    std::size_t end = 1;
+    while (end < rest_.size() && rest_[end] != quote && rest_[end] != '\n') {
       end += quote == '"' && rest_[end] == '\\' ? 2 : 1;
     }
-    end += is_long ? 3 : 1;
-    for (int more = 0; is_long && more < 2 && end < rest_.size() && rest_[end] == quote; ++more) ++end;
-    skip(std::min(end, rest_.size()));
+    const bool closed = end < rest_.size() && rest_[end] == quote;
+    skip(std::min(closed ? end + 1 : end, rest_.size()));
   }
 
   std::string_view rest_;
   toml::source_position here_{1, 1};
-  int brackets_ = 0;
-  int dots_ = 0;  ///< of the key that is being read
+  std::string open_;       ///< brackets
+  bool assigned_ = false;  ///< the key that was read last has its '='
+  std::size_t dots_ = 0;   ///< of the key that is being read
 };
 
 class Reader {

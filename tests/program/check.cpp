@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <sstream>
 #include <string>
 
@@ -45,6 +46,28 @@ TEST_CASE("check without a start", "[cli]") {
   INFO(run.out);
   CHECK(run.status == 0);
   CHECK(count_rows(run.out, "ok") >= 16);
+}
+
+TEST_CASE("a law's name cannot break the table of check", "[cli]") {
+  const TemporaryDirectory scratch;
+  for (const std::string name : {"FAIL ok.csv", "two\nlines ok.csv", "FAILURE.csv", "ok", "a book on ok-FAIL.csv"}) {
+    const std::string file = scratch.file(name);
+    write_file(file, "rho,pressure\n0,1\n0.5,0.8\n1,0.1\n");
+    const Run run =
+        run_program(std::vector<std::string>{"check", "--mu", "0.3", "--u0", "1", "--v0", "1", "--law", file});
+    INFO(run.out << run.err);
+    CHECK(run.status == 0);
+    CHECK(count_rows(run.out, "ok") >= 8);
+    CHECK(count_words(run.out, "ok") == count_rows(run.out, "ok"));
+    CHECK(run.out.find("FAIL") == std::string::npos);
+    CHECK(count_rows(run.out, "ok") + 1 == std::ranges::count(run.out, '\n'));
+    // Columns do not touch.
+    std::istringstream lines(run.out);
+    std::string heading, row;
+    std::getline(lines, heading);
+    const std::size_t column = heading.find("check");
+    while (std::getline(lines, row)) CHECK(row.substr(column - 2, 2) == "  ");
+  }
 }
 
 TEST_CASE("check as JSON and CSV", "[cli]") {

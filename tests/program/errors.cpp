@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,30 @@ TEST_CASE("bad input is status 2, says what was typed and a way out", "[cli]") {
       {{"check", "--mu", "0.1"}, {"--u0, --v0 missing"}},
       {{"balls", "pol"}, {"no such ball", "did you mean 'pool'"}},
       {{"balls", "pool", "--format", "json"}, {"a run file is text"}},
+      {{"balls", "./b.toml"}, {"./b.toml: no such ball", "a file is for --ball of another verb"}},
+      // A flag means the same whatever follows it.
+      {{"sweep", "--mu", "0.1", "--u0", "1", "--v0", "1", "--log=false"}, {"'--log=false': --log takes no value"}},
+      {{"sweep", "--mu", "0.1", "--u0", "1", "--v0", "1", "--log=true"}, {"'--log=true': --log takes no value"}},
+      {{"portrait", "--mu", "0.1", "--facts=no"}, {"'--facts=no': --facts takes no value"}},
+      {{"stop", "--ball", "pool", "--estimate=banana"}, {"--estimate takes no value"}},
+      {{"stop", "--batch", "-", "--keep-going=false"}, {"--keep-going takes no value"}},
+      {{"stop", "--help=no"}, {"--help takes no value"}},
+      {{"--version=3"}, {"--version takes no value"}},
+      // No mistake in an option that would not count.
+      {{"stop", "--batch", "-", "--digits", "banana"}, {"--digits: 'banana' is not a whole number"}},
+      {{"stop", "--batch", "-", "--digits", "3"}, {"--digits 3: csv and json always have all digits"}},
+      {{"balls", "--digits", "banana"}, {"--digits: 'banana'"}},
+      {{"balls", "pool", "--digits", "banana"}, {"--digits: 'banana'"}},
+      {{"check", "--format", "jsn"}, {"unknown format", "did you mean 'json'"}},
+      {{"explore", "-o", ""}, {"-o '': a file name is needed"}},
+      {{"explore", "-o", "-o"}, {"-o needs a value before '-o'"}},
+      {{"stop", "--ball", "pool", "-o", "--format", "json"}, {"-o needs a value before '--format'"}},
+      {{"--version", "junk"}, {"unknown verb 'junk'"}},
+      {{"stpo", "--help"}, {"unknown verb 'stpo'", "did you mean 'stop'"}},
+      {{"stop", "--ball", "pool", "--"}, {"unexpected argument '--'"}},
+      {{"balls", "--"}, {"unexpected argument '--'"}},
+      {{"stop", "sweep"}, {"unexpected argument 'sweep'"}},
+      {{"--mu", "0.1", "stop"}, {"unknown option '--mu'"}},
   };
   for (const auto& [arguments, words] : mistakes) {
     const Run run = run_program(arguments);
@@ -81,6 +106,31 @@ TEST_CASE("bad input is status 2, says what was typed and a way out", "[cli]") {
     CHECK(run.status == 2);
     CHECK(run.out.empty());
     for (const std::string& word : words) CHECK_THAT(run.err, Contains(word));
+  }
+}
+
+TEST_CASE("messages quote what they can show", "[cli]") {
+  const std::string long_text(20000, 'x');
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{long_text},
+                                             {"stop", "--" + long_text},
+                                             {"stop", long_text},
+                                             {"stop", "--mu", long_text},
+                                             {"stop", "--ball", "pool", "--law", long_text},
+                                             {"stop", "--ball", long_text},
+                                             {"stop", "--ball", "pool", "--format", long_text},
+                                             {"stop", "--ball", "pool", "--body", long_text},
+                                             {"stop", "--ball", "pool", "-o", "a." + long_text},
+                                             {"sweep", "--u0", "0:" + long_text + ":3"},
+                                             {"portrait", "--mu", "0.1", "--size", "1x" + long_text},
+                                             {"portrait", "--mu", "0.1", "--view", "a\nb\x1b[2Jc\x7f"},
+                                             {"stop", "--mu", "\n\a"}}) {
+    const Run run = run_program(arguments);
+    INFO(run.err.substr(0, 1000));
+    CHECK(run.status == 2);
+    CHECK(run.err.size() < 600);
+    CHECK(std::ranges::count(run.err, '\n') == 2);
+    CHECK(std::ranges::none_of(run.err, [](char c) { return c != '\n' && static_cast<unsigned char>(c) < ' '; }));
   }
 }
 

@@ -198,23 +198,29 @@ TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
   for (const char* header : {"[(x]", "[,x]", "[ .x]", "[[=x]]", "[[[x]]]", "[\n]", "[#]", "a = 1\n [+1]"}) {
     refused(header, "not TOML: ");
   }
+  refused("a = [}", "x.toml:1:6: not TOML: a bracket that closes none");
   // Undefined behaviour: a letter within quotes that begin no string.
-  refused("a = 0'\xC9\xA0", "x.toml:1:6: not TOML: quotes begin a key or a value");
-  refused("a = \"b\" 'c'", "x.toml:1:9: not TOML: quotes begin a key or a value");
+  refused("a = 0'\xC9\xA0", "x.toml:1:6: ' has no place here: it begins a key or a value");
+  refused("a = \"\"\"\\\n\xEF\xBB\xBD\"\"\"", "x.toml:1:5: text of several lines has no place here");
+  refused("a = '''b'''", "x.toml:1:5: text of several lines has no place here");
+  refused("a = -['\xC9\xA0", "x.toml:1:6: [ has no place here");
+  refused("a = 1='\xC9\xA0", "x.toml:1:6: not TOML: '=' follows no key");
+  refused("a = [1, 2='\xC9\xA0", "x.toml:1:10: not TOML: '=' follows no key");
+  refused("a = 1.'\xC9\xA0", "x.toml:1:7: ' has no place here");
+  refused("a = \"b\" 'c'", "x.toml:1:9: ' has no place here");
   // A stack overflow, from 80 kB on; a header, a key, arrays and tables.
   refused("[" + repeated("a.", 40) + "a]", "x.toml:1:35: nested more than 16 deep");
-  refused(repeated("a . \"b\" . ", 20) + "a = 1", "nested more than 16 deep");
+  refused(repeated("a . b . ", 20) + "a = 1", "nested more than 16 deep");
   refused("a = " + repeated("[", 40), "x.toml:1:21: nested more than 16 deep");
   refused("a = " + repeated("{a = ", 40), "nested more than 16 deep");
   refused("[" + repeated("a.", 60000) + "b]", "too long for a run file, which has at most 65536 bytes");
 
   // Strings and comments may have all of it.
   const std::string dots = repeated("([{.", 20);
-  for (const std::string quotes : {"\"", "'", "\"\"\"", "'''"}) {
+  for (const std::string quotes : {"\"", "'"}) {
     const std::string named = with(good, "\"pool ball on cloth\"", quotes + dots + quotes + " # " + dots);
     CHECK(parse_run_file(named, "x.toml").ball.name == dots);
   }
-  CHECK(parse_run_file(with(good, "\"pool ball on cloth\"", R"("""a "q""""")"), "x.toml").ball.name == R"(a "q"")");
   refused(with(good, "pool ball on cloth", R"(\"([)" + dots + "\" ("), "x.toml:2:95: not TOML");
   CHECK(parse_run_file("\xEF\xBB\xBF" + good, "x.toml").ball.mass == 0.1701);
 }

@@ -1,75 +1,68 @@
 #include "options/argument.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "exit_status.hpp"
+#include "contensou/si/nearest_name.hpp"
+#include "input/quotation.hpp"
 
 namespace contensou::program {
 
-void Argument::add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help) {
-  option_ = app.add_option(names)->description(help)->type_name(value_name);
-  option_->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+CLI::Option* Argument::add(CLI::App& app, const std::string& names, const std::string& value_name,
+                           const std::string& help) {
+  name_ = names.substr(0, names.find(','));
+  option_ = app.add_option(
+      names,
+      [this, &app](const CLI::results_t& values) {
+        accept(app, values);
+        return true;
+      },
+      help);
+  option_->type_name(value_name)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return option_;
 }
 
-void Argument::add_optional(CLI::App& app, const std::string& names, const std::string& value_name,
-                            const std::string& help) {
-  add(app, names, value_name, help);
-  option_->expected(0, 1);
-}
-
-const std::string& Argument::text() const {
-  if (option_->count() > 1)
-    throw BadInput(fmt::format("{} is given {} times; once is allowed", name(), option_->count()));
-  return option_->results().front();
-}
-
-template <class Parse>
-auto Argument::read(Parse parse) const {
-  const std::string& typed = text();
-  try {
-    return parse(typed);
-  } catch (const BadInput& error) {
-    throw BadInput(fmt::format("{}: {}", name(), error.what()));
-  }
-}
-
-double Argument::number() const {
-  return read([](const std::string& typed) { return parse_number(typed); });
-}
-
-std::vector<double> Argument::numbers(Infinity infinity) const {
-  return read([infinity](const std::string& typed) { return parse_numbers(typed, infinity); });
-}
-
-long Argument::integer(long lowest, long highest) const {
-  return read([=](const std::string& typed) { return parse_integer(typed, lowest, highest); });
-}
-
-std::vector<std::vector<double>> Argument::number_lists() const {
-  std::vector<std::vector<double>> lists;
-  if (!given()) return lists;
-  for (const std::string& typed : option_->results()) {
-    try {
-      lists.push_back(parse_numbers(typed, Infinity::forbidden));
-    } catch (const BadInput& error) {
-      throw BadInput(fmt::format("{}: {}", name(), error.what()));
+void Argument::accept(const CLI::App& app, const std::vector<std::string>& values) {
+  for (const std::string& value : values) {
+    // An option whose value was forgotten takes the next option for it.
+    if (value.starts_with('-') && app.get_option_no_throw(value) != nullptr) {
+      throw BadInput(fmt::format("{} needs a value before '{}'", name_, value));
     }
   }
-  return lists;
+  if (values.size() > 1 && !repeatable()) {
+    throw BadInput(fmt::format("{} is given {} times; once is allowed", name_, values.size()));
+  }
+  for (const std::string& value : values) {
+    try {
+      read(value);
+    } catch (const NotAllowed& error) {
+      throw BadInput(fmt::format("{}: {}", typed(value), error.what()));
+    } catch (const BadInput& error) {
+      throw BadInput(fmt::format("{}: {}", name_, error.what()));
+    }
+  }
 }
 
-void Argument::reject(const std::string& message) const {
-  throw BadInput(fmt::format("{} {}: {}", name(), text(), message));
+void Argument::reject(const std::string& message) const { throw BadInput(fmt::format("{}: {}", typed(), message)); }
+
+std::string Argument::typed(const std::string& value) const {
+  const std::string quoted = quotation(value);
+  return fmt::format("{} {}", name_, quoted.substr(1, quoted.size() - 2));
 }
 
 std::string names_given(const std::vector<const Argument*>& arguments) {
-  std::string names;
+  std::vector<std::string> names;
   for (const Argument* argument : arguments) {
-    if (!argument->given()) continue;
-    if (!names.empty()) names += ", ";
-    names += argument->name();
+    if (argument->given()) names.push_back(argument->name());
   }
-  return names;
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names) {
+  const std::string list = fmt::format("{}", fmt::join(names, ", "));
+  const std::string nearest = si::suggestion(typed, names);
+  if (kind.empty()) return NotAllowed(fmt::format("one of {} is needed{}", list, nearest));
+  return NotAllowed(fmt::format("no such {}{}; {}: {}", kind, nearest, kind == "body" ? "bodies" : kind + "s", list));
 }
 
 }  // namespace contensou::program

@@ -1,29 +1,39 @@
 #include "options/body_option.hpp"
 
-#include <algorithm>
-#include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "contensou/si/nearest_name.hpp"
 #include "exit_status.hpp"
 
 namespace contensou::program {
 
 namespace {
 
-const std::vector<std::pair<std::string, Body>>& bodies() {
-  static const std::vector<std::pair<std::string, Body>> named{
-      {"ball", {reduction::homogeneous_ball, std::nullopt, true}},
-      {"hollow-ball", {{.chi = 2.5, .gamma = 1.5}, std::nullopt, true}},
+const Choices<Body>& bodies() {
+  static const Choices<Body> named{
+      {"ball", {}},
+      {"hollow-ball", {.inertia = {.chi = 2.5, .gamma = 1.5}}},
       {"disc", {{.chi = 1, .gamma = 2}, 1.0, false}},
       {"ring", {{.chi = 1, .gamma = 1}, 1.0, false}},
   };
   return named;
+}
+
+/// A name, or two numbers.
+Body parse_body(const std::string& typed) {
+  if (typed.find(',') == std::string::npos) {
+    try {
+      return one_of(bodies(), "body")(typed);
+    } catch (const NotAllowed& error) {
+      throw NotAllowed(fmt::format("{}, or two numbers CHI,GAMMA", error.what()));
+    }
+  }
+  const std::vector<double> ratios = parse_numbers(typed);
+  if (ratios.size() != 2) throw NotAllowed("two numbers are needed: CHI,GAMMA");
+  if (!(ratios[0] > 0 && ratios[1] > 0)) throw NotAllowed("chi and gamma must be positive");
+  return {{.chi = ratios[0], .gamma = ratios[1]}, std::nullopt, false};
 }
 
 }  // namespace
@@ -38,34 +48,22 @@ void BodyOption::add(CLI::App& app) {
   body_.add(
       app, "--body", "BODY",
       "ball (default), hollow-ball, disc or ring (flat pucks that cannot roll: mu = 1), or CHI,GAMMA: chi = 1 + m "
-      "R^2/J about a horizontal axis (1: cannot roll), gamma = m R^2/J_z");
+      "R^2/J about a horizontal axis (1: cannot roll), gamma = m R^2/J_z",
+      parse_body);
 }
 
-double BodyOption::read_patch_ratio(const Argument& mu, const Body& body) {
+double BodyOption::read_patch_ratio(const ArgumentOf<double>& mu, const Body& body) {
   if (!mu.given()) {
     if (body.patch_ratio) return *body.patch_ratio;
     throw BadInput("--mu missing: give --mu M, or a --body that lies flat, disc or ring");
   }
-  const double value = mu.number();
-  if (const std::string complaint = body.complaint(value); !complaint.empty()) mu.reject(complaint);
-  return value;
+  if (const std::string complaint = body.complaint(*mu); !complaint.empty()) mu.reject(complaint);
+  return *mu;
 }
 
-Body BodyOption::read() const {
-  if (!body_.given()) return bodies().front().second;
-  const std::string& text = body_.text();
-  const auto named = std::ranges::find(bodies(), text, &std::pair<std::string, Body>::first);
-  if (named != bodies().end()) return named->second;
-  if (text.find(',') != std::string::npos) {
-    const std::vector<double> ratios = body_.numbers();
-    if (ratios.size() != 2) body_.reject("two numbers are needed: CHI,GAMMA");
-    if (!(ratios[0] > 0 && ratios[1] > 0)) body_.reject("chi and gamma must be positive");
-    return {{.chi = ratios[0], .gamma = ratios[1]}, std::nullopt, false};
-  }
-  std::vector<std::string> names;
-  for (const auto& [name, body] : bodies()) names.push_back(name);
-  body_.reject(fmt::format("no such body{}; bodies: {}, or two numbers CHI,GAMMA", si::suggestion(text, names),
-                           fmt::join(names, ", ")));
+void add_patch_ratio(ArgumentOf<double>& mu, CLI::App& app) {
+  mu.add(app, "--mu", "M", "patch ratio, patch radius/R; a ball: 0 < M <= 1, another body: M > 0 (disc, ring: 1)",
+         number);
 }
 
 }  // namespace contensou::program

@@ -15,6 +15,7 @@ class LawOption {
   /// Under another name, for a second law.
   void add(CLI::App& app, const std::string& name, const std::string& value_name, const std::string& help);
   bool given() const { return law_.given(); }
+  const Argument& argument() const { return law_; }
 
   /// The law of that name, of that exponent (pressure:P), or of the table in that file (with a / or ending in .csv);
   /// the first of named_laws() if none was given.

@@ -1,14 +1,14 @@
 #include "options/output_options.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "contensou/si/nearest_name.hpp"
-#include "exit_status.hpp"
+#include "input/quotation.hpp"
 #include "output/output.hpp"
+#include "output/picture.hpp"
 
 namespace contensou::program {
 
@@ -16,59 +16,82 @@ namespace {
 
 constexpr long standard_digits = 6;
 
-/// In the order of Format.
-const std::array<std::string, 3> format_names{"text", "csv", "json"};
+bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// As endings of files.
+std::string endings_of(const OutputKind& kind) {
+  std::vector<std::string> endings = kind.formats;
+  std::ranges::replace(endings, std::string("text"), std::string("txt"));
+  return fmt::format("{}", fmt::join(endings, ", "));
+}
 
 }  // namespace
 
+std::vector<std::string> with_pictures(std::vector<std::string> first, const std::vector<std::string>& last) {
+  for (std::string_view picture : portraits::picture_formats()) first.emplace_back(picture);
+  first.insert(first.end(), last.begin(), last.end());
+  return first;
+}
+
+void Output::write(std::string_view content) const { write_output(path, content); }
+
+void Output::write_as(const std::function<std::string(int)>& text, const std::function<std::string()>& csv,
+                      const std::function<std::string()>& json) const {
+  write(format == "text" ? text(digits) : format == "csv" ? csv() : json());
+}
+
 void OutputOptions::add(CLI::App& app) {
-  add(app, "write to FILE, whole or not at all; - is standard output",
-      fmt::format("{} (default {})", fmt::join(format_names, ", "), format_names[static_cast<std::size_t>(standard_)]));
-}
-
-void OutputOptions::add(CLI::App& app, const std::string& file_help, const std::string& format_help) {
-  file_.add(app, "-o,--output", "FILE", file_help);
-  format_.add(app, "--format", "FORMAT", format_help);
+  const OutputKind& usual = kinds_.front();
+  std::string endings, formats;
+  bool has_text = false;
+  for (const OutputKind& kind : kinds_) {
+    const std::string which = &kind == &usual ? "" : fmt::format("; {}: ", kind.noun);
+    endings += which + endings_of(kind);
+    formats += fmt::format("{}{} (default {})", which, fmt::join(kind.formats, ", "), kind.standard);
+    has_text = has_text || is_one_of(kind.formats, "text");
+  }
+  file_.add(app, "-o,--output", "FILE",
+            fmt::format("write to FILE, whole or not at all (default {}); its ending is one of {}",
+                        usual.path == "-" ? "-, standard output" : usual.path, endings));
+  format_.add(app, "--format", "FORMAT", "where no ending says it: " + formats);
+  if (!has_text) return;
   digits_.add(app, "--digits", "N",
-              fmt::format("significant digits of the text format, 1 to 17 (default {})", standard_digits));
+              fmt::format("significant digits of the text format, 1 to 17 (default {})", standard_digits),
+              whole_number(1, 17));
 }
 
-Format OutputOptions::format() const {
-  if (!format_.given()) return standard_;
-  const auto found = std::ranges::find(format_names, format_.text());
-  if (found == format_names.end()) {
-    format_.reject(fmt::format("unknown format{}; formats: {}", si::suggestion(format_.text(), format_names),
-                               fmt::join(format_names, ", ")));
+Output OutputOptions::read(std::size_t place) const {
+  const OutputKind& kind = kinds_.at(place);
+  const std::string path = file_.given() ? file_.text() : kind.path;
+  if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
+  const std::string format = read_format(kind, path);
+  if (digits_.given() && format != "text") {
+    digits_.reject(portraits::find_picture_format(format) ? "a picture has no digits"
+                                                          : "csv and json always have all digits; add --format text");
   }
-  return static_cast<Format>(found - format_names.begin());
+  return {path, format, static_cast<int>(digits_.value_or(standard_digits))};
 }
 
-int OutputOptions::digits() const {
-  if (!digits_.given()) return standard_digits;
-  const long digits = digits_.integer(1, 17);
-  if (format() != Format::text) digits_.reject("csv and json always have all digits; add --format text");
-  return static_cast<int>(digits);
-}
-
-std::string OutputOptions::path() const {
-  if (!file_.given()) return "-";
-  if (file_.text().empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
-  return file_.text();
-}
-
-void OutputOptions::write(std::string_view content) const { write_output(path(), content); }
-
-void OutputOptions::write_as(Format format, const std::function<std::string(int)>& text,
-                             const std::function<std::string()>& csv, const std::function<std::string()>& json) const {
-  const int digits = this->digits();
-  switch (format) {
-    case Format::text:
-      return write(text(digits));
-    case Format::csv:
-      return write(csv());
-    case Format::json:
-      return write(json());
+std::string OutputOptions::read_format(const OutputKind& kind, const std::string& path) const {
+  if (format_.given() && !is_one_of(kind.formats, format_.text())) {
+    format_.reject(fmt::format("unknown format{}; formats: {}", si::suggestion(format_.text(), kind.formats),
+                               fmt::join(kind.formats, ", ")));
   }
+  const std::string file_ending = path == "-" ? "" : ending(path);
+  const std::string by_ending = file_ending == "txt" ? "text" : file_ending;
+  const bool guessable = path == "-" || kind.formats.size() == 1 || is_one_of(kind.formats, "text");
+  if (by_ending.empty() ? !format_.given() && !guessable
+                        : file_ending == "text" || !is_one_of(kind.formats, by_ending)) {
+    file_.reject(fmt::format("{} is written as one of {}; {} is none of them", kind.noun, endings_of(kind),
+                             quotation(file_ending)));
+  }
+  if (by_ending.empty()) return format_.given() ? format_.text() : kind.standard;
+  if (format_.given() && format_.text() != by_ending) {
+    format_.reject(fmt::format("the file {} says otherwise: leave out one of them", path));
+  }
+  return by_ending;
 }
 
 }  // namespace contensou::program

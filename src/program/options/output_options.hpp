@@ -1,52 +1,66 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "contensou/portraits/gnuplot.hpp"
 #include "options/argument.hpp"
 
 namespace contensou::program {
 
-enum class Format { text, csv, json };
+/// What a verb writes.
+struct OutputKind {
+  std::string noun;                  ///< with its article, for messages
+  std::vector<std::string> formats;  ///< names for --format; they are endings of files, but for text, which is txt
+  std::string standard;              ///< on standard output
+  std::string path = "-";            ///< without -o
+};
 
-/// -o, --format and --digits: where results go and how they look.
-class OutputOptions {
- public:
-  explicit OutputOptions(Format standard) : standard_(standard) {}
+/// Formats of numbers, those of pictures, and other formats of numbers.
+std::vector<std::string> with_pictures(std::vector<std::string> first, const std::vector<std::string>& last = {});
 
-  void add(CLI::App& app);
+/// Where a result goes and how it looks.
+struct Output {
+  std::string path;
+  std::string format;
+  int digits;  ///< of text
 
-  /// With words of its own for a verb that also writes pictures.
-  void add(CLI::App& app, const std::string& file_help, const std::string& format_help);
-
-  /// As typed, for such a verb.
-  const Argument& file_argument() const { return file_; }
-  const Argument& format_argument() const { return format_; }
-  const Argument& digits_argument() const { return digits_; }
-
-  /// @throws BadInput  for an unknown format
-  Format format() const;
-  bool format_given() const { return format_.given(); }
-
-  /// Significant digits of the text format.
-  /// @throws BadInput  unless it is 1 to 17 and the format is text
-  int digits() const;
-
-  /// The file of -o; "-" without it.
-  std::string path() const;
+  std::optional<portraits::PictureFormat> picture() const { return portraits::find_picture_format(format); }
 
   /// @throws FileFailure  as write_output
   void write(std::string_view content) const;
 
-  /// Writes what the maker of a format makes; that of text takes the number of digits.
+  /// Writes what the maker of the format makes; that of text takes the number of digits.
   /// @throws FileFailure  as write_output
-  void write_as(Format format, const std::function<std::string(int)>& text, const std::function<std::string()>& csv,
+  void write_as(const std::function<std::string(int)>& text, const std::function<std::string()>& csv,
                 const std::function<std::string()>& json) const;
+};
+
+/// -o, --format and --digits.
+class OutputOptions {
+ public:
+  /// @param kinds  that the verb writes, the usual one first
+  explicit OutputOptions(std::vector<OutputKind> kinds) : kinds_(std::move(kinds)) {}
+
+  void add(CLI::App& app);
+
+  /// What they say: the ending of the file decides the format, or else --format, or else the kind.
+  /// @param place  of the kind
+  /// @throws BadInput  if the format is not one of the kind's, if ending and --format disagree, if a file needs an
+  ///                   ending, and for --digits with other than text
+  Output read(std::size_t place = 0) const;
+
+  const Argument& format_argument() const { return format_; }
 
  private:
-  Format standard_;
-  Argument file_, format_, digits_;
+  std::string read_format(const OutputKind& kind, const std::string& path) const;
+
+  std::vector<OutputKind> kinds_;
+  Argument file_, format_;
+  ArgumentOf<long> digits_;
 };
 
 }  // namespace contensou::program

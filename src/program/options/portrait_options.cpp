@@ -1,21 +1,17 @@
 #include "options/portrait_options.hpp"
 
-#include <algorithm>
-#include <array>
+#include <cmath>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/si/nearest_name.hpp"
 #include "exit_status.hpp"
 
 namespace contensou::program {
 
 namespace {
-
-using portraits::PortraitStyle;
 
 constexpr long most_orbits = 200;
 constexpr long most_isochrones = 100;
@@ -23,132 +19,117 @@ constexpr long most_isochrones = 100;
 constexpr double smallest = 40;
 constexpr double largest = 2000;
 
-/// The value that an argument names.
-template <class Value, std::size_t Count>
-Value choice(const Argument& argument, const std::array<std::pair<const char*, Value>, Count>& values) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : values) {
-    if (argument.text() == name) return value;
-    names.emplace_back(name);
-  }
-  argument.reject(fmt::format("one of {} is needed{}", fmt::join(names, ", "), si::suggestion(argument.text(), names)));
-}
-
-constexpr std::array arrow_names{
-    std::pair{"time", PortraitStyle::Arrows::time},
-    std::pair{"one", PortraitStyle::Arrows::one},
-    std::pair{"none", PortraitStyle::Arrows::none},
-};
-constexpr std::array field_names{
-    std::pair{"none", PortraitStyle::Field::none},
-    std::pair{"motion", PortraitStyle::Field::motion},
-    std::pair{"regularised", PortraitStyle::Field::regularised},
-};
-constexpr std::array switch_names{std::pair{"on", true}, std::pair{"off", false}};
-constexpr std::array colour_names{std::pair{"time", true}, std::pair{"none", false}};
-constexpr std::array style_names{std::pair{"print", false}, std::pair{"screen", true}};
-
-std::vector<std::string> view_names() {
-  std::vector<std::string> names;
-  for (portraits::View view : portraits::views()) names.emplace_back(portraits::name(view));
-  return names;
-}
-
 }  // namespace
 
 void PortraitOptions::add(CLI::App& app) {
-  view_.add(app, "--view", "VIEW",
-            fmt::format("the axes: {} (default uv; pair for mu < 0.1)", fmt::join(view_names(), ", ")));
-  window_.add(app, "--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)");
-  orbits_.add(app, "--orbits", "N", fmt::format("orbits on each side of u = 0, 0 to {} (default 12)", most_orbits));
-  through_.add(app, "--through", "U,V", "also the orbit through this point; may be repeated");
-  isochrones_.add_optional(app, "--isochrones", "N",
-                           fmt::format("about N isochrones of the stop time, 0 to {} (default 7)", most_isochrones));
-  arrows_.add(app, "--arrows", "WHERE", "arrows on orbits: at equal times (time, default), one on each, none");
-  field_.add_optional(app, "--field", "FIELD",
-                      "the direction field, length by logarithm: motion (2.6), regularised (2.7), none (default)");
-  axes_.add(app, "--axes", "on|off", "the invariant axes and the invariant ray, which are the nullclines (default on)");
-  colour_.add(app, "--colour", "BY", "orbits by the time left (time, default) or in one colour (none)");
+  Choices<portraits::View> views;
+  std::vector<std::string_view> names;
+  for (portraits::View view : portraits::views()) {
+    names.push_back(name(view));
+    views.emplace_back(name(view), view);
+  }
+  view_.add(app, "--view", "VIEW", fmt::format("the axes: {} (default uv; pair for mu < 0.1)", fmt::join(names, ", ")),
+            one_of(views, "view"));
+  window_.add(app, "--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)",
+              parse_window);
+  orbits_.add(app, "--orbits", "N", fmt::format("orbits on each side of u = 0, 0 to {} (default 12)", most_orbits),
+              whole_number(0, most_orbits));
+  through_.add(app, "--through", "U,V", "also the orbit through this point; may be repeated", parse_point);
+  through_.make_repeatable();
+  isochrones_
+      .add(app, "--isochrones", "N",
+           fmt::format("about N isochrones of the stop time, 0 to {} (default 7)", most_isochrones),
+           [](const std::string& typed) {
+             return typed.empty() ? portraits::PortraitRequest{}.isochrones : parse_integer(typed, 0, most_isochrones);
+           })
+      ->expected(0, 1);
+  arrows_.add(app, "--arrows", "WHERE", "arrows on orbits: at equal times (time, default), one on each, none",
+              one_of<Style::Arrows>(
+                  {{"time", Style::Arrows::time}, {"one", Style::Arrows::one}, {"none", Style::Arrows::none}}));
+  field_
+      .add(app, "--field", "FIELD",
+           "the direction field, length by logarithm: motion (2.6), regularised (2.7), none (default)",
+           one_of<Style::Field>({{"none", Style::Field::none},
+                                 {"motion", Style::Field::motion},
+                                 {"regularised", Style::Field::regularised},
+                                 {"", Style::Field::motion}}))
+      ->expected(0, 1);
+  axes_.add(app, "--axes", "on|off", "the invariant axes and the invariant ray, which are the nullclines (default on)",
+            one_of<bool>({{"on", true}, {"off", false}}));
+  colour_.add(app, "--colour", "BY", "orbits by the time left (time, default) or in one colour (none)",
+              one_of<bool>({{"time", true}, {"none", false}}));
   against_.add(app, "--against", "LAW", "the same for another law, dashed, in the same figure");
-  style_.add(app, "--style", "STYLE", "print (default), or screen: light on dark, for a projector");
+  style_.add(app, "--style", "STYLE", "print (default), or screen: light on dark, for a projector",
+             one_of<bool>({{"print", false}, {"screen", true}}));
   size_.add(app, "--size", "WxH",
-            fmt::format("size of the figure in mm, each {} to {} (default: by view)", smallest, largest));
+            fmt::format("size of the figure in mm, each {} to {} (default: by view)", smallest, largest), parse_size);
 }
 
 std::string PortraitOptions::given_names() const {
-  const std::string names = names_given(
-      {&view_, &window_, &orbits_, &through_, &isochrones_, &arrows_, &field_, &axes_, &colour_, &style_, &size_});
-  if (!against_.given()) return names;
-  return names.empty() ? "--against" : names + ", --against";
+  return names_given({&view_, &window_, &orbits_, &through_, &isochrones_, &arrows_, &field_, &axes_, &colour_, &style_,
+                      &size_, &against_.argument()});
 }
 
-std::vector<reduction::State> PortraitOptions::points() const {
-  std::vector<reduction::State> points;
-  for (const std::vector<double>& pair : through_.number_lists()) {
-    const std::string typed = fmt::format("{} {}", through_.name(), fmt::join(pair, ","));
-    if (pair.size() != 2) throw BadInput(fmt::format("{}: two numbers are needed, U,V", typed));
-    if (pair[0] == 0 || !(pair[1] > 0)) {
-      throw BadInput(fmt::format("{}: U must not be 0 and V > 0; the axes are orbits that are drawn anyway", typed));
-    }
-    points.push_back({pair[0], pair[1]});
+portraits::Window PortraitOptions::parse_window(const std::string& typed) {
+  const std::vector<double> sides = parse_numbers(typed);
+  if (sides.size() != 2) throw NotAllowed("two numbers are needed, U,V");
+  if (!(sides[0] > 0 && sides[1] > 0)) throw NotAllowed("both sides of the window must be positive");
+  return {sides[0], sides[1]};
+}
+
+reduction::State PortraitOptions::parse_point(const std::string& typed) {
+  const std::vector<double> pair = parse_numbers(typed);
+  if (pair.size() != 2) throw NotAllowed("two numbers are needed, U,V");
+  if (pair[0] == 0 || !(pair[1] > 0)) {
+    throw NotAllowed("U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
   }
-  return points;
+  return {pair[0], pair[1]};
+}
+
+PortraitOptions::Size PortraitOptions::parse_size(const std::string& typed) {
+  constexpr const char* wanted = "width and height in mm are needed, as in 180x120";
+  const std::size_t cross = typed.find('x');
+  if (cross == std::string::npos) throw NotAllowed(wanted);
+  try {
+    const Size size{parse_number(typed.substr(0, cross)), parse_number(typed.substr(cross + 1))};
+    for (double side : {size.width_mm, size.height_mm}) {
+      if (!(side >= smallest && side <= largest)) {
+        throw NotAllowed(fmt::format("width and height must be {} to {} mm", smallest, largest));
+      }
+    }
+    return size;
+  } catch (const NotAllowed&) {
+    throw;
+  } catch (const BadInput& error) {
+    throw NotAllowed(fmt::format("{}; {}", error.what(), wanted));
+  }
 }
 
 void PortraitOptions::read(portraits::PortraitRequest& request) const {
-  if (view_.given()) {
-    request.view = portraits::find_view(view_.text());
-    if (!request.view) {
-      const std::vector<std::string> names = view_names();
-      view_.reject(
-          fmt::format("no such view{}; views: {}", si::suggestion(view_.text(), names), fmt::join(names, ", ")));
-    }
-  }
-  if (window_.given()) {
-    const std::vector<double> sides = window_.numbers();
-    if (sides.size() != 2) window_.reject("two numbers are needed, U,V");
-    if (!(sides[0] > 0 && sides[1] > 0)) window_.reject("both sides of the window must be positive");
-    request.window = {sides[0], sides[1]};
-  }
-  if (orbits_.given()) request.orbits_per_side = static_cast<int>(orbits_.integer(0, most_orbits));
-  if (isochrones_.given() && !isochrones_.text().empty()) {
-    request.isochrones = static_cast<int>(isochrones_.integer(0, most_isochrones));
-  }
-  request.through = points();
+  if (view_.given()) request.view = *view_;
+  if (window_.given()) request.window = *window_;
+  if (orbits_.given()) request.orbits_per_side = static_cast<int>(*orbits_);
+  request.isochrones = static_cast<int>(isochrones_.value_or(request.isochrones));
+  request.through = through_.all();
   for (const reduction::State& point : request.through) {
     if (request.window && !(std::abs(point.u) <= request.window->u && point.v <= request.window->v)) {
-      throw BadInput(fmt::format("{} {},{}: outside the window --window {}; leave it out, or make it larger",
-                                 through_.name(), point.u, point.v, window_.text()));
+      throw BadInput(fmt::format("{} {},{}: outside the window {}; leave it out, or make it larger", through_.name(),
+                                 point.u, point.v, window_.typed()));
     }
   }
   if (against_.given()) request.against = against_.read();
 }
 
-PortraitStyle PortraitOptions::style() const {
-  PortraitStyle style;
-  if (arrows_.given()) style.arrows = choice(arrows_, arrow_names);
-  if (field_.given()) style.field = field_.text().empty() ? PortraitStyle::Field::motion : choice(field_, field_names);
-  if (axes_.given()) style.invariant = choice(axes_, switch_names);
-  if (colour_.given()) style.colour_by_time = choice(colour_, colour_names);
-  if (style_.given()) style.screen = choice(style_, style_names);
+portraits::PortraitStyle PortraitOptions::style() const {
+  Style style;
+  style.arrows = arrows_.value_or(style.arrows);
+  style.field = field_.value_or(style.field);
+  style.invariant = axes_.value_or(style.invariant);
+  style.colour_by_time = colour_.value_or(style.colour_by_time);
+  style.screen = style_.value_or(style.screen);
   if (size_.given()) {
-    const std::string& text = size_.text();
-    const std::size_t cross = text.find('x');
-    if (cross == std::string::npos) size_.reject("width and height in mm are needed, as in 180x120");
-    double sides[2] = {};
-    try {
-      sides[0] = parse_number(text.substr(0, cross));
-      sides[1] = parse_number(text.substr(cross + 1));
-    } catch (const BadInput& error) {
-      size_.reject(fmt::format("{}; width and height in mm are needed, as in 180x120", error.what()));
-    }
-    for (double side : sides) {
-      if (!(side >= smallest && side <= largest)) {
-        size_.reject(fmt::format("width and height must be {} to {} mm", smallest, largest));
-      }
-    }
-    style.width_mm = sides[0];
-    style.height_mm = sides[1];
+    style.width_mm = (*size_).width_mm;
+    style.height_mm = (*size_).height_mm;
   }
   return style;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <vector>
+#include <optional>
+#include <string>
 
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
@@ -18,16 +19,30 @@ class PortraitOptions {
   std::string given_names() const;
 
   /// The request's view, window, orbits, isochrones, points and rival law.
-  /// @throws BadInput  for unknown names and numbers out of range
+  /// @throws BadInput  for a point outside the window, and as LawOption::read
   void read(portraits::PortraitRequest& request) const;
 
-  /// @throws BadInput  as above
   portraits::PortraitStyle style() const;
 
  private:
-  std::vector<reduction::State> points() const;
+  using Style = portraits::PortraitStyle;
 
-  Argument view_, window_, orbits_, through_, isochrones_, arrows_, field_, axes_, colour_, style_, size_;
+  struct Size {
+    double width_mm, height_mm;
+  };
+
+  static reduction::State parse_point(const std::string& typed);
+  static portraits::Window parse_window(const std::string& typed);
+  static Size parse_size(const std::string& typed);
+
+  ArgumentOf<portraits::View> view_;
+  ArgumentOf<portraits::Window> window_;
+  ArgumentOf<long> orbits_, isochrones_;
+  ArgumentOf<reduction::State> through_;
+  ArgumentOf<Style::Arrows> arrows_;
+  ArgumentOf<Style::Field> field_;
+  ArgumentOf<bool> axes_, colour_, style_;
+  ArgumentOf<Size> size_;
   LawOption against_;
 };
 

@@ -1,18 +1,10 @@
 #include "options/roll_route.hpp"
 
-#include <algorithm>
-
 #include "contensou/si/integrated_motion.hpp"
 
 namespace contensou::program {
 
 std::string_view name_of(RollRoute route) { return roll_route_names[static_cast<std::size_t>(route)]; }
-
-std::optional<RollRoute> find_roll_route(std::string_view name) {
-  const auto found = std::ranges::find(roll_route_names, name);
-  if (found == roll_route_names.end()) return std::nullopt;
-  return static_cast<RollRoute>(found - roll_route_names.begin());
-}
 
 si::MotionColumns roll_motion(const si::Shot& shot, const reduction::Law& law, RollRoute route,
                               const Eigen::ArrayXd& times) {

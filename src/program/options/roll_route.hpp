@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
-#include <string>
 #include <string_view>
 
 #include "contensou/si/whole_motion.hpp"
@@ -13,12 +11,9 @@ namespace contensou::program {
 enum class RollRoute { reduced, integrated };
 
 /// In the order of RollRoute.
-inline const std::array<std::string, 2> roll_route_names{"reduced", "integrated"};
+inline constexpr std::array<std::string_view, 2> roll_route_names{"reduced", "integrated"};
 
 std::string_view name_of(RollRoute route);
-
-/// The route of that name, if there is one.
-std::optional<RollRoute> find_roll_route(std::string_view name);
 
 /// The motion by a route, at times in s.
 si::MotionColumns roll_motion(const si::Shot& shot, const reduction::Law& law, RollRoute route,

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/si/nearest_name.hpp"
-
 namespace contensou::program {
 
 namespace {
@@ -27,21 +25,16 @@ const std::vector<Route>& RouteOption::every_route() {
 }
 
 void RouteOption::add(CLI::App& app, const std::vector<Route>& offered) {
+  Choices<Route> choices;
+  for (Route route : every_route()) choices.emplace_back(name(route), route);
   route_.add(app, "--route", "ROUTE",
-             fmt::format("{} (default: the first that the law has)", fmt::join(names_of(offered), ", ")));
-}
-
-std::optional<Route> RouteOption::named() const {
-  if (!route_.given()) return std::nullopt;
-  if (const auto route = reduction::find_route(route_.text())) return route;
-  const auto names = names_of(every_route());
-  route_.reject(
-      fmt::format("no such route{}; routes: {}", si::suggestion(route_.text(), names), fmt::join(names, ", ")));
+             fmt::format("{} (default: the first that the law has)", fmt::join(names_of(offered), ", ")),
+             one_of(choices, "route"));
 }
 
 Route RouteOption::read(const reduction::ReducedSystem& system) const {
   const std::vector<Route> available = reduction::routes(system);
-  const Route route = named().value_or(available.front());
+  const Route route = route_.value_or(available.front());
   if (std::ranges::find(available, route) == available.end()) {
     route_.reject(fmt::format("law {} at mu = {} does not have this route; it has {}", system.law().name(), system.mu(),
                               fmt::join(names_of(available), ", ")));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "contensou/reduction/stop_time.hpp"
@@ -15,16 +14,14 @@ class RouteOption {
   void add(CLI::App& app, const std::vector<reduction::Route>& offered = every_route());
   static const std::vector<reduction::Route>& every_route();
 
-  /// The route that was named; nothing if none was.
-  /// @throws BadInput  for an unknown name
-  std::optional<reduction::Route> named() const;
+  bool given() const { return route_.given(); }
 
   /// The route of that name; the system's best if none was given.
-  /// @throws BadInput  as named, and for a route that the system does not have
+  /// @throws BadInput  for a route that the system does not have
   reduction::Route read(const reduction::ReducedSystem& system) const;
 
  private:
-  Argument route_;
+  ArgumentOf<reduction::Route> route_;
 };
 
 }  // namespace contensou::program

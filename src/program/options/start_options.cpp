@@ -1,12 +1,13 @@
 #include "options/start_options.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "contensou/si/bridge.hpp"
-#include "contensou/si/nearest_name.hpp"
 #include "exit_status.hpp"
 
 namespace contensou::program {
@@ -23,25 +24,21 @@ bool is_file(const std::string& ball) { return ball.find('/') != std::string::np
 
 }  // namespace
 
-const si::CatalogueEntry& require_ball(const Argument& argument) {
-  if (const si::CatalogueEntry* entry = si::find_ball(argument.text())) return *entry;
+const si::CatalogueEntry& require_ball(const std::string& name) {
+  if (const si::CatalogueEntry* entry = si::find_ball(name)) return *entry;
   std::vector<std::string> names;
   for (const si::CatalogueEntry& entry : si::catalogue()) names.push_back(entry.name);
-  argument.reject(fmt::format("no such ball{}; built in: {}; a file needs a / or the ending .toml",
-                              si::suggestion(argument.text(), names), fmt::join(names, ", ")));
-}
-
-StartOptions::StartOptions() {
-  for (const si::Quantity* quantity : {&si::radius, &si::mass, &si::friction, &si::patch_radius, &si::spin_deceleration,
-                                       &si::gravity, &si::slip, &si::spin}) {
-    overrides_.push_back({quantity, {}});
-  }
+  throw no_such("ball", name, names);
 }
 
 void StartOptions::add(CLI::App& app) {
-  mu_.add(app, "--mu", "M", "patch ratio, patch radius/R; a ball: 0 < M <= 1, another body: M > 0 (disc, ring: 1)");
-  u0_.add(app, "--u0", "U", "pivoting R omega_z at the start, either sign, in any unit of speed");
-  v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0");
+  add_patch_ratio(mu_, app);
+  u0_.add(app, "--u0", "U", "pivoting R omega_z at the start, either sign, in any unit of speed", number);
+  v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0", [](const std::string& typed) {
+    const double v0 = parse_number(typed);
+    if (v0 < 0) throw NotAllowed("a sliding speed is >= 0; turn the axes so that the ball slides along x");
+    return v0;
+  });
   body_.add(app);
   add_ball(app, "instead of these four: a ball in SI units, built in or from a run file");
 }
@@ -50,15 +47,24 @@ void StartOptions::add_ball(CLI::App& app) { add_ball(app, "a ball in SI units, 
 
 void StartOptions::add_ball(CLI::App& app, const std::string& help) {
   ball_.add(app, "--ball", "NAME|FILE.toml", help);
-  for (auto& [quantity, argument] : overrides_) {
-    argument.add(app, option_name(*quantity), quantity->unit.empty() ? "X" : std::string(quantity->unit),
-                 fmt::format("with --ball: {}", quantity->meaning));
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const si::Quantity& quantity = *quantities[i];
+    overrides_[i].add(app, option_name(quantity), quantity.unit.empty() ? "X" : std::string(quantity.unit),
+                      fmt::format("with --ball: {}", quantity.meaning), [&quantity](const std::string& typed) {
+                        const double value = parse_number(typed);
+                        try {
+                          si::require(quantity, value);
+                        } catch (const std::domain_error& error) {
+                          throw NotAllowed(error.what());
+                        }
+                        return value;
+                      });
   }
 }
 
 std::string StartOptions::override_names() const {
   std::vector<const Argument*> arguments;
-  for (const auto& [quantity, argument] : overrides_) arguments.push_back(&argument);
+  for (const Argument& argument : overrides_) arguments.push_back(&argument);
   return names_given(arguments);
 }
 
@@ -71,9 +77,8 @@ std::string StartOptions::given_names() const {
 void StartOptions::require_one_kind() const {
   const std::string reduced = names_given({&mu_, &u0_, &v0_});
   if (ball_.given() && !reduced.empty()) {
-    throw BadInput(
-        fmt::format("--ball {} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip",
-                    ball_.text(), reduced));
+    throw BadInput(fmt::format("{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip",
+                               ball_.typed(), reduced));
   }
   if (ball_.given() && body_.given()) {
     body_.reject("--ball is a homogeneous ball already: with another body give --mu, --u0 and --v0");
@@ -90,18 +95,15 @@ GivenStart StartOptions::read() const {
     return {{si::patch_ratio(shot), reduction::homogeneous_ball}, si::reduced_start(shot), shot};
   }
   std::vector<std::string> missing;
-  for (const Argument* argument : {&mu_, &u0_, &v0_}) {
-    const bool known = argument == &mu_ && body_.read().patch_ratio;
-    if (!argument->given() && !known) missing.push_back(argument->name());
+  if (!mu_.given() && !body_.read().patch_ratio) missing.push_back(mu_.name());
+  for (const Argument* argument : {&u0_, &v0_}) {
+    if (!argument->given()) missing.push_back(argument->name());
   }
   if (!missing.empty()) {
     throw BadInput(
         fmt::format("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", ")));
   }
-  const GivenBody body = read_body();
-  const reduction::State state{.u = u0_.number(), .v = v0_.number()};
-  if (state.v < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
-  return {body, state, std::nullopt};
+  return {read_body(), {.u = *u0_, .v = *v0_}, std::nullopt};
 }
 
 GivenBody StartOptions::read_body() const {
@@ -115,45 +117,36 @@ GivenBody StartOptions::read_body() const {
 }
 
 bool StartOptions::overrides_start() const {
-  return std::ranges::any_of(overrides_, [](const Override& entry) {
-    return (entry.quantity == &si::slip || entry.quantity == &si::spin) && entry.argument.given();
-  });
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if ((quantities[i] == &si::slip || quantities[i] == &si::spin) && overrides_[i].given()) return true;
+  }
+  return false;
 }
 
 si::Shot StartOptions::read_ball(const si::StartOverride& start) const {
   if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
   si::Overrides overrides;
-  for (const auto& [quantity, argument] : overrides_) {
-    if (!argument.given()) continue;
-    const double value = argument.number();
-    try {
-      si::require(*quantity, value);
-    } catch (const std::domain_error& error) {
-      argument.reject(error.what());
-    }
-    overrides[quantity->name] = value;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (overrides_[i].given()) overrides[quantities[i]->name] = *overrides_[i];
   }
   if (overrides.contains(si::patch_radius.name) && overrides.contains(si::spin_deceleration.name)) {
     throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
   }
-
   try {
-    return read_shot(ball_.text(), overrides, start);
+    return read_shot(overrides, start);
   } catch (const si::RunFileError&) {
     throw;
-  } catch (const BadInput&) {
-    throw;
+  } catch (const NotAllowed& error) {
+    ball_.reject(fmt::format("{}; a file needs a / or the ending .toml", error.what()));
   } catch (const std::domain_error& error) {  // of the values together, not of a place in a file
     const std::string others = override_names();
-    throw BadInput(
-        fmt::format("--ball {}{}{}: {}", ball_.text(), others.empty() ? "" : " with ", others, error.what()));
+    ball_.reject((others.empty() ? "" : fmt::format("with {}: ", others)) + error.what());
   }
 }
 
-si::Shot StartOptions::read_shot(const std::string& ball, const si::Overrides& overrides,
-                                 const si::StartOverride& start) const {
-  if (is_file(ball)) return si::read_run_file(ball, overrides, start);
-  const si::CatalogueEntry& entry = require_ball(ball_);
+si::Shot StartOptions::read_shot(const si::Overrides& overrides, const si::StartOverride& start) const {
+  if (is_file(ball_.text())) return si::read_run_file(ball_.text(), overrides, start);
+  const si::CatalogueEntry& entry = require_ball(ball_.text());
   return si::parse_run_file(si::run_file(entry.shot, entry.sources), "built-in ball " + entry.name, overrides, start);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <optional>
-#include <vector>
 
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/catalogue.hpp"
@@ -12,9 +12,9 @@
 
 namespace contensou::program {
 
-/// The built-in ball whose name an argument is.
-/// @throws BadInput  for an unknown name
-const si::CatalogueEntry& require_ball(const Argument& argument);
+/// The built-in ball of a name.
+/// @throws NotAllowed  for an unknown name
+const si::CatalogueEntry& require_ball(const std::string& name);
 
 /// What slides and pivots, in the paper's variables.
 struct GivenBody {
@@ -34,8 +34,6 @@ struct GivenStart {
 /// --mu, --u0, --v0 and --body, or --ball with its overrides.
 class StartOptions {
  public:
-  StartOptions();
-
   void add(CLI::App& app);
 
   /// --ball and its overrides alone, for a verb that is in SI units.
@@ -68,19 +66,20 @@ class StartOptions {
   const BodyOption& body() const { return body_; }
 
  private:
-  struct Override {
-    const si::Quantity* quantity;
-    Argument argument;
-  };
+  /// What single options can change of a ball.
+  static constexpr std::array quantities{
+      &si::radius,  &si::mass, &si::friction, &si::patch_radius, &si::spin_deceleration,
+      &si::gravity, &si::slip, &si::spin};
 
   void add_ball(CLI::App& app, const std::string& help);
-  si::Shot read_shot(const std::string& ball, const si::Overrides& overrides, const si::StartOverride& start) const;
+  si::Shot read_shot(const si::Overrides& overrides, const si::StartOverride& start) const;
   void require_one_kind() const;
   std::string override_names() const;
 
-  Argument mu_, u0_, v0_, ball_;
+  ArgumentOf<double> mu_, u0_, v0_;
+  Argument ball_;
   BodyOption body_;
-  std::vector<Override> overrides_;
+  std::array<ArgumentOf<double>, quantities.size()> overrides_;  ///< of quantities
 };
 
 }  // namespace contensou::program

@@ -12,12 +12,13 @@ constexpr long most_threads = 1024;
 }  // namespace
 
 void ThreadOption::add(CLI::App& app) {
-  threads_.add(app, "--threads", "N", "threads to compute with (default: all cores); the result does not depend on it");
+  threads_.add(app, "--threads", "N", "threads to compute with (default: all cores); the result does not depend on it",
+               whole_number(1, most_threads));
 }
 
 int ThreadOption::read() const {
   const long cores = std::thread::hardware_concurrency();
-  return static_cast<int>(threads_.given() ? threads_.integer(1, most_threads) : std::clamp(cores, 1L, most_threads));
+  return static_cast<int>(threads_.value_or(std::clamp(cores, 1L, most_threads)));
 }
 
 }  // namespace contensou::program

@@ -8,14 +8,13 @@ namespace contensou::program {
 class ThreadOption {
  public:
   void add(CLI::App& app);
-  bool given() const { return threads_.given(); }
+  const Argument& argument() const { return threads_; }
 
   /// As many as the machine runs at once if none were given.
-  /// @throws BadInput  unless it is a whole number from 1 to 1024
   int read() const;
 
  private:
-  Argument threads_;
+  ArgumentOf<long> threads_;
 };
 
 }  // namespace contensou::program

@@ -38,6 +38,8 @@ class ProgressOption {
  public:
   void add(CLI::App& app);
 
+  const Argument& argument() const { return progress_; }
+
   /// Whether progress is to be shown: if standard error is a terminal, unless always or never was asked for.
   /// @throws BadInput  for another word
   bool read() const;

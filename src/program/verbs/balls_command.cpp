@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "commands.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/run_file.hpp"
@@ -11,6 +10,7 @@
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/json.hpp"
+#include "verb.hpp"
 
 namespace contensou::program {
 
@@ -73,35 +73,46 @@ std::string as_json() {
   return JsonObject::document().add("balls", json_array(balls)).text();
 }
 
-class BallsCommand final : public Command {
+class BallsCommand final : public Verb {
  public:
-  std::string name() const override { return "balls"; }
-  std::string summary() const override { return "The built-in balls and their sources, or one of them as a run file"; }
-  std::string example() const override { return "contensou balls pool -o pool.toml"; }
-
   void add_options(CLI::App& app) override {
-    ball_.add(app, "NAME", "", "print this ball as a run file, to change and to give to --ball");
+    ball_.add(app, "NAME", "", "print this ball as a run file, to change and to give to --ball", find);
     output_.add(app);
   }
 
   ExitStatus run() override {
     if (ball_.given()) {
-      if (output_.format() != Format::text) throw BadInput("a run file is text: leave --format out");
-      const CatalogueEntry& entry = require_ball(ball_);
-      output_.write(si::run_file(entry.shot, entry.sources));
-      return ExitStatus::done;
+      const Argument& format = output_.format_argument();
+      if (format.given() && format.text() != "text" && format.text() != "toml") {
+        format.reject("a run file is text: leave it out");
+      }
+      const CatalogueEntry& entry = **ball_;
+      output_.read(1).write(si::run_file(entry.shot, entry.sources));
+    } else {
+      output_.read().write_as(as_text, as_csv, as_json);
     }
-    output_.write_as(output_.format(), as_text, as_csv, as_json);
     return ExitStatus::done;
   }
 
  private:
-  Argument ball_;
-  OutputOptions output_{Format::text};
+  static const CatalogueEntry* find(const std::string& name) {
+    try {
+      return &require_ball(name);
+    } catch (const NotAllowed& error) {
+      const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
+      throw NotAllowed(error.what() + std::string(is_file ? "; a file is for --ball of another verb" : ""));
+    }
+  }
+
+  ArgumentOf<const CatalogueEntry*> ball_;
+  OutputOptions output_{
+      {{"a list of balls", {"text", "csv", "json"}, "text"}, {"a run file", {"toml", "text"}, "toml"}}};
 };
 
-}  // namespace
+const RegisteredVerb<BallsCommand> registered("balls",
+                                              "The built-in balls and their sources, or one of them as a run file",
+                                              "contensou balls pool -o pool.toml");
 
-std::unique_ptr<Command> make_balls_command() { return std::make_unique<BallsCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

@@ -1,18 +1,20 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "input/csv_table.hpp"
+#include "input/quotation.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/json.hpp"
+#include "verb.hpp"
 
 namespace contensou::program {
 
@@ -55,12 +57,24 @@ std::vector<Check> built_in_checks(const Law& law) {
   return worst;
 }
 
-class CheckCommand final : public Command {
- public:
-  std::string name() const override { return "check"; }
-  std::string summary() const override { return "Every statement of the theory as a number that must be small"; }
-  std::string example() const override { return "contensou check --mu 0.1 --u0 1 --v0 1"; }
+/// The name of a law, without the words that end a row: that of a file may have them.
+std::string label(const std::string& law) {
+  std::string text = quotation(law);
+  text = text.substr(1, text.size() - 2);
+  const auto is_letter = [&](std::size_t i) {
+    return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+  };
+  for (const std::string_view word : {"ok", "FAIL"}) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      const bool within_word = is_letter(at - 1) || is_letter(at + word.size());
+      if (word == "FAIL" || !within_word) text.replace(at, 1, fmt::format("\\x{:02x}", word.front()));
+    }
+  }
+  return text;
+}
 
+class CheckCommand final : public Verb {
+ public:
   void add_options(CLI::App& app) override {
     start_.add(app);
     law_.add(app);
@@ -68,6 +82,7 @@ class CheckCommand final : public Command {
   }
 
   ExitStatus run() override {
+    const Output output = output_.read();
     const std::vector<Law> laws = law_.given() ? std::vector{law_.read()} : reduction::paper_laws();
     std::vector<Verdict> verdicts;
     if (start_.given() || start_.body().given()) {
@@ -79,9 +94,8 @@ class CheckCommand final : public Command {
     } else {
       for (const Law& law : laws) verdicts.push_back({law.name(), built_in_checks(law)});
     }
-    output_.write_as(
-        output_.format(), [&](int digits) { return as_text(verdicts, digits); }, [&] { return as_csv(verdicts); },
-        [&] { return as_json(verdicts); });
+    output.write_as([&](int digits) { return as_text(verdicts, digits); }, [&] { return as_csv(verdicts); },
+                    [&] { return as_json(verdicts); });
     const bool passed = std::ranges::all_of(
         verdicts, [](const Verdict& verdict) { return std::ranges::all_of(verdict.checks, &Check::passed); });
     return passed ? ExitStatus::done : ExitStatus::check_failed;
@@ -90,17 +104,27 @@ class CheckCommand final : public Command {
  private:
   std::string as_text(const std::vector<Verdict>& verdicts, int digits) const {
     const int width = digits + 8;
+    std::size_t law_width = 0, check_width = 0;
+    for (const auto& [law, checks] : verdicts) {
+      law_width = std::max(law_width, label(law).size());
+      for (const Check& check : checks) check_width = std::max(check_width, check.name.size());
+    }
     std::string text;
     if (!start_.given()) {
       text = fmt::format("The worst of {} starts: mu from {} to {}, v0/(mu u0) from 1e-4 to 1e6.\n\n",
                          built_in_patch_ratios.size() * built_in_starts(1).size(), built_in_patch_ratios.front(),
                          built_in_patch_ratios.back());
     }
-    text += fmt::format("{:<8}{:<44}{:>{}}{:>10}\n", "law", "check", "measured", width, "allowed");
+    const auto row = [&](const std::string& law, const std::string& check, const std::string& measured,
+                         const std::string& allowed, std::string_view verdict) {
+      text += fmt::format("{:<{}}  {:<{}}{:>{}}{:>10}{}\n", law, law_width, check, check_width, measured, width,
+                          allowed, verdict);
+    };
+    row("law", "check", "measured", "allowed", "");
     for (const auto& [law, checks] : verdicts) {
       for (const Check& check : checks) {
-        text += fmt::format("{:<8}{:<44}{:>{}.{}g}{:>10.2g}  {}\n", law, check.name, check.measured, width, digits,
-                            check.allowed, check.passed() ? "ok" : "FAIL");
+        row(label(law), check.name, fmt::format("{:.{}g}", check.measured, digits),
+            fmt::format("{:.2g}", check.allowed), check.passed() ? "  ok" : "  FAIL");
       }
     }
     return text;
@@ -136,11 +160,12 @@ class CheckCommand final : public Command {
 
   StartOptions start_;
   LawOption law_;
-  OutputOptions output_{Format::text};
+  OutputOptions output_{{{"a table of checks", {"text", "csv", "json"}, "text"}}};
 };
 
-}  // namespace
+const RegisteredVerb<CheckCommand> registered("check", "Every statement of the theory as a number that must be small",
+                                              "contensou check --mu 0.1 --u0 1 --v0 1");
 
-std::unique_ptr<Command> make_check_command() { return std::make_unique<CheckCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

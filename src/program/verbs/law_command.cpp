@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
@@ -13,32 +12,27 @@
 #include "output/columns.hpp"
 #include "output/json.hpp"
 #include "output/picture.hpp"
+#include "verb.hpp"
 
 namespace contensou::program {
 
 namespace {
 
-class LawCommand final : public Command {
+class LawCommand final : public Verb {
  public:
-  std::string name() const override { return "law"; }
-  std::string summary() const override {
-    return "Friction force and moment against k: k,phi,psi, or the paper's Fig. 2";
-  }
-  std::string example() const override { return "contensou law --law exact --k 0,0.5,1,2,inf"; }
-
   void add_options(CLI::App& app) override {
     law_.add(app);
-    k_.add(app, "--k", "K1,K2,...", "ratios k = v/(mu |u|), 0 to inf");
-    batch_.add(app, "--batch", "FILE", "instead: a CSV with a column k; - is standard input");
+    CLI::Option* k = k_.add(app, "--k", "K1,K2,...", "ratios k = v/(mu |u|), 0 to inf", parse_ratios);
+    batch_.add(app, "--batch", "FILE", "instead: a CSV with a column k; - is standard input")->excludes(k);
     output_.add(app);
   }
 
   ExitStatus run() override {
+    const Output output = output_.read();
     const reduction::Law law = law_.read();
-    if (k_.given() && batch_.given()) throw BadInput("--k and --batch exclude each other: give one of them");
-    if (const auto picture = portraits::find_picture_format(ending(output_.path()))) {
+    if (const auto picture = output.picture()) {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
-      output_.write(drawn(portraits::law_figure(shown(law)), *picture));
+      output.write(drawn(portraits::law_figure(shown(law)), *picture));
       return ExitStatus::done;
     }
     if (!k_.given() && !batch_.given()) {
@@ -47,19 +41,13 @@ class LawCommand final : public Command {
           "tex");
     }
 
-    const std::vector<Column> columns = evaluate(law, k_.given() ? listed() : from_table());
-    output_.write_as(
-        data_format(), [&](int digits) { return columns_as_text(columns, digits); },
-        [&] { return columns_as_csv(columns); }, [&] { return document(law, columns); });
+    const std::vector<Column> columns = evaluate(law, k_.given() ? *k_ : from_table());
+    output.write_as([&](int digits) { return columns_as_text(columns, digits); },
+                    [&] { return columns_as_csv(columns); }, [&] { return document(law, columns); });
     return ExitStatus::done;
   }
 
  private:
-  /// --format, or else what the ending of -o says.
-  Format data_format() const {
-    return !output_.format_given() && output_.path().ends_with(".json") ? Format::json : output_.format();
-  }
-
   /// Both laws of the paper, and the one asked for if it is neither.
   static std::vector<reduction::Law> shown(const reduction::Law& law) {
     std::vector<reduction::Law> laws{reduction::HertzLaw{}, reduction::PadeLaw{}};
@@ -67,10 +55,10 @@ class LawCommand final : public Command {
     return laws;
   }
 
-  std::vector<double> listed() const {
-    const std::vector<double> ratios = k_.numbers(Infinity::allowed);
+  static std::vector<double> parse_ratios(const std::string& typed) {
+    std::vector<double> ratios = parse_numbers(typed, Infinity::allowed);
     for (double k : ratios) {
-      if (!(k >= 0)) k_.reject(fmt::format("{} is not a ratio: k >= 0 or inf is required", k));
+      if (!(k >= 0)) throw NotAllowed(fmt::format("{} is not a ratio: k >= 0 or inf is required", k));
     }
     return ratios;
   }
@@ -113,12 +101,15 @@ class LawCommand final : public Command {
   }
 
   LawOption law_;
-  Argument k_, batch_;
-  OutputOptions output_{Format::csv};
+  ArgumentOf<std::vector<double>> k_;
+  Argument batch_;
+  OutputOptions output_{{{"a law", with_pictures({"csv", "text", "json"}), "csv"}}};
 };
 
-}  // namespace
+const RegisteredVerb<LawCommand> registered("law",
+                                            "Friction force and moment against k: k,phi,psi, or the paper's Fig. 2",
+                                            "contensou law --law exact --k 0,0.5,1,2,inf");
 
-std::unique_ptr<Command> make_law_command() { return std::make_unique<LawCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

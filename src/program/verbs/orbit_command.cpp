@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
 #include "contensou/si/bridge.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -11,6 +10,7 @@
 #include "options/start_options.hpp"
 #include "output/columns.hpp"
 #include "output/json.hpp"
+#include "verb.hpp"
 
 namespace contensou::program {
 
@@ -19,48 +19,48 @@ namespace {
 constexpr long standard_samples = 200;
 constexpr long most_samples = 10'000'000;
 
-class OrbitCommand final : public Command {
+class OrbitCommand final : public Verb {
  public:
-  std::string name() const override { return "orbit"; }
-  std::string summary() const override { return "The state along the motion: tau,u,v,ln_v,k,beta (and t for a ball)"; }
-  std::string example() const override { return "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50"; }
-
   void add_options(CLI::App& app) override {
     start_.add(app);
     law_.add(app);
     route_.add(app);
-    samples_.add(
-        app, "--samples", "N",
-        fmt::format("equidistant instants from the start to the stop, 2 or more (default {})", standard_samples));
-    at_.add(app, "--at", "T1,T2,...", "instead: these tau >= 0, in any order");
+    CLI::Option* at = at_.add(app, "--at", "T1,T2,...", "these tau >= 0, in any order", parse_times);
+    samples_
+        .add(app, "--samples", "N",
+             fmt::format("instead: equidistant instants from the start to the stop, 2 or more (default {})",
+                         standard_samples),
+             whole_number(2, most_samples))
+        ->excludes(at);
     output_.add(app);
   }
 
   ExitStatus run() override {
+    const Output output = output_.read();
     const GivenStart start = start_.read();
     const reduction::ReducedSystem system = start.body.system(law_.read());
     const reduction::Route route = route_.read(system);
     const std::vector<Column> columns = make_columns(start, motion(system, start.state, route));
-    output_.write_as(
-        output_.format(), [&](int digits) { return columns_as_text(columns, digits); },
-        [&] { return columns_as_csv(columns); }, [&] { return document(start, system, route, columns); });
+    output.write_as([&](int digits) { return columns_as_text(columns, digits); },
+                    [&] { return columns_as_csv(columns); }, [&] { return document(start, system, route, columns); });
     return ExitStatus::done;
   }
 
  private:
   reduction::OrbitColumns motion(const reduction::ReducedSystem& system, reduction::State state,
                                  reduction::Route route) const {
-    if (!at_.given()) {
-      const long count = samples_.given() ? samples_.integer(2, most_samples) : standard_samples;
-      return motion_samples(system, state, route, count);
-    }
-    if (samples_.given()) throw BadInput("--at and --samples exclude each other: give one of them");
-    const std::vector<double> times = at_.numbers();
-    for (double tau : times) {
-      if (tau < 0) at_.reject(fmt::format("{} is before the start: tau >= 0 is required", tau));
-    }
+    if (!at_.given()) return motion_samples(system, state, route, samples_.value_or(standard_samples));
+    const std::vector<double>& times = *at_;
     return motion_at(system, state, route,
                      Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())));
+  }
+
+  static std::vector<double> parse_times(const std::string& typed) {
+    std::vector<double> times = parse_numbers(typed);
+    for (double tau : times) {
+      if (tau < 0) throw NotAllowed(fmt::format("{} is before the start: tau >= 0 is required", tau));
+    }
+    return times;
   }
 
   static std::vector<Column> make_columns(const GivenStart& start, const reduction::OrbitColumns& motion) {
@@ -87,12 +87,15 @@ class OrbitCommand final : public Command {
   StartOptions start_;
   LawOption law_;
   RouteOption route_;
-  Argument samples_, at_;
-  OutputOptions output_{Format::csv};
+  ArgumentOf<long> samples_;
+  ArgumentOf<std::vector<double>> at_;
+  OutputOptions output_{{{"an orbit", {"csv", "text", "json"}, "csv"}}};
 };
 
-}  // namespace
+const RegisteredVerb<OrbitCommand> registered("orbit",
+                                              "The state along the motion: tau,u,v,ln_v,k,beta (and t for a ball)",
+                                              "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50");
 
-std::unique_ptr<Command> make_orbit_command() { return std::make_unique<OrbitCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

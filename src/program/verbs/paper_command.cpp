@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/portraits/paper_drawings.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
@@ -23,6 +22,7 @@
 #include "output/output.hpp"
 #include "output/picture.hpp"
 #include "paper/statements.hpp"
+#include "verb.hpp"
 
 namespace contensou::program {
 
@@ -102,19 +102,15 @@ void make_folder(const Argument& out, const std::filesystem::path& folder) {
   }
 }
 
-class PaperCommand final : public Command {
+class PaperCommand final : public Verb {
  public:
-  std::string name() const override { return "paper"; }
-  std::string summary() const override { return "Every equation and claim of the paper recomputed; its four figures"; }
-  std::string example() const override { return "contensou paper --out figures"; }
-
   void add_options(CLI::App& app) override {
     out_.add(app, "--out", "DIR", "write fig1 to fig4 into DIR as svg and pdf; without it, the table alone");
     output_.add(app);
   }
 
   ExitStatus run() override {
-    output_.digits();  // a mistake there is found before anything is drawn
+    const Output output = output_.read();
     if (out_.given() && out_.text().empty()) out_.reject("a folder's name is needed");
     const std::vector<Row> rows = recompute();
     if (out_.given()) {
@@ -122,9 +118,8 @@ class PaperCommand final : public Command {
       make_folder(out_, out_.text());
       for (const auto& [path, content] : files) write_output(path, content);
     }
-    output_.write_as(
-        output_.format(), [&](int digits) { return as_text(rows, digits); }, [&] { return as_csv(rows); },
-        [&] { return as_json(rows); });
+    output.write_as([&](int digits) { return as_text(rows, digits); }, [&] { return as_csv(rows); },
+                    [&] { return as_json(rows); });
     return std::ranges::all_of(rows, &Row::as_recorded) ? ExitStatus::done : ExitStatus::check_failed;
   }
 
@@ -188,11 +183,13 @@ class PaperCommand final : public Command {
   }
 
   Argument out_;
-  OutputOptions output_{Format::text};
+  OutputOptions output_{{{"a table of statements", {"text", "csv", "json"}, "text"}}};
 };
 
-}  // namespace
+const RegisteredVerb<PaperCommand> registered("paper",
+                                              "Every equation and claim of the paper recomputed; its four figures",
+                                              "contensou paper --out figures");
 
-std::unique_ptr<Command> make_paper_command() { return std::make_unique<PaperCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

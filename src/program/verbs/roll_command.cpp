@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "commands.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/nearest_name.hpp"
 #include "contensou/si/whole_motion.hpp"
@@ -15,6 +14,7 @@
 #include "output/columns.hpp"
 #include "output/json.hpp"
 #include "output/picture.hpp"
+#include "verb.hpp"
 #include "verbs/roll_drawing.hpp"
 #include "verbs/roll_report.hpp"
 
@@ -25,45 +25,45 @@ namespace {
 constexpr long standard_samples = 200;
 constexpr long most_samples = 10'000'000;
 
-class RollCommand final : public Command {
+class RollCommand final : public Verb {
  public:
-  std::string name() const override { return "roll"; }
-  std::string summary() const override { return "The whole motion of a ball: t,x,y,vx,vy,wx,wy,wz,slip,energy"; }
-  std::string example() const override {
-    return "contensou roll --ball pool --velocity 1,0 --angular-velocity 40,35,-50 --format text";
-  }
-
   void add_options(CLI::App& app) override {
     start_.add_ball(app);
-    velocity_.add(app, "--velocity", "VX,VY", "velocity of the centre in m/s, instead of the start's");
+    velocity_.add(app, "--velocity", "VX,VY", "velocity of the centre in m/s, instead of the start's",
+                  [](const std::string& typed) { return Eigen::Vector2d(parts(typed, 2, "VX,VY").data()); });
     angular_velocity_.add(app, "--angular-velocity", "WX,WY,WZ",
-                          "angular velocity in rad/s, z up, instead of the start's");
+                          "angular velocity in rad/s, z up, instead of the start's",
+                          [](const std::string& typed) { return Eigen::Vector3d(parts(typed, 3, "WX,WY,WZ").data()); });
     law_.add(app);
     route_.add(app, "--route", "ROUTE",
-               "reduced: the similarity solution (default), or integrated: the five equations of motion (2.5)");
-    samples_.add(app, "--samples", "N", fmt::format("equidistant instants, 2 or more (default {})", standard_samples));
-    until_.add(app, "--until", "T", "the last of them, in s (default: a little past the stop)");
-    at_.add(app, "--at", "T1,T2,...", "instead: these t >= 0 in s, in any order");
+               "reduced: the similarity solution (default), or integrated: the five equations of motion (2.5)",
+               one_of<RollRoute>({{"reduced", RollRoute::reduced}, {"integrated", RollRoute::integrated}}, "route"));
+    CLI::Option* at = at_.add(app, "--at", "T1,T2,...", "these t >= 0 in s, in any order", parse_times);
+    samples_
+        .add(app, "--samples", "N",
+             fmt::format("instead: equidistant instants, 2 or more (default {})", standard_samples),
+             whole_number(2, most_samples))
+        ->excludes(at);
+    until_.add(app, "--until", "T", "the last of them, in s (default: a little past the stop)", parse_end)
+        ->excludes(at);
     output_.add(app);
   }
 
   ExitStatus run() override {
+    const Output output = output_.read();
     const si::Shot shot = read_shot();
     const reduction::Law law = law_.read();
-    const RollRoute route = read_route();
-    const std::optional<double> until = read_until();
-    if (const auto picture = portraits::find_picture_format(ending(output_.path()))) {
-      if (output_.format_given() || at_.given() || samples_.given()) {
-        throw BadInput("a picture needs no --format, --at or --samples: leave them out");
-      }
-      output_.write(drawn(portraits::roll_figure(roll_drawing(shot, law, route, until)), *picture));
+    const RollRoute route = route_.value_or(RollRoute::reduced);
+    const std::optional<double> until = until_.given() ? std::optional(*until_) : std::nullopt;
+    if (const auto picture = output.picture()) {
+      if (at_.given() || samples_.given()) throw BadInput("a picture needs no --at or --samples: leave them out");
+      output.write(drawn(portraits::roll_figure(roll_drawing(shot, law, route, until)), *picture));
       return ExitStatus::done;
     }
-    const bool summary = data_format() == Format::text && !at_.given() && !samples_.given() && !until;
+    const bool summary = output.format == "text" && !at_.given() && !samples_.given() && !until;
     const std::vector<Column> columns =
         summary ? std::vector<Column>{} : make_columns(roll_motion(shot, law, route, instants(shot, law, until)));
-    output_.write_as(
-        data_format(),
+    output.write_as(
         [&](int digits) { return summary ? roll_report(shot, law, route, digits) : columns_as_text(columns, digits); },
         [&] { return columns_as_csv(columns); }, [&] { return document(shot, law, route, columns); });
     return ExitStatus::done;
@@ -72,10 +72,8 @@ class RollCommand final : public Command {
  private:
   si::Shot read_shot() const {
     si::StartOverride start;
-    if (velocity_.given()) start.velocity = Eigen::Vector2d(parts(velocity_, 2, "VX,VY").data());
-    if (angular_velocity_.given()) {
-      start.angular_velocity = Eigen::Vector3d(parts(angular_velocity_, 3, "WX,WY,WZ").data());
-    }
+    if (velocity_.given()) start.velocity = *velocity_;
+    if (angular_velocity_.given()) start.angular_velocity = *angular_velocity_;
     const bool both_ways = (start.velocity || start.angular_velocity) && start_.overrides_start();
     if (both_ways) {
       throw BadInput("--slip, --spin and --velocity, --angular-velocity exclude each other: give one pair of them");
@@ -83,42 +81,31 @@ class RollCommand final : public Command {
     return start_.read_ball(start);
   }
 
-  static std::vector<double> parts(const Argument& argument, std::size_t count, const char* names) {
-    std::vector<double> values = argument.numbers();
-    if (values.size() != count) argument.reject(fmt::format("{} numbers are needed, {}", count, names));
+  static std::vector<double> parts(const std::string& typed, std::size_t count, const char* names) {
+    std::vector<double> values = parse_numbers(typed);
+    if (values.size() != count) throw NotAllowed(fmt::format("{} numbers are needed, {}", count, names));
     return values;
   }
 
-  RollRoute read_route() const {
-    if (!route_.given()) return RollRoute::reduced;
-    if (const auto route = find_roll_route(route_.text())) return *route;
-    route_.reject(fmt::format("no such route{}; routes: {}", si::suggestion(route_.text(), roll_route_names),
-                              fmt::join(roll_route_names, ", ")));
-  }
-
-  std::optional<double> read_until() const {
-    if (!until_.given()) return std::nullopt;
-    const double end = until_.number();
-    if (!(end > 0)) until_.reject("a time after the start is needed, in s");
-    if (at_.given()) throw BadInput("--at and --until exclude each other: give one of them");
+  static double parse_end(const std::string& typed) {
+    const double end = parse_number(typed);
+    if (!(end > 0)) throw NotAllowed("a time after the start is needed, in s");
     return end;
   }
 
-  /// --format, or else what the ending of -o says.
-  Format data_format() const {
-    return !output_.format_given() && output_.path().ends_with(".json") ? Format::json : output_.format();
+  static std::vector<double> parse_times(const std::string& typed) {
+    std::vector<double> times = parse_numbers(typed);
+    for (double t : times) {
+      if (t < 0) throw NotAllowed(fmt::format("{} is before the start: t >= 0 is required, in s", t));
+    }
+    return times;
   }
 
   Eigen::ArrayXd instants(const si::Shot& shot, const reduction::Law& law, std::optional<double> until) const {
     if (!at_.given()) {
-      const long count = samples_.given() ? samples_.integer(2, most_samples) : standard_samples;
-      return Eigen::ArrayXd::LinSpaced(count, 0, until.value_or(standard_end(shot, law)));
+      return Eigen::ArrayXd::LinSpaced(samples_.value_or(standard_samples), 0, until.value_or(standard_end(shot, law)));
     }
-    if (samples_.given()) throw BadInput("--at and --samples exclude each other: give one of them");
-    const std::vector<double> times = at_.numbers();
-    for (double t : times) {
-      if (t < 0) at_.reject(fmt::format("{} is before the start: t >= 0 is required, in s", t));
-    }
+    const std::vector<double>& times = *at_;
     return Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size()));
   }
 
@@ -142,14 +129,20 @@ class RollCommand final : public Command {
   }
 
   StartOptions start_;
-  Argument velocity_, angular_velocity_;
+  ArgumentOf<Eigen::Vector2d> velocity_;
+  ArgumentOf<Eigen::Vector3d> angular_velocity_;
   LawOption law_;
-  Argument route_, samples_, until_, at_;
-  OutputOptions output_{Format::csv};
+  ArgumentOf<RollRoute> route_;
+  ArgumentOf<long> samples_;
+  ArgumentOf<double> until_;
+  ArgumentOf<std::vector<double>> at_;
+  OutputOptions output_{{{"a motion", with_pictures({"csv", "text", "json"}), "csv"}}};
 };
 
-}  // namespace
+const RegisteredVerb<RollCommand> registered(
+    "roll", "The whole motion of a ball: t,x,y,vx,vy,wx,wy,wz,slip,energy",
+    "contensou roll --ball pool --velocity 1,0 --angular-velocity 40,35,-50 --format text");
 
-std::unique_ptr<Command> make_roll_command() { return std::make_unique<RollCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

@@ -1,9 +1,9 @@
-#include "commands.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
 #include "options/thread_option.hpp"
+#include "verb.hpp"
 #include "verbs/stop_batch.hpp"
 #include "verbs/stop_report.hpp"
 
@@ -11,37 +11,31 @@ namespace contensou::program {
 
 namespace {
 
-class StopCommand final : public Command {
+class StopCommand final : public Verb {
  public:
-  std::string name() const override { return "stop"; }
-  std::string summary() const override { return "When the ball stops sliding and spinning, and how it rolls then"; }
-  std::string example() const override { return "contensou stop --ball pool --slip 2"; }
-
   void add_options(CLI::App& app) override {
     start_.add(app);
     law_.add(app);
     route_.add(app);
-    estimate_ = app.add_flag("--estimate");
-    estimate_->description("the estimates for small mu beside the stop time, with their errors");
+    app.add_flag("--estimate", estimate_, "the estimates for small mu beside the stop time, with their errors");
     batch_.add(app, "--batch", "FILE", "CSV with columns mu,u0,v0; adds tau_stop to each row; - is standard input");
-    keep_going_ = app.add_flag("--keep-going");
-    keep_going_->description("with --batch: leave tau_stop of a bad row empty and go on");
+    app.add_flag("--keep-going", keep_going_, "with --batch: leave tau_stop of a bad row empty and go on");
     threads_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     if (batch_.given()) return run_batch();
-    if (keep_going_->count() > 0) throw BadInput("--keep-going is for many starts: add --batch FILE");
-    if (threads_.given()) throw BadInput("--threads is for many starts: add --batch FILE");
+    if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
+    if (threads_.argument().given()) throw BadInput("--threads is for many starts: add --batch FILE");
+    const Output output = output_.read();
     const GivenStart start = start_.read();
     const reduction::Law law = law_.read();
     const reduction::Route route = route_.read(start.body.system(law));
     StopReport report = make_stop_report(start, law, route);
-    if (estimate_->count() > 0) report.estimates = reduction::small_mu_estimates(report.system, start.state);
-    output_.write_as(
-        output_.format(), [&](int digits) { return stop_report_as_text(report, digits); },
-        [&] { return stop_report_as_csv(report); }, [&] { return stop_report_as_json(report); });
+    if (estimate_) report.estimates = reduction::small_mu_estimates(report.system, start.state);
+    output.write_as([&](int digits) { return stop_report_as_text(report, digits); },
+                    [&] { return stop_report_as_csv(report); }, [&] { return stop_report_as_json(report); });
     return ExitStatus::done;
   }
 
@@ -50,13 +44,10 @@ class StopCommand final : public Command {
     if (start_.given()) {
       throw BadInput("--batch and " + start_.given_names() + " exclude each other: the starts are in the file");
     }
-    if (estimate_->count() > 0) throw BadInput("--estimate is for one start: leave it or --batch out");
-    if (output_.format_given() && output_.format() != Format::csv) {
-      throw BadInput("--batch writes csv only: leave --format out");
-    }
-    route_.named();  // an unknown name is the command line's mistake, not each row's
-    const BatchRequest request{law_.read(), start_.body().read(), route_, keep_going_->count() > 0, threads_.read()};
-    OutputFile output(output_.path());  // before the input, which may be long in coming
+    if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
+    const Output out = output_.read(1);
+    const BatchRequest request{law_.read(), start_.body().read(), route_, keep_going_, threads_.read()};
+    OutputFile output(out.path);  // before the input, which may be long in coming
     CsvStream table(batch_.text());
     const ExitStatus status = stop_batch(table, output, request);
     output.finish();
@@ -67,14 +58,15 @@ class StopCommand final : public Command {
   LawOption law_;
   RouteOption route_;
   Argument batch_;
-  CLI::Option* estimate_ = nullptr;
-  CLI::Option* keep_going_ = nullptr;
+  bool estimate_ = false;
+  bool keep_going_ = false;
   ThreadOption threads_;
-  OutputOptions output_{Format::text};
+  OutputOptions output_{{{"a stop time", {"text", "csv", "json"}, "text"}, {"a table of stop times", {"csv"}, "csv"}}};
 };
 
-}  // namespace
+const RegisteredVerb<StopCommand> registered("stop", "When the ball stops sliding and spinning, and how it rolls then",
+                                             "contensou stop --ball pool --slip 2");
 
-std::unique_ptr<Command> make_stop_command() { return std::make_unique<StopCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

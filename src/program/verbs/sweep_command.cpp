@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
 #include "contensou/portraits/stop_time_map_figure.hpp"
 #include "options/body_option.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/thread_option.hpp"
 #include "output/output.hpp"
 #include "output/picture.hpp"
 #include "output/progress.hpp"
+#include "verb.hpp"
 #include "verbs/stop_times.hpp"
 #include "verbs/sweep.hpp"
 
@@ -17,55 +18,40 @@ namespace contensou::program {
 
 namespace {
 
-constexpr const char* endings = "npy, csv, svg, pdf, png, gp";
-
-class SweepCommand final : public Command {
+class SweepCommand final : public Verb {
  public:
-  std::string name() const override { return "sweep"; }
-  std::string summary() const override { return "A map of stop times over starts, of any size: numbers or a picture"; }
-  std::string example() const override { return "contensou sweep --mu 0.1 --u0 0:2:201 --v0 0:2:201 -o map.npy"; }
-
   void add_options(CLI::App& app) override {
     mu_.add(app, "--mu", "M|MIN:MAX:N", "patch ratio, 0 < M <= 1, or N values of it");
     u0_.add(app, "--u0", "MIN:MAX:N", "N values of the pivoting R omega_z at the start, MIN and MAX among them");
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed at the start, MIN >= 0");
-    log_ = app.add_flag("--log");
-    log_->description("values in equal ratios instead of equal steps; MIN > 0");
+    app.add_flag("--log", log_, "values in equal ratios instead of equal steps; MIN > 0");
     law_.add(app);
     body_.add(app);
     threads_.add(app);
     progress_.add(app);
-    file_.add(
-        app, "-o,--output", "FILE",
-        fmt::format("write to FILE (default: csv on standard output), whole or not at all; its ending is one of {}",
-                    endings));
-    format_.add(app, "--format", "FORMAT", fmt::format("instead of the ending, as with -o -: {}", endings));
+    output_.add(app);
   }
 
   ExitStatus run() override {
     const Body body = body_.read();
     const SweepGrid grid = read_grid(body);
-    const std::string path = file_.given() ? file_.text() : "-";
-    if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
-    const std::string format = read_format(path);
+    const Output out = output_.read();
     const reduction::Law law = law_.read();
     const int threads = threads_.read();
     const bool progress = progress_.read();
-    if (const auto picture = portraits::find_picture_format(format)) {
-      write_output(path,
-                   drawn(portraits::draw(make_map(reduction::ReducedSystem(law, grid.mu.least(), body.inertia), grid)),
-                         *picture));
+    if (const auto picture = out.picture()) {
+      for (const Argument* argument : {&threads_.argument(), &progress_.argument()}) {
+        if (argument->given()) argument->reject("is for npy and csv: a picture is of few starts, leave it out");
+      }
+      out.write(drawn(portraits::draw(make_map(reduction::ReducedSystem(law, grid.mu.least(), body.inertia), grid)),
+                      *picture));
       return ExitStatus::done;
     }
-    if (format != "npy" && format != "csv") {
-      throw BadInput(
-          fmt::format("-o {}: a sweep is written as one of {}; '{}' is none of them", path, endings, format));
-    }
-    OutputFile output(path);
+    OutputFile output(out.path);
     sweep({.law = law,
            .body = body.inertia,
            .grid = grid,
-           .format = format == "npy" ? SweepFormat::npy : SweepFormat::csv,
+           .format = out.format == "npy" ? SweepFormat::npy : SweepFormat::csv,
            .threads = threads,
            .progress = progress},
           output);
@@ -85,10 +71,16 @@ class SweepCommand final : public Command {
     }
   }
 
+  double read_patch_ratio(const Body& body) const {
+    if (mu_.given()) return read_range(mu_, Steps::linear).least();
+    if (body.patch_ratio) return *body.patch_ratio;
+    throw BadInput("--mu missing: give --mu M or MIN:MAX:N, or a --body that lies flat, disc or ring");
+  }
+
   SweepGrid read_grid(const Body& body) const {
-    const Steps steps = log_->count() > 0 ? Steps::logarithmic : Steps::linear;
+    const Steps steps = log_ ? Steps::logarithmic : Steps::linear;
     const bool mu_is_range = mu_.given() && mu_.text().find(':') != std::string::npos;
-    const SweepGrid grid{.mu = mu_is_range ? read_range(mu_, steps) : Range(BodyOption::read_patch_ratio(mu_, body)),
+    const SweepGrid grid{.mu = mu_is_range ? read_range(mu_, steps) : Range(read_patch_ratio(body)),
                          .mu_is_range = mu_is_range,
                          .u0 = read_range(u0_, steps),
                          .v0 = read_range(v0_, steps)};
@@ -115,33 +107,22 @@ class SweepCommand final : public Command {
     };
     const reduction::StopTimeTable table(system);
     tell_if_not_proved(table);
-    return portraits::stop_time_map(table, {values(grid.u0), values(grid.v0), log_->count() > 0});
-  }
-
-  std::string read_format(const std::string& path) const {
-    const std::string by_ending = ending(path);
-    if (!format_.given()) return path == "-" ? "csv" : by_ending;
-    if (is_format(by_ending) && by_ending != format_.text()) {
-      format_.reject(fmt::format("the file {} says otherwise: leave out one of them", path));
-    }
-    return format_.text();
-  }
-
-  static bool is_format(const std::string& name) {
-    return name == "npy" || name == "csv" || portraits::find_picture_format(name).has_value();
+    return portraits::stop_time_map(table, {values(grid.u0), values(grid.v0), log_});
   }
 
   Argument mu_, u0_, v0_;
-  CLI::Option* log_ = nullptr;
+  bool log_ = false;
   LawOption law_;
   BodyOption body_;
   ThreadOption threads_;
   ProgressOption progress_;
-  Argument file_, format_;
+  OutputOptions output_{{{"a sweep", with_pictures({"npy", "csv"}), "csv"}}};
 };
 
-}  // namespace
+const RegisteredVerb<SweepCommand> registered("sweep",
+                                              "A map of stop times over starts, of any size: numbers or a picture",
+                                              "contensou sweep --mu 0.1 --u0 0:2:201 --v0 0:2:201 -o map.npy");
 
-std::unique_ptr<Command> make_sweep_command() { return std::make_unique<SweepCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "exit_status.hpp"
@@ -13,6 +12,7 @@
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "output/json.hpp"
+#include "verb.hpp"
 
 namespace contensou::program {
 
@@ -25,16 +25,10 @@ constexpr std::array<std::string_view, 3> regime_names{"zero", "ray", "infinity"
 constexpr std::array<std::string_view, 3> sentences{
     "sliding dies out first", "sliding and spinning die out together, on an invariant ray", "spinning dies out first"};
 
-class TerminalCommand final : public Command {
+class TerminalCommand final : public Verb {
  public:
-  std::string name() const override { return "terminal"; }
-  std::string summary() const override {
-    return "What k = v/(mu |u|) tends to at the stop: 0, an invariant ray, infinity";
-  }
-  std::string example() const override { return "contensou terminal --law uniform --body disc"; }
-
   void add_options(CLI::App& app) override {
-    mu_.add(app, "--mu", "M", "patch ratio, patch radius/R; a ball: 0 < M <= 1, another body: M > 0 (disc, ring: 1)");
+    add_patch_ratio(mu_, app);
     law_.add(app);
     body_.add(app);
     output_.add(app);
@@ -45,24 +39,23 @@ class TerminalCommand final : public Command {
     const reduction::ReducedSystem system(law_.read(), BodyOption::read_patch_ratio(mu_, body), body.inertia);
     const TerminalRatio ratio = reduction::terminal_ratio(system.law(), system.r());
     const auto regime = static_cast<std::size_t>(ratio.regime);
-    output_.write_as(
-        output_.format(), [&](int digits) { return as_text(system, ratio, regime, digits); },
-        [&] {
-          return csv_line({"law", "r", "r_low", "r_high", "limit", "k_star"}) +
-                 csv_line({system.law().name(), fmt::format("{}", system.r()), fmt::format("{}", ratio.low),
-                           fmt::format("{}", ratio.high), std::string(regime_names[regime]),
-                           fmt::format("{}", ratio.k)});
-        },
-        [&] {
-          return JsonObject::document()
-              .add("law", json(system.law().name()))
-              .add("r", json(system.r()))
-              .add("r_low", json(ratio.low))
-              .add("r_high", json(ratio.high))
-              .add("limit", json(regime_names[regime]))
-              .add("k_star", json(ratio.k))
-              .text();
-        });
+    output_.read().write_as([&](int digits) { return as_text(system, ratio, regime, digits); },
+                            [&] {
+                              return csv_line({"law", "r", "r_low", "r_high", "limit", "k_star"}) +
+                                     csv_line({system.law().name(), fmt::format("{}", system.r()),
+                                               fmt::format("{}", ratio.low), fmt::format("{}", ratio.high),
+                                               std::string(regime_names[regime]), fmt::format("{}", ratio.k)});
+                            },
+                            [&] {
+                              return JsonObject::document()
+                                  .add("law", json(system.law().name()))
+                                  .add("r", json(system.r()))
+                                  .add("r_low", json(ratio.low))
+                                  .add("r_high", json(ratio.high))
+                                  .add("limit", json(regime_names[regime]))
+                                  .add("k_star", json(ratio.k))
+                                  .text();
+                            });
     return ExitStatus::done;
   }
 
@@ -79,14 +72,16 @@ class TerminalCommand final : public Command {
         number(system.mu()), number(system.inertia().chi), number(ratio.low), number(ratio.high));
   }
 
-  Argument mu_;
+  ArgumentOf<double> mu_;
   LawOption law_;
   BodyOption body_;
-  OutputOptions output_{Format::text};
+  OutputOptions output_{{{"a terminal ratio", {"text", "csv", "json"}, "text"}}};
 };
 
-}  // namespace
+const RegisteredVerb<TerminalCommand> registered(
+    "terminal", "What k = v/(mu |u|) tends to at the stop: 0, an invariant ray, infinity",
+    "contensou terminal --law uniform --body disc");
 
-std::unique_ptr<Command> make_terminal_command() { return std::make_unique<TerminalCommand>(); }
+}  // namespace
 
 }  // namespace contensou::program

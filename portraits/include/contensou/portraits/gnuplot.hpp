@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "contensou/portraits/figure.hpp"
 
@@ -12,6 +13,9 @@ namespace contensou::portraits {
 /// What a figure can be written as. gp is a gnuplot script with its data, tex is LaTeX (pgfplots.hpp); the others are
 /// drawn by gnuplot.
 enum class PictureFormat { svg, pdf, png, eps, gp, tex };
+
+/// The file endings of all formats, without a dot.
+std::vector<std::string_view> picture_formats();
 
 /// The format of that file ending, without its dot.
 std::optional<PictureFormat> find_picture_format(std::string_view ending);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "exit_status.hpp"
+
+namespace contensou::program {
+
+/// One verb of the program. A new verb is a file with a Verb and its registration.
+class Verb {
+ public:
+  virtual ~Verb() = default;
+
+  virtual void add_options(CLI::App& app) = 0;
+
+  /// Does what the options say. Writes results only when all of them are there.
+  /// @throws  what main.cpp turns into an exit status
+  virtual ExitStatus run() = 0;
+};
+
+struct VerbEntry {
+  std::string name;
+  std::string summary;  ///< one line of help
+  std::string example;  ///< a command line that works, for the help
+  std::unique_ptr<Verb> (*make)();
+};
+
+/// Every verb that is linked.
+std::vector<VerbEntry>& verbs();
+
+/// Makes a verb one of them: a constant in its file.
+template <class AVerb>
+struct RegisteredVerb {
+  RegisteredVerb(std::string name, std::string summary, std::string example) {
+    verbs().push_back({std::move(name), std::move(summary), std::move(example),
+                       []() -> std::unique_ptr<Verb> { return std::make_unique<AVerb>(); }});
+  }
+};
+
+}  // namespace contensou::program

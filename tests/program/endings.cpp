@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+struct Writer {
+  std::string command;
+  std::string noun;
+  std::vector<std::string> endings;
+};
+
+/// Every verb, in every way of writing something else.
+const std::vector<Writer> writers{
+    {"stop --ball pool", "a stop time", {"txt", "csv", "json"}},
+    {"stop --batch -", "a table of stop times", {"csv"}},
+    {"orbit --ball pool --samples 3", "an orbit", {"csv", "txt", "json"}},
+    {"law --k 1", "a law", {"csv", "txt", "json"}},
+    {"check --mu 0.3 --u0 1 --v0 1", "a table of checks", {"txt", "csv", "json"}},
+    {"terminal --mu 0.3", "a terminal ratio", {"txt", "csv", "json"}},
+    {"roll --ball pool --samples 3", "a motion", {"csv", "txt", "json"}},
+    {"balls", "a list of balls", {"txt", "csv", "json"}},
+    {"balls pool", "a run file", {"toml", "txt"}},
+    {"paper", "a table of statements", {"txt", "csv", "json"}},
+    {"sweep --mu 0.3 --u0 0:1:3 --v0 0:1:3", "a sweep", {"npy", "csv", "gp"}},
+    {"portrait --mu 0.3", "a portrait", {"gp", "tex", "csv", "json"}},
+    {"portrait --mu 0.3 --facts", "a table of facts", {"txt", "csv", "json"}},
+};
+
+constexpr const char* start_table = "mu,u0,v0\n0.1,1,1\n";
+
+}  // namespace
+
+TEST_CASE("the ending decides the format, on every verb", "[cli]") {
+  const TemporaryDirectory scratch;
+  for (const auto& [command, noun, endings] : writers) {
+    for (const std::string& ending : endings) {
+      const std::string file = scratch.file("result." + ending);
+      const std::string format = ending == "txt" ? "text" : ending;
+      INFO(command << " " << file);
+      const Run written = run_program(command + " -o " + file, start_table);
+      CHECK(written.status == 0);
+      CHECK(written.out.empty());
+      CHECK_FALSE(read_file(file).empty());
+      CHECK(read_file(file) == run_program(command + " -o - --format " + format, start_table).out);
+      CHECK(run_program(command + " -o " + file + " --format " + format, start_table).status == 0);
+      const Run contradicted =
+          run_program(command + " -o " + file + " --format " + (ending == "csv" ? "json" : "csv"), start_table);
+      CHECK(contradicted.status == 2);
+      CHECK_THAT(contradicted.err, Contains("--format " + std::string(ending == "csv" ? "json" : "csv")));
+    }
+  }
+}
+
+TEST_CASE("an ending that a verb does not write is bad input", "[cli]") {
+  const TemporaryDirectory scratch;
+  for (const auto& [command, noun, endings] : writers) {
+    for (const std::string wrong : {"jpg", "JSON", "text", "npy", "toml", "html"}) {
+      if (std::ranges::find(endings, wrong) != endings.end()) continue;
+      const std::string file = scratch.file("result." + wrong);
+      const Run run = run_program(command + " -o " + file, start_table);
+      INFO(command << " " << file << "\n" << run.err);
+      CHECK(run.status == 2);
+      CHECK(run.out.empty());
+      CHECK_THAT(run.err, Contains("-o ") && Contains(": " + noun + " is written as one of ") &&
+                              Contains("'" + wrong + "' is none of them"));
+      for (const std::string& ending : endings) CHECK_THAT(run.err, Contains(ending));
+    }
+  }
+  CHECK(run_program("explore -o " + scratch.file("page.svg")).status == 2);
+  CHECK(scratch.names().empty());
+}
+
+TEST_CASE("without an ending, what standard output would get", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string file = scratch.file("result");
+  for (const auto& [command, noun, endings] : writers) {
+    const Run run = run_program(command + " -o " + file, start_table);
+    INFO(command << "\n" << run.err);
+    if (noun == "a sweep" || noun == "a portrait") {
+      CHECK(run.status == 2);
+      CHECK_THAT(run.err, Contains("-o " + file + ": " + noun + " is written as one of "));
+      const std::string format = endings.front();
+      CHECK(run_program(command + " -o " + file + " --format " + format).status == 0);
+    } else {
+      CHECK(run.status == 0);
+      CHECK(read_file(file) == run_program(command, start_table).out);
+    }
+  }
+}
