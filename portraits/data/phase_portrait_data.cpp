@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "contensou/portraits/json.hpp"
+
 namespace contensou::portraits {
 
 namespace {
@@ -71,7 +73,7 @@ std::string to_json(const PhasePortrait& portrait) {
                        {"orbits", orbits_json(rival.orbits)},
                        {"isochrones", isochrones_json(rival.isochrones)}};
   }
-  return json.dump() + "\n";
+  return json_document(json);
 }
 
 std::string to_csv(const PhasePortrait& portrait) {

@@ -1,5 +1,7 @@
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +16,7 @@ using nlohmann::json;
 
 TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
   const json stop = json_of("stop --mu 0.1 --u0 2 --v0 1 --format json");
-  CHECK(stop.size() == 11);
+  CHECK(stop.size() == 12);
   CHECK(stop.at("schema") == 1);
   CHECK(stop.at("law") == "pade");
   CHECK(stop.at("route") == "closed");
@@ -33,7 +35,7 @@ TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
 
 TEST_CASE("stop of a ball has seconds and the final motion", "[cli]") {
   const json stop = json_of("stop --ball pool --format json");
-  CHECK(stop.size() == 13);
+  CHECK(stop.size() == 14);
   CHECK(stop.at("t_stop").get<double>() == Approx(10.2).margin(0.05));
   CHECK(stop.at("final").at("velocity").size() == 2);
   CHECK(stop.at("final").at("velocity").at(0).get<double>() == Approx(5.0 / 7).epsilon(1e-15));
@@ -90,6 +92,24 @@ TEST_CASE("stop for people answers on one screen", "[cli]") {
   CHECK_THAT(run_program("stop --ball pool --law exact").out, Contains("law pade") && Contains("% longer"));
   CHECK_THAT(run_program("stop --ball pool --digits 3").out, Contains("94.2 ") && !Contains("94.24"));
   CHECK_THAT(run_program("stop --mu 0.1 --u0 1 --v0 1").out, Contains("unit of u0 and v0") && !Contains("(s)"));
+}
+
+TEST_CASE("each law of the paper has the other beside it, in every format", "[cli]") {
+  const std::string start = "stop --mu 0.1 --u0 2 --v0 1 --law ";
+  for (const auto& [law, other] : {std::pair{"pade", "exact"}, {"exact", "pade"}}) {
+    const double tau = json_of(start + other + " --format json").at("tau_stop").get<double>();
+    CHECK(json_of(start + law + " --format json").at("other_law") == json{{"law", other}, {"tau_stop", tau}});
+    const auto rows = rows_of(run_program(start + law + " --format csv").out);
+    const std::vector<std::string> names(rows[0].end() - 2, rows[0].end());
+    CHECK(names == std::vector<std::string>{"other_law", "other_tau"});
+    CHECK(*(rows[1].end() - 2) == other);
+    CHECK(std::stod(rows[1].back()) == tau);
+    CHECK_THAT(run_program(start + law).out, Contains(std::string("law ") + other));
+  }
+  // Of another pressure they say nothing, nor of rest.
+  CHECK_FALSE(json_of(start + "uniform --format json").contains("other_law"));
+  CHECK_THAT(run_program(start + "uniform").out, !Contains("law pade") && !Contains("law exact"));
+  CHECK_FALSE(json_of("stop --mu 0.1 --u0 0 --v0 0 --format json").contains("other_law"));
 }
 
 TEST_CASE("a ball at rest has stopped", "[limit]") {

@@ -30,10 +30,9 @@ class StopCommand final : public Verb {
     if (threads_.argument().given()) throw BadInput("--threads is for many starts: add --batch FILE");
     const Output output = output_.read();
     const GivenStart start = start_.read();
-    const reduction::Law law = law_.read();
-    const reduction::Route route = route_.read(start.body.system(law));
-    StopReport report = make_stop_report(start, law, route);
-    if (estimate_) report.estimates = reduction::small_mu_estimates(report.system, start.state);
+    const reduction::ReducedSystem system = start.body.system(law_.read());
+    StopReport report = make_stop_report(start, system, route_.read(system));
+    if (estimate_) report.estimates = reduction::small_mu_estimates(system, start.state);
     output.write_as([&](int digits) { return stop_report_as_text(report, digits); },
                     [&] { return stop_report_as_csv(report); }, [&] { return stop_report_as_json(report); });
     return ExitStatus::done;

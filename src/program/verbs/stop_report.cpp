@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/bridge.hpp"
@@ -26,10 +27,15 @@ struct TimeLine {
   std::string note;
 };
 
-/// The law of the paper that stands beside another: the first that is not the same.
-const reduction::Law& other_law(const reduction::Law& law) {
+/// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say nothing,
+/// nor of a ball at rest.
+std::optional<StopReport::OtherLaw> other_law(const GivenStart& start, const reduction::Law& law) {
   const auto& laws = reduction::paper_laws();
-  return laws[law.as<reduction::PadeLaw>() ? 1 : 0];
+  const bool is_pade = law.as<reduction::PadeLaw>() != nullptr;
+  const bool at_rest = start.state.u == 0 && start.state.v == 0;
+  if (at_rest || (!is_pade && !law.as<reduction::HertzLaw>())) return std::nullopt;
+  const reduction::Law& other = laws[is_pade ? 1 : 0];
+  return StopReport::OtherLaw{other.name(), reduction::stop_time(start.body.system(other), start.state).tau};
 }
 
 std::string difference(double other, double tau) {
@@ -87,16 +93,16 @@ class TextReport {
   }
 
   std::string times() const {
-    const reduction::ReducedSystem beside = report_.start.body.system(other_law(report_.system.law()));
-    const reduction::StopTime other = reduction::stop_time(beside, report_.start.state);
-    const std::vector<TimeLine> lines{
+    std::vector<TimeLine> lines{
         {"stop time", report_.stop.tau, certainty()},
         {"at least", report_.bounds.lower, ""},
         {"at most", report_.bounds.upper, ""},
         {"sliding only", report_.sliding_only, "limit u0 = 0"},
         {"pivoting only", report_.pivoting_only, "limit v0 = 0"},
-        {"law " + beside.law().name(), other.tau, difference(other.tau, report_.stop.tau)},
     };
+    if (const auto& other = report_.other) {
+      lines.push_back({"law " + other->law, other->tau, difference(other->tau, report_.stop.tau)});
+    }
     const int width = digits_ + 8;
     const auto& shot = report_.start.shot;
     std::string all = fmt::format("{:<14}{:>{}}", "", shot ? "tau* (m/s)" : "tau*", width);
@@ -154,8 +160,7 @@ class TextReport {
 
 }  // namespace
 
-StopReport make_stop_report(const GivenStart& start, const reduction::Law& law, reduction::Route route) {
-  const reduction::ReducedSystem system = start.body.system(law);
+StopReport make_stop_report(const GivenStart& start, const reduction::ReducedSystem& system, reduction::Route route) {
   const reduction::StopTime stop = reduction::stop_time(system, start.state, route);
   return {start,
           system,
@@ -163,7 +168,8 @@ StopReport make_stop_report(const GivenStart& start, const reduction::Law& law, 
           2 * stop.tau / (3 * std::numbers::pi),
           system.stop_time_bounds(start.state),
           system.sliding_limit(start.state.v),
-          system.pivoting_limit(start.state.u)};
+          system.pivoting_limit(start.state.u),
+          other_law(start, system.law())};
 }
 
 std::string stop_report_as_json(const StopReport& report) {
@@ -182,6 +188,10 @@ std::string stop_report_as_json(const StopReport& report) {
                          .add("sliding_only", json(report.sliding_only))
                          .add("pivoting_only", json(report.pivoting_only))
                          .inline_text());
+  if (const auto& other = report.other) {
+    document.add("other_law",
+                 JsonObject().add("law", json(other->law)).add("tau_stop", json(other->tau)).inline_text());
+  }
   if (!report.estimates.empty()) {
     std::vector<std::string> estimates;
     for (const reduction::StopEstimate& estimate : report.estimates) {
@@ -213,6 +223,10 @@ std::string stop_report_as_csv(const StopReport& report) {
        {body.mu, state.u, state.v, report.stop.tau, report.bounds.lower, report.bounds.upper, report.sliding_only,
         report.pivoting_only, body.inertia.chi, body.inertia.gamma, report.T_stop}) {
     values.push_back(fmt::format("{}", value));
+  }
+  if (const auto& other = report.other) {
+    names.insert(names.end(), {"other_law", "other_tau"});
+    values.insert(values.end(), {other->law, fmt::format("{}", other->tau)});
   }
   if (shot) {
     names.emplace_back("t_stop");

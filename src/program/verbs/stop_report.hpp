@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,11 @@ namespace contensou::program {
 
 /// Everything that `stop` says about one start.
 struct StopReport {
+  struct OtherLaw {
+    std::string law;
+    double tau;
+  };
+
   GivenStart start;
   reduction::ReducedSystem system;
   reduction::StopTime stop;
@@ -18,15 +24,17 @@ struct StopReport {
   reduction::Bounds bounds;
   double sliding_only;                                  ///< tau of a body that did not pivot
   double pivoting_only;                                 ///< tau of a body that did not slide
+  std::optional<OtherLaw> other;                        ///< the other law of the paper, beside one of its laws
   std::vector<reduction::StopEstimate> estimates = {};  ///< for small mu; none unless asked for
 };
 
-StopReport make_stop_report(const GivenStart& start, const reduction::Law& law, reduction::Route route);
+/// @param system  of the start
+StopReport make_stop_report(const GivenStart& start, const reduction::ReducedSystem& system, reduction::Route route);
 
 std::string stop_report_as_json(const StopReport& report);
 std::string stop_report_as_csv(const StopReport& report);
 
-/// For people: with the time under another law beside it.
+/// For people.
 std::string stop_report_as_text(const StopReport& report, int digits);
 
 }  // namespace contensou::program
