@@ -33,6 +33,21 @@ TEST_CASE("law at the ratios of a table", "[cli]") {
   }
 }
 
+TEST_CASE("a law's name that is no UTF-8", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string file = scratch.file("bad\xFF.csv");
+  write_file(file, "rho,pressure\n0,1\n1,0.5\n");
+  const std::vector<std::vector<std::string>> commands{{"portrait", "--mu", "0.3", "-o", "-"},
+                                                       {"stop", "--mu", "0.3", "--u0", "1", "--v0", "1"}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), {"--format", "json", "--law", file});
+    const Run run = run_program(command);
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    CHECK_THAT(nlohmann::json::parse(run.out).at("law").get<std::string>(), Contains("bad\xEF\xBF\xBD.csv"));
+  }
+}
+
 TEST_CASE("law as JSON, asked for or by the file's ending", "[cli]") {
   const auto law = json_of("law --k 1,inf --format json");
   CHECK(law.at("schema") == 1);

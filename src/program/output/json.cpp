@@ -1,23 +1,26 @@
 #include "output/json.hpp"
 
-#include <cmath>
-#include <stdexcept>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "contensou/portraits/json.hpp"
+
 namespace contensou::program {
 
-std::string json(double value) {
-  if (std::isnan(value)) throw std::runtime_error("a result is not a number");
-  if (std::isinf(value)) return value > 0 ? "\"inf\"" : "\"-inf\"";
-  return fmt::format("{}", value);
+namespace {
+
+std::string text_of(const nlohmann::ordered_json& value) {
+  std::string text;
+  portraits::append_json(text, value);
+  return text;
 }
 
-std::string json(std::string_view value) {
-  return nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+}  // namespace
+
+std::string json(double value) { return text_of(value); }
+
+std::string json(std::string_view value) { return text_of(value); }
 
 std::string json(const Eigen::ArrayXd& values) {
   std::vector<std::string> texts;
