@@ -47,7 +47,7 @@ TEST_CASE("quoted fields pass through", "[cli]") {
   const Run run =
       run_program("stop --batch -", "note,mu,u0,v0\n\"a,\"\"b\"\"\nc\",1,0,0\n\"#d\",1,0,0\n\"plain\",1,0,0\n");
   CHECK(run.status == 0);
-  CHECK(run.out == "note,mu,u0,v0,tau_stop\n\"a,\"\"b\"\"\nc\",1,0,0,0\n\"#d\",1,0,0,0\nplain,1,0,0,0\n");
+  CHECK(run.out == "note,mu,u0,v0,tau_stop\n\"a,\"\"b\"\"\nc\",1,0,0,0\n\"#d\",1,0,0,0\n\"plain\",1,0,0,0\n");
 }
 
 TEST_CASE("line ends of Windows, comments, blank lines and a byte order mark", "[cli]") {
@@ -57,8 +57,126 @@ TEST_CASE("line ends of Windows, comments, blank lines and a byte order mark", "
   CHECK(run.out == "mu,u0,v0,tau_stop\n1,0,0,0\n0.5,0,0,0\n");
 }
 
-TEST_CASE("a tau_stop that overflows", "[limit]") {
-  CHECK_THAT(run_program("stop --batch -", "mu,u0,v0\n1e-100,1e300,1\n").out, Contains(",inf\n"));
+TEST_CASE("no row is lost whatever ends the lines", "[cli]") {
+  const std::string header = "mu,u0,v0,tau_stop\n";
+  const std::string row = "0.1,1,1," + shortest(stop_time({PadeLaw{}, 0.1}, {1, 1}).tau) + "\n";
+  CHECK(run_program("stop --batch -", "mu,u0,v0\r0.1,1,1\r0.1,1,1\r").out == header + row + row);
+  CHECK(run_program("stop --batch -", "mu,u0,v0\r0.1,1,1\n0.1,1,1\n").out == header + row + row);
+  CHECK(run_program("law --batch -", "k\rinf\r\rinf").out == "k,phi,psi\ninf,1,0\ninf,1,0\n");
+  // Longer than any block in which a file is read.
+  constexpr int rows = 5000;
+  for (const std::vector<std::string>& ends :
+       {std::vector<std::string>{"\n"}, {"\r\n"}, {"\r"}, {"\r", "\r\n", "\n"}}) {
+    std::string table = "mu,u0,v0" + ends.back(), expected = header;
+    for (int i = 0; i < rows; ++i) {
+      table += "0.1,1,1" + ends[static_cast<std::size_t>(i) % ends.size()];
+      expected += row;
+    }
+    const Run run = run_program("stop --batch -", table);
+    CHECK(run.status == 0);
+    CHECK(run.out == expected);
+    const Run bad = run_program("stop --batch -", table + "0.1,x,1" + ends[0]);
+    CHECK_THAT(bad.err, StartsWith(fmt::format("<stdin>:{}: u0: 'x' is not a number", rows + 2)));
+  }
+}
+
+TEST_CASE("a tau_stop that overflows is inf, and said to be", "[limit]") {
+  const Run run = run_program("stop --batch -", "mu,u0,v0\n1,0,0\n1e-100,1e300,1\n1,0,0\n1e-100,1e300,2\n");
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("\n1e-100,1e300,1,inf\n") && Contains("\n1e-100,1e300,2,inf\n"));
+  CHECK(run.err == "<stdin>:3: tau_stop exceeds the largest double and is written as inf (2 rows in all)\n");
+}
+
+TEST_CASE("a filter: rows leave while the input pauses, and up to the first bad one", "[cli]") {
+  const TemporaryDirectory scratch;
+  for (const char* threads : {"1", "2", "7"}) {
+    // Each row is sent when the row before has been answered. A program that waits for more never gets it.
+    const std::string script = fmt::format(
+        "set -e; cd '{}'; rm -f in out; mkfifo in out\n"
+        "'{}' stop --batch - --threads {} <in >out 2>err & exec 3>in 4<out\n"
+        "printf 'mu,u0,v0\\n1,0,0\\n' >&3; read -r header <&4; read -r first <&4\n"
+        "for i in 1 2 3 4 5 6 7 8 9; do printf \"0.$i,0,0\\n\" >&3; read -r row <&4; test $row = 0.$i,0,0,0; done\n"
+        "printf '1,0,0\\n1,0' >&3; read -r last <&4; printf ',x\\n' >&3\n"
+        "! read -r more <&4; wait $! && status=0 || status=$?; echo $header $first $last $status >answer\n",
+        scratch.path().string(), CONTENSOU_PROGRAM, threads);
+    write_file(scratch.file("script"), script);
+    INFO("threads " << threads);
+    REQUIRE(std::system(("timeout 60 sh '" + scratch.file("script") + "'").c_str()) == 0);
+    CHECK(read_file(scratch.file("answer")) == "mu,u0,v0,tau_stop 1,0,0,0 1,0,0,0 2\n");
+    CHECK(read_file(scratch.file("err")) == "<stdin>:12: v0: 'x' is not a number; write it like 0.1, -5 or 1e-3\n");
+  }
+}
+
+TEST_CASE("a table of another kind is named, with a way out", "[cli]") {
+  const auto utf16 = [](const std::string& text, bool low_first) {
+    std::string wide;
+    for (char letter : text) wide += low_first ? std::string{letter, '\0'} : std::string{'\0', letter};
+    return wide;
+  };
+  const std::string table = "mu,u0,v0\n0.1,1,1\n";
+  const std::pair<std::string, const char*> others[] = {
+      {"\xFF\xFE" + utf16(table, true), "<stdin>:1: the text is in UTF-16, UTF-8 is needed: iconv -f UTF-16 -t UTF-8"},
+      {"\xFE\xFF" + utf16(table, false), "iconv -f UTF-16 -t UTF-8"},
+      {utf16(table, true), "iconv -f UTF-16LE -t UTF-8"},
+      {utf16(table, false), "iconv -f UTF-16BE -t UTF-8"},
+      {"mu;u0;v0\n0,1;1;1\n", "semicolons separate the columns here, commas are needed: sed 's/,/./g; s/;/,/g'"},
+      {"mu\tu0\tv0\n0.1\t1\t1\n", "tabs separate the columns here, commas are needed: sed 's/,/./g; s/\\t/,/g'"},
+      {"mu,u0,v0\n0,1,1,0,1,0\n", "<stdin>:2: 6 fields where the header has 3: decimals take a point"},
+      {"mu,u0,v0\n\"0,1\",1,1\n", "<stdin>:2: mu: '0,1' is not a number; write it like 0.1, -5 or 1e-3: decimals"},
+  };
+  for (const auto& [input, words] : others) {
+    for (const std::string verb : {"stop --batch -", "law --batch -", "orbit --ball pool --at -"}) {
+      const Run run = run_program(verb, input);
+      INFO(verb << ": " << run.err);
+      CHECK(run.status == 2);
+      CHECK(run.out.empty());
+      if (verb.starts_with("stop")) CHECK_THAT(run.err, Contains(words));
+    }
+  }
+  // Excel's file of semicolons, converted as the message says.
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("excel.csv"), "\xEF\xBB\xBFmu;u0;v0\r\n0,5;0;0\r\n");
+  const std::string converted = "sed 's/,/./g; s/;/,/g' " + scratch.file("excel.csv") + " | '" + CONTENSOU_PROGRAM +
+                                "' stop --batch - -o " + scratch.file("out.csv");
+  CHECK(std::system(converted.c_str()) == 0);
+  CHECK(read_file(scratch.file("out.csv")) == "mu,u0,v0,tau_stop\n0.5,0,0,0\n");
+}
+
+TEST_CASE("a header of many or long names is not shown whole", "[cli]") {
+  std::string names;
+  for (int i = 0; i < 100000; ++i) names += "x,";
+  for (const std::string& header : {names, std::string(100000, 'x')}) {
+    const Run run = run_program("stop --batch -", header + "\n");
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains("no column is called 'mu'"));
+    CHECK(run.err.size() < 300);
+  }
+}
+
+TEST_CASE("rows with a mu each, by the plain function", "[route]") {
+  std::string csv = "mu,u0,v0\n";
+  std::vector<std::string> expected;
+  for (int i = 1; i <= 1000; ++i) {
+    const double mu = i / 1000.0;
+    csv += fmt::format("{},-1,{}\n", mu, i);
+    expected.push_back(shortest(stop_time({PadeLaw{}, mu}, {-1, static_cast<double>(i)}).tau));
+  }
+  const auto rows = rows_of(run_program("stop --batch -", csv).out);
+  REQUIRE(rows.size() == 1001);
+  for (std::size_t i = 1; i <= 1000; ++i) CHECK(rows[i][3] == expected[i - 1]);
+}
+
+TEST_CASE("progress of a batch", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("table.csv"), "mu,u0,v0\n0.1,1,1\nx,1,1\n");
+  const std::string always = "stop --keep-going --progress always --batch ";
+  // It ends before anything is shown; what is shown then, the tests of progress_line say.
+  const Run run = run_program(always + scratch.file("table.csv") + " -o " + scratch.file("out.csv"));
+  CHECK_THAT(run.err, Contains(":3: mu: 'x' is not a number"));
+  CHECK(run_program(always + "- --progress soon").status == 2);
+  const Run single = run_program("stop --ball pool --progress always");
+  CHECK(single.status == 2);
+  CHECK_THAT(single.err, Contains("--progress is for many starts"));
 }
 
 TEST_CASE("a bad table is refused with its line", "[cli]") {
@@ -66,17 +184,20 @@ TEST_CASE("a bad table is refused with its line", "[cli]") {
     std::string input;
     std::string place;
     std::string word;
+    std::string out = {};  ///< the rows before the bad one
   };
+  const std::string one_row = "mu,u0,v0,tau_stop\n0.1,1,1," + shortest(stop_time({PadeLaw{}, 0.1}, {1, 1}).tau) + "\n";
   const std::vector<Fault> faults{
       {"", "<stdin>:1: ", "empty input"},
       {"\n\n# nothing\n", "<stdin>:1: ", "empty input"},
       {"mu,u0\n1,1\n", "<stdin>:1: ", "no column is called 'v0'"},
       {"# c\nmu,mu,u0,v0\n", "<stdin>:2: ", "2 columns are called 'mu'"},
       {"mu,u0,v0,tau_stop\n1,1,1,1\n", "<stdin>:1: ", "already has a column 'tau_stop'"},
-      {"mu,u0,v0\n0.1,1,1\n0.1,1\n", "<stdin>:3: ", "2 fields where the header has 3"},
+      {"mu,u0,v0\n0.1,1,1\n0.1,1\n", "<stdin>:3: ", "2 fields where the header has 3", one_row},
       {"mu,u0,v0\n0.1,1,1,1\n", "<stdin>:2: ", "4 fields where the header has 3"},
       {"mu,u0,v0\n\n0.1,x,1\n", "<stdin>:3: ", "u0: 'x' is not a number"},
-      {"note,mu,u0,v0\n\"two\nlines\",1,0,0\nz,0.1,,1\n", "<stdin>:4: ", "u0: '' is not a number"},
+      {"note,mu,u0,v0\n\"two\nlines\",1,0,0\nz,0.1,,1\n", "<stdin>:4: ", "u0: '' is not a number",
+       "note,mu,u0,v0,tau_stop\n\"two\nlines\",1,0,0,0\n"},
       {"mu,u0,v0\n0.1,1e999,1\n", "<stdin>:2: ", "'1e999' does not fit"},
       {"mu,u0,v0\n0.1,inf,1\n", "<stdin>:2: ", "'inf' is not a finite number"},
       {"mu,u0,v0\n0,1,1\n", "<stdin>:2: ", "0 < mu <= 1"},
@@ -84,17 +205,17 @@ TEST_CASE("a bad table is refused with its line", "[cli]") {
       {"mu,u0,v0\n0.1,1,-1\n", "<stdin>:2: ", "v0 >= 0"},
       {"mu,u0,v0\n0.1,\"1,1\n", "<stdin>:2: ", "never closed"},
       {"mu,u0,v0\n0.1,1\",1\n", "<stdin>:2: ", "a quote inside a field"},
-      {"mu,u0,v0\n0.1,1,1\n0.1,\"1,1\n0.1,1,1\n", "<stdin>:3: ", "never closed"},
+      {"mu,u0,v0\n0.1,1,1\n0.1,\"1,1\n0.1,1,1\n", "<stdin>:3: ", "never closed", one_row},
       {"mu,u0,\"v0\n0.1,1,1\n", "<stdin>:1: ", "never closed"},
       {"mu,u0,v\"0\n0.1,1,1\n", "<stdin>:1: ", "a quote inside a field"},
       {std::string("mu,u0,v0\n0.1,1\0002,1\n", 18), "<stdin>:2: ", "u0: '1\\x002' is not a number; write it"},
       {"mu,u0,v0\n0.1," + std::string(1000, 'x') + ",1\n", "<stdin>:2: ", "x...' is not a number"},
   };
-  for (const auto& [input, place, word] : faults) {
+  for (const auto& [input, place, word, out] : faults) {
     const Run run = run_program("stop --batch -", input);
     INFO(input);
     CHECK(run.status == 2);
-    CHECK(run.out.empty());
+    CHECK(run.out == out);
     CHECK_THAT(run.err, StartsWith(place) && Contains(word));
   }
   const TemporaryDirectory scratch;
@@ -111,7 +232,8 @@ TEST_CASE("--keep-going leaves out what it cannot compute", "[cli]") {
 }
 
 TEST_CASE("a batch excludes what makes no sense with it", "[cli]") {
-  for (const std::string other : {"--mu 0.1", "--ball pool", "--slip 1", "--format json", "--format text"}) {
+  for (const std::string other : {"--mu 0.1", "--ball pool", "--slip 1", "--format json", "--format text",
+                                  "--digits banana", "--digits 18", "--digits 5"}) {
     const Run run = run_program("stop --batch - " + other, "mu,u0,v0\n1,0,0\n");
     INFO(other);
     CHECK(run.status == 2);
@@ -171,11 +293,13 @@ TEST_CASE("a long batch has the bits of single calls, however many threads there
 
 TEST_CASE("the first bad row of a long batch is the one that is named", "[cli]") {
   std::string csv = RandomTable(60000).csv;
+  const std::string good = run_program("stop --batch -", csv).out;
   csv += "9,bad,1,1\n" + RandomTable(30000).csv.substr(14) + "8,worse,1,1\n";
   for (const std::string threads : {"1", "8"}) {
     const Run run = run_program("stop --batch - --threads " + threads, csv);
     CHECK(run.status == 2);
-    CHECK(run.out.empty());
+    CHECK(std::ranges::count(run.out, '\n') == 60001);
+    CHECK(run.out == good.substr(0, run.out.size()));
     CHECK_THAT(run.err, StartsWith("<stdin>:60002: mu: 0 < mu <= 1 is required, got 9"));
     const Run kept = run_program("stop --keep-going --batch - --threads " + threads, csv);
     CHECK(kept.status == 2);
@@ -201,7 +325,7 @@ TEST_CASE("a record without an end is refused before it fills the memory", "[lim
   const Run open = run_program("stop --batch -", "mu,u0,v0\n0.1,1,1\n0.1,1,\"" + std::string(70 << 20, '1'));
   CHECK(open.status == 2);
   CHECK_THAT(open.err, StartsWith("<stdin>:3: ") && Contains("longer than 64 MiB"));
-  CHECK(open.out.empty());
+  CHECK(std::ranges::count(open.out, '\n') == 2);
 }
 
 #if !defined(__SANITIZE_ADDRESS__)  // which reserves more address space than the limit

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -22,15 +23,30 @@ std::string_view digits_of(std::string_view text) {
   return text;
 }
 
-}  // namespace
+struct Number {
+  double value;
+  std::errc error;  ///< none, or out of range
+};
 
-double parse_number(std::string_view text, Infinity infinity) {
+std::optional<Number> read_number(std::string_view text) {
   const std::string_view digits = digits_of(text);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-    throw BadInput(fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3", quotation(text)));
+  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) return std::nullopt;
+  return Number{value, error};
+}
+
+}  // namespace
+
+bool is_number(std::string_view text) { return read_number(text).has_value(); }
+
+double parse_number(std::string_view text, Infinity infinity) {
+  const auto number = read_number(text);
+  if (!number) {
+    throw BadInput(fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3{}", quotation(text),
+                               text.find(',') == std::string_view::npos ? "" : ": decimals take a point"));
   }
+  const auto [value, error] = *number;
   if (error == std::errc::result_out_of_range) {
     throw BadInput(fmt::format("{} does not fit a double (5e-324 to 1.8e308)", quotation(text)));
   }

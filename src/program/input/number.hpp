@@ -7,6 +7,9 @@ namespace contensou::program {
 
 enum class Infinity { forbidden, allowed };
 
+/// Whether parse_number finds a number, of whatever size.
+bool is_number(std::string_view text);
+
 /// The number that a whole text spells, spaces around it aside.
 /// @throws BadInput  quoting the text, if it is not a number, does not fit a double, or is not finite where it must be
 double parse_number(std::string_view text, Infinity infinity = Infinity::forbidden);

@@ -5,8 +5,11 @@
 
 namespace contensou::program {
 
-/// Somebody's text as a message quotes it: between single quotes, control characters as \xNN so that nothing is hidden
-/// or cut off by them, and a long text cut with an ellipsis.
-std::string quotation(std::string_view typed);
+/// Input as a message shows it: quotes, backslashes, control characters and bytes that are not UTF-8 as in a string of
+/// C (\", \\, \x1b).
+std::string escaped(std::string_view input);
+
+/// Input as a message quotes it: escaped, in single quotes, and cut after 80 bytes with an ellipsis.
+std::string quotation(std::string_view input);
 
 }  // namespace contensou::program

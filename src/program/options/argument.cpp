@@ -35,6 +35,8 @@ void Argument::accept(const CLI::App& app, const std::vector<std::string>& value
   for (const std::string& value : values) {
     try {
       read(value);
+    } catch (const BadLine&) {
+      throw;  // it names its file
     } catch (const NotAllowed& error) {
       throw BadInput(fmt::format("{}: {}", typed(value), error.what()));
     } catch (const BadInput& error) {

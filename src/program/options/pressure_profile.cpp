@@ -7,47 +7,39 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/profile_law.hpp"
-#include "input/csv_table.hpp"
-#include "input/number.hpp"
+#include "input/csv.hpp"
 
 namespace contensou::program {
 
 reduction::Law read_pressure_profile(const std::string& path) {
-  const CsvTable table = CsvTable::read(path);
-  const std::size_t rho_column = table.column("rho");
-  const std::size_t pressure_column = table.column("pressure");
-  if (table.rows().size() < 2) {
-    throw table.complaint(table.header().line(), "two or more rows are needed, from rho = 0 to rho = 1");
-  }
+  CsvReader table(path);
+  const CsvColumn rho_column = table.column("rho");
+  const CsvColumn pressure_column = table.column("pressure");
   std::vector<double> rho, pressure;
   bool loaded = false;
-  for (const CsvRecord& row : table.rows()) {
-    table.require_complete(row);
-    const auto number = [&](const char* name, std::size_t column) {
-      try {
-        return parse_number(row.fields[column]);
-      } catch (const BadInput& error) {
-        throw table.complaint(row.line, fmt::format("{}: {}", name, error.what()));
-      }
-    };
+  long last_line = 0;
+  table.for_each_row([&](const CsvRow& row) {
     const double before = rho.empty() ? -1 : rho.back();
-    rho.push_back(number("rho", rho_column));
-    pressure.push_back(number("pressure", pressure_column));
+    rho.push_back(table.number(row, rho_column));
+    pressure.push_back(table.number(row, pressure_column));
     if (before < 0 && rho.back() != 0) {
-      throw table.complaint(row.line, fmt::format("rho must begin at 0, the centre, got {}", rho.back()));
+      throw table.complaint(row.line(), fmt::format("rho must begin at 0, the centre, got {}", rho.back()));
     }
     if (!(rho.back() > before)) {
-      throw table.complaint(row.line, fmt::format("rho must increase, got {} after {}", rho.back(), before));
+      throw table.complaint(row.line(), fmt::format("rho must increase, got {} after {}", rho.back(), before));
     }
     if (rho.back() > 1) {
-      throw table.complaint(row.line, fmt::format("rho must end at 1, the edge of the patch, got {}", rho.back()));
+      throw table.complaint(row.line(), fmt::format("rho must end at 1, the edge of the patch, got {}", rho.back()));
     }
     if (pressure.back() < 0) {
-      throw table.complaint(row.line, fmt::format("the pressure must be >= 0, got {}", pressure.back()));
+      throw table.complaint(row.line(), fmt::format("the pressure must be >= 0, got {}", pressure.back()));
     }
     loaded = loaded || pressure.back() > 0;
+    last_line = row.line();
+  });
+  if (rho.size() < 2) {
+    throw table.complaint(table.header_line(), "two or more rows are needed, from rho = 0 to rho = 1");
   }
-  const long last_line = table.rows().back().line;
   if (rho.back() != 1) {
     throw table.complaint(last_line, fmt::format("rho must end at 1, the edge of the patch, got {}", rho.back()));
   }

@@ -15,6 +15,7 @@ class RouteOption {
   static const std::vector<reduction::Route>& every_route();
 
   bool given() const { return route_.given(); }
+  reduction::Route value_or(reduction::Route standard) const { return route_.value_or(standard); }
 
   /// The route of that name; the system's best if none was given.
   /// @throws BadInput  for a route that the system does not have

@@ -19,6 +19,24 @@ std::string lines(const std::vector<Column>& columns, WriteName write_name, Writ
 
 }  // namespace
 
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (const std::string& field : fields) {
+    const bool first = &field == &fields.front();
+    if (!first) line += ',';
+    const bool comment = first && field.starts_with('#');
+    const bool blank = fields.size() == 1 && field.empty();
+    if (!comment && !blank && field.find_first_of(",\"\r\n") == std::string::npos) {
+      line += field;
+      continue;
+    }
+    line += '"';
+    for (char letter : field) line += letter == '"' ? "\"\"" : std::string(1, letter);
+    line += '"';
+  }
+  return line + '\n';
+}
+
 std::string columns_as_csv(const std::vector<Column>& columns) {
   const auto write = [](std::string& text, const auto& cell, bool last) {
     fmt::format_to(std::back_inserter(text), "{}{}", cell, last ? '\n' : ',');

@@ -7,6 +7,9 @@
 
 namespace contensou::program {
 
+/// The fields as a line of CSV, in quotes where they need them.
+std::string csv_line(const std::vector<std::string>& fields);
+
 /// A column of numbers.
 struct Column {
   std::string name;

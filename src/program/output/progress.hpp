@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "options/argument.hpp"
@@ -10,27 +11,34 @@ namespace contensou::program {
 /// How far a long computation is, in one line of standard error that is written over a few times a second.
 class Progress {
  public:
-  /// @param total  of what, in the plural
-  Progress(double total, std::string what, bool shown);
+  /// @param what  is counted, in the plural
+  Progress(std::string what, bool shown) : what_(std::move(what)), shown_(shown) {}
+  ~Progress() { erase(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
 
-  /// @param done  so many of total
-  void show(double done);
+  /// @param total  NaN if it is not known
+  void show(double done, double total);
+
+  /// Makes room for a message, until it is shown again.
+  void erase();
 
   /// Leaves a line that says how long it took, if any was shown before.
-  void finish();
+  void finish(double done);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  double total_;
   std::string what_;
   bool shown_;
   bool begun_ = false;
+  bool visible_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
 };
 
-/// The bar at that share of the work, with rate and time left; without a line end.
+/// The bar at that fraction of the work, with rate and time left, or how much was done where the total is NaN; without
+/// a line end.
 std::string progress_line(double done, double total, const std::string& what, double seconds);
 
 /// --progress.
@@ -40,12 +48,13 @@ class ProgressOption {
 
   const Argument& argument() const { return progress_; }
 
-  /// Whether progress is to be shown: if standard error is a terminal, unless always or never was asked for.
-  /// @throws BadInput  for another word
-  bool read() const;
+  /// Whether progress is to be shown: if standard error is a terminal to which no output goes, unless always or never
+  /// was asked for.
+  /// @param output  the file of -o; "-" is standard output
+  bool read(const std::string& output) const;
 
  private:
-  Argument progress_;
+  ArgumentOf<std::optional<bool>> progress_;
 };
 
 }  // namespace contensou::program

@@ -6,9 +6,9 @@
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/run_file.hpp"
-#include "input/csv_table.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
+#include "output/columns.hpp"
 #include "output/json.hpp"
 #include "verb.hpp"
 

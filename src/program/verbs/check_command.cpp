@@ -8,11 +8,11 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/verification.hpp"
-#include "input/csv_table.hpp"
 #include "input/quotation.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
+#include "output/columns.hpp"
 #include "output/json.hpp"
 #include "verb.hpp"
 

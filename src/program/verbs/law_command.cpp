@@ -6,7 +6,7 @@
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "input/csv_table.hpp"
+#include "input/csv.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "output/columns.hpp"
@@ -41,7 +41,8 @@ class LawCommand final : public Verb {
           "tex");
     }
 
-    const std::vector<Column> columns = evaluate(law, k_.given() ? *k_ : from_table());
+    const std::vector<Column> columns =
+        evaluate(law, k_.given() ? *k_ : read_column(batch_.text(), "k", Infinity::allowed));
     output.write_as([&](int digits) { return columns_as_text(columns, digits); },
                     [&] { return columns_as_csv(columns); }, [&] { return document(law, columns); });
     return ExitStatus::done;
@@ -59,24 +60,6 @@ class LawCommand final : public Verb {
     std::vector<double> ratios = parse_numbers(typed, Infinity::allowed);
     for (double k : ratios) {
       if (!(k >= 0)) throw NotAllowed(fmt::format("{} is not a ratio: k >= 0 or inf is required", k));
-    }
-    return ratios;
-  }
-
-  std::vector<double> from_table() const {
-    const CsvTable table = CsvTable::read(batch_.text());
-    const std::size_t column = table.column("k");
-    std::vector<double> ratios;
-    for (const CsvRecord& row : table.rows()) {
-      table.require_complete(row);
-      try {
-        ratios.push_back(parse_number(row.fields[column], Infinity::allowed));
-      } catch (const BadInput& error) {
-        throw table.complaint(row.line, fmt::format("k: {}", error.what()));
-      }
-      if (!(ratios.back() >= 0)) {
-        throw table.complaint(row.line, fmt::format("k: k >= 0 or inf is required, got {}", ratios.back()));
-      }
     }
     return ratios;
   }

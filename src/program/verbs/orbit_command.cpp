@@ -1,8 +1,7 @@
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "contensou/si/bridge.hpp"
+#include "options/instants.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/route_motion.hpp"
@@ -25,7 +24,9 @@ class OrbitCommand final : public Verb {
     start_.add(app);
     law_.add(app);
     route_.add(app);
-    CLI::Option* at = at_.add(app, "--at", "T1,T2,...", "these tau >= 0, in any order", parse_times);
+    CLI::Option* at =
+        at_.add(app, "--at", "T1,T2,...|FILE",
+                "these tau >= 0, in any order; FILE has a column tau, or one number a line", read_instants("tau"));
     samples_
         .add(app, "--samples", "N",
              fmt::format("instead: equidistant instants from the start to the stop, 2 or more (default {})",
@@ -50,17 +51,7 @@ class OrbitCommand final : public Verb {
   reduction::OrbitColumns motion(const reduction::ReducedSystem& system, reduction::State state,
                                  reduction::Route route) const {
     if (!at_.given()) return motion_samples(system, state, route, samples_.value_or(standard_samples));
-    const std::vector<double>& times = *at_;
-    return motion_at(system, state, route,
-                     Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())));
-  }
-
-  static std::vector<double> parse_times(const std::string& typed) {
-    std::vector<double> times = parse_numbers(typed);
-    for (double tau : times) {
-      if (tau < 0) throw NotAllowed(fmt::format("{} is before the start: tau >= 0 is required", tau));
-    }
-    return times;
+    return motion_at(system, state, route, *at_);
   }
 
   static std::vector<Column> make_columns(const GivenStart& start, const reduction::OrbitColumns& motion) {
@@ -88,7 +79,7 @@ class OrbitCommand final : public Verb {
   LawOption law_;
   RouteOption route_;
   ArgumentOf<long> samples_;
-  ArgumentOf<std::vector<double>> at_;
+  ArgumentOf<Eigen::ArrayXd> at_;
   OutputOptions output_{{{"an orbit", {"csv", "text", "json"}, "csv"}}};
 };
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "input/csv_table.hpp"
+#include "output/columns.hpp"
 #include "output/json.hpp"
 
 namespace contensou::program {

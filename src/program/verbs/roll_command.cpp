@@ -7,6 +7,7 @@
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/nearest_name.hpp"
 #include "contensou/si/whole_motion.hpp"
+#include "options/instants.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/roll_route.hpp"
@@ -38,7 +39,9 @@ class RollCommand final : public Verb {
     route_.add(app, "--route", "ROUTE",
                "reduced: the similarity solution (default), or integrated: the five equations of motion (2.5)",
                one_of<RollRoute>({{"reduced", RollRoute::reduced}, {"integrated", RollRoute::integrated}}, "route"));
-    CLI::Option* at = at_.add(app, "--at", "T1,T2,...", "these t >= 0 in s, in any order", parse_times);
+    CLI::Option* at =
+        at_.add(app, "--at", "T1,T2,...|FILE",
+                "these t >= 0 in s, in any order; FILE has a column t, or one number a line", read_instants("t"));
     samples_
         .add(app, "--samples", "N",
              fmt::format("instead: equidistant instants, 2 or more (default {})", standard_samples),
@@ -93,20 +96,11 @@ class RollCommand final : public Verb {
     return end;
   }
 
-  static std::vector<double> parse_times(const std::string& typed) {
-    std::vector<double> times = parse_numbers(typed);
-    for (double t : times) {
-      if (t < 0) throw NotAllowed(fmt::format("{} is before the start: t >= 0 is required, in s", t));
-    }
-    return times;
-  }
-
   Eigen::ArrayXd instants(const si::Shot& shot, const reduction::Law& law, std::optional<double> until) const {
     if (!at_.given()) {
       return Eigen::ArrayXd::LinSpaced(samples_.value_or(standard_samples), 0, until.value_or(standard_end(shot, law)));
     }
-    const std::vector<double>& times = *at_;
-    return Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size()));
+    return *at_;
   }
 
   static std::vector<Column> make_columns(const si::MotionColumns& motion) {
@@ -135,7 +129,7 @@ class RollCommand final : public Verb {
   ArgumentOf<RollRoute> route_;
   ArgumentOf<long> samples_;
   ArgumentOf<double> until_;
-  ArgumentOf<std::vector<double>> at_;
+  ArgumentOf<Eigen::ArrayXd> at_;
   OutputOptions output_{{{"a motion", with_pictures({"csv", "text", "json"}), "csv"}}};
 };
 

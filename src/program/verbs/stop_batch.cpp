@@ -1,14 +1,20 @@
 #include "verbs/stop_batch.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdio>
+#include <exception>
 #include <stdexcept>
+#include <utility>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "input/number.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pade_stop_time.hpp"
+#include "output/columns.hpp"
 #include "output/ordered_work.hpp"
+#include "output/progress.hpp"
 #include "verbs/stop_times.hpp"
 
 namespace contensou::program {
@@ -17,133 +23,149 @@ namespace {
 
 constexpr const char* result = "tau_stop";
 
-/// The fields of a row as text of the same width as the header's, and one more.
-std::string line_of(const CsvHeader& header, const std::vector<std::string_view>& fields, std::string last) {
-  std::vector<std::string> all(fields.begin(), fields.end());
-  all.resize(header.names().size());
-  all.push_back(std::move(last));
-  return csv_line(all);
-}
-
-/// What all workers share.
-struct Batch {
-  CsvStream& table;
-  OutputFile& output;
-  const BatchRequest& request;
-  std::size_t mu, u0, v0;  ///< columns
-  StopTimes stop_times;
+/// Some rows of the table, and what becomes of them.
+struct Piece {
+  CsvBlock rows;
+  fmt::memory_buffer lines;
+  std::string complaints;
+  long overflows = 0;
+  long first_overflow = 0;  ///< its line
   ExitStatus status = ExitStatus::done;
+  std::exception_ptr fault;  ///< of the first row that has no line
+  double fraction_read = 0;  ///< of the table, with these rows; NaN if it has no known length
 };
 
-/// Adds the stop times to one block of rows after the other.
-class BatchWorker final : public PieceWorker {
+class Batch {
  public:
-  explicit BatchWorker(Batch& batch) : batch_(batch) {}
-
-  bool take() override { return batch_.table.next(block_); }
-
-  void work() override {
-    lines_.clear();
-    complaints_.clear();
-    status_ = ExitStatus::done;
-    for_each_row(block_, header(), [this](const CsvRow& row) { add(row); });
+  Batch(CsvReader& table, OutputFile& output, const BatchRequest& request)
+      : table_(table),
+        output_(output),
+        request_(request),
+        columns_{table.column("mu"), table.column("u0"), table.column("v0")},
+        closed_(request.law.as<reduction::PadeLaw>() != nullptr &&
+                request.route.value_or(reduction::Route::closed) == reduction::Route::closed),
+        stop_times_(request.law, request.body.inertia, request.route),
+        progress_("rows", request.progress) {
+    if (table.has_column(result)) {
+      throw table.complaint(table.header_line(),
+                            fmt::format("the input already has a column '{}': rename or remove it", result));
+    }
+    std::vector<std::string> names = table.names();
+    names.emplace_back(result);
+    header_ = csv_line(names);
   }
 
-  void hand_on() override {
-    std::fputs(complaints_.c_str(), stderr);
-    batch_.output.write(lines_);
-    batch_.status = std::max(batch_.status, status_);
+  ExitStatus run() {
+    work_in_order<Piece>(
+        request_.threads,
+        [this](Piece& piece, const auto& settle) { return (table_.ready() || settle()) && take(piece); },
+        [this](Piece& piece) { work(piece); }, [this](Piece& piece) { hand_on(piece); });
+    output_.write(header_);
+    progress_.finish(static_cast<double>(rows_));
+    if (overflows_ > 0) {
+      const auto note = table_.complaint(
+          first_overflow_,
+          fmt::format("tau_stop exceeds the largest double and is written as inf ({} rows in all)", overflows_));
+      std::fprintf(stderr, "%s\n", note.what());
+    }
+    return status_;
   }
 
  private:
-  const CsvHeader& header() const { return batch_.table.header(); }
+  bool take(Piece& piece) {
+    const bool taken = table_.next(piece.rows);
+    piece.fraction_read = table_.fraction_read();
+    return taken;
+  }
 
-  void add(const CsvRow& row) {
-    try {
-      append(row, stop_time(row));
-    } catch (const BadLine& error) {
-      keep_without_result(row, error, ExitStatus::bad_input);
-    } catch (const std::runtime_error& error) {
-      keep_without_result(row, error, ExitStatus::numerical_failure);
+  void work(Piece& piece) {
+    for (std::size_t i = 0; i < piece.rows.size(); ++i) {
+      try {
+        add(piece.rows[i], piece);
+      } catch (...) {
+        piece.fault = std::current_exception();
+        return;
+      }
     }
   }
 
-  void append(const CsvRow& row, double tau) {
-    std::array<char, 32> text;
-    const auto size = fmt::format_to_n(text.data(), text.size(), "{}", tau).size;
-    const std::string_view digits(text.data(), size);
-    if (row.plain.empty()) {
-      lines_ += line_of(header(), row.fields, std::string(digits));
-      return;
+  void hand_on(const Piece& piece) {
+    if (piece.lines.size() > 0) {
+      output_.write(std::exchange(header_, {}));
+      output_.write({piece.lines.data(), piece.lines.size()});
     }
-    lines_.append(row.plain) += ',';
-    lines_.append(digits) += '\n';
-  }
-
-  void keep_without_result(const CsvRow& row, const std::exception& error, ExitStatus status) {
-    if (!batch_.request.keep_going) throw;
-    complaints_.append(error.what()) += '\n';
-    lines_ += line_of(header(), row.fields, "");
-    status_ = std::max(status_, status);
+    if (!piece.complaints.empty()) {
+      progress_.erase();
+      std::fputs(piece.complaints.c_str(), stderr);
+    }
+    if (piece.fault) std::rethrow_exception(piece.fault);
+    status_ = std::max(status_, piece.status);
+    if (overflows_ == 0) first_overflow_ = piece.first_overflow;
+    overflows_ += piece.overflows;
+    rows_ += piece.rows.size();
+    progress_.show(static_cast<double>(rows_), static_cast<double>(rows_) / piece.fraction_read);
   }
 
   /// @throws BadLine, std::runtime_error  beginning with the row's place
-  double stop_time(const CsvRow& row) {
-    header().require_complete(row.line, row.fields.size());
-    const double mu = number(row, "mu", batch_.mu);
-    const reduction::State start{.u = number(row, "u0", batch_.u0), .v = number(row, "v0", batch_.v0)};
-    if (const std::string wrong = batch_.request.body.complaint(mu); !wrong.empty()) {
-      throw complaint(row, fmt::format("mu: {}, got {}", wrong, mu));
-    }
-    if (start.v < 0) throw complaint(row, fmt::format("v0: v0 >= 0 is required, got {}", start.v));
+  void add(const CsvRow& row, Piece& piece) {
     try {
-      if (!patch_ || patch_->mu() != mu) patch_ = batch_.stop_times.of_patch(mu);
-      return (*patch_)(start);
-    } catch (const std::domain_error& error) {
-      throw complaint(row, error.what());
+      const double tau = stop_time(row);
+      if (std::isinf(tau) && piece.overflows++ == 0) piece.first_overflow = row.line();
+      piece.lines.append(row.text());
+      fmt::format_to(fmt::appender(piece.lines), FMT_COMPILE(",{}\n"), tau);
+    } catch (const BadLine& error) {
+      keep_without_result(row, error, ExitStatus::bad_input, piece);
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(complaint(row, error.what()).what());
+      keep_without_result(row, error, ExitStatus::numerical_failure, piece);
     }
   }
 
-  double number(const CsvRow& row, std::string_view name, std::size_t column) const {
+  void keep_without_result(const CsvRow& row, const std::exception& error, ExitStatus status, Piece& piece) const {
+    if (!request_.keep_going) throw;
+    piece.complaints.append(error.what()) += '\n';
+    std::vector<std::string> fields(table_.names().size() + 1);
+    for (std::size_t i = 0; i < std::min(row.size(), table_.names().size()); ++i) fields[i] = row[i];
+    piece.lines.append(csv_line(fields));
+    piece.status = std::max(piece.status, status);
+  }
+
+  double stop_time(const CsvRow& row) {
+    table_.require_complete(row);
+    const double mu = table_.number(row, columns_.mu);
+    const reduction::State start{.u = table_.number(row, columns_.u0), .v = table_.number(row, columns_.v0)};
+    if (const std::string wrong = request_.body.complaint(mu); !wrong.empty()) {
+      throw table_.complaint(row.line(), fmt::format("mu: {}, got {}", wrong, mu));
+    }
+    if (start.v < 0) throw table_.complaint(row.line(), fmt::format("v0: v0 >= 0 is required, got {}", start.v));
     try {
-      return parse_number(row.fields[column]);
-    } catch (const BadInput& error) {
-      throw complaint(row, fmt::format("{}: {}", name, error.what()));
+      return closed_ ? reduction::pade_stop_time(mu, start, request_.body.inertia) : (*stop_times_.of_patch(mu))(start);
+    } catch (const std::domain_error& error) {
+      throw table_.complaint(row.line(), error.what());
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(table_.complaint(row.line(), error.what()).what());
     }
   }
 
-  BadLine complaint(const CsvRow& row, std::string_view message) const { return header().complaint(row.line, message); }
-
-  Batch& batch_;
-  std::shared_ptr<const PatchStopTimes> patch_;  ///< of the row before
-  CsvBlock block_;
-  std::string lines_;
-  std::string complaints_;
+  CsvReader& table_;
+  OutputFile& output_;
+  const BatchRequest& request_;
+  struct {
+    CsvColumn mu, u0, v0;
+  } columns_;
+  bool closed_;  ///< by a plain function
+  StopTimes stop_times_;
+  Progress progress_;
+  std::string header_;  ///< is written with the first rows
+  std::size_t rows_ = 0;
+  long overflows_ = 0;
+  long first_overflow_ = 0;
   ExitStatus status_ = ExitStatus::done;
 };
 
 }  // namespace
 
-ExitStatus stop_batch(CsvStream& table, OutputFile& output, const BatchRequest& request) {
-  const CsvHeader& header = table.header();
-  Batch batch{.table = table,
-              .output = output,
-              .request = request,
-              .mu = header.column("mu"),
-              .u0 = header.column("u0"),
-              .v0 = header.column("v0"),
-              .stop_times = {request.law, request.body.inertia, request.route}};
-  if (header.has_column(result)) {
-    throw header.complaint(header.line(),
-                           fmt::format("the input already has a column '{}': rename or remove it", result));
-  }
-  output.write(line_of(header, {header.names().begin(), header.names().end()}, result));
-  std::vector<std::unique_ptr<PieceWorker>> workers;
-  for (int i = 0; i < request.threads; ++i) workers.push_back(std::make_unique<BatchWorker>(batch));
-  work_in_order(workers);
-  return batch.status;
+ExitStatus stop_batch(CsvReader& table, OutputFile& output, const BatchRequest& request) {
+  return Batch(table, output, request).run();
 }
 
 }  // namespace contensou::program

@@ -4,7 +4,7 @@
 
 #include "contensou/reduction/friction_law.hpp"
 #include "exit_status.hpp"
-#include "input/csv_stream.hpp"
+#include "input/csv.hpp"
 #include "options/body_option.hpp"
 #include "options/route_option.hpp"
 #include "output/output.hpp"
@@ -18,16 +18,19 @@ struct BatchRequest {
   const RouteOption& route;
   bool keep_going = false;  ///< report a bad row on standard error and leave its tau_stop empty
   int threads = 1;
+  bool progress = false;
 };
 
 /// Stop times of a table of any length, in the memory of a few blocks of it: writes the table with a column tau_stop.
-/// The rows keep their order and the bytes do not depend on the number of threads.
+/// Rows are written in order, as soon as they are done; the bytes do not depend on the number of threads. Overflows are
+/// counted on standard error.
 ///
 /// @param table   with columns mu, u0 and v0; the others pass through
 /// @param output  not finished here
 /// @return        what the worst row was that was kept without a result; done if none was
-/// @throws BadLine             for a table that lacks a column or is not CSV and, unless keep_going, for a bad row
-/// @throws std::runtime_error  for a row that cannot be computed, unless keep_going
-ExitStatus stop_batch(CsvStream& table, OutputFile& output, const BatchRequest& request);
+/// @throws BadLine             for a table that lacks a column or is not CSV and, unless keep_going, for a bad row; the
+///                             rows before it have been written
+/// @throws std::runtime_error  likewise for a row that cannot be computed
+ExitStatus stop_batch(CsvReader& table, OutputFile& output, const BatchRequest& request);
 
 }  // namespace contensou::program

@@ -3,6 +3,7 @@
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
 #include "options/thread_option.hpp"
+#include "output/progress.hpp"
 #include "verb.hpp"
 #include "verbs/stop_batch.hpp"
 #include "verbs/stop_report.hpp"
@@ -21,6 +22,7 @@ class StopCommand final : public Verb {
     batch_.add(app, "--batch", "FILE", "CSV with columns mu,u0,v0; adds tau_stop to each row; - is standard input");
     app.add_flag("--keep-going", keep_going_, "with --batch: leave tau_stop of a bad row empty and go on");
     threads_.add(app);
+    progress_.add(app);
     output_.add(app);
   }
 
@@ -28,6 +30,7 @@ class StopCommand final : public Verb {
     if (batch_.given()) return run_batch();
     if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
     if (threads_.argument().given()) throw BadInput("--threads is for many starts: add --batch FILE");
+    if (progress_.argument().given()) throw BadInput("--progress is for many starts: add --batch FILE");
     const Output output = output_.read();
     const GivenStart start = start_.read();
     const reduction::ReducedSystem system = start.body.system(law_.read());
@@ -45,9 +48,10 @@ class StopCommand final : public Verb {
     }
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     const Output out = output_.read(1);
-    const BatchRequest request{law_.read(), start_.body().read(), route_, keep_going_, threads_.read()};
+    const BatchRequest request{law_.read(), start_.body().read(), route_,
+                               keep_going_, threads_.read(),      progress_.read(out.path)};
     OutputFile output(out.path);  // before the input, which may be long in coming
-    CsvStream table(batch_.text());
+    CsvReader table(batch_.text());
     const ExitStatus status = stop_batch(table, output, request);
     output.finish();
     return status;
@@ -60,6 +64,7 @@ class StopCommand final : public Verb {
   bool estimate_ = false;
   bool keep_going_ = false;
   ThreadOption threads_;
+  ProgressOption progress_;
   OutputOptions output_{{{"a stop time", {"text", "csv", "json"}, "text"}, {"a table of stop times", {"csv"}, "csv"}}};
 };
 

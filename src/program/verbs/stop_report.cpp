@@ -12,7 +12,6 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/final_motion.hpp"
-#include "input/csv_table.hpp"
 #include "output/columns.hpp"
 #include "output/json.hpp"
 

@@ -1,11 +1,10 @@
 #include "verbs/sweep.hpp"
 
 #include <algorithm>
-#include <array>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include "exit_status.hpp"
@@ -25,103 +24,100 @@ std::string_view as_bytes(const std::vector<double>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
 }
 
-void append_number(std::string& text, double value, char separator) {
-  std::array<char, 32> digits;
-  text.append(digits.data(), fmt::format_to_n(digits.data(), digits.size(), "{}", value).size) += separator;
-}
-
 std::vector<double> values_of(const Range& range, long begin, long count) {
   std::vector<double> values(static_cast<std::size_t>(count));
   for (double& value : values) value = range[begin++];
   return values;
 }
 
-/// What all workers share.
-struct Sweep {
-  const SweepRequest& request;
-  OutputFile& output;
-  long map;     ///< points of one mu
-  long points;  ///< of all
-  StopTimes stop_times;
-  Progress progress;
-  std::vector<double> u0;  ///< all values; empty if they are too many to be kept
-  long next = 0;           ///< point that is not taken yet
+/// A stretch of starts, all of one mu.
+struct Piece {
+  long begin = 0;  ///< number of the first start
+  double mu = 0;
+  std::vector<double> taus;
+  fmt::memory_buffer text;
 };
 
-/// Computes one stretch of points after the other, all of one mu.
-class SweepWorker final : public PieceWorker {
+class Sweep {
  public:
-  explicit SweepWorker(Sweep& sweep) : sweep_(sweep) {}
-
-  bool take() override {
-    begin_ = sweep_.next;
-    const long end_of_map = begin_ - begin_ % sweep_.map + sweep_.map;
-    end_ = std::min({begin_ + points_at_once, end_of_map, sweep_.points});
-    sweep_.next = end_;
-    return begin_ < end_;
+  Sweep(const SweepRequest& request, OutputFile& output)
+      : request_(request),
+        grid_(request.grid),
+        output_(output),
+        stop_times_(request.law, request.body, starts_of_mu_),
+        progress_("stop times", request.progress) {
+    if (grid_.u0.count() <= longest_kept_axis) u0_ = values_of(grid_.u0, 0, grid_.u0.count());
   }
 
-  void work() override {
-    const long mu_place = begin_ / sweep_.map;
-    if (mu_place != mu_place_) {
-      mu_place_ = mu_place;
-      mu_ = grid().mu[mu_place];
-      patch_ = sweep_.stop_times.of_patch(mu_);
-    }
-    taus_.resize(static_cast<std::size_t>(end_ - begin_));
-    text_.clear();
-    const long columns = grid().u0.count();
-    for (long point = begin_; point < end_;) {
-      const long column = point % columns;
-      const long count = std::min(columns - column, end_ - point);
-      const double v0 = grid().v0[point / columns % grid().v0.count()];
-      row(v0, column,
-          std::span(taus_).subspan(static_cast<std::size_t>(point - begin_), static_cast<std::size_t>(count)));
-      point += count;
-    }
-  }
-
-  void hand_on() override {
-    sweep_.output.write(sweep_.request.format == SweepFormat::npy ? as_bytes(taus_) : text_);
-    sweep_.progress.show(static_cast<double>(end_));
+  void run() {
+    work_in_order<Piece>(
+        request_.threads, [this](Piece& piece, const auto&) { return take(piece); },
+        [this](Piece& piece) { work(piece); }, [this](const Piece& piece) { hand_on(piece); });
+    progress_.finish(grid_.points());
   }
 
  private:
-  const SweepGrid& grid() const { return sweep_.request.grid; }
+  bool take(Piece& piece) {
+    if (next_ == starts_of_mu_ * grid_.mu.count()) return false;
+    const long count = std::min(points_at_once, starts_of_mu_ - next_ % starts_of_mu_);
+    piece.begin = next_;
+    piece.mu = grid_.mu[next_ / starts_of_mu_];
+    piece.taus.resize(static_cast<std::size_t>(count));
+    next_ += count;
+    return true;
+  }
+
+  void work(Piece& piece) {
+    const auto stop_times = stop_times_.of_patch(piece.mu);
+    const long columns = grid_.u0.count();
+    for (std::size_t done = 0; done < piece.taus.size();) {
+      const long start = piece.begin + static_cast<long>(done);
+      const std::size_t left = piece.taus.size() - done;
+      const std::size_t count = std::min(static_cast<std::size_t>(columns - start % columns), left);
+      const auto taus = std::span(piece.taus).subspan(done, count);
+      row(*stop_times, start % columns, grid_.v0[start / columns % grid_.v0.count()], taus, piece);
+      done += count;
+    }
+  }
+
+  void hand_on(const Piece& piece) {
+    output_.write(request_.format == SweepFormat::npy ? as_bytes(piece.taus)
+                                                      : std::string_view(piece.text.data(), piece.text.size()));
+    done_ += static_cast<double>(piece.taus.size());
+    progress_.show(done_, grid_.points());
+  }
 
   /// A part of a row, from a column on.
-  void row(double v0, long column, std::span<double> taus) {
+  void row(const PatchStopTimes& stop_times, long column, double v0, std::span<double> taus, Piece& piece) const {
     std::vector<double> computed;
-    std::span<const double> u0;
-    if (sweep_.u0.empty()) {
-      computed = values_of(grid().u0, column, static_cast<long>(taus.size()));
-      u0 = computed;
-    } else {
-      u0 = std::span(sweep_.u0).subspan(static_cast<std::size_t>(column), taus.size());
-    }
-    patch_->row(u0, v0, taus);
-    if (sweep_.request.format == SweepFormat::csv) append_lines(u0, v0, taus);
+    if (u0_.empty()) computed = values_of(grid_.u0, column, static_cast<long>(taus.size()));
+    const std::span<const double> u0 =
+        u0_.empty() ? std::span(computed) : std::span(u0_).subspan(static_cast<std::size_t>(column), taus.size());
+    stop_times.row(u0, v0, taus);
+    if (request_.format == SweepFormat::csv) append_lines(piece.text, piece.mu, u0, v0, taus);
   }
 
-  void append_lines(std::span<const double> u0, double v0, std::span<const double> taus) {
-    const std::string mu_text = fmt::format("{},", mu_);
-    const std::string v0_text = fmt::format("{},", v0);
+  static void append_lines(fmt::memory_buffer& text, double mu, std::span<const double> u0, double v0,
+                           std::span<const double> taus) {
+    const std::string mu_text = fmt::format("{},", mu);
+    const std::string v0_text = fmt::format(",{},", v0);
     for (std::size_t i = 0; i < taus.size(); ++i) {
-      text_ += mu_text;
-      append_number(text_, u0[i], ',');
-      text_ += v0_text;
-      append_number(text_, taus[i], '\n');
+      text.append(mu_text);
+      fmt::format_to(fmt::appender(text), FMT_COMPILE("{}"), u0[i]);
+      text.append(v0_text);
+      fmt::format_to(fmt::appender(text), FMT_COMPILE("{}\n"), taus[i]);
     }
   }
 
-  Sweep& sweep_;
-  long begin_ = 0;
-  long end_ = 0;
-  long mu_place_ = -1;
-  double mu_ = 0;
-  std::shared_ptr<const PatchStopTimes> patch_;  ///< of mu_
-  std::vector<double> taus_;
-  std::string text_;
+  const SweepRequest& request_;
+  const SweepGrid& grid_;
+  OutputFile& output_;
+  const long starts_of_mu_ = grid_.v0.count() * grid_.u0.count();
+  StopTimes stop_times_;
+  Progress progress_;
+  std::vector<double> u0_;  ///< all values; empty if they are too many to be kept
+  long next_ = 0;           ///< start that is not taken yet
+  double done_ = 0;
 };
 
 std::string heading(const SweepRequest& request) {
@@ -144,24 +140,13 @@ void sweep(const SweepRequest& request, OutputFile& output) {
     throw BadInput(
         fmt::format("{:.3g} starts are more than any file can hold: reduce N of --mu, --u0 or --v0", grid.points()));
   }
-  const long map = grid.v0.count() * grid.u0.count();
-  Sweep sweep{.request = request,
-              .output = output,
-              .map = map,
-              .points = map * grid.mu.count(),
-              .stop_times = {request.law, request.body, map},
-              .progress = {grid.points(), "stop times", request.progress},
-              .u0 = {}};
-  if (grid.u0.count() <= longest_kept_axis) sweep.u0 = values_of(grid.u0, 0, grid.u0.count());
   const std::string begins = heading(request);
   if (request.format == SweepFormat::npy) {
-    output.reserve(begins.size() + sizeof(double) * static_cast<std::size_t>(sweep.points));
+    const long points = grid.mu.count() * grid.v0.count() * grid.u0.count();
+    output.reserve(begins.size() + sizeof(double) * static_cast<std::size_t>(points));
   }
   output.write(begins);
-  std::vector<std::unique_ptr<PieceWorker>> workers;
-  for (int i = 0; i < request.threads; ++i) workers.push_back(std::make_unique<SweepWorker>(sweep));
-  work_in_order(workers);
-  sweep.progress.finish();
+  Sweep(request, output).run();
 }
 
 }  // namespace contensou::program

@@ -38,7 +38,7 @@ class SweepCommand final : public Verb {
     const Output out = output_.read();
     const reduction::Law law = law_.read();
     const int threads = threads_.read();
-    const bool progress = progress_.read();
+    const bool progress = progress_.read(out.path);
     if (const auto picture = out.picture()) {
       for (const Argument* argument : {&threads_.argument(), &progress_.argument()}) {
         if (argument->given()) argument->reject("is for npy and csv: a picture is of few starts, leave it out");

@@ -7,10 +7,10 @@
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "exit_status.hpp"
-#include "input/csv_table.hpp"
 #include "options/body_option.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
+#include "output/columns.hpp"
 #include "output/json.hpp"
 #include "verb.hpp"
 
