@@ -133,14 +133,25 @@ class Painter {
 
   PortraitOrbit orbit(State start) const {
     const Distance distance = [this](const OrbitPoint& a, const OrbitPoint& b) { return on_window(a, b); };
-    return columns(request_.route == Route::regularised ? stepped(start) : exact(start, distance));
+    return columns(request_.route == Route::regularised ? stepped(start) : exact(start, distance), start);
   }
 
   /// The orbit through a point, from where it enters the window.
   PortraitOrbit orbit_through(State point) const { return orbit(entry(point)); }
 
-  /// From next to an unstable node at infinity to the origin.
-  PortraitOrbit whole_curve(reduction::InvariantDirection birth) const {
+  /// From next to infinity to the origin, one for each curve of the solution.
+  std::vector<WholeCurve> whole_curves() const {
+    std::vector<WholeCurve> curves;
+    for (const auto& curve : solution_.curves()) {
+      const reduction::Approach& approach = curve->approach();
+      curves.push_back(
+          {whole_curve(approach), std::exp(approach.log_far_ratio()), std::exp(approach.log_terminal_ratio())});
+    }
+    std::ranges::sort(curves, {}, [](const WholeCurve& curve) { return std::min(curve.k_from, curve.k_to); });
+    return curves;
+  }
+
+  PortraitOrbit whole_curve(const reduction::Approach& approach) const {
     const double mu = system_.mu();
     const Distance distance = [mu](const OrbitPoint& a, const OrbitPoint& b) {
       const double turn = std::abs(std::atan(a.k) - std::atan(b.k)) / 0.02;
@@ -148,8 +159,15 @@ class Painter {
       const double shrink = std::abs(std::log(std::hypot(mu * a.u, a.v) / std::hypot(mu * b.u, b.v))) / 0.1;
       return std::max({turn, ratio, std::isfinite(shrink) ? shrink : 0});
     };
-    const double k = birth == reduction::InvariantDirection::sliding ? steepest_ : 1 / steepest_;
-    return columns(exact({1 / mu, k}, distance));
+    // Steep; or, from a ray, so much beside it that it is told from it.
+    const double end = std::exp(approach.log_terminal_ratio());
+    const double far = std::exp(approach.log_far_ratio());
+    constexpr double beside = 14;  // exp(-14) = 1e-6
+    const double from_ray = (approach.side() == reduction::Approach::Side::above ? 1 : -1) * approach.log_far_ratio();
+    const double k = far == 0          ? std::min(1 / steepest_, 1e-3 * end)
+                     : std::isinf(far) ? std::max(steepest_, 1e3 * end)
+                                       : std::exp(approach.log_ratio(from_ray + beside));
+    return columns(exact({1 / mu, k}, distance), {1 / mu, k});
   }
 
   StopProfile profile() const {
@@ -219,7 +237,8 @@ class Painter {
 
   Track exact(State start, const Distance& distance) const { return exact_track(motion(start), distance); }
 
-  PortraitOrbit columns(const Track& track) const {
+  PortraitOrbit columns(const Track& track, State start) const {
+    const double k_stop = terminal_.end_of(start.u == 0 ? infinity : start.v / (system_.mu() * std::abs(start.u))).k;
     const auto rows = static_cast<Eigen::Index>(track.size());
     const Eigen::ArrayXd empty(rows);
     PortraitOrbit result{empty, empty, empty, empty, empty};
@@ -229,7 +248,7 @@ class Painter {
       result.v[i] = point.v;
       result.ln_v[i] = point.ln_v;
       const bool rest = point.u == 0 && point.v == 0;
-      result.ln_k[i] = rest ? std::log(terminal_k_) : log_ratio(point, system_.mu());
+      result.ln_k[i] = rest ? std::log(k_stop) : log_ratio(point, system_.mu());
       result.tau_left[i] = left;
     }
     return result;
@@ -246,27 +265,27 @@ class Painter {
     return std::max({u, v, ratio, folds});
   }
 
-  /// Where the orbit through a point enters the window: backwards k leaves its limit, and the state at any earlier k is
-  /// found by scaling an orbit that starts there onto the point.
+  /// Where the orbit through a point enters the window: backwards along its curve, scaled onto the point.
   State entry(State point) const {
     const double mu = system_.mu();
     const double ln_k = std::log(point.v / (mu * std::abs(point.u)));
-    const auto upstream = [&](double earlier) {
-      const double k = std::exp(earlier);
-      const double factor = std::abs(point.u) / motion({1 / mu, k}).at_log_ratio(ln_k).u;
-      return State{std::copysign(factor / mu, point.u), factor * k};
+    const reduction::SimilarityCurve& curve = *solution_.through(ln_k);
+    const double here = curve.approach().coordinate(ln_k);
+    const auto upstream = [&](double xi) {
+      if (xi == here) return point;
+      const double w = mu * std::abs(point.u) * std::exp(curve.log_rim(xi) - curve.log_rim(here));
+      return State{std::copysign(w / mu, point.u), w * std::exp(curve.approach().log_ratio(xi))};
     };
-    const auto outside = [this](State state) { return std::abs(state.u) > window_.u || state.v > window_.v; };
-    const double away = ln_k >= std::log(terminal_k_) ? 1 : -1;
-    double inside = ln_k;
+    const auto outside = [this](State state) { return !(std::abs(state.u) <= window_.u && state.v <= window_.v); };
+    double inside = here;
     double step = 1;
-    while (!outside(upstream(inside + away * step))) {
-      inside += away * step;
+    while (!outside(upstream(inside + step))) {
+      inside += step;
       step *= 1.5;
     }
     for (int i = 0; i < 50; ++i) {
       step /= 2;
-      if (!outside(upstream(inside + away * step))) inside += away * step;
+      if (!outside(upstream(inside + step))) inside += step;
     }
     return upstream(inside);
   }
@@ -342,7 +361,7 @@ class Painter {
   Window window_;
   const PortraitRequest& request_;
   double steepest_ = std::max(largest_k, 1e3 * window_.v / (system_.mu() * window_.u));
-  double terminal_k_ = reduction::terminal_ratio(system_.law(), system_.r()).k;
+  reduction::TerminalRatios terminal_ = reduction::terminal_ratios(system_.law(), system_.r());
   reduction::SimilaritySolution solution_;
 };
 
@@ -398,11 +417,7 @@ PhasePortrait portrait_in(const ReducedSystem& system, View view, Window window,
       portrait.orbits.push_back(mirrored(portrait.orbits.back()));
     }
   }
-  for (const reduction::SingularPoint& point : portrait.plane.points) {
-    if (!whole && speeds) break;
-    if (point.place != reduction::SingularPlace::infinity || point.direction == portrait.plane.tangent) continue;
-    portrait.curves.push_back(painter.whole_curve(point.direction));
-  }
+  if (whole || !speeds) portrait.curves = painter.whole_curves();
   if (request.highlight && (request.highlight->u != 0 || request.highlight->v != 0)) {
     portrait.highlight = painter.orbit(*request.highlight);
   }

@@ -46,14 +46,11 @@ Polyline half_circle(double radius) {
 
 /// Copies of each curve that cross the middle of its sector at even steps of the radius.
 std::vector<PortraitPanel::Copy> evenly(const PhasePortrait& portrait, const PolarMap& map, int count) {
-  const std::vector<double> angles = invariant_angles(portrait);
   std::vector<PortraitPanel::Copy> copies;
-  for (const PortraitOrbit& curve : portrait.curves) {
-    // The sector that the curve crosses: from where it is born to the tangent.
-    const bool from_sliding = curve.ln_k[0] > 0;
-    const double low = from_sliding && angles.size() > 2 ? angles[1] : 0;
-    const double high = from_sliding || angles.size() == 2 ? pi / 2 : angles[1];
-    const Instant at = at_log_ratio(curve, std::log(std::tan((low + high) / 2)));
+  for (const WholeCurve& curve : portrait.curves) {
+    // At the middle of the sector that the curve crosses.
+    const double middle = (std::atan(curve.k_from) + std::atan(curve.k_to)) / 2;
+    const Instant at = at_log_ratio(curve, std::log(std::tan(middle)));
     const double rho = std::hypot(portrait.system.mu() * at.u, at.v);
     for (int i = 0; i < count; ++i) {
       const double radius = map.hole + (1 - map.hole) * (i + 0.5) / count;
@@ -125,15 +122,13 @@ Panel polar_panel(const Drawing& drawing, double hole) {
   });
   layers.set_arrows(0.4, 0.02);
   layers.add_orbits([&](const PhasePortrait& of) { return evenly(of, map, 10); });
-  std::vector<Polyline> axes, ray;
-  for (double theta : invariant_angles(portrait)) {
-    std::vector<Polyline>& lines = theta > 0 && theta < pi / 2 ? ray : axes;
-    for (double sign : {1.0, -1.0}) {
-      if (sign < 0 && theta == pi / 2) continue;
-      lines.push_back({map.at(0, theta, sign), map.at(std::numeric_limits<double>::infinity(), theta, sign)});
-    }
-  }
-  layers.add_invariant(std::move(axes), std::move(ray));
+  const auto half_line = [&](double theta, double sign) {
+    return Polyline{map.at(0, theta, sign), map.at(std::numeric_limits<double>::infinity(), theta, sign)};
+  };
+  layers.add_invariant({half_line(0, 1), half_line(0, -1), half_line(pi / 2, 1)}, [&](double ln_k) {
+    const double theta = std::atan(std::exp(ln_k));
+    return std::vector{half_line(theta, 1), half_line(theta, -1)};
+  });
   layers.add_highlights();
   panel = std::move(layers).finished();
   panel.lines.push_back({{half_circle(1)}, {drawing.palette.invariant, 1.2, false}, ""});
@@ -164,6 +159,18 @@ std::vector<double> invariant_angles(const PhasePortrait& portrait) {
   return angles;
 }
 
+std::vector<double> ray_log_ratios(const PhasePortrait& portrait) {
+  std::vector<double> ln_k;
+  for (const reduction::InvariantRay& ray : portrait.plane.terminal.rays) ln_k.push_back(std::log(ray.k));
+  return ln_k;
+}
+
+double spread_log_ratio(const WholeCurve& curve, double away) {
+  const auto [low, high] = std::minmax({std::log(curve.k_from), std::log(curve.k_to)});
+  if (std::isfinite(low) && std::isfinite(high)) return (low + high) / 2;
+  return std::isfinite(low) ? low + away : std::isfinite(high) ? high - away : 0;
+}
+
 bool reaches(const PortraitOrbit& curve, double ln_k) {
   return (curve.ln_k[0] - ln_k) * (curve.ln_k[curve.rows() - 1] - ln_k) < 0;
 }
@@ -187,7 +194,6 @@ Instant at_log_ratio(const PortraitOrbit& curve, double ln_k) {
 std::vector<Panel> disc_view(const Drawing& drawing) { return {polar_panel(drawing, 0)}; }
 
 std::vector<Panel> blowup_view(const Drawing& drawing) {
-  using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
   constexpr double hole = 0.35;
   Panel polar = polar_panel(drawing, hole);
@@ -195,8 +201,8 @@ std::vector<Panel> blowup_view(const Drawing& drawing) {
 
   // The chart v = q u, with k = q/mu.
   const double U = portrait.window.u;
-  const double k_star = portrait.plane.tangent == InvariantDirection::ray ? portrait.plane.terminal.k : 0;
-  const double top = k_star > 0 ? 2.5 * k_star : 3;
+  const std::vector<double> rays = ray_log_ratios(portrait);
+  const double top = rays.empty() ? 3 : 2.5 * std::exp(rays.back());
   Panel chart;
   chart.title = "the chart {/:Italic u}, {/:Italic k = v}/({/:Italic μu}); {/:Italic u} = 0 is the origin";
   chart.x = {drawing.speed("{/:Italic u}"), 0, U, false, {}};
@@ -205,21 +211,22 @@ std::vector<Panel> blowup_view(const Drawing& drawing) {
     return Point{at.u, std::min(std::exp(at.ln_k), 100 * top)};
   });
   layers.add_orbits([&](const PhasePortrait& of) {
-    const bool ray = of.plane.tangent == InvariantDirection::ray;
+    const bool ray = !of.plane.terminal.rays.empty();
     std::vector<PortraitPanel::Copy> copies;
-    for (const PortraitOrbit& curve : of.curves) {
+    for (const WholeCurve& curve : of.curves) {
       constexpr int count = 12;
-      const bool from_above = curve.ln_k[0] > 0;
-      const double on_ray = of.plane.terminal.k;
-      const double k = from_above ? (ray ? 1.6 * on_ray : top) : (ray ? 0.45 * on_ray : top / 3);
-      const double u = at_log_ratio(curve, std::log(k)).u;
+      const bool falls = curve.k_from > curve.k_to;
+      const double ln_k =
+          ray ? spread_log_ratio(curve, falls ? std::log(1.6) : -std::log(0.45)) : std::log(falls ? top : top / 3);
+      const double u = at_log_ratio(curve, ln_k).u;
       for (int i = 0; i < count; ++i) copies.push_back({curve, (i + 0.5) / count * U * (ray ? 1.6 : 1) / u});
     }
     return copies;
   });
-  std::vector<Polyline> ray;
-  if (k_star > 0) ray = {{{0, k_star}, {U, k_star}}};
-  layers.add_invariant({{{0, 0}, {U, 0}}, {{0, 0}, {0, top}}}, std::move(ray));
+  layers.add_invariant({{{0, 0}, {U, 0}}, {{0, 0}, {0, top}}}, [&](double ln_k) {
+    const double k = std::exp(ln_k);
+    return std::vector<Polyline>{{{0, k}, {U, k}}};
+  });
   layers.add_highlights();
   return {std::move(polar), std::move(layers).finished()};
 }

@@ -26,10 +26,6 @@ Copies seeded(const PhasePortrait& portrait) {
   return copies;
 }
 
-double k_of_ray(const PhasePortrait& portrait) {
-  return portrait.plane.tangent == reduction::InvariantDirection::ray ? portrait.plane.terminal.k : 0;
-}
-
 /// The half-plane with the sides of the window in units of u and v.
 Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   Panel panel;
@@ -44,10 +40,10 @@ Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   }
   layers.add_field([unit](Point at) { return reduction::State{at.x / unit, at.y}; });
   const double x = unit * U;
-  const double slope = k_of_ray(drawing.portrait) * drawing.portrait.system.mu() / unit;  // v over x on the ray
-  std::vector<Polyline> ray;
-  if (slope > 0) ray = {{{0, 0}, {x, slope * x}}, {{0, 0}, {-x, slope * x}}};
-  layers.add_invariant({{{-x, 0}, {x, 0}}, {{0, V}, {0, 0}}}, std::move(ray));
+  layers.add_invariant({{{-x, 0}, {x, 0}}, {{0, V}, {0, 0}}}, [&](double ln_k) {
+    const double slope = std::exp(ln_k) * drawing.portrait.system.mu() / unit;  // v over x
+    return std::vector<Polyline>{{{0, 0}, {x, slope * x}}, {{0, 0}, {-x, slope * x}}};
+  });
   layers.add_highlights();
   return std::move(layers).finished();
 }
@@ -66,17 +62,18 @@ Panel contact_panel(const Drawing& drawing) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
   const double U = portrait.window.u;
-  const double order = portrait.plane.contact_order;
+  const auto& [direction, k_star, order] = portrait.plane.tangents.front();
+  const std::vector<double> rays = ray_log_ratios(portrait);
   constexpr double shrinks = 20;  // u falls to this share
   constexpr int per_side = 12;
   constexpr double reach = 3;
   Panel panel;
   panel.x = {drawing.speed("{/:Italic u} = {/:Italic R ω_z}"), -U, U, false, {}};
   panel.y = {"ln {/:Italic k},   {/:Italic k = v}/({/:Italic μ}|{/:Italic u}|)", 0, 0, false, {}};
-  const bool pivoting = portrait.plane.tangent == InvariantDirection::pivoting;
+  const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
   // Where orbits are seeded: at the top, or around the middle.
   const double top = std::log(portrait.window.v / (portrait.system.mu() * U));
-  const double middle = portrait.plane.tangent == InvariantDirection::ray ? std::log(portrait.plane.terminal.k) : 2;
+  const auto [lowest, highest] = rays.empty() ? std::pair{2.0, 2.0} : std::pair{rays.front(), rays.back()};
   if (pivoting) {
     const double depth = std::max(order * std::log(shrinks), 8.0);
     panel.title = fmt::format("orbits touch the axis {{/:Italic v}} = 0:  {{/:Italic k}} ∝ |{{/:Italic u}}|^{{{}}}",
@@ -84,19 +81,21 @@ Panel contact_panel(const Drawing& drawing) {
     panel.y.low = top - depth;
     panel.y.high = top + 0.02 * depth;
   } else {
-    panel.title = portrait.plane.tangent == InvariantDirection::ray
-                      ? "orbits touch the ray {/:Italic k} = {/:Italic k}*"
-                      : "orbits touch the axis {/:Italic u} = 0";
-    panel.y.low = middle - reach;
-    panel.y.high = middle + reach;
+    panel.title = rays.empty()                          ? "orbits touch the axis {/:Italic u} = 0"
+                  : portrait.plane.tangents.size() == 1 ? "orbits touch the ray {/:Italic k} = {/:Italic k}*"
+                                                        : "orbits touch one of several lines";
+    panel.y.low = lowest - reach;
+    panel.y.high = highest + reach;
   }
   const auto copies_of = [=](const PhasePortrait& of) {
     Copies copies;
-    for (const PortraitOrbit& curve : of.curves) {
+    for (const WholeCurve& curve : of.curves) {
       if (!pivoting) {
-        const double side = curve.ln_k[0] > middle ? 1 : -1;
-        add_evenly(copies, curve, middle + side * reach, U, per_side);
-        add_evenly(copies, curve, middle + side * 0.3 * reach, 3 * U, per_side);
+        const bool above = curve.k_from > curve.k_to;
+        const double far = rays.empty() ? 2 + (above ? reach : -reach) : spread_log_ratio(curve, reach);
+        const double near = rays.empty() ? 2 + 0.3 * (above ? reach : -reach) : spread_log_ratio(curve, 0.3 * reach);
+        add_evenly(copies, curve, far, U, per_side);
+        add_evenly(copies, curve, near, 3 * U, per_side);
         continue;
       }
       add_evenly(copies, curve, top, U, per_side);
@@ -117,9 +116,7 @@ Panel contact_panel(const Drawing& drawing) {
   layers.set_arrows(0.3, 0.06);
   layers.add_orbits(copies_of);
   layers.add_highlights();
-  std::vector<Polyline> ray;
-  if (k_of_ray(portrait) > 0) ray = {{{-U, std::log(k_of_ray(portrait))}, {U, std::log(k_of_ray(portrait))}}};
-  layers.add_invariant({}, std::move(ray));
+  layers.add_invariant({}, [U](double ln_k) { return std::vector<Polyline>{{{-U, ln_k}, {U, ln_k}}}; });
   return std::move(layers).finished();
 }
 
@@ -146,18 +143,19 @@ std::vector<Panel> log_view(const Drawing& drawing) {
   const double corner = std::log(portrait.window.v);
   constexpr double shrinks = 3;  // e-folds of the speed that outlives
   constexpr double above = 3;    // from which k = 1 is seen
-  const double slope = 1 + portrait.plane.contact_order;
-  const bool spins_last = portrait.plane.tangent != InvariantDirection::sliding;
+  const auto& [direction, k_star, order] = portrait.plane.tangents.front();
+  const double slope = 1 + order;
+  const bool spins_last = direction != InvariantDirection::sliding;
   const double x_range = spins_last ? shrinks + 1 : shrinks * slope + above;
   const double y_range = spins_last ? shrinks * slope + above : shrinks + 1;
-  const double k_star = k_of_ray(portrait);
+  const std::vector<double> rays = ray_log_ratios(portrait);
   Panel panel;
   panel.x = {"ln {/:Italic μ}|{/:Italic u}|", corner - x_range, corner, false, {}};
   panel.y = {
       "ln {/:Italic v}", corner + (spins_last ? above : 1) - y_range, corner + (spins_last ? above : 1), false, {}};
-  if (k_star > 0) {
+  if (!rays.empty()) {
     panel.x.low = corner - 6;
-    panel.y = {"ln {/:Italic v}", corner - 6 + std::log(k_star), corner + 1 + std::log(k_star), false, {}};
+    panel.y = {"ln {/:Italic v}", corner - 6 + rays.front(), corner + 1 + rays.back(), false, {}};
   }
   // Minus infinity is a point far beyond the borders.
   const Point nowhere{panel.x.low - 10 * x_range, panel.y.low - 10 * y_range};
@@ -167,14 +165,13 @@ std::vector<Panel> log_view(const Drawing& drawing) {
   layers.add_orbits([&](const PhasePortrait& of) {
     // Translates along the diagonal, evenly across the panel.
     constexpr int count = 14;
-    const double ray = k_of_ray(of) > 0 ? std::log(k_of_ray(of)) : 0;
     Copies copies;
-    for (const PortraitOrbit& curve : of.curves) {
-      const double ln_k = k_of_ray(of) > 0 ? ray + (curve.ln_k[0] > ray ? 1 : -1) : 0;
+    for (const WholeCurve& curve : of.curves) {
+      const double ln_k = spread_log_ratio(curve, 1);
       if (!reaches(curve, ln_k)) continue;
       const double w = ln_mu + std::log(at_log_ratio(curve, ln_k).u);
-      const double first = spins_last && k_star == 0 ? panel.x.low : panel.x.low - 6;
-      const double last = spins_last && k_star == 0 ? panel.x.high + shrinks : panel.x.high + 6;
+      const double first = spins_last && rays.empty() ? panel.x.low : panel.x.low - 6;
+      const double last = spins_last && rays.empty() ? panel.x.high + shrinks : panel.x.high + 6;
       for (int i = 0; i < count; ++i)
         copies.push_back({curve, std::exp(first + (i + 0.5) * (last - first) / count - w)});
     }
@@ -185,10 +182,9 @@ std::vector<Panel> log_view(const Drawing& drawing) {
     layers.panel().lines.push_back({{{{panel.y.low, panel.y.low}, {panel.y.high, panel.y.high}}},
                                     {drawing.palette.isochrone, 1.1, true},
                                     "{/:Italic k} = 1"});
-  std::vector<Polyline> ray;
-  const double shift = k_star > 0 ? std::log(k_star) : 0;
-  if (k_star > 0) ray = {{{panel.y.low - shift, panel.y.low}, {panel.y.high - shift, panel.y.high}}};
-  layers.add_invariant({}, std::move(ray));
+  layers.add_invariant({}, [&](double ln_k) {
+    return std::vector<Polyline>{{{panel.y.low - ln_k, panel.y.low}, {panel.y.high - ln_k, panel.y.high}}};
+  });
   layers.add_highlights();
   return {std::move(layers).finished()};
 }

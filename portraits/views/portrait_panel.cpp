@@ -420,14 +420,20 @@ void PortraitPanel::add_isochrones(const std::vector<double>& times) {
   panel_.lines.insert(panel_.lines.begin(), std::move(lines));
 }
 
-void PortraitPanel::add_invariant(std::vector<Polyline> axes, std::vector<Polyline> ray) {
+void PortraitPanel::add_invariant(std::vector<Polyline> axes,
+                                  const std::function<std::vector<Polyline>(double ln_k)>& ray) {
   if (!drawing_.style.invariant) return;
   if (!axes.empty()) {
     panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 2.2, false}, "invariant axes"});
   }
-  if (!ray.empty()) {
-    panel_.lines.push_back(
-        {std::move(ray), {drawing_.palette.rival, 2.2, false}, "invariant ray {/:Italic k} = {/:Italic k}*"});
+  Lines attracting{{}, {drawing_.palette.rival, 2.2, false}, "invariant ray {/:Italic k} = {/:Italic k}*"};
+  Lines repelling{{}, {drawing_.palette.rival, 2.2, true}, "invariant ray that orbits leave"};
+  for (const reduction::InvariantRay& of : drawing_.portrait.plane.terminal.rays) {
+    Lines& lines = of.attracts_above || of.attracts_below ? attracting : repelling;
+    std::ranges::move(ray(std::log(of.k)), std::back_inserter(lines.lines));
+  }
+  for (Lines& lines : {std::ref(attracting), std::ref(repelling)}) {
+    if (!lines.lines.empty()) panel_.lines.push_back(std::move(lines));
   }
 }
 

@@ -85,7 +85,8 @@ class PortraitPanel {
   void add_isochrones(const std::vector<double>& times);
   /// Those of another law, without labels.
   void add_rival_isochrones(const std::vector<double>& times, const PhasePortrait& rival);
-  void add_invariant(std::vector<Polyline> axes, std::vector<Polyline> ray);
+  /// @param ray  the line of an invariant ray, by its ln k
+  void add_invariant(std::vector<Polyline> axes, const std::function<std::vector<Polyline>(double ln_k)>& ray);
   /// @param state  the state at a point of the panel; u = v = 0 where there is none
   void add_field(const std::function<reduction::State(Point)>& state);
 

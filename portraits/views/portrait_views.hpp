@@ -21,6 +21,12 @@ std::vector<Panel> pair_view(const Drawing& drawing);        ///< (u, v) beside 
 /// Whether ln k passes that value along a whole curve.
 bool reaches(const PortraitOrbit& curve, double ln_k);
 
+/// ln k of the invariant rays, by growing k.
+std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
+
+/// ln k at which copies of a whole curve are spread: half-way between two rays, `away` from the only one, 0 without.
+double spread_log_ratio(const WholeCurve& curve, double away);
+
 /// The state at which a whole curve has that ln k, interpolated between its rows; the last that it reaches otherwise.
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 

@@ -1,7 +1,7 @@
 // Canonical coordinates: the symmetry (u, v) -> (c u, c v) moves p = ln v alone, so orbits are translates of one curve.
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "views/portrait_views.hpp"
 
@@ -14,8 +14,7 @@ constexpr double step = 0.8;       // between translates, or more where k hardly
 constexpr int most = 24;           // translates of a curve
 
 /// One panel: translates of each curve, with the arrow of the symmetry.
-Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
-                 double ray_at) {
+Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa) {
   const double middle = std::log(drawing.portrait.window.v);
   axes.y = {"{/:Italic p} = ln {/:Italic v}", middle - half_height, middle + half_height, false, {}};
   const double below = middle - 100 * half_height;
@@ -24,9 +23,9 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
   });
   layers.add_orbits([&](const PhasePortrait& of) {
     std::vector<PortraitPanel::Copy> copies;
-    const double ray = of.plane.tangent == reduction::InvariantDirection::ray ? std::log(of.plane.terminal.k) : 0;
-    for (const PortraitOrbit& curve : of.curves) {
-      const Instant at = at_log_ratio(curve, ray + (curve.ln_k[0] > ray ? 1 : -1));
+    const std::vector<double> rays = ray_log_ratios(drawing.portrait);
+    for (const WholeCurve& curve : of.curves) {
+      const Instant at = at_log_ratio(curve, spread_log_ratio(curve, 1));
       // From the one that only touches the lower border to the one that only touches the upper, but next to an axis or
       // a ray, which no number of them would reach.
       const Axis& x = layers.panel().x;
@@ -34,8 +33,9 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
       double rise = 0, fall = 0;
       for (Eigen::Index i = 0; i < curve.rows(); ++i) {
         const double there = abscissa(curve.ln_k[i]);
+        const auto hides = [&](double ray) { return std::abs(there - abscissa(ray)) < margin; };
         const bool seen = there >= x.low + margin && there <= x.high - margin;
-        if (!seen || std::abs(there - ray_at) < margin) continue;
+        if (!seen || std::ranges::any_of(rays, hides)) continue;
         rise = std::max(rise, curve.ln_v[i] - at.ln_v);
         fall = std::max(fall, at.ln_v - curve.ln_v[i]);
       }
@@ -47,7 +47,10 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
     return copies;
   });
   const Axis& y = layers.panel().y;
-  if (std::isfinite(ray_at)) layers.add_invariant({}, {{{ray_at, y.low}, {ray_at, y.high}}});
+  layers.add_invariant({}, [&](double ln_k) {
+    const double x = abscissa(ln_k);
+    return std::vector<Polyline>{{{x, y.low}, {x, y.high}}};
+  });
   layers.add_highlights();
   // What the symmetry does.
   Panel panel = std::move(layers).finished();
@@ -62,22 +65,19 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
 }  // namespace
 
 std::vector<Panel> similarity_view(const Drawing& drawing) {
-  using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
   const double mu = portrait.system.mu();
-  const double k_star = portrait.plane.tangent == InvariantDirection::ray ? portrait.plane.terminal.k
-                                                                          : std::numeric_limits<double>::infinity();
-  const double centre = std::isfinite(k_star) ? std::log(k_star) : 0;
+  const std::vector<double> rays = ray_log_ratios(portrait);
+  const auto [low, high] = rays.empty() ? std::pair{0.0, 0.0} : std::pair{rays.front(), rays.back()};
   Panel by_q, by_ratio;
   by_q.title = "{/:Italic q = v}/{/:Italic u}: the symmetry moves {/:Italic p} alone";
-  by_q.x = {"{/:Italic q = μk}", 0, mu * (std::isfinite(k_star) ? 3 * k_star : 4), false, {}};
+  by_q.x = {"{/:Italic q = μk}", 0, mu * (rays.empty() ? 4 : 3 * std::exp(high)), false, {}};
   by_ratio.title = "the same against ln {/:Italic k}";
-  by_ratio.x = {"ln {/:Italic k}", centre - 4, centre + 4, false, {}};
+  by_ratio.x = {"ln {/:Italic k}", low - 4, high + 4, false, {}};
   std::vector<Panel> panels;
-  panels.push_back(translates(
-      drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); }, mu * k_star));
-  panels.push_back(translates(
-      drawing, std::move(by_ratio), [](double ln_k) { return std::max(ln_k, -1e3); }, std::log(k_star)));
+  panels.push_back(
+      translates(drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); }));
+  panels.push_back(translates(drawing, std::move(by_ratio), [](double ln_k) { return std::max(ln_k, -1e3); }));
   return panels;
 }
 

@@ -42,18 +42,18 @@ std::vector<Panel> time_view(const Drawing& drawing) {
   k.title = "ln {/:Italic k}";
   for (Panel* panel : {&u, &v}) panel->y = {"", 0, 1.04, false, {}};
   for (Panel* panel : {&u, &v, &k}) panel->x = {time, 0, 1, false, {}};
-  const double limit = portrait.plane.terminal.k;
+  const std::vector<double> rays = ray_log_ratios(portrait);
   const double highest = std::log(shares[4] / (system.r() * system.law().pivoting_moment()));
   k.y = {"", 0, 0, false, {}};
-  if (limit == 0) {
+  if (!rays.empty()) {
+    k.y.low = rays.front() - 3;
+    k.y.high = rays.back() + 3;
+  } else if (portrait.plane.terminal.ends.front().k == 0) {
     k.y.low = std::min(-6.0, highest - 10);
     k.y.high = highest + 1;
-  } else if (std::isinf(limit)) {
+  } else {
     k.y.low = highest - 6;
     k.y.high = highest + 6;
-  } else {
-    k.y.low = std::log(limit) - 3;
-    k.y.high = std::log(limit) + 3;
   }
 
   const auto add = [&](const Course& line, Stroke stroke, const std::string& legend) {
@@ -87,9 +87,10 @@ std::vector<Panel> time_view(const Drawing& drawing) {
         },
         [&](double) { return law_legend(rival); });
   }
-  if (limit > 0 && std::isfinite(limit) && drawing.style.invariant) {
-    k.lines.push_back(
-        {{{{0, std::log(limit)}, {1, std::log(limit)}}}, {drawing.palette.rival, 1.6, true}, "{/:Italic k}*"});
+  if (!rays.empty() && drawing.style.invariant) {
+    Lines lines{{}, {drawing.palette.rival, 1.6, true}, rays.size() == 1 ? "{/:Italic k}*" : "invariant rays"};
+    for (double ln_k : rays) lines.lines.push_back({{0, ln_k}, {1, ln_k}});
+    k.lines.push_back(std::move(lines));
   }
   if (!drawing.style.asked) return {std::move(u), std::move(v), std::move(k)};
   std::vector<const PortraitOrbit*> asked;

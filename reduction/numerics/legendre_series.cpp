@@ -65,6 +65,17 @@ LegendreSeries LegendreSeries::antiderivative() const {
   return integral;
 }
 
+LegendreSeries LegendreSeries::derivative() const {
+  // P_j' = (2j - 1) P_{j-1} + P_{j-2}'.
+  LegendreSeries slope;
+  auto c = coefficients_;
+  for (int j = order; j >= 1; --j) {
+    slope.coefficients_[j - 1] = (2 * j - 1) * c[j];
+    if (j >= 2) c[j - 2] += c[j];
+  }
+  return slope;
+}
+
 LegendreSeries LegendreSeries::mirrored() const {
   LegendreSeries mirror = *this;
   for (int j = 1; j <= order; j += 2) mirror.coefficients_[j] = -mirror.coefficients_[j];

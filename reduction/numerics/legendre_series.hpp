@@ -20,6 +20,8 @@ class LegendreSeries {
   /// The antiderivative that vanishes at -1.
   LegendreSeries antiderivative() const;
 
+  LegendreSeries derivative() const;
+
   /// t -> f(-t).
   LegendreSeries mirrored() const;
 

@@ -10,40 +10,65 @@ constexpr int order = LegendreSeries::order;
 using Samples = LegendreSeries::Samples;
 using Matrix = Eigen::Matrix<double, order, order>;
 
-/// Whether exp of the integral of h is a polynomial of that order to the last bit.
-bool moderate(const Samples& rate) { return rate.maxCoeff() <= 1.5 && rate.maxCoeff() - rate.minCoeff() <= 1; }
+/// Whether exp of the integral of h/d is a polynomial of that order to the last bit.
+bool moderate(const Samples& drag, const Samples& rate) {
+  if (!(rate <= 1.5 * drag).all() || !(drag.minCoeff() > 0)) return false;
+  const Samples ratio = rate / drag;
+  return ratio.maxCoeff() - ratio.minCoeff() <= 1;
+}
 
-/// Samples of a function -> samples of its antiderivative that vanishes at -1.
+/// Whether d y' is small beside h y for every polynomial y of that order.
+bool forgetful(const Samples& drag, const Samples& rate) { return drag.maxCoeff() * (order * order) < rate.minCoeff(); }
+
+/// Samples of a function -> samples of a linear function of it.
+template <class Operation>
+Matrix matrix_of(Operation operation) {
+  Matrix columns;
+  for (int j = 0; j < order; ++j) {
+    columns.col(j) = operation(LegendreSeries::through(Matrix::Identity().col(j).array())).samples().matrix();
+  }
+  return columns;
+}
+
+/// Samples of the antiderivative that vanishes at -1.
 const Matrix& integration() {
-  static const Matrix matrix = [] {
-    Matrix columns;
-    for (int j = 0; j < order; ++j) {
-      columns.col(j) = LegendreSeries::through(Matrix::Identity().col(j).array()).antiderivative().samples().matrix();
-    }
-    return columns;
-  }();
+  static const Matrix matrix = matrix_of([](const LegendreSeries& series) { return series.antiderivative(); });
   return matrix;
 }
 
-/// z' at the points, for  z' + h z = g,  z(-1) = 0; so does the next.
+const Matrix& differentiation() {
+  static const Matrix matrix = matrix_of([](const LegendreSeries& series) { return series.derivative(); });
+  return matrix;
+}
+
+/// z' at the points, for  z' + h z = g,  z(-1) = 0.
 Samples slope_by_factor(const Samples& rate, const Samples& source) {
   const Samples factor = LegendreSeries::through(rate).antiderivative().samples().exp();
   return source - rate * (LegendreSeries::through(factor * source).antiderivative().samples() / factor);
 }
 
-Samples slope_by_collocation(const Samples& rate, const Samples& source) {
-  // z = A z', so (1 + h A) z' = g.
-  const Matrix system = Matrix::Identity() + rate.matrix().asDiagonal() * integration();
-  return system.partialPivLu().solve(source.matrix()).array();
+/// z' at the points, for  d z' + h z = g,  z(-1) = 0.
+Samples slope_by_collocation(const Samples& drag, const Samples& rate, const Samples& source) {
+  // z = A z', so (d + h A) z' = g; the rows where d vanishes with 1 + t as large as the others.
+  const Samples unit = drag + rate * (LegendreSeries::points() + 1);
+  Matrix system = (rate / unit).matrix().asDiagonal() * integration();
+  system.diagonal().array() += drag / unit;
+  return system.partialPivLu().solve((source / unit).matrix()).array();
 }
 
 }  // namespace
 
-LegendreSeries relax(const Samples& rate, const Samples& source, double start) {
+LegendreSeries relax(const Samples& drag, const Samples& rate, const Samples& source, double start) {
+  if (forgetful(drag, rate)) {
+    Matrix system = (drag / rate).matrix().asDiagonal() * differentiation();
+    system.diagonal().array() += 1;
+    return LegendreSeries::through(system.partialPivLu().solve((source / rate).matrix()).array());
+  }
   // For z = y - start: where h and g share a noise, g/h does not have it, and nor has y. As the antiderivative of z':
   // a series through y itself would amplify its rounding at the ends, where one panel hands over to the next.
   const Samples change = source - rate * start;
-  const Samples slope = moderate(rate) ? slope_by_factor(rate, change) : slope_by_collocation(rate, change);
+  const Samples slope =
+      moderate(drag, rate) ? slope_by_factor(rate / drag, change / drag) : slope_by_collocation(drag, rate, change);
   LegendreSeries y = LegendreSeries::through(slope).antiderivative();
   y += start;
   return y;

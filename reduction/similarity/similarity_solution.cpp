@@ -1,7 +1,6 @@
 #include "contensou/reduction/similarity_solution.hpp"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -15,24 +14,26 @@
 namespace contensou::reduction {
 
 const SimilaritySolution::Curve& SimilaritySolution::through(double ln_k) const {
-  for (const Curve* curve : {&above_, &below_}) {
-    if (*curve && (*curve)->approach().reaches(ln_k)) return *curve;
+  for (const Curve& curve : curves_) {
+    if (curve->approach().reaches(ln_k)) return curve;
   }
   throw std::domain_error(fmt::format("SimilaritySolution: no curve through ln k = {}", ln_k));
 }
 
 SimilaritySolution quadrature_solution(const Law& law, double r) {
-  using Side = Approach::Side;
-  const TerminalRatio terminal = terminal_ratio(law, r);
-  const auto curve = [&](Side side, double k) {
-    return std::make_shared<QuadratureCurve>(law, r, Approach(side, std::log(k)));
-  };
-  // Nearer to an edge of the ray's domain, rounding decides which way k goes beyond the ray, and how slowly: as good as
-  // not at all. The ray itself is then as good as the axis.
-  constexpr double told_apart = 1e-12;
-  if (r <= terminal.low * (1 + told_apart)) return curve(Side::above, 0);
-  if (r >= terminal.high * (1 - told_apart)) return curve(Side::below, std::numeric_limits<double>::infinity());
-  return {curve(Side::above, terminal.k), curve(Side::below, terminal.k)};
+  std::vector<SimilaritySolution::Curve> curves;
+  for (const TerminalRatio& end : terminal_ratios(law, r).ends) {
+    for (double far : {end.from, end.to}) {
+      if (far == end.k) continue;
+      try {
+        curves.push_back(std::make_shared<QuadratureCurve>(law, r, Approach::between(std::log(end.k), std::log(far))));
+      } catch (const std::domain_error& unexpected) {
+        // Phi/(k Psi) changes too fast for terminal_ratios: no fault of the caller's.
+        throw std::runtime_error(unexpected.what());
+      }
+    }
+  }
+  return SimilaritySolution(std::move(curves));
 }
 
 SimilaritySolution closed_solution(const Law& law, double r) {

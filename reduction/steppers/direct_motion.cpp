@@ -24,6 +24,12 @@ namespace odeint = boost::numeric::odeint;
 using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + age/age_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
+/// Next to k = 1 a law may have a term x ln|x|, x = ln k, to which Fehlberg's estimate of the error is as good as blind
+/// (all its stages but those at the two ends of a step cancel): steps there change x by this share of itself, down to
+/// what x^2 does not feel.
+constexpr double share_of_kink = 0.5;
+constexpr double nearest_kink = 1e-8;
+
 struct DirectEquations {
   const ReducedSystem& system;
   double age_unit;
@@ -70,7 +76,10 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
 
     // Up to the next instant asked for, which must not shorten the steps after it.
     const double wanted = report.next_time();
-    const double limit = wanted - s;
+    Values rate;
+    equations(x, rate, s);
+    const double distance = std::max(std::abs(x[1] - x[0]), nearest_kink);
+    const double limit = std::min(wanted - s, share_of_kink * distance / std::abs(rate[1] - rate[0]));
     double trial = std::min(step, limit);
     const Values before = x;
     const double s_before = s;
@@ -84,8 +93,8 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
     if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2])) {
       return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
     }
-    const bool reached = s >= wanted;
-    step = reached ? std::max(step, trial) : trial;
+    const bool shortened = taken == limit;
+    step = shortened ? std::max(step, trial) : trial;
 
     const double side = before[1] - before[0];
     if (side != 0 && (side > 0) != (x[1] > x[0])) {

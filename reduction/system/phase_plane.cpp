@@ -7,8 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 namespace contensou::reduction {
 
 using std::numbers::pi;
@@ -53,42 +51,6 @@ SingularKind kind_of(bool attracts_radially, double attracts_angularly) {
   return attracts_radially ? SingularKind::stable_node : SingularKind::unstable_node;
 }
 
-class Points {
- public:
-  explicit Points(const ReducedSystem& system) : system_(system) {}
-
-  /// @param fall       rate at which the speed falls along the half-line, over the speed
-  /// @param approach   rate at which the angle falls next to it
-  /// @param attraction its sign
-  void add(InvariantDirection direction, double k, double fall, double approach, double attraction) {
-    for (SingularPlace place : {SingularPlace::origin, SingularPlace::infinity}) {
-      const bool at_origin = place == SingularPlace::origin;
-      SingularPoint point{direction, place, k, system_.mu() * k, {}, 0, 0, kind_of(at_origin, attraction)};
-      point.linear_part << (at_origin ? -fall : fall), 0, 0, -approach;
-      read_eigenvalues(point);
-      points.push_back(point);
-    }
-  }
-
-  std::vector<SingularPoint> points;
-
- private:
-  static void read_eigenvalues(SingularPoint& point) {
-    if (!point.linear_part.allFinite()) {
-      point.radial = point.linear_part(0, 0);
-      point.angular = point.linear_part(1, 1);
-      return;
-    }
-    const Eigen::EigenSolver<Eigen::Matrix2d> solver(point.linear_part);
-    // The radial one is that whose eigenvector leaves the line (circle) of all directions.
-    const Eigen::Index radial = std::norm(solver.eigenvectors()(0, 0)) > 0.5 ? 0 : 1;
-    point.radial = solver.eigenvalues()[radial].real();
-    point.angular = solver.eigenvalues()[1 - radial].real();
-  }
-
-  const ReducedSystem& system_;
-};
-
 }  // namespace
 
 std::string_view name(InvariantDirection direction) {
@@ -108,56 +70,57 @@ PhasePlane phase_plane(const ReducedSystem& system) {
   const double mu = system.mu();
   const double r = system.r();
   const auto [chi, gamma] = system.inertia();
-  const TerminalRatio terminal = terminal_ratio(law, r);
+  const TerminalRatios terminal = terminal_ratios(law, r);
   const auto weight = [](double k) { return (16 + 15 * pi * k) * (8 + 3 * pi * k); };  // of (2.8), over (mu u)^2
 
-  // The sign of 1 - r/limit, 0 where it is rounding.
+  // The sign of 1 - r/limit, 0 where they are not told apart.
   const auto sign_below = [r](double limit) {
-    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-    return std::abs(r - limit) <= rounding * limit ? 0.0 : r < limit ? 1.0 : -1.0;
+    return std::abs(r - limit) <= TerminalRatios::told_apart * limit ? 0.0 : r < limit ? 1.0 : -1.0;
   };
   const double below_low = sign_below(terminal.low);
   const double below_high = sign_below(terminal.high);
 
-  // README (R16), (R17).
+  const double body_scale = std::sqrt(chi / gamma);
+  PhasePlane plane{terminal, body_scale * std::sqrt(terminal.low), body_scale * std::sqrt(terminal.high), {}, {}};
+  // fall: rate at which the speed falls along the half-line, over the speed; approach: rate at which the angle falls
+  // next to it; attraction: its sign.
+  const auto add = [&](InvariantDirection direction, double k, double fall, double approach, double attraction) {
+    for (SingularPlace place : {SingularPlace::origin, SingularPlace::infinity}) {
+      const bool at_origin = place == SingularPlace::origin;
+      const double radial = at_origin ? -fall : fall;
+      SingularPoint point{direction, place, k, mu * k, {}, radial, -approach, kind_of(at_origin, attraction)};
+      point.linear_part << radial, 0, 0, -approach;
+      plane.points.push_back(point);
+    }
+  };
+
+  // README (R16), (R17). The orders of contact are ratios of rates in which mu, that may underflow in them, cancels.
   const double sliding_rate = 2 * chi / (3 * pi);
   const double pivoting_rate = 2 * gamma * mu / (3 * pi);
-  Points all(system);
   const double fall_pivoting = pivoting_rate * law.pivoting_moment() * mu * mu * weight(0);
   const double approach_pivoting =
       below_low == 0 ? 0 : sliding_rate * mu * weight(0) * (law.force_slope() - r * law.pivoting_moment());
-  all.add(InvariantDirection::pivoting, 0, fall_pivoting, approach_pivoting, below_low);
+  add(InvariantDirection::pivoting, 0, fall_pivoting, approach_pivoting, below_low);
+  if (terminal.ends.front().regime == TerminalRegime::zero) {
+    const double order = law.force_slope() / (r * law.pivoting_moment()) - 1;
+    plane.tangents.push_back({InvariantDirection::pivoting, 0, below_low == 0 ? 0 : std::max(0.0, order)});
+  }
 
-  double fall_ray = 0;
-  double approach_ray = 0;
-  const bool has_ray = terminal.regime == TerminalRegime::ray && below_low != 0 && below_high != 0;
-  if (has_ray) {
-    const double k = terminal.k;
-    fall_ray = pivoting_rate * law(slip_of_ratio(k)).moment * mu * mu * weight(k);
-    approach_ray = sliding_rate * mu * weight(k) * excess_slope(law, r, k);
-    all.add(InvariantDirection::ray, k, fall_ray, approach_ray, 1);
+  for (const InvariantRay& ray : terminal.rays) {
+    const double fall = pivoting_rate * law(slip_of_ratio(ray.k)).moment * mu * mu * weight(ray.k);
+    const bool touches = ray.attracts_above != ray.attracts_below;
+    const double approach = touches ? 0 : sliding_rate * mu * weight(ray.k) * excess_slope(law, r, ray.k);
+    add(InvariantDirection::ray, ray.k, fall, approach, touches ? 0 : ray.attracts() ? 1 : -1);
+    if (ray.attracts_above || ray.attracts_below) {
+      plane.tangents.push_back({InvariantDirection::ray, ray.k, std::max(0.0, approach / fall)});
+    }
   }
 
   const double fall_sliding = sliding_rate * 45 * pi * pi;
   const double approach_sliding = below_high == 0 ? 0 : fall_sliding * (r / terminal.high - 1);
-  all.add(InvariantDirection::sliding, infinity, fall_sliding, approach_sliding, -below_high);
-
-  const double body_scale = std::sqrt(chi / gamma);
-  PhasePlane plane{terminal,
-                   body_scale * std::sqrt(terminal.low),
-                   body_scale * std::sqrt(terminal.high),
-                   std::move(all.points),
-                   InvariantDirection::pivoting,
-                   0};
-  // Ratios of rates in which mu, that may underflow in them, cancels.
-  if (has_ray) {
-    plane.tangent = InvariantDirection::ray;
-    plane.contact_order = approach_ray / fall_ray;
-  } else if (below_high <= 0) {
-    plane.tangent = InvariantDirection::sliding;
-    plane.contact_order = std::max(0.0, approach_sliding / fall_sliding);
-  } else {
-    plane.contact_order = below_low == 0 ? 0 : std::max(0.0, law.force_slope() / (r * law.pivoting_moment()) - 1);
+  add(InvariantDirection::sliding, infinity, fall_sliding, approach_sliding, -below_high);
+  if (terminal.ends.back().regime == TerminalRegime::infinity) {
+    plane.tangents.push_back({InvariantDirection::sliding, infinity, std::max(0.0, approach_sliding / fall_sliding)});
   }
   return plane;
 }

@@ -1,60 +1,164 @@
+// Notation (README (R2)): x = ln k,  E = Phi/(r k Psi) - 1;  k falls where E > 0.
 #include "contensou/reduction/terminal_ratio.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
+
+#include "contensou/reduction/pade_law.hpp"
 
 namespace contensou::reduction {
 
 namespace {
 
-/// k falls where Phi > r k Psi and grows where it is less: with more than one change of sign, it depends on the start
-/// where it goes.
-template <class Excess>
-void require_one_end(const Law& law, double r, Excess excess, double farthest) {
-  constexpr double step = 0.25;
-  constexpr double told_apart = 1e-9;
-  bool falls = false;
-  for (double ln_k = -farthest; ln_k <= farthest; ln_k += step) {
-    const double here = excess(ln_k);
-    if (falls && here < -told_apart) {
-      throw std::domain_error(fmt::format(
-          "terminal_ratio: under law {} with r = gamma mu^2/chi = {}, k = v/(mu |u|) tends to one of several "
-          "ratios, it depends on the start which; routes regularised and direct answer there",
-          law.name(), r));
-    }
-    falls = falls || here > told_apart;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// An E below this has no sign: a law is good to some eps, and k takes as good as for ever to pass there.
+constexpr double told_apart = TerminalRatios::told_apart;
+
+/// Beyond these ln k the law is its limit.
+constexpr double farthest = 60;
+
+struct Sample {
+  double ln_k;
+  double excess;
+  int sign() const { return excess > told_apart ? 1 : excess < -told_apart ? -1 : 0; }
+};
+
+class Search {
+ public:
+  Search(const Law& law, double r) : law_(law), r_(r) {
+    sample();
+    sharpen();
+    collect();
   }
+
+  std::vector<InvariantRay> rays;
+  std::vector<int> signs{1};  ///< of E: below the first ray, between the rays, above the last
+
+ private:
+  double excess(double ln_k) const {
+    const double k = std::exp(ln_k);
+    const auto [force, moment] = law_(slip_of_ratio(k));
+    return force / (r_ * (k * moment)) - 1;
+  }
+
+  void sample() {
+    constexpr double fine = 16;
+    for (double x = -farthest; x <= farthest; x += std::abs(x + 0.01) < fine ? 1 / fine : 0.5) {
+      samples_.push_back({x, excess(x)});
+    }
+  }
+
+  /// Adds the extrema where E comes near to 0, or passes it and returns.
+  void sharpen() {
+    std::vector<Sample> extrema;
+    for (std::size_t i = 1; i + 1 < samples_.size(); ++i) {
+      const Sample &before = samples_[i - 1], &here = samples_[i], &after = samples_[i + 1];
+      const int sign = here.sign();
+      if (sign == 0 || before.sign() != sign || after.sign() != sign) continue;
+      const double fall = sign * (before.excess - here.excess);
+      const double rise = sign * (after.excess - here.excess);
+      if (fall < 0 || rise < 0 || std::max(fall, rise) < told_apart) continue;
+      const auto [at, least] = boost::math::tools::brent_find_minima(
+          [&](double x) { return sign * excess(x); }, before.ln_k, after.ln_k, std::numeric_limits<double>::digits / 2);
+      if (least < told_apart) extrema.push_back({at, sign * least});
+    }
+    samples_.insert(samples_.end(), extrema.begin(), extrema.end());
+    std::ranges::sort(samples_, {}, &Sample::ln_k);
+  }
+
+  void collect() {
+    const Sample* last = nullptr;  // the last with a sign
+    const Sample* zero = nullptr;  // the least since then, without a sign
+    for (const Sample& here : samples_) {
+      if (here.sign() == 0) {
+        if (!zero || std::abs(here.excess) < std::abs(zero->excess)) zero = &here;
+        continue;
+      }
+      if (!last) {
+        signs.back() = here.sign();
+      } else if (last->sign() != here.sign()) {
+        add(root(*last, here), last->sign(), here.sign());
+      } else if (zero && last->sign() * zero->excess < told_apart / 2) {
+        add(zero->ln_k, last->sign(), here.sign());
+      }
+      last = &here;
+      zero = nullptr;
+    }
+  }
+
+  double root(const Sample& left, const Sample& right) const {
+    constexpr int digits = std::numeric_limits<double>::digits - 2;
+    std::uintmax_t most = 200;
+    const auto [low, high] =
+        boost::math::tools::toms748_solve([&](double x) { return excess(x); }, left.ln_k, right.ln_k, left.excess,
+                                          right.excess, boost::math::tools::eps_tolerance<double>(digits), most);
+    return low + (high - low) / 2;
+  }
+
+  void add(double ln_k, int below, int above) {
+    double accuracy = 8 * eps;
+    const auto lost = [&](double x) { return std::abs(excess(x)) <= 8 * eps; };
+    while (accuracy < 1 && (lost(ln_k - accuracy) || lost(ln_k + accuracy))) accuracy *= 2;
+    rays.push_back({std::exp(ln_k), above > 0, below < 0, accuracy});
+    signs.push_back(above);
+  }
+
+  const Law& law_;
+  double r_;
+  std::vector<Sample> samples_;
+};
+
+std::vector<TerminalRatio> ends_of(const std::vector<InvariantRay>& rays, const std::vector<int>& signs) {
+  std::vector<TerminalRatio> ends;
+  const auto invariant = [&](std::size_t i) { return i == 0 ? 0.0 : i > rays.size() ? infinity : rays[i - 1].k; };
+  if (signs.front() > 0) ends.push_back({TerminalRegime::zero, 0, 0, invariant(1)});
+  for (std::size_t i = 1; i <= rays.size(); ++i) {
+    const InvariantRay& ray = rays[i - 1];
+    if (!ray.attracts_above && !ray.attracts_below) continue;
+    ends.push_back({TerminalRegime::ray, ray.k, invariant(ray.attracts_below ? i - 1 : i),
+                    invariant(ray.attracts_above ? i + 1 : i)});
+  }
+  if (signs.back() < 0) ends.push_back({TerminalRegime::infinity, infinity, invariant(rays.size()), infinity});
+  return ends;
 }
 
 }  // namespace
 
-TerminalRatio terminal_ratio(const Law& law, double r) {
+TerminalRatio TerminalRatios::end_of(double k) const {
+  if (!(k >= 0)) throw std::domain_error(fmt::format("TerminalRatios::end_of: k must be >= 0, got {}", k));
+  for (const TerminalRatio& end : ends) {
+    if (end.from < k && k < end.to) return end;
+  }
+  return {k == 0 ? TerminalRegime::zero : std::isinf(k) ? TerminalRegime::infinity : TerminalRegime::ray, k, k, k};
+}
+
+TerminalRatios terminal_ratios(const Law& law, double r) {
   if (!(r > 0) || !std::isfinite(r)) {
-    throw std::domain_error(fmt::format("terminal_ratio: r = gamma mu^2/chi must be positive and finite, got {}", r));
+    throw std::domain_error(fmt::format("terminal_ratios: r = gamma mu^2/chi must be positive and finite, got {}", r));
   }
   constexpr double fast = 0x1p100;
   const double low = law.force_slope() / law.pivoting_moment();
   const double high = 1 / (fast * law({fast, 1}).moment);
-  // Beyond these k the law is its limit, and r would be equal to low or high.
-  constexpr double farthest = 60;
-  const auto excess = [&](double ln_k) {
-    const double k = std::exp(ln_k);
-    const auto [force, moment] = law(slip_of_ratio(k));
-    return force / (r * k * moment) - 1;
-  };
-  require_one_end(law, r, excess, farthest);
-  if (r <= low) return {TerminalRegime::zero, 0, low, high};
-  if (r >= high) return {TerminalRegime::infinity, std::numeric_limits<double>::infinity(), low, high};
-  constexpr int digits = std::numeric_limits<double>::digits - 2;
-  std::uintmax_t most = 200;
-  const auto [left, right] = boost::math::tools::toms748_solve(excess, -farthest, farthest,
-                                                               boost::math::tools::eps_tolerance<double>(digits), most);
-  return {TerminalRegime::ray, std::exp((left + right) / 2), low, high};
+  if (law.as<PadeLaw>()) {
+    // A + B k = 0, (R8).
+    if (r <= 2 * (1 + told_apart)) return {low, high, {}, ends_of({}, {1})};
+    if (r >= 5 * (1 - told_apart)) return {low, high, {}, ends_of({}, {-1})};
+    const std::vector<InvariantRay> ray{{8 * (r - 2) / (3 * std::numbers::pi * (5 - r)), true, true, 2 * eps}};
+    return {low, high, ray, ends_of(ray, {-1, 1})};
+  }
+  Search found(law, r);
+  auto ends = ends_of(found.rays, found.signs);
+  return {low, high, std::move(found.rays), std::move(ends)};
 }
 
 }  // namespace contensou::reduction

@@ -88,7 +88,8 @@ class Plane {
   val choose(const std::string& law, double mu, double chi, double gamma) {
     return answer([&] {
       motions_ = std::make_unique<Motions>(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
-      const auto end = reduction::terminal_ratio(system().law(), system().r());
+      // Of the motions that slide and pivot at one speed, if it depends on the start.
+      const auto end = reduction::terminal_ratios(system().law(), system().r()).end_of(1);
       val facts = val::object();
       facts.set("r", system().r());
       facts.set("regime", static_cast<int>(end.regime));

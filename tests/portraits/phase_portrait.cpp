@@ -186,7 +186,7 @@ TEST_CASE("The order of contact with the axis v = 0 is that of the printed expon
   // k ~ u^(1/a), a = 5 mu^2/(14 - 5 mu^2)
   const double mu = 0.3;
   const auto portrait = portraits::phase_portrait({reduction::PadeLaw{}, mu}, {});
-  CHECK(portrait.plane.contact_order == Approx((14 - 5 * mu * mu) / (5 * mu * mu)).epsilon(1e-14));
+  CHECK(portrait.plane.tangents[0].contact_order == Approx((14 - 5 * mu * mu) / (5 * mu * mu)).epsilon(1e-14));
 }
 
 TEST_CASE("A window that is given is kept; a highlighted start lies in the window that is chosen", "[table]") {

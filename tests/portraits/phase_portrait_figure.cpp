@@ -323,7 +323,7 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
     portraits::PortraitRequest request;
     request.view = View::similarity;
     const auto portrait = portraits::phase_portrait({law, 1, {.chi = 1, .gamma = gamma}}, request);
-    REQUIRE(portrait.plane.tangent == reduction::InvariantDirection::ray);
+    REQUIRE(portrait.plane.tangents[0].direction == reduction::InvariantDirection::ray);
     const Panel panel = portraits::draw(portrait, {}, plain()).panels.at(1);
     // In eighths of the panel's width: the ray is in the middle.
     std::map<int, int> lines;

@@ -12,8 +12,19 @@
 
 using namespace contensou::reduction;
 
+namespace {
+
+/// The end of a law and an r that have only one.
+TerminalRatio end_of(const Law& law, double r) {
+  const TerminalRatios ratios = terminal_ratios(law, r);
+  REQUIRE(ratios.ends.size() == 1);
+  return ratios.ends.front();
+}
+
+}  // namespace
+
 TEST_CASE("published and closed terminal ratios", "[terminal_ratio][table]") {
-  const auto ratio = [](const char* law, double r) { return terminal_ratio(*find_law(law), r).k; };
+  const auto ratio = [](const char* law, double r) { return end_of(*find_law(law), r).k; };
   // A uniform disc on its own face: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90, 248302 (2003).
   CHECK(ratio("uniform", 2) == Approx(0.653001789205597639).epsilon(1e-14));
   CHECK(ratio("uniform", 3) == Approx(1).epsilon(1e-14));
@@ -26,10 +37,11 @@ TEST_CASE("published and closed terminal ratios", "[terminal_ratio][table]") {
 TEST_CASE("the ray exists between p + 3/2 and 2 (p + 2)", "[terminal_ratio][limit]") {
   const auto bounds = [](const char* law, double low, double high) {
     for (double r : {0.9 * low, (low + high) / 2, 1.1 * high}) {
-      const TerminalRatio ratio = terminal_ratio(*find_law(law), r);
+      const TerminalRatios ratios = terminal_ratios(*find_law(law), r);
+      const TerminalRatio ratio = end_of(*find_law(law), r);
       CAPTURE(law, r);
-      CHECK(ratio.low == Approx(low).epsilon(1e-14));
-      CHECK(ratio.high == Approx(high).epsilon(1e-14));
+      CHECK(ratios.low == Approx(low).epsilon(1e-14));
+      CHECK(ratios.high == Approx(high).epsilon(1e-14));
       const auto wanted = r < low ? TerminalRegime::zero : r < high ? TerminalRegime::ray : TerminalRegime::infinity;
       CHECK(ratio.regime == wanted);
       CHECK((ratio.k == 0) == (wanted == TerminalRegime::zero));
@@ -47,7 +59,7 @@ TEST_CASE("a motion ends where the ratio says", "[terminal_ratio][route]") {
   for (const char* law : {"pade", "exact", "uniform", "ring"}) {
     for (double v0 : {0.01, 5.0}) {
       const ReducedSystem disc(*find_law(law), 1, {1, 1.9});
-      const double k = terminal_ratio(disc.law(), disc.r()).k;
+      const double k = end_of(disc.law(), disc.r()).k;
       const Motion motion = integrate_regularised(disc, {1, v0});
       REQUIRE(motion.outcome.ok());
       double last = 0;
@@ -67,5 +79,66 @@ TEST_CASE("a motion ends where the ratio says", "[terminal_ratio][route]") {
 
 TEST_CASE("what is no r is rejected", "[terminal_ratio][domain]") {
   for (double r : {0.0, -1.0, std::nan(""), double{INFINITY}})
-    CHECK_THROWS_AS(terminal_ratio(PadeLaw{}, r), std::domain_error);
+    CHECK_THROWS_AS(terminal_ratios(PadeLaw{}, r), std::domain_error);
+}
+
+// `terminal --law potential8 --body disc` said that k tends to 0.
+TEST_CASE("Phi/(k Psi) need not grow: every ray is found", "[terminal_ratio]") {
+  const Law law = *find_law("potential8");
+  CHECK(terminal_ratios(law, 1.99).rays.empty());
+  const TerminalRatios disc = terminal_ratios(law, 2);
+  REQUIRE(disc.rays.size() == 1);
+  REQUIRE(disc.ends.size() == 1);
+  CHECK(disc.rays[0].k == Approx(0.2081).epsilon(1e-3));
+  CHECK((disc.ends[0].regime == TerminalRegime::ray && disc.ends[0].from == 0 && std::isinf(disc.ends[0].to)));
+  for (double r : {1.991, 1.995, 1.9999}) {
+    CAPTURE(r);
+    const TerminalRatios two = terminal_ratios(law, r);
+    REQUIRE(two.rays.size() == 2);
+    REQUIRE(two.ends.size() == 2);
+    for (const InvariantRay& ray : two.rays) {
+      const auto [force, moment] = law({ray.k, 1});
+      CHECK(force / (r * ray.k * moment) == Approx(1).epsilon(1e-14));
+    }
+    CHECK((!two.rays[0].attracts_above && !two.rays[0].attracts_below));
+    CHECK(two.rays[1].attracts());
+    CHECK(two.end_of(0.5 * two.rays[0].k).regime == TerminalRegime::zero);
+    CHECK(two.end_of(two.rays[0].k).k == two.rays[0].k);
+    CHECK(two.end_of(1.01 * two.rays[0].k).k == two.rays[1].k);
+    CHECK(two.end_of(1e9).k == two.rays[1].k);
+  }
+}
+
+TEST_CASE("a ray that Phi/(k Psi) only touches attracts from one side", "[terminal_ratio][limit]") {
+  const Law law = *find_law("potential8");
+  // r at the minimum, by golden section.
+  const auto ratio = [&](double k) { return law({k, 1}).force / (k * law({k, 1}).moment); };
+  double low = 0.1, high = 0.2;
+  for (int i = 0; i < 80; ++i) {
+    const double a = high - 0.618 * (high - low), b = low + 0.618 * (high - low);
+    (ratio(a) < ratio(b) ? high : low) = ratio(a) < ratio(b) ? b : a;
+  }
+  const TerminalRatios touching = terminal_ratios(law, ratio(low));
+  REQUIRE(touching.rays.size() == 1);
+  CHECK((touching.rays[0].attracts_above && !touching.rays[0].attracts_below));
+  CHECK(touching.rays[0].k == Approx(low).epsilon(touching.rays[0].accuracy));
+  REQUIRE(touching.ends.size() == 2);
+  CHECK(touching.ends[1].from == touching.rays[0].k);
+}
+
+TEST_CASE("the ray of the Pade law is exact next to its ends", "[terminal_ratio][limit]") {
+  // 5 - r is exact in a double; k* lost 2e-8 of itself.
+  const double r = 4.99999996736674;
+  const double k = terminal_ratios(PadeLaw{}, r).rays.at(0).k;
+  CHECK(k == Approx(8 * (r - 2) / (3 * std::acos(-1.0) * (5 - r))).epsilon(1e-15));
+  // Of another law the stated accuracy is what is left.
+  for (double gap : {1e-3, 1e-6, 1e-9}) {
+    const InvariantRay ray = terminal_ratios(HertzLaw{}, 2 * (1 + gap)).rays.at(0);
+    // 4 (4 - s) = r (8 - 8 s + 3 s^2), s = k^2; the smaller root without subtraction, r - 2 = 2 gap.
+    const double r2 = 2 * (1 + gap), b = 8 * r2 - 4, c = 8 * (r2 - 2);
+    const double s = 2 * c / (b + std::sqrt(b * b - 12 * r2 * c));
+    CAPTURE(gap, ray.accuracy);
+    CHECK(std::abs(ray.k / std::sqrt(s) - 1) <= ray.accuracy);
+    CHECK(ray.accuracy < 1e-14 / gap);
+  }
 }

@@ -954,6 +954,270 @@ def table_bodies():
 
 
 # ---------------------------------------------------------------------------------------------
+# Invariant rays: any law, any number of rays, starts on and beside them
+# ---------------------------------------------------------------------------------------------
+
+def elliptic(k):
+    """The ring and the uniform disc (law, k) by complete elliptic integrals, as mpmath's 2F1 is slow at k = 1."""
+    square = min(k, 1 / k) ** 2
+    first, second = mp.ellipk(square), mp.ellipe(square)
+    return square, first, second
+
+
+def ring(k):
+    """Pressure of a thin ring."""
+    if k == 1:
+        return 2 / mp.pi, 2 / mp.pi
+    square, first, second = elliptic(k)
+    one = 2 / mp.pi * second
+    other = 2 / (mp.pi * mp.sqrt(square)) * (second - (1 - square) * first)
+    return (other, one) if k < 1 else (one, other)
+
+
+def uniform(k):
+    """Uniform pressure."""
+    if k == 1:
+        return 8 / (3 * mp.pi), 8 / (9 * mp.pi)
+    _, first, second = elliptic(k)
+    s = k ** 2
+    if k < 1:
+        return (4 / (3 * mp.pi * k) * ((s + 1) * second + (s - 1) * first),
+                4 / (9 * mp.pi) * ((4 - 2 * s) * second + (s - 1) * first))
+    return (4 / (3 * mp.pi) * ((s + 1) * second - (s - 1) * first),
+            4 * k / (9 * mp.pi) * ((4 - 2 * s) * second + (2 * s - 5 + 3 / s) * first))
+
+
+def law_named(name):
+    """(Phi, Psi) of k for a law of the table of rays."""
+    laws = {"exact": hertz, "pade": pade, "uniform": uniform, "ring": ring, "potential8": potential8}
+    if name in laws:
+        return laws[name]
+    exponent = -mpf(1) / 2 if name == "punch" else mpf(name.split(":")[1])
+    return lambda k: pressure(exponent, k)
+
+
+def eliminate(matrix, right):
+    """Solve a linear system, by lists."""
+    rows = [row + [b] for row, b in zip(matrix, right)]
+    n = len(rows)
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda j: abs(rows[j][i]))
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        for j in range(i + 1, n):
+            factor = rows[j][i] / rows[i][i]
+            if factor:
+                rows[j] = rows[j][:i + 1] + [b - factor * a for a, b in zip(rows[i][i + 1:], rows[j][i + 1:])]
+    x = [mpf(0)] * n
+    for i in range(n - 1, -1, -1):
+        x[i] = (rows[i][n] - mp.fdot(rows[i][i + 1:n], x[i + 1:])) / rows[i][i]
+    return x
+
+
+def graded(start, end, kink, length, least):
+    """Panels from start to end in a variable x, as functions (x(s), dx/ds) on -1 < s < 1: even ones of that length, and
+    next to the kink, where distances to it down to `least` count, even ones in their logarithm."""
+    sign = 1 if end > start else -1
+
+    def even(left, right):
+        half, middle = (right - left) / 2, (right + left) / 2
+        return lambda s: (middle + half * s, half)
+
+    def logarithmic(near, far, side):       # x = kink + side exp(t), t from ln near to ln far
+        a, b = mp.log(near), mp.log(far)
+        half, middle = (b - a) / 2, (b + a) / 2
+
+        def at(s):
+            distance = side * mp.exp(middle + half * s)
+            return kink + distance, half * distance
+        return at
+
+    x = start
+    while sign * (end - x) > 0:
+        ahead = sign * (kink - x)           # > 0: the kink is still to come
+        if ahead > 0 and ahead <= least:    # across it, where nothing is left to see
+            x = kink + sign * least
+            continue
+        distance = abs(ahead)
+        if ahead > 0 and distance <= 1:
+            right = kink - sign * max(distance * mp.exp(-2), least)
+        elif ahead <= 0 and distance < 1:
+            right = kink + sign * min(max(distance, least) * mp.exp(2), mpf(1))
+        else:
+            right = x + sign * length
+            if ahead > 0 and sign * (kink - right) < 1:
+                right = kink - sign
+        if sign * (end - right) < 0:
+            right = end
+        if distance <= 1 and abs(right - kink) <= 1 and x != kink and right != kink:
+            side = 1 if x > kink else -1
+            yield logarithmic(abs(x - kink), abs(right - kink), side)
+        else:
+            yield even(x, right)
+        x = right
+
+
+class RaySystem:
+    """A law and an r exactly; stop times of starts in both ways."""
+
+    NODES = 40
+    LEAST = mpf(10) ** -36
+
+    def __init__(self, law, r):
+        self.law, self.r = law_named(law), r
+        self.least = self.LEAST if law in ("ring", "uniform") else mpf(10) ** -16   # weaker kinks
+        self.psi0 = self.law(mpf(10) ** -200)[1]
+
+    def excess(self, x):
+        """D = Phi - r k Psi at ln k = x."""
+        phi, psi = self.law(mp.exp(x))
+        return phi - self.r * mp.exp(x) * psi
+
+    def end(self, x):
+        """ln k that a start with ln k = x tends to."""
+        sign = 1 if self.excess(x) > 0 else -1
+        step, far = mpf(1) / 8, 60
+        while abs(x) < far and sign * self.excess(x - sign * step) > 0:
+            x -= sign * step
+        if abs(x) >= far:
+            return -sign * mp.inf
+        low, high = x - sign * step, x
+        while abs(high - low) > mpf(10) ** -12:
+            middle = (low + high) / 2
+            low, high = (low, middle) if sign * self.excess(middle) > 0 else (middle, high)
+        return mp.findroot(self.excess, (low, high), solver="anderson", tol=mpf(10) ** (-2 * mp.dps + 20))
+
+    def by_orbit(self, k0, k_end):
+        """Time left over w, scaled: the integral of w along the orbit over z, where the distance of k (of 1/k from
+        below) from its end is that of the start times exp(-z)."""
+        falls = k0 > k_end
+        end = k_end if falls else 1 / k_end if k_end != mp.inf else mpf(0)
+        distance = abs((k0 if falls else 1 / k0) - end)
+        total, log_w, z = mpf(0), mpf(0), mpf(0)
+        kink_at = abs((1 if k_end != 1 else end) - end)
+        kink = mp.log(distance / kink_at) if kink_at and distance > kink_at else -mpf(10) ** 9
+        rule = gauss_legendre(self.NODES, mp.dps)
+        antiderivative = antiderivative_matrix(self.NODES, mp.dps)
+
+        def rates(z):
+            gap = distance * mp.exp(-z)
+            y = end + gap
+            k = y if falls else 1 / y
+            phi, psi = self.law(k)
+            q = gap * (1 if falls else k * k) / abs(phi - self.r * k * psi)
+            return q, self.r * psi * q
+
+        while True:
+            # e-folds of w a panel: at most 6, and at most 1 of the distance.
+            steep = rates(z + mpf(10) ** -30)[1]
+            stop = z + min(mpf(1), 6 / steep)
+            for chart in graded(z, stop, kink, mpf(1), self.least):
+                places = [chart(s) for s, _ in rule]
+                values = [(rates(x), slope) for x, slope in places]
+                inside = [mp.exp(log_w - mp.fdot(row, [rate[1] * slope for rate, slope in values]))
+                          for row in antiderivative]
+                weights = [weight for _, weight in rule]
+                total += mp.fdot(weights, [w * rate[0] * slope for w, (rate, slope) in zip(inside, values)])
+                log_w -= mp.fdot(weights, [rate[1] * slope for rate, slope in values])
+            z = stop
+            if log_w < -95:
+                return total
+            gap = distance * mp.exp(-z)
+            if gap < mpf(10) ** -42 * max(end, mpf(10) ** -3):
+                k = end + gap if falls else 1 / (end + gap)
+                psi = self.law(k)[1]
+                return total + mp.exp(log_w) * (1 / (self.r * psi) if k_end != mp.inf else k)
+
+    def by_regular_solution(self, starts, k_end):
+        """{k0: time left over w}: m of D dm/dx + Phi m = 1 - Psi/Psi(0), x = ln k, from the end on one side, by
+        collocation at Gauss points for the values of dm/ds."""
+        up = starts[0] > k_end
+        starts = sorted(starts, reverse=not up)
+        rule = gauss_legendre(self.NODES, mp.dps)
+        antiderivative = antiderivative_matrix(self.NODES, mp.dps)
+        weights = [weight for _, weight in rule]
+        edge = mp.log(k_end) if k_end not in (0, mp.inf) else mpf(-46 if up else 46)
+
+        def at(x):
+            k = mp.exp(x)
+            phi, psi = self.law(k)
+            return phi - self.r * k * psi, phi, 1 - psi / self.psi0
+
+        # Where D is small from the first m is on (1 - Psi/Psi(0))/Phi but for its next term.
+        _, phi, deficit = at(edge)
+        m = deficit / phi
+        if k_end in (0, mp.inf):
+            h = mpf(10) ** -25
+            slope = (at(edge + h)[2] / at(edge + h)[1] - m) / h
+            m -= at(edge)[0] / phi * slope
+        result = {}
+        for k0 in starts:
+            for chart in graded(edge, mp.log(k0), mpf(0), mpf(1) / 2, self.least):
+                rows = []
+                for (s, _), row in zip(rule, antiderivative):
+                    x, slope = chart(s)
+                    drag, phi, deficit = at(x)
+                    rows.append(([phi * slope * a for a in row], drag, (deficit - phi * m) * slope))
+                for i, (row, drag, _) in enumerate(rows):
+                    row[i] += drag
+                slopes = eliminate([row for row, _, _ in rows], [right for _, _, right in rows])
+                m += mp.fdot(weights, slopes)
+            edge = mp.log(k0)
+            result[k0] = 1 / (self.r * self.psi0) + k0 * m
+        return result
+
+
+RAYS = [                                            # law, chi, gamma, mu, u0, [v0]
+    ("uniform", 1.0, 2.0, 1.0, 1.0, [0.6530017892055977, 0.6530017892055975, 0.65300178920, 0.6530017893, 0.65, 3.0]),
+    ("uniform", 1.0, 3.0, 1.0, 1.0, [1.0, 1.0000000001, 0.999, 0.25, 40.0]),
+    ("ring", 1.0, 1.0, 1.0, 1.0, [1.0, 1.0000000000000002, 0.9999999999, 1.00001, 0.999, 1.01, 0.9, 1.5, 0.3]),
+    ("exact", 1.0, 2.5, 1.0, 1.0, [0.5377791498567294, 0.5377791498567, 0.53778, 0.1, 2.0]),
+    ("exact", 1.0, 4.999991639655138, 1.0, 1.0, [320.19512152011197, 320.1951, 400.0, 3.0]),
+    ("exact", 1.0, 2.0, 1.0, 1.0, [1e-7, 1e-3, 0.5, 30.0]),
+    ("exact", 1.0, 5.0, 1.0, 1.0, [1e6, 1e3, 2.0, 0.01]),
+    ("pressure:3", 1.0, 9.99999999996235, 1.0, 1.0, [156035.19756054794]),
+    ("pressure:7", 1.0, 17.999999999919748, 1.0, 0.00426416748376288, [466.13132272670447]),
+    ("pressure:7", 1.0, 18.0, 1.0, 1.0, [1e6, 1e3]),
+    ("punch", 1.0, 1.0000000000003053, 1.0, 1.0, [1e-6, 1e-4, 0.01, 0.3]),
+    ("potential8", 1.0, 2.0, 1.0, 1.0, [1e-3, 0.05, 0.2081, 0.3, 5.0]),
+    ("potential8", 1.0, 1.995, 1.0, 1.0, [0.01, 0.09, 0.096, 0.097, 0.15, 0.18, 0.19, 3.0]),
+    ("potential8", 1.0, 1.991, 1.0, 1.0, [0.1, 0.139, 0.144, 0.149, 0.2]),
+    ("pade", 1.0, 3.0, 1.0, 1.0, [0.4244131815783876, 0.42441318, 0.1, 7.0]),
+    ("pade", 1.0, 4.99999996736674, 1.0, 1.0, [78036093.0, 1e4]),
+]
+
+
+def table_rays():
+    """Stop times on and beside invariant rays, and where one is born."""
+    yield ["law", "chi", "gamma", "mu", "u0", "v0", "v0_hex", "k_star", "tau_stop", "digits"]
+    for law, chi, gamma, mu, u0, speeds in RAYS:
+        r = mpf(gamma) * mpf(mu) ** 2 / mpf(chi)
+        w = mpf(mu) * mpf(u0)
+        kappa = 3 * mp.pi / (2 * mpf(chi))
+        with mp.workdps(mp.dps + 10):
+            system = RaySystem(law, r)
+            ends = {}
+            for speed in speeds:
+                k0 = mpf(speed) / w
+                end = system.end(mp.log(k0))
+                side = k0 > mp.exp(end)
+                ends.setdefault((mp.nstr(end, 20), side), (mp.exp(end), []))[1].append(k0)
+            regular = {}
+            for k_end, starts in ends.values():
+                regular.update({k0: (k_end, sigma)
+                                for k0, sigma in system.by_regular_solution(starts, k_end).items()})
+        for speed in speeds:
+            k_end, second = regular[mpf(speed) / w]
+            with mp.workdps(2 * mp.dps):
+                system_wide = RaySystem(law, r)
+                k_end = mp.exp(system_wide.end(mp.log(mpf(speed) / w)))
+                first = system_wide.by_orbit(mpf(speed) / w, k_end)
+            digits = check([(kappa * w * first, kappa * w * second)],
+                           "rays %s gamma=%s u0=%s v0=%s" % (law, gamma, u0, speed))
+            yield ([law, repr(chi), repr(gamma), repr(mu), repr(u0)] + exact(speed)
+                   + [text(k_end), text(kappa * w * first), digits])
+
+
+# ---------------------------------------------------------------------------------------------
 # Special functions of the small-mu estimates
 # ---------------------------------------------------------------------------------------------
 
@@ -983,6 +1247,7 @@ TABLES = {
     "trajectory_pade": table_trajectory_pade,
     "trajectory_hertz": table_trajectory_hertz,
     "bodies": table_bodies,
+    "rays": table_rays,
     "dilogarithm": table_dilogarithm,
 }
 

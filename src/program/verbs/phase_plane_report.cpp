@@ -19,28 +19,54 @@ using reduction::SingularPoint;
 
 namespace {
 
-/// In the order of TerminalRegime, as `terminal` says it.
-constexpr std::array<std::string_view, 3> limits{"zero", "ray", "infinity"};
-
 /// In the order of InvariantDirection: what tends to what along an orbit that enters the origin.
 constexpr std::array<std::string_view, 3> approaches{"along v = 0: k falls", "along the ray: k - k* falls",
                                                      "along u = 0: 1/k falls"};
 
-std::string_view limit(const PhasePlane& plane) { return limits[static_cast<std::size_t>(plane.terminal.regime)]; }
-
 bool is_separatrix(const SingularPoint& point) { return point.kind == SingularKind::saddle; }
 
 }  // namespace
+
+std::string_view limit_name(reduction::TerminalRegime regime) {
+  constexpr std::array<std::string_view, 3> names{"zero", "ray", "infinity"};
+  return names[static_cast<std::size_t>(regime)];
+}
+
+void add_terminal_ratios(JsonObject& document, const reduction::TerminalRatios& ratios) {
+  std::vector<std::string> rays, ends;
+  for (const reduction::InvariantRay& ray : ratios.rays) {
+    rays.push_back(JsonObject()
+                       .add("k", json(ray.k))
+                       .add("attracts", ray.attracts() ? "true" : "false")
+                       .add("accuracy", json(ray.accuracy))
+                       .inline_text());
+  }
+  for (const reduction::TerminalRatio& end : ratios.ends) {
+    ends.push_back(JsonObject()
+                       .add("limit", json(limit_name(end.regime)))
+                       .add("k_star", json(end.k))
+                       .add("k_from", json(end.from))
+                       .add("k_to", json(end.to))
+                       .inline_text());
+  }
+  const bool one = ratios.ends.size() == 1;
+  document.add("r_low", json(ratios.low))
+      .add("r_high", json(ratios.high))
+      .add("limit", json(one ? limit_name(ratios.ends.front().regime) : "several"))
+      .add("k_star", one ? json(ratios.ends.front().k) : "null")
+      .add("rays", json_array(rays))
+      .add("ends", json_array(ends));
+}
 
 std::string phase_plane_as_text(const ReducedSystem& system, const PhasePlane& plane, int digits) {
   const auto number = [&](double value) { return fmt::format("{:.{}g}", value, digits); };
   std::string text = fmt::format(
       "law    {}\n"
       "r      {} = gamma mu^2/chi, gamma = {}, mu = {}, chi = {}\n"
-      "ray    v = k* mu |u| exists for {} < r < {}, that is {} < mu < {}; here k tends to {}\n\n",
+      "rays   v = k mu |u| where Phi/(k Psi) = r; it is {} at k = 0 and {} at k = infinity, the r of {} < mu < {}\n\n",
       system.law().name(), number(system.r()), number(system.inertia().gamma), number(system.mu()),
       number(system.inertia().chi), number(plane.terminal.low), number(plane.terminal.high), number(plane.mu_low),
-      number(plane.mu_high), number(plane.terminal.k));
+      number(plane.mu_high));
   const int width = digits + 8;  // sign, point, exponent and two spaces
   text += fmt::format("{:<11}{:<9}{:>{}}{:>{}}{:>{}}{:>{}}  {}\n", "half-line", "at", "k", width, "q = v/|u|", width,
                       "radial", width, "angular", width, "kind");
@@ -54,11 +80,16 @@ std::string phase_plane_as_text(const ReducedSystem& system, const PhasePlane& p
       "radial, angular   eigenvalues of (2.7) blown up at the origin, v = q |u|, and divided by |u| (by v at u = 0);\n"
       "                  at infinity multiplied by it. The field itself has no linear part at the origin\n"
       "kind              a half-line is a separatrix of its saddle; u < 0 is the mirror image\n"
-      "every other orbit is born at infinity in an unstable node and enters the origin {}",
-      approaches[static_cast<std::size_t>(plane.tangent)]);
-  const std::string_view speed = plane.tangent == InvariantDirection::sliding ? "v" : "|u|";
-  text += plane.contact_order > 0 ? fmt::format(" like {}^{}\n", speed, number(plane.contact_order))
-                                  : fmt::format(" slower than any power of {}\n", speed);
+      "every other orbit is born at infinity in an unstable node and enters the origin\n");
+  for (std::size_t i = 0; i < plane.tangents.size(); ++i) {
+    const auto& [direction, k, order] = plane.tangents[i];
+    const auto& end = plane.terminal.ends[i];
+    text += fmt::format("from {} < k < {} {}", number(end.from), number(end.to),
+                        approaches[static_cast<std::size_t>(direction)]);
+    const std::string_view speed = direction == InvariantDirection::sliding ? "v" : "|u|";
+    text += order > 0 ? fmt::format(" like {}^{}\n", speed, number(order))
+                      : fmt::format(" slower than any power of {}\n", speed);
+  }
   return text;
 }
 
@@ -87,22 +118,29 @@ std::string phase_plane_as_json(const ReducedSystem& system, const PhasePlane& p
             .add("separatrix", is_separatrix(point) ? "true" : "false")
             .inline_text());
   }
-  return JsonObject::document()
-      .add("law", json(system.law().name()))
+  std::vector<std::string> tangents;
+  for (const auto& [direction, k, order] : plane.tangents) {
+    tangents.push_back(JsonObject()
+                           .add("half_line", json(name(direction)))
+                           .add("k", json(k))
+                           .add("contact_order", json(order))
+                           .inline_text());
+  }
+  JsonObject document = JsonObject::document();
+  document.add("law", json(system.law().name()))
       .add("mu", json(system.mu()))
       .add("body",
            JsonObject().add("chi", json(system.inertia().chi)).add("gamma", json(system.inertia().gamma)).inline_text())
-      .add("r", json(system.r()))
-      .add("r_low", json(plane.terminal.low))
-      .add("r_high", json(plane.terminal.high))
-      .add("mu_low", json(plane.mu_low))
+      .add("r", json(system.r()));
+  add_terminal_ratios(document, plane.terminal);
+  const bool one = plane.tangents.size() == 1;
+  document.add("mu_low", json(plane.mu_low))
       .add("mu_high", json(plane.mu_high))
-      .add("limit", json(limit(plane)))
-      .add("k_star", json(plane.terminal.k))
-      .add("tangent", json(name(plane.tangent)))
-      .add("contact_order", json(plane.contact_order))
-      .add("singular_points", json_array(points))
-      .text();
+      .add("tangent", one ? json(name(plane.tangents.front().direction)) : "null")
+      .add("contact_order", one ? json(plane.tangents.front().contact_order) : "null")
+      .add("tangents", json_array(tangents))
+      .add("singular_points", json_array(points));
+  return document.text();
 }
 
 }  // namespace contensou::program

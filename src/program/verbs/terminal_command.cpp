@@ -1,6 +1,4 @@
-#include <array>
-#include <cmath>
-#include <string_view>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -13,17 +11,15 @@
 #include "output/columns.hpp"
 #include "output/json.hpp"
 #include "verb.hpp"
+#include "verbs/phase_plane_report.hpp"
 
 namespace contensou::program {
 
 namespace {
 
+using reduction::InvariantRay;
 using reduction::TerminalRatio;
-
-/// In the order of TerminalRegime.
-constexpr std::array<std::string_view, 3> regime_names{"zero", "ray", "infinity"};
-constexpr std::array<std::string_view, 3> sentences{
-    "sliding dies out first", "sliding and spinning die out together, on an invariant ray", "spinning dies out first"};
+using reduction::TerminalRatios;
 
 class TerminalCommand final : public Verb {
  public:
@@ -37,39 +33,71 @@ class TerminalCommand final : public Verb {
   ExitStatus run() override {
     const Body body = body_.read();
     const reduction::ReducedSystem system(law_.read(), BodyOption::read_patch_ratio(mu_, body), body.inertia);
-    const TerminalRatio ratio = reduction::terminal_ratio(system.law(), system.r());
-    const auto regime = static_cast<std::size_t>(ratio.regime);
-    output_.read().write_as([&](int digits) { return as_text(system, ratio, regime, digits); },
+    const TerminalRatios ratios = reduction::terminal_ratios(system.law(), system.r());
+    output_.read().write_as([&](int digits) { return as_text(system, ratios, digits); },
+                            [&] { return as_csv(system, ratios); },
                             [&] {
-                              return csv_line({"law", "r", "r_low", "r_high", "limit", "k_star"}) +
-                                     csv_line({system.law().name(), fmt::format("{}", system.r()),
-                                               fmt::format("{}", ratio.low), fmt::format("{}", ratio.high),
-                                               std::string(regime_names[regime]), fmt::format("{}", ratio.k)});
-                            },
-                            [&] {
-                              return JsonObject::document()
-                                  .add("law", json(system.law().name()))
-                                  .add("r", json(system.r()))
-                                  .add("r_low", json(ratio.low))
-                                  .add("r_high", json(ratio.high))
-                                  .add("limit", json(regime_names[regime]))
-                                  .add("k_star", json(ratio.k))
-                                  .text();
+                              JsonObject document = JsonObject::document();
+                              document.add("law", json(system.law().name())).add("r", json(system.r()));
+                              add_terminal_ratios(document, ratios);
+                              return document.text();
                             });
     return ExitStatus::done;
   }
 
  private:
-  static std::string as_text(const reduction::ReducedSystem& system, const TerminalRatio& ratio, std::size_t regime,
-                             int digits) {
+  /// A row for each end.
+  static std::string as_csv(const reduction::ReducedSystem& system, const TerminalRatios& ratios) {
+    std::string text = csv_line({"law", "r", "r_low", "r_high", "limit", "k_star", "k_from", "k_to"});
+    for (const TerminalRatio& end : ratios.ends) {
+      std::vector<std::string> row{system.law().name()};
+      for (double value : {system.r(), ratios.low, ratios.high}) row.push_back(fmt::format("{}", value));
+      row.emplace_back(limit_name(end.regime));
+      for (double value : {end.k, end.from, end.to}) row.push_back(fmt::format("{}", value));
+      text += csv_line(row);
+    }
+    return text;
+  }
+
+  static std::string as_text(const reduction::ReducedSystem& system, const TerminalRatios& ratios, int digits) {
     const auto number = [&](double value) { return fmt::format("{:.{}g}", value, digits); };
-    return fmt::format(
-        "k = v/(mu |u|) tends to {}: {}\n\n"
+    std::string text;
+    if (ratios.ends.size() == 1) {
+      const TerminalRatio& end = ratios.ends.front();
+      text = fmt::format("k = v/(mu |u|) tends to {}: {}\n", number(end.k), sentence(end.regime));
+    } else {
+      text = "k = v/(mu |u|) tends to one of several ratios; the k of the start tells which\n";
+      for (const TerminalRatio& end : ratios.ends) {
+        text += fmt::format("{} < k < {}: to {}, {}\n", number(end.from), number(end.to), number(end.k),
+                            sentence(end.regime));
+      }
+    }
+    text += fmt::format(
+        "\n"
         "law    {}\n"
         "r      {} = gamma mu^2/chi, gamma = {}, mu = {}, chi = {}\n"
-        "ray    exists for {} < r < {}\n",
-        number(ratio.k), sentences[regime], system.law().name(), number(system.r()), number(system.inertia().gamma),
-        number(system.mu()), number(system.inertia().chi), number(ratio.low), number(ratio.high));
+        "rays   where Phi/(k Psi) = r; it is {} at k = 0 and {} at k = infinity\n",
+        system.law().name(), number(system.r()), number(system.inertia().gamma), number(system.mu()),
+        number(system.inertia().chi), number(ratios.low), number(ratios.high));
+    for (const InvariantRay& ray : ratios.rays) {
+      text +=
+          fmt::format("       k = {} {}, relative error of k below {:.0e}\n", number(ray.k), effect(ray), ray.accuracy);
+    }
+    return text;
+  }
+
+  static std::string_view sentence(reduction::TerminalRegime regime) {
+    using enum reduction::TerminalRegime;
+    return regime == zero  ? "sliding dies out first"
+           : regime == ray ? "sliding and spinning die out together, on an invariant ray"
+                           : "spinning dies out first";
+  }
+
+  static std::string_view effect(const InvariantRay& ray) {
+    return ray.attracts()       ? "attracts"
+           : ray.attracts_above ? "attracts from above, repels below"
+           : ray.attracts_below ? "attracts from below, repels above"
+                                : "repels";
   }
 
   ArgumentOf<double> mu_;

@@ -55,6 +55,12 @@ struct PortraitOrbit {
   Eigen::Index rows() const { return u.size(); }
 };
 
+/// The orbit that all those between two neighbouring invariant half-lines are scaled copies of.
+struct WholeCurve : PortraitOrbit {
+  double k_from;  ///< of the half-line that it is born at, next to infinity
+  double k_to;    ///< of the one along which it enters the origin
+};
+
 /// All states of one stop time, from one end of the half-plane to the other.
 struct Isochrone {
   double tau_stop;
@@ -75,9 +81,8 @@ struct PhasePortrait {
   View view;
   Window window;
   std::vector<PortraitOrbit> orbits;  ///< from the border of the window to the origin
-  /// From next to infinity to the origin, mu u = 1 where k = 1 (on the ray's other side: where they start), u > 0:
-  /// every orbit off the invariant half-lines is one of them, scaled. One on each side of the ray.
-  std::vector<PortraitOrbit> curves;
+  /// By growing k, u > 0, mu u = 1 where they start: every orbit off the invariant half-lines is one of them, scaled.
+  std::vector<WholeCurve> curves;
   std::vector<Isochrone> isochrones;
   StopProfile profile;
   std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for

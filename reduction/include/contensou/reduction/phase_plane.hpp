@@ -13,7 +13,7 @@ namespace contensou::reduction {
 /// A direction that the field keeps to: the half-line from the origin to infinity along it is made of orbits.
 enum class InvariantDirection {
   pivoting,  ///< the axis v = 0, q = v/|u| = 0
-  ray,       ///< v = mu k* |u|; exists for r_low < r < r_high
+  ray,       ///< an invariant ray, v = mu k |u|
   sliding,   ///< the axis u = 0
 };
 
@@ -27,7 +27,7 @@ enum class SingularKind {
   saddle,
   stable_node,
   unstable_node,
-  degenerate,  ///< the angular eigenvalue is 0: r = r_low or r = r_high, where two points merge
+  degenerate,  ///< the angular eigenvalue is 0, two points merge: r = r_low, r_high, or Phi/(k Psi) touches r
 };
 
 std::string_view name(InvariantDirection direction);
@@ -40,7 +40,7 @@ std::string_view name(SingularKind kind);
 struct SingularPoint {
   InvariantDirection direction;
   SingularPlace place;
-  double k;                     ///< v/(mu |u|): 0, k*, infinity
+  double k;                     ///< v/(mu |u|): 0, that of a ray, infinity
   double q;                     ///< mu k
   Eigen::Matrix2d linear_part;  ///< d(radial', angular')/d(radial, angular), no unit
   double radial;                ///< eigenvalue along the half-line
@@ -48,24 +48,30 @@ struct SingularPoint {
   SingularKind kind;            ///< of a saddle, the half-line is a separatrix
 };
 
+/// The half-line along which orbits enter the origin.
+struct Tangent {
+  InvariantDirection direction;
+  double k;
+  /// The angular coordinate goes to 0 (on a ray: to q*) like this power of the speed: angular/radial eigenvalue; 0
+  /// where degenerate: slower than any power.
+  double contact_order;
+};
+
 /// The phase plane of (2.7), whole: what orbits are born at and what they die at.
 struct PhasePlane {
-  TerminalRatio terminal;  ///< the regime, with its limits in r
-  double mu_low, mu_high;  ///< the same limits as patch ratios of this body
+  TerminalRatios terminal;
+  double mu_low, mu_high;  ///< r_low and r_high as patch ratios of this body
   /// By direction from v = 0 to u = 0, at each the origin first. Every half-line is an orbit from infinity to the
   /// origin and joins a saddle to a node.
   std::vector<SingularPoint> points;
-  InvariantDirection tangent;  ///< every orbit off the other half-lines enters the origin along this one
-  /// The tangent's angular coordinate goes to 0 (on the ray: to q*) like this power of the speed: angular/radial
-  /// eigenvalue; 0 where degenerate: slower than any power.
-  double contact_order;
+  std::vector<Tangent> tangents;  ///< of the orbits of each of terminal.ends
 };
 
 /// Solves for the singular points and linearises there (README (R15) to (R17)).
 ///
-/// Accuracy  eigenvalues on the axes 1e-14 relative, on the ray 1e-11; 1e-6 where k* is within 1e-3 of 1, at which many
-///           laws have a kink. r is taken for r_low or r_high when they differ by rounding.
-/// Assumes   Phi/(k Psi) grows with k, as terminal_ratio does.
+/// Accuracy  eigenvalues on the axes 1e-14 relative, on a ray 1e-11; 1e-6 where k* is within 1e-3 of 1, at which many
+///           laws have a kink; on a ray whose k is less accurate, no better than that. r is taken for r_low or r_high
+///           where TerminalRatios does not tell them apart.
 PhasePlane phase_plane(const ReducedSystem& system);
 
 }  // namespace contensou::reduction

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "contensou/reduction/friction_law.hpp"
@@ -7,22 +8,25 @@
 
 namespace contensou::reduction {
 
+class RegularSolution;
+
 /// The similarity curve of any friction law, by quadrature of the separated equation.
 ///
-/// The linear equations (R26) are solved panel by panel in xi, outwards from the stop: on each, their coefficients are
-/// sampled at Gauss points (Boost.Math), and solved as Legendre series. Panels meet at k = 1 and are halved until the
-/// series have converged. They reach from k = 4e-18 to 1e19, where the limits hold to the last bit; and towards an
-/// invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
+/// m and n are found in ln k, outwards from the stop (RegularSolution). ln w, b and c are found in xi, (R26), panel by
+/// panel: on each, their coefficients are sampled at Gauss points (Boost.Math), and solved as Legendre series. Panels
+/// meet at k = 1 and are halved until the series have converged. They reach from k = 4e-18 to 1e19, where the limits
+/// hold to the last bit; and towards an invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
 ///
-/// Accuracy  1e-13 or better for a law that is smooth on either side of k = 1 (measured: tests/reference/README.md).
-/// Cost      about 5000 evaluations of the law, once; then some 30 ns for each value. Noise in the law costs up to a
+/// Accuracy  sliding_share 2 eps for a law that is smooth on either side of k = 1, on and beside rays, too; the other
+///           functions 1e-13, and less next to a ray (measured: tests/reference/README.md).
+/// Cost      about 10 000 evaluations of the law, once; then some 30 ns for each value. Noise in the law costs up to a
 ///           million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi
-  /// @param approach  to the law's terminal ratio for this r (terminal_ratio); the default is right for r up to
-  ///                  Phi'(0)/Psi(0), and for every ball
-  /// @throws std::domain_error  unless r > 0, and Phi - r k Psi has the sign of this approach for every k on this side
+  /// @param approach  between two neighbours of 0, the invariant rays and infinity, to the one that k tends to
+  ///                  (terminal_ratios); the default is right for r up to Phi'(0)/Psi(0), and for every ball
+  /// @throws std::domain_error  unless r > 0, and Phi - r k Psi has the sign of this approach everywhere on its way
   QuadratureCurve(const Law& law, double r, const Approach& approach = Approach::to_zero());
 
   double log_rim(double xi) const override;
@@ -31,8 +35,8 @@ class QuadratureCurve final : public SimilarityCurve {
   double regularised_age(double xi) const override;
   double time_rate(double xi) const override;
 
-  /// Estimate of the relative error of sliding_share from the last terms of the series; rounding is not in it.
-  double truncation() const { return truncation_; }
+  /// Estimate of the relative error of sliding_share from the last terms of the series.
+  double truncation() const;
 
   /// 1e-13, or more where a law has noise.
   double accuracy() const override;
@@ -41,18 +45,16 @@ class QuadratureCurve final : public SimilarityCurve {
 
  private:
   struct Panel;
+  class Sampler;
   const Panel& find(double xi) const;
+  void solve(double anchor);
 
-  bool sample(const Law& law, double left, double right, int depth);
-  void solve_from_the_stop();
-  void solve_towards_the_stop();
-
+  std::unique_ptr<const RegularSolution> shares_;
   std::vector<Panel> panels_;
-  double limit_slope_ = 0;  ///< d log_rim/d xi as xi -> -infinity
+  double lower_slope_ = 0;  ///< d log_rim/d xi as xi -> -infinity
   double upper_slope_ = 0;  ///< the same as xi -> infinity
   double age_rate_ = 0;     ///< d ln(w + v)/d xi as xi -> -infinity
   double final_age_ = 0;    ///< b there
-  double truncation_ = 0;
   long evaluations_ = 0;
 
  public:

@@ -3,13 +3,15 @@
 #include <concepts>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
 
-/// All motions under a law and an r: one curve, or, where there is an invariant ray, one for either side of it.
+/// All motions under a law and an r: one curve for each interval of k between two neighbours of 0, the invariant rays
+/// and infinity.
 ///
 /// A value, cheap to copy; empty where somebody has no solution to offer.
 class SimilaritySolution {
@@ -19,27 +21,31 @@ class SimilaritySolution {
   SimilaritySolution() = default;
 
   /// One curve for every k.
-  SimilaritySolution(Curve only) : above_(std::move(only)) {}  // NOLINT(google-explicit-constructor)
+  SimilaritySolution(Curve only)
+      : SimilaritySolution(std::vector{std::move(only)}) {}  // NOLINT(google-explicit-constructor)
 
   template <std::derived_from<SimilarityCurve> C>
-  SimilaritySolution(std::shared_ptr<C> only) : above_(std::move(only)) {}  // NOLINT(google-explicit-constructor)
+  SimilaritySolution(std::shared_ptr<C> only)  // NOLINT(google-explicit-constructor)
+      : SimilaritySolution(Curve(std::move(only))) {}
 
-  /// Two curves that end on one ray.
-  SimilaritySolution(Curve above, Curve below) : above_(std::move(above)), below_(std::move(below)) {}
+  /// Curves that cover every k.
+  explicit SimilaritySolution(std::vector<Curve> curves) : curves_(std::move(curves)) {}
 
-  explicit operator bool() const { return above_ != nullptr || below_ != nullptr; }
+  explicit operator bool() const { return !curves_.empty(); }
 
-  /// The curve of the motions with this k, finite or not; the ray itself belongs to either.
+  /// The curve of the motions with this k, finite or not; a ray itself belongs to either of its sides.
   /// @throws std::domain_error  if there is none
   const Curve& through(double ln_k) const;
 
+  const std::vector<Curve>& curves() const { return curves_; }
+
  private:
-  Curve above_;
-  Curve below_;
+  std::vector<Curve> curves_;
 };
 
 /// By quadrature: for any law and r.
-/// @throws std::domain_error  as QuadratureCurve
+/// @throws std::domain_error   unless r is positive and finite
+/// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
 SimilaritySolution quadrature_solution(const Law& law, double r);
 
 /// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::largest_r; empty for all else.

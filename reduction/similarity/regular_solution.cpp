@@ -1,0 +1,117 @@
+// Notation (README (R19), (R31)): z = +- ln k, growing away from the stop, D = Phi - r k Psi, |D| = +- D
+//   |D| dm/dz + Phi m               = 1 - Psi/Psi(0)
+//   |D| dn/dz + (Phi + r k Psi) n   = k (1 - Phi)
+#include "similarity/regular_solution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/relaxation.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+using Samples = LegendreSeries::Samples;
+
+/// Beyond these, one term of each expansion is exact to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
+constexpr double lowest_ln_k = -40;
+constexpr double highest_ln_k = 44;
+
+constexpr double panel_tolerance = 1e-15;
+constexpr int deepest_split = 40;
+constexpr std::size_t most_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
+
+/// The law at one k.
+struct Coefficients {
+  double force;    ///< Phi
+  double drag;     ///< r k Psi
+  double deficit;  ///< 1 - Psi/Psi(0)
+  double excess;   ///< k (1 - Phi)
+};
+
+Coefficients coefficients(const Law& law, double r, double k) {
+  const Slip slip = slip_of_ratio(k);
+  const auto [force, moment] = law(slip);
+  return {force, r * (k * moment), law.moment_deficit(slip), k * (1 - force)};
+}
+
+}  // namespace
+
+RegularSolution::RegularSolution(const Law& law, double r, const Approach& approach)
+    : sign_(approach.side() == Approach::Side::above ? 1 : -1) {
+  const auto [low, high] = std::minmax({sign_ * lowest_ln_k, sign_ * highest_ln_k});
+  const double begin = std::max(sign_ * approach.log_terminal_ratio(), low);
+  const double end = std::min(sign_ * approach.log_far_ratio(), high);
+
+  const auto at_stop = coefficients(law, r, std::exp(sign_ * begin));
+  first_ = last_ = {at_stop.deficit / at_stop.force, at_stop.excess / (at_stop.force + at_stop.drag)};
+  // Panels meet where z is an integer: the kink k = 1 is an edge.
+  constexpr double narrowest = 4 * std::numeric_limits<double>::epsilon();
+  for (double left = begin; left < end;) {
+    const double right = std::min(std::floor(left) + 1, end);
+    if (right - left > narrowest) march(law, r, left, right, 0);
+    left = right;
+  }
+}
+
+void RegularSolution::march(const Law& law, double r, double left, double right, int depth) {
+  const double half = (right - left) / 2;
+  Samples force, drag, deficit, excess;
+  double k = 0;
+  double largest_k = 0;
+  for (int i = 0; i < LegendreSeries::order; ++i) {
+    k = std::exp(sign_ * (left + half * (1 + LegendreSeries::points()[i])));
+    largest_k = std::max(k, largest_k);
+    const auto at = coefficients(law, r, k);
+    force[i] = at.force;
+    drag[i] = at.drag;
+    deficit[i] = at.deficit;
+    excess[i] = at.excess;
+  }
+  evaluations_ += LegendreSeries::order;
+
+  const Samples difference = (sign_ * (force - drag)).max(0) / half;  // < 0: rounding
+  Panel panel{left, right, relax(difference, force, deficit, last_.sliding_share),
+              relax(difference, force + drag, excess, last_.slip_excess)};
+
+  // What the series leave out, relative to a panel of full width. 1 - Psi/Psi(0) and 1 - Phi count relative to 1: a law
+  // may have them to eps of 1 only, and neither the time left, P + m S, nor the slip, v (v/2 + n w), feels more.
+  const auto tail = [](const Samples& samples) { return LegendreSeries::through(samples).tail(); };
+  const double share_size = std::max({1.0, std::abs(panel.sliding_share(1)), 1 / force.maxCoeff()});
+  const double excess_size = std::max(largest_k, std::abs(panel.slip_excess(1)));
+  const double of_share = std::max({tail(force) / force.maxCoeff(), tail(drag) / drag.maxCoeff(), tail(deficit),
+                                    panel.sliding_share.tail() / share_size}) *
+                          (right - left);
+  const double of_excess = std::max(tail(excess) / largest_k, panel.slip_excess.tail() / excess_size) * (right - left);
+  if (std::max(of_share, of_excess) > panel_tolerance && depth < deepest_split && panels_.size() < most_panels) {
+    march(law, r, left, left + half, depth + 1);
+    march(law, r, left + half, right, depth + 1);
+    return;
+  }
+  truncation_ = std::max(truncation_, of_share);
+  last_ = {panel.sliding_share(1), panel.slip_excess(1)};
+  panels_.push_back(std::move(panel));
+}
+
+std::pair<const RegularSolution::Panel&, double> RegularSolution::place(double ln_k) const {
+  const double z = sign_ * ln_k;
+  const auto after = std::ranges::upper_bound(panels_, z, {}, &Panel::left);
+  const Panel& panel = after == panels_.begin() ? *after : *std::prev(after);
+  return {panel, std::clamp(panel.t(z), -1.0, 1.0)};
+}
+
+double RegularSolution::sliding_share(double ln_k) const {
+  if (ln_k > highest_ln_k) return 1;
+  if (panels_.empty() || sign_ * ln_k <= panels_.front().left) return first_.sliding_share;
+  const auto [panel, t] = place(ln_k);
+  return panel.sliding_share(t);
+}
+
+double RegularSolution::slip_excess(double ln_k) const {
+  if (panels_.empty() || sign_ * ln_k <= panels_.front().left) return first_.slip_excess;
+  const auto [panel, t] = place(ln_k);
+  return panel.slip_excess(t);
+}
+
+}  // namespace contensou::reduction

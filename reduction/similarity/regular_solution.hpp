@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "contensou/reduction/approach.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "numerics/legendre_series.hpp"
+
+namespace contensou::reduction {
+
+/// m of README (R4) and n of (R13) as functions of ln k between two neighbours of 0, the invariant rays and infinity.
+///
+/// With ' = d/d ln k and D = Phi - r k Psi, (R19) and (R31) are singular where D vanishes, and m and n are regular at
+/// the one of the two ratios that k tends to: by collocation, panel after panel away from it. D is not divided by:
+/// where all its digits are lost, m has all of its own.
+class RegularSolution {
+ public:
+  /// @param approach  on whose way Phi - r k Psi does not change its sign
+  RegularSolution(const Law& law, double r, const Approach& approach);
+
+  double sliding_share(double ln_k) const;  ///< m
+  double slip_excess(double ln_k) const;    ///< n
+
+  /// What the last terms of the series leave out of m, relative to max(m, 1); the noise of the law is in it.
+  double truncation() const { return truncation_; }
+
+  /// How often the law was called.
+  long evaluations() const { return evaluations_; }
+
+ private:
+  struct Values {
+    double sliding_share, slip_excess;
+  };
+  /// On [left, right] in z = ln k (from above) or -ln k (from below), which grows away from the stop.
+  struct Panel {
+    double left, right;
+    LegendreSeries sliding_share, slip_excess;
+    double t(double z) const { return 2 * ((z - left) / (right - left)) - 1; }
+  };
+
+  /// Adds the panels from left to right.
+  void march(const Law& law, double r, double left, double right, int depth);
+  /// The panel at z and the t there.
+  std::pair<const Panel&, double> place(double ln_k) const;
+
+  double sign_;
+  Values first_{};  ///< at the stop
+  Values last_{};   ///< at the right end of the last panel
+  std::vector<Panel> panels_;
+  double truncation_ = 0;
+  long evaluations_ = 0;
+};
+
+}  // namespace contensou::reduction
