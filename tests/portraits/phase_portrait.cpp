@@ -75,7 +75,7 @@ TEST_CASE("Orbits of both signs of u mirror each other", "[symmetry]") {
 
 TEST_CASE("The border is filled evenly: neighbours are equally far apart across the flow", "[invariant]") {
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
-    const auto [U, V] = portrait.window;
+    const double U = portrait.window.u, V = portrait.window.v;
     // Distance across the flow from the left end of the right half of the border, integrated anew by midpoints.
     const auto across = [&](const PortraitOrbit& orbit) {
       const auto share = [&](reduction::State at, bool top) {
