@@ -1,42 +1,51 @@
-// The one file that knows gnuplot. A 2014 gnuplot-iostream reports neither a missing nor a failing gnuplot, so it
-// writes the script, and the script is run here, once, with its status checked.
+// The one file that knows gnuplot. gnuplot-iostream writes the data of the script; it would start gnuplot, too, but not
+// say when that is missing, fails or hangs.
 #include "contensou/portraits/gnuplot.hpp"
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <csignal>
 #include <cstring>
-#include <filesystem>
-#include <functional>
 #include <iomanip>
-#include <memory>
+#include <iostream>
+#include <locale>
 #include <sstream>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <fmt/format.h>
 #include <gnuplot-iostream.h>
-#include <boost/process.hpp>
+#include <nlohmann/json.hpp>
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 
 namespace contensou::portraits {
 
-namespace process = boost::process;
-
 namespace {
 
+/// How a whole file of a format begins and ends.
+struct Format {
+  std::string_view ending;
+  PictureFormat format;
+  std::string_view begin, end;
+};
+
+using namespace std::string_view_literals;
 constexpr std::array formats{
-    std::pair{std::string_view("svg"), PictureFormat::svg}, std::pair{std::string_view("pdf"), PictureFormat::pdf},
-    std::pair{std::string_view("png"), PictureFormat::png}, std::pair{std::string_view("eps"), PictureFormat::eps},
-    std::pair{std::string_view("gp"), PictureFormat::gp},   std::pair{std::string_view("tex"), PictureFormat::tex},
+    Format{"svg", PictureFormat::svg, "<?xml", "</svg>"},
+    Format{"pdf", PictureFormat::pdf, "%PDF", "%%EOF"},
+    Format{"png", PictureFormat::png, "\x89PNG", "\0\0\0\0IEND\xAE\x42\x60\x82"sv},
+    Format{"eps", PictureFormat::eps, "%!PS-Adobe", "%%EOF"},
+    Format{"gp", PictureFormat::gp, "", ""},
+    Format{"tex", PictureFormat::tex, "", ""},
 };
 
 /// The size of letters on paper, and the width of a line of width 1, mm.
@@ -44,6 +53,11 @@ constexpr double letter_mm = 2.7;
 constexpr double line_mm = 0.2;
 /// The length of an arrow's head, mm.
 constexpr double head_mm = 2.0;
+
+/// Seconds that gnuplot may take.
+constexpr unsigned time_limit = 60;
+/// Its status where it cannot be run, as a shell's.
+constexpr int not_run = 127;
 
 std::string terminal(const Figure& figure, PictureFormat format) {
   const double width = figure.width_mm;
@@ -78,14 +92,26 @@ std::string terminal(const Figure& figure, PictureFormat format) {
 }
 
 /// Text as a gnuplot string: between single quotes nothing is run and only the quote itself is special. Control
-/// characters would end the line.
+/// characters would end the line. Bytes that are not UTF-8 become U+FFFD, as nlohmann's writer does it.
 std::string quoted(const std::string& text) {
+  using nlohmann::json;
+  const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
   std::string result = "'";
-  for (char c : text) {
+  for (char c : valid) {
     if (c == '\'') result += '\'';
     result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
   return result + '\'';
+}
+
+/// Between two plots of one command.
+constexpr const char* next_plot = ", \\\n     ";
+
+std::ostringstream text_stream() {
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream << std::setprecision(8);
+  return stream;
 }
 
 std::string colour(Colour colour) { return fmt::format("rgb '#{:06x}'", colour.rgb); }
@@ -96,6 +122,13 @@ std::string line_style(const Stroke& stroke) {
 
 using Row = std::pair<double, double>;
 using Vector = std::tuple<double, double, double, double>;
+
+/// Rows of numbers as gnuplot reads them after a command that plots '-'.
+template <class Rows, class Mode>
+void send(std::ostream& data, const Rows& rows, Mode mode) {
+  gnuplotio::top_level_array_sender(data, rows, mode, gnuplotio::ModeText());
+  data << "e\n";
+}
 
 std::vector<Row> rows(const Polyline& line) {
   std::vector<Row> result;
@@ -121,7 +154,7 @@ std::vector<Vector> heads(const Panel& panel, const Box& box, const std::vector<
   return result;
 }
 
-void write_axis(Gnuplot& gp, const char* which, const Axis& axis, bool shown) {
+void write_axis(std::ostream& gp, const char* which, const Axis& axis, bool shown) {
   gp << "set " << which << "label " << quoted(shown ? axis.name : "") << "\n";
   gp << "set " << which << "range [" << axis.low << ":" << axis.high << "]\n";
   gp << (axis.logarithmic ? "set logscale " : "unset logscale ") << which << "\n";
@@ -157,7 +190,7 @@ constexpr const char* palette =
     "1 '#2f4788')\n";
 
 /// The plot of a colour map: on axes of its own, which are linear. Its data follow by send_colours.
-std::string write_colours(Gnuplot& gp, const Figure& figure, const ColourMap& colours, const Box& box) {
+std::string write_colours(std::ostream& gp, const Figure& figure, const ColourMap& colours, const Box& box) {
   const auto across = [&](double mm) { return mm / figure.width_mm; };
   const auto up = [&](double mm) { return mm / figure.height_mm; };
   constexpr double gap_mm = 3, bar_mm = 4;
@@ -175,7 +208,7 @@ std::string write_colours(Gnuplot& gp, const Figure& figure, const ColourMap& co
   return "matrix using ($1+0.5):($2+0.5):3 axes x2y2 with image";
 }
 
-void send_colours(Gnuplot& gp, const ColourMap& colours) {
+void send_colours(std::ostream& gp, const ColourMap& colours) {
   for (std::size_t i = 0; i < colours.values.size(); ++i) {
     gp << colours.values[i] << ((i + 1) % colours.columns == 0 ? "\n" : " ");
   }
@@ -205,7 +238,7 @@ std::string mark_style(const Marks& marks) {
                      colour(marks.colour));
 }
 
-void write_panel(Gnuplot& gp, const Figure& figure, const Panel& panel, const Box& box, double name) {
+void write_panel(std::ostream& gp, const Figure& figure, const Panel& panel, const Box& box, double name) {
   const auto across = [&](double mm) { return mm / figure.width_mm; };
   const auto up = [&](double mm) { return mm / figure.height_mm; };
   gp << "set lmargin at screen " << across(box.left) << "\nset rmargin at screen " << across(box.left + box.width)
@@ -224,44 +257,45 @@ void write_panel(Gnuplot& gp, const Figure& figure, const Panel& panel, const Bo
 
   // Each layer with data is a plot of '-' and, after the whole command, that data.
   std::string separator = "plot ";
-  std::vector<std::function<void()>> data;
-  const auto entry = [&](const std::string& style, std::function<void()> send) {
-    gp << std::exchange(separator, ", \\\n     ") << "'-' " << style << " notitle";
-    data.push_back(std::move(send));
+  std::ostringstream data = text_stream();
+  const auto entry = [&](const std::string& style) {
+    gp << std::exchange(separator, next_plot) << "'-' " << style << " notitle";
   };
   if (panel.colours) {
-    entry(write_colours(gp, figure, *panel.colours, box), [&gp, &panel] { send_colours(gp, *panel.colours); });
+    entry(write_colours(gp, figure, *panel.colours, box));
+    send_colours(data, *panel.colours);
   }
   for (const Region& region : panel.regions) {
-    entry(fmt::format("with filledcurves closed lc {}", colour(region.colour)),
-          [&gp, &region] { gp.send1d(rows(region.border)); });
+    entry(fmt::format("with filledcurves closed lc {}", colour(region.colour)));
+    send(data, rows(region.border), gnuplotio::Mode1D());
   }
   for (const Lines& layer : panel.lines) {
-    auto blocks = rows(panel, layer.lines);
+    const auto blocks = rows(panel, layer.lines);
     if (blocks.empty()) continue;
-    entry("with lines " + line_style(layer.stroke), [&gp, blocks = std::move(blocks)] { gp.send2d(blocks); });
+    entry("with lines " + line_style(layer.stroke));
+    send(data, blocks, gnuplotio::Mode2D());
   }
   for (const Arrows& layer : panel.arrows) {
-    auto vectors = heads(panel, box, layer.arrows);
+    const auto vectors = heads(panel, box, layer.arrows);
     if (vectors.empty()) continue;
     entry(fmt::format("with vectors head filled size screen {:.4g},18,75 fixed lc {} lw 0.5",
-                      across(head_mm * figure.theme.letters), colour(layer.colour)),
-          [&gp, vectors = std::move(vectors)] { gp.send1d(vectors); });
+                      across(head_mm * figure.theme.letters), colour(layer.colour)));
+    send(data, vectors, gnuplotio::Mode1D());
   }
   for (const Marks& layer : panel.marks) {
     if (layer.points.empty()) continue;
-    const auto send = [&gp, &layer] { gp.send1d(rows(layer.points)); };
     if (const int ground = point_type(layer.shape).ground) {
-      entry(fmt::format("with points pt {} ps {} lc {}", ground, layer.size, colour(figure.theme.ground)), send);
+      entry(fmt::format("with points pt {} ps {} lc {}", ground, layer.size, colour(figure.theme.ground)));
+      send(data, rows(layer.points), gnuplotio::Mode1D());
     }
-    entry(mark_style(layer), send);
+    entry(mark_style(layer));
+    send(data, rows(layer.points), gnuplotio::Mode1D());
   }
-  if (data.empty()) gp << separator << "NaN notitle";
-  gp << "\n";
-  for (const auto& send : data) send();
+  if (separator != next_plot) gp << separator << "NaN notitle";
+  gp << "\n" << data.view();
 }
 
-void write_colour_bar(Gnuplot& gp, const Figure& figure, const Layout& layout) {
+void write_colour_bar(std::ostream& gp, const Figure& figure, const Layout& layout) {
   const ColourBar& bar = *figure.colour_bar;
   const Box& box = layout.colour_bar;
   const auto across = [&](double mm) { return mm / figure.width_mm; };
@@ -284,7 +318,7 @@ void write_colour_bar(Gnuplot& gp, const Figure& figure, const Layout& layout) {
 }
 
 /// Title, subtitle, colour bar and legend, in a plot of its own that covers the page and shows nothing else.
-void write_heading(Gnuplot& gp, const Figure& figure, const Layout& layout) {
+void write_heading(std::ostream& gp, const Figure& figure, const Layout& layout) {
   const auto up = [&](double mm) { return mm / figure.height_mm; };
   gp << "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset tmargin at screen 0.98\nset bmargin at screen "
         "0.02\nunset border\nunset tics\n";
@@ -300,7 +334,7 @@ void write_heading(Gnuplot& gp, const Figure& figure, const Layout& layout) {
   const auto entry = [&](const std::string& legend, const std::string& style) {
     if (legend.empty() || std::ranges::find(listed, legend) != listed.end()) return;
     listed.push_back(legend);
-    gp << std::exchange(separator, ", \\\n     ") << "NaN " << style << " title " << quoted(legend);
+    gp << std::exchange(separator, next_plot) << "NaN " << style << " title " << quoted(legend);
   };
   for (const Panel& panel : figure.panels) {
     for (const Lines& layer : panel.lines) entry(layer.legend, "with lines " + line_style(layer.stroke));
@@ -310,105 +344,114 @@ void write_heading(Gnuplot& gp, const Figure& figure, const Layout& layout) {
   gp << "\nunset key\nunset object\n";
 }
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-std::string read_all(std::FILE* file) {
-  std::rewind(file);
-  std::string text;
-  std::array<char, 1 << 16> buffer;
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file)) text.append(buffer.data(), count);
-  return text;
-}
-
 std::string script(const Figure& figure, PictureFormat format) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::tmpfile());
-  if (!file)
-    throw GnuplotError(fmt::format("cannot make a temporary file for the gnuplot script: {}", std::strerror(errno)));
-  {
-    const int copy = dup(fileno(file.get()));
-    Gnuplot gp(fdopen(copy, "w"));
-    gp << std::defaultfloat << std::setprecision(8);
-    gp << "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n";
-    gp << "set encoding utf8\n" << terminal(figure, format) << "\n";
-    gp << "set style textbox opaque noborder fillcolor " << colour(figure.theme.ground) << " margins 0.2,0.1\n";
-    const std::string ink = colour(figure.theme.ink);
-    gp << "set xtics textcolor " << ink << "\nset ytics textcolor " << ink << "\n";
-    gp << "set xlabel textcolor " << ink << "\nset ylabel textcolor " << ink << "\n";
-    gp << "set multiplot\n";
-    const Layout layout = lay_out(figure);
-    write_heading(gp, figure, layout);
-    for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-      write_panel(gp, figure, figure.panels[i], layout.panels[i], layout.names[i]);
-    }
-    gp << "unset multiplot\n";
+  std::ostringstream gp = text_stream();
+  gp << "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n";
+  gp << "set encoding utf8\n" << terminal(figure, format) << "\n";
+  gp << "set style textbox opaque noborder fillcolor " << colour(figure.theme.ground) << " margins 0.2,0.1\n";
+  const std::string ink = colour(figure.theme.ink);
+  gp << "set xtics textcolor " << ink << "\nset ytics textcolor " << ink << "\n";
+  gp << "set xlabel textcolor " << ink << "\nset ylabel textcolor " << ink << "\n";
+  gp << "set multiplot\n";
+  const Layout layout = lay_out(figure);
+  write_heading(gp, figure, layout);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    write_panel(gp, figure, figure.panels[i], layout.panels[i], layout.names[i]);
   }
-  return read_all(file.get());
+  gp << "unset multiplot\n";
+  return std::move(gp).str();
 }
 
-/// A file without a name in the temporary folder: whatever ends the program, nothing is left of it.
-class ScratchFile {
+/// A file in memory, for a program to read or to write.
+class MemoryFile {
  public:
-  ScratchFile() {
-    std::error_code error;
-    const auto parent = std::filesystem::temp_directory_path(error);
-    if (error) {
-      throw GnuplotError(fmt::format("no temporary folder for gnuplot: {}; set TMPDIR to one", error.message()));
-    }
-    std::string pattern = (parent / "contensou-XXXXXX").string();
-    const int descriptor = mkstemp(pattern.data());
-    if (descriptor >= 0) unlink(pattern.c_str());
-    file_.reset(descriptor >= 0 ? fdopen(descriptor, "w+b") : nullptr);
-    if (!file_) throw GnuplotError(fmt::format("cannot make a temporary file {}: {}", pattern, std::strerror(errno)));
+  MemoryFile() {
+    if (file_ < 0) fail();
   }
-  std::FILE* get() const { return file_.get(); }
+  explicit MemoryFile(std::string_view content) : MemoryFile() {
+    if (::pwrite(file_, content.data(), content.size(), 0) != std::ssize(content)) fail();
+  }
+  ~MemoryFile() { ::close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  int get() const { return file_; }
+
+  std::string content() const {
+    std::string text(static_cast<std::size_t>(::lseek(file_, 0, SEEK_END)), '\0');
+    if (::pread(file_, text.data(), text.size(), 0) != std::ssize(text)) fail();
+    return text;
+  }
 
  private:
-  std::unique_ptr<std::FILE, CloseFile> file_;
+  [[noreturn]] static void fail() {
+    throw GnuplotError(fmt::format("no room in memory for what gnuplot reads and writes: {}", std::strerror(errno)));
+  }
+
+  int file_ = ::memfd_create("contensou", MFD_CLOEXEC);
 };
+
+/// Runs gnuplot with no settings but the script's: without ~/.gnuplot, in no language. It ends with
+/// this program.
+/// @return  its status as of waitpid()
+int run(const MemoryFile& script, const MemoryFile& picture, const MemoryFile& messages) {
+  std::vector<const char*> environment{"LC_ALL=C.UTF-8"};
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!std::string_view(*variable).starts_with("LC_ALL=")) environment.push_back(*variable);
+  }
+  environment.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child == 0) {  // only what is async-signal-safe: other threads may hold locks
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    std::signal(SIGALRM, SIG_DFL);
+    ::alarm(time_limit);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    char name[] = "gnuplot", without_settings[] = "-d";
+    char* const words[]{name, without_settings, nullptr};
+    if (::getppid() == parent && ::dup2(script.get(), STDIN_FILENO) >= 0 && ::dup2(picture.get(), STDOUT_FILENO) >= 0 &&
+        ::dup2(messages.get(), STDERR_FILENO) >= 0) {
+      ::execvpe(name, words, const_cast<char**>(environment.data()));
+    }
+    ::_exit(not_run);
+  }
+  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // where nobody is told a status, the picture decides
+  while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return status;
+}
+
+/// What a status means; empty: success.
+std::string complaint(int status) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
+    return fmt::format("drew for more than {} s and was stopped; ask for less, or write .gp and draw it yourself",
+                       time_limit);
+  }
+  if (WIFSIGNALED(status)) return fmt::format("was ended by signal {}", WTERMSIG(status));
+  if (WEXITSTATUS(status) == not_run) {
+    return "was not found on PATH or cannot be run; install it (Debian: gnuplot-nox), or write .gp, .tex, .csv or "
+           ".json, which need none";
+  }
+  return status == 0 ? "" : fmt::format("ended with status {}", WEXITSTATUS(status));
+}
 
 std::string first_lines(const std::string& text, int count) {
   std::istringstream stream(text);
   std::string result;
   for (std::string line; count > 0 && std::getline(stream, line);) {
-    if (line.find_first_not_of(" \t^") == std::string::npos) continue;
-    result += "\n  " + line;
+    const std::size_t begin = line.find_first_not_of(" \t^");
+    if (begin == std::string::npos) continue;
+    result += "\n  " + line.substr(begin);
     --count;
   }
   return result;
 }
 
-std::string_view name(PictureFormat format) {
-  return std::ranges::find(formats, format, &std::pair<std::string_view, PictureFormat>::second)->first;
-}
-
-/// Whether the bytes begin as a file of the format does.
-bool is_picture(std::string_view bytes, PictureFormat format) {
-  switch (format) {
-    case PictureFormat::svg:
-      return bytes.starts_with("<?xml") && bytes.find("</svg>") != std::string_view::npos;
-    case PictureFormat::pdf:
-      return bytes.starts_with("%PDF");
-    case PictureFormat::png:
-      return bytes.starts_with("\x89PNG");
-    case PictureFormat::eps:
-      return bytes.starts_with("%!PS-Adobe");
-    case PictureFormat::gp:
-    case PictureFormat::tex:
-      break;
-  }
-  return true;
-}
-
-int run(const boost::filesystem::path& gnuplot, const ScratchFile& script, const ScratchFile& picture,
-        const ScratchFile& messages) {
-  try {
-    return process::system(gnuplot, process::std_in<script.get(), process::std_out> picture.get(),
-                           process::std_err > messages.get());
-  } catch (const process::process_error& error) {
-    throw GnuplotError(fmt::format("gnuplot ({}) cannot be started: {}", gnuplot.string(), error.what()));
-  }
+std::ptrdiff_t count(std::string_view text, std::string_view part) {
+  std::ptrdiff_t found = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string_view::npos; at += part.size()) ++found;
+  return found;
 }
 
 void replace_all(std::string& text, std::string_view old, std::string_view with) {
@@ -421,6 +464,10 @@ void replace_all(std::string& text, std::string_view old, std::string_view with)
 /// unless told to keep them.
 std::string finished_svg(std::string svg, const Figure& figure) {
   replace_all(svg, "<text>", "<text xml:space=\"preserve\">");
+  // What XML has no place for and gnuplot leaves in texts: an end of CDATA, U+FFFE and U+FFFF.
+  replace_all(svg, "]]>", "]]&gt;");
+  replace_all(svg, "\xEF\xBF\xBE", "\xEF\xBF\xBD");
+  replace_all(svg, "\xEF\xBF\xBF", "\xEF\xBF\xBD");
   const std::string_view view_box = "viewBox=";
   if (const std::size_t at = svg.find(view_box); at != std::string::npos) {
     svg.insert(at, fmt::format("width=\"{:g}mm\" height=\"{:g}mm\" ", figure.width_mm, figure.height_mm));
@@ -455,9 +502,9 @@ std::vector<std::string_view> picture_formats() {
 }
 
 std::optional<PictureFormat> find_picture_format(std::string_view ending) {
-  const auto found = std::ranges::find(formats, ending, &std::pair<std::string_view, PictureFormat>::first);
+  const auto found = std::ranges::find(formats, ending, &Format::ending);
   if (found == formats.end()) return std::nullopt;
-  return found->second;
+  return found->format;
 }
 
 std::string gnuplot_script(const Figure& figure) { return script(figure, PictureFormat::gp); }
@@ -466,29 +513,19 @@ std::string render(const Figure& figure, PictureFormat format) {
   if (format == PictureFormat::gp) return gnuplot_script(figure);
   if (format == PictureFormat::tex) return pgfplots(figure);
 
-  const auto gnuplot = process::search_path("gnuplot");
-  if (gnuplot.empty()) {
-    throw GnuplotError(
-        "gnuplot was not found on PATH; install it (Debian: gnuplot-nox), or write .gp, .tex, .csv or .json, which "
-        "need none");
-  }
-  const ScratchFile commands, drawing, messages_file;
-  const std::string text = script(figure, format);
-  const bool written = std::fwrite(text.data(), 1, text.size(), commands.get()) == text.size();
-  if (!written || std::fflush(commands.get()) != 0) {
-    throw GnuplotError(fmt::format("cannot write the gnuplot script: {}", std::strerror(errno)));
-  }
-  std::rewind(commands.get());
-
-  const int status = run(gnuplot, commands, drawing, messages_file);
-  const std::string messages = first_lines(read_all(messages_file.get()), 4);
-  if (status != 0) {
-    throw GnuplotError(fmt::format("gnuplot ({}) ended with status {}{}", gnuplot.string(), status, messages));
-  }
-  std::string picture = read_all(drawing.get());
-  if (!is_picture(picture, format)) {
-    throw GnuplotError(fmt::format("gnuplot ({}) drew nothing that is {}{}", gnuplot.string(), name(format), messages));
-  }
+  const std::string commands = script(figure, format);
+  const MemoryFile input(commands), output, errors;
+  std::string wrong = complaint(run(input, output, errors));
+  const std::string messages = first_lines(errors.content(), 4);
+  std::string picture = output.content();
+  const auto& [ending, same, begin, end] = *std::ranges::find(formats, format, &Format::format);
+  const std::string_view drawn = std::string_view(picture).substr(0, picture.find_last_not_of('\n') + 1);
+  const bool whole = drawn.starts_with(begin) && drawn.ends_with(end);
+  const bool has_plots = format != PictureFormat::svg || count(picture, "<g id=\"gnuplot_plot_") ==
+                                                             count(commands, "\nplot ") + count(commands, next_plot);
+  if (wrong.empty() && !(whole && has_plots)) wrong = fmt::format("drew nothing that is a whole {}", ending);
+  if (!wrong.empty()) throw GnuplotError(fmt::format("gnuplot {}{}", wrong, messages));
+  if (!messages.empty()) std::cerr << fmt::format("contensou: gnuplot drew the picture and said{}\n", messages);
   return finished(std::move(picture), figure, format);
 }
 
