@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <ranges>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +16,7 @@
 #include "contensou/si/nearest_name.hpp"
 #include "contensou/si/run_file.hpp"
 #include "input/quotation.hpp"
+#include "output/interruption.hpp"
 #include "output/output.hpp"
 #include "verb.hpp"
 
@@ -141,6 +146,10 @@ ExitStatus guarded(const std::vector<std::string>& arguments) {
     return complain(ExitStatus::file_failure, fmt::format("contensou: {}", error.what()));
   } catch (const std::system_error& error) {
     return complain(ExitStatus::file_failure, fmt::format("contensou: {}", error.what()));
+  } catch (const std::bad_alloc&) {
+    return complain(
+        ExitStatus::file_failure,
+        "contensou: out of memory: ask for less at once, or allow more (ulimit -v, or the container's limit)");
   } catch (const std::exception& error) {
     return complain(ExitStatus::numerical_failure, fmt::format("contensou: {}", error.what()));
   }
@@ -151,5 +160,11 @@ ExitStatus guarded(const std::vector<std::string>& arguments) {
 }  // namespace contensou::program
 
 int main(int argc, char** argv) {
+  // The number of a closed standard stream must not become that of a file, which messages would be written into: what
+  // stands in for it here cannot be read or written.
+  int file = 0;
+  while (file >= 0 && file <= STDERR_FILENO) file = ::open("/dev/null", O_PATH);
+  ::close(file);
+  contensou::program::handle_ending_signals();
   return static_cast<int>(contensou::program::guarded({argv + std::min(argc, 1), argv + argc}));
 }

@@ -1,7 +1,9 @@
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include "run_program.hpp"
@@ -76,3 +78,52 @@ TEST_CASE("a link to a file that is not there yet stays a link", "[cli]") {
   CHECK(std::filesystem::is_symlink(directory.file("link.csv")));
   CHECK(read_file(directory.file("later.csv")).starts_with("law,route"));
 }
+
+TEST_CASE("a link that leads to itself is refused and stays", "[cli]") {
+  const TemporaryDirectory scratch;
+  fs::create_symlink("there", scratch.file("here"));
+  fs::create_symlink("here", scratch.file("there"));
+  const Run run = run_program("balls pool -o " + scratch.file("here"));
+  CHECK(run.status == 4);
+  CHECK_THAT(run.err, Contains("cannot write " + scratch.file("here") + ": Too many levels of symbolic links"));
+  CHECK(fs::is_symlink(scratch.file("here")));
+}
+
+TEST_CASE("a read-only file is refused, with a way out", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("old"), "old");
+  fs::permissions(scratch.file("old"), fs::perms::owner_read | fs::perms::others_read);
+  const Run run = run_program("balls pool -o " + scratch.file("old"));
+  CHECK(run.status == 4);
+  CHECK_THAT(run.err, Contains(scratch.file("old") + ": Permission denied") && Contains("chmod"));
+  CHECK(read_file(scratch.file("old")) == "old");
+  CHECK(scratch.names() == std::vector<std::string>{"old"});
+}
+
+TEST_CASE("a name may be as long as the file system allows", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string name = std::string(251, 'n') + ".csv";
+  CHECK(run_program("orbit --ball pool -o " + scratch.file(name)).status == 0);
+  CHECK(scratch.names() == std::vector<std::string>{name});
+}
+
+TEST_CASE("a name that is not UTF-8 is replaced in JSON", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string law = scratch.file("bad\xff.csv");
+  write_file(law, "rho,pressure\n0,1\n0.5,0.8\n1,0.5\n");
+  const Run run = run_program({"portrait", "--mu", "0.3", "--law", law, "--format", "json", "-o", "-"});
+  CHECK(run.status == 0);
+  CHECK(nlohmann::json::parse(run.out).at("law").get<std::string>().ends_with("bad\xef\xbf\xbd.csv"));
+}
+
+#if !defined(__SANITIZE_ADDRESS__)  // which reserves more address space than the limit
+TEST_CASE("out of memory is status 4, with a way out", "[limit]") {
+  const std::string command = fmt::format(
+      "ulimit -v 300000; '{}' orbit --mu 0.1 --u0 1 --v0 1 --samples 9000000 2>&1 >/dev/null", CONTENSOU_PROGRAM);
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  char said[200] = "";
+  CHECK(std::fgets(said, sizeof said, pipe) != nullptr);
+  CHECK(WEXITSTATUS(::pclose(pipe)) == 4);
+  CHECK_THAT(said, Contains("contensou: out of memory") && Contains("ulimit -v"));
+}
+#endif

@@ -303,6 +303,7 @@ TEST_CASE("the first bad row of a long batch is the one that is named", "[cli]")
     CHECK_THAT(run.err, StartsWith("<stdin>:60002: mu: 0 < mu <= 1 is required, got 9"));
     const Run kept = run_program("stop --keep-going --batch - --threads " + threads, csv);
     CHECK(kept.status == 2);
+    CHECK(kept.out.starts_with(run.out));
     CHECK_THAT(kept.out, Contains("\n9,bad,1,1,\n") && Contains("\n8,worse,1,1,\n"));
     CHECK_THAT(kept.err, StartsWith("<stdin>:60002: ") && Contains("\n<stdin>:90003: "));
   }
@@ -326,6 +327,7 @@ TEST_CASE("a record without an end is refused before it fills the memory", "[lim
   CHECK(open.status == 2);
   CHECK_THAT(open.err, StartsWith("<stdin>:3: ") && Contains("longer than 64 MiB"));
   CHECK(std::ranges::count(open.out, '\n') == 2);
+  CHECK_THAT(open.out, StartsWith("mu,u0,v0,tau_stop\n0.1,1,1,"));
 }
 
 #if !defined(__SANITIZE_ADDRESS__)  // which reserves more address space than the limit

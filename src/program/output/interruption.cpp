@@ -2,67 +2,86 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace contensou::program {
 
 namespace {
 
-constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP};
+/// What the signal handler reads, if there is an unfinished file.
+std::atomic<bool> is_unfinished = false;
+static_assert(decltype(is_unfinished)::is_always_lock_free);
+std::array<char, PATH_MAX> unfinished{};
+std::array<char, PATH_MAX + 100> message{};
 
-/// What the handler acts on; whoever takes it owns the end.
-std::atomic<const Interruption*> current = nullptr;
-static_assert(decltype(current)::is_always_lock_free);
+/// Async-signal-safe: unlink, write, signal, raise and _exit are. Other threads may be in here, too: every one of them
+/// removes the file before it ends the program.
+void end_program(int signal) {
+  if (is_unfinished) {
+    ::unlink(unfinished.data());
+    if (signal != SIGPIPE) {
+      std::signal(SIGPIPE, SIG_IGN);  // so that a message nobody reads does not change how the program ends
+      [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), std::strlen(message.data()));
+    }
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+  ::_exit(128 + signal);  // process 1 of a container outlives it
+}
 
-sigset_t ending_set() {
+sigset_t ending_signals() {
   sigset_t set;
-  sigemptyset(&set);
-  for (int signal : ending_signals) sigaddset(&set, signal);
+  ::sigfillset(&set);
+  for (int other : {SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN, SIGTTOU, SIGCONT, SIGCHLD, SIGURG, SIGWINCH}) {
+    ::sigdelset(&set, other);
+  }
   return set;
 }
 
 }  // namespace
 
-SignalsWait::SignalsWait() {
-  const sigset_t ending = ending_set();
-  pthread_sigmask(SIG_BLOCK, &ending, &before_);
-}
-
-SignalsWait::~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
-Interruption::Interruption(std::string file, const std::string& sentence)
-    : file_(std::move(file)),
-      // A terminal shows ^C, or a progress bar, in the line.
-      message_((::isatty(STDERR_FILENO) != 0 ? "\ncontensou: interrupted: " : "contensou: interrupted: ") + sentence +
-               "\n") {
-  current = this;
-  for (int signal : ending_signals) {
+void handle_ending_signals() {
+  const sigset_t ending = ending_signals();
+  for (int signal = 1; signal < NSIG; ++signal) {
     struct sigaction action {};
-    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;  // as under nohup
-    action.sa_handler = &Interruption::end;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+    if (::sigismember(&ending, signal) != 1 || ::sigaction(signal, nullptr, &action) != 0) continue;
+    if (action.sa_handler != SIG_DFL) continue;
+    action.sa_handler = signal == SIGXFSZ ? SIG_IGN : &end_program;
+    action.sa_flags = static_cast<int>(SA_NODEFER);
     ::sigaction(signal, &action, nullptr);
   }
 }
 
-Interruption::~Interruption() {
-  while (current.exchange(nullptr) == nullptr) ::pause();  // another thread is ending the program
-  for (int signal : ending_signals) {
-    struct sigaction action {};
-    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != &Interruption::end) continue;
-    std::signal(signal, SIG_DFL);
-  }
+int open_unfinished(const std::string& folder, const std::string& target, std::string& path) {
+  // A terminal shows ^C, or a progress bar, in the line.
+  const char* new_line = ::isatty(STDERR_FILENO) != 0 ? "\n" : "";
+  std::snprintf(message.data(), message.size(), "%scontensou: interrupted: %s was not written, nothing is left of it\n",
+                new_line, target.c_str());
+  // The name is in the handler's hands before the file exists: mkostemp fills it in, then creates the file.
+  path = folder + "/.contensou-XXXXXX";
+  if (path.size() >= unfinished.size()) return errno = ENAMETOOLONG, -1;
+  std::strcpy(unfinished.data(), path.c_str());
+  is_unfinished = true;
+  const int file = ::mkostemp(unfinished.data(), O_CLOEXEC);
+  path = unfinished.data();
+  if (file < 0) forget_unfinished();
+  return file;
 }
 
-// Async-signal-safe: unlink, write and raise are.
-void Interruption::end(int signal) {
-  if (const Interruption* interruption = current.exchange(nullptr)) {
-    if (!interruption->file_.empty()) ::unlink(interruption->file_.c_str());
-    [[maybe_unused]] const ssize_t written =
-        ::write(STDERR_FILENO, interruption->message_.data(), interruption->message_.size());
-  }
-  ::raise(signal);
+void forget_unfinished() { is_unfinished = false; }
+
+BlockedSignals::BlockedSignals() {
+  const sigset_t ending = ending_signals();
+  ::pthread_sigmask(SIG_BLOCK, &ending, &before_);
 }
+
+BlockedSignals::~BlockedSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
 }  // namespace contensou::program

@@ -1,17 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 
-#include "output/interruption.hpp"
+#include <sys/types.h>
 
 namespace contensou::program {
 
-/// A file that is written piece by piece and appears whole or not at all: beside it first, then renamed. Standard
-/// output, devices and pipes get everything at the end, from a temporary file without a name. Ctrl-C leaves nothing and
-/// says so.
+/// Where results go, piece by piece. A file appears whole or not at all: it is written under another name in the same
+/// folder, then renamed; links stay and lead to the new file, which has the permissions of the old one. Standard
+/// output, devices and pipes are written to directly.
 class OutputFile {
  public:
   /// @param path  "-" is standard output
@@ -31,20 +30,15 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(int error) const;
-  bool renamed() const { return device_ < 0; }
 
   std::string path_;
-  std::string target_;  ///< the file that links lead to, so that it is replaced and they stay
-  std::string beside_;  ///< exists until it is renamed or removed; empty: a file without a name
+  std::string target_;      ///< the file that links lead to, so that it is replaced and they stay
+  std::string unfinished_;  ///< its name until it is renamed; empty: written to directly
+  mode_t mode_ = 0;
   int file_ = -1;
-  int device_ = -1;  ///< standard output, a device or a pipe, open
-  std::unique_ptr<Interruption> interruption_;
 };
 
-/// Writes a file whole or not at all. Devices and pipes are written directly.
-///
-/// @param path  "-" is standard output
-/// @throws FileFailure  naming the file and the reason; nothing is left behind
+/// Writes all of it as an OutputFile.
 void write_output(const std::string& path, std::string_view content);
 
 }  // namespace contensou::program

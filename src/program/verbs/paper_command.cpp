@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <future>
 #include <limits>
+#include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "options/output_options.hpp"
 #include "output/columns.hpp"
+#include "output/interruption.hpp"
 #include "output/json.hpp"
 #include "output/output.hpp"
 #include "output/picture.hpp"
@@ -28,6 +31,7 @@ namespace contensou::program {
 
 namespace {
 
+namespace fs = std::filesystem;
 using portraits::Figure;
 using portraits::PictureFormat;
 
@@ -80,7 +84,7 @@ struct File {
 };
 
 /// All figures in both formats, drawn side by side.
-std::vector<File> draw_figures(const std::filesystem::path& folder) {
+std::vector<File> draw_figures(const fs::path& folder) {
   std::vector<std::pair<std::string, std::future<std::string>>> drawings;
   for (const NamedFigure& named : figures()) {
     for (const auto& [ending, format] : {std::pair{".svg", PictureFormat::svg}, {".pdf", PictureFormat::pdf}}) {
@@ -93,12 +97,28 @@ std::vector<File> draw_figures(const std::filesystem::path& folder) {
   return files;
 }
 
-void make_folder(const Argument& out, const std::filesystem::path& folder) {
+/// Writes all files or none, into a folder that is made if there is none.
+void write_files(const Argument& out, const std::vector<File>& files) {
+  const BlockedSignals wait;
+  const fs::path folder = fs::absolute(out.text());
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw FileFailure(fmt::format("{} '{}': cannot make this folder: {}", out.name(), out.text(),
-                                  error ? error.message() : "a file of that name is in the way"));
+  std::vector<fs::path> missing;  // the deepest first
+  for (fs::path path = folder; !fs::exists(path, error); path = path.parent_path()) missing.push_back(path);
+  try {
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder)) {
+      throw FileFailure(fmt::format("{} '{}': cannot make this folder: {}", out.name(), out.text(),
+                                    error ? error.message() : "a file of that name is in the way"));
+    }
+    std::vector<std::unique_ptr<OutputFile>> outputs;
+    for (const auto& [path, content] : files) {
+      outputs.push_back(std::make_unique<OutputFile>(path));
+      outputs.back()->write(content);
+    }
+    for (const auto& output : outputs) output->finish();
+  } catch (...) {
+    for (const fs::path& path : missing) fs::remove(path, error);
+    throw;
   }
 }
 
@@ -113,11 +133,7 @@ class PaperCommand final : public Verb {
     const Output output = output_.read();
     if (out_.given() && out_.text().empty()) out_.reject("a folder's name is needed");
     const std::vector<Row> rows = recompute();
-    if (out_.given()) {
-      const std::vector<File> files = draw_figures(out_.text());
-      make_folder(out_, out_.text());
-      for (const auto& [path, content] : files) write_output(path, content);
-    }
+    if (out_.given()) write_files(out_, draw_figures(out_.text()));
     output.write_as([&](int digits) { return as_text(rows, digits); }, [&] { return as_csv(rows); },
                     [&] { return as_json(rows); });
     return std::ranges::all_of(rows, &Row::as_recorded) ? ExitStatus::done : ExitStatus::check_failed;

@@ -1,0 +1,443 @@
+// Whatever goes wrong while a file is written: it is the old one or the new one, whole, and nothing lies beside it.
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <poll.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A command line that writes files.
+struct Writer {
+  std::string words;
+  std::vector<std::string> files;
+  std::string option = "-o";
+};
+
+/// One for each way in which a verb writes.
+const std::vector<Writer> writers{
+    {"stop --mu 0.1 --u0 1 --v0 1", {"stop.csv"}},
+    {"stop --batch table", {"batch.csv"}},
+    {"orbit --mu 0.1 --u0 1 --v0 1", {"orbit.csv"}},
+    {"law --k 0,1,2", {"law.json"}},
+    {"law", {"law.svg"}},
+    {"roll --ball pool", {"roll.csv"}},
+    {"roll --ball pool", {"roll.pdf"}},
+    {"terminal --mu 0.1", {"terminal.json"}},
+    {"portrait --mu 0.3", {"portrait.svg"}},
+    {"portrait --mu 0.3", {"portrait.pdf"}},
+    {"portrait --mu 0.3", {"portrait.png"}},
+    {"portrait --mu 0.3", {"portrait.eps"}},
+    {"portrait --mu 0.3", {"portrait.gp"}},
+    {"portrait --mu 0.3", {"portrait.tex"}},
+    {"portrait --mu 0.3", {"portrait.json"}},
+    {"portrait --mu 0.3", {"portrait.csv"}},
+    {"sweep --mu 0.1 --u0 0:1:300 --v0 0:1:300", {"sweep.npy"}},
+    {"sweep --mu 0.1 --u0 0:1:300 --v0 0:1:300", {"sweep.csv"}},
+    {"sweep --mu 0.1 --u0 0:1:30 --v0 0:1:30", {"sweep.svg"}},
+    {"balls pool", {"pool.toml"}},
+#ifdef CONTENSOU_HAS_PAGE
+    {"explore", {"page.html"}},
+#endif
+    {"paper",
+     {"D/fig1.pdf", "D/fig1.svg", "D/fig2.pdf", "D/fig2.svg", "D/fig3.pdf", "D/fig3.svg", "D/fig4.pdf", "D/fig4.svg"},
+     "--out"},
+};
+
+struct Ended {
+  int status;  ///< -1: by a signal
+  int signal;
+  std::string out, err;
+};
+
+/// Runs the program in a folder.
+/// @param prepare  is called in the program's process
+Ended run_in(const fs::path& folder, const Writer& writer, const std::function<void()>& prepare) {
+  std::vector<std::string> words{CONTENSOU_PROGRAM};
+  std::istringstream given(writer.words);
+  words.insert(words.end(), std::istream_iterator<std::string>(given), {});
+  if (!writer.files.empty()) {
+    const fs::path file = writer.files.front();
+    words.insert(words.end(), {writer.option, writer.option == "-o" ? file.string() : file.parent_path().string()});
+  }
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  int out[2], err[2];
+  REQUIRE((::pipe2(out, O_CLOEXEC) == 0 && ::pipe2(err, O_CLOEXEC) == 0));
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const rlimit none{0, 0};
+    const bool ready = ::chdir(folder.c_str()) == 0 && ::dup2(out[1], 1) == 1 && ::dup2(err[1], 2) == 2 &&
+                       ::setrlimit(RLIMIT_CORE, &none) == 0;
+    for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
+    prepare();
+    if (ready) ::execv(CONTENSOU_PROGRAM, argv.data());
+    ::_exit(99);
+  }
+  ::close(out[1]);
+  ::close(err[1]);
+  Ended ended{};
+  pollfd ends[]{{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
+  for (int open = 2; open > 0;) {
+    ::poll(ends, 2, -1);
+    for (pollfd& end : ends) {
+      char text[4096];
+      if (end.revents == 0) continue;
+      const ssize_t count = ::read(end.fd, text, sizeof text);
+      if (count > 0) (&end == ends ? ended.out : ended.err).append(text, static_cast<std::size_t>(count));
+      if (count > 0) continue;
+      ::close(std::exchange(end.fd, -1));
+      --open;
+    }
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  ended.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  return ended;
+}
+
+/// Paths of everything in a folder.
+std::vector<std::string> all_in(const fs::path& folder) {
+  std::vector<std::string> paths;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    paths.push_back(fs::relative(entry.path(), folder).string());
+  }
+  std::ranges::sort(paths);
+  return paths;
+}
+
+/// A folder in which one command line is run again and again. What gnuplot draws in it is drawn once, then repeated.
+class Bench {
+ public:
+  explicit Bench(Writer writer) : writer_(std::move(writer)) {
+    fs::create_directories(tools_.path() / "bin");
+    write_gnuplot(
+        "cat >\"$0.$$\"; for drawn in \"$0\".*.drawn; do cmp -s \"$0.$$\" \"${drawn%.drawn}\" && exec cat "
+        "\"$drawn\"; done; PATH=$OLD_PATH gnuplot \"$@\" <\"$0.$$\" | tee \"$0.$$.drawn\"");
+    write_file(tools_.file("table"), "mu,u0,v0\n0.1,1,1\n0.2,1,1\n");
+    path_ = tools_.file("bin") + ":" + std::getenv("PATH");
+    refresh(false);
+    const Ended ended = run([] {});
+    INFO(writer_.words << "\n" << ended.err);
+    REQUIRE(ended.status == 0);
+    out_ = ended.out;
+    for (const std::string& file : writer_.files) whole_.push_back(read_file(folder_ / file));
+  }
+
+  const Writer& writer() const { return writer_; }
+  std::size_t size() const { return std::ranges::max(whole_, {}, &std::string::size).size(); }
+  std::string tool(const std::string& name) const { return tools_.file(name); }
+
+  /// Writes instead into another folder, which is empty.
+  void move_to(const fs::path& folder) { folder_ = folder; }
+
+  /// The folder as it is before a run: with an old file or without.
+  void refresh(bool old) {
+    for (const auto& entry : fs::directory_iterator(folder_)) fs::remove_all(entry);
+    write_file(folder_ / "table", read_file(tools_.file("table")));
+    for (const std::string& file : writer_.files) {
+      if (!old) continue;
+      fs::create_directories((folder_ / file).parent_path());
+      write_file(folder_ / file, "old");
+    }
+    before_ = all_in(folder_);
+  }
+
+  Ended run(const std::function<void()>& prepare) const {
+    return run_in(folder_, writer_, [&] {
+      ::setenv("OLD_PATH", std::getenv("PATH"), 1);
+      ::setenv("PATH", path_.c_str(), 1);
+      ::setenv("TMPDIR", "/no/such/folder", 1);
+      prepare();
+    });
+  }
+
+  /// Each file is the old one or, which success means for all of them, the new one; nothing else is there.
+  void require_old_or_new(const Ended& ended) const {
+    INFO(writer_.words << ", status " << ended.status << ", signal " << ended.signal << "\n" << ended.err);
+    std::vector<std::string> before = before_;
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      const std::string& file = writer_.files[i];
+      const bool is_new = fs::exists(folder_ / file) && read_file(folder_ / file) == whole_[i];
+      const bool was_there = std::ranges::find(before_, file) != before_.end();
+      CAPTURE(file);
+      if (ended.status == 0) REQUIRE(is_new);
+      if (!is_new && was_there) REQUIRE(read_file(folder_ / file) == "old");
+      if (!is_new || was_there) continue;
+      before.push_back(file);
+      const std::string folder = fs::path(file).parent_path();
+      if (!folder.empty() && std::ranges::find(before, folder) == before.end()) before.push_back(folder);
+    }
+    std::ranges::sort(before);
+    REQUIRE(all_in(folder_) == before);
+    if (ended.status >= 0) REQUIRE((ended.status == 0 || ended.status == 4));
+    if (ended.status > 0) REQUIRE(ended.err.starts_with("contensou: "));
+    REQUIRE(ended.err.find("exception") == std::string::npos);
+    if (ended.status != 0) REQUIRE(ended.out.empty());
+    if (ended.status == 0) REQUIRE(ended.out == out_);
+  }
+
+ private:
+  void write_gnuplot(const std::string& commands) const {
+    write_file(tools_.file("bin/gnuplot"), "#!/bin/sh\n" + commands + "\n");
+    fs::permissions(tools_.file("bin/gnuplot"), fs::perms::owner_all);
+  }
+
+  Writer writer_;
+  TemporaryDirectory tools_, scratch_;
+  fs::path folder_ = scratch_.path();
+  std::string path_, out_;
+  std::vector<std::string> whole_;
+  std::vector<std::string> before_;
+};
+
+void limit_file_size(std::size_t bytes) {
+  const rlimit limit{bytes, bytes};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+/// What can go wrong at a call; see preload/fault.cpp.
+struct Fault {
+  char kind;
+  int value;
+};
+
+/// Lets each of the program's calls go wrong, one in each run.
+void try_faults(const Writer& writer, const std::vector<Fault>& faults) {
+  Bench bench(writer);
+  const auto run = [&](const std::string& name, const std::string& value) {
+    return bench.run([&] {
+      ::setenv("LD_PRELOAD", CONTENSOU_FAULT_LIBRARY, 1);
+      ::setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
+      ::setenv(name.c_str(), value.c_str(), 1);
+    });
+  };
+  bench.refresh(true);
+  bench.require_old_or_new(run("CONTENSOU_FAULT_COUNT", bench.tool("count")));
+  const int calls = std::stoi(read_file(bench.tool("count")));
+  REQUIRE(calls >= 4);
+  for (int call = 1; call <= calls; ++call) {
+    for (const auto& [kind, value] : faults) {
+      CAPTURE(call, kind, value);
+      bench.refresh(call % 2 == 0);
+      bench.require_old_or_new(run("CONTENSOU_FAULT", std::to_string(call) + " " + kind + " " + std::to_string(value)));
+    }
+  }
+}
+
+const std::vector<Fault> errors{{'e', ENOSPC}, {'e', EINTR}, {'s', 0}};
+const std::vector<Fault> signals{{'b', SIGTERM}, {'a', SIGHUP}, {'b', SIGPIPE}, {'t', SIGTERM}, {'u', SIGTERM}};
+
+/// Every signal that ends a program, but SIGKILL.
+std::vector<Fault> all_signals() {
+  std::vector<Fault> faults;
+  for (int signal = 1; signal <= SIGRTMAX; ++signal) {
+    const auto others = {SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN, SIGTTOU, SIGCONT, SIGCHLD, SIGURG, SIGWINCH, SIGXFSZ};
+    const bool reserved = signal > SIGSYS && signal < SIGRTMIN;
+    if (!reserved && std::ranges::find(others, signal) == others.end()) faults.push_back({'b', signal});
+  }
+  return faults;
+}
+
+const Writer& batch = writers[1];
+const Writer& picture = writers[8];
+const Writer& map = writers[16];
+
+/// A file system of some bytes in a folder of its own, where root may mount one.
+class SmallDisk {
+ public:
+  explicit SmallDisk(std::size_t bytes) {
+    there_ = ::unshare(CLONE_NEWNS) == 0 && ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+             ::mount("none", folder_.path().c_str(), "tmpfs", 0, ("size=" + std::to_string(bytes)).c_str()) == 0;
+  }
+  ~SmallDisk() {
+    if (there_) ::umount(folder_.path().c_str());
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+  bool there() const { return there_; }
+  const fs::path& path() const { return folder_.path(); }
+
+ private:
+  TemporaryDirectory folder_;
+  bool there_ = false;
+};
+
+/// Runs with a limit on the size of files, and on a disk, of so many bytes.
+void try_room(Bench& bench, std::size_t bytes) {
+  CAPTURE(bytes);
+  bench.refresh(bytes % 2 == 0);
+  bench.require_old_or_new(bench.run([bytes] { limit_file_size(bytes); }));
+}
+
+}  // namespace
+
+TEST_CASE("a call to the system that fails leaves the old file or the new one", "[cli]") {
+  for (const Writer& writer : {writers[0], batch, picture, map}) try_faults(writer, errors);
+}
+
+TEST_CASE("a signal at any call leaves the old file or the new one", "[cli]") {
+  for (const Writer& writer : {batch, map}) try_faults(writer, signals);
+}
+
+TEST_CASE("any call that fails, any signal at any call, any verb", "[.full]") {
+  for (const Writer& writer : writers) {
+    try_faults(writer, errors);
+    try_faults(writer, signals);
+  }
+  for (const Writer& writer : {batch, picture, map, writers.back()}) try_faults(writer, all_signals());
+}
+
+TEST_CASE("a limit on the size of files leaves the old file or the new one", "[cli]") {
+  for (const Writer& writer : writers) {
+    Bench bench(writer);
+    for (const std::size_t bytes : {std::size_t{0}, bench.size() / 2, bench.size() - 1}) try_room(bench, bytes);
+  }
+}
+
+TEST_CASE("limits on the size of files, step by step", "[.full]") {
+  for (const Writer& writer : writers) {
+    Bench bench(writer);
+    for (std::size_t step = 0; step < 40; ++step) try_room(bench, bench.size() * step / 40 + step % 2);
+  }
+}
+
+TEST_CASE("a full disk leaves the old file or the new one", "[cli]") {
+  for (const Writer& writer : writers) {
+    Bench bench(writer);
+    const std::size_t page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    for (const std::size_t pages : {std::size_t{4}, bench.size() / page / 2 + 3, 12 * (bench.size() / page + 3)}) {
+      const SmallDisk disk(pages * page);
+      if (!disk.there()) {
+        WARN("no file system can be mounted here: not tested");
+        return;
+      }
+      CAPTURE(pages);
+      bench.move_to(disk.path());
+      bench.refresh(pages > 4);
+      bench.require_old_or_new(bench.run([] {}));
+    }
+  }
+}
+
+TEST_CASE("a closed standard stream changes no file", "[cli]") {
+  for (const Writer& writer : {batch, picture, map, writers.back()}) {
+    Bench bench(writer);
+    for (const int stream : {0, 2}) {
+      CAPTURE(stream);
+      bench.refresh(true);
+      const Ended ended = bench.run([stream] { ::close(stream); });
+      CHECK(ended.status == 0);
+      bench.require_old_or_new(ended);
+    }
+  }
+  const TemporaryDirectory folder;
+  write_file(folder.file("table"), "mu,u0,v0\nbad,1,1\n0.2,1,1\n");
+  const Ended ended =
+      run_in(folder.path(), {"stop --batch table --keep-going", {"t.csv"}}, [] { ::close(STDERR_FILENO); });
+  CHECK(ended.status == 2);
+  CHECK(read_file(folder.file("t.csv")).starts_with("mu,u0,v0,tau_stop\nbad,1,1,\n0.2,1,1,"));
+}
+
+TEST_CASE("a closed standard output is a failure, a closed pipe the usual end", "[cli]") {
+  const TemporaryDirectory folder;
+  const Ended closed = run_in(folder.path(), {"orbit --ball pool", {}}, [] { ::close(STDOUT_FILENO); });
+  CHECK(closed.status == 4);
+  CHECK_THAT(closed.err, Catch::Contains("cannot write standard output: "));
+  const Ended unread = run_in(folder.path(), {"orbit --ball pool", {}}, [] {
+    int pipe[2];
+    if (::pipe(pipe) == 0) ::dup2(pipe[1], STDOUT_FILENO), ::close(pipe[0]), ::close(pipe[1]);
+  });
+  CHECK(unread.signal == SIGPIPE);
+  CHECK(unread.err.empty());
+}
+
+TEST_CASE("Ctrl-C in a long sweep leaves the old file and says so", "[cli]") {
+  for (const std::string file : {"map.npy", "map.csv"}) {
+    const TemporaryDirectory folder;
+    write_file(folder.file(file), "old");
+    const Ended ended =
+        run_in(folder.path(), {"sweep --mu 0.1 --u0 0:1:1000000 --v0 0:1:100 --threads 2", {file}}, [&folder] {
+          const pid_t program = ::getpid();
+          if (::fork() != 0) return;
+          while (all_in(folder.path()).size() == 1) ::usleep(1000);
+          ::kill(program, SIGINT);
+          ::_exit(0);
+        });
+    CHECK(ended.signal == SIGINT);
+    CHECK(ended.err == "contensou: interrupted: " + file + " was not written, nothing is left of it\n");
+    CHECK(folder.names() == std::vector<std::string>{file});
+    CHECK(read_file(folder.file(file)) == "old");
+  }
+}
+
+TEST_CASE("an ignored signal stays ignored", "[cli]") {
+  const TemporaryDirectory folder;
+  write_file(folder.file("table"), "mu,u0,v0\n0.1,1,1\n");
+  const Ended ended = run_in(folder.path(), batch, [] {
+    ::setenv("LD_PRELOAD", CONTENSOU_FAULT_LIBRARY, 1);
+    ::setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
+    ::setenv("CONTENSOU_FAULT", ("2 b " + std::to_string(SIGHUP)).c_str(), 1);
+    std::signal(SIGHUP, SIG_IGN);
+  });
+  CHECK(ended.status == 0);
+  CHECK(folder.names() == std::vector<std::string>{"batch.csv", "table"});
+}
+
+TEST_CASE("gnuplot ends with the program, however that ends", "[cli]") {
+  const TemporaryDirectory folder;
+  fs::create_directory(folder.file("bin"));
+  const std::string gnuplot = folder.file("bin/gnuplot");
+  write_file(gnuplot, "#!/bin/sh\necho $$ >'" + folder.file("running") + "'\nkill -KILL $PPID\nexec sleep 100\n");
+  fs::permissions(gnuplot, fs::perms::owner_all);
+  const Ended ended = run_in(folder.path(), picture, [&folder] {
+    ::setenv("PATH", (folder.file("bin") + ":" + std::getenv("PATH")).c_str(), 1);
+  });
+  CHECK(ended.signal == SIGKILL);
+  CHECK(folder.names() == std::vector<std::string>{"bin", "running"});
+  const pid_t drawing = std::stoi(read_file(folder.file("running")));
+  for (int i = 0; i < 1000 && ::kill(drawing, 0) == 0; ++i) ::usleep(10000);
+  CHECK(::kill(drawing, 0) != 0);
+}
+
+TEST_CASE("process 1 of a container ends by a signal, too", "[cli]") {
+  const TemporaryDirectory folder;
+  write_file(folder.file("table"), "mu,u0,v0\n0.1,1,1\n");
+  const Ended ended = run_in(folder.path(), batch, [] {
+    ::setenv("LD_PRELOAD", CONTENSOU_FAULT_LIBRARY, 1);
+    ::setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
+    ::setenv("CONTENSOU_FAULT", ("2 b " + std::to_string(SIGTERM)).c_str(), 1);
+    if (::unshare(CLONE_NEWPID) != 0) ::_exit(98);
+    const pid_t first = ::fork();
+    if (first == 0) return;
+    int status = 0;
+    ::waitpid(first, &status, 0);
+    ::_exit(WIFEXITED(status) ? WEXITSTATUS(status) : 97);
+  });
+  if (ended.status == 98) {
+    WARN("no name space for processes can be made here: not tested");
+    return;
+  }
+  CHECK(ended.status == 128 + SIGTERM);
+  CHECK(ended.err == "contensou: interrupted: batch.csv was not written, nothing is left of it\n");
+  CHECK(folder.names() == std::vector<std::string>{"table"});
+}
