@@ -27,7 +27,7 @@ std::vector<std::string> records_of(const std::vector<std::string_view>& pieces)
       for (std::size_t field = 0; field < block[i].size(); ++field) record += fmt::format(" [{}]", block[i][field]);
       found.push_back(std::move(record));
     }
-    block.clear();
+    block = {};
   };
   try {
     for (std::string_view piece : pieces) {
