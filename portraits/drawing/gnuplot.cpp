@@ -497,7 +497,7 @@ std::string finished(std::string picture, const Figure& figure, PictureFormat fo
 
 std::vector<std::string_view> picture_formats() {
   std::vector<std::string_view> endings;
-  for (const auto& [ending, format] : formats) endings.push_back(ending);
+  for (const Format& format : formats) endings.push_back(format.ending);
   return endings;
 }
 
