@@ -127,6 +127,6 @@ TEST_CASE("a message shows what was typed, but not all of it, and nothing that a
   CHECK(quotation("\xE9"
                   "a \x80 \xC0\xAF \xED\xA0\x80 \xC2\x9B \xE2\x88") ==
         "'\\xe9a \\x80 \\xc0\\xaf \\xed\\xa0\\x80 \\x9b \\xe2\\x88'");
-  CHECK(quotation(std::string(20000, 'x')) == "'" + std::string(80, 'x') + "...'");
-  CHECK(quotation(std::string(79, 'x') + "\xE2\x88\x9E") == "'" + std::string(79, 'x') + "...'");
+  CHECK(quotation(std::string(20000, 'x')) == fmt::format("'{}...'", std::string(80, 'x')));
+  CHECK(quotation(fmt::format("{}\xE2\x88\x9E", std::string(79, 'x'))) == fmt::format("'{}...'", std::string(79, 'x')));
 }
