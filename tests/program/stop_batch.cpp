@@ -103,7 +103,7 @@ TEST_CASE("a filter: rows leave while the input pauses, and up to the first bad 
     INFO("threads " << threads);
     REQUIRE(std::system(("timeout 60 sh '" + scratch.file("script") + "'").c_str()) == 0);
     CHECK(read_file(scratch.file("answer")) == "mu,u0,v0,tau_stop 1,0,0,0 1,0,0,0 2\n");
-    CHECK(read_file(scratch.file("err")) == "<stdin>:12: v0: 'x' is not a number; write it like 0.1, -5 or 1e-3\n");
+    CHECK(read_file(scratch.file("err")) == "<stdin>:13: v0: 'x' is not a number; write it like 0.1, -5 or 1e-3\n");
   }
 }
 
