@@ -1,7 +1,6 @@
-// Notation (README (R8) to (R11)):
+// Notation (README (R8) to (R14)):
 //   A = 8 (2 - r), B = 3 pi (5 - r), a = r/(2 - r), e = r/(5 - r), b = a - e
 //   x = B k/(A + B k), y = 1 - x = A/(A + B k), z = ln(x/y) = ln k + ln(B/A)
-//   F = 2F1(1, b + 1; a + 2; x)
 #include "contensou/reduction/pade_curve.hpp"
 
 #include <array>
@@ -10,7 +9,9 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <boost/math/special_functions/gamma.hpp>
+
+#include "contensou/reduction/pade_sliding_share.hpp"
+#include "similarity/pade_relaxation.hpp"
 
 namespace contensou::reduction {
 
@@ -36,34 +37,8 @@ double gauss_series(double beta, double gamma, double x) {
   return sum;
 }
 
-/// ln Gamma(1 + t), relatively accurate at t = 0.
-double log_gamma_1p(double t) { return std::log1p(boost::math::tgamma1pm1(t)); }
-
 /// (exp(s t) - 1)/s, also at s = 0.
 double expm1_over(double s, double t) { return s == 0 ? t : std::expm1(s * t) / s; }
-
-/// C of (R10).
-double connection(double a, double e) { return log_gamma_1p(a) - log_gamma_1p(a - e) + log_gamma_1p(-e); }
-
-/// 2F1(1, a - e + 1; a + 2; x), y = 1 - x > 0: the Taylor series, or (R10), the connection formula x -> y with its two
-/// poles 1/e taken together.
-double connected_gauss(double a, double e, double connection, double x, double y) {
-  const double b = a - e;
-  if (x <= 0.5) return gauss_series(b + 1, a + 2, x);
-  const double pole = -std::expm1(e * std::log(y) + connection) / e;
-  double sum = 0;
-  double power = 1;
-  double rising = 1;  // (a + 1)_n/n!
-  double regular = 0;
-  const int count = terms_for(y);
-  for (int n = 0; n < count; ++n) {
-    sum += power * (regular + rising * pole);
-    regular = regular * ((b + 1 + n) / (1 - e + n)) + rising * a / ((1 - e + n) * (1 + n));
-    rising *= (a + 1 + n) / (1 + n);
-    power *= y;
-  }
-  return (a + 1) * sum;
-}
 
 struct Fractions {
   double x, y;
@@ -87,8 +62,6 @@ PadeCurve::PadeCurve(double r)
       a_(r / (2 - r)),
       e_(r / (5 - r)),
       log_ratio_(std::log(B_ / A_)),
-      time_connection_(connection(a_, e_)),
-      slip_connection_(connection(2 * a_, 2 * e_)),
       half_age_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)) {
   if (!(r > 0 && r <= largest_r)) {
     throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", largest_r, r));
@@ -108,20 +81,14 @@ double PadeCurve::log_rim(double ln_k) const {
   return a_ * at.ln_x - e_ * at.ln_y;
 }
 
-double PadeCurve::sliding_share(double ln_k) const {
-  const auto at = fractions(ln_k + log_ratio_);
-  return sliding_share_at(at.x, at.y);
-}
-
-double PadeCurve::sliding_share_at(double x, double y) const {
-  if (y == 0) return 1;
-  return 1 + 1.5 * y * connected_gauss(a_, e_, time_connection_, x, y);
-}
+double PadeCurve::sliding_share(double ln_k) const { return pade_sliding_share(r(), std::exp(ln_k)); }
 
 double PadeCurve::slip_excess(double ln_k) const {
-  const auto at = fractions(ln_k + log_ratio_);
-  const double tail = at.y == 0 ? 0 : at.y * connected_gauss(2 * a_, 2 * e_, slip_connection_, at.x, at.y);
-  return 8 / (3 * pi) * (1 - r() / (5 + r()) * (1 + 3 / (2 + r()) * tail));
+  const double c = 2 + r();
+  const double d = 5 - r();
+  const double T = d * (3 * pi / 8 * std::exp(ln_k)) / c;
+  const double share = value({1 + 3 / c, 1, (2 - r()) / c, (5 + r()) / d, 6 * r() / (c * d), T});
+  return 8 / (3 * pi) * (1 - r() / (5 + r()) * share);
 }
 
 double PadeCurve::regularised_age(double ln_k) const {

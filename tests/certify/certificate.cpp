@@ -149,15 +149,20 @@ Ball by_hypergeometric(const Relaxation& at) {
   return G;
 }
 
-Ball enclosure(const ReducedSystem& system, State start) {
-  const Ball pivoting = Ball(8) * std::abs(start.u) / (Ball(system.inertia().gamma) * system.mu());
-  const Ball sliding = Ball::pi() * 3 * start.v / (Ball(2) * system.inertia().chi);
-  if (start.u == 0 || start.v == 0) return pivoting + sliding;
+/// m at a start with both speeds positive.
+Ball sliding_share(const ReducedSystem& system, State start) {
   const Relaxation at = relaxation(system, start);
   const double T = at.T.approximately();
   const bool near = T <= 1 || T <= 16 * at.p.approximately();
   const Ball G = near ? by_fraction(at) : by_hypergeometric(at);
-  return pivoting + sliding * (at.end + (at.begin - at.end) * G);
+  return at.end + (at.begin - at.end) * G;
+}
+
+Ball enclosure(const ReducedSystem& system, State start) {
+  const Ball pivoting = Ball(8) * std::abs(start.u) / (Ball(system.inertia().gamma) * system.mu());
+  const Ball sliding = Ball::pi() * 3 * start.v / (Ball(2) * system.inertia().chi);
+  if (start.u == 0 || start.v == 0) return pivoting + sliding;
+  return pivoting + sliding * sliding_share(system, start);
 }
 
 /// A bound of the ball with 30 digits, rounded outwards.
@@ -215,6 +220,15 @@ Certificate certify_stop_time(const ReducedSystem& system, State start, double t
   }
   throw std::runtime_error(fmt::format("certify_stop_time: no enclosure narrower than {}, {}", decimals(truth, false),
                                        decimals(truth, true)));
+}
+
+double certify_sliding_share(double r, double k, double m) {
+  const ReducedSystem system(PadeLaw{}, 1, {.chi = 1, .gamma = r});
+  for (Ball::precision = 160; Ball::precision <= most_bits; Ball::precision *= 2) {
+    const Ball truth = sliding_share(system, {1, k});
+    if (truth.accuracy() >= wanted_bits) return error_in_ulps(truth, m);
+  }
+  throw std::runtime_error(fmt::format("certify_sliding_share: no narrow enclosure at r = {}, k = {}", r, k));
 }
 
 ResistanceError certify_hertz_law(double k, Resistance computed) {

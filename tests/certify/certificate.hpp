@@ -16,11 +16,13 @@ struct Certificate {
 /// What ball arithmetic proves of a stop time that a route computed: the closed form (R28) of the Pade law, every term
 /// enclosed, the inputs taken as the exact numbers that the doubles are.
 ///
-/// In the library contensou_certify, which is built where Arb is found.
-///
 /// @param tau  the stop time to judge; infinity counts as 2^1024
 /// @throws std::domain_error  if start is not a state (finite, v >= 0), or the law is not pade
 Certificate certify_stop_time(const ReducedSystem& system, State start, double tau);
+
+/// What a computed m(k) of the Pade law misses the exact one for these r and k by, in units of the last place.
+/// @param r, k  positive and finite; not checked
+double certify_sliding_share(double r, double k, double m);
 
 /// What a computed Resistance misses the exact Hertz law by, in units of the last place.
 struct ResistanceError {

@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_stop_time.hpp"
+#include "contensou/reduction/pade_sliding_share.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/stop_time_table.hpp"
 #include "reduction/user_laws.hpp"
@@ -99,19 +100,28 @@ TEST_CASE("random stop times of the Pade ball against their enclosures", "[certi
   critical.judge();
 }
 
-TEST_CASE("random stop times of arrays against their enclosures", "[certify]") {
-  Random random;
-  Sample arrays("arrays, mu in [1e-4, 1], k0 in [1e-3, 1e5]");
-  std::vector<double> mu, u0, v0;
-  for (int i = 0; i < points; ++i) {
-    mu.push_back(random.log_uniform(1e-4, 1));
-    u0.push_back(random.uniform(-2, 2));
-    v0.push_back(mu.back() * std::abs(u0.back()) * random.log_uniform(1e-3, 1e5));
+TEST_CASE("m of the Pade law at random r and k against its enclosure", "[certify]") {
+  // By the formulas that take over from one another; the first sum of the series (R30) counts where Q > 3/2.
+  struct Part {
+    double low, high, promised_ulp;
+  };
+  for (const auto& [low, high, promised] :
+       {Part{1e-12, 0.72, 4}, Part{0.72, 5.0 / 3, 4}, Part{5.0 / 3, 2, 5}, Part{2, 10.0 / 3, 4}, Part{10.0 / 3, 5, 4},
+        Part{5, 10, 5}, Part{10, 1e4, 7}}) {
+    Random random;
+    double worst = 0, worst_r = 0, worst_k = 0;
+    for (int i = 0; i < points / 10; ++i) {
+      const double r = low < 1e-3 || high > 10 ? random.log_uniform(low, high) : random.uniform(low, high);
+      const double k = random.log_uniform(1e-12, 1e12);
+      const double error = certify_sliding_share(r, k, pade_sliding_share(r, k));
+      if (error > worst) std::tie(worst, worst_r, worst_k) = std::tie(error, r, k);
+    }
+    WARN(fmt::format("m for {:.3g} < r < {:.3g}, k in [1e-12, 1e12]: {} pairs, worst {:.2f} ulp at r = {}, k = {}", low,
+                     high, points / 10, worst, worst_r, worst_k));
+    CHECK(worst <= promised);
   }
-  std::vector<double> tau(mu.size());
-  pade_stop_times(mu, u0, v0, tau);
-  for (std::size_t i = 0; i < tau.size(); ++i) arrays.add(ReducedSystem(PadeLaw{}, mu[i]), {u0[i], v0[i]}, tau[i]);
-  arrays.judge();
+  CHECK(certify_sliding_share(1.67, 7e8, 1.00000000217824487593) <= 0.5);
+  CHECK(certify_sliding_share(1.67, 7e8, 1 + 2.1782e-9) > 100);
 }
 
 TEST_CASE("random stop times of tables against their enclosures", "[certify]") {

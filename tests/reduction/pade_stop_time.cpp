@@ -3,9 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <stdexcept>
-#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -79,50 +77,4 @@ TEST_CASE("the plain function rejects what is no motion", "[pade_stop_time][doma
   CHECK_THROWS_AS(pade_stop_time(0.1, {1, 1}, {.chi = 0, .gamma = 1}), std::domain_error);
   CHECK_THROWS_AS(pade_stop_time(0.1, {1, 1}, {.chi = 1, .gamma = nan}), std::domain_error);
   CHECK_THROWS_WITH(pade_stop_time(-1, {1, 1}), Catch::Matchers::Contains("mu") && Catch::Matchers::Contains("-1"));
-}
-
-TEST_CASE("arrays with a mu for each start are the plain function", "[pade_stop_time][route]") {
-  std::mt19937_64 engine(11);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  // Every group of a block, none full, and what no group takes.
-  std::vector<double> mu, u0, v0;
-  for (int i = 0; i < 20'000; ++i) {
-    mu.push_back(1e-10 * std::pow(3e10, uniform(engine)));
-    u0.push_back(2 * uniform(engine) - 1);
-    v0.push_back(mu.back() * 1e-6 * std::pow(1e20, uniform(engine)));
-  }
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (double special : {0.0, -1.0, nan, infinity, largest, 5e-324, 1e-310, 1e305}) {
-    for (double other : {0.0, 1.0, 1e300}) {
-      mu.insert(mu.end(), {0.1, 0.1, special});
-      u0.insert(u0.end(), {special, other, 1});
-      v0.insert(v0.end(), {other, special, other});
-    }
-  }
-  std::vector<double> tau(mu.size());
-  pade_stop_times(mu, u0, v0, tau);
-  WorstCase arrays("arrays against the plain function");
-  for (std::size_t i = 0; i < mu.size(); ++i) {
-    CAPTURE(mu[i], u0[i], v0[i]);
-    double single = nan;
-    try {
-      single = pade_stop_time(mu[i], {u0[i], v0[i]});
-    } catch (const std::domain_error&) {
-      CHECK(std::isnan(tau[i]));
-      continue;
-    }
-    arrays.add(single, tau[i], fmt::format("mu = {}, u0 = {}, v0 = {}", mu[i], u0[i], v0[i]));
-  }
-  CHECK_WITHIN_EPS(arrays, 3);
-
-  // In place, in another order, for another body.
-  const Inertia puck{.chi = 1, .gamma = 2};
-  std::vector<double> in_place = v0;
-  pade_stop_times(mu, u0, in_place, in_place, puck);
-  for (std::size_t i = 0; i < 20'000; i += 97) {
-    CHECK(in_place[i] == Approx(pade_stop_time(mu[i], {u0[i], v0[i]}, puck)).epsilon(1e-15));
-  }
-  pade_stop_times({}, {}, {}, {});
-  CHECK_THROWS_AS(pade_stop_times(mu, u0, v0, std::span(tau).first(3)), std::domain_error);
-  CHECK_THROWS_AS(pade_stop_times(mu, u0, v0, tau, {.chi = 0, .gamma = 1}), std::domain_error);
 }

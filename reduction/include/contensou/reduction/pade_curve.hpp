@@ -8,12 +8,11 @@ namespace contensou::reduction {
 
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
-/// Source    README (R8) orbit, (R9) and (R10) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time,
-///           (R14) slip.
+/// Source    README (R8) orbit, (R9) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time, (R14) slip.
 /// Accuracy  sliding_share, slip_excess and regularised_age about 5 eps relative, log_rim eps (|ln_rim| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
-  /// Largest r of the closed form: the connection formula (R10) loses digits as r -> 2. A ball has r <= 5/7.
+  /// Largest r of the closed form: (R11) loses digits as r -> 2. A ball has r <= 5/7.
   static constexpr double largest_r = 1;
 
   /// Of a series in powers of 1/2 or less.
@@ -29,9 +28,6 @@ class PadeCurve final : public SimilarityCurve {
   double time_rate(double ln_k) const override;
   double accuracy() const override { return 1e-14; }
 
-  /// m from x = B k/(A + B k) and y = 1 - x, each given to full accuracy: for a caller who has no need of ln k.
-  double sliding_share_at(double x, double y) const;
-
   double A() const { return A_; }  ///< 8 (2 - r)
   double B() const { return B_; }  ///< 3 pi (5 - r)
   double a() const { return a_; }  ///< r/(2 - r): slope of log_rim at k = 0
@@ -40,10 +36,8 @@ class PadeCurve final : public SimilarityCurve {
 
  private:
   double A_, B_, a_, e_;
-  double log_ratio_;        ///< ln(B/A)
-  double time_connection_;  ///< C of (R10)
-  double slip_connection_;  ///< the same for (R14)
-  double half_age_;         ///< the integral of (R11) over (1/2, 1)
+  double log_ratio_;  ///< ln(B/A)
+  double half_age_;   ///< the integral of (R11) over (1/2, 1)
 
   /// (R11): terms 2, 3, .. of the integral from x to 1/2 are x^a far_age_ less the sum of age_terms_[n] x^n.
   std::array<double, terms> age_terms_{};
