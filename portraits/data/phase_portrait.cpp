@@ -13,14 +13,13 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/regularised_motion.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::portraits {
 
+using reduction::Flow;
 using reduction::Orbit;
 using reduction::OrbitPoint;
 using reduction::ReducedSystem;
-using reduction::Route;
 using reduction::State;
 using std::numbers::pi;
 
@@ -121,19 +120,12 @@ Track exact_track(const Orbit& orbit, const Distance& distance) {
 
 class Painter {
  public:
-  Painter(const ReducedSystem& system, View view, Window window, const PortraitRequest& request)
-      : system_(system), view_(view), window_(window), request_(request) {
-    if (request.solution) {
-      solution_ = *request.solution;
-      return;
-    }
-    solution_ = request.route == Route::quadrature ? reduction::quadrature_solution(system.law(), system.r())
-                                                   : reduction::similarity_solution(system.law(), system.r());
-  }
+  Painter(const Flow& flow, View view, Window window, const PortraitRequest& request)
+      : flow_(flow), view_(view), window_(window), request_(request) {}
 
   PortraitOrbit orbit(State start) const {
     const Distance distance = [this](const OrbitPoint& a, const OrbitPoint& b) { return on_window(a, b); };
-    return columns(request_.route == Route::regularised ? stepped(start) : exact(start, distance), start);
+    return columns(request_.stepped ? stepped(start) : exact(start, distance), start);
   }
 
   /// The orbit through a point, from where it enters the window.
@@ -142,7 +134,7 @@ class Painter {
   /// From next to infinity to the origin, one for each curve of the solution.
   std::vector<WholeCurve> whole_curves() const {
     std::vector<WholeCurve> curves;
-    for (const auto& curve : solution_.curves()) {
+    for (const auto& curve : flow_.solution().curves()) {
       const reduction::Approach& approach = curve->approach();
       curves.push_back(
           {whole_curve(approach), std::exp(approach.log_far_ratio()), std::exp(approach.log_terminal_ratio())});
@@ -231,14 +223,13 @@ class Painter {
   }
 
  private:
-  double stop_time(State start) const { return motion(start).stop_time(); }
+  double stop_time(State start) const { return flow_.orbit(start).stop_time(); }
 
-  Orbit motion(State start) const { return {system_, start, solution_}; }
-
-  Track exact(State start, const Distance& distance) const { return exact_track(motion(start), distance); }
+  Track exact(State start, const Distance& distance) const { return exact_track(flow_.orbit(start), distance); }
 
   PortraitOrbit columns(const Track& track, State start) const {
-    const double k_stop = terminal_.end_of(start.u == 0 ? infinity : start.v / (system_.mu() * std::abs(start.u))).k;
+    const double k_stop =
+        flow_.terminal().end_of(start.u == 0 ? infinity : start.v / (system_.mu() * std::abs(start.u))).k;
     const auto rows = static_cast<Eigen::Index>(track.size());
     const Eigen::ArrayXd empty(rows);
     PortraitOrbit result{empty, empty, empty, empty, empty};
@@ -269,7 +260,7 @@ class Painter {
   State entry(State point) const {
     const double mu = system_.mu();
     const double ln_k = std::log(point.v / (mu * std::abs(point.u)));
-    const reduction::SimilarityCurve& curve = *solution_.through(ln_k);
+    const reduction::SimilarityCurve& curve = *flow_.solution().through(ln_k);
     const double here = curve.approach().coordinate(ln_k);
     const auto upstream = [&](double xi) {
       if (xi == here) return point;
@@ -356,13 +347,12 @@ class Painter {
     }
   }
 
-  const ReducedSystem& system_;
+  const Flow& flow_;
+  const ReducedSystem& system_ = flow_.system();
   View view_;
   Window window_;
   const PortraitRequest& request_;
   double steepest_ = std::max(largest_k, 1e3 * window_.v / (system_.mu() * window_.u));
-  reduction::TerminalRatios terminal_ = reduction::terminal_ratios(system_.law(), system_.r());
-  reduction::SimilaritySolution solution_;
 };
 
 PortraitOrbit mirrored(PortraitOrbit orbit) {
@@ -371,9 +361,6 @@ PortraitOrbit mirrored(PortraitOrbit orbit) {
 }
 
 void require(const PortraitRequest& request) {
-  if (request.route == Route::direct) {
-    throw std::domain_error("phase_portrait: orbits are drawn by closed, quadrature or regularised, not by direct");
-  }
   if (request.orbits_per_side.value_or(0) < 0 || request.isochrones < 0) {
     throw std::domain_error(fmt::format("phase_portrait: numbers of orbits and isochrones must be >= 0, got {} and {}",
                                         request.orbits_per_side.value_or(0), request.isochrones));
@@ -404,10 +391,10 @@ void require(Window window, const PortraitRequest& request) {
   }
 }
 
-PhasePortrait portrait_in(const ReducedSystem& system, View view, Window window, const PortraitRequest& request) {
-  const Painter painter(system, view, window, request);
-  PhasePortrait portrait{system, reduction::phase_plane(system), view, window, {}, {}, {}, painter.profile(), {}, {},
-                         {}};
+PhasePortrait portrait_in(const Flow& flow, View view, Window window, const PortraitRequest& request) {
+  const Painter painter(flow, view, window, request);
+  PhasePortrait portrait{
+      flow.system(), reduction::phase_plane(flow.system()), view, window, {}, {}, {}, painter.profile(), {}, {}, {}};
   const bool whole = !request.drawn_only || view == View::pair;
   const bool speeds = view == View::uv || view == View::patch;
   if (whole || speeds) {
@@ -459,19 +446,18 @@ PortraitOrbit::Instant PortraitOrbit::at(Eigen::Index row, double factor) const 
   return {factor * u[row], factor * v[row], ln_v[row] + std::log(factor), ln_k[row], factor * tau_left[row]};
 }
 
-PhasePortrait phase_portrait(const ReducedSystem& system, const PortraitRequest& request) {
+PhasePortrait phase_portrait(const Flow& flow, const PortraitRequest& request) {
   require(request);
+  const ReducedSystem& system = flow.system();
   std::vector<State> shown = request.through;
   if (request.highlight) shown.push_back(*request.highlight);
   const View view = request.view.value_or(system.mu() < pair_below ? View::pair : View::uv);
   const Window window = request.window.value_or(default_window(system, view, shown));
   require(window, request);
-  PhasePortrait portrait = portrait_in(system, view, window, request);
+  PhasePortrait portrait = portrait_in(flow, view, window, request);
   if (request.against) {
-    const ReducedSystem rival(*request.against, system.mu(), system.inertia());
-    PortraitRequest of_rival = request;
-    of_rival.solution.reset();
-    portrait.against.push_back(portrait_in(rival, view, window, of_rival));
+    const ReducedSystem other(*request.against, system.mu(), system.inertia());
+    portrait.against.push_back(portrait_in(other, view, window, request));
   }
   return portrait;
 }

@@ -12,10 +12,8 @@
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/hertz_inner_orbit.hpp"
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 #include "contensou/reduction/similarity.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
 #include "contensou/reduction/symmetry.hpp"
 
 namespace contensou::reduction {
@@ -48,13 +46,12 @@ State normalised(State start) {
 /// The checks of one start, made one after the other.
 class Examination {
  public:
-  Examination(const ReducedSystem& system, State start, const SimilaritySolution& quadrature,
-              const SimilaritySolution& closed)
-      : system_(system),
+  Examination(const Flow& flow, const Flow& quadrature, State start)
+      : system_(flow.system()),
         start_(normalised(start)),
+        flow_(flow),
         quadrature_(quadrature),
-        closed_(closed),
-        orbit_(system, start_, closed ? closed : quadrature) {}
+        orbit_(flow.orbit(start_)) {}
 
   std::vector<Check> run() {
     const Motion regularised = integrate_regularised(system_, start_);
@@ -82,8 +79,8 @@ class Examination {
 
   void routes(const Motion& regularised, const Motion& direct) {
     const double best = orbit_.stop_time();
-    if (closed_) {
-      const double by_quadrature = Orbit(system_, start_, quadrature_).stop_time();
+    if (!flow_.is_by_quadrature()) {
+      const double by_quadrature = quadrature_.orbit(start_).stop_time();
       add("stop time: quadrature against closed form", relative(by_quadrature, best), rounding);
     }
     add("stop time: (2.7) and (2.8) in beta", relative(regularised.stop_time, best), stepping);
@@ -134,17 +131,15 @@ class Examination {
   double log_ratio(const OrbitPoint& point) const { return point.ln_v - std::log(system_.mu() * std::abs(point.u)); }
 
   void first_integral(const Motion& regularised, const Motion& direct) {
-    // I = ln u - (ln w of the curve at k): constant along every solution. An error of ln k comes in by the curve's
-    // slope: along an invariant ray, or with r next to Phi'(0)/Psi(0), that is without bound.
+    // An error of ln k comes in by the curve's slope: along an invariant ray, or with r next to Phi'(0)/Psi(0), that is
+    // without bound.
     const auto drift = [&](const Motion& motion) {
-      const SimilarityCurve& curve = *(closed_ ? closed_ : quadrature_).through(orbit_.start_log_ratio());
-      const double at_start = std::log(std::abs(start_.u)) - curve.log_rim(orbit_.start_coordinate());
+      const double at_start = flow_.log_first_integral(start_.u, std::log(start_.v));
       double worst = 0;
       for (Eigen::Index i = 0; i + 1 < motion.points.rows(); ++i) {
         const OrbitPoint point = motion.points.row(i);
-        const double ln_k = log_ratio(point);
-        const double here = std::log(std::abs(point.u)) - curve.log_rim(curve.approach().coordinate(ln_k));
-        worst = worse(std::abs(here - at_start) / (1 + steepness(ln_k)), worst);
+        const double here = flow_.log_first_integral(point.u, point.ln_v);
+        worst = worse(std::abs(here - at_start) / (1 + steepness(log_ratio(point))), worst);
       }
       return worst;
     };
@@ -188,7 +183,7 @@ class Examination {
     const double faint = 1e-15 / std::max(1.0, system_.r());
     const State almost_pivoting{speed, faint * system_.mu() * speed};
     const State almost_sliding{faint * std::min(1.0, system_.r()) * speed / system_.mu(), speed};
-    const auto stop = [&](State start) { return Orbit(system_, start, closed_ ? closed_ : quadrature_).stop_time(); };
+    const auto stop = [&](State start) { return flow_.orbit(start).stop_time(); };
     add("limit of pure pivoting", relative(stop(almost_pivoting), system_.pivoting_limit(speed)), rounding);
     add("limit of pure sliding", relative(stop(almost_sliding), system_.sliding_limit(speed)), rounding);
   }
@@ -212,7 +207,7 @@ class Examination {
 
   void inner_orbit() {
     if (!system_.law().as<HertzLaw>() || !(system_.r() < 2)) return;
-    const SimilarityCurve& curve = *(closed_ ? closed_ : quadrature_).through(0);
+    const SimilarityCurve& curve = *flow_.solution().through(0);
     // ln w changes by r times a number of order 1, and more as r -> 2.
     double worst = 0;
     for (double k : {1e-6, 1e-3, 0.03, 0.3, 0.7, 0.99}) {
@@ -225,29 +220,29 @@ class Examination {
 
   const ReducedSystem& system_;
   State start_;
-  SimilaritySolution quadrature_;
-  SimilaritySolution closed_;
+  const Flow& flow_;
+  const Flow& quadrature_;
   Orbit orbit_;
   std::vector<Check> checks_;
 };
 
 }  // namespace
 
-std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts,
-                          const SimilaritySolution& closed) {
+std::vector<Check> verify(const Flow& flow, const std::vector<State>& starts) {
+  const ReducedSystem& system = flow.system();
   constexpr double smallest_r = 1e-100;
   if (system.r() < smallest_r) {
     throw std::domain_error(fmt::format(
         "verify: mu = {} is too small, the fields underflow; gamma mu^2/chi >= {} is needed", system.mu(), smallest_r));
   }
-  const SimilaritySolution quadrature = quadrature_solution(system.law(), system.r());
+  const Flow quadrature = flow.is_by_quadrature() ? flow : Flow::by_quadrature(system);
   std::vector<Check> all;
   for (const State& start : starts) {
     require_state("verify", start);
     if (start.u == 0 && start.v == 0) {
       throw std::domain_error("verify: u = v = 0 is rest, there is no motion to check");
     }
-    for (Check& check : Examination(system, start, quadrature, closed).run()) {
+    for (Check& check : Examination(flow, quadrature, start).run()) {
       const auto same = std::ranges::find(all, check.name, &Check::name);
       if (same == all.end()) {
         all.push_back(std::move(check));
@@ -259,14 +254,6 @@ std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>&
   return all;
 }
 
-std::vector<Check> verify(const ReducedSystem& system, State start, const SimilaritySolution& closed) {
-  return verify(system, std::vector{start}, closed);
-}
-
-std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts) {
-  return verify(system, starts, closed_solution(system.law(), system.r()));
-}
-
-std::vector<Check> verify(const ReducedSystem& system, State start) { return verify(system, std::vector{start}); }
+std::vector<Check> verify(const Flow& flow, State start) { return verify(flow, std::vector{start}); }
 
 }  // namespace contensou::reduction

@@ -54,10 +54,6 @@ double increasing_root(Function value_and_slope, double guess, double low, doubl
 
 }  // namespace
 
-Orbit::Orbit(const ReducedSystem& system, State start)
-    : Orbit(system, start,
-            start.u == 0 || start.v == 0 ? SimilaritySolution() : similarity_solution(system.law(), system.r())) {}
-
 Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution& solution)
     : system_(system),
       u0_(start.u),
@@ -96,6 +92,10 @@ double Orbit::tau_of(double scaled) const { return std::ldexp(scaled / system_.s
 double Orbit::scaled_of(double tau) const { return std::ldexp(tau, -exponent_) * system_.scaled_time_rate(); }
 
 double Orbit::stop_time() const { return tau_of(whole()); }
+
+double Orbit::accuracy() const { return on_axis() ? 1e-15 : curve_->accuracy(); }
+
+long Orbit::evaluations() const { return on_axis() ? 0 : curve_->evaluations(); }
 
 Orbit::Progress Orbit::progress(double xi) const {
   const double ln_w = curve_->log_rim(xi) - log_rim0_;
@@ -177,7 +177,7 @@ OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
 }
 
 OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
-  if (xi == xi0_) return {tau, u0_, v0_, std::log(v0_), v_ / w_, 0};
+  if (tau == 0) return {tau, u0_, v0_, std::log(v0_), v_ / w_, 0};
   const double age =
       curve_->regularised_age(xi) / (w_ * now.w + v_ * now.v) - curve_->regularised_age(xi0_) / (w_ + v_);
   return {.tau = tau,

@@ -41,9 +41,4 @@ SimilaritySolution closed_solution(const Law& law, double r) {
   return {};
 }
 
-SimilaritySolution similarity_solution(const Law& law, double r) {
-  if (auto closed = closed_solution(law, r)) return closed;
-  return quadrature_solution(law, r);
-}
-
 }  // namespace contensou::reduction

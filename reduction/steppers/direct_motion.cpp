@@ -68,7 +68,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
 
   Values x{here.ln_w, here.ln_v, 0};
   double s = 0;
-  double step = 1e-3 * std::max(std::exp(here.ln_w), std::exp(here.ln_v));
+  double step = 1e-3 * std::max(std::exp(here.ln_w), std::exp(here.ln_v)) / std::max(1.0, 0.01 * system.r());
   const auto log_state = [&] { return LogState{x[0], x[1], s, age_unit * std::expm1(x[2])}; };
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {

@@ -62,7 +62,7 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
   auto stepper = odeint::make_dense_output(stepping.tolerance, 0.0, DormandPrince());
   Values x{here.ln_w, here.ln_v, 0};
   const double speed = 16 * std::exp(x[0]) + 15 * pi * std::exp(x[1]);
-  double step = 1e-3 / speed;
+  double step = 1e-3 / (speed * std::max(1.0, 0.01 * system.r()));
   bool fresh = true;
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {

@@ -9,11 +9,10 @@
 #include <fmt/ranges.h>
 
 #include "contensou/reduction/direct_motion.hpp"
-#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
 
 namespace contensou::reduction {
 
@@ -38,14 +37,9 @@ constexpr std::array route_texts{
 
 const RouteText& text(Route route) { return *std::ranges::find(route_texts, route, &RouteText::route); }
 
-StopTime by_similarity(Route route, const Orbit& orbit) {
-  if (orbit.on_axis()) return {orbit.stop_time(), route, 1e-15, 0};
-  return {orbit.stop_time(), route, orbit.curve().accuracy(), orbit.curve().evaluations()};
-}
-
-StopTime by_stepper(Route route, const Motion& motion) {
+StopTime by_stepper(Route route, const Motion& motion, Bounds bounds) {
   if (!motion.outcome.ok()) throw std::runtime_error(motion.outcome.sentence);
-  return {motion.stop_time, route, 1e-10, motion.evaluations};
+  return {motion.stop_time, route, 1e-10, motion.evaluations, bounds};
 }
 
 }  // namespace
@@ -77,21 +71,19 @@ std::vector<Route> routes(const ReducedSystem& system) {
 StopTime stop_time(const ReducedSystem& system, State start, Route route) {
   switch (route) {
     case Route::closed: {
-      if (const auto tau = closed_stop_time(system, start)) return {*tau, route, 1e-15, 0};
+      if (const auto tau = closed_stop_time(system, start)) {
+        return {*tau, route, 1e-15, 0, system.stop_time_bounds(start)};
+      }
       throw std::domain_error(fmt::format("stop_time: law {} has no closed form", system.law().name()));
     }
     case Route::quadrature:
-      return by_similarity(route, Orbit(system, start, quadrature_solution(system.law(), system.r())));
+      return Flow::by_quadrature(system).stop_time(start);
     case Route::regularised:
-      return by_stepper(route, integrate_regularised(system, start));
+      return by_stepper(route, integrate_regularised(system, start), system.stop_time_bounds(start));
     case Route::direct:
-      return by_stepper(route, integrate_directly(system, start));
+      return by_stepper(route, integrate_directly(system, start), system.stop_time_bounds(start));
   }
   throw std::domain_error("stop_time: unknown route");
-}
-
-StopTime stop_time(const ReducedSystem& system, State start) {
-  return stop_time(system, start, routes(system).front());
 }
 
 }  // namespace contensou::reduction

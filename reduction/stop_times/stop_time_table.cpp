@@ -14,11 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pade_sliding_share.hpp"
-#include "contensou/reduction/pade_stop_time.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
 #include "stop_times/stop_time_loop.hpp"
 
 namespace contensou::reduction {
@@ -31,30 +28,12 @@ using Panel = Panels::Panel;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double tolerance = 4 * std::numeric_limits<double>::epsilon();
 
-/// What a table is made from.
-class Source {
- public:
-  explicit Source(const ReducedSystem& system) : system_(system), pade_(system.law().as<PadeLaw>() != nullptr) {
-    if (!pade_) solution_ = similarity_solution(system.law(), system.r());
-  }
-
-  double m(double k) const {
-    if (pade_) return pade_sliding_share(system_.r(), k);
-    const double ln_k = std::log(k);
-    const auto& curve = solution_.through(ln_k);
-    return curve->sliding_share(curve->approach().coordinate(ln_k));
-  }
-
-  double stop_time(State start) const {
-    if (pade_) return pade_stop_time(system_.mu(), start, system_.inertia());
-    return Orbit(system_, start, solution_).stop_time();
-  }
-
- private:
-  ReducedSystem system_;
-  bool pade_;
-  SimilaritySolution solution_;  ///< of other laws
-};
+double sliding_share(const Flow& flow, double k) {
+  if (flow.system().law().as<PadeLaw>()) return pade_sliding_share(flow.system().r(), k);
+  const double ln_k = std::log(k);
+  const auto& curve = flow.solution().through(ln_k);
+  return curve->sliding_share(curve->approach().coordinate(ln_k));
+}
 
 /// lever v0/|u0| at a y of the sheet of a panel.
 double ratio(std::size_t panel, double y) {
@@ -149,7 +128,8 @@ void run_shared(const Panels& panels, std::span<const double> u0, std::span<cons
 }  // namespace
 
 struct StopTimeTable::Stored {
-  explicit Stored(const ReducedSystem& system) : source(system), storage(Panels::sheets * Panels::per_sheet, none()) {
+  explicit Stored(const Flow& given) : flow(given), storage(Panels::sheets * Panels::per_sheet, none()) {
+    const ReducedSystem& system = flow.system();
     loop.lever = 1 / system.mu();
     loop.pivoting = system.pivoting_limit(1);
     loop.panels = storage.data();
@@ -175,7 +155,7 @@ struct StopTimeTable::Stored {
     const auto [left, width] = span(index);
     Fit::Values values;
     for (std::size_t i = 0; i < Fit::points; ++i) {
-      values[i] = sliding * source.m(ratio(index, left - Panels::lowest + width * fit.x[i]));
+      values[i] = sliding * sliding_share(flow, ratio(index, left - Panels::lowest + width * fit.x[i]));
     }
     return fit.panel(values, width);
   }
@@ -189,7 +169,7 @@ struct StopTimeTable::Stored {
       for (double x : {0.01, 0.37, 0.85}) {
         const double k = ratio(i, left - Panels::lowest + width * x);
         const State start = k < 1 ? State{1, k / loop.lever} : State{loop.lever / k, 1};
-        const double wanted = source.stop_time(start);
+        const double wanted = flow.stop_time(start).tau;
         const double error = std::abs(from_panels(loop, start.u, start.v) - wanted) / wanted;
         if (error <= tolerance) {
           worst = std::max(worst, error);
@@ -213,18 +193,19 @@ struct StopTimeTable::Stored {
     const int exponent = std::ilogb(largest);
     const State start{std::ldexp(std::abs(u0), -exponent), std::ldexp(std::abs(v0), -exponent)};
     const double tau = from_panels(loop, start.u, start.v);
-    return std::isnan(tau) ? source.stop_time({u0, std::abs(v0)}) : std::ldexp(tau, exponent);
+    return std::isnan(tau) ? flow.stop_time({u0, std::abs(v0)}).tau : std::ldexp(tau, exponent);
   }
 
-  Source source;
+  Flow flow;
   std::vector<Panel> storage;
   Panels loop;
   double worst = 0;
   double refused = 1;
 };
 
-StopTimeTable::StopTimeTable(const ReducedSystem& system)
-    : system_(system), stored_(std::make_shared<const Stored>(system)) {}
+StopTimeTable::StopTimeTable(const Flow& flow) : stored_(std::make_shared<const Stored>(flow)) {}
+
+const ReducedSystem& StopTimeTable::system() const { return stored_->flow.system(); }
 
 bool StopTimeTable::proved() const { return stored_->refused == 0; }
 

@@ -23,10 +23,9 @@
 
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/portraits/phase_portrait_data.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pressure_law.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/bridge.hpp"
@@ -42,6 +41,7 @@ namespace contensou::page {
 namespace {
 
 using emscripten::val;
+using reduction::Flow;
 using reduction::Law;
 using reduction::Orbit;
 using reduction::ReducedSystem;
@@ -66,30 +66,15 @@ Law law_of(const std::string& name) {
   throw std::domain_error(fmt::format("no such law: {}", name));
 }
 
-/// The motions under one law, for one body and patch.
-class Motions {
- public:
-  explicit Motions(ReducedSystem system)
-      : system_(std::move(system)), solution_(reduction::similarity_solution(system_.law(), system_.r())) {}
-
-  const ReducedSystem& system() const { return system_; }
-  const reduction::SimilaritySolution& solution() const { return solution_; }
-  Orbit orbit(State start) const { return {system_, start, solution_}; }
-
- private:
-  ReducedSystem system_;
-  reduction::SimilaritySolution solution_;
-};
-
 /// The plane that the page shows. A plane that was rejected leaves the last good one in place.
 class Plane {
  public:
   /// Changes law, patch and body.
   val choose(const std::string& law, double mu, double chi, double gamma) {
     return answer([&] {
-      motions_ = std::make_unique<Motions>(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
+      flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
       // Of the motions that slide and pivot at one speed, if it depends on the start.
-      const auto end = reduction::terminal_ratios(system().law(), system().r()).end_of(1);
+      const auto end = flow().terminal().end_of(1);
       val facts = val::object();
       facts.set("r", system().r());
       facts.set("regime", static_cast<int>(end.regime));
@@ -101,7 +86,10 @@ class Plane {
   }
 
   /// Of the law and body that were chosen.
-  const reduction::SimilaritySolution& solution() const { return motions().solution(); }
+  const Flow& flow() const {
+    if (!flow_) throw std::domain_error("no law and body were chosen yet");
+    return *flow_;
+  }
 
   /// The stop time of one start, its bounds and its limits.
   val stop(double u, double v) const {
@@ -109,7 +97,7 @@ class Plane {
       const State start{.u = u, .v = v};
       const auto bounds = system().stop_time_bounds(start);
       val result = val::object();
-      result.set("tau", motions().orbit(start).stop_time());
+      result.set("tau", flow().orbit(start).stop_time());
       result.set("lower", bounds.lower);
       result.set("upper", bounds.upper);
       result.set("slidingOnly", system().sliding_limit(v));
@@ -121,7 +109,7 @@ class Plane {
   /// The motion from one start to its stop: dense while it slides, and in equal times.
   val motion(double u, double v) const {
     return answer([&] {
-      const Orbit orbit = motions().orbit({.u = u, .v = v});
+      const Orbit orbit = flow().orbit({.u = u, .v = v});
       const double stop = orbit.stop_time();
       constexpr int instants = 120;
       std::vector<double> times;
@@ -146,7 +134,7 @@ class Plane {
   /// One instant of the motion from one start.
   val instant(double u, double v, double tau) const {
     return answer([&] {
-      const auto point = motions().orbit({.u = u, .v = v}).at_time(tau);
+      const auto point = flow().orbit({.u = u, .v = v}).at_time(tau);
       val result = val::object();
       result.set("tau", point.tau);
       result.set("u", point.u);
@@ -163,7 +151,7 @@ class Plane {
       const auto is_inside = [&](State state) { return std::abs(state.u) <= window_u && state.v <= window_v; };
       State state{.u = u, .v = v};
       if (!is_inside(state)) {
-        const Orbit orbit = motions().orbit(state);
+        const Orbit orbit = flow().orbit(state);
         double outside = 0;
         double inside = orbit.stop_time();
         for (int i = 0; i < 60; ++i) {
@@ -190,7 +178,7 @@ class Plane {
       std::vector<double> us;
       std::vector<double> vs;
       const auto add = [&](State direction) {
-        const double scale = 1 / motions().orbit(direction).stop_time();
+        const double scale = 1 / flow().orbit(direction).stop_time();
         us.push_back(scale * direction.u);
         vs.push_back(scale * direction.v);
       };
@@ -215,7 +203,7 @@ class Plane {
   val checks(double u, double v) const {
     return answer([&] {
       val rows = val::array();
-      for (const auto& check : reduction::verify(system(), State{.u = u, .v = v})) {
+      for (const auto& check : reduction::verify(flow(), State{.u = u, .v = v})) {
         val row = val::object();
         row.set("name", check.name);
         row.set("measured", check.measured);
@@ -230,13 +218,9 @@ class Plane {
   }
 
  private:
-  const Motions& motions() const {
-    if (!motions_) throw std::domain_error("no law and body were chosen yet");
-    return *motions_;
-  }
-  const ReducedSystem& system() const { return motions().system(); }
+  const ReducedSystem& system() const { return flow().system(); }
 
-  std::unique_ptr<Motions> motions_;
+  std::optional<Flow> flow_;
 };
 
 /// Of the laws pressure:P.
@@ -263,19 +247,26 @@ si::Shot shot_of(const val& fields) {
 }
 
 /// The question of portrait_request.js.
-program::PortraitQuestion question_of(const val& asked) {
+/// @param known  the flow, where it is known
+program::PortraitQuestion question_of(const val& asked, const Flow* known = nullptr) {
   const auto has = [&](const char* key) { return !asked[key].isNull(); };
   const auto state = [](const val& point) { return State{point["u"].as<double>(), point["v"].as<double>()}; };
-  program::PortraitQuestion question{
-      .law = law_of(asked["law"].as<std::string>()),
-      .mu = asked["mu"].as<double>(),
-      .inertia = {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()}};
-  if (has("start")) question.start = state(asked["start"]);
+  std::optional<si::Shot> shot;
   if (has("ball")) {
-    question.shot = shot_of(asked["ball"]);
-    question.shot->ball.name = asked["ball"]["title"].as<std::string>();
-    question.mu = si::patch_ratio(*question.shot);
-    question.start = si::reduced_start(*question.shot);
+    shot = shot_of(asked["ball"]);
+    shot->ball.name = asked["ball"]["title"].as<std::string>();
+  }
+  const auto flow = [&]() -> Flow {
+    if (known) return *known;
+    return ReducedSystem(law_of(asked["law"].as<std::string>()),
+                         shot ? si::patch_ratio(*shot) : asked["mu"].as<double>(),
+                         {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()});
+  };
+  program::PortraitQuestion question{.flow = flow(), .shot = shot};
+  if (shot) {
+    question.start = si::reduced_start(*shot);
+  } else if (has("start")) {
+    question.start = state(asked["start"]);
   }
   portraits::PortraitRequest& request = question.request;
   request.view = portraits::find_view(asked["view"].as<std::string>());
@@ -296,8 +287,7 @@ program::PortraitQuestion question_of(const val& asked) {
 /// for the page to draw.
 val portrait(const val& asked, const Plane& plane) {
   return answer([&] {
-    program::PortraitQuestion question = question_of(asked);
-    question.request.solution = plane.solution();
+    program::PortraitQuestion question = question_of(asked, &plane.flow());
     question.request.drawn_only = true;
     question.style.asked = false;
     const portraits::PhasePortrait portrait = question.portrait();

@@ -14,7 +14,7 @@ namespace contensou::si {
 
 WholeMotion::WholeMotion(const Shot& shot, const reduction::Law& law)
     : shot_(shot),
-      orbit_(reduced_system(shot, law), reduced_start(shot)),
+      orbit_(reduction::Flow(reduced_system(shot, law)).orbit(reduced_start(shot))),
       stop_(seconds(shot, orbit_.stop_time())),
       scale_(1 / seconds(shot, 1)) {
   if (!std::isfinite(stop_)) throw std::runtime_error("the stop time exceeds the largest double");

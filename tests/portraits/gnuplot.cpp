@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-portraits::Figure sample() { return portraits::draw(portraits::phase_portrait({reduction::PadeLaw{}, 0.05}, {})); }
+portraits::Figure sample() { return portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.05}}, {})); }
 
 /// A folder for one test; PATH, TMPDIR and HOME point into it while it lives.
 class Sandbox {
@@ -232,7 +232,7 @@ TEST_CASE("gnuplot has nothing to say about any view", "[route]") {
     for (double mu : {0.5, 0.001}) {
       portraits::PortraitRequest request;
       request.view = view;
-      const auto figure = portraits::draw(portraits::phase_portrait({reduction::PadeLaw{}, mu}, request));
+      const auto figure = portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, request));
       std::string folder = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
       REQUIRE(mkdtemp(folder.data()) != nullptr);
       std::ofstream(fs::path(folder) / "figure.gp") << portraits::gnuplot_script(figure);

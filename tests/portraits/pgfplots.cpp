@@ -23,7 +23,7 @@ namespace {
 std::string document(portraits::View view) {
   portraits::PortraitRequest request;
   request.view = view;
-  return portraits::pgfplots(portraits::draw(portraits::phase_portrait({reduction::PadeLaw{}, 0.3}, request)));
+  return portraits::pgfplots(portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request)));
 }
 
 }  // namespace

@@ -6,17 +6,16 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
 
 using namespace contensou;
 using portraits::PhasePortrait;
 using portraits::PortraitOrbit;
+using reduction::Flow;
 using reduction::Orbit;
 using reduction::ReducedSystem;
-using reduction::Route;
 
 namespace {
 
@@ -104,10 +103,10 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
 
 TEST_CASE("The time left at each point is that point's stop time", "[route]") {
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
-    const auto solution = reduction::quadrature_solution(system.law(), system.r());
+    const auto flow = Flow::by_quadrature(system);
     for (const PortraitOrbit& orbit : portrait.orbits) {
       for (Eigen::Index i = 0; i < orbit.u.size(); i += 7) {
-        const double stop = Orbit(system, {orbit.u[i], orbit.v[i]}, solution).stop_time();
+        const double stop = flow.orbit({orbit.u[i], orbit.v[i]}).stop_time();
         CHECK(std::abs(orbit.tau_left[i] - stop) < 1e-12 * orbit.tau_left[0]);
       }
     }
@@ -116,11 +115,11 @@ TEST_CASE("The time left at each point is that point's stop time", "[route]") {
 
 TEST_CASE("Every point of an isochrone has its stop time and lies in the window", "[route]") {
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
-    const auto solution = reduction::quadrature_solution(system.law(), system.r());
+    const auto flow = Flow::by_quadrature(system);
     CHECK(portrait.isochrones.size() >= 4);
     for (const auto& isochrone : portrait.isochrones) {
       for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
-        const double stop = Orbit(system, {isochrone.u[i], isochrone.v[i]}, solution).stop_time();
+        const double stop = flow.orbit({isochrone.u[i], isochrone.v[i]}).stop_time();
         CHECK(stop == Approx(isochrone.tau_stop).epsilon(1e-12));
         CHECK(std::abs(isochrone.u[i]) <= portrait.window.u * (1 + 1e-12));
         CHECK(isochrone.v[i] <= portrait.window.v * (1 + 1e-12));
@@ -142,7 +141,7 @@ TEST_CASE("Isochrones are at round multiples of the time unit, from the first to
     const double multiple = isochrone.tau_stop / request.time_unit / first;
     CHECK(multiple == Approx(std::round(multiple)));
   }
-  const double corner = Orbit(system, {portrait.window.u, portrait.window.v}).stop_time();
+  const double corner = Flow(system).orbit({portrait.window.u, portrait.window.v}).stop_time();
   CHECK(portrait.isochrones.back().tau_stop > 0.7 * corner);
 }
 
@@ -153,14 +152,14 @@ TEST_CASE("The similarity solution and (2.7) in beta draw the same curves", "[ro
       const ReducedSystem system(law, mu);
       portraits::PortraitRequest request;
       const PhasePortrait similar = portraits::phase_portrait(system, request);
-      request.route = Route::regularised;
+      request.stepped = true;
       const PhasePortrait stepped = portraits::phase_portrait(system, request);
       REQUIRE(stepped.orbits.size() == similar.orbits.size());
       for (std::size_t i = 0; i < stepped.orbits.size(); i += 2) {
         const PortraitOrbit& orbit = stepped.orbits[i];
         CHECK(orbit.u[0] == Approx(similar.orbits[i].u[0]).epsilon(1e-14));
         CHECK(orbit.v[0] == Approx(similar.orbits[i].v[0]).epsilon(1e-14));
-        const Orbit exact(system, {similar.orbits[i].u[0], similar.orbits[i].v[0]});
+        const Orbit exact = Flow(system).orbit({similar.orbits[i].u[0], similar.orbits[i].v[0]});
         for (Eigen::Index j = 0; j + 1 < orbit.u.size(); ++j) {
           const auto point = exact.at_log_ratio(std::min(orbit.ln_k[j], exact.start_log_ratio()));
           CHECK(std::abs(orbit.u[j] - point.u) < 1e-10 * similar.window.u);
@@ -173,7 +172,7 @@ TEST_CASE("The similarity solution and (2.7) in beta draw the same curves", "[ro
 }
 
 TEST_CASE("The view follows mu: below 0.1 the plane alone shows a comb", "[table]") {
-  const auto view = [](double mu) { return portraits::phase_portrait({reduction::PadeLaw{}, mu}, {}).view; };
+  const auto view = [](double mu) { return portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, {}).view; };
   CHECK(view(0.3) == portraits::View::uv);
   CHECK(view(0.1) == portraits::View::uv);
   CHECK(view(0.099) == portraits::View::pair);
@@ -185,7 +184,7 @@ TEST_CASE("The view follows mu: below 0.1 the plane alone shows a comb", "[table
 TEST_CASE("The order of contact with the axis v = 0 is that of the printed exponent", "[table]") {
   // k ~ u^(1/a), a = 5 mu^2/(14 - 5 mu^2)
   const double mu = 0.3;
-  const auto portrait = portraits::phase_portrait({reduction::PadeLaw{}, mu}, {});
+  const auto portrait = portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, {});
   CHECK(portrait.plane.tangents[0].contact_order == Approx((14 - 5 * mu * mu) / (5 * mu * mu)).epsilon(1e-14));
 }
 
@@ -207,14 +206,14 @@ TEST_CASE("A window that is given is kept; a highlighted start lies in the windo
     REQUIRE(portrait.highlight);
     CHECK(portrait.highlight->u[0] == start.u);
     CHECK(portrait.highlight->v[0] == Approx(start.v).epsilon(1e-13));
-    CHECK(portrait.highlight->tau_left[0] == Approx(Orbit(system, start).stop_time()).epsilon(1e-13));
+    CHECK(portrait.highlight->tau_left[0] == Approx(Flow(system).orbit(start).stop_time()).epsilon(1e-13));
   }
 }
 
 TEST_CASE("Rest as a highlight is no motion and nothing is highlighted", "[limit]") {
   portraits::PortraitRequest request;
   request.highlight = reduction::State{0, 0};
-  CHECK_FALSE(portraits::phase_portrait({reduction::PadeLaw{}, 0.3}, request).highlight);
+  CHECK_FALSE(portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request).highlight);
 }
 
 TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[invariant]") {
@@ -224,7 +223,7 @@ TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[in
       CAPTURE(mu, window.u, window.v);
       portraits::PortraitRequest request;
       request.window = window;
-      const PhasePortrait portrait = portraits::phase_portrait({reduction::HertzLaw{}, mu}, request);
+      const PhasePortrait portrait = portraits::phase_portrait({{reduction::HertzLaw{}, mu}}, request);
       double sharpest = 0;
       for (const PortraitOrbit& orbit : portrait.orbits) {
         for (Eigen::Index i = 1; i + 1 < orbit.u.size(); ++i) {
@@ -244,8 +243,6 @@ TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[in
 TEST_CASE("What cannot be drawn is rejected", "[domain]") {
   const ReducedSystem system(reduction::PadeLaw{}, 0.3);
   portraits::PortraitRequest request;
-  request.route = Route::direct;
-  CHECK_THROWS_AS(portraits::phase_portrait(system, request), std::domain_error);
   for (const portraits::Window window :
        {portraits::Window{0, 1}, portraits::Window{1, -1}, portraits::Window{NAN, 1}, portraits::Window{1, INFINITY},
         portraits::Window{1e308, 1e308}, portraits::Window{1e-320, 1}}) {
@@ -292,7 +289,7 @@ TEST_CASE("An orbit through a point begins on the border and passes through it",
         const double reach = std::max(std::abs(orbit.u[0]) / 1, orbit.v[0] / 3);
         CHECK(reach == Approx(1).epsilon(1e-6));
         const auto there =
-            Orbit(system, {orbit.u[0], orbit.v[0]}).at_log_ratio(std::log(point.v / (mu * std::abs(point.u))));
+            Flow(system).orbit({orbit.u[0], orbit.v[0]}).at_log_ratio(std::log(point.v / (mu * std::abs(point.u))));
         CHECK(there.u == Approx(point.u).epsilon(1e-10));
         CHECK(there.v == Approx(point.v).epsilon(1e-10));
       }
@@ -316,7 +313,7 @@ TEST_CASE("The whole curve scaled is each orbit", "[symmetry]") {
     const PortraitOrbit& curve = portrait.curves.front();
     CHECK(curve.ln_k[0] > std::log(1e5));
     CHECK(curve.u[curve.rows() - 1] == 0);
-    const Orbit orbit(system, {curve.u[0], curve.v[0]});
+    const Orbit orbit = Flow(system).orbit({curve.u[0], curve.v[0]});
     for (Eigen::Index i = 1; i + 1 < curve.rows(); ++i) {
       CHECK(curve.tau_left[i] < curve.tau_left[i - 1]);
       // No gap that a stretched view would show.
@@ -326,7 +323,7 @@ TEST_CASE("The whole curve scaled is each orbit", "[symmetry]") {
     }
     const Eigen::Index row = curve.rows() / 2;
     const auto scaled = curve.at(row, 7);
-    const double stop = Orbit(system, {scaled.u, scaled.v}).stop_time();
+    const double stop = Flow(system).orbit({scaled.u, scaled.v}).stop_time();
     CHECK(scaled.tau_left == Approx(stop).epsilon(1e-10));
     CHECK(scaled.ln_v == Approx(std::log(7) + curve.ln_v[row]));
   });
@@ -335,12 +332,12 @@ TEST_CASE("The whole curve scaled is each orbit", "[symmetry]") {
 TEST_CASE("The profile is the stop time on the circle mu u = cos, v = sin", "[route]") {
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
     const auto& [ln_k, tau] = portrait.profile;
-    const auto solution = reduction::quadrature_solution(system.law(), system.r());
+    const auto flow = Flow::by_quadrature(system);
     CHECK(tau[0] == Approx(system.pivoting_limit(1 / system.mu())).epsilon(1e-13));
     CHECK(tau[tau.size() - 1] == Approx(system.sliding_limit(1)).epsilon(1e-13));
     for (Eigen::Index i = 1; i + 1 < tau.size(); i += 40) {
       const double angle = std::atan(std::exp(ln_k[i]));
-      const double stop = Orbit(system, {std::cos(angle) / system.mu(), std::sin(angle)}, solution).stop_time();
+      const double stop = flow.orbit({std::cos(angle) / system.mu(), std::sin(angle)}).stop_time();
       CHECK(tau[i] == Approx(stop).epsilon(1e-12));
     }
   });
@@ -355,7 +352,7 @@ TEST_CASE("Another law is drawn in the same window", "[table]") {
   CHECK(both.against[0].system.law().name() == "exact");
   request.window = both.window;
   request.against.reset();
-  const PhasePortrait alone = portraits::phase_portrait({reduction::HertzLaw{}, 0.3}, request);
+  const PhasePortrait alone = portraits::phase_portrait({{reduction::HertzLaw{}, 0.3}}, request);
   REQUIRE(both.against[0].orbits.size() == alone.orbits.size());
   CHECK((both.against[0].orbits[4].v == alone.orbits[4].v).all());
 }

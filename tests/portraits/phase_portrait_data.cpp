@@ -20,7 +20,7 @@ portraits::PhasePortrait sample() {
   request.highlight = reduction::State{-1, 2};
   request.through = {{0.5, 1}, {0.25, 1}};
   request.against = reduction::HertzLaw{};
-  return portraits::phase_portrait({reduction::PadeLaw{}, 0.3}, request);
+  return portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request);
 }
 
 std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }

@@ -12,12 +12,11 @@
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
 
 using namespace contensou;
 using portraits::Figure;
@@ -31,7 +30,7 @@ portraits::PhasePortrait portrait_of(double mu, std::optional<View> view = {},
   portraits::PortraitRequest request;
   request.view = view;
   request.highlight = highlight;
-  return portraits::phase_portrait({reduction::HertzLaw{}, mu}, request);
+  return portraits::phase_portrait({{reduction::HertzLaw{}, mu}}, request);
 }
 
 Figure figure_of(double mu, std::optional<View> view = {}, std::optional<reduction::State> highlight = {}) {
@@ -65,15 +64,11 @@ double length(const Panel& panel, const std::vector<portraits::Polyline>& lines)
 /// The stop time of a point of the plane (u, v), by the quadrature.
 class Clock {
  public:
-  explicit Clock(const reduction::ReducedSystem& system)
-      : system_(system), solution_(reduction::quadrature_solution(system.law(), system.r())) {}
-  double operator()(portraits::Point at) const {
-    return reduction::Orbit(system_, {at.x, at.y}, solution_).stop_time();
-  }
+  explicit Clock(const reduction::ReducedSystem& system) : flow_(reduction::Flow::by_quadrature(system)) {}
+  double operator()(portraits::Point at) const { return flow_.orbit({at.x, at.y}).stop_time(); }
 
  private:
-  const reduction::ReducedSystem& system_;
-  reduction::SimilaritySolution solution_;
+  reduction::Flow flow_;
 };
 
 const std::vector<double> patch_ratios{1.0, 0.3, 0.01, 0.001};
@@ -322,7 +317,7 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
                                    Case{reduction::PadeLaw{}, 2.5}}) {
     portraits::PortraitRequest request;
     request.view = View::similarity;
-    const auto portrait = portraits::phase_portrait({law, 1, {.chi = 1, .gamma = gamma}}, request);
+    const auto portrait = portraits::phase_portrait({{law, 1, {.chi = 1, .gamma = gamma}}}, request);
     REQUIRE(portrait.plane.tangents[0].direction == reduction::InvariantDirection::ray);
     const Panel panel = portraits::draw(portrait, {}, plain()).panels.at(1);
     // In eighths of the panel's width: the ray is in the middle.
@@ -474,7 +469,7 @@ TEST_CASE("A portrait without what its view does not draw is the same drawing", 
 TEST_CASE("Two laws in one figure: each its look, and no colours of time", "[table]") {
   portraits::PortraitRequest request;
   request.against = reduction::HertzLaw{};
-  const auto portrait = portraits::phase_portrait({reduction::PadeLaw{}, 0.5}, request);
+  const auto portrait = portraits::phase_portrait({{reduction::PadeLaw{}, 0.5}}, request);
   const Figure figure = portraits::draw(portrait);
   CHECK_FALSE(figure.colour_bar);
   CHECK_FALSE(layer(figure.panels[0], "law pade").stroke.dashed);
@@ -492,7 +487,7 @@ TEST_CASE("A highlighted orbit is marked at its start, and points asked for have
   }
   portraits::PortraitRequest request;
   request.through = {{0.5, 1}, {-0.5, 2}};
-  const auto figure = portraits::draw(portraits::phase_portrait({reduction::PadeLaw{}, 0.3}, request));
+  const auto figure = portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request));
   CHECK(layer(figure.panels[0], "through").lines.size() == 2);
 }
 
@@ -517,7 +512,7 @@ TEST_CASE("Times keep off the orbits that were asked for", "[invariant]") {
     portraits::PortraitRequest request;
     request.window = portraits::Window{1, 4};
     request.through = {{u, 3.5}};
-    const Panel panel = portraits::draw(portraits::phase_portrait({reduction::HertzLaw{}, 0.3}, request)).panels[0];
+    const Panel panel = portraits::draw(portraits::phase_portrait({{reduction::HertzLaw{}, 0.3}}, request)).panels[0];
     REQUIRE(panel.labels.size() >= 4);
     for (const auto& label : panel.labels) {
       for (const auto& point : layer(panel, "through").lines.front()) {
@@ -545,7 +540,7 @@ TEST_CASE("Size, axes and the screen style are as asked", "[table]") {
 TEST_CASE("Captions replace title, units and the unit of the labels", "[table]") {
   portraits::PortraitRequest request;
   request.time_unit = 4;
-  const auto portrait = portraits::phase_portrait({reduction::PadeLaw{}, 0.3}, request);
+  const auto portrait = portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request);
   portraits::PortraitCaption caption;
   caption.title = "A ball";
   caption.speed_unit = "m/s";

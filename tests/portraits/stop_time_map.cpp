@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/stop_time.hpp"
 
 using namespace contensou;
 using portraits::MapAxes;
@@ -24,13 +24,13 @@ StopTimeMap map_of(const reduction::Law& law, double mu, const MapAxes& axes) {
 }  // namespace
 
 TEST_CASE("A map has a row for each v0 and a column for each u0", "[route]") {
-  const reduction::ReducedSystem system(reduction::HertzLaw{}, 0.3);
-  const StopTimeMap map = map_of(system.law(), 0.3, {even(7, -1, 2), even(3, 0, 4)});
+  const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
+  const StopTimeMap map = map_of(flow.system().law(), 0.3, {even(7, -1, 2), even(3, 0, 4)});
   REQUIRE(map.tau.rows() == 3);
   REQUIRE(map.tau.cols() == 7);
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = 0; j < 7; ++j) {
-      const double tau = reduction::stop_time(system, {map.axes.u0[j], map.axes.v0[i]}).tau;
+      const double tau = flow.stop_time({map.axes.u0[j], map.axes.v0[i]}).tau;
       CHECK(map.tau(i, j) == Approx(tau).epsilon(1e-14));
     }
   }
@@ -38,7 +38,7 @@ TEST_CASE("A map has a row for each v0 and a column for each u0", "[route]") {
 
 TEST_CASE("Every point of an isochrone stops at its time, and lies in the map", "[invariant]") {
   for (const double mu : {0.01, 0.3, 1.0}) {
-    const reduction::ReducedSystem system(reduction::PadeLaw{}, mu);
+    const reduction::Flow flow({reduction::PadeLaw{}, mu});
     for (const MapAxes& axes :
          {MapAxes{even(5, -2, 2), even(5, 0, 3), false}, MapAxes{even(5, 1, 2), even(5, 1, 3), false},
           MapAxes{even(5, -4, -1), even(5, 0, 3), false}, MapAxes{even(5, 1e-3, 2), even(5, 1e-5, 30), true}}) {
@@ -47,7 +47,7 @@ TEST_CASE("Every point of an isochrone stops at its time, and lies in the map", 
       for (const portraits::Isochrone& isochrone : map.isochrones) {
         for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
           const double u = isochrone.u[i], v = isochrone.v[i];
-          CHECK(reduction::stop_time(system, {u, v}).tau == Approx(isochrone.tau_stop).epsilon(1e-12));
+          CHECK(flow.stop_time({u, v}).tau == Approx(isochrone.tau_stop).epsilon(1e-12));
           CHECK((u >= axes.u0[0] && u <= axes.u0[4] && v >= axes.v0[0] && v <= axes.v0[4]));
         }
       }

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "run_program.hpp"
 
@@ -20,7 +20,7 @@ TEST_CASE("orbit gives 200 rows from the start to the stop", "[cli]") {
   CHECK(rows[1][5] == "0");
   CHECK(std::stod(rows[100][1]) < 0);  // u keeps its sign
   const auto& last = rows.back();
-  CHECK(std::stod(last[0]) == Orbit({PadeLaw{}, 0.3}, {-1, 1}).stop_time());
+  CHECK(std::stod(last[0]) == Flow({PadeLaw{}, 0.3}).orbit({-1, 1}).stop_time());
   CHECK(last[1] == "0");
   CHECK(last[2] == "0");
   CHECK(last[3] == "-inf");
@@ -32,7 +32,7 @@ TEST_CASE("--at keeps its order, and rests past the stop", "[cli]") {
     const auto rows = rows_of(run_program("orbit --mu 0.3 --u0 1 --v0 1 --at 3,0,99,1.5 --route " + route).out);
     INFO(route);
     REQUIRE(rows.size() == 5);
-    const Orbit orbit({PadeLaw{}, 0.3}, {1, 1});
+    const Orbit orbit = Flow({PadeLaw{}, 0.3}).orbit({1, 1});
     for (std::size_t i : {1, 2, 4}) {
       const OrbitPoint point = orbit.at_time(std::stod(rows[i][0]));
       CHECK(std::stod(rows[i][1]) == Approx(point.u).epsilon(1e-9));
@@ -50,7 +50,7 @@ TEST_CASE("every route samples up to the stop", "[route]") {
     INFO(route);
     REQUIRE(rows.size() == 4);
     CHECK(rows[1][1] == "1");
-    CHECK(std::stod(rows[2][0]) == Approx(Orbit({PadeLaw{}, 0.1}, {1, 1}).stop_time() / 2).epsilon(1e-9));
+    CHECK(std::stod(rows[2][0]) == Approx(Flow({PadeLaw{}, 0.1}).orbit({1, 1}).stop_time() / 2).epsilon(1e-9));
     CHECK(rows[3][3] == "-inf");
     CHECK(rows[3][5] == "inf");
   }

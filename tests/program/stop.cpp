@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/stop_time.hpp"
 #include "run_program.hpp"
 
 using namespace contensou::reduction;
@@ -24,7 +24,7 @@ TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
   CHECK(stop.at("u0") == 2);
   CHECK(stop.at("v0") == 1);
   const ReducedSystem system(PadeLaw{}, 0.1);
-  CHECK(stop.at("tau_stop").get<double>() == stop_time(system, {2, 1}).tau);
+  CHECK(stop.at("tau_stop").get<double>() == Flow(system).stop_time({2, 1}).tau);
   CHECK(stop.at("bounds").at(0).get<double>() == system.stop_time_bounds({2, 1}).lower);
   CHECK(stop.at("bounds").at(1).get<double>() == system.stop_time_bounds({2, 1}).upper);
   CHECK(stop.at("body") == json{{"chi", 3.5}, {"gamma", 2.5}});
@@ -58,7 +58,7 @@ TEST_CASE("routes and laws of stop agree with the library", "[route]") {
     INFO(route);
     CHECK(stop.at("route") == route);
     CHECK(stop.at("law") == "exact");
-    CHECK(stop.at("tau_stop").get<double>() == Approx(stop_time({HertzLaw{}, 0.3}, {1, 1}).tau).epsilon(1e-10));
+    CHECK(stop.at("tau_stop").get<double>() == Approx(Flow({HertzLaw{}, 0.3}).stop_time({1, 1}).tau).epsilon(1e-10));
   }
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("stop as CSV reads back", "[cli]") {
   REQUIRE(rows.size() == 2);
   REQUIRE(rows[0].size() == rows[1].size());
   CHECK(rows[0][5] == "tau_stop");
-  CHECK(std::stod(rows[1][5]) == stop_time({PadeLaw{}, 0.1}, {2, 1}).tau);
+  CHECK(std::stod(rows[1][5]) == Flow({PadeLaw{}, 0.1}).stop_time({2, 1}).tau);
 }
 
 TEST_CASE("stop --estimate: the estimates for small mu and what they miss by", "[cli]") {

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/stop_time.hpp"
 #include "run_program.hpp"
 
 using namespace contensou::reduction;
@@ -27,8 +27,9 @@ TEST_CASE("a batch keeps columns and rows and adds tau_stop", "[cli]") {
   const Run run = run_program("stop --batch -", "v0,note,mu,u0\n1,b,0.1,1\n 0.5 ,a,0.2,-3\n0,c,1,0\n");
   CHECK(run.status == 0);
   CHECK(run.err.empty());
-  CHECK(run.out == "v0,note,mu,u0,tau_stop\n1,b,0.1,1," + shortest(stop_time({PadeLaw{}, 0.1}, {1, 1}).tau) +
-                       "\n 0.5 ,a,0.2,-3," + shortest(stop_time({PadeLaw{}, 0.2}, {-3, 0.5}).tau) + "\n0,c,1,0,0\n");
+  CHECK(run.out == "v0,note,mu,u0,tau_stop\n1,b,0.1,1," + shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau) +
+                       "\n 0.5 ,a,0.2,-3," + shortest(Flow({PadeLaw{}, 0.2}).stop_time({-3, 0.5}).tau) +
+                       "\n0,c,1,0,0\n");
 }
 
 TEST_CASE("a batch by another law and every route", "[route]") {
@@ -37,9 +38,9 @@ TEST_CASE("a batch by another law and every route", "[route]") {
         run_program("stop --batch - --law exact --route " + route, "mu,u0,v0\n0.1,1,1\n0.2,1,1\n0.1,2,1\n").out);
     INFO(route);
     REQUIRE(rows.size() == 4);
-    CHECK(std::stod(rows[1][3]) == Approx(stop_time({HertzLaw{}, 0.1}, {1, 1}).tau).epsilon(1e-10));
-    CHECK(std::stod(rows[2][3]) == Approx(stop_time({HertzLaw{}, 0.2}, {1, 1}).tau).epsilon(1e-10));
-    CHECK(std::stod(rows[3][3]) == Approx(stop_time({HertzLaw{}, 0.1}, {2, 1}).tau).epsilon(1e-10));
+    CHECK(std::stod(rows[1][3]) == Approx(Flow({HertzLaw{}, 0.1}).stop_time({1, 1}).tau).epsilon(1e-10));
+    CHECK(std::stod(rows[2][3]) == Approx(Flow({HertzLaw{}, 0.2}).stop_time({1, 1}).tau).epsilon(1e-10));
+    CHECK(std::stod(rows[3][3]) == Approx(Flow({HertzLaw{}, 0.1}).stop_time({2, 1}).tau).epsilon(1e-10));
   }
 }
 
@@ -59,7 +60,7 @@ TEST_CASE("line ends of Windows, comments, blank lines and a byte order mark", "
 
 TEST_CASE("no row is lost whatever ends the lines", "[cli]") {
   const std::string header = "mu,u0,v0,tau_stop\n";
-  const std::string row = "0.1,1,1," + shortest(stop_time({PadeLaw{}, 0.1}, {1, 1}).tau) + "\n";
+  const std::string row = "0.1,1,1," + shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau) + "\n";
   CHECK(run_program("stop --batch -", "mu,u0,v0\r0.1,1,1\r0.1,1,1\r").out == header + row + row);
   CHECK(run_program("stop --batch -", "mu,u0,v0\r0.1,1,1\n0.1,1,1\n").out == header + row + row);
   CHECK(run_program("law --batch -", "k\rinf\r\rinf").out == "k,phi,psi\ninf,1,0\ninf,1,0\n");
@@ -159,7 +160,7 @@ TEST_CASE("rows with a mu each, by the plain function", "[route]") {
   for (int i = 1; i <= 1000; ++i) {
     const double mu = i / 1000.0;
     csv += fmt::format("{},-1,{}\n", mu, i);
-    expected.push_back(shortest(stop_time({PadeLaw{}, mu}, {-1, static_cast<double>(i)}).tau));
+    expected.push_back(shortest(stop_time({PadeLaw{}, mu}, {-1, static_cast<double>(i)}, Route::closed).tau));
   }
   const auto rows = rows_of(run_program("stop --batch -", csv).out);
   REQUIRE(rows.size() == 1001);
@@ -186,7 +187,8 @@ TEST_CASE("a bad table is refused with its line", "[cli]") {
     std::string word;
     std::string out = {};  ///< the rows before the bad one
   };
-  const std::string one_row = "mu,u0,v0,tau_stop\n0.1,1,1," + shortest(stop_time({PadeLaw{}, 0.1}, {1, 1}).tau) + "\n";
+  const std::string one_row =
+      "mu,u0,v0,tau_stop\n0.1,1,1," + shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau) + "\n";
   const std::vector<Fault> faults{
       {"", "<stdin>:1: ", "empty input"},
       {"\n\n# nothing\n", "<stdin>:1: ", "empty input"},
@@ -279,7 +281,7 @@ TEST_CASE("a long batch has the bits of single calls, however many threads there
   REQUIRE(rows.size() == table.mu.size() + 1);
   std::size_t different = 0;
   for (std::size_t i = 0; i < table.mu.size(); ++i) {
-    const double tau = stop_time({PadeLaw{}, table.mu[i]}, table.starts[i]).tau;
+    const double tau = stop_time({PadeLaw{}, table.mu[i]}, table.starts[i], Route::closed).tau;
     if (rows[i + 1].back() != shortest(tau) || rows[i + 1][1] != fmt::format("row {}", i)) ++different;
   }
   CHECK(different == 0);
@@ -311,7 +313,7 @@ TEST_CASE("the first bad row of a long batch is the one that is named", "[cli]")
 
 TEST_CASE("records in quotes may lie across the blocks in which a long file is read", "[cli]") {
   std::string csv = "note,mu,u0,v0\n", expected = "note,mu,u0,v0,tau_stop\n";
-  const std::string tau = shortest(stop_time({PadeLaw{}, 0.5}, {1, 1}).tau);
+  const std::string tau = shortest(Flow({PadeLaw{}, 0.5}).stop_time({1, 1}).tau);
   for (int i = 0; i < 3000; ++i) {
     const std::string note = "\"" + std::to_string(i) + std::string(static_cast<std::size_t>(i) % 400, '\n') + "#\"\"";
     csv += note + "\",0.5,1,1\n# it\"s a comment\n";
@@ -339,7 +341,7 @@ TEST_CASE("a batch of any length takes constant memory", "[limit]") {
       "--threads 1 -o '{}')",
       row, CONTENSOU_PROGRAM, scratch.file("out.csv"));
   CHECK(std::system(command.c_str()) == 0);
-  const std::string tau = shortest(stop_time({PadeLaw{}, 0.1}, {1, 1}).tau);
+  const std::string tau = shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau);
   CHECK(std::filesystem::file_size(scratch.file("out.csv")) ==
         200000 * (row.size() + 1 + tau.size() + 1) + std::string("mu,u0,v0,note,tau_stop\n").size());
 }

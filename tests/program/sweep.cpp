@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
-#include "contensou/reduction/stop_time.hpp"
 #include "run_program.hpp"
 
 using namespace contensou::reduction;
@@ -49,7 +49,7 @@ TEST_CASE("a sweep as csv: u0 runs fastest, then v0, then mu", "[cli]") {
   for (double mu : {0.1, 0.3}) {
     for (double v0 : {0.0, 0.5}) {
       for (double u0 : {-1.0, 0.0, 1.0}) {
-        expected += fmt::format("{},{},{},{}\n", mu, u0, v0, stop_time({PadeLaw{}, mu}, {u0, v0}).tau);
+        expected += fmt::format("{},{},{},{}\n", mu, u0, v0, Flow({PadeLaw{}, mu}).stop_time({u0, v0}).tau);
       }
     }
   }
@@ -66,7 +66,7 @@ TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
   REQUIRE(map.values.size() == 15);
   for (std::size_t i = 0; i < 15; ++i) {
     const State start{0.5 * static_cast<double>(i % 5), 0.5 + 0.5 * static_cast<double>(i / 5)};
-    CHECK(map.values[i] == Approx(stop_time({HertzLaw{}, 0.1}, start).tau).epsilon(1e-14));
+    CHECK(map.values[i] == Approx(Flow({HertzLaw{}, 0.1}).stop_time(start).tau).epsilon(1e-14));
   }
 
   REQUIRE(run_program("sweep --mu 0.1:0.2:2" + axes).status == 0);
@@ -74,7 +74,7 @@ TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
   CHECK_THAT(cube.dictionary, Contains("'shape': (2, 3, 5), }"));
   REQUIRE(cube.values.size() == 30);
   CHECK(std::vector<double>(cube.values.begin(), cube.values.begin() + 15) == map.values);
-  CHECK(cube.values[29] == Approx(stop_time({HertzLaw{}, 0.2}, {2, 1.5}).tau).epsilon(1e-14));
+  CHECK(cube.values[29] == Approx(Flow({HertzLaw{}, 0.2}).stop_time({2, 1.5}).tau).epsilon(1e-14));
   // An axis of its own also for a range of one; by the word of --format where no ending says so.
   CHECK_THAT(NumpyFile(run_program("sweep --mu 1:1:1 --u0 1 --v0 0:1:2 -o - --format npy").out).dictionary,
              Contains("'shape': (1, 2, 1), }"));
@@ -122,7 +122,7 @@ TEST_CASE("a sweep of a body other than the ball", "[cli]") {
   const ReducedSystem disc(PressureLaw(0), 1, {.chi = 1, .gamma = 2});
   for (std::size_t i = 1; i < 5; ++i) {
     CHECK(rows[i][0] == "1");
-    const double tau = stop_time(disc, {std::stod(rows[i][1]), std::stod(rows[i][2])}).tau;
+    const double tau = Flow(disc).stop_time({std::stod(rows[i][1]), std::stod(rows[i][2])}).tau;
     CHECK(std::stod(rows[i][3]) == Approx(tau).epsilon(1e-12));
   }
   const Run bad = run_program("sweep --body disc --mu 0.5 --u0 0:1:2 --v0 0:1:2");
@@ -242,7 +242,7 @@ TEST_CASE("a sweep whose invariant ray lies at k = 1 is what stop says", "[route
   REQUIRE(rows.size() == 182 * 182 + 1);
   const ReducedSystem ring(PressureLaw::ring(), 1, {.chi = 1, .gamma = 1});
   for (std::size_t i = 1; i < rows.size(); i += 1999) {
-    const double tau = stop_time(ring, {std::stod(rows[i][1]), std::stod(rows[i][2])}).tau;
+    const double tau = Flow(ring).stop_time({std::stod(rows[i][1]), std::stod(rows[i][2])}).tau;
     CHECK(std::stod(rows[i][3]) == Approx(tau).epsilon(1e-14));
   }
 }

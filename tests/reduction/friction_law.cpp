@@ -10,8 +10,8 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/similarity_curve.hpp"
 #include "contensou/reduction/stop_time.hpp"
@@ -118,13 +118,13 @@ TEMPLATE_TEST_CASE("everything works with a user's law of one function", "[frict
     for (double k0 : {1e-4, 0.7, 1.0, 30.0, 1e6}) {
       const State start{-2, 2 * mu * k0};
       const std::string where = fmt::format("mu = {}, k0 = {}", mu, k0);
-      const StopTime best = stop_time(system, start);
+      const StopTime best = Flow(system).stop_time(start);
       CHECK(best.route == Route::quadrature);
       CHECK(best.accuracy <= 1e-13);
       stop.add(stop_time(system, start, Route::regularised).tau, best.tau, where);
       stop.add(stop_time(system, start, Route::direct).tau, best.tau, where);
 
-      const Orbit orbit(system, start);
+      const Orbit orbit = Flow(system).orbit(start);
       const Eigen::ArrayXd times = best.tau * Eigen::ArrayXd::LinSpaced(7, 0.01, 0.95);
       const Motion motion = integrate_directly(system, start, times);
       for (Eigen::Index i = 0; i < times.size(); ++i) {

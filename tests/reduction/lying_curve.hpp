@@ -4,8 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
+#include "contensou/reduction/flow.hpp"
 
 namespace contensou::tests {
 
@@ -37,10 +36,10 @@ class LyingCurve final : public reduction::SimilarityCurve {
   CurveLie lie_;
 };
 
-/// The solution of a ball with mu < 1, lied about.
-inline reduction::SimilaritySolution lying_solution(const reduction::ReducedSystem& system, CurveLie lie) {
-  const auto truth = reduction::similarity_solution(system.law(), system.r());
-  return std::make_shared<LyingCurve>(truth.through(0), std::move(lie));
+/// The flow of a ball with mu < 1, lied about.
+inline reduction::Flow lying_flow(const reduction::ReducedSystem& system, CurveLie lie) {
+  const auto truth = reduction::Flow(system).solution().through(0);
+  return {system, std::make_shared<LyingCurve>(truth, std::move(lie))};
 }
 
 }  // namespace contensou::tests

@@ -6,9 +6,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 #include "user_laws.hpp"
@@ -172,7 +172,7 @@ TEST_CASE("Orbits touch their tangent to the order of contact", "[phase_plane][r
   for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{})}) {
     for (double mu : {0.05, 0.3, 1.0}) {
       const ReducedSystem system(law, mu);
-      const Orbit orbit(system, {1, 1});
+      const Orbit orbit = Flow(system).orbit({1, 1});
       const OrbitPoint a = orbit.at_time_left(1e-4 * orbit.stop_time());
       const OrbitPoint b = orbit.at_time_left(1e-7 * orbit.stop_time());
       const double order = (a.ln_v - b.ln_v - std::log(a.u / b.u)) / std::log(a.u / b.u);  // d ln k/d ln u

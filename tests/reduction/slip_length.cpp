@@ -5,8 +5,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_curve.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/quadrature_curve.hpp"
@@ -58,7 +58,7 @@ TEST_CASE("the slip is the integral of v along the orbit", "[slip_length][route]
       for (double k0 : {1e-3, 0.5, 1.0, 3.0, 1e3}) {
         const std::string where = fmt::format("{}, mu = {}, k0 = {}", law.name(), mu, k0);
         const ReducedSystem system(law, mu);
-        const Orbit orbit(system, {-3, 3 * mu * k0});
+        const Orbit orbit = Flow(system).orbit({-3, 3 * mu * k0});
         const double top = orbit.start_log_ratio();
         whole.add(slip_between(system, orbit, top - 40, top), orbit.slip_length(orbit.stop_time()), where);
         const double middle = top - 1;
@@ -74,29 +74,29 @@ TEST_CASE("the slip is the integral of v along the orbit", "[slip_length][route]
 TEST_CASE("the slip of pure sliding is v0^2/2 over its deceleration, and without sliding there is none",
           "[slip_length][limit]") {
   const ReducedSystem system(HertzLaw{}, 0.2);
-  const Orbit sliding(system, {0, 3});
+  const Orbit sliding = Flow(system).orbit({0, 3});
   const double stop = sliding.stop_time();
   CHECK(sliding.slip_length(stop) == Approx(3 * stop / 2).epsilon(1e-15));
   CHECK(sliding.slip_length(2 * stop) == sliding.slip_length(stop));
   CHECK(sliding.slip_length(stop / 2) == Approx(3 * (3 * stop / 8)).epsilon(1e-15));
   CHECK(sliding.slip_length(0) == 0);
-  CHECK(Orbit(system, {3, 0}).slip_length(1) == 0);
-  CHECK(Orbit(system, {0, 0}).slip_length(1) == 0);
+  CHECK(Flow(system).orbit({3, 0}).slip_length(1) == 0);
+  CHECK(Flow(system).orbit({0, 0}).slip_length(1) == 0);
   // Next to the axis.
-  CHECK(Orbit(system, {1e-12, 3}).slip_length(1e3) == Approx(3 * stop / 2).epsilon(1e-11));
+  CHECK(Flow(system).orbit({1e-12, 3}).slip_length(1e3) == Approx(3 * stop / 2).epsilon(1e-11));
 }
 
 TEST_CASE("the slip is scaled by the square of a power of two, bit for bit", "[slip_length][symmetry]") {
   const ReducedSystem system(PadeLaw{}, 0.3);
-  const Orbit orbit(system, {1, 0.7});
-  const Orbit scaled(system, {1024, 0.7 * 1024});
+  const Orbit orbit = Flow(system).orbit({1, 0.7});
+  const Orbit scaled = Flow(system).orbit({1024, 0.7 * 1024});
   for (double tau : {0.0, 0.1, 1.0, 5.0, 100.0}) {
     CHECK(scaled.slip_length(1024 * tau) == 1024.0 * 1024.0 * orbit.slip_length(tau));
   }
 }
 
 TEST_CASE("the slip is asked within its motion", "[slip_length][domain]") {
-  const Orbit orbit(ReducedSystem(PadeLaw{}, 0.3), {1, 1});
+  const Orbit orbit = Flow(ReducedSystem(PadeLaw{}, 0.3)).orbit({1, 1});
   CHECK_THROWS_AS(orbit.slip_length(-1), std::domain_error);
   CHECK_THROWS_AS(orbit.slip_length(std::nan("")), std::domain_error);
 }

@@ -11,10 +11,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/stop_time.hpp"
 #include "user_laws.hpp"
 
 using namespace contensou::reduction;
@@ -37,7 +37,7 @@ double worst_error(const Law& law, const std::string& name, double mu, const std
   double worst = 0;
   for (double k0 : ratios) {
     const State start{1, mu * k0};
-    worst = std::max(worst, std::abs(estimates(system, start).at(name) / stop_time(system, start).tau - 1));
+    worst = std::max(worst, std::abs(estimates(system, start).at(name) / Flow(system).stop_time(start).tau - 1));
   }
   return worst;
 }
@@ -97,7 +97,7 @@ TEST_CASE("an expansion that is wrong in one term loses its order", "[small_mu]"
     const auto error = [&](double at) {
       const ReducedSystem system(PadeLaw{}, at);
       const double estimate = system.pivoting_limit(1) + share(system.r()) * system.sliding_limit(at);
-      return std::abs(estimate / stop_time(system, {1, at}).tau - 1);
+      return std::abs(estimate / Flow(system).stop_time({1, at}).tau - 1);
     };
     return std::log2(error(mu) / error(mu / 2));
   };
@@ -118,7 +118,7 @@ TEST_CASE("E1 and E2 of the Pade ball are those of the textbook formula", "[smal
   const double x = std::log1p(15 * pi / (16 * mu));
   const auto got = estimates({PadeLaw{}, mu}, {1, 1});
   CHECK(got.at("E1") == Approx(16 / (5 * mu) + 3 * pi / 7 + 24.0 / 35 * mu * x).epsilon(1e-15));
-  const double exact = stop_time({PadeLaw{}, mu}, {1, 1}).tau;
+  const double exact = Flow({PadeLaw{}, mu}).stop_time({1, 1}).tau;
   CHECK(got.at("E1") - exact == Approx(4.6e-4).epsilon(0.02));
   CHECK(std::abs(got.at("E2") - exact) == Approx(1.3e-6).epsilon(0.02));
   CHECK(got.count("log") == 0);
@@ -189,7 +189,7 @@ TEST_CASE("estimates on the axes are exact, and no ratio of speeds is too large"
     CHECK(estimates(system, {0, 0}).at("E2") == 0);
     for (const State start : {State{1, 1e-300}, State{1e-300, 1}, State{1e-300, 1e300}, State{1e300, 1e-300},
                               State{1e-300, 1e-300}, State{-1e305, 1e305}, State{5e-324, 1}}) {
-      const double exact = stop_time(system, start).tau;
+      const double exact = Flow(system).stop_time(start).tau;
       for (const auto& [name, tau] : estimates(system, start)) {
         CAPTURE(law.name(), start.u, start.v, name);
         CHECK(tau == Approx(exact).epsilon(1e-6));
@@ -205,7 +205,7 @@ TEST_CASE("other bodies have the same estimates", "[small_mu][limit]") {
     const ReducedSystem fine(law, 0.05, puck);
     const auto error = [](const ReducedSystem& system, const std::string& name) {
       const State start{1, 3 * system.mu()};
-      return std::abs(estimates(system, start).at(name) / stop_time(system, start).tau - 1);
+      return std::abs(estimates(system, start).at(name) / Flow(system).stop_time(start).tau - 1);
     };
     CAPTURE(law.name());
     CHECK(std::log2(error(coarse, "E1") / error(fine, "E1")) == Approx(4).margin(0.1));

@@ -8,9 +8,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/motion.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "user_laws.hpp"
 #include "worst_case.hpp"
@@ -37,7 +37,7 @@ void check_states(Integrate integrate) {
       for (double k0 : {1e-4, 0.5, 1.0, 7.0, 1e6}) {
         const ReducedSystem system(law, mu);
         const State start{-3, 3 * mu * k0};
-        const Orbit orbit(system, start);
+        const Orbit orbit = Flow(system).orbit(start);
         const std::string where = fmt::format("{}, mu = {}, k0 = {}", law.name(), mu, k0);
         Eigen::ArrayXd times(9);
         times << 0, 1e-9, 1e-3, 0.1, 0.3, 0.5, 0.5, 0.9, 1.5;
@@ -77,7 +77,7 @@ void check_every_step(Integrate integrate) {
   using namespace reduction;
   for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
-    const Orbit orbit(system, {2, 1});
+    const Orbit orbit = Flow(system).orbit({2, 1});
     const Motion motion = integrate(system, State{2, 1}, Eigen::ArrayXd{}, Stepping{});
     REQUIRE(motion.outcome.ok());
     REQUIRE(motion.points.rows() > 10);
@@ -115,14 +115,14 @@ void check_axes_and_rest(Integrate integrate) {
     CHECK(sliding.points.u[0] == 0);
     CHECK(sliding.points.v[0] == Approx(2 - 7 / (3 * std::numbers::pi) * 0.5).epsilon(1e-14));
     CHECK(sliding.points.v[1] == 0);
-    CHECK(sliding.points.beta[0] == Approx(Orbit(system, {0, 2}).at_time(0.5).beta).epsilon(1e-13));
+    CHECK(sliding.points.beta[0] == Approx(Flow(system).orbit({0, 2}).at_time(0.5).beta).epsilon(1e-13));
     const Motion pivoting = integrate(system, State{-2, 0}, Eigen::ArrayXd{{0.5, 100.0}}, Stepping{});
     REQUIRE(pivoting.outcome.ok());
     CHECK(pivoting.stop_time == Approx(64).epsilon(1e-15));
     CHECK(pivoting.points.u[0] == Approx(-2 + 0.5 / 32).epsilon(1e-14));
     CHECK(pivoting.points.v[0] == 0);
     CHECK(pivoting.points.u[1] == 0);
-    CHECK(pivoting.points.beta[0] == Approx(Orbit(system, {-2, 0}).at_time(0.5).beta).epsilon(1e-13));
+    CHECK(pivoting.points.beta[0] == Approx(Flow(system).orbit({-2, 0}).at_time(0.5).beta).epsilon(1e-13));
     const Motion rest = integrate(system, State{0, 0}, Eigen::ArrayXd{{0.0, 1.0}}, Stepping{});
     CHECK(rest.outcome.ok());
     CHECK(rest.stop_time == 0);

@@ -1,4 +1,5 @@
 #include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/flow.hpp"
 
 #include <cmath>
 #include <limits>
@@ -192,9 +193,9 @@ TEST_CASE("the stop time grows with both speeds", "[stop_time][invariant]") {
       const ReducedSystem system(law, mu);
       double before = 0;
       for (double v = 1e-6; v < 1e6; v *= 3) {
-        const double here = stop_time(system, {1, v}).tau;
+        const double here = Flow(system).stop_time({1, v}).tau;
         CHECK(here >= before);
-        CHECK(here > stop_time(system, {0.5, v}).tau);
+        CHECK(here > Flow(system).stop_time({0.5, v}).tau);
         before = here;
       }
     }
@@ -219,9 +220,9 @@ TEST_CASE("routes have names and say what they do", "[stop_time]") {
   }
   CHECK_FALSE(find_route("closed form"));
   CHECK_FALSE(find_route(""));
-  CHECK(stop_time(pade, {1, 1}).route == Route::closed);
-  CHECK(stop_time(ReducedSystem(HertzLaw{}, 0.1), {1, 1}).route == Route::quadrature);
-  CHECK(stop_time(ReducedSystem(HertzLaw{}, 2), {1, 1}).route == Route::quadrature);
+  CHECK(Flow(pade).stop_time({1, 1}).route == Route::closed);
+  CHECK(Flow(ReducedSystem(HertzLaw{}, 0.1)).stop_time({1, 1}).route == Route::quadrature);
+  CHECK(Flow(ReducedSystem(HertzLaw{}, 2)).stop_time({1, 1}).route == Route::quadrature);
 }
 
 TEST_CASE("the error a route answers for is its error", "[stop_time][table]") {

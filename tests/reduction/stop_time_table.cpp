@@ -13,9 +13,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
@@ -69,30 +69,14 @@ std::size_t differ(std::span<const double> a, std::span<const double> b) {
   return count;
 }
 
-/// The stop times of many starts, one by one: stop_time, its curve made once.
-class OneByOne {
- public:
-  explicit OneByOne(const ReducedSystem& system)
-      : system_(system), solution_(similarity_solution(system.law(), system.r())) {}
-
-  double operator()(double u0, double v0) const {
-    const auto closed = closed_stop_time(system_, {u0, v0});
-    return closed ? *closed : Orbit(system_, {u0, v0}, solution_).stop_time();
-  }
-
- private:
-  ReducedSystem system_;
-  SimilaritySolution solution_;
-};
-
 /// A table against stop_time, also beside the given k.
 void compare(WorstCase& worst, const ReducedSystem& system, double k, std::size_t count) {
-  const StopTimeTable table(system);
-  const OneByOne one_by_one(system);
+  const Flow flow(system);
+  const StopTimeTable& table = flow.table();
   const Starts starts = random_starts(system.mu(), count, k);
   const auto tau = evaluated(table, starts);
   for (std::size_t i = 0; i < tau.size(); ++i) {
-    worst.add(one_by_one(starts.u0[i], starts.v0[i]), tau[i],
+    worst.add(flow.stop_time({starts.u0[i], starts.v0[i]}).tau, tau[i],
               fmt::format("law {}, mu = {}, r = {}, u0 = {}, v0 = {}", system.law().name(), system.mu(), system.r(),
                           starts.u0[i], starts.v0[i]));
   }
@@ -212,8 +196,8 @@ TEST_CASE("tables of random bodies and laws are stop_time, wherever the invarian
 
 TEST_CASE("panels that fail their proof are not used, and the table says so", "[stop_time_table][invariant]") {
   const ReducedSystem system(KinkedLaw{}, 0.3);
-  const StopTimeTable table(system);
-  const OneByOne one_by_one(system);
+  const Flow flow(system);
+  const StopTimeTable& table = flow.table();
   CHECK_FALSE(table.proved());
   CHECK(table.refused() > 0);
   CHECK(table.refused() < 0.1);
@@ -223,15 +207,16 @@ TEST_CASE("panels that fail their proof are not used, and the table says so", "[
   for (std::size_t i = 0; i < v0.size(); ++i) v0[i] = 0.3 * (0.6 + 0.0002 * static_cast<double>(i));
   const auto tau = evaluated(table, {u0, v0});
   WorstCase worst("around a kink");
-  for (std::size_t i = 0; i < v0.size(); ++i) worst.add(one_by_one(1, v0[i]), tau[i], fmt::format("v0 = {}", v0[i]));
+  for (std::size_t i = 0; i < v0.size(); ++i)
+    worst.add(flow.stop_time({1, v0[i]}).tau, tau[i], fmt::format("v0 = {}", v0[i]));
   CHECK_WITHIN_EPS(worst, 4);
-  CHECK(tau[500] == one_by_one(1, v0[500]));
+  CHECK(tau[500] == flow.stop_time({1, v0[500]}).tau);
   CHECK(table(-1, v0[500]) == tau[500]);
 }
 
 TEST_CASE("a law is known by its type, not by its name", "[stop_time_table][route]") {
   CHECK(StopTimeTable(ReducedSystem(Impostor{}, 0.3))(1, 0.3) ==
-        Approx(stop_time(ReducedSystem(HertzLaw{}, 0.3), {1, 0.3}).tau).epsilon(1e-14));
+        Approx(Flow(ReducedSystem(HertzLaw{}, 0.3)).stop_time({1, 0.3}).tau).epsilon(1e-14));
 }
 
 TEST_CASE("one start and many, cut and shared in any way, have the same bits", "[stop_time_table][invariant]") {

@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/stop_time.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/final_motion.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 si::Shot pool() { return si::find_ball("pool")->shot; }
 
 double stop_in_seconds(const si::Shot& shot, const reduction::Law& law) {
-  return si::seconds(shot, reduction::stop_time(si::reduced_system(shot, law), si::reduced_start(shot)).tau);
+  return si::seconds(shot, reduction::Flow(si::reduced_system(shot, law)).stop_time(si::reduced_start(shot)).tau);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ portraits::PhasePortrait PortraitQuestion::portrait() const {
   portraits::PortraitRequest asked = request;
   asked.highlight = start;
   if (shot) asked.time_unit = 1 / si::seconds(*shot, 1);
-  return portraits::phase_portrait(system(), asked);
+  return portraits::phase_portrait(flow, asked);
 }
 
 portraits::Figure PortraitQuestion::figure(const portraits::PhasePortrait& portrait) const {
@@ -28,8 +28,8 @@ portraits::PortraitCaption PortraitQuestion::caption(const portraits::PhasePortr
     caption.subtitle = fmt::format("u_0 = {:g}, v_0 = {:g}: it stops after τ* = {:.4g}", start->u, start->v, stop);
     return caption;
   }
-  caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot->ball.name), mu,
-                              portraits::law_names(portrait));
+  caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot->ball.name),
+                              flow.system().mu(), portraits::law_names(portrait));
   caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", si::slip_at_start(*shot),
                                  si::spin_at_start(*shot), si::seconds(*shot, stop));
   caption.speed_unit = "m/s";

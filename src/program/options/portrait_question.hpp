@@ -4,7 +4,7 @@
 
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
-#include "contensou/reduction/inertia.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/si/shot.hpp"
 
 namespace contensou::program {
@@ -12,15 +12,11 @@ namespace contensou::program {
 /// Everything that a portrait is asked for by: the options of `portrait`, or the state of the page. Equal questions
 /// have equal answers, so that the page's command line draws what the page shows.
 struct PortraitQuestion {
-  reduction::Law law;
-  double mu;
-  reduction::Inertia inertia = reduction::homogeneous_ball;
+  reduction::Flow flow;
   std::optional<reduction::State> start = {};  ///< of the highlighted orbit
   std::optional<si::Shot> shot = {};           ///< where mu and start came from, if it is a ball in SI units
   portraits::PortraitRequest request = {};     ///< highlight and time unit follow from start and shot
   portraits::PortraitStyle style = {};
-
-  reduction::ReducedSystem system() const { return {law, mu, inertia}; }
 
   /// @throws std::domain_error  as phase_portrait
   portraits::PhasePortrait portrait() const;

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
-#include "options/route_solution.hpp"
 
 namespace contensou::program {
 
+using reduction::Flow;
 using reduction::Motion;
 using reduction::Orbit;
 using reduction::OrbitColumns;
@@ -28,6 +29,13 @@ Motion step(const ReducedSystem& system, State start, Route route, const Eigen::
   return motion;
 }
 
+/// The flow that a route computes orbits from; none for the steppers.
+std::optional<Flow> flow_of(const ReducedSystem& system, Route route) {
+  if (route == Route::closed) return system;
+  if (route == Route::quadrature) return Flow::by_quadrature(system);
+  return std::nullopt;
+}
+
 double require_finite(double stop) {
   if (std::isfinite(stop)) return stop;
   throw std::runtime_error("the stop time exceeds the largest double: use a larger unit of speed");
@@ -36,7 +44,7 @@ double require_finite(double stop) {
 }  // namespace
 
 OrbitColumns motion_at(const ReducedSystem& system, State start, Route route, const Eigen::ArrayXd& times) {
-  if (const auto solution = route_solution(system, route)) return Orbit(system, start, solution).at_times(times);
+  if (const auto flow = flow_of(system, route)) return flow->orbit(start).at_times(times);
   if (times.size() == 0) return OrbitColumns();
 
   // The steppers go forwards only.
@@ -54,8 +62,8 @@ OrbitColumns motion_at(const ReducedSystem& system, State start, Route route, co
 }
 
 OrbitColumns motion_samples(const ReducedSystem& system, State start, Route route, Eigen::Index count) {
-  if (const auto solution = route_solution(system, route)) {
-    const Orbit orbit(system, start, solution);
+  if (const auto flow = flow_of(system, route)) {
+    const Orbit orbit = flow->orbit(start);
     require_finite(orbit.stop_time());
     return orbit.sample(count);
   }

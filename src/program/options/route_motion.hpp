@@ -2,8 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/orbit.hpp"
-#include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/flow.hpp"
 
 namespace contensou::program {
 

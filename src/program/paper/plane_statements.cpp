@@ -2,7 +2,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contensou/reduction/direct_motion.hpp"
-#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/similarity.hpp"
 #include "contensou/reduction/small_mu.hpp"
@@ -26,7 +26,7 @@ constexpr double a = 2;  ///< the factor of the similarity
 constexpr State start{1, 0.5}, mirrored{-1, 0.5}, scaled{a * start.u, a*start.v};
 
 ReducedSystem system(double mu) { return {PadeLaw{}, mu}; }
-Orbit orbit(double mu) { return {system(mu), start}; }
+Orbit orbit(double mu) { return Flow(system(mu)).orbit(start); }
 
 double slope_of(Rate rate) { return rate.v / rate.u; }
 double true_slope(double mu) { return slope_of(system(mu).field(start)); }

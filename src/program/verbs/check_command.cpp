@@ -53,7 +53,7 @@ void merge(std::vector<Check>& worst, const std::vector<Check>& others) {
 
 std::vector<Check> built_in_checks(const Law& law) {
   std::vector<Check> worst;
-  for (double mu : built_in_patch_ratios) merge(worst, verify({law, mu}, built_in_starts(mu)));
+  for (double mu : built_in_patch_ratios) merge(worst, verify({{law, mu}}, built_in_starts(mu)));
   return worst;
 }
 

@@ -35,14 +35,21 @@ class PortraitCommand final : public Verb {
   }
 
   ExitStatus run() override {
-    PortraitQuestion question = read_start();
-    const reduction::ReducedSystem system = question.system();
+    const GivenStart start = start_.without_motion() ? GivenStart{start_.read_body(), {}, {}} : start_.read();
+    const reduction::ReducedSystem system = start.body.system(law_.read());
     if (facts_) return print_facts(system);
     const Output output = output_.read();
-    question.request.route = route_.read(system);
-    if (question.request.route == reduction::Route::direct) {
+    const reduction::Route route = route_.read(system);
+    if (route == reduction::Route::direct) {
       throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
     }
+    PortraitQuestion question{.flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(system)
+                                                                            : reduction::Flow(system)};
+    if (!start_.without_motion()) {
+      question.start = start.state;
+      question.shot = start.shot;
+    }
+    question.request.stepped = route == reduction::Route::regularised;
     options_.read(question.request);
     question.style = options_.style();
 
@@ -67,19 +74,6 @@ class PortraitCommand final : public Verb {
                              [&] { return phase_plane_as_csv(plane); },
                              [&] { return phase_plane_as_json(system, plane); });
     return ExitStatus::done;
-  }
-
-  PortraitQuestion read_start() const {
-    if (start_.without_motion()) {
-      const GivenBody body = start_.read_body();
-      return {.law = law_.read(), .mu = body.mu, .inertia = body.inertia};
-    }
-    const GivenStart start = start_.read();
-    return {.law = law_.read(),
-            .mu = start.body.mu,
-            .inertia = start.body.inertia,
-            .start = start.state,
-            .shot = start.shot};
   }
 
   StartOptions start_;

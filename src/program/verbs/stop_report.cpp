@@ -34,7 +34,7 @@ std::optional<StopReport::OtherLaw> other_law(const GivenStart& start, const red
   const bool at_rest = start.state.u == 0 && start.state.v == 0;
   if (at_rest || (!is_pade && !law.as<reduction::HertzLaw>())) return std::nullopt;
   const reduction::Law& other = laws[is_pade ? 1 : 0];
-  return StopReport::OtherLaw{other.name(), reduction::stop_time(start.body.system(other), start.state).tau};
+  return StopReport::OtherLaw{other.name(), reduction::Flow(start.body.system(other)).stop_time(start.state).tau};
 }
 
 std::string difference(double other, double tau) {
@@ -94,8 +94,8 @@ class TextReport {
   std::string times() const {
     std::vector<TimeLine> lines{
         {"stop time", report_.stop.tau, certainty()},
-        {"at least", report_.bounds.lower, ""},
-        {"at most", report_.bounds.upper, ""},
+        {"at least", report_.stop.bounds.lower, ""},
+        {"at most", report_.stop.bounds.upper, ""},
         {"sliding only", report_.sliding_only, "limit u0 = 0"},
         {"pivoting only", report_.pivoting_only, "limit v0 = 0"},
     };
@@ -165,7 +165,6 @@ StopReport make_stop_report(const GivenStart& start, const reduction::ReducedSys
           system,
           stop,
           2 * stop.tau / (3 * std::numbers::pi),
-          system.stop_time_bounds(start.state),
           system.sliding_limit(start.state.v),
           system.pivoting_limit(start.state.u),
           other_law(start, system.law())};
@@ -182,7 +181,7 @@ std::string stop_report_as_json(const StopReport& report) {
       .add("v0", json(state.v))
       .add("tau_stop", json(report.stop.tau))
       .add("T_stop", json(report.T_stop))
-      .add("bounds", json_array({json(report.bounds.lower), json(report.bounds.upper)}))
+      .add("bounds", json_array({json(report.stop.bounds.lower), json(report.stop.bounds.upper)}))
       .add("limits", JsonObject()
                          .add("sliding_only", json(report.sliding_only))
                          .add("pivoting_only", json(report.pivoting_only))
@@ -219,8 +218,8 @@ std::string stop_report_as_csv(const StopReport& report) {
                                  "sliding_only", "pivoting_only", "chi", "gamma", "T_stop"};
   std::vector<std::string> values{report.system.law().name(), std::string(name(report.stop.route))};
   for (double value :
-       {body.mu, state.u, state.v, report.stop.tau, report.bounds.lower, report.bounds.upper, report.sliding_only,
-        report.pivoting_only, body.inertia.chi, body.inertia.gamma, report.T_stop}) {
+       {body.mu, state.u, state.v, report.stop.tau, report.stop.bounds.lower, report.stop.bounds.upper,
+        report.sliding_only, report.pivoting_only, body.inertia.chi, body.inertia.gamma, report.T_stop}) {
     values.push_back(fmt::format("{}", value));
   }
   if (const auto& other = report.other) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/small_mu.hpp"
-#include "contensou/reduction/stop_time.hpp"
 #include "options/start_options.hpp"
 
 namespace contensou::program {
@@ -20,8 +20,7 @@ struct StopReport {
   GivenStart start;
   reduction::ReducedSystem system;
   reduction::StopTime stop;
-  double T_stop;  ///< f g t, the stop time without the paper's factor 3 pi/2
-  reduction::Bounds bounds;
+  double T_stop;                                        ///< f g t, the stop time without the paper's factor 3 pi/2
   double sliding_only;                                  ///< tau of a body that did not pivot
   double pivoting_only;                                 ///< tau of a body that did not slide
   std::optional<OtherLaw> other;                        ///< the other law of the paper, beside one of its laws

@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/orbit.hpp"
-#include "options/route_solution.hpp"
-
 namespace contensou::program {
 
 namespace {
@@ -24,7 +21,7 @@ constexpr long starts_that_pay = 1 << 15;
 
 PatchStopTimes::PatchStopTimes(const reduction::ReducedSystem& system, const RouteOption& route)
     : system_(system), route_(route.read(system_)) {
-  if (route_ != reduction::Route::closed) solution_ = route_solution(system_, route_);
+  if (route_ == reduction::Route::quadrature) flow_ = reduction::Flow::by_quadrature(system_);
 }
 
 PatchStopTimes::PatchStopTimes(reduction::StopTimeTable table)
@@ -32,8 +29,8 @@ PatchStopTimes::PatchStopTimes(reduction::StopTimeTable table)
 
 double PatchStopTimes::operator()(reduction::State start) const {
   if (table_) return (*table_)(start.u, start.v);
-  if (!solution_) return reduction::stop_time(system_, start, route_).tau;
-  return reduction::Orbit(system_, start, solution_).stop_time();
+  if (flow_) return flow_->stop_time(start).tau;
+  return reduction::stop_time(system_, start, route_).tau;
 }
 
 void PatchStopTimes::row(std::span<const double> u0, double v0, std::span<double> taus) const {

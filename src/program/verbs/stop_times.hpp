@@ -8,8 +8,6 @@
 #include <optional>
 #include <span>
 
-#include "contensou/reduction/similarity_solution.hpp"
-#include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/stop_time_table.hpp"
 #include "options/route_option.hpp"
 
@@ -37,7 +35,7 @@ class PatchStopTimes {
  private:
   reduction::ReducedSystem system_;
   reduction::Route route_;
-  reduction::SimilaritySolution solution_;  ///< empty where each start is by itself
+  std::optional<reduction::Flow> flow_;  ///< of the route quadrature
   std::optional<reduction::StopTimeTable> table_;
 };
 

@@ -7,11 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/phase_plane.hpp"
-#include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
-#include "contensou/reduction/stop_time.hpp"
 
 namespace contensou::portraits {
 
@@ -99,13 +96,10 @@ struct PortraitRequest {
   std::optional<int> orbits_per_side;
   int isochrones = 7;  ///< about so many
   std::optional<reduction::Law> against;
-  /// closed or quadrature: the similarity solution. regularised: (2.7) stepped in beta.
-  reduction::Route route = reduction::Route::closed;
+  bool stepped = false;  ///< orbits by (2.7), stepped in beta, in place of the flow's own
   /// Keep only what the view is drawn from: no whole curves for uv and patch, no orbits and isochrones for the others,
   /// all for pair. Isochrones keep their times, without points.
   bool drawn_only = false;
-  /// Made before, for many questions about one system; empty: made here. Of the system and for the route.
-  std::optional<reduction::SimilaritySolution> solution;
   double time_unit = 1;  ///< isochrones are at round multiples of this many tau
 };
 
@@ -113,9 +107,8 @@ struct PortraitRequest {
 /// isochrones by scaling one curve.
 ///
 /// @throws std::domain_error  if the window is not positive and finite, a point lies on no orbit (u or v is 0) or out
-/// of
-///                            the window, a number is negative, or the route is direct
-PhasePortrait phase_portrait(const reduction::ReducedSystem& system, const PortraitRequest& request);
+///                            of the window, or a number is negative
+PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest& request);
 
 /// The largest of 1, 2, 5 times a power of ten that is at most x > 0.
 double round_down(double x);

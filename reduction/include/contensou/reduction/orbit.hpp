@@ -8,8 +8,9 @@
 
 namespace contensou::reduction {
 
-/// The motion from one start to its stop, from the similarity solution: the law's curve, scaled to pass through the
-/// start.
+class Flow;
+
+/// The motion from one start to its stop (Flow::orbit): the system's similarity curve, scaled to pass through the start.
 ///
 /// There are no time steps: any instant is found by itself. Invariant axes (u0 = 0, v0 = 0), the invariant ray and rest
 /// are ordinary starts.
@@ -19,15 +20,13 @@ namespace contensou::reduction {
 ///           ask at_time_left().
 class Orbit {
  public:
-  /// @throws std::domain_error  if start is not a state (finite, v >= 0), or if the law has no solution
-  /// (QuadratureCurve)
-  Orbit(const ReducedSystem& system, State start);
-
-  /// With a solution made before, for many orbits of one system.
-  /// @param solution  the similarity solution of system.law() and system.r()
-  Orbit(const ReducedSystem& system, State start, const SimilaritySolution& solution);
-
   double stop_time() const;
+
+  /// Relative error of stop_time().
+  double accuracy() const;
+
+  /// How often the law was called for the curve.
+  long evaluations() const;
 
   /// The state tau after the start; past the stop, rest.
   /// @throws std::domain_error  if tau is negative or not a number
@@ -78,6 +77,9 @@ class Orbit {
   OrbitColumns sample(Eigen::Index count) const;
 
  private:
+  friend class Flow;
+  Orbit(const ReducedSystem& system, State start, const SimilaritySolution& solution);
+
   void require_coordinate(const char* function, double xi) const;
   OrbitPoint rest(double tau) const;
   OrbitPoint on_axis_at(double tau, double left_share) const;

@@ -51,7 +51,4 @@ SimilaritySolution quadrature_solution(const Law& law, double r);
 /// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::largest_r; empty for all else.
 SimilaritySolution closed_solution(const Law& law, double r);
 
-/// What the library uses: the closed form where there is one, quadrature otherwise.
-SimilaritySolution similarity_solution(const Law& law, double r);
-
 }  // namespace contensou::reduction

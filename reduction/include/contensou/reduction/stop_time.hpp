@@ -31,6 +31,7 @@ struct StopTime {
   Route route;
   double accuracy;   ///< relative error that the route answers for
   long evaluations;  ///< of the friction law; 0 for a closed form
+  Bounds bounds;     ///< ReducedSystem::stop_time_bounds
 };
 
 /// The stop time in closed form, found by the law's type: pade_stop_time for PadeLaw, for every r; empty for all else.
@@ -39,7 +40,7 @@ struct StopTime {
 /// @throws std::domain_error  if start is not a state (finite, v >= 0)
 std::optional<double> closed_stop_time(const ReducedSystem& system, State start);
 
-/// The time until u = v = 0, 0 at rest.
+/// The time until u = v = 0 by one route, for comparison; Flow::stop_time has the best. 0 at rest.
 ///
 /// @throws std::domain_error   if start is not a state (finite, v >= 0), or the system does not have the route
 /// @throws std::runtime_error  if a stepper did not reach the stop; the message is its outcome's sentence
@@ -47,8 +48,5 @@ std::optional<double> closed_stop_time(const ReducedSystem& system, State start)
 /// Accuracy  closed 1e-15; quadrature 1e-13 (Pade, exact); steppers 3e-11; for all
 /// finite starts, v0/(mu u0) may overflow.
 StopTime stop_time(const ReducedSystem& system, State start, Route route);
-
-/// By the default route.
-StopTime stop_time(const ReducedSystem& system, State start);
 
 }  // namespace contensou::reduction

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/flow.hpp"
 
 namespace contensou::reduction {
 
@@ -19,16 +19,15 @@ namespace contensou::reduction {
 /// or curve that it was made from. Starts in a panel that misses one by more than 4 eps are computed one by one, from
 /// that closed form or curve; so are those of a system whose P/|u0| or S/v0 is beyond 2^100 or below 2^-100.
 ///
-/// Source    README (R18): m from pade_sliding_share (Pade) or SimilaritySolution (other laws).
-/// Accuracy  Pade 4 ulp for mu <= 3; other laws 4 eps relative, and what their SimilaritySolution misses by.
+/// Source    README (R18): m from pade_sliding_share (Pade) or the flow's curves (other laws).
+/// Accuracy  Pade 4 ulp for mu <= 3; other laws 4 eps relative, and what their curve misses by.
 /// Cost      built in 10 ms; then 1.5 ns a start in an array (AVX2), 200 ns a start computed one by one.
 /// Bits      the same for one start and for many, however they are cut into arrays and threads.
 class StopTimeTable {
  public:
-  /// @throws  as similarity_solution
-  explicit StopTimeTable(const ReducedSystem& system);
+  explicit StopTimeTable(const Flow& flow);
 
-  const ReducedSystem& system() const { return system_; }
+  const ReducedSystem& system() const;
 
   /// Whether every panel was within 4 eps. If not, the table is right all the same, and slow for some starts.
   bool proved() const;
@@ -56,7 +55,6 @@ class StopTimeTable {
 
  private:
   struct Stored;
-  ReducedSystem system_;
   std::shared_ptr<const Stored> stored_;
 };
 

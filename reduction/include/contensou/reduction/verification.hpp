@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
+#include "contensou/reduction/flow.hpp"
 
 namespace contensou::reduction {
 
@@ -20,18 +19,11 @@ struct Check {
 /// scaling generator on (2.6), (2.7) and dv/du, the separated equation, the first integral, beta against (2.8), both
 /// limits, the law's own bounds, and for the exact law its elementary orbit inside k = 1.
 ///
-/// @param closed  what is held against quadrature: the closed form of the system's law, or a solution of your own;
-///                empty where there is none
-/// @throws std::domain_error  if start is not a state or is at rest, the law has no solution by quadrature
-///                            (QuadratureCurve), or r < 1e-100
-std::vector<Check> verify(const ReducedSystem& system, State start, const SimilaritySolution& closed);
-
-/// With the closed form that the library has for the system's law, if it has one.
-std::vector<Check> verify(const ReducedSystem& system, State start);
+/// @param flow  what is examined: a closed form, also one of your own, is held against quadrature
+/// @throws std::domain_error  if start is not a state or is at rest, or r < 1e-100
+std::vector<Check> verify(const Flow& flow, State start);
 
 /// The same over several starts of one system: each row the worst of them.
-std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts,
-                          const SimilaritySolution& closed);
-std::vector<Check> verify(const ReducedSystem& system, const std::vector<State>& starts);
+std::vector<Check> verify(const Flow& flow, const std::vector<State>& starts);
 
 }  // namespace contensou::reduction

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contensou/reduction/orbit.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/si/motion.hpp"
 
 namespace contensou::si {
