@@ -1,0 +1,157 @@
+// Random questions, each asked at every door of the library: what two doors say may differ by no more than the
+// accuracies that they state.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/stop_time_table.hpp"
+
+using namespace contensou::reduction;
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+class Questions {
+ public:
+  explicit Questions(unsigned seed) : random_(seed) {}
+
+  ReducedSystem system() {
+    const Law law = this->law();
+    const double r = this->r(law);
+    if (one_of(2) == 0) return {law, 1, {.chi = 1, .gamma = r}};  // exactly this r
+    const double chi = log_uniform(-6, 6), gamma = log_uniform(-6, 6);
+    return {law, std::sqrt(r * chi / gamma), {.chi = chi, .gamma = gamma}};
+  }
+
+  State start(const Flow& flow) {
+    const double mu = flow.system().mu();
+    const double sign = one_of(2) == 0 ? 1 : -1;
+    switch (one_of(8)) {
+      case 0:
+        return {sign * log_uniform(-700, 700), log_uniform(-700, 700)};  // all of the double range
+      case 1:
+        return one_of(2) == 0 ? State{0, log_uniform(-200, 200)} : State{sign * log_uniform(-200, 200), 0};
+      case 2:
+        return {sign, mu * nearly(1)};
+      case 3:
+        if (const auto& rays = flow.terminal().rays; !rays.empty()) {
+          return {sign, mu * nearly(rays[one_of(rays.size())].k)};
+        }
+        [[fallthrough]];
+      default: {
+        const double u = log_uniform(-50, 50);
+        return {sign * u, mu * u * log_uniform(-30, 30)};
+      }
+    }
+  }
+
+ private:
+  std::size_t one_of(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
+  double log_uniform(double low, double high) { return std::exp(std::uniform_real_distribution<>(low, high)(random_)); }
+
+  /// The number itself, its neighbours, or beside it at any distance.
+  double nearly(double x) {
+    const std::size_t side = one_of(4);
+    if (side == 0) return x;
+    if (side == 1) return std::nextafter(x, one_of(2) == 0 ? 0 : 2 * x);
+    return x * (1 + (side == 2 ? 1 : -1) * log_uniform(-36, -3));
+  }
+
+  Law law() {
+    const auto& laws = named_laws();
+    const std::size_t which = one_of(laws.size() + 1);
+    if (which < laws.size()) return laws[which];
+    return PressureLaw(std::uniform_real_distribution<>(-0.95, 25)(random_));
+  }
+
+  /// Of any size, on and beside the borders of the regimes, and where the ray is at k = 1.
+  double r(const Law& law) {
+    const TerminalRatios ratios = terminal_ratios(law, 1);
+    const auto [force, moment] = law({1, 1});
+    const std::array borders{ratios.low, ratios.high, force / moment};
+    if (one_of(3) == 0) return nearly(borders[one_of(borders.size())]);
+    if (one_of(2) == 0) return ratios.low + (ratios.high - ratios.low) * log_uniform(-20, 0);
+    return log_uniform(-30, 12);
+  }
+
+  std::mt19937_64 random_;
+};
+
+/// What two doors differ by, over what they may.
+double excess(double a, double b, double accuracy) {
+  if (a == b) return 0;
+  const double larger = std::max(std::abs(a), std::abs(b));
+  constexpr double smallest = 4 * std::numeric_limits<double>::denorm_min();
+  if (std::isinf(larger)) return std::min(a, b) > 0.999999 * std::numeric_limits<double>::max() ? 0 : larger;
+  return std::abs(a - b) / (accuracy * larger + smallest);
+}
+
+struct Door {
+  std::string name;
+  double tau;
+  double accuracy;
+};
+
+}  // namespace
+
+TEST_CASE("every door has one answer, within the accuracy that it states", "[differential][route]") {
+  Questions questions(20'261'122);
+  constexpr int systems = 500, starts = 40;
+  int asked = 0;
+  for (int i = 0; i < systems; ++i) {
+    const ReducedSystem system = questions.system();
+    const Flow flow(system), by_quadrature = Flow::by_quadrature(system);
+    for (int j = 0; j < starts; ++j, ++asked) {
+      const State start = questions.start(flow);
+      const auto where = [&] {
+        return fmt::format("law {}, mu = {}, chi = {}, gamma = {}, r = {}, u0 = {}, v0 = {}", system.law().name(),
+                           system.mu(), system.inertia().chi, system.inertia().gamma, system.r(), start.u, start.v);
+      };
+      const StopTime best = flow.stop_time(start);
+      const StopTime quadrature = by_quadrature.stop_time(start);
+      const Orbit orbit = flow.orbit(start);
+      std::vector<Door> doors{{"quadrature", quadrature.tau, quadrature.accuracy},
+                              {"orbit", orbit.stop_time(), orbit.accuracy()},
+                              {"table", flow.table()(start.u, start.v), 4 * eps},
+                              {"mirrored", flow.stop_time({-start.u, start.v}).tau, 0}};
+      if (j == 0) {
+        for (Route route : {Route::direct, Route::regularised}) {
+          try {
+            const StopTime stepped = stop_time(system, start, route);
+            doors.push_back({std::string(name(route)), stepped.tau, stepped.accuracy});
+          } catch (const std::runtime_error& error) {
+            FAIL_CHECK(fmt::format("{}: {}", error.what(), where()));
+          }
+        }
+      }
+      if (std::isnormal(best.tau)) {
+        const OrbitPoint half = orbit.at_time(best.tau / 2);
+        if (std::isnormal(half.u) && std::isnormal(half.v)) {
+          doors.push_back({"from half time", best.tau / 2 + flow.stop_time({half.u, half.v}).tau, 16 * eps});
+        }
+      }
+      for (const Door& door : doors) {
+        const double error = excess(door.tau, best.tau, door.accuracy + best.accuracy);
+        if (!(error <= 1)) {
+          FAIL_CHECK(fmt::format("{}: {} instead of {}, {:.3g} times what is stated: {}", door.name, door.tau, best.tau,
+                                 error, where()));
+        }
+      }
+      if (!(best.bounds.lower <= best.tau && best.tau <= best.bounds.upper)) {
+        FAIL_CHECK(
+            fmt::format("{} is not within {} and {}: {}", best.tau, best.bounds.lower, best.bounds.upper, where()));
+      }
+    }
+  }
+  CHECK(asked == 20'000);
+}
