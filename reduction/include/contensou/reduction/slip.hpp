@@ -1,6 +1,15 @@
 #pragma once
 
+#include <limits>
+
+#ifdef __FAST_MATH__
+#error "contensou needs infinities, NaN and sums in the order that is written: compile without -ffast-math"
+#endif
+
 namespace contensou::reduction {
+
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53,
+              "contensou needs doubles of 64 bits after IEEE 754");
 
 /// How a circular contact patch moves over the plane: two speeds in one unit, both >= 0 and not both 0.
 ///
