@@ -59,17 +59,21 @@ Samples slope_by_collocation(const Samples& drag, const Samples& rate, const Sam
 }  // namespace
 
 LegendreSeries relax(const Samples& drag, const Samples& rate, const Samples& source, double start) {
+  // For z = y - start: where h and g share a noise, g/h does not have it, and nor has y; and the rounding of a series is
+  // that of what y changes by.
+  const Samples change = source - rate * start;
+  LegendreSeries y;
   if (forgetful(drag, rate)) {
     Matrix system = (drag / rate).matrix().asDiagonal() * differentiation();
     system.diagonal().array() += 1;
-    return LegendreSeries::through(system.partialPivLu().solve((source / rate).matrix()).array());
+    y = LegendreSeries::through(system.partialPivLu().solve((change / rate).matrix()).array());
+  } else {
+    // As the antiderivative of z': a series through z itself would amplify its rounding at the ends, where one panel
+    // hands over to the next.
+    const Samples slope =
+        moderate(drag, rate) ? slope_by_factor(rate / drag, change / drag) : slope_by_collocation(drag, rate, change);
+    y = LegendreSeries::through(slope).antiderivative();
   }
-  // For z = y - start: where h and g share a noise, g/h does not have it, and nor has y. As the antiderivative of z':
-  // a series through y itself would amplify its rounding at the ends, where one panel hands over to the next.
-  const Samples change = source - rate * start;
-  const Samples slope =
-      moderate(drag, rate) ? slope_by_factor(rate / drag, change / drag) : slope_by_collocation(drag, rate, change);
-  LegendreSeries y = LegendreSeries::through(slope).antiderivative();
   y += start;
   return y;
 }
