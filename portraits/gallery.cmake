@@ -1,26 +1,20 @@
-# The pictures of portraits/README.md, each by one command line:
+# The pictures of README.md, each by the command line that stands above it, and pool.svg:
 #   cmake -D CONTENSOU=<program> -D FOLDER=<where> -P gallery.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(pictures
-  "pool.svg: --ball pool --law exact"
-  "gallery/uv.svg: --mu 0.3"
-  "gallery/pair.svg: --mu 0.01 --law exact"
-  "gallery/patch.svg: --mu 0.5 --law exact --view patch --through 0.6,0.4"
-  "gallery/log.svg: --mu 0.5 --view log"
-  "gallery/similarity.svg: --mu 0.3 --view similarity"
-  "gallery/blowup.svg: --mu 0.3 --view blowup"
-  "gallery/disc.svg: --mu 0.3 --view disc --style screen"
-  "gallery/time.svg: --mu 0.3 --view time"
-  "gallery/puck.svg: --body disc --law uniform"
-  "gallery/against.svg: --mu 0.5 --against exact --orbits 8"
-  "gallery/field.svg: --mu 0.5 --view patch --field --orbits 5 --isochrones 0")
+function(draw options picture)
+  separate_arguments(words UNIX_COMMAND "${options}")
+  execute_process(COMMAND ${CONTENSOU} portrait ${words} -o ${FOLDER}/${picture} COMMAND_ERROR_IS_FATAL ANY)
+  message(STATUS "contensou portrait ${options} -o ${picture}")
+endfunction()
 
 file(MAKE_DIRECTORY ${FOLDER}/gallery)
-foreach(picture IN LISTS pictures)
-  string(REGEX MATCH "^([^:]+): (.*)$" ignored "${picture}")
-  separate_arguments(options UNIX_COMMAND "${CMAKE_MATCH_2}")
-  set(file ${FOLDER}/${CMAKE_MATCH_1})
-  execute_process(COMMAND ${CONTENSOU} portrait ${options} -o ${file} COMMAND_ERROR_IS_FATAL ANY)
-  message(STATUS "contensou portrait ${CMAKE_MATCH_2} -o ${CMAKE_MATCH_1}")
+draw("--ball pool --law exact" pool.svg)
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/README.md lines REGEX "^`contensou portrait |^!\\[")
+foreach(line IN LISTS lines)
+  if(line MATCHES "^`contensou portrait ([^`]+)`")
+    set(options "${CMAKE_MATCH_1}")
+  elseif(line MATCHES "\\((gallery/[a-z]+\\.svg)\\)")
+    draw("${options}" ${CMAKE_MATCH_1})
+  endif()
 endforeach()

@@ -1,18 +1,17 @@
 #include "contensou/portraits/phase_portrait.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "contensou/reduction/regularised_motion.hpp"
+#include "data/isochrones.hpp"
+#include "data/round_numbers.hpp"
 
 namespace contensou::portraits {
 
@@ -21,7 +20,6 @@ using reduction::Orbit;
 using reduction::OrbitPoint;
 using reduction::ReducedSystem;
 using reduction::State;
-using std::numbers::pi;
 
 namespace {
 
@@ -31,17 +29,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pair_below = 0.1;
 
 /// Where whole curves begin, next to infinity: at k or 1/k; more where the window is steeper.
-constexpr double largest_k = 1e6;
-
-/// Orbits on each side of u = 0: as many as leave room for the isochrones' labels.
-int standard_count(View view) { return view == View::pair ? 9 : 12; }
-
-constexpr std::array view_names{
-    std::pair{View::uv, "uv"},         std::pair{View::patch, "patch"},
-    std::pair{View::log, "log"},       std::pair{View::similarity, "similarity"},
-    std::pair{View::blowup, "blowup"}, std::pair{View::disc, "disc"},
-    std::pair{View::time, "time"},     std::pair{View::pair, "pair"},
-};
+constexpr double max_k = 1e6;
 
 /// @param shown  states that the window must contain
 Window default_window(const ReducedSystem& system, View view, const std::vector<State>& shown) {
@@ -60,11 +48,11 @@ Window default_window(const ReducedSystem& system, View view, const std::vector<
 }
 
 /// A state of an orbit with the time until its stop; v and u may underflow, ln v does not.
-struct Dated {
+struct TimedState {
   OrbitPoint point;
   double left;
 };
-using Track = std::vector<Dated>;  // from first to stop
+using Track = std::vector<TimedState>;  // from first to stop
 
 /// How far apart two states may be that lie next to each other on an orbit: 1 and no more.
 using Distance = std::function<double(const OrbitPoint&, const OrbitPoint&)>;
@@ -80,7 +68,7 @@ double seen_log_ratio(const OrbitPoint& point, double mu) { return std::clamp(lo
 /// Adds what lies between the last state of a track and those at the given places, halved until neighbours are near.
 template <class At>
 void refine(Track& track, double from, const std::vector<double>& places, At at, const Distance& distance) {
-  std::vector<std::pair<double, Dated>> open;  // the next at the back
+  std::vector<std::pair<double, TimedState>> open;  // the next at the back
   for (double place : places) open.insert(open.begin(), {place, at(place)});
   while (!open.empty()) {
     const auto [place, state] = open.back();
@@ -103,29 +91,28 @@ Track exact_track(const Orbit& orbit, const Distance& distance) {
   const double stop = orbit.stop_time();
   Track track{{orbit.at_time(0), stop}};
   if (!orbit.on_axis()) {
-    constexpr double farthest = 20;
+    constexpr double lowest = -20;
     const double start = orbit.start_coordinate();
-    const auto at = [&](double xi) { return Dated{orbit.at_coordinate(xi), orbit.time_left_at_coordinate(xi)}; };
-    refine(track, start, {std::min(-farthest, start - farthest)}, at, distance);
+    const auto at = [&](double xi) { return TimedState{orbit.at_coordinate(xi), orbit.time_left_at_coordinate(xi)}; };
+    refine(track, start, {std::min(lowest, start + lowest)}, at, distance);
   }
   const double begin = std::log(track.back().left);
   std::vector<double> places;
   constexpr int folds = 30;
   for (int i = 1; i <= folds; ++i) places.push_back(begin - i);
-  const auto at = [&](double place) { return Dated{orbit.at_time_left(std::exp(place)), std::exp(place)}; };
+  const auto at = [&](double place) { return TimedState{orbit.at_time_left(std::exp(place)), std::exp(place)}; };
   refine(track, begin, places, at, distance);
   track.push_back({orbit.at_time_left(0), 0});
   return track;
 }
 
-class Painter {
+class OrbitTracer {
  public:
-  Painter(const Flow& flow, View view, Window window, const PortraitRequest& request)
-      : flow_(flow), view_(view), window_(window), request_(request) {}
+  OrbitTracer(const Flow& flow, Window window, bool stepped) : flow_(flow), window_(window), is_stepped_(stepped) {}
 
   PortraitOrbit orbit(State start) const {
     const Distance distance = [this](const OrbitPoint& a, const OrbitPoint& b) { return on_window(a, b); };
-    return columns(request_.stepped ? stepped(start) : exact(start, distance), start);
+    return columns(is_stepped_ ? stepped(start) : exact(start, distance), start);
   }
 
   /// The orbit through a point, from where it enters the window.
@@ -143,41 +130,8 @@ class Painter {
     return curves;
   }
 
-  PortraitOrbit whole_curve(const reduction::Approach& approach) const {
-    const double mu = system_.mu();
-    const Distance distance = [mu](const OrbitPoint& a, const OrbitPoint& b) {
-      const double turn = std::abs(std::atan(a.k) - std::atan(b.k)) / 0.02;
-      const double ratio = std::abs(seen_log_ratio(a, mu) - seen_log_ratio(b, mu)) / 0.25;
-      const double shrink = std::abs(std::log(std::hypot(mu * a.u, a.v) / std::hypot(mu * b.u, b.v))) / 0.1;
-      return std::max({turn, ratio, std::isfinite(shrink) ? shrink : 0});
-    };
-    // Steep; or, from a ray, so much beside it that it is told from it.
-    const double end = std::exp(approach.log_terminal_ratio());
-    const double far = std::exp(approach.log_far_ratio());
-    constexpr double beside = 14;  // exp(-14) = 1e-6
-    const double from_ray = (approach.side() == reduction::Approach::Side::above ? 1 : -1) * approach.log_far_ratio();
-    const double k = far == 0          ? std::min(1 / steepest_, 1e-3 * end)
-                     : std::isinf(far) ? std::max(steepest_, 1e3 * end)
-                                       : std::exp(approach.log_ratio(from_ray + beside));
-    return columns(exact({1 / mu, k}, distance), {1 / mu, k});
-  }
-
-  StopProfile profile() const {
-    const double farthest = std::log(steepest_);
-    constexpr double step = 0.1;
-    const auto rows = static_cast<Eigen::Index>(2 * farthest / step) + 3;
-    StopProfile profile{Eigen::ArrayXd(rows), Eigen::ArrayXd(rows)};
-    profile.ln_k << -infinity, Eigen::ArrayXd::LinSpaced(rows - 2, -farthest, farthest), infinity;
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const double angle = std::atan(std::exp(profile.ln_k[i]));
-      const bool sliding = i == rows - 1;
-      profile.tau[i] = stop_time({sliding ? 0 : std::cos(angle) / system_.mu(), std::sin(angle)});
-    }
-    return profile;
-  }
-
   /// Starts along the right half of the border, at equal distances across the flow as it is seen on paper.
-  std::vector<State> seeds() const {
+  std::vector<State> seeds(int count) const {
     struct Step {
       State at;
       double across;
@@ -198,7 +152,6 @@ class Painter {
     walk([&](double share) { return State{share * window_.u, window_.v}; }, true);
     walk([&](double share) { return State{window_.u, (1 - share) * window_.v}; }, false);
 
-    const int count = request_.orbits_per_side.value_or(standard_count(view_));
     std::vector<State> result;
     for (int i = 0; i < count; ++i) {
       const double wanted = across * (i + 0.5) / count;
@@ -207,23 +160,26 @@ class Painter {
     return result;
   }
 
-  std::vector<Isochrone> isochrones() const {
-    std::vector<Isochrone> result;
-    if (request_.isochrones == 0) return result;
-    const double longest = stop_time({window_.u, window_.v});
-    const double step = round_down(longest / request_.time_unit / request_.isochrones * 1.7) * request_.time_unit;
-    for (int i = 1; i * step < 0.95 * longest; ++i) {
-      if (request_.drawn_only) {
-        result.push_back({i * step, {}, {}});
-      } else {
-        add_isochrone(i * step, result);
-      }
-    }
-    return result;
-  }
-
  private:
-  double stop_time(State start) const { return flow_.orbit(start).stop_time(); }
+  PortraitOrbit whole_curve(const reduction::Approach& approach) const {
+    const double mu = system_.mu();
+    const Distance distance = [mu](const OrbitPoint& a, const OrbitPoint& b) {
+      const double turn = std::abs(std::atan(a.k) - std::atan(b.k)) / 0.02;
+      const double ratio = std::abs(seen_log_ratio(a, mu) - seen_log_ratio(b, mu)) / 0.25;
+      const double shrink = std::abs(std::log(std::hypot(mu * a.u, a.v) / std::hypot(mu * b.u, b.v))) / 0.1;
+      return std::max({turn, ratio, std::isfinite(shrink) ? shrink : 0});
+    };
+    // Steep; or, from a ray, so much beside it that it is told from it.
+    const double steepest = std::max(max_k, 1e3 * window_.v / (mu * window_.u));
+    const double end = std::exp(approach.log_terminal_ratio());
+    const double far = std::exp(approach.log_far_ratio());
+    constexpr double beside = 14;  // exp(-14) = 1e-6
+    const double from_ray = (approach.side() == reduction::Approach::Side::above ? 1 : -1) * approach.log_far_ratio();
+    const double k = far == 0          ? std::min(1 / steepest, 1e-3 * end)
+                     : std::isinf(far) ? std::max(steepest, 1e3 * end)
+                                       : std::exp(approach.log_ratio(from_ray + beside));
+    return columns(exact({1 / mu, k}, distance), {1 / mu, k});
+  }
 
   Track exact(State start, const Distance& distance) const { return exact_track(flow_.orbit(start), distance); }
 
@@ -292,67 +248,10 @@ class Painter {
     return track;
   }
 
-  /// The isochrone in the window: by scaling, the point on each ray through the origin is known at once.
-  void add_isochrone(double tau_stop, std::vector<Isochrone>& result) const {
-    const auto on_ray = [&](double angle) {
-      const State direction{window_.u * std::cos(angle), window_.v * std::sin(angle)};
-      const double scale = tau_stop / stop_time(direction);
-      return State{scale * direction.u, scale * direction.v};
-    };
-    // Stop times grow with u and with v: along the curve u falls and v grows.
-    const auto first_angle = [&](auto reached) {
-      double low = 0;
-      double high = pi / 2;
-      for (int i = 0; i < 50; ++i) {
-        const double middle = (low + high) / 2;
-        (reached(on_ray(middle)) ? high : low) = middle;
-      }
-      return high;
-    };
-    const bool from_axis = on_ray(0).u <= window_.u;
-    const bool to_axis = on_ray(pi / 2).v <= window_.v;
-    const double first = from_axis ? 0 : first_angle([&](State at) { return at.u <= window_.u; });
-    const double last = to_axis ? pi / 2 : first_angle([&](State at) { return at.v >= window_.v; });
-
-    // Evenly on paper, and down to k = 1e-4 next to the axis v = 0, where ln k changes fast.
-    constexpr int pieces = 48;
-    std::vector<double> angles;
-    for (int i = 0; i <= pieces; ++i) angles.push_back(first + (last - first) * i / pieces);
-    for (int decade = -4; decade <= 3; ++decade) {
-      const double angle = std::atan(std::pow(10, decade) * system_.mu() * window_.u / window_.v);
-      if (angle > first && angle < last) angles.push_back(angle);
-    }
-    std::ranges::sort(angles);
-    std::vector<State> right;
-    for (double angle : angles) right.push_back(on_ray(angle));
-    if (to_axis) right.back().u = 0;
-    const auto emit = [&](const std::vector<State>& states) {
-      const auto rows = static_cast<Eigen::Index>(states.size());
-      Isochrone isochrone{tau_stop, Eigen::ArrayXd(rows), Eigen::ArrayXd(rows)};
-      for (Eigen::Index i = 0; i < rows; ++i) {
-        isochrone.u[i] = states[static_cast<std::size_t>(i)].u;
-        isochrone.v[i] = states[static_cast<std::size_t>(i)].v;
-      }
-      result.push_back(std::move(isochrone));
-    };
-    std::vector<State> left = right;
-    std::ranges::reverse(left);
-    for (State& state : left) state.u = -state.u;
-    if (to_axis) {
-      right.insert(right.end(), left.begin() + 1, left.end());
-      emit(right);
-    } else {
-      emit(right);
-      emit(left);
-    }
-  }
-
   const Flow& flow_;
   const ReducedSystem& system_ = flow_.system();
-  View view_;
   Window window_;
-  const PortraitRequest& request_;
-  double steepest_ = std::max(largest_k, 1e3 * window_.v / (system_.mu() * window_.u));
+  bool is_stepped_;
 };
 
 PortraitOrbit mirrored(PortraitOrbit orbit) {
@@ -391,56 +290,37 @@ void require(Window window, const PortraitRequest& request) {
   }
 }
 
-PhasePortrait portrait_in(const Flow& flow, View view, Window window, const PortraitRequest& request) {
-  const Painter painter(flow, view, window, request);
-  PhasePortrait portrait{
-      flow.system(), reduction::phase_plane(flow.system()), view, window, {}, {}, {}, painter.profile(), {}, {}, {}};
+PhasePortrait portrait_in(const Flow& flow, View view, Window window, const PortraitRequest& request,
+                          const std::vector<double>& times) {
+  const OrbitTracer tracer(flow, window, request.stepped);
+  PhasePortrait portrait{flow, reduction::phase_plane(flow.system()), view, window, {}, {}, {}, {}, {}, {}};
   const bool whole = !request.drawn_only || view == View::pair;
   const bool speeds = view == View::uv || view == View::patch;
   if (whole || speeds) {
-    portrait.isochrones = painter.isochrones();
-    for (const State& seed : painter.seeds()) {
-      portrait.orbits.push_back(painter.orbit(seed));
+    portrait.isochrones = isochrones(flow, {{-window.u, 0}, {window.u, window.v}}, times);
+    const int with_room_for_labels = view == View::pair ? 9 : 12;
+    for (const State& seed : tracer.seeds(request.orbits_per_side.value_or(with_room_for_labels))) {
+      portrait.orbits.push_back(tracer.orbit(seed));
       portrait.orbits.push_back(mirrored(portrait.orbits.back()));
     }
   }
-  if (whole || !speeds) portrait.curves = painter.whole_curves();
+  if (whole || !speeds) portrait.curves = tracer.whole_curves();
   if (request.highlight && (request.highlight->u != 0 || request.highlight->v != 0)) {
-    portrait.highlight = painter.orbit(*request.highlight);
+    portrait.highlight = tracer.orbit(*request.highlight);
   }
-  for (const State& point : request.through) portrait.through.push_back(painter.orbit_through(point));
+  for (const State& point : request.through) portrait.through.push_back(tracer.orbit_through(point));
   return portrait;
 }
 
+/// Stop times of isochrones: multiples of a round time, up to the corner of the window, which is the last to stop.
+std::vector<double> round_times(const Flow& flow, Window window, const PortraitRequest& request) {
+  if (request.isochrones == 0) return {};
+  const double longest = flow.orbit({window.u, window.v}).stop_time();
+  const double step = round_step(longest / request.time_unit, request.isochrones) * request.time_unit;
+  return multiples(0, 0.95 * longest, step);
+}
+
 }  // namespace
-
-std::string_view name(View view) {
-  return std::ranges::find(view_names, view, [](const auto& entry) { return entry.first; })->second;
-}
-
-std::optional<View> find_view(std::string_view name) {
-  for (const auto& [view, its_name] : view_names) {
-    if (name == its_name) return view;
-  }
-  return std::nullopt;
-}
-
-const std::vector<View>& views() {
-  static const std::vector<View> all = [] {
-    std::vector<View> list;
-    for (const auto& entry : view_names) list.push_back(entry.first);
-    return list;
-  }();
-  return all;
-}
-
-double round_down(double x) {
-  const double power = std::pow(10, std::floor(std::log10(x)));
-  for (double digit : {5.0, 2.0}) {
-    if (digit * power <= x) return digit * power;
-  }
-  return power;
-}
 
 PortraitOrbit::Instant PortraitOrbit::at(Eigen::Index row, double factor) const {
   return {factor * u[row], factor * v[row], ln_v[row] + std::log(factor), ln_k[row], factor * tau_left[row]};
@@ -454,10 +334,11 @@ PhasePortrait phase_portrait(const Flow& flow, const PortraitRequest& request) {
   const View view = request.view.value_or(system.mu() < pair_below ? View::pair : View::uv);
   const Window window = request.window.value_or(default_window(system, view, shown));
   require(window, request);
-  PhasePortrait portrait = portrait_in(flow, view, window, request);
-  if (request.against) {
-    const ReducedSystem other(*request.against, system.mu(), system.inertia());
-    portrait.against.push_back(portrait_in(other, view, window, request));
+  const std::vector<double> times = round_times(flow, window, request);
+  PhasePortrait portrait = portrait_in(flow, view, window, request, times);
+  if (request.comparison) {
+    const ReducedSystem other(*request.comparison, system.mu(), system.inertia());
+    portrait.comparisons.push_back(portrait_in(other, view, window, request, times));
   }
   return portrait;
 }

@@ -1,5 +1,3 @@
-#include "contensou/portraits/phase_portrait_data.hpp"
-
 #include <iterator>
 #include <string_view>
 #include <vector>
@@ -8,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contensou/portraits/json.hpp"
+#include "contensou/portraits/phase_portrait.hpp"
 
 namespace contensou::portraits {
 
@@ -17,39 +16,30 @@ using Json = nlohmann::ordered_json;
 
 std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
-Json orbit_json(const PortraitOrbit& orbit) {
+Json json_of(const PortraitOrbit& orbit) {
   return {{"u", list(orbit.u)}, {"v", list(orbit.v)}, {"tau_left", list(orbit.tau_left)}};
 }
 
-Json orbits_json(const std::vector<PortraitOrbit>& orbits) {
+Json json_of(const Isochrone& isochrone) {
+  return {{"tau_stop", isochrone.tau_stop}, {"u", list(isochrone.u)}, {"v", list(isochrone.v)}};
+}
+
+template <class Curve>
+Json json_of(const std::vector<Curve>& curves) {
   Json json = Json::array();
-  for (const PortraitOrbit& orbit : orbits) json.push_back(orbit_json(orbit));
+  for (const Curve& curve : curves) json.push_back(json_of(curve));
   return json;
 }
 
-Json isochrones_json(const std::vector<Isochrone>& isochrones) {
-  Json json = Json::array();
-  for (const Isochrone& isochrone : isochrones) {
-    json.push_back({{"tau_stop", isochrone.tau_stop}, {"u", list(isochrone.u)}, {"v", list(isochrone.v)}});
-  }
-  return json;
-}
+double tau_at(const PortraitOrbit& orbit, Eigen::Index row) { return orbit.tau_left[row]; }
+double tau_at(const Isochrone& isochrone, Eigen::Index) { return isochrone.tau_stop; }
 
-void append_orbits(std::string& csv, std::string_view kind, const std::vector<PortraitOrbit>& orbits) {
-  for (std::size_t i = 0; i < orbits.size(); ++i) {
-    const PortraitOrbit& orbit = orbits[i];
-    for (Eigen::Index j = 0; j < orbit.rows(); ++j) {
-      fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}\n", kind, i, orbit.u[j], orbit.v[j], orbit.tau_left[j]);
-    }
-  }
-}
-
-void append_isochrones(std::string& csv, std::string_view kind, const std::vector<Isochrone>& isochrones) {
-  for (std::size_t i = 0; i < isochrones.size(); ++i) {
-    const Isochrone& isochrone = isochrones[i];
-    for (Eigen::Index j = 0; j < isochrone.u.size(); ++j) {
-      fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}\n", kind, i, isochrone.u[j], isochrone.v[j],
-                     isochrone.tau_stop);
+template <class Curve>
+void append(std::string& csv, std::string_view kind, const std::vector<Curve>& curves) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (Eigen::Index j = 0; j < curves[i].u.size(); ++j) {
+      fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}\n", kind, i, curves[i].u[j], curves[i].v[j],
+                     tau_at(curves[i], j));
     }
   }
 }
@@ -57,34 +47,34 @@ void append_isochrones(std::string& csv, std::string_view kind, const std::vecto
 }  // namespace
 
 std::string to_json(const PhasePortrait& portrait) {
-  const reduction::ReducedSystem& system = portrait.system;
+  const reduction::ReducedSystem& system = portrait.system();
   Json json{{"schema", 1},
             {"law", system.law().name()},
             {"mu", system.mu()},
             {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
             {"view", name(portrait.view)},
             {"window", {portrait.window.u, portrait.window.v}},
-            {"orbits", orbits_json(portrait.orbits)},
-            {"isochrones", isochrones_json(portrait.isochrones)}};
-  if (portrait.highlight) json["highlight"] = orbit_json(*portrait.highlight);
-  if (!portrait.through.empty()) json["through"] = orbits_json(portrait.through);
-  for (const PhasePortrait& rival : portrait.against) {
-    json["against"] = {{"law", rival.system.law().name()},
-                       {"orbits", orbits_json(rival.orbits)},
-                       {"isochrones", isochrones_json(rival.isochrones)}};
+            {"orbits", json_of(portrait.orbits)},
+            {"isochrones", json_of(portrait.isochrones)}};
+  if (portrait.highlight) json["highlight"] = json_of(*portrait.highlight);
+  if (!portrait.through.empty()) json["through"] = json_of(portrait.through);
+  for (const PhasePortrait& other : portrait.comparisons) {
+    json["against"] = {{"law", other.system().law().name()},
+                       {"orbits", json_of(other.orbits)},
+                       {"isochrones", json_of(other.isochrones)}};
   }
   return json_document(json);
 }
 
 std::string to_csv(const PhasePortrait& portrait) {
   std::string csv = "kind,index,u,v,tau\n";
-  append_orbits(csv, "orbit", portrait.orbits);
-  if (portrait.highlight) append_orbits(csv, "highlight", {*portrait.highlight});
-  append_orbits(csv, "through", portrait.through);
-  append_isochrones(csv, "isochrone", portrait.isochrones);
-  for (const PhasePortrait& rival : portrait.against) {
-    append_orbits(csv, "against_orbit", rival.orbits);
-    append_isochrones(csv, "against_isochrone", rival.isochrones);
+  append(csv, "orbit", portrait.orbits);
+  if (portrait.highlight) append(csv, "highlight", std::vector{*portrait.highlight});
+  append(csv, "through", portrait.through);
+  append(csv, "isochrone", portrait.isochrones);
+  for (const PhasePortrait& other : portrait.comparisons) {
+    append(csv, "against_orbit", other.orbits);
+    append(csv, "against_isochrone", other.isochrones);
   }
   return csv;
 }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <locale>
 #include <sstream>
 #include <tuple>
@@ -21,6 +22,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gnuplot-iostream.h>
 #include <nlohmann/json.hpp>
 
@@ -107,81 +109,30 @@ std::string quoted(const std::string& text) {
 /// Between two plots of one command.
 constexpr const char* next_plot = ", \\\n     ";
 
-std::ostringstream text_stream() {
-  std::ostringstream stream;
-  stream.imbue(std::locale::classic());
-  stream << std::setprecision(8);
-  return stream;
-}
-
 std::string colour(Colour colour) { return fmt::format("rgb '#{:06x}'", colour.rgb); }
 
 std::string line_style(const Stroke& stroke) {
   return fmt::format("lc {} lw {}{}", colour(stroke.colour), stroke.width, stroke.dashed ? " dt (4,8)" : " dt 1");
 }
 
-using Row = std::pair<double, double>;
-using Vector = std::tuple<double, double, double, double>;
+/// gnuplot's numbers of a shape, and of the shape that is first painted out with the ground; 0: none.
+struct PointType {
+  int outline, ground;
+};
 
-/// Rows of numbers as gnuplot reads them after a command that plots '-'.
-template <class Rows, class Mode>
-void send(std::ostream& data, const Rows& rows, Mode mode) {
-  gnuplotio::top_level_array_sender(data, rows, mode, gnuplotio::ModeText());
-  data << "e\n";
+PointType point_type(Marks::Shape shape) {
+  if (shape == Marks::Shape::circle) return {6, 7};
+  return shape == Marks::Shape::square ? PointType{4, 5} : PointType{7, 0};
 }
 
-std::vector<Row> rows(const Polyline& line) {
-  std::vector<Row> result;
-  for (const Point& point : line) result.emplace_back(point.x, point.y);
-  return result;
-}
-
-/// What of the lines is to be seen.
-std::vector<std::vector<Row>> rows(const Panel& panel, const std::vector<Polyline>& lines) {
-  std::vector<std::vector<Row>> result;
-  for (const Polyline& line : lines) {
-    for (const Polyline& part : clipped(panel, line)) result.push_back(rows(thinned(panel, part)));
-  }
-  return result;
-}
-
-std::vector<Vector> heads(const Panel& panel, const Box& box, const std::vector<Arrow>& arrows) {
-  std::vector<Vector> result;
-  for (const Arrow& arrow : arrows) {
-    const std::optional<Arrow> head = short_arrow(panel, box, arrow);
-    if (head) result.emplace_back(head->at.x, head->at.y, arrow.at.x - head->at.x, arrow.at.y - head->at.y);
-  }
-  return result;
-}
-
-void write_axis(std::ostream& gp, const char* which, const Axis& axis, bool shown) {
-  gp << "set " << which << "label " << quoted(shown ? axis.name : "") << "\n";
-  gp << "set " << which << "range [" << axis.low << ":" << axis.high << "]\n";
-  gp << (axis.logarithmic ? "set logscale " : "unset logscale ") << which << "\n";
-  if (!shown) {
-    gp << "unset " << which << "tics\n";
-    return;
-  }
-  gp << "set " << which << "tics autofreq nomirror out scale 0.6\n";
-  gp << "set format " << which << (axis.logarithmic ? " '10^{%T}'" : " '%g'") << "\n";
-  if (axis.ticks.empty()) return;
-  gp << "set " << which << "tics (";
-  for (const auto& tick : axis.ticks) {
-    gp << (&tick == &axis.ticks.front() ? "" : ", ") << quoted(tick.text) << " " << tick.at;
-  }
-  gp << ")\n";
+std::string mark_style(const Marks& marks) {
+  return fmt::format("with points pt {} ps {} lw 1.6 lc {}", point_type(marks.shape).outline, marks.size,
+                     colour(marks.colour));
 }
 
 const char* alignment(Label::Align align) {
-  switch (align) {
-    case Label::Align::left:
-      return "left";
-    case Label::Align::right:
-      return "right";
-    case Label::Align::centre:
-      break;
-  }
-  return "center";
+  if (align == Label::Align::left) return "left";
+  return align == Label::Align::right ? "right" : "center";
 }
 
 /// From light to dark and from yellow to blue: in order also in grey, and for eyes that see red and green alike.
@@ -189,178 +140,201 @@ constexpr const char* palette =
     "set palette defined (0 '#fffbe0', 0.18 '#f3e6a1', 0.36 '#b9d8a6', 0.54 '#76bcb4', 0.72 '#4495b8', 0.87 '#3468a4', "
     "1 '#2f4788')\n";
 
-/// The plot of a colour map: on axes of its own, which are linear. Its data follow by send_colours.
-std::string write_colours(std::ostream& gp, const Figure& figure, const ColourMap& colours, const Box& box) {
-  const auto across = [&](double mm) { return mm / figure.width_mm; };
-  const auto up = [&](double mm) { return mm / figure.height_mm; };
-  constexpr double gap_mm = 3, bar_mm = 4;
-  const double low = colours.scale.low;
-  const double high = colours.scale.high > low ? colours.scale.high : low + 1;
-  gp << palette;
-  write_axis(gp, "cb", {"", low, high, colours.scale.logarithmic, colours.scale.ticks}, true);
-  const double left = box.left + box.width + gap_mm;
-  gp << "set colorbox vertical user origin screen " << across(left) << "," << up(box.bottom) << " size screen "
-     << across(bar_mm) << "," << up(box.height) << " noborder\n";
-  gp << "set label " << quoted(colours.scale.name) << " at screen " << across(left + bar_mm / 2) << ","
-     << up(box.bottom + box.height + gap_mm) << " center\n";
-  gp << "set x2range [0:" << colours.columns << "]\nset y2range [0:" << colours.values.size() / colours.columns
-     << "]\n";
-  return "matrix using ($1+0.5):($2+0.5):3 axes x2y2 with image";
+using Row = std::pair<double, double>;
+
+std::vector<Row> rows(const Polyline& line) {
+  std::vector<Row> result;
+  for (const Point& point : line) result.emplace_back(point.x, point.y);
+  return result;
 }
 
-void send_colours(std::ostream& gp, const ColourMap& colours) {
-  for (std::size_t i = 0; i < colours.values.size(); ++i) {
-    gp << colours.values[i] << ((i + 1) % colours.columns == 0 ? "\n" : " ");
+/// Numbers as the plots '-' of a command read them after it.
+class Data {
+ public:
+  Data() {
+    text_.imbue(std::locale::classic());
+    text_ << std::setprecision(8);
   }
-  gp << "e\n";
-}
 
-/// A number for each shape, and whether it is first painted out with the ground.
-struct PointType {
-  int type;
-  int ground;  ///< 0: none
+  template <class Rows>
+  void add(const Rows& rows) {
+    gnuplotio::top_level_array_sender(text_, rows, gnuplotio::Mode1D(), gnuplotio::ModeText());
+    text_ << "e\n";
+  }
+  /// Blocks of rows, with an empty line between them.
+  template <class Blocks>
+  void add_blocks(const Blocks& blocks) {
+    gnuplotio::top_level_array_sender(text_, blocks, gnuplotio::Mode2D(), gnuplotio::ModeText());
+    text_ << "e\n";
+  }
+  void add(const ColourMap& colours) {
+    for (std::size_t i = 0; i < colours.values.size(); ++i) {
+      text_ << colours.values[i] << ((i + 1) % colours.columns == 0 ? "\n" : " ");
+    }
+    text_ << "e\n";
+  }
+  std::string_view text() const { return text_.view(); }
+
+ private:
+  std::ostringstream text_;
 };
 
-PointType point_type(Marks::Shape shape) {
-  switch (shape) {
-    case Marks::Shape::circle:
-      return {6, 7};
-    case Marks::Shape::square:
-      return {4, 5};
-    case Marks::Shape::dot:
-      break;
-  }
-  return {7, 0};
-}
-
-std::string mark_style(const Marks& marks) {
-  return fmt::format("with points pt {} ps {} lw 1.6 lc {}", point_type(marks.shape).type, marks.size,
-                     colour(marks.colour));
-}
-
-void write_panel(std::ostream& gp, const Figure& figure, const Panel& panel, const Box& box, double name) {
-  const auto across = [&](double mm) { return mm / figure.width_mm; };
-  const auto up = [&](double mm) { return mm / figure.height_mm; };
-  gp << "set lmargin at screen " << across(box.left) << "\nset rmargin at screen " << across(box.left + box.width)
-     << "\nset bmargin at screen " << up(box.bottom) << "\nset tmargin at screen " << up(box.bottom + box.height)
-     << "\n";
-  gp << (!panel.bare ? "set border 3" : "set border 0") << " lw 0.8 lc " << colour(figure.theme.ink) << "\n";
-  write_axis(gp, "x", panel.x, !panel.bare);
-  write_axis(gp, "y", panel.y, !panel.bare);
-  gp << "unset label\n";
-  gp << "set label " << quoted(panel.title) << " at screen " << across(box.left + box.width / 2) << "," << up(name)
-     << " center tc " << colour(figure.theme.ink) << "\n";
-  for (const Label& label : panel.labels) {
-    gp << "set label " << quoted("{/*0.85 " + label.text + "}") << " at " << label.at.x << "," << label.at.y << " "
-       << alignment(label.align) << " front boxed tc " << colour(label.colour) << "\n";
+/// Writes the script of a figure.
+class Script {
+ public:
+  Script(const Figure& figure, PictureFormat format) : figure_(figure), layout_(lay_out(figure)) {
+    put("# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n");
+    put("set encoding utf8\n{}\n", terminal(figure, format));
+    put("set style textbox opaque noborder fillcolor {} margins 0.2,0.1\n", colour(figure.theme.ground));
+    put("set xtics textcolor {0}\nset ytics textcolor {0}\nset xlabel textcolor {0}\nset ylabel textcolor {0}\n", ink_);
+    put("set multiplot\n");
+    heading();
+    for (std::size_t i = 0; i < figure.panels.size(); ++i) panel(figure.panels[i], layout_.panels[i], layout_.names[i]);
+    put("unset multiplot\n");
   }
 
-  // Each layer with data is a plot of '-' and, after the whole command, that data.
-  std::string separator = "plot ";
-  std::ostringstream data = text_stream();
-  const auto entry = [&](const std::string& style) {
-    gp << std::exchange(separator, next_plot) << "'-' " << style << " notitle";
-  };
-  if (panel.colours) {
-    entry(write_colours(gp, figure, *panel.colours, box));
-    send_colours(data, *panel.colours);
+  std::string text() && { return std::move(text_); }
+
+ private:
+  template <class... Values>
+  void put(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
   }
-  for (const Region& region : panel.regions) {
-    entry(fmt::format("with filledcurves closed lc {}", colour(region.colour)));
-    send(data, rows(region.border), gnuplotio::Mode1D());
+
+  /// A place on the page, from millimetres.
+  std::string at(double x, double y) const {
+    return fmt::format("screen {:.8g},{:.8g}", x / figure_.width_mm, y / figure_.height_mm);
   }
-  for (const Lines& layer : panel.lines) {
-    const auto blocks = rows(panel, layer.lines);
-    if (blocks.empty()) continue;
-    entry("with lines " + line_style(layer.stroke));
-    send(data, blocks, gnuplotio::Mode2D());
+
+  void label(const std::string& text, const std::string& at, const char* align, const std::string& style) {
+    put("set label {} at {} {}{}\n", quoted(text), at, align, style);
   }
-  for (const Arrows& layer : panel.arrows) {
-    const auto vectors = heads(panel, box, layer.arrows);
-    if (vectors.empty()) continue;
-    entry(fmt::format("with vectors head filled size screen {:.4g},18,75 fixed lc {} lw 0.5",
-                      across(head_mm * figure.theme.letters), colour(layer.colour)));
-    send(data, vectors, gnuplotio::Mode1D());
-  }
-  for (const Marks& layer : panel.marks) {
-    if (layer.points.empty()) continue;
-    if (const int ground = point_type(layer.shape).ground) {
-      entry(fmt::format("with points pt {} ps {} lc {}", ground, layer.size, colour(figure.theme.ground)));
-      send(data, rows(layer.points), gnuplotio::Mode1D());
+
+  void axis(const char* which, const Axis& axis, bool shown) {
+    put("set {0}label {1}\nset {0}range [{2:.8g}:{3:.8g}]\n{4} logscale {0}\n", which, quoted(shown ? axis.name : ""),
+        axis.low, axis.high, axis.logarithmic ? "set" : "unset");
+    if (!shown) {
+      put("unset {}tics\n", which);
+      return;
     }
-    entry(mark_style(layer));
-    send(data, rows(layer.points), gnuplotio::Mode1D());
+    put("set {0}tics autofreq nomirror out scale 0.6\nset format {0} '{1}'\n", which,
+        axis.logarithmic ? "10^{%T}" : "%g");
+    if (axis.ticks.empty()) return;
+    std::vector<std::string> ticks;
+    for (const auto& [at, text] : axis.ticks) ticks.push_back(fmt::format("{} {:.8g}", quoted(text), at));
+    put("set {}tics ({})\n", which, fmt::join(ticks, ", "));
   }
-  if (separator != next_plot) gp << separator << "NaN notitle";
-  gp << "\n" << data.view();
-}
 
-void write_colour_bar(std::ostream& gp, const Figure& figure, const Layout& layout) {
-  const ColourBar& bar = *figure.colour_bar;
-  const Box& box = layout.colour_bar;
-  const auto across = [&](double mm) { return mm / figure.width_mm; };
-  const auto up = [&](double mm) { return mm / figure.height_mm; };
-  const double step = box.height / static_cast<double>(bar.colours.size());
-  constexpr double overlap = 0.1;  // so that there is no seam between them
-  for (std::size_t i = 0; i < bar.colours.size(); ++i) {
-    const double bottom = box.bottom + step * static_cast<double>(i);
-    gp << "set object rectangle from screen " << across(box.left) << "," << up(bottom) << " to screen "
-       << across(box.left + box.width) << "," << up(std::min(bottom + step + overlap, box.bottom + box.height))
-       << " fc " << colour(bar.colours[i]) << " fs solid noborder\n";
-  }
-  for (const Axis::Tick& tick : bar.ticks) {
-    gp << "set label " << quoted("{/*0.85 " + tick.text + "}") << " at screen "
-       << across(box.left + box.width + 0.5 * layout.letter) << "," << up(box.bottom + tick.at * box.height)
-       << " left tc " << colour(figure.theme.ink) << "\n";
-  }
-  gp << "set label " << quoted(bar.name) << " at screen " << across(box.left) << ","
-     << up(box.bottom + box.height + 1.3 * layout.letter) << " left tc " << colour(figure.theme.ink) << "\n";
-}
+  /// The next plot of a command, of data that follow it.
+  void plot(const std::string& style) { put("{}'-' {} notitle", std::exchange(separator_, next_plot), style); }
 
-/// Title, subtitle, colour bar and legend, in a plot of its own that covers the page and shows nothing else.
-void write_heading(std::ostream& gp, const Figure& figure, const Layout& layout) {
-  const auto up = [&](double mm) { return mm / figure.height_mm; };
-  gp << "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset tmargin at screen 0.98\nset bmargin at screen "
-        "0.02\nunset border\nunset tics\n";
-  gp << "set key at screen 0.5," << up(layout.legend)
-     << " center center horizontal Left reverse samplen 2.2 width 1 tc " << colour(figure.theme.ink) << "\n";
-  gp << "set label " << quoted("{/*1.2 " + figure.title + "}") << " at screen 0.5," << up(layout.title) << " center tc "
-     << colour(figure.theme.ink) << "\n";
-  gp << "set label " << quoted(figure.subtitle) << " at screen 0.5," << up(layout.subtitle) << " center tc "
-     << colour(figure.theme.faint) << "\n";
-  if (figure.colour_bar) write_colour_bar(gp, figure, layout);
-  std::string separator = "plot [0:1] [0:1] ";
-  std::vector<std::string> listed;  // panels share entries
-  const auto entry = [&](const std::string& legend, const std::string& style) {
-    if (legend.empty() || std::ranges::find(listed, legend) != listed.end()) return;
-    listed.push_back(legend);
-    gp << std::exchange(separator, next_plot) << "NaN " << style << " title " << quoted(legend);
-  };
-  for (const Panel& panel : figure.panels) {
-    for (const Lines& layer : panel.lines) entry(layer.legend, "with lines " + line_style(layer.stroke));
-    for (const Marks& layer : panel.marks) entry(layer.legend, mark_style(layer));
+  /// A colour map, on linear axes of its own, and its scale.
+  void colour_map(const ColourMap& colours, const Box& box) {
+    constexpr double gap_mm = 3, bar_mm = 4;
+    const auto& [name, low, high, logarithmic, ticks] = colours.scale;
+    const double left = box.left + box.width + gap_mm;
+    put("{}", palette);
+    axis("cb", {"", low, high > low ? high : low + 1, logarithmic, ticks}, true);
+    put("set colorbox vertical user origin {} size {} noborder\n", at(left, box.bottom), at(bar_mm, box.height));
+    label(name, at(left + bar_mm / 2, box.bottom + box.height + gap_mm), "center", "");
+    put("set x2range [0:{}]\nset y2range [0:{}]\n", colours.columns, colours.values.size() / colours.columns);
+    plot("matrix using ($1+0.5):($2+0.5):3 axes x2y2 with image");
   }
-  if (listed.empty()) gp << separator << "NaN notitle";
-  gp << "\nunset key\nunset object\n";
-}
 
-std::string script(const Figure& figure, PictureFormat format) {
-  std::ostringstream gp = text_stream();
-  gp << "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n";
-  gp << "set encoding utf8\n" << terminal(figure, format) << "\n";
-  gp << "set style textbox opaque noborder fillcolor " << colour(figure.theme.ground) << " margins 0.2,0.1\n";
-  const std::string ink = colour(figure.theme.ink);
-  gp << "set xtics textcolor " << ink << "\nset ytics textcolor " << ink << "\n";
-  gp << "set xlabel textcolor " << ink << "\nset ylabel textcolor " << ink << "\n";
-  gp << "set multiplot\n";
-  const Layout layout = lay_out(figure);
-  write_heading(gp, figure, layout);
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    write_panel(gp, figure, figure.panels[i], layout.panels[i], layout.names[i]);
+  void panel(const Panel& panel, const Box& box, double name) {
+    put("set lmargin at screen {:.8g}\nset rmargin at screen {:.8g}\n", box.left / figure_.width_mm,
+        (box.left + box.width) / figure_.width_mm);
+    put("set bmargin at screen {:.8g}\nset tmargin at screen {:.8g}\n", box.bottom / figure_.height_mm,
+        (box.bottom + box.height) / figure_.height_mm);
+    put("set border {} lw 0.8 lc {}\n", panel.bare ? 0 : 3, ink_);
+    axis("x", panel.x, !panel.bare);
+    axis("y", panel.y, !panel.bare);
+    put("unset label\n");
+    label(panel.title, at(box.left + box.width / 2, name), "center", " tc " + ink_);
+    for (const auto& [point, text, label_colour, align] : panel.labels) {
+      label("{/*0.85 " + text + "}", fmt::format("{:.8g},{:.8g}", point.x, point.y), alignment(align),
+            " front boxed tc " + colour(label_colour));
+    }
+
+    separator_ = "plot ";
+    Data data;
+    if (panel.colours) {
+      colour_map(*panel.colours, box);
+      data.add(*panel.colours);
+    }
+    for (const Region& region : panel.regions) {
+      plot("with filledcurves closed lc " + colour(region.colour));
+      data.add(rows(region.border));
+    }
+    for (const Lines& layer : panel.lines) {
+      std::vector<std::vector<Row>> blocks;
+      for (const Polyline& line : visible(panel, layer.lines)) blocks.push_back(rows(line));
+      if (blocks.empty()) continue;
+      plot("with lines " + line_style(layer.stroke));
+      data.add_blocks(blocks);
+    }
+    for (const Arrows& layer : panel.arrows) {
+      std::vector<std::tuple<double, double, double, double>> vectors;
+      for (const Arrow& arrow : layer.arrows) {
+        const std::optional<Arrow> head = short_arrow(panel, box, arrow);
+        if (head) vectors.emplace_back(head->at.x, head->at.y, arrow.at.x - head->at.x, arrow.at.y - head->at.y);
+      }
+      if (vectors.empty()) continue;
+      plot(fmt::format("with vectors head filled size screen {:.4g},18,75 fixed lc {} lw 0.5",
+                       head_mm * figure_.theme.letters / figure_.width_mm, colour(layer.colour)));
+      data.add(vectors);
+    }
+    for (const Marks& layer : panel.marks) {
+      if (layer.points.empty()) continue;
+      if (const int ground = point_type(layer.shape).ground) {
+        plot(fmt::format("with points pt {} ps {} lc {}", ground, layer.size, colour(figure_.theme.ground)));
+        data.add(rows(layer.points));
+      }
+      plot(mark_style(layer));
+      data.add(rows(layer.points));
+    }
+    if (separator_ != next_plot) put("{}NaN notitle", separator_);
+    put("\n{}", data.text());
   }
-  gp << "unset multiplot\n";
-  return std::move(gp).str();
-}
+
+  void colour_bar(const ColourBar& bar, const Box& box) {
+    for (std::size_t i = 0; i < bar.colours.size(); ++i) {
+      const auto& [left, bottom, width, height] = layout_.colours[i];
+      put("set object rectangle from {} to {} fc {} fs solid noborder\n", at(left, bottom),
+          at(left + width, bottom + height), colour(bar.colours[i]));
+    }
+    for (const auto& [share, text] : bar.ticks) {
+      label("{/*0.85 " + text + "}", at(box.left + box.width + 0.5 * layout_.letter, box.bottom + share * box.height),
+            "left", " tc " + ink_);
+    }
+    label(bar.name, at(box.left, box.bottom + box.height + 1.3 * layout_.letter), "left", " tc " + ink_);
+  }
+
+  /// Title, subtitle, colour bar and legend, in a plot of its own that covers the page and shows nothing else.
+  void heading() {
+    put("set lmargin at screen 0.02\nset rmargin at screen 0.98\nset tmargin at screen 0.98\nset bmargin at screen "
+        "0.02\nunset border\nunset tics\n");
+    const double middle = figure_.width_mm / 2;
+    put("set key at {} center center horizontal Left reverse samplen 2.2 width 1 tc {}\n", at(middle, layout_.legend),
+        ink_);
+    label("{/*1.2 " + figure_.title + "}", at(middle, layout_.title), "center", " tc " + ink_);
+    label(figure_.subtitle, at(middle, layout_.subtitle), "center", " tc " + colour(figure_.theme.faint));
+    if (figure_.colour_bar) colour_bar(*figure_.colour_bar, layout_.colour_bar);
+    separator_ = "plot [0:1] [0:1] ";
+    for (const auto& [text, lines, marks] : legend_entries(figure_)) {
+      put("{}NaN {} title {}", std::exchange(separator_, next_plot),
+          lines ? "with lines " + line_style(lines->stroke) : mark_style(*marks), quoted(text));
+    }
+    if (separator_ != next_plot) put("{}NaN notitle", separator_);
+    put("\nunset key\nunset object\n");
+  }
+
+  const Figure& figure_;
+  Layout layout_;
+  std::string ink_ = colour(figure_.theme.ink);
+  std::string separator_;  ///< before the next plot of the command
+  std::string text_;
+};
 
 /// A file in memory, for a program to read or to write.
 class MemoryFile {
@@ -507,13 +481,13 @@ std::optional<PictureFormat> find_picture_format(std::string_view ending) {
   return found->format;
 }
 
-std::string gnuplot_script(const Figure& figure) { return script(figure, PictureFormat::gp); }
+std::string gnuplot_script(const Figure& figure) { return Script(figure, PictureFormat::gp).text(); }
 
 std::string render(const Figure& figure, PictureFormat format) {
   if (format == PictureFormat::gp) return gnuplot_script(figure);
   if (format == PictureFormat::tex) return pgfplots(figure);
 
-  const std::string commands = script(figure, format);
+  const std::string commands = Script(figure, format).text();
   const MemoryFile input(commands), output, errors;
   std::string wrong = complaint(run(input, output, errors));
   const std::string messages = first_lines(errors.content(), 4);

@@ -46,6 +46,8 @@ double off_chord(Point a, Point b, Point p) {
 
 }  // namespace
 
+Point between(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
+
 Point on_paper(const Panel& panel, Point point) { return {share(panel.x, point.x), share(panel.y, point.y)}; }
 
 Point from_paper(const Panel& panel, Point place) { return {value(panel.x, place.x), value(panel.y, place.y)}; }
@@ -67,7 +69,7 @@ std::vector<Polyline> clipped(const Panel& panel, const Polyline& line) {
       continue;
     }
     // The ends of the line itself as they are; the others on the border.
-    const auto at = [&](double t) { return from_paper(panel, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}); };
+    const auto at = [&](double t) { return from_paper(panel, between(a, b, t)); };
     if (!open) parts.push_back({from == 0 ? line[i - 1] : at(from)});
     parts.back().push_back(to == 1 ? line[i] : at(to));
     open = to == 1;
@@ -86,14 +88,14 @@ Polyline thinned(const Panel& panel, const Polyline& line, double tolerance) {
   while (!open.empty()) {
     const auto [first, last] = open.back();
     open.pop_back();
-    double farthest = tolerance;
+    double max_off = tolerance;
     std::size_t middle = first;
     for (std::size_t i = first + 1; i < last; ++i) {
       const double off = off_chord(places[first], places[last], places[i]);
       // Of equal ones the first, whatever the last digits.
       constexpr double same = 1e-9;
-      if (off > farthest * (1 + same)) {
-        farthest = off;
+      if (off > max_off * (1 + same)) {
+        max_off = off;
         middle = i;
       }
     }
@@ -109,17 +111,27 @@ Polyline thinned(const Panel& panel, const Polyline& line, double tolerance) {
   return result;
 }
 
-Arrow arrow_along(const Panel& panel, const Polyline& line, double share) {
+std::vector<Polyline> visible(const Panel& panel, const std::vector<Polyline>& lines) {
+  std::vector<Polyline> result;
+  for (const Polyline& line : lines) {
+    for (const Polyline& part : clipped(panel, line)) result.push_back(thinned(panel, part));
+  }
+  return result;
+}
+
+double paper_length(const Panel& panel, const Polyline& line) {
   double length = 0;
   for (std::size_t i = 1; i < line.size(); ++i) length += paper_distance(panel, line[i - 1], line[i]);
-  double to_go = share * length;
+  return length;
+}
+
+Arrow arrow_along(const Panel& panel, const Polyline& line, double share) {
+  double to_go = share * paper_length(panel, line);
   for (std::size_t i = 1; i < line.size(); ++i) {
     const double piece = paper_distance(panel, line[i - 1], line[i]);
     if (piece > 0 && to_go <= piece) {
-      const Point a = on_paper(panel, line[i - 1]), b = on_paper(panel, line[i]);
-      const double t = to_go / piece;
-      const Point at = from_paper(panel, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
-      return {at, {line[i].x - line[i - 1].x, line[i].y - line[i - 1].y}};
+      const Point at = between(on_paper(panel, line[i - 1]), on_paper(panel, line[i]), to_go / piece);
+      return {from_paper(panel, at), {line[i].x - line[i - 1].x, line[i].y - line[i - 1].y}};
     }
     to_go -= piece;
   }
@@ -141,6 +153,19 @@ std::optional<Arrow> short_arrow(const Panel& panel, const Box& box, const Arrow
   return Arrow{from_paper(panel, start), arrow.direction};
 }
 
+std::vector<LegendEntry> legend_entries(const Figure& figure) {
+  std::vector<LegendEntry> entries;
+  const auto add = [&](const std::string& text, const Lines* lines, const Marks* marks) {
+    if (text.empty() || std::ranges::find(entries, text, &LegendEntry::text) != entries.end()) return;
+    entries.push_back({text, lines, marks});
+  };
+  for (const Panel& panel : figure.panels) {
+    for (const Lines& lines : panel.lines) add(lines.legend, &lines, nullptr);
+    for (const Marks& marks : panel.marks) add(marks.legend, nullptr, &marks);
+  }
+  return entries;
+}
+
 Layout lay_out(const Figure& figure) {
   constexpr double letter_mm = 2.9;
   Layout layout{};
@@ -156,13 +181,8 @@ Layout lay_out(const Figure& figure) {
   const bool names = std::ranges::any_of(figure.panels, [](const Panel& panel) { return !panel.title.empty(); });
   top -= (names ? 2.2 : 0.6) * em;
 
-  bool legend = false;
-  bool axes = false;
-  for (const Panel& panel : figure.panels) {
-    axes = axes || !panel.bare;
-    for (const Lines& lines : panel.lines) legend = legend || !lines.legend.empty();
-    for (const Marks& marks : panel.marks) legend = legend || !marks.legend.empty();
-  }
+  const bool legend = !legend_entries(figure).empty();
+  const bool axes = !std::ranges::all_of(figure.panels, &Panel::bare);
   layout.legend = 1.5 * em;
   const double bottom = (legend ? 3.6 : 1) * em + (axes ? 3.9 : 0.5) * em;
 
@@ -183,7 +203,15 @@ Layout lay_out(const Figure& figure) {
   }
   if (figure.colour_bar) {
     const double height = 0.72 * (top - bottom);
-    layout.colour_bar = {figure.width_mm - bar_room + 1.2 * em, bottom + 0.08 * (top - bottom), 1.1 * em, height};
+    const Box bar =
+        layout.colour_bar = {figure.width_mm - bar_room + 1.2 * em, bottom + 0.08 * (top - bottom), 1.1 * em, height};
+    const std::size_t count = figure.colour_bar->colours.size();
+    const double step = height / static_cast<double>(count);
+    constexpr double overlap = 0.1;  // so that there is no seam between them
+    for (std::size_t i = 0; i < count; ++i) {
+      const double from = step * static_cast<double>(i);
+      layout.colours.push_back({bar.left, bar.bottom + from, bar.width, std::min(step + overlap, height - from)});
+    }
   }
   return layout;
 }

@@ -94,23 +94,12 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-std::string name(Colour colour) { return fmt::format("c{:06X}", colour.rgb); }
-
 class Writer {
  public:
   explicit Writer(const Figure& figure) : figure_(figure), layout_(lay_out(figure)) {}
 
   std::string document() {
     const double letter = letter_pt * figure_.theme.letters;
-    put("% Drawn by contensou; pdflatex. The tikzpicture can be moved into a paper that loads the same packages.\n"
-        "\\documentclass{{article}}\n\\usepackage[utf8]{{inputenc}}\n\\usepackage{{amsmath}}\n"
-        "\\usepackage{{pgfplots}}\n\\usetikzlibrary{{arrows.meta}}\n\\pgfplotsset{{compat=1.16}}\n"
-        "\\IfFileExists{{lmodern.sty}}{{\\usepackage{{lmodern}}}}{{}}\n"
-        "\\usepackage[paperwidth={:.6g}mm,paperheight={:.6g}mm,margin=0mm]{{geometry}}\n"
-        "\\pagestyle{{empty}}\n\\setlength{{\\parindent}}{{0pt}}\\setlength{{\\topskip}}{{0pt}}\n"
-        "\\pdfinfoomitdate=1 \\pdftrailerid{{}}\n",
-        figure_.width_mm, figure_.height_mm + 0.1);
-    for (unsigned rgb : colours()) put("\\definecolor{{c{0:06X}}}{{HTML}}{{{0:06X}}}\n", rgb);
     put("\\begin{{document}}%\n"
         "\\begin{{tikzpicture}}[x=1mm,y=1mm,text={},font=\\fontsize{{{:.3g}}}{{{:.3g}}}\\selectfont]\n",
         name(figure_.theme.ink), letter, 1.2 * letter);
@@ -123,7 +112,18 @@ class Writer {
     colour_bar();
     legend();
     put("\\end{{tikzpicture}}%\n\\end{{document}}\n");
-    return std::move(tex_);
+
+    const std::string body = std::exchange(tex_, "");
+    put("% Drawn by contensou; pdflatex. The tikzpicture can be moved into a paper that loads the same packages.\n"
+        "\\documentclass{{article}}\n\\usepackage[utf8]{{inputenc}}\n\\usepackage{{amsmath}}\n"
+        "\\usepackage{{pgfplots}}\n\\usetikzlibrary{{arrows.meta}}\n\\pgfplotsset{{compat=1.16}}\n"
+        "\\IfFileExists{{lmodern.sty}}{{\\usepackage{{lmodern}}}}{{}}\n"
+        "\\usepackage[paperwidth={:.6g}mm,paperheight={:.6g}mm,margin=0mm]{{geometry}}\n"
+        "\\pagestyle{{empty}}\n\\setlength{{\\parindent}}{{0pt}}\\setlength{{\\topskip}}{{0pt}}\n"
+        "\\pdfinfoomitdate=1 \\pdftrailerid{{}}\n",
+        figure_.width_mm, figure_.height_mm + 0.1);
+    for (unsigned rgb : used_) put("\\definecolor{{c{0:06X}}}{{HTML}}{{{0:06X}}}\n", rgb);
+    return tex_ + body;
   }
 
  private:
@@ -132,32 +132,23 @@ class Writer {
     fmt::format_to(std::back_inserter(tex_), format, std::forward<Values>(values)...);
   }
 
-  std::set<unsigned> colours() const {
-    std::set<unsigned> used{figure_.theme.ground.rgb, figure_.theme.ink.rgb, figure_.theme.faint.rgb};
-    for (const Panel& panel : figure_.panels) {
-      for (const Region& region : panel.regions) used.insert(region.colour.rgb);
-      for (const Lines& lines : panel.lines) used.insert(lines.stroke.colour.rgb);
-      for (const Arrows& arrows : panel.arrows) used.insert(arrows.colour.rgb);
-      for (const Marks& marks : panel.marks) used.insert(marks.colour.rgb);
-      for (const Label& label : panel.labels) used.insert(label.colour.rgb);
-    }
-    if (figure_.colour_bar) {
-      for (Colour colour : figure_.colour_bar->colours) used.insert(colour.rgb);
-    }
-    return used;
+  /// The name of a colour, which the preamble then defines.
+  std::string name(Colour colour) {
+    used_.insert(colour.rgb);
+    return fmt::format("c{:06X}", colour.rgb);
   }
 
   void node(double x, double y, const std::string& text, const std::string& style) {
     if (!text.empty()) put("\\node[{}] at ({:.6g},{:.6g}) {{{}}};\n", style, x, y, tex_text(text));
   }
 
-  std::string line_style(const Stroke& stroke) const {
+  std::string line_style(const Stroke& stroke) {
     return fmt::format("draw={},line width={:.3g}pt,line cap=round,line join=round{}", name(stroke.colour),
                        stroke.width * line_pt * figure_.theme.line,
                        stroke.dashed ? ",dash pattern=on 2.2pt off 2.4pt" : "");
   }
 
-  std::string mark_style(const Marks& marks) const {
+  std::string mark_style(const Marks& marks) {
     const double size = 2.6 * marks.size;  // pt
     const bool open = marks.shape != Marks::Shape::dot;
     return fmt::format("mark={},mark size={:.3g}pt,mark options={{draw={},fill={},line width=0.7pt}}",
@@ -205,9 +196,7 @@ class Writer {
     }
     for (const Lines& layer : panel.lines) {
       std::string paths;
-      for (const Polyline& line : layer.lines) {
-        for (const Polyline& part : clipped(panel, line)) paths += "\n  " + path(thinned(panel, part));
-      }
+      for (const Polyline& line : visible(panel, layer.lines)) paths += "\n  " + path(line);
       if (!paths.empty()) put("\\draw[{}]{};\n", line_style(layer.stroke), paths);
     }
     for (const Arrows& layer : panel.arrows) {
@@ -239,11 +228,10 @@ class Writer {
     if (!figure_.colour_bar) return;
     const ColourBar& bar = *figure_.colour_bar;
     const Box& box = layout_.colour_bar;
-    const double step = box.height / static_cast<double>(bar.colours.size());
     for (std::size_t i = 0; i < bar.colours.size(); ++i) {
-      const double bottom = box.bottom + step * static_cast<double>(i);
-      put("\\fill[{}] ({:.6g},{:.6g}) rectangle ({:.6g},{:.6g});\n", name(bar.colours[i]), box.left, bottom,
-          box.left + box.width, std::min(bottom + step + 0.1, box.bottom + box.height));
+      const auto& [left, bottom, width, height] = layout_.colours[i];
+      put("\\fill[{}] ({:.6g},{:.6g}) rectangle ({:.6g},{:.6g});\n", name(bar.colours[i]), left, bottom, left + width,
+          bottom + height);
     }
     for (const Axis::Tick& tick : bar.ticks) {
       node(box.left + box.width, box.bottom + tick.at * box.height, tick.text, "anchor=west,scale=0.85");
@@ -252,19 +240,12 @@ class Writer {
   }
 
   void legend() {
-    std::vector<std::string> listed, entries;
-    const auto entry = [&](const std::string& legend, const std::string& sample) {
-      if (legend.empty() || std::ranges::find(listed, legend) != listed.end()) return;
-      listed.push_back(legend);
-      entries.push_back(fmt::format("\\mbox{{\\tikz[baseline=-0.6ex]{}\\ {}}}", sample, tex_text(legend)));
-    };
-    for (const Panel& panel : figure_.panels) {
-      for (const Lines& layer : panel.lines) {
-        entry(layer.legend, fmt::format("\\draw[{}] (0,0)--(7mm,0);", line_style(layer.stroke)));
-      }
-      for (const Marks& layer : panel.marks) {
-        entry(layer.legend, fmt::format("\\draw plot[only marks,{}] coordinates {{(0,0)}};", mark_style(layer)));
-      }
+    std::vector<std::string> entries;
+    for (const auto& [text, lines, marks] : legend_entries(figure_)) {
+      const std::string sample =
+          lines ? fmt::format("\\draw[{}] (0,0)--(7mm,0);", line_style(lines->stroke))
+                : fmt::format("\\draw plot[only marks,{}] coordinates {{(0,0)}};", mark_style(*marks));
+      entries.push_back(fmt::format("\\mbox{{\\tikz[baseline=-0.6ex]{}\\ {}}}", sample, tex_text(text)));
     }
     if (entries.empty()) return;
     put("\\node[align=center,text width={:.6g}mm] at ({:.6g},{:.6g}) {{{}}};\n", figure_.width_mm - 8,
@@ -273,6 +254,7 @@ class Writer {
 
   const Figure& figure_;
   Layout layout_;
+  std::set<unsigned> used_;  ///< colours
   std::string tex_;
 };
 

@@ -51,7 +51,7 @@ std::vector<PortraitPanel::Copy> evenly(const PhasePortrait& portrait, const Pol
     // At the middle of the sector that the curve crosses.
     const double middle = (std::atan(curve.k_from) + std::atan(curve.k_to)) / 2;
     const Instant at = at_log_ratio(curve, std::log(std::tan(middle)));
-    const double rho = std::hypot(portrait.system.mu() * at.u, at.v);
+    const double rho = std::hypot(portrait.system().mu() * at.u, at.v);
     for (int i = 0; i < count; ++i) {
       const double radius = map.hole + (1 - map.hole) * (i + 0.5) / count;
       for (double sign : {1.0, -1.0}) copies.push_back({curve, map.rho(radius) / rho, sign});
@@ -84,13 +84,17 @@ void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
 
 /// The way of the motion along the circles of the points at infinity and of the blown-up origin.
 void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
-  const std::vector<double> angles = invariant_angles(drawing.portrait);
+  std::vector<double> angles;  // of the invariant half-lines, from v = 0 to u = 0
+  for (const reduction::SingularPoint& point : drawing.portrait.plane.points) {
+    const double angle = std::atan(point.k);
+    if (angles.empty() || angle > angles.back()) angles.push_back(angle);
+  }
   Arrows arrows{{}, drawing.palette.invariant};
   for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
     const double middle = (angles[i] + angles[i + 1]) / 2;
     const double k = std::tan(middle);
-    const auto [force, moment] = drawing.portrait.system.law()(reduction::slip_of_ratio(k));
-    const double turn = force - drawing.portrait.system.r() * k * moment > 0 ? -1 : 1;  // of theta
+    const auto [force, moment] = drawing.portrait.system().law()(reduction::slip_of_ratio(k));
+    const double turn = force - drawing.portrait.system().r() * k * moment > 0 ? -1 : 1;  // of theta
     for (double sign : {1.0, -1.0}) {
       for (double rho : {0.0, std::numeric_limits<double>::infinity()}) {
         if (rho == 0 && map.hole == 0) continue;
@@ -104,7 +108,7 @@ void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
 
 Panel polar_panel(const Drawing& drawing, double hole) {
   const PhasePortrait& portrait = drawing.portrait;
-  const double mu = portrait.system.mu();
+  const double mu = portrait.system().mu();
   const PolarMap map{portrait.window.v, hole};
   Panel panel;
   constexpr double margin = 0.13;
@@ -149,47 +153,6 @@ Panel polar_panel(const Drawing& drawing, double hole) {
 }
 
 }  // namespace
-
-std::vector<double> invariant_angles(const PhasePortrait& portrait) {
-  std::vector<double> angles;
-  for (const reduction::SingularPoint& point : portrait.plane.points) {
-    const double angle = std::atan(point.k);
-    if (angles.empty() || angle > angles.back()) angles.push_back(angle);
-  }
-  return angles;
-}
-
-std::vector<double> ray_log_ratios(const PhasePortrait& portrait) {
-  std::vector<double> ln_k;
-  for (const reduction::InvariantRay& ray : portrait.plane.terminal.rays) ln_k.push_back(std::log(ray.k));
-  return ln_k;
-}
-
-double spread_log_ratio(const WholeCurve& curve, double away) {
-  const auto [low, high] = std::minmax({std::log(curve.k_from), std::log(curve.k_to)});
-  if (std::isfinite(low) && std::isfinite(high)) return (low + high) / 2;
-  return std::isfinite(low) ? low + away : std::isfinite(high) ? high - away : 0;
-}
-
-bool reaches(const PortraitOrbit& curve, double ln_k) {
-  return (curve.ln_k[0] - ln_k) * (curve.ln_k[curve.rows() - 1] - ln_k) < 0;
-}
-
-Instant at_log_ratio(const PortraitOrbit& curve, double ln_k) {
-  for (Eigen::Index i = 1; i < curve.rows(); ++i) {
-    const double before = curve.ln_k[i - 1], now = curve.ln_k[i];
-    if ((before - ln_k) * (now - ln_k) > 0 || before == now) continue;
-    const double share = std::isfinite(now) ? (ln_k - before) / (now - before) : 0;
-    const auto mixed = [&](double a, double b) {
-      return b > 0 ? std::exp((1 - share) * std::log(a) + share * std::log(b)) : a;
-    };
-    return {mixed(curve.u[i - 1], curve.u[i]), mixed(curve.v[i - 1], curve.v[i]),
-            std::isfinite(curve.ln_v[i]) ? curve.ln_v[i - 1] + share * (curve.ln_v[i] - curve.ln_v[i - 1])
-                                         : curve.ln_v[i - 1],
-            ln_k, mixed(curve.tau_left[i - 1], curve.tau_left[i])};
-  }
-  return curve.at(curve.rows() - 2);
-}
 
 std::vector<Panel> disc_view(const Drawing& drawing) { return {polar_panel(drawing, 0)}; }
 

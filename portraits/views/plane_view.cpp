@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "data/round_numbers.hpp"
 #include "views/portrait_views.hpp"
 
 namespace contensou::portraits {
@@ -12,20 +13,6 @@ namespace {
 
 using Copies = std::vector<PortraitPanel::Copy>;
 
-std::vector<double> stop_times(const PhasePortrait& portrait) {
-  std::vector<double> times;
-  for (const Isochrone& isochrone : portrait.isochrones) {
-    if (times.empty() || isochrone.tau_stop > times.back()) times.push_back(isochrone.tau_stop);
-  }
-  return times;
-}
-
-Copies seeded(const PhasePortrait& portrait) {
-  Copies copies;
-  for (const PortraitOrbit& orbit : portrait.orbits) copies.push_back({orbit});
-  return copies;
-}
-
 /// The half-plane with the sides of the window in units of u and v.
 Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   Panel panel;
@@ -33,15 +20,16 @@ Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   panel.x = {drawing.speed(name), -unit * U, unit * U, false, {}};
   panel.y = {drawing.speed("{/:Italic v}"), 0, V, false, {}};
   PortraitPanel layers(drawing, std::move(panel), [unit](const Instant& at) { return Point{unit * at.u, at.v}; });
-  layers.add_orbits(seeded);
-  layers.add_isochrones(stop_times(drawing.portrait));
-  for (const PhasePortrait& rival : drawing.portrait.against) {
-    layers.add_rival_isochrones(stop_times(drawing.portrait), rival);
-  }
+  layers.add_orbits([](const PhasePortrait& of) {
+    Copies copies;
+    for (const PortraitOrbit& orbit : of.orbits) copies.push_back({orbit});
+    return copies;
+  });
+  layers.add_isochrones();
   layers.add_field([unit](Point at) { return reduction::State{at.x / unit, at.y}; });
   const double x = unit * U;
   layers.add_invariant({{{-x, 0}, {x, 0}}, {{0, V}, {0, 0}}}, [&](double ln_k) {
-    const double slope = std::exp(ln_k) * drawing.portrait.system.mu() / unit;  // v over x
+    const double slope = std::exp(ln_k) * drawing.portrait.system().mu() / unit;  // v over x
     return std::vector<Polyline>{{{0, 0}, {x, slope * x}}, {{0, 0}, {-x, slope * x}}};
   });
   layers.add_highlights();
@@ -49,11 +37,11 @@ Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
 }
 
 /// Copies of the whole curves that pass, at a given ln k, through evenly spaced u of both signs.
-void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double farthest, int count) {
+void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double max_u, int count) {
   if (!reaches(curve, ln_k)) return;
   const double u = at_log_ratio(curve, ln_k).u;
   for (int i = 0; i < count; ++i) {
-    for (double sign : {1.0, -1.0}) copies.push_back({curve, (i + 0.5) / count * farthest / u, sign});
+    for (double sign : {1.0, -1.0}) copies.push_back({curve, (i + 0.5) / count * max_u / u, sign});
   }
 }
 
@@ -72,12 +60,12 @@ Panel contact_panel(const Drawing& drawing) {
   panel.y = {"ln {/:Italic k},   {/:Italic k = v}/({/:Italic μ}|{/:Italic u}|)", 0, 0, false, {}};
   const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
   // Where orbits are seeded: at the top, or around the middle.
-  const double top = std::log(portrait.window.v / (portrait.system.mu() * U));
+  const double top = std::log(portrait.window.v / (portrait.system().mu() * U));
   const auto [lowest, highest] = rays.empty() ? std::pair{2.0, 2.0} : std::pair{rays.front(), rays.back()};
   if (pivoting) {
     const double depth = std::max(order * std::log(shrinks), 8.0);
     panel.title = fmt::format("orbits touch the axis {{/:Italic v}} = 0:  {{/:Italic k}} ∝ |{{/:Italic u}}|^{{{}}}",
-                              number(std::stod(fmt::format("{:.4g}", order))));
+                              number(order, 4));
     panel.y.low = top - depth;
     panel.y.high = top + 0.02 * depth;
   } else {
@@ -127,7 +115,7 @@ std::vector<Panel> plane_view(const Drawing& drawing) {
 }
 
 std::vector<Panel> patch_view(const Drawing& drawing) {
-  return {half_plane(drawing, drawing.portrait.system.mu(), "{/:Italic μ u},  rim speed of the patch")};
+  return {half_plane(drawing, drawing.portrait.system().mu(), "{/:Italic μ u},  rim speed of the patch")};
 }
 
 std::vector<Panel> pair_view(const Drawing& drawing) {
@@ -139,7 +127,7 @@ std::vector<Panel> pair_view(const Drawing& drawing) {
 std::vector<Panel> log_view(const Drawing& drawing) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
-  const double ln_mu = std::log(portrait.system.mu());
+  const double ln_mu = std::log(portrait.system().mu());
   const double corner = std::log(portrait.window.v);
   constexpr double shrinks = 3;  // e-folds of the speed that outlives
   constexpr double above = 3;    // from which k = 1 is seen

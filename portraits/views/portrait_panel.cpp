@@ -6,12 +6,12 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "data/round_numbers.hpp"
 
 namespace contensou::portraits {
 
@@ -41,56 +41,50 @@ std::vector<Colour> spread(const std::vector<Colour>& colours, std::size_t count
   return result;
 }
 
-Point between(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
-
 bool inside(Point place, double margin) {
   return place.x >= margin && place.x <= 1 - margin && place.y >= margin && place.y <= 1 - margin;
 }
 
-/// Points on paper that a label of some size keeps off, sorted into cells so that only near ones are asked.
-class Obstacles {
+/// Of places with equal room the first, whatever the last digits: portraits have two equal halves.
+bool is_more(double room, double than) { return room > than * (1 + 1e-9); }
+
+/// Where a label of that size has most room: the candidate that is farthest, in half widths or half heights, from
+/// points that it keeps off.
+class LabelPlace {
  public:
-  /// Room beyond which nobody looks, in half sizes of the label.
-  static constexpr double most = 2;
+  LabelPlace(double half_width, double half_height) : half_width_(half_width), half_height_(half_height) {}
 
-  Obstacles(const std::vector<Point>& points, double half_width, double half_height)
-      : half_width_(half_width), half_height_(half_height), cells_(columns() * rows()) {
-    for (const Point& point : points) {
-      if (inside(point, -most * std::max(half_width, half_height)))
-        cells_[cell(column(point.x), row(point.y))].push_back(point);
+  /// @param points     on paper, by growing x
+  /// @param labels     on paper; others of about the same size, which need more room
+  /// @param middle     x of a line to keep off
+  void try_at(Point at, const std::vector<Point>& points, const std::vector<Point>& labels, double middle) {
+    constexpr double spare = 2.2;
+    double room = std::min(max_room, std::abs(middle - at.x) / half_width_);
+    for (const Point& other : labels) room = std::min(room, distance(at, other) / spare);
+    if (!is_more(room, best_)) return;
+    const double reach = max_room * half_width_;
+    for (auto other = std::ranges::lower_bound(points, at.x - reach, {}, &Point::x);
+         other != points.end() && other->x < at.x + reach; ++other) {
+      room = std::min(room, distance(at, *other));
     }
+    if (!is_more(room, best_)) return;
+    best_ = room;
+    where_ = at;
   }
 
-  /// How far a place is from the nearest point, in half widths or half heights, whichever is more; not looked for
-  /// further once it is less than enough.
-  double room(Point at, double enough) const {
-    double room = most;
-    for (int i = column(at.x) - 1; i <= column(at.x) + 1; ++i) {
-      for (int j = row(at.y) - 1; j <= row(at.y) + 1; ++j) {
-        if (i < 0 || j < 0 || i >= columns() || j >= rows()) continue;
-        if (room < enough) return room;
-        for (const Point& other : cells_[cell(i, j)]) {
-          room =
-              std::min(room, std::max(std::abs(other.x - at.x) / half_width_, std::abs(other.y - at.y) / half_height_));
-        }
-      }
-    }
-    return room;
-  }
+  bool found() const { return best_ >= 1; }
+  Point where() const { return where_; }
 
  private:
-  // The paper and one cell around it.
-  int columns() const { return static_cast<int>(1 / (most * half_width_)) + 3; }
-  int rows() const { return static_cast<int>(1 / (most * half_height_)) + 3; }
-  int column(double x) const { return place(x / (most * half_width_), columns()); }
-  int row(double y) const { return place(y / (most * half_height_), rows()); }
-  static int place(double cells, int count) {
-    return std::clamp(static_cast<int>(std::floor(cells)) + 1, 0, count - 1);
+  static constexpr double max_room = 2;  ///< beyond which nobody looks
+
+  double distance(Point a, Point b) const {
+    return std::max(std::abs(a.x - b.x) / half_width_, std::abs(a.y - b.y) / half_height_);
   }
-  std::size_t cell(int i, int j) const { return static_cast<std::size_t>(i * rows() + j); }
 
   double half_width_, half_height_;
-  std::vector<std::vector<Point>> cells_;
+  double best_ = 0;
+  Point where_{};
 };
 
 }  // namespace
@@ -122,38 +116,31 @@ std::size_t TimeBands::band(double tau) const {
 }
 
 TimeBands linear_bands(const PhasePortrait& portrait, const Palette& palette) {
-  const double longest = [&] {
-    double most = 0;
-    for (const PortraitOrbit& orbit : portrait.orbits) most = std::max(most, orbit.tau_left[0]);
-    for (const PortraitOrbit& orbit : portrait.through) most = std::max(most, orbit.tau_left[0]);
-    if (most == 0 && portrait.highlight) most = portrait.highlight->tau_left[0];
-    return most > 0 ? most : 1.0;
-  }();
-  constexpr int per_interval = 3;
+  double longest = 0;
+  for (const PortraitOrbit& orbit : portrait.orbits) longest = std::max(longest, orbit.tau_left[0]);
+  for (const PortraitOrbit& orbit : portrait.through) longest = std::max(longest, orbit.tau_left[0]);
+  if (longest == 0 && portrait.highlight) longest = portrait.highlight->tau_left[0];
+  if (longest == 0) longest = 1;
+  constexpr std::size_t per_interval = 3;
   const double step = portrait.isochrones.empty() ? round_down(longest / 4) : portrait.isochrones.front().tau_stop;
   TimeBands bands;
-  for (int i = 1; i * step / per_interval < longest; ++i) bands.edges.push_back(i * step / per_interval);
-  for (int i = 0; i * step < longest; ++i) bands.marked.push_back(i * step);
+  bands.edges = multiples(0, longest, step / per_interval);
   bands.colours = spread(palette.times, bands.edges.size() + 1);
+  for (std::size_t band = 0; band <= bands.edges.size(); band += per_interval) {
+    if (band > 0) bands.arrows.push_back((bands.begin(bands.marked.back()) + bands.begin(band)) / 2);
+    bands.marked.push_back(band);
+  }
   return bands;
-}
-
-double stop_time(const PhasePortrait& portrait, double u, double v) {
-  const double w = portrait.system.mu() * std::abs(u);
-  const auto row = std::min((portrait.profile.ln_k < std::log(v / w)).count(), portrait.profile.ln_k.size() - 1);
-  return std::hypot(w, v) * portrait.profile.tau[row];
 }
 
 TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette) {
   constexpr int per_decade = 6;
   // Edges at sixths of decades in the unit that the bar is marked in.
   const int top = static_cast<int>(std::ceil(per_decade * std::log10(longest / unit)));
-  const int count = top - static_cast<int>(std::floor(per_decade * std::log10(shortest / unit)));
   TimeBands bands;
-  bands.linear = false;
-  for (int i = top - count; i < top; ++i) {
+  for (int i = static_cast<int>(std::floor(per_decade * std::log10(shortest / unit))); i < top; ++i) {
     bands.edges.push_back(unit * std::pow(10, static_cast<double>(i) / per_decade));
-    if (i % per_decade == 0) bands.marked.push_back(bands.edges.back());
+    if (i % per_decade == 0) bands.marked.push_back(bands.edges.size());
   }
   bands.colours = spread(palette.times, bands.edges.size() + 1);
   return bands;
@@ -163,14 +150,10 @@ ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption) {
   ColourBar bar{fmt::format("time left{}{}", caption.time_unit_name.empty() ? "" : ", ", caption.time_unit_name),
                 bands.colours,
                 {}};
-  // Bands are equal on the bar; a time is where its band begins.
-  const double count = static_cast<double>(bands.colours.size());
-  for (double time : bands.marked) {
-    const auto edge = std::ranges::find_if(bands.edges, [&](double e) { return e > time * (1 - 1e-9); });
-    double at = static_cast<double>(edge - bands.edges.begin() + 1) / count;
-    if (time == 0) at = 0;
-    if (edge == bands.edges.end()) at = 1;
-    bar.ticks.push_back({at, number(time / caption.time_unit)});
+  // Bands are equal on the bar.
+  for (std::size_t band : bands.marked) {
+    bar.ticks.push_back({static_cast<double>(band) / static_cast<double>(bands.colours.size()),
+                         number(bands.begin(band) / caption.time_unit)});
   }
   return bar;
 }
@@ -179,13 +162,40 @@ std::string Drawing::speed(const std::string& name) const {
   return caption.speed_unit.empty() ? name : fmt::format("{}, {}", name, caption.speed_unit);
 }
 
-std::string number(double value) {
-  if (value == 0) return "0";
-  const double exponent = std::floor(std::log10(std::abs(value)) + 1e-9);
-  if (exponent >= -3 && exponent < 5) return fmt::format("{:.5g}", value);
-  const double mantissa = value / std::pow(10, exponent);
-  if (std::abs(mantissa - 1) < 1e-6) return fmt::format("10^{{{}}}", exponent);
-  return fmt::format("{:.3g}·10^{{{}}}", mantissa, exponent);
+std::string law_legend(const PhasePortrait& portrait) {
+  return fmt::format("law {}", literal(portrait.system().law().name()));
+}
+
+std::vector<double> ray_log_ratios(const PhasePortrait& portrait) {
+  std::vector<double> ln_k;
+  for (const reduction::InvariantRay& ray : portrait.plane.terminal.rays) ln_k.push_back(std::log(ray.k));
+  return ln_k;
+}
+
+double spread_log_ratio(const WholeCurve& curve, double away) {
+  const auto [low, high] = std::minmax({std::log(curve.k_from), std::log(curve.k_to)});
+  if (std::isfinite(low) && std::isfinite(high)) return (low + high) / 2;
+  return std::isfinite(low) ? low + away : std::isfinite(high) ? high - away : 0;
+}
+
+bool reaches(const PortraitOrbit& curve, double ln_k) {
+  return (curve.ln_k[0] - ln_k) * (curve.ln_k[curve.rows() - 1] - ln_k) < 0;
+}
+
+Instant at_log_ratio(const PortraitOrbit& curve, double ln_k) {
+  for (Eigen::Index i = 1; i < curve.rows(); ++i) {
+    const double before = curve.ln_k[i - 1], now = curve.ln_k[i];
+    if ((before - ln_k) * (now - ln_k) > 0 || before == now) continue;
+    const double share = std::isfinite(now) ? (ln_k - before) / (now - before) : 0;
+    const auto mixed = [&](double a, double b) {
+      return b > 0 ? std::exp((1 - share) * std::log(a) + share * std::log(b)) : a;
+    };
+    return {mixed(curve.u[i - 1], curve.u[i]), mixed(curve.v[i - 1], curve.v[i]),
+            std::isfinite(curve.ln_v[i]) ? curve.ln_v[i - 1] + share * (curve.ln_v[i] - curve.ln_v[i - 1])
+                                         : curve.ln_v[i - 1],
+            ln_k, mixed(curve.tau_left[i - 1], curve.tau_left[i])};
+  }
+  return curve.at(curve.rows() - 2);
 }
 
 Polyline PortraitPanel::line_of(const Copy& copy) const {
@@ -199,8 +209,14 @@ Polyline PortraitPanel::line_of(const Copy& copy) const {
   return line;
 }
 
-std::string law_legend(const PhasePortrait& portrait) {
-  return fmt::format("law {}", literal(portrait.system.law().name()));
+Polyline PortraitPanel::line_of(const Isochrone& isochrone) const {
+  Polyline line;
+  for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) line.push_back(place(isochrone.u[i], isochrone.v[i]));
+  return line;
+}
+
+Point PortraitPanel::place(double u, double v) const {
+  return place_({u, v, std::log(v), std::log(v / (drawing_.portrait.system().mu() * std::abs(u))), 0});
 }
 
 void PortraitPanel::add_orbits(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies) {
@@ -209,47 +225,29 @@ void PortraitPanel::add_orbits(const std::function<std::vector<Copy>(const Phase
     add_coloured(copies(portrait));
   } else {
     add_plain(copies(portrait), {drawing_.palette.orbit, 1.3, false},
-              portrait.against.empty() ? "orbits" : law_legend(portrait));
+              portrait.comparisons.empty() ? "orbits" : law_legend(portrait));
   }
-  for (const PhasePortrait& rival : portrait.against) {
-    add_plain(copies(rival), {drawing_.palette.rival, 1.3, true}, law_legend(rival));
+  for (const PhasePortrait& other : portrait.comparisons) {
+    add_plain(copies(other), {drawing_.palette.comparison, 1.3, true}, law_legend(other));
   }
 }
 
 void PortraitPanel::add_coloured(const std::vector<Copy>& copies) {
   // A piece of line for each band that an orbit crosses; one layer for each band, the last moments on top.
+  const TimeBands& bands = drawing_.bands;
   std::map<std::size_t, std::vector<Polyline>, std::greater<>> layers;
   std::map<std::size_t, Arrows, std::greater<>> heads;
   for (const Copy& copy : copies) {
     const Polyline line = line_of(copy);
     orbits_.push_back(line);
-    if (drawing_.style.arrows != PortraitStyle::Arrows::none) {
-      Arrows arrows;
-      add_arrows(copy, arrows);
-      for (const Arrow& arrow : arrows.arrows) {
-        // The colour of the nearest row.
-        std::size_t nearest = 0;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < line.size(); ++i) {
-          const double gap = paper_distance(panel_, line[i], arrow.at);
-          if (gap < least) {
-            least = gap;
-            nearest = i;
-          }
-        }
-        const std::size_t band =
-            drawing_.bands.band(copy.factor * copy.orbit.tau_left[static_cast<Eigen::Index>(nearest)]);
-        heads[band].colour = drawing_.bands.colours[band];
-        heads[band].arrows.push_back(arrow);
-      }
-    }
+    for (const auto& [arrow, left] : arrows_on(copy, line)) heads[bands.band(left)].arrows.push_back(arrow);
     Polyline piece{line.front()};
-    std::size_t band = drawing_.bands.band(copy.factor * copy.orbit.tau_left[0]);
+    std::size_t band = bands.band(copy.factor * copy.orbit.tau_left[0]);
     for (Eigen::Index i = 1; i < copy.orbit.rows(); ++i) {
       const double before = copy.factor * copy.orbit.tau_left[i - 1], now = copy.factor * copy.orbit.tau_left[i];
       const Point from = line[static_cast<std::size_t>(i) - 1], to = line[static_cast<std::size_t>(i)];
-      for (; band > 0 && now < drawing_.bands.edges[band - 1]; --band) {
-        const Point cut = between(from, to, (before - drawing_.bands.edges[band - 1]) / (before - now));
+      for (; band > 0 && now < bands.begin(band); --band) {
+        const Point cut = between(from, to, (before - bands.begin(band)) / (before - now));
         piece.push_back(cut);
         layers[band].push_back(std::exchange(piece, {cut}));
       }
@@ -257,10 +255,8 @@ void PortraitPanel::add_coloured(const std::vector<Copy>& copies) {
     }
     layers[band].push_back(std::move(piece));
   }
-  for (auto& [band, lines] : layers) {
-    panel_.lines.push_back({std::move(lines), {drawing_.bands.colours[band], 1.5, false}, ""});
-  }
-  for (auto& [band, arrows] : heads) panel_.arrows.push_back(std::move(arrows));
+  for (auto& [band, lines] : layers) panel_.lines.push_back({std::move(lines), {bands.colours[band], 1.5, false}, ""});
+  for (auto& [band, arrows] : heads) panel_.arrows.push_back({std::move(arrows.arrows), bands.colours[band]});
 }
 
 void PortraitPanel::add_plain(const std::vector<Copy>& copies, Stroke stroke, const std::string& legend) {
@@ -269,46 +265,46 @@ void PortraitPanel::add_plain(const std::vector<Copy>& copies, Stroke stroke, co
   for (const Copy& copy : copies) {
     lines.lines.push_back(line_of(copy));
     orbits_.push_back(lines.lines.back());
-    if (!stroke.dashed && drawing_.style.arrows != PortraitStyle::Arrows::none) add_arrows(copy, arrows);
+    if (stroke.dashed) continue;
+    for (const TimedArrow& timed : arrows_on(copy, lines.lines.back())) arrows.arrows.push_back(timed.arrow);
   }
   panel_.lines.push_back(std::move(lines));
   panel_.arrows.push_back(std::move(arrows));
 }
 
 /// Heads where equal times are left, halfway between isochrones; at least one on an orbit, where it is seen best.
-void PortraitPanel::add_arrows(const Copy& copy, Arrows& arrows) {
-  const Polyline line = line_of(copy);
-  const auto add = [&](const Arrow& arrow) {
-    const Point place = on_paper(panel_, arrow.at);
-    if (!std::isfinite(place.x) || !std::isfinite(place.y) || !inside(place, 0.03)) return false;
-    const auto crowds = [&](Point other) { return std::hypot(other.x - place.x, other.y - place.y) < keep_off_; };
-    if (std::ranges::any_of(heads_, crowds)) return false;
-    heads_.push_back(place);
-    arrows.arrows.push_back(arrow);
-    return true;
+std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy, const Polyline& line) {
+  using Style = PortraitStyle::Arrows;
+  std::vector<TimedArrow> result;
+  if (drawing_.style.arrows == Style::none) return result;
+  const auto add = [&](const Arrow& arrow, double left) {
+    const Point at = on_paper(panel_, arrow.at);
+    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !inside(at, 0.03)) return;
+    const auto crowds = [&](Point other) { return std::hypot(other.x - at.x, other.y - at.y) < keep_off_; };
+    if (std::ranges::any_of(heads_, crowds)) return;
+    heads_.push_back(at);
+    result.push_back({arrow, left});
   };
-  bool any = false;
-  if (drawing_.style.arrows == PortraitStyle::Arrows::time && drawing_.bands.linear &&
-      drawing_.bands.marked.size() > 1) {
-    std::vector<double> times;
-    for (std::size_t i = 1; i < drawing_.bands.marked.size(); ++i) {
-      times.push_back((drawing_.bands.marked[i - 1] + drawing_.bands.marked[i]) / 2);
-    }
+  if (drawing_.style.arrows == Style::time) {
     for (Eigen::Index i = 1; i < copy.orbit.rows(); ++i) {
       const double before = copy.factor * copy.orbit.tau_left[i - 1], now = copy.factor * copy.orbit.tau_left[i];
       const Point from = line[static_cast<std::size_t>(i) - 1], to = line[static_cast<std::size_t>(i)];
-      for (double time : times) {
+      for (double time : drawing_.bands.arrows) {
         if (!(now <= time && time < before)) continue;
-        if (add({between(from, to, (before - time) / (before - now)), {to.x - from.x, to.y - from.y}})) any = true;
+        add({between(from, to, (before - time) / (before - now)), {to.x - from.x, to.y - from.y}}, time);
       }
     }
   }
-  if (any) return;
   const std::vector<Polyline> parts = clipped(panel_, line);
-  if (parts.empty()) return;
+  if (!result.empty() || parts.empty()) return result;
   for (double share : {arrow_share_, arrow_share_ + 0.1, arrow_share_ - 0.1}) {
-    if (add(arrow_along(panel_, parts.front(), share))) return;
+    const Arrow arrow = arrow_along(panel_, parts.front(), share);
+    const auto nearest =
+        std::ranges::min_element(line, {}, [&](Point point) { return paper_distance(panel_, point, arrow.at); });
+    add(arrow, copy.factor * copy.orbit.tau_left[nearest - line.begin()]);
+    if (!result.empty()) break;
   }
+  return result;
 }
 
 void PortraitPanel::add_highlights() {
@@ -328,96 +324,63 @@ void PortraitPanel::add_highlights() {
   }
 }
 
-std::vector<Polyline> PortraitPanel::isochrone(const PhasePortrait& portrait, double time) const {
-  const StopProfile& profile = portrait.profile;
-  std::vector<Polyline> parts;
-  for (double sign : {1.0, -1.0}) {
-    Polyline line;
-    for (Eigen::Index i = 0; i < profile.ln_k.size(); ++i) {
-      const double size = time / profile.tau[i];
-      const double angle = std::atan(std::exp(profile.ln_k[i]));
-      const double u = i + 1 == profile.ln_k.size() ? 0 : size * std::cos(angle) / portrait.system.mu();
-      const double v = size * std::sin(angle);
-      line.push_back(place_({sign * u, v, std::log(v), profile.ln_k[i], time}));
-    }
-    for (Polyline& part : clipped(panel_, line)) parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
-void PortraitPanel::add_rival_isochrones(const std::vector<double>& times, const PhasePortrait& rival) {
-  Lines lines{{}, {drawing_.palette.rival, 0.8, true}, ""};
-  for (double time : times) {
-    for (Polyline& part : isochrone(rival, time)) lines.lines.push_back(std::move(part));
-  }
-  panel_.lines.insert(panel_.lines.begin(), std::move(lines));
-}
-
-void PortraitPanel::add_isochrones(const std::vector<double>& times) {
-  if (times.empty()) return;
-  std::vector<Point> obstacles = heads_;
+/// Points on paper that labels keep off, by growing x: orbits, also those that are drawn later on top, and arrows.
+std::vector<Point> PortraitPanel::obstacles() const {
+  std::vector<Point> points = heads_;
   std::vector<Polyline> crossed = orbits_;
-  // Those asked for are drawn later, on top.
   for (const PortraitOrbit& orbit : drawing_.portrait.through) crossed.push_back(line_of({orbit}));
   if (drawing_.portrait.highlight) crossed.push_back(line_of({*drawing_.portrait.highlight}));
   for (const Polyline& orbit : crossed) {
     for (std::size_t i = 1; i < orbit.size(); ++i) {
       const Point a = on_paper(panel_, orbit[i - 1]), b = on_paper(panel_, orbit[i]);
       const int pieces = 1 + static_cast<int>(std::min(100.0, std::hypot(a.x - b.x, a.y - b.y) / 0.01));
-      for (int j = 0; j <= pieces; ++j) obstacles.push_back(between(a, b, static_cast<double>(j) / pieces));
+      for (int j = 0; j <= pieces; ++j) points.push_back(between(a, b, static_cast<double>(j) / pieces));
     }
   }
+  std::erase_if(points, [](Point point) { return !inside(point, -1); });
+  std::ranges::sort(points, {}, &Point::x);
+  return points;
+}
+
+void PortraitPanel::add_isochrones() {
+  const std::vector<Isochrone>& isochrones = drawing_.portrait.isochrones;
+  if (isochrones.empty()) return;
+  const auto& [name, symbol] = std::pair{drawing_.caption.time_unit_name, drawing_.caption.time_symbol};
   Lines lines{{},
               {drawing_.palette.isochrone, 1.1, true},
-              fmt::format("time left {}{}{}", drawing_.caption.time_symbol,
-                          drawing_.caption.time_unit_name.empty() ? "" : ", ", drawing_.caption.time_unit_name)};
-  std::optional<Obstacles> near;  // for labels of one width
-  double width_of_near = 0;
-  for (double time : times) {
-    Polyline candidates;
-    for (Polyline& part : isochrone(drawing_.portrait, time)) {
-      // Finely, for the label.
-      for (std::size_t i = 1; i < part.size(); ++i) {
-        const int pieces = 1 + static_cast<int>(paper_distance(panel_, part[i - 1], part[i]) / 0.004);
-        for (int j = 0; j < pieces; ++j) {
-          candidates.push_back(between(part[i - 1], part[i], static_cast<double>(j) / pieces));
-        }
-      }
-      lines.lines.push_back(std::move(part));
-    }
+              fmt::format("time left {}{}{}", symbol, name.empty() ? "" : ", ", name)};
+  const std::vector<Point> points = obstacles();
+  std::vector<Point> labels;
+  const double middle = panel_.x.low < 0 ? on_paper(panel_, {0, 0}).x : -1;
+  for (auto piece = isochrones.begin(); piece != isochrones.end();) {
+    const double time = piece->tau_stop;
     const std::string text = number(time / drawing_.caption.time_unit);
     const double letters = drawing_.palette.theme.letters;
-    const double half_width = letters * (0.75 * static_cast<double>(shown_length(text)) + 0.4) / drawing_.panel_mm.x;
-    const double half_height = letters * 1.9 / drawing_.panel_mm.y;
-    if (!near || half_width != width_of_near) {
-      near.emplace(obstacles, half_width, half_height);
-      width_of_near = half_width;
-    }
-    double best = 0;
-    Point where{};
-    for (const Point& candidate : candidates) {
-      const Point at = on_paper(panel_, candidate);
-      if (!inside(at, 0.05)) continue;
-      double room = Obstacles::most;
-      for (const Label& label : panel_.labels) {
-        const Point other = on_paper(panel_, label.at);
-        constexpr double spare = 2.2;
-        room = std::min(room, std::max(std::abs(other.x - at.x) / (half_width * spare),
-                                       std::abs(other.y - at.y) / (half_height * spare)));
+    LabelPlace place(letters * (0.75 * static_cast<double>(shown_length(text)) + 0.4) / drawing_.panel_mm.x,
+                     letters * 1.9 / drawing_.panel_mm.y);
+    for (; piece != isochrones.end() && piece->tau_stop == time; ++piece) {
+      const Polyline line = line_of(*piece);
+      for (std::size_t i = 1; i < line.size(); ++i) {
+        const Point from = on_paper(panel_, line[i - 1]), to = on_paper(panel_, line[i]);
+        const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y) / 0.004);
+        for (int j = 0; j < steps; ++j) {
+          const Point at = between(from, to, static_cast<double>(j) / steps);
+          if (inside(at, 0.05)) place.try_at(at, points, labels, middle);
+        }
       }
-      // The axis u = 0.
-      if (panel_.x.low < 0) room = std::min(room, std::abs(on_paper(panel_, {0, 0}).x - at.x) / half_width);
-      // Of places with equal room the first, whatever the last digits: portraits have two equal halves.
-      constexpr double same = 1e-9;
-      if (room > best * (1 + same)) room = std::min(room, near->room(at, best));
-      if (room > best * (1 + same)) {
-        best = room;
-        where = candidate;
-      }
+      lines.lines.push_back(line);
     }
-    if (best >= 1) panel_.labels.push_back({where, text, drawing_.palette.theme.faint, Label::Align::centre});
+    if (!place.found()) continue;
+    labels.push_back(place.where());
+    panel_.labels.push_back(
+        {from_paper(panel_, place.where()), text, drawing_.palette.theme.faint, Label::Align::centre});
   }
   panel_.lines.insert(panel_.lines.begin(), std::move(lines));
+  for (const PhasePortrait& other : drawing_.portrait.comparisons) {
+    Lines its_lines{{}, {drawing_.palette.comparison, 0.8, true}, ""};
+    for (const Isochrone& isochrone : other.isochrones) its_lines.lines.push_back(line_of(isochrone));
+    panel_.lines.insert(panel_.lines.begin(), std::move(its_lines));
+  }
 }
 
 void PortraitPanel::add_invariant(std::vector<Polyline> axes,
@@ -426,8 +389,8 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
   if (!axes.empty()) {
     panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 2.2, false}, "invariant axes"});
   }
-  Lines attracting{{}, {drawing_.palette.rival, 2.2, false}, "invariant ray {/:Italic k} = {/:Italic k}*"};
-  Lines repelling{{}, {drawing_.palette.rival, 2.2, true}, "invariant ray that orbits leave"};
+  Lines attracting{{}, {drawing_.palette.comparison, 2.2, false}, "invariant ray {/:Italic k} = {/:Italic k}*"};
+  Lines repelling{{}, {drawing_.palette.comparison, 2.2, true}, "invariant ray that orbits leave"};
   for (const reduction::InvariantRay& of : drawing_.portrait.plane.terminal.rays) {
     Lines& lines = of.attracts_above || of.attracts_below ? attracting : repelling;
     std::ranges::move(ray(std::log(of.k)), std::back_inserter(lines.lines));
@@ -440,14 +403,14 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
 void PortraitPanel::add_field(const std::function<reduction::State(Point)>& state) {
   using Field = PortraitStyle::Field;
   if (drawing_.style.field == Field::none) return;
-  const reduction::ReducedSystem& system = drawing_.portrait.system;
+  const reduction::ReducedSystem& system = drawing_.portrait.system();
   constexpr int columns = 24, rows = 15;
   struct Needle {
     Point at, direction;  ///< on paper, the direction of length 1
     double size;
   };
   std::vector<Needle> needles;
-  double least = std::numeric_limits<double>::infinity(), most = 0;
+  double min_size = std::numeric_limits<double>::infinity(), max_size = 0;
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
       const Point at{(i + 0.5) / columns, (j + 0.5) / rows};
@@ -455,20 +418,17 @@ void PortraitPanel::add_field(const std::function<reduction::State(Point)>& stat
       if (here.u == 0 && here.v == 0) continue;
       const reduction::Rate rate =
           drawing_.style.field == Field::regularised ? system.regularised_field(here) : system.field(here);
-      const auto instant = [&](double u, double v) {
-        return Instant{u, v, std::log(v), std::log(v / (system.mu() * std::abs(u))), 0};
-      };
       // A step that is small beside both speeds.
       const double fastest = std::max(std::abs(rate.u / here.u), std::abs(rate.v / here.v));
       const double h = 1e-4 / fastest;
-      const Point from = on_paper(panel_, place_(instant(here.u, here.v)));
-      const Point to = on_paper(panel_, place_(instant(here.u + h * rate.u, here.v + h * rate.v)));
+      const Point from = on_paper(panel_, place(here.u, here.v));
+      const Point to = on_paper(panel_, place(here.u + h * rate.u, here.v + h * rate.v));
       const double x = to.x - from.x, y = to.y - from.y;
       const double length = std::hypot(x, y);
       const double size = std::hypot(rate.u / drawing_.portrait.window.u, rate.v / drawing_.portrait.window.v);
       if (!(length > 0) || !(size > 0)) continue;
-      least = std::min(least, size);
-      most = std::max(most, size);
+      min_size = std::min(min_size, size);
+      max_size = std::max(max_size, size);
       needles.push_back({at, {x / length, y / length}, size});
     }
   }
@@ -476,7 +436,7 @@ void PortraitPanel::add_field(const std::function<reduction::State(Point)>& stat
               {drawing_.palette.field, 1, false},
               drawing_.style.field == Field::regularised ? "direction of (2.7)" : "direction of (2.6)"};
   for (const Needle& needle : needles) {
-    const double share = most > least ? std::log(needle.size / least) / std::log(most / least) : 1;
+    const double share = max_size > min_size ? std::log(needle.size / min_size) / std::log(max_size / min_size) : 1;
     const double cell = 1 / std::max(std::abs(needle.direction.x) * columns, std::abs(needle.direction.y) * rows);
     const double half = (0.25 + 0.6 * share) / 2 * cell;
     const Point tail{needle.at.x - half * needle.direction.x, needle.at.y - half * needle.direction.y};

@@ -13,7 +13,7 @@ namespace contensou::portraits {
 /// The colours of what portraits are made of. Lightness tells the times apart, so they survive in grey.
 struct Palette {
   Theme theme;
-  Colour orbit, rival, highlight, invariant, isochrone, field, region;
+  Colour orbit, comparison, highlight, invariant, isochrone, field, region;
   std::vector<Colour> times;  ///< from the stop on
 };
 
@@ -21,20 +21,19 @@ Palette palette(bool screen);
 
 /// Times left cut into bands, each of one colour.
 struct TimeBands {
-  std::vector<double> edges;    ///< increasing, between bands
-  std::vector<Colour> colours;  ///< one more than edges
-  std::vector<double> marked;   ///< times that the colour bar names
-  bool linear = true;
+  std::vector<double> edges;        ///< increasing, between bands
+  std::vector<Colour> colours;      ///< one more than edges
+  std::vector<std::size_t> marked;  ///< bands that the colour bar names the beginning of
+  std::vector<double> arrows;       ///< times left at which orbits have an arrow head
 
   std::size_t band(double tau) const;
+  double begin(std::size_t band) const { return band == 0 ? 0 : edges[band - 1]; }
 };
 
-/// Equal bands, some for each isochrone interval of the portrait; or bands of equal ratio over the given decades.
+/// Equal bands, some for each isochrone interval of the portrait; or bands of equal ratio from the shortest time to the
+/// longest, in tau, with edges at round multiples of the unit.
 TimeBands linear_bands(const PhasePortrait& portrait, const Palette& palette);
 TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette);
-
-/// The stop time of a state from the portrait's profile.
-double stop_time(const PhasePortrait& portrait, double u, double v);
 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption);
 
@@ -47,7 +46,7 @@ struct Drawing {
   TimeBands bands;
   Point panel_mm;  ///< the size of a panel on paper, about
 
-  bool coloured() const { return style.colour_by_time && portrait.against.empty(); }
+  bool coloured() const { return style.colour_by_time && portrait.comparisons.empty(); }
   std::string speed(const std::string& name) const;  ///< with its unit
 };
 
@@ -57,6 +56,18 @@ using Place = std::function<Point(const Instant&)>;
 
 /// The legend of a portrait's orbits where two laws are compared.
 std::string law_legend(const PhasePortrait& portrait);
+
+/// ln k of the invariant rays, by growing k.
+std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
+
+/// ln k at which copies of a whole curve are spread: half-way between two rays, `away` from the only one, 0 without.
+double spread_log_ratio(const WholeCurve& curve, double away);
+
+/// Whether ln k passes that value along a whole curve.
+bool reaches(const PortraitOrbit& curve, double ln_k);
+
+/// The state at which a whole curve has that ln k, interpolated between its rows; the last that it reaches otherwise.
+Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 
 /// A panel that fills with layers of the phase plane, placed by one function of the state.
 class PortraitPanel {
@@ -78,13 +89,11 @@ class PortraitPanel {
     double sign = 1;
   };
 
-  /// Orbits of the portrait, and in the same way those of the laws that it is compared with.
+  /// Orbits of the portrait, and in the same way those of the law that it is compared with.
   void add_orbits(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies);
   void add_highlights();
-  /// Isochrones of those stop times, labelled where orbits leave room; left and right.
-  void add_isochrones(const std::vector<double>& times);
-  /// Those of another law, without labels.
-  void add_rival_isochrones(const std::vector<double>& times, const PhasePortrait& rival);
+  /// Isochrones, labelled where orbits leave room; those of the other law without labels.
+  void add_isochrones();
   /// @param ray  the line of an invariant ray, by its ln k
   void add_invariant(std::vector<Polyline> axes, const std::function<std::vector<Polyline>(double ln_k)>& ray);
   /// @param state  the state at a point of the panel; u = v = 0 where there is none
@@ -94,11 +103,18 @@ class PortraitPanel {
   Panel finished() && { return std::move(panel_); }
 
  private:
+  struct TimedArrow {
+    Arrow arrow;
+    double left;  ///< the time there
+  };
+
   void add_coloured(const std::vector<Copy>& copies);
-  Polyline line_of(const Copy& copy) const;
-  void add_arrows(const Copy& copy, Arrows& arrows);
   void add_plain(const std::vector<Copy>& copies, Stroke stroke, const std::string& legend);
-  std::vector<Polyline> isochrone(const PhasePortrait& portrait, double time) const;
+  Polyline line_of(const Copy& copy) const;
+  Polyline line_of(const Isochrone& isochrone) const;
+  Point place(double u, double v) const;
+  std::vector<TimedArrow> arrows_on(const Copy& copy, const Polyline& line);
+  std::vector<Point> obstacles() const;
 
   const Drawing& drawing_;
   Panel panel_;
@@ -108,8 +124,5 @@ class PortraitPanel {
   std::vector<Polyline> orbits_;  ///< that labels keep off
   std::vector<Point> heads_;      ///< on paper
 };
-
-/// A number as people write it; large ones with their power of ten.
-std::string number(double value);
 
 }  // namespace contensou::portraits

@@ -1,36 +1,77 @@
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "contensou/portraits/figure.hpp"
 #include "views/portrait_panel.hpp"
 
 namespace contensou::portraits {
 
-/// The panels of each view. A new view is a function here, a name in phase_portrait.hpp and a row in
-/// phase_portrait_figure.cpp.
-std::vector<Panel> plane_view(const Drawing& drawing);       ///< (u, v)
-std::vector<Panel> patch_view(const Drawing& drawing);       ///< (mu u, v)
-std::vector<Panel> log_view(const Drawing& drawing);         ///< (ln mu u, ln v)
-std::vector<Panel> similarity_view(const Drawing& drawing);  ///< (q, p) and (ln k, p)
-std::vector<Panel> blowup_view(const Drawing& drawing);      ///< the blown-up origin, and the chart (u, k)
-std::vector<Panel> disc_view(const Drawing& drawing);        ///< the Poincare disc
-std::vector<Panel> time_view(const Drawing& drawing);        ///< u, v, k against time
-std::vector<Panel> pair_view(const Drawing& drawing);        ///< (u, v) beside (u, ln k)
+/// The panels of each view.
+std::vector<Panel> plane_view(const Drawing& drawing);
+std::vector<Panel> patch_view(const Drawing& drawing);
+std::vector<Panel> log_view(const Drawing& drawing);
+std::vector<Panel> similarity_view(const Drawing& drawing);
+std::vector<Panel> blowup_view(const Drawing& drawing);
+std::vector<Panel> disc_view(const Drawing& drawing);
+std::vector<Panel> time_view(const Drawing& drawing);
+std::vector<Panel> pair_view(const Drawing& drawing);
 
-/// Whether ln k passes that value along a whole curve.
-bool reaches(const PortraitOrbit& curve, double ln_k);
+/// A view as users name it and as it is laid out on a page.
+struct ViewLayout {
+  View view;
+  std::string_view name;
+  std::vector<Panel> (*panels)(const Drawing&);
+  int columns;  ///< panels side by side
+  double width_mm;
+  double height_mm;
+  /// The shortest and the longest time left that colours tell apart, in bands of equal ratio, where the plane is seen
+  /// stretched. Null: in equal bands.
+  std::pair<double, double> (*times)(const PhasePortrait&);
+  std::string_view shows;
+};
 
-/// ln k of the invariant rays, by growing k.
-std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
+/// The stop time of a state at distances x, y from the origin in logarithms: u = exp(x) V/mu, v = exp(y) V.
+inline double scaled_stop_time(const PhasePortrait& portrait, double x, double y) {
+  const double V = portrait.window.v;
+  return portrait.flow.orbit({std::exp(x) * V / portrait.system().mu(), std::exp(y) * V}).stop_time();
+}
 
-/// ln k at which copies of a whole curve are spread: half-way between two rays, `away` from the only one, 0 without.
-double spread_log_ratio(const WholeCurve& curve, double away);
+inline std::pair<double, double> far_times(const PhasePortrait& portrait) {
+  const double tau = scaled_stop_time(portrait, 0, 0);
+  return {0.03 * tau, 20 * tau};
+}
 
-/// The state at which a whole curve has that ln k, interpolated between its rows; the last that it reaches otherwise.
-Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
+constexpr std::string_view plane_shows =
+    "every orbit runs from the border to the stop at the origin; both axes are invariant";
 
-/// Angles atan(k) of the invariant half-lines, from v = 0 to u = 0.
-std::vector<double> invariant_angles(const PhasePortrait& portrait);
+/// All views, in the order in which they are listed.
+inline constexpr std::array view_layouts{
+    ViewLayout{View::uv, "uv", plane_view, 1, 190, 125, nullptr, plane_shows},
+    ViewLayout{View::patch, "patch", patch_view, 1, 190, 125, nullptr,
+               "the two speeds at the rim of the patch: sliding and pivoting compare"},
+    ViewLayout{View::log, "log", log_view, 1, 175, 130,
+               [](const PhasePortrait& portrait) {
+                 const auto [u, v] = portrait.window;
+                 const double tau = portrait.flow.orbit({u, v}).stop_time();
+                 return std::pair{0.01 * tau, tau};
+               },
+               "by scaling orbits are translates of one curve along the diagonal"},
+    ViewLayout{View::similarity, "similarity", similarity_view, 2, 270, 125,
+               [](const PhasePortrait& portrait) {
+                 return std::pair{scaled_stop_time(portrait, -6, -4), scaled_stop_time(portrait, 6, 0)};
+               },
+               "canonical coordinates: orbits are translates of one curve"},
+    ViewLayout{View::blowup, "blowup", blowup_view, 2, 280, 112, far_times,
+               "the origin, blown up: each half-line joins a saddle to a node"},
+    ViewLayout{View::disc, "disc", disc_view, 1, 210, 125, far_times,
+               "the Poincaré disc: every orbit is born at infinity and dies at the stop"},
+    ViewLayout{View::time, "time", time_view, 3, 270, 105, nullptr,
+               "by scaling only {/:Italic k}_0 = {/:Italic v}_0/({/:Italic μu}_0) matters"},
+    ViewLayout{View::pair, "pair", pair_view, 2, 300, 125, nullptr, plane_shows},
+};
 
 }  // namespace contensou::portraits

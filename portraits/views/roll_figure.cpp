@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "contensou/portraits/layout.hpp"
 
 namespace contensou::portraits {
 
@@ -36,47 +38,6 @@ void require_columns(const RollCurve& curve) {
   }
 }
 
-Polyline line_of(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, Eigen::Index count) {
-  Polyline line;
-  for (Eigen::Index i = 0; i < count; ++i) line.push_back({x[i], y[i]});
-  return line;
-}
-
-/// How many of the instants are at most that late.
-Eigen::Index until(const RollCurve& curve, double end) { return (curve.t <= end * (1 + 1e-12)).count(); }
-
-Point at_time(const RollCurve& curve, double t) {
-  const Eigen::Index last = curve.t.size() - 1;
-  const Eigen::Index i = std::clamp<Eigen::Index>((curve.t <= t).count() - 1, 0, last - 1);
-  const double share = std::clamp((t - curve.t[i]) / (curve.t[i + 1] - curve.t[i]), 0.0, 1.0);
-  return {curve.x[i] + share * (curve.x[i + 1] - curve.x[i]), curve.y[i] + share * (curve.y[i + 1] - curve.y[i])};
-}
-
-struct Box {
-  Point low, high;
-
-  Point size() const { return {high.x - low.x, high.y - low.y}; }
-};
-
-Box box_of(std::initializer_list<const Polyline*> lines) {
-  Box box{lines.begin()[0]->front(), lines.begin()[0]->front()};
-  for (const Polyline* line : lines) {
-    for (const Point& point : *line) {
-      box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
-      box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
-    }
-  }
-  return box;
-}
-
-/// An interval that is wider by a margin and has at least that length, about the same middle.
-std::pair<double, double> widened(double low, double high, double least) {
-  constexpr double margin = 0.08;
-  const double middle = (low + high) / 2;
-  const double half = std::max((high - low) * (0.5 + margin), least / 2);
-  return {middle - half, middle + half};
-}
-
 /// How far into the motion the path is shown.
 double shown_time(const RollPicture& picture) {
   const double rolls = std::max(picture.ball.rolls, picture.textbook.rolls);
@@ -84,59 +45,82 @@ double shown_time(const RollPicture& picture) {
   return rolls > 0 ? std::min(1.6 * rolls, last) : last;
 }
 
-/// Both paths with the points from which the balls roll.
-void add_paths(Panel& panel, const RollPicture& picture, Polyline ball, Polyline textbook, Point ball_mark,
-               Point textbook_mark) {
+Polyline path_of(const RollCurve& curve, double end) {
+  Polyline line;
+  for (Eigen::Index i = 0; i < curve.t.size() && curve.t[i] <= end * (1 + 1e-12); ++i) {
+    line.push_back({curve.x[i], curve.y[i]});
+  }
+  return line;
+}
+
+Point at_time(const RollCurve& curve, double t) {
+  const Eigen::Index last = curve.t.size() - 1;
+  const Eigen::Index i = std::clamp<Eigen::Index>((curve.t <= t).count() - 1, 0, last - 1);
+  const double share = std::clamp((t - curve.t[i]) / (curve.t[i + 1] - curve.t[i]), 0.0, 1.0);
+  return between({curve.x[i], curve.y[i]}, {curve.x[i + 1], curve.y[i + 1]}, share);
+}
+
+/// An interval that is wider by a margin and has at least that length, about the same middle.
+std::pair<double, double> widened(double low, double high, double min_length) {
+  constexpr double margin = 0.08;
+  const double middle = (low + high) / 2;
+  const double half = std::max((high - low) * (0.5 + margin), min_length / 2);
+  return {middle - half, middle + half};
+}
+
+/// Both paths with the points from which the balls roll; the axes are as long as the paths.
+Panel paths(const RollPicture& picture) {
   constexpr double size = 1.1;
-  panel.lines.push_back({{std::move(ball)}, {path_colour, 2.2, false}, "this ball"});
-  panel.lines.push_back({{std::move(textbook)}, {textbook_colour, 1.8, true}, "textbook"});
-  if (picture.textbook.rolls > 0) panel.marks.push_back({{textbook_mark}, textbook_colour, size});
-  if (picture.ball.rolls > 0) panel.marks.push_back({{ball_mark}, path_colour, size});
+  const double x = picture.ball.x[0], y = picture.ball.y[0];
+  Panel panel;
+  panel.x = {"", x, x, false, {}};
+  panel.y = {"", y, y, false, {}};
+  for (const RollCurve* curve : {&picture.ball, &picture.textbook}) {
+    const bool is_ball = curve == &picture.ball;
+    const Stroke stroke = is_ball ? Stroke{path_colour, 2.2, false} : Stroke{textbook_colour, 1.8, true};
+    Polyline path = path_of(*curve, shown_time(picture));
+    for (const Point& point : path) {
+      std::tie(panel.x.low, panel.x.high) = std::minmax({panel.x.low, panel.x.high, point.x});
+      std::tie(panel.y.low, panel.y.high) = std::minmax({panel.y.low, panel.y.high, point.y});
+    }
+    panel.lines.push_back({{std::move(path)}, stroke, is_ball ? "this ball" : "textbook"});
+    // This ball's on top.
+    if (curve->rolls > 0) {
+      panel.marks.insert(panel.marks.begin(), {{at_time(*curve, curve->rolls)}, stroke.colour, size});
+    }
+  }
+  return panel;
 }
 
 /// The path from above, to scale unless it is flat.
 Panel path_panel(const RollPicture& picture) {
-  const double end = shown_time(picture);
-  Polyline ball = line_of(picture.ball.x, picture.ball.y, until(picture.ball, end));
-  Polyline textbook = line_of(picture.textbook.x, picture.textbook.y, until(picture.textbook, end));
-  const Box box = box_of({&ball, &textbook});
-  const double scale = std::max(box.size().x / panel_shape, box.size().y);
+  Panel panel = paths(picture);
+  const double scale = std::max((panel.x.high - panel.x.low) / panel_shape, panel.y.high - panel.y.low);
   // Most of the panel is used, across too.
-  const double least_share = 0.75;
-  const double stretch_x = std::max(1.0, least_share * scale * panel_shape / std::max(box.size().x, 1e-300));
-  const double stretch_y = std::max(1.0, least_share * scale / std::max(box.size().y, 1e-300));
-  const auto [x_low, x_high] = widened(box.low.x, box.high.x, 1.16 * scale * panel_shape / stretch_x);
-  const auto [y_low, y_high] = widened(box.low.y, box.high.y, 1.16 * scale / stretch_y);
-  const auto stretched = [](const char* letter, double stretch) {
-    const std::string note = stretch > 1.05 ? fmt::format(" (stretched {:.2g} times)", stretch) : "";
-    return fmt::format("{{/:Italic {}}}, m{}", letter, note);
+  const auto stretch = [scale](Axis& axis, const char* letter, double shape) {
+    constexpr double min_share = 0.75;
+    const double factor = std::max(1.0, min_share * scale * shape / std::max(axis.high - axis.low, 1e-300));
+    const auto [low, high] = widened(axis.low, axis.high, 1.16 * scale * shape / factor);
+    const std::string note = factor > 1.05 ? fmt::format(" (stretched {:.2g} times)", factor) : "";
+    axis = {fmt::format("{{/:Italic {}}}, m{}", letter, note), low, high, false, {}};
   };
-  Panel panel;
+  stretch(panel.x, "x", panel_shape);
+  stretch(panel.y, "y", 1);
   panel.title = "the path on the table";
-  panel.x = {stretched("x", stretch_x), x_low, x_high, false, {}};
-  panel.y = {stretched("y", stretch_y), y_low, y_high, false, {}};
-  add_paths(panel, picture, std::move(ball), std::move(textbook), at_time(picture.ball, picture.ball.rolls),
-            at_time(picture.textbook, picture.textbook.rolls));
   return panel;
 }
 
 /// The distance along a straight path against time.
-Panel distance_panel(const RollPicture& picture, Point along) {
-  const double end = shown_time(picture);
-  const auto distance = [&](const RollCurve& curve) -> Eigen::ArrayXd { return along.x * curve.x + along.y * curve.y; };
-  Polyline ball = line_of(picture.ball.t, distance(picture.ball), until(picture.ball, end));
-  Polyline textbook = line_of(picture.textbook.t, distance(picture.textbook), until(picture.textbook, end));
-  const Box box = box_of({&ball, &textbook});
-  const auto [low, high] = widened(box.low.y, box.high.y, box.size().y > 0 ? 0 : 1);
-  const auto mark = [&](const RollCurve& curve) {
-    const Point point = at_time(curve, curve.rolls);
-    return Point{curve.rolls, along.x * point.x + along.y * point.y};
-  };
-  Panel panel;
+Panel distance_panel(RollPicture picture, Point along) {
+  for (RollCurve* curve : {&picture.ball, &picture.textbook}) {
+    curve->y = along.x * curve->x + along.y * curve->y;
+    curve->x = curve->t;
+  }
+  Panel panel = paths(picture);
+  const auto [low, high] = widened(panel.y.low, panel.y.high, panel.y.high > panel.y.low ? 0 : 1);
   panel.title = "the path is straight: the way along it";
-  panel.x = {"{/:Italic t}, s", 0, end, false, {}};
+  panel.x = {"{/:Italic t}, s", 0, shown_time(picture), false, {}};
   panel.y = {"way, m", low, high, false, {}};
-  add_paths(panel, picture, std::move(ball), std::move(textbook), mark(picture.ball), mark(picture.textbook));
   return panel;
 }
 
@@ -171,9 +155,8 @@ Panel speed_panel(const RollPicture& picture) {
 Figure roll_figure(const RollPicture& picture) {
   require_columns(picture.ball);
   require_columns(picture.textbook);
-  const double end = shown_time(picture);
-  const Polyline path = line_of(picture.ball.x, picture.ball.y, until(picture.ball, end));
-  const Polyline textbook = line_of(picture.textbook.x, picture.textbook.y, until(picture.textbook, end));
+  const Polyline path = path_of(picture.ball, shown_time(picture));
+  const Polyline textbook = path_of(picture.textbook, shown_time(picture));
   // The line through the farthest point of the path, and how far the paths leave it.
   Point far{1, 0};
   double reach = 0;

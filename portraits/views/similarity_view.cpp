@@ -11,7 +11,7 @@ namespace {
 
 constexpr double half_height = 5;  // of the panels, in p
 constexpr double step = 0.8;       // between translates, or more where k hardly changes while p does
-constexpr int most = 24;           // translates of a curve
+constexpr int max_count = 24;      // translates of a curve
 
 /// One panel: translates of each curve, with the arrow of the symmetry.
 Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa) {
@@ -39,7 +39,7 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
         rise = std::max(rise, curve.ln_v[i] - at.ln_v);
         fall = std::max(fall, at.ln_v - curve.ln_v[i]);
       }
-      const double apart = std::max(step, (2 * half_height + rise + fall) / most);
+      const double apart = std::max(step, (2 * half_height + rise + fall) / max_count);
       const int first = -static_cast<int>(std::ceil((half_height + rise) / apart));
       const int last = static_cast<int>(std::ceil((half_height + fall) / apart));
       for (int i = first; i <= last; ++i) copies.push_back({curve, std::exp(middle + i * apart - at.ln_v)});
@@ -66,7 +66,7 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
 
 std::vector<Panel> similarity_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
-  const double mu = portrait.system.mu();
+  const double mu = portrait.system().mu();
   const std::vector<double> rays = ray_log_ratios(portrait);
   const auto [low, high] = rays.empty() ? std::pair{0.0, 0.0} : std::pair{rays.front(), rays.back()};
   Panel by_q, by_ratio;

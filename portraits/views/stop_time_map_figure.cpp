@@ -1,10 +1,13 @@
-#include "contensou/portraits/stop_time_map_figure.hpp"
+#include "contensou/portraits/stop_time_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <fmt/format.h>
+
+#include "contensou/portraits/layout.hpp"
+#include "data/round_numbers.hpp"
 
 namespace contensou::portraits {
 
@@ -13,27 +16,15 @@ namespace {
 constexpr Colour isochrone_colour{0x1a1a1a};
 constexpr Colour ray_colour{0xb3003b};
 
-/// Ticks of a logarithmic axis: powers of ten, or 1, 2, 5 of each where there are few.
-std::vector<Axis::Tick> logarithmic_ticks(double low, double high) {
-  const double decades = std::log10(high / low);
-  const std::vector<int> factors = decades < 2.5 ? std::vector<int>{1, 2, 5} : std::vector<int>{1};
-  const int stride = std::max(1, static_cast<int>(std::ceil(decades / 12)));
-  std::vector<Axis::Tick> ticks;
-  for (int power = static_cast<int>(std::floor(std::log10(low))); power <= std::log10(high) + 1e-9; ++power) {
-    if (power % stride != 0) continue;
-    for (int factor : factors) {
-      const double at = factor * std::pow(10, power);
-      if (at < low * (1 - 1e-9) || at > high * (1 + 1e-9)) continue;
-      ticks.push_back({at, factors.size() > 1 ? fmt::format("{:g}", at) : fmt::format("10^{{{}}}", power)});
-    }
-  }
-  if (ticks.size() > 1) return ticks;
-  return {{low, fmt::format("{:.3g}", low)}, {high, fmt::format("{:.3g}", high)}};
-}
-
 Axis axis(const std::string& name, double low, double high, bool logarithmic) {
-  if (!logarithmic) return {name, low, high, false, {}};
-  return {name, low, high, true, logarithmic_ticks(low, high)};
+  Axis axis{name, low, high, logarithmic, {}};
+  if (!logarithmic) return axis;
+  constexpr double few_decades = 2.5, same = 1e-9;
+  const bool powers = high / low >= std::pow(10, few_decades);
+  for (double at : round_ratios(low * (1 - same), high * (1 + same), few_decades)) {
+    axis.ticks.push_back({at, powers ? fmt::format("10^{{{:.0f}}}", std::log10(at)) : fmt::format("{:g}", at)});
+  }
+  return axis;
 }
 
 Axis axis(const std::string& name, const Eigen::ArrayXd& values, bool logarithmic) {
@@ -69,26 +60,6 @@ ColourMap colours(const StopTimeMap& map) {
   return image;
 }
 
-/// A point's place in the panel, both from 0 to 1.
-Point place(const Panel& panel, Point point) {
-  const auto share = [](const Axis& axis, double value) {
-    if (axis.logarithmic) return std::log(value / axis.low) / std::log(axis.high / axis.low);
-    return (value - axis.low) / (axis.high - axis.low);
-  };
-  return {share(panel.x, point.x), share(panel.y, point.y)};
-}
-
-/// Where a line is halfway along as it is seen; the length of it is what is returned beside.
-std::pair<Point, double> middle(const Panel& panel, const Polyline& line) {
-  std::vector<double> lengths{0};
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const Point before = place(panel, line[i - 1]), here = place(panel, line[i]);
-    lengths.push_back(lengths.back() + std::hypot(here.x - before.x, here.y - before.y));
-  }
-  const auto half = std::ranges::lower_bound(lengths, lengths.back() / 2);
-  return {line[static_cast<std::size_t>(half - lengths.begin())], lengths.back()};
-}
-
 Lines ray(const StopTimeMap& map) {
   const auto& [u0, v0, logarithmic] = map.axes;
   Lines ray{{}, {ray_colour, 1.4, true}, "{/:Italic k} = 1"};
@@ -106,7 +77,7 @@ Lines ray(const StopTimeMap& map) {
 }  // namespace
 
 Figure draw(const StopTimeMap& map) {
-  constexpr double shortest_labelled = 0.15;
+  constexpr double min_labelled = 0.15;
   const bool logarithmic = map.axes.logarithmic;
   Panel panel;
   panel.x = axis("{/:Italic u}_0,  pivoting at the start", map.axes.u0, logarithmic);
@@ -117,9 +88,9 @@ Figure draw(const StopTimeMap& map) {
   for (const Isochrone& isochrone : map.isochrones) {
     Polyline line;
     for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) line.push_back({isochrone.u[i], isochrone.v[i]});
-    const auto [at, length] = middle(panel, line);
-    if (length >= shortest_labelled) {
-      panel.labels.push_back({at, fmt::format("{:.6g}", isochrone.tau_stop), isochrone_colour, Label::Align::centre});
+    if (paper_length(panel, line) >= min_labelled) {
+      panel.labels.push_back({arrow_along(panel, line, 0.5).at, fmt::format("{:.6g}", isochrone.tau_stop),
+                              isochrone_colour, Label::Align::centre});
     }
     isochrones.lines.push_back(std::move(line));
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "data/round_numbers.hpp"
 #include "views/portrait_views.hpp"
 
 namespace contensou::portraits {
@@ -32,9 +33,10 @@ Course course(const PortraitOrbit& orbit, const Instant& start, double deepest) 
 
 std::vector<Panel> time_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
-  const reduction::ReducedSystem& system = portrait.system;
-  // Sliding alone takes this many times as long as pivoting alone.
-  constexpr double shares[] = {0.1, 0.3, 1, 3, 10};
+  const reduction::ReducedSystem& system = portrait.system();
+  // Sliding alone takes this many times as long as pivoting alone, which takes as long at this k.
+  constexpr double time_ratios[] = {0.1, 0.3, 1, 3, 10};
+  const double same_time = 1 / (system.r() * system.law().pivoting_moment());
   Panel u, v, k;
   const std::string time = "{/:Italic τ}/{/:Italic τ}*";
   u.title = "spinning  {/:Italic u}/{/:Italic u}_0";
@@ -43,7 +45,7 @@ std::vector<Panel> time_view(const Drawing& drawing) {
   for (Panel* panel : {&u, &v}) panel->y = {"", 0, 1.04, false, {}};
   for (Panel* panel : {&u, &v, &k}) panel->x = {time, 0, 1, false, {}};
   const std::vector<double> rays = ray_log_ratios(portrait);
-  const double highest = std::log(shares[4] / (system.r() * system.law().pivoting_moment()));
+  const double highest = std::log(time_ratios[4] * same_time);
   k.y = {"", 0, 0, false, {}};
   if (!rays.empty()) {
     k.y.low = rays.front() - 3;
@@ -62,33 +64,23 @@ std::vector<Panel> time_view(const Drawing& drawing) {
     k.lines.push_back({{line.ln_k}, stroke, legend});
   };
   constexpr double deepest = 60;
-  const auto add_courses = [&](const PhasePortrait& of, auto stroke, auto legend) {
-    for (std::size_t i = 0; i < std::size(shares); ++i) {
-      const double ln_k = std::log(shares[i] / (system.r() * system.law().pivoting_moment()));
+  const auto add_courses = [&](const PhasePortrait& of, bool compared) {
+    const std::vector<Colour>& times = drawing.palette.times;
+    for (std::size_t i = 0; i < std::size(time_ratios); ++i) {
+      const double ln_k = std::log(time_ratios[i] * same_time);
+      const Stroke stroke = compared ? Stroke{drawing.palette.comparison, 1.3, true}
+                                     : Stroke{times[i * (times.size() - 1) / (std::size(time_ratios) - 1)], 1.8, false};
+      const std::string legend =
+          compared ? law_legend(of) : fmt::format("{{/:Italic k}}_0 = {}", number(std::exp(ln_k), 3));
       for (const PortraitOrbit& curve : of.curves) {
-        if (reaches(curve, ln_k)) add(course(curve, at_log_ratio(curve, ln_k), deepest), stroke(i), legend(ln_k));
+        if (reaches(curve, ln_k)) add(course(curve, at_log_ratio(curve, ln_k), deepest), stroke, legend);
       }
     }
   };
-  const std::vector<Colour>& times = drawing.palette.times;
-  add_courses(
-      portrait,
-      [&](std::size_t i) {
-        return Stroke{times[i * (times.size() - 1) / (std::size(shares) - 1)], 1.8, false};
-      },
-      [](double ln_k) {
-        return fmt::format("{{/:Italic k}}_0 = {}", number(std::stod(fmt::format("{:.3g}", std::exp(ln_k)))));
-      });
-  for (const PhasePortrait& rival : portrait.against) {
-    add_courses(
-        rival,
-        [&](std::size_t) {
-          return Stroke{drawing.palette.rival, 1.3, true};
-        },
-        [&](double) { return law_legend(rival); });
-  }
+  add_courses(portrait, false);
+  for (const PhasePortrait& other : portrait.comparisons) add_courses(other, true);
   if (!rays.empty() && drawing.style.invariant) {
-    Lines lines{{}, {drawing.palette.rival, 1.6, true}, rays.size() == 1 ? "{/:Italic k}*" : "invariant rays"};
+    Lines lines{{}, {drawing.palette.comparison, 1.6, true}, rays.size() == 1 ? "{/:Italic k}*" : "invariant rays"};
     for (double ln_k : rays) lines.lines.push_back({{0, ln_k}, {1, ln_k}});
     k.lines.push_back(std::move(lines));
   }

@@ -22,7 +22,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/pgfplots.hpp"
-#include "contensou/portraits/phase_portrait_data.hpp"
+#include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pressure_law.hpp"
@@ -275,7 +275,7 @@ program::PortraitQuestion question_of(const val& asked, const Flow* known = null
   }
   for (const val& point : emscripten::vecFromJSArray<val>(asked["through"])) request.through.push_back(state(point));
   request.isochrones = asked["isochrones"].as<int>();
-  if (has("against")) request.against = law_of(asked["against"].as<std::string>());
+  if (has("against")) request.comparison = law_of(asked["against"].as<std::string>());
   const auto field = asked["field"].as<std::string>();
   using Field = portraits::PortraitStyle::Field;
   question.style.field = field == "motion" ? Field::motion : field == "regularised" ? Field::regularised : Field::none;

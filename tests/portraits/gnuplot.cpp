@@ -1,7 +1,5 @@
 #include "contensou/portraits/gnuplot.hpp"
 
-#include <stdlib.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +11,7 @@
 
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "figures.hpp"
 
 using namespace contensou;
 using portraits::PictureFormat;
@@ -26,59 +25,49 @@ portraits::Figure sample() { return portraits::draw(portraits::phase_portrait({{
 class Sandbox {
  public:
   Sandbox() {
-    std::string pattern = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    folder_ = pattern;
-    fs::create_directory(folder_ / "bin");
-    fs::create_directory(folder_ / "tmp");
+    fs::create_directory(folder() / "bin");
+    fs::create_directory(folder() / "tmp");
     path_ = std::getenv("PATH");
     home_ = std::getenv("HOME");
-    setenv("PATH", (folder_ / "bin").c_str(), 1);
-    setenv("TMPDIR", (folder_ / "tmp").c_str(), 1);
-    setenv("HOME", folder_.c_str(), 1);
+    setenv("PATH", (folder() / "bin").c_str(), 1);
+    setenv("TMPDIR", (folder() / "tmp").c_str(), 1);
+    setenv("HOME", folder().c_str(), 1);
   }
   ~Sandbox() {
     setenv("PATH", path_.c_str(), 1);
     unsetenv("TMPDIR");
     setenv("HOME", home_.c_str(), 1);
-    fs::remove_all(folder_);
   }
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
 
-  void fake_gnuplot(const std::string& body) const {
-    const fs::path file = folder_ / "bin" / "gnuplot";
-    std::ofstream(file) << "#!/bin/sh\n" << body << "\n";
+  void install_gnuplot(const std::string& content) const {
+    const fs::path file = folder() / "bin" / "gnuplot";
+    std::ofstream(file, std::ios::binary) << content << "\n";
     fs::permissions(file, fs::perms::owner_all);
   }
-  void not_a_program() const {
-    const fs::path file = folder_ / "bin" / "gnuplot";
-    std::ofstream(file, std::ios::binary) << "\x7f no program";
-    fs::permissions(file, fs::perms::owner_all);
-  }
+  void fake_gnuplot(const std::string& body) const { install_gnuplot("#!/bin/sh\n" + body); }
   /// gnuplot, but with commands of the test around it.
   void real_gnuplot(const std::string& before, const std::string& after) const {
     fake_gnuplot("PATH='" + path_ + "'\n" + before + " gnuplot \"$@\" " + after);
   }
-  const fs::path& folder() const { return folder_; }
-  bool left_nothing() const { return fs::is_empty(folder_ / "tmp"); }
+  const fs::path& folder() const { return folder_.path(); }
+  bool left_nothing() const { return fs::is_empty(folder() / "tmp"); }
 
  private:
-  fs::path folder_;
+  portraits::TemporaryFolder folder_;
   std::string path_, home_;
 };
 
 }  // namespace
 
 TEST_CASE("Endings name formats", "[table]") {
-  CHECK(portraits::find_picture_format("svg") == PictureFormat::svg);
-  CHECK(portraits::find_picture_format("pdf") == PictureFormat::pdf);
-  CHECK(portraits::find_picture_format("png") == PictureFormat::png);
-  CHECK(portraits::find_picture_format("gp") == PictureFormat::gp);
-  CHECK(portraits::find_picture_format("eps") == PictureFormat::eps);
-  CHECK(portraits::find_picture_format("tex") == PictureFormat::tex);
-  CHECK_FALSE(portraits::find_picture_format("jpg"));
-  CHECK_FALSE(portraits::find_picture_format(""));
+  const std::vector<std::string_view> endings{"svg", "pdf", "png", "eps", "gp", "tex"};
+  CHECK(portraits::picture_formats() == endings);
+  for (std::size_t i = 0; i < endings.size(); ++i) {
+    CHECK(portraits::find_picture_format(endings[i]) == static_cast<PictureFormat>(i));
+  }
+  for (const char* unknown : {"jpg", ""}) CHECK_FALSE(portraits::find_picture_format(unknown));
 }
 
 TEST_CASE("A script is whole: it needs no file, has no gaps, and is the same each time", "[table]") {
@@ -126,7 +115,7 @@ TEST_CASE("A failing gnuplot is an error with its words", "[domain]") {
         "gnuplot ended with status 7\n  line 3: no such terminal");
   CHECK(failure("kill -9 $$", PictureFormat::png) == "gnuplot was ended by signal 9");
   CHECK_THAT(failure("kill -ALRM $$", PictureFormat::png), Catch::Contains("more than 60 s"));
-  sandbox.not_a_program();
+  sandbox.install_gnuplot("\x7f no program");
   CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::png), Catch::Contains("cannot be run"));
   CHECK(sandbox.left_nothing());
 }
@@ -195,14 +184,12 @@ TEST_CASE("Text is data: nothing in it is run, and it cannot end its line", "[do
   CHECK(script.find("\n!") == std::string::npos);
   CHECK(script.find("a`touch pwned`b !touch pwned quote '' and \" $(touch pwned)") != std::string::npos);
 
-  std::string folder = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
-  REQUIRE(mkdtemp(folder.data()) != nullptr);
+  const portraits::TemporaryFolder folder;
   const fs::path here = fs::current_path();
-  fs::current_path(folder);
+  fs::current_path(folder.path());
   const std::string svg = portraits::render(figure, PictureFormat::svg);
   fs::current_path(here);
-  CHECK(fs::is_empty(folder));
-  fs::remove_all(folder);
+  CHECK(fs::is_empty(folder.path()));
   CHECK(svg.find("a`touch pwned`b !touch pwned quote ' and") != std::string::npos);
 }
 
@@ -230,19 +217,15 @@ TEST_CASE("A picture has the size of its figure and no date: the same bytes at a
 TEST_CASE("gnuplot has nothing to say about any view", "[route]") {
   for (portraits::View view : portraits::views()) {
     for (double mu : {0.5, 0.001}) {
-      portraits::PortraitRequest request;
-      request.view = view;
-      const auto figure = portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, request));
-      std::string folder = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
-      REQUIRE(mkdtemp(folder.data()) != nullptr);
-      std::ofstream(fs::path(folder) / "figure.gp") << portraits::gnuplot_script(figure);
-      CHECK(std::system(("cd " + folder + " && gnuplot figure.gp >svg 2>messages").c_str()) == 0);
-      std::ifstream messages(fs::path(folder) / "messages");
+      const auto figure = portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, {.view = view}));
+      const portraits::TemporaryFolder folder;
+      std::ofstream(folder.path() / "figure.gp") << portraits::gnuplot_script(figure);
+      CHECK(std::system(("cd " + folder.path().string() + " && gnuplot figure.gp >svg 2>messages").c_str()) == 0);
+      std::ifstream messages(folder.path() / "messages");
       std::string words;
       std::getline(messages, words);
       CAPTURE(portraits::name(view), mu);
       CHECK(words == "");
-      fs::remove_all(folder);
     }
   }
 }

@@ -1,7 +1,5 @@
 #include "contensou/portraits/pgfplots.hpp"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -13,34 +11,35 @@
 
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "figures.hpp"
 
 using namespace contensou;
 using portraits::tex_text;
-namespace fs = std::filesystem;
 
 namespace {
 
 std::string document(portraits::View view) {
-  portraits::PortraitRequest request;
-  request.view = view;
-  return portraits::pgfplots(portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request)));
+  return portraits::pgfplots(portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, {.view = view})));
 }
 
 }  // namespace
 
 TEST_CASE("A figure's text is TeX's text", "[table]") {
-  CHECK(tex_text("plain") == "plain");
-  CHECK(tex_text("{/:Italic u} = {/:Italic R ω_z}") == "\\ensuremath{u} = \\ensuremath{R \\omega _{z}}");
-  CHECK(tex_text("10^{-3}") == "10\\ensuremath{^{-3}}");
-  CHECK(tex_text("{/*0.85 x}") == "x");
-  CHECK(tex_text("{/:Italic τ}*") == "\\ensuremath{\\tau }*");
-  CHECK(tex_text("{/:Italic τ*}") == "\\ensuremath{\\tau {*}}");
-  CHECK(tex_text("50 % & #1 $ a\\_b \\{c\\}") == "50 \\% \\& \\#1 \\$ a\\_b \\{c\\}");
-  CHECK(tex_text("\\\\input~") == "\\textbackslash{}input\\textasciitilde{}");
-  CHECK(tex_text("Poincaré → ∞") == "Poincaré \\ensuremath{\\to} \\ensuremath{\\infty}");
-  CHECK(tex_text("球") == "?");
-  CHECK(tex_text("{/:Italic") == "\\ensuremath{}");
-  CHECK(tex_text("") == "");
+  const std::pair<const char*, const char*> cases[]{
+      {"plain", "plain"},
+      {"{/:Italic u} = {/:Italic R ω_z}", "\\ensuremath{u} = \\ensuremath{R \\omega _{z}}"},
+      {"10^{-3}", "10\\ensuremath{^{-3}}"},
+      {"{/*0.85 x}", "x"},
+      {"{/:Italic τ}*", "\\ensuremath{\\tau }*"},
+      {"{/:Italic τ*}", "\\ensuremath{\\tau {*}}"},
+      {"50 % & #1 $ a\\_b \\{c\\}", "50 \\% \\& \\#1 \\$ a\\_b \\{c\\}"},
+      {"\\\\input~", "\\textbackslash{}input\\textasciitilde{}"},
+      {"Poincaré → ∞", "Poincaré \\ensuremath{\\to} \\ensuremath{\\infty}"},
+      {"球", "?"},
+      {"{/:Italic", "\\ensuremath{}"},
+      {"", ""},
+  };
+  for (const auto& [text, tex] : cases) CHECK(tex_text(text) == tex);
 }
 
 TEST_CASE("A document has as many closing braces as opening ones, and only finite numbers", "[invariant]") {
@@ -60,17 +59,15 @@ TEST_CASE("pdflatex compiles every view", "[route]") {
     WARN("skipped: pdflatex with pgfplots is not installed (Debian: texlive-pictures, texlive-latex-recommended)");
     return;
   }
-  std::string folder = (fs::temp_directory_path() / "contensou-test-XXXXXX").string();
-  REQUIRE(mkdtemp(folder.data()) != nullptr);
+  const portraits::TemporaryFolder folder;
   for (portraits::View view : portraits::views()) {
     CAPTURE(portraits::name(view));
-    std::ofstream(fs::path(folder) / "figure.tex") << document(view);
+    std::ofstream(folder.path() / "figure.tex") << document(view);
     const std::string run =
-        "cd " + folder + " && pdflatex -interaction=nonstopmode -halt-on-error figure.tex >out 2>&1";
+        "cd " + folder.path().string() + " && pdflatex -interaction=nonstopmode -halt-on-error figure.tex >out 2>&1";
     CHECK(std::system(run.c_str()) == 0);
-    std::ifstream log(fs::path(folder) / "out");
+    std::ifstream log(folder.path() / "out");
     const std::string words{std::istreambuf_iterator<char>(log), {}};
     CHECK(words.find("(1 page") != std::string::npos);
   }
-  fs::remove_all(folder);
 }

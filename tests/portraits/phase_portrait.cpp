@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -11,11 +12,15 @@
 #include "contensou/reduction/pade_law.hpp"
 
 using namespace contensou;
+using portraits::phase_portrait;
 using portraits::PhasePortrait;
 using portraits::PortraitOrbit;
+using portraits::PortraitRequest;
+using portraits::Window;
 using reduction::Flow;
 using reduction::Orbit;
 using reduction::ReducedSystem;
+using reduction::State;
 
 namespace {
 
@@ -32,7 +37,7 @@ void for_each_portrait(Check check) {
     for (double mu : patch_ratios) {
       CAPTURE(law.name(), mu);
       const ReducedSystem system(law, mu);
-      check(system, portraits::phase_portrait(system, {}));
+      check(system, phase_portrait(system, {}));
     }
   }
 }
@@ -77,7 +82,7 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
     const double U = portrait.window.u, V = portrait.window.v;
     // Distance across the flow from the left end of the right half of the border, integrated anew by midpoints.
     const auto across = [&](const PortraitOrbit& orbit) {
-      const auto share = [&](reduction::State at, bool top) {
+      const auto share = [&](State at, bool top) {
         const auto rate = system.field(at);
         const double du = rate.u / U, dv = rate.v / V;
         return std::abs(top ? dv : du) / std::hypot(du, dv);
@@ -129,19 +134,18 @@ TEST_CASE("Every point of an isochrone has its stop time and lies in the window"
 }
 
 TEST_CASE("Isochrones are at round multiples of the time unit, from the first to the corner of the window", "[table]") {
-  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
-  portraits::PortraitRequest request;
-  request.time_unit = 0.7;
-  const PhasePortrait portrait = portraits::phase_portrait(system, request);
-  const double first = portrait.isochrones.front().tau_stop / request.time_unit;
+  const Flow flow({reduction::PadeLaw{}, 0.3});
+  constexpr double unit = 0.7;
+  const PhasePortrait portrait = phase_portrait(flow, {.time_unit = unit});
+  const double first = portrait.isochrones.front().tau_stop / unit;
   const double mantissa = first / std::pow(10, std::floor(std::log10(first) + 1e-9));
   CAPTURE(first, mantissa);
   CHECK((mantissa == Approx(1) || mantissa == Approx(2) || mantissa == Approx(5)));
   for (const auto& isochrone : portrait.isochrones) {
-    const double multiple = isochrone.tau_stop / request.time_unit / first;
+    const double multiple = isochrone.tau_stop / unit / first;
     CHECK(multiple == Approx(std::round(multiple)));
   }
-  const double corner = Flow(system).orbit({portrait.window.u, portrait.window.v}).stop_time();
+  const double corner = flow.orbit({portrait.window.u, portrait.window.v}).stop_time();
   CHECK(portrait.isochrones.back().tau_stop > 0.7 * corner);
 }
 
@@ -150,10 +154,7 @@ TEST_CASE("The similarity solution and (2.7) in beta draw the same curves", "[ro
     for (double mu : {0.0035, 0.099, 0.3, 1.0}) {
       CAPTURE(law.name(), mu);
       const ReducedSystem system(law, mu);
-      portraits::PortraitRequest request;
-      const PhasePortrait similar = portraits::phase_portrait(system, request);
-      request.stepped = true;
-      const PhasePortrait stepped = portraits::phase_portrait(system, request);
+      const PhasePortrait similar = phase_portrait(system, {}), stepped = phase_portrait(system, {.stepped = true});
       REQUIRE(stepped.orbits.size() == similar.orbits.size());
       for (std::size_t i = 0; i < stepped.orbits.size(); i += 2) {
         const PortraitOrbit& orbit = stepped.orbits[i];
@@ -172,58 +173,43 @@ TEST_CASE("The similarity solution and (2.7) in beta draw the same curves", "[ro
 }
 
 TEST_CASE("The view follows mu: below 0.1 the plane alone shows a comb", "[table]") {
-  const auto view = [](double mu) { return portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, {}).view; };
+  const auto view = [](double mu) { return phase_portrait({{reduction::PadeLaw{}, mu}}, {}).view; };
   CHECK(view(0.3) == portraits::View::uv);
   CHECK(view(0.1) == portraits::View::uv);
   CHECK(view(0.099) == portraits::View::pair);
   CHECK(view(1e-6) == portraits::View::pair);
-  CHECK(portraits::name(portraits::View::uv) == "uv");
-  CHECK(portraits::name(portraits::View::pair) == "pair");
 }
 
 TEST_CASE("The order of contact with the axis v = 0 is that of the printed exponent", "[table]") {
   // k ~ u^(1/a), a = 5 mu^2/(14 - 5 mu^2)
   const double mu = 0.3;
-  const auto portrait = portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, {});
+  const auto portrait = phase_portrait({{reduction::PadeLaw{}, mu}}, {});
   CHECK(portrait.plane.tangents[0].contact_order == Approx((14 - 5 * mu * mu) / (5 * mu * mu)).epsilon(1e-14));
 }
 
 TEST_CASE("A window that is given is kept; a highlighted start lies in the window that is chosen", "[table]") {
-  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
-  portraits::PortraitRequest request;
-  request.window = portraits::Window{2, 0.5};
-  auto portrait = portraits::phase_portrait(system, request);
-  CHECK(portrait.window.u == 2);
-  CHECK(portrait.window.v == 0.5);
-  for (const reduction::State& start :
-       {reduction::State{-3, 0.2}, reduction::State{0, 2}, reduction::State{5, 0}, reduction::State{1e-140, 1e140}}) {
+  const Flow flow({reduction::PadeLaw{}, 0.3});
+  const Window kept = phase_portrait(flow, {.window = Window{2, 0.5}}).window;
+  CHECK((kept.u == 2 && kept.v == 0.5));
+  for (const State& start : {State{-3, 0.2}, State{0, 2}, State{5, 0}, State{1e-140, 1e140}}) {
     CAPTURE(start.u, start.v);
-    portraits::PortraitRequest of_start;
-    of_start.highlight = start;
-    portrait = portraits::phase_portrait(system, of_start);
+    const PhasePortrait portrait = phase_portrait(flow, {.highlight = start});
     CHECK(std::abs(start.u) < portrait.window.u);
     CHECK(start.v < portrait.window.v);
     REQUIRE(portrait.highlight);
     CHECK(portrait.highlight->u[0] == start.u);
     CHECK(portrait.highlight->v[0] == Approx(start.v).epsilon(1e-13));
-    CHECK(portrait.highlight->tau_left[0] == Approx(Flow(system).orbit(start).stop_time()).epsilon(1e-13));
+    CHECK(portrait.highlight->tau_left[0] == Approx(flow.orbit(start).stop_time()).epsilon(1e-13));
   }
-}
-
-TEST_CASE("Rest as a highlight is no motion and nothing is highlighted", "[limit]") {
-  portraits::PortraitRequest request;
-  request.highlight = reduction::State{0, 0};
-  CHECK_FALSE(portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request).highlight);
+  // Rest is no motion.
+  CHECK_FALSE(phase_portrait(flow, {.highlight = State{0, 0}}).highlight);
 }
 
 TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[invariant]") {
-  for (const portraits::Window window : {portraits::Window{1e5, 1e-5}, portraits::Window{1, 1e-12},
-                                         portraits::Window{1e-5, 1e5}, portraits::Window{1, 1}}) {
+  for (const Window window : {Window{1e5, 1e-5}, Window{1, 1e-12}, Window{1e-5, 1e5}, Window{1, 1}}) {
     for (double mu : {0.01, 0.3, 1.0}) {
       CAPTURE(mu, window.u, window.v);
-      portraits::PortraitRequest request;
-      request.window = window;
-      const PhasePortrait portrait = portraits::phase_portrait({{reduction::HertzLaw{}, mu}}, request);
+      const PhasePortrait portrait = phase_portrait({{reduction::HertzLaw{}, mu}}, {.window = window});
       double sharpest = 0;
       for (const PortraitOrbit& orbit : portrait.orbits) {
         for (Eigen::Index i = 1; i + 1 < orbit.u.size(); ++i) {
@@ -241,49 +227,48 @@ TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[in
 }
 
 TEST_CASE("What cannot be drawn is rejected", "[domain]") {
-  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
-  portraits::PortraitRequest request;
-  for (const portraits::Window window :
-       {portraits::Window{0, 1}, portraits::Window{1, -1}, portraits::Window{NAN, 1}, portraits::Window{1, INFINITY},
-        portraits::Window{1e308, 1e308}, portraits::Window{1e-320, 1}}) {
-    portraits::PortraitRequest bad;
-    bad.window = window;
-    CHECK_THROWS_AS(portraits::phase_portrait(system, bad), std::domain_error);
+  std::vector<PortraitRequest> bad{{.orbits_per_side = -1}, {.isochrones = -1}, {.highlight = State{1, -1}}};
+  for (const Window window :
+       {Window{0, 1}, Window{1, -1}, Window{NAN, 1}, Window{1, INFINITY}, Window{1e308, 1e308}, Window{1e-320, 1}}) {
+    bad.push_back({.window = window});
+  }
+  // On an axis, or outside the window.
+  for (const State point : {State{0, 1}, State{1, 0}, State{1.5, 0.5}, State{0.5, 1.5}}) {
+    bad.push_back({.window = Window{1, 1}, .through = {point}});
+  }
+  for (const PortraitRequest& request : bad) {
+    CHECK_THROWS_AS(phase_portrait({{reduction::PadeLaw{}, 0.3}}, request), std::domain_error);
   }
 }
 
 TEST_CASE("Views have names, and the names lead back", "[table]") {
-  CHECK(portraits::views().size() == 8);
+  std::set<std::string_view> names;
+  for (portraits::View view : portraits::views()) names.insert(portraits::name(view));
+  CHECK(names.size() == portraits::views().size());
+  CHECK(portraits::name(portraits::View::pair) == "pair");
   for (portraits::View view : portraits::views()) CHECK(portraits::find_view(portraits::name(view)) == view);
   CHECK_FALSE(portraits::find_view("vu"));
 }
 
 TEST_CASE("Numbers of orbits and isochrones are those asked for", "[table]") {
-  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
-  portraits::PortraitRequest request;
-  request.orbits_per_side = 5;
-  request.isochrones = 0;
-  CHECK(portraits::phase_portrait(system, request).orbits.size() == 10);
-  CHECK(portraits::phase_portrait(system, request).isochrones.empty());
-  request.orbits_per_side = 0;
-  request.isochrones = 20;
-  CHECK(portraits::phase_portrait(system, request).orbits.empty());
-  CHECK(portraits::phase_portrait(system, request).isochrones.size() >= 14);
-  request.orbits_per_side = -1;
-  CHECK_THROWS_AS(portraits::phase_portrait(system, request), std::domain_error);
+  const Flow flow({reduction::PadeLaw{}, 0.3});
+  const PhasePortrait few = phase_portrait(flow, {.orbits_per_side = 5, .isochrones = 0});
+  CHECK(few.orbits.size() == 10);
+  CHECK(few.isochrones.empty());
+  const PhasePortrait many = phase_portrait(flow, {.orbits_per_side = 0, .isochrones = 20});
+  CHECK(many.orbits.empty());
+  CHECK(many.isochrones.size() >= 14);
 }
 
 TEST_CASE("An orbit through a point begins on the border and passes through it", "[route]") {
   for (const reduction::Law& law : laws) {
     for (double mu : {0.01, 0.3, 1.0}) {
       const ReducedSystem system(law, mu);
-      portraits::PortraitRequest request;
-      request.window = portraits::Window{1, 3};
-      request.through = {{0.5, 0.2}, {-0.9, 2.9}, {0.3, 1e-3}};
-      const PhasePortrait portrait = portraits::phase_portrait(system, request);
-      REQUIRE(portrait.through.size() == request.through.size());
-      for (std::size_t i = 0; i < request.through.size(); ++i) {
-        const reduction::State point = request.through[i];
+      const std::vector<State> points{{0.5, 0.2}, {-0.9, 2.9}, {0.3, 1e-3}};
+      const PhasePortrait portrait = phase_portrait(system, {.window = Window{1, 3}, .through = points});
+      REQUIRE(portrait.through.size() == points.size());
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const State point = points[i];
         const PortraitOrbit& orbit = portrait.through[i];
         CAPTURE(law.name(), mu, point.u, point.v, orbit.u[0], orbit.v[0]);
         const double reach = std::max(std::abs(orbit.u[0]) / 1, orbit.v[0] / 3);
@@ -294,16 +279,6 @@ TEST_CASE("An orbit through a point begins on the border and passes through it",
         CHECK(there.v == Approx(point.v).epsilon(1e-10));
       }
     }
-  }
-}
-
-TEST_CASE("A point on an axis or outside the window is no orbit to draw", "[domain]") {
-  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
-  portraits::PortraitRequest request;
-  request.window = portraits::Window{1, 1};
-  for (reduction::State point : {reduction::State{0, 1}, {1, 0}, {1.5, 0.5}, {0.5, 1.5}}) {
-    request.through = {point};
-    CHECK_THROWS_AS(portraits::phase_portrait(system, request), std::domain_error);
   }
 }
 
@@ -329,30 +304,18 @@ TEST_CASE("The whole curve scaled is each orbit", "[symmetry]") {
   });
 }
 
-TEST_CASE("The profile is the stop time on the circle mu u = cos, v = sin", "[route]") {
-  for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
-    const auto& [ln_k, tau] = portrait.profile;
-    const auto flow = Flow::by_quadrature(system);
-    CHECK(tau[0] == Approx(system.pivoting_limit(1 / system.mu())).epsilon(1e-13));
-    CHECK(tau[tau.size() - 1] == Approx(system.sliding_limit(1)).epsilon(1e-13));
-    for (Eigen::Index i = 1; i + 1 < tau.size(); i += 40) {
-      const double angle = std::atan(std::exp(ln_k[i]));
-      const double stop = flow.orbit({std::cos(angle) / system.mu(), std::sin(angle)}).stop_time();
-      CHECK(tau[i] == Approx(stop).epsilon(1e-12));
-    }
-  });
-}
-
-TEST_CASE("Another law is drawn in the same window", "[table]") {
-  const ReducedSystem system(reduction::PadeLaw{}, 0.3);
-  portraits::PortraitRequest request;
-  request.against = reduction::HertzLaw{};
-  const PhasePortrait both = portraits::phase_portrait(system, request);
-  REQUIRE(both.against.size() == 1);
-  CHECK(both.against[0].system.law().name() == "exact");
-  request.window = both.window;
-  request.against.reset();
-  const PhasePortrait alone = portraits::phase_portrait({{reduction::HertzLaw{}, 0.3}}, request);
-  REQUIRE(both.against[0].orbits.size() == alone.orbits.size());
-  CHECK((both.against[0].orbits[4].v == alone.orbits[4].v).all());
+TEST_CASE("Another law is drawn in the same window, with isochrones of the same times", "[table]") {
+  const PhasePortrait both = phase_portrait({{reduction::PadeLaw{}, 0.3}}, {.comparison = reduction::HertzLaw{}});
+  REQUIRE(both.comparisons.size() == 1);
+  const PhasePortrait& other = both.comparisons[0];
+  CHECK(other.system().law().name() == "exact");
+  const PhasePortrait alone = phase_portrait({{reduction::HertzLaw{}, 0.3}}, {.window = both.window});
+  REQUIRE(other.orbits.size() == alone.orbits.size());
+  CHECK((other.orbits[4].v == alone.orbits[4].v).all());
+  const auto times = [](const PhasePortrait& portrait) {
+    std::set<double> result;
+    for (const auto& isochrone : portrait.isochrones) result.insert(isochrone.tau_stop);
+    return result;
+  };
+  CHECK(times(other) == times(both));
 }

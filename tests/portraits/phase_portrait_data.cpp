@@ -1,5 +1,3 @@
-#include "contensou/portraits/phase_portrait_data.hpp"
-
 #include <map>
 #include <sstream>
 #include <string>
@@ -8,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 
@@ -16,11 +15,9 @@ using namespace contensou;
 namespace {
 
 portraits::PhasePortrait sample() {
-  portraits::PortraitRequest request;
-  request.highlight = reduction::State{-1, 2};
-  request.through = {{0.5, 1}, {0.25, 1}};
-  request.against = reduction::HertzLaw{};
-  return portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request);
+  return portraits::phase_portrait(
+      {{reduction::PadeLaw{}, 0.3}},
+      {.highlight = reduction::State{-1, 2}, .through = {{0.5, 1}, {0.25, 1}}, .comparison = reduction::HertzLaw{}});
 }
 
 std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
@@ -47,7 +44,7 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
   CHECK(json["through"].size() == 2);
   CHECK(json["through"][1]["u"].get<std::vector<double>>() == list(portrait.through[1].u));
   CHECK(json["against"]["law"] == "exact");
-  CHECK(json["against"]["orbits"][3]["v"].get<std::vector<double>>() == list(portrait.against[0].orbits[3].v));
+  CHECK(json["against"]["orbits"][3]["v"].get<std::vector<double>>() == list(portrait.comparisons[0].orbits[3].v));
   CHECK(portraits::to_json(portrait).find("null") == std::string::npos);
 }
 
@@ -63,8 +60,8 @@ TEST_CASE("CSV has one row for each point", "[table]") {
   for (const auto& orbit : portrait.orbits) wanted["orbit"] += orbit.u.size();
   for (const auto& isochrone : portrait.isochrones) wanted["isochrone"] += isochrone.u.size();
   for (const auto& orbit : portrait.through) wanted["through"] += orbit.u.size();
-  for (const auto& orbit : portrait.against[0].orbits) wanted["against_orbit"] += orbit.u.size();
-  for (const auto& isochrone : portrait.against[0].isochrones) wanted["against_isochrone"] += isochrone.u.size();
+  for (const auto& orbit : portrait.comparisons[0].orbits) wanted["against_orbit"] += orbit.u.size();
+  for (const auto& isochrone : portrait.comparisons[0].isochrones) wanted["against_isochrone"] += isochrone.u.size();
   wanted["highlight"] = portrait.highlight->u.size();
   CHECK(rows == wanted);
 }

@@ -17,32 +17,28 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
+#include "figures.hpp"
 
 using namespace contensou;
 using portraits::Figure;
+using portraits::inside;
+using portraits::layer;
 using portraits::Panel;
+using portraits::PortraitRequest;
+using portraits::PortraitStyle;
 using portraits::View;
+using reduction::State;
 
 namespace {
 
-portraits::PhasePortrait portrait_of(double mu, std::optional<View> view = {},
-                                     std::optional<reduction::State> highlight = {}) {
-  portraits::PortraitRequest request;
-  request.view = view;
-  request.highlight = highlight;
+portraits::PhasePortrait portrait_of(double mu, const PortraitRequest& request = {}) {
   return portraits::phase_portrait({{reduction::HertzLaw{}, mu}}, request);
 }
 
-Figure figure_of(double mu, std::optional<View> view = {}, std::optional<reduction::State> highlight = {}) {
-  return portraits::draw(portrait_of(mu, view, highlight));
-}
+Figure figure_of(double mu, const PortraitRequest& request = {}) { return draw(portrait_of(mu, request)); }
 
 /// One layer for all orbits.
-portraits::PortraitStyle plain() {
-  portraits::PortraitStyle style;
-  style.colour_by_time = false;
-  return style;
-}
+const PortraitStyle plain{.colour_by_time = false};
 
 /// The lines that are orbits: all that are not in the legend.
 std::vector<portraits::Polyline> coloured(const Panel& panel) {
@@ -55,9 +51,7 @@ std::vector<portraits::Polyline> coloured(const Panel& panel) {
 
 double length(const Panel& panel, const std::vector<portraits::Polyline>& lines) {
   double sum = 0;
-  for (const auto& line : lines) {
-    for (std::size_t i = 1; i < line.size(); ++i) sum += portraits::paper_distance(panel, line[i - 1], line[i]);
-  }
+  for (const auto& line : lines) sum += portraits::paper_length(panel, line);
   return sum;
 }
 
@@ -73,24 +67,13 @@ class Clock {
 
 const std::vector<double> patch_ratios{1.0, 0.3, 0.01, 0.001};
 
-const portraits::Lines& layer(const Panel& panel, const std::string& legend) {
-  const auto found =
-      std::ranges::find_if(panel.lines, [&](const auto& lines) { return lines.legend.starts_with(legend); });
-  REQUIRE(found != panel.lines.end());
-  return *found;
-}
-
-bool inside(const Panel& panel, portraits::Point point) {
-  return point.x >= panel.x.low && point.x <= panel.x.high && point.y >= panel.y.low && point.y <= panel.y.high;
-}
-
 }  // namespace
 
 TEST_CASE("Every view at every patch ratio: drawn, finite within its axes, with names and a title", "[invariant]") {
   for (double mu : patch_ratios) {
     for (View view : portraits::views()) {
       CAPTURE(mu, portraits::name(view));
-      const Figure figure = figure_of(mu, view, reduction::State{1, 0.8});
+      const Figure figure = figure_of(mu, {.view = view, .highlight = State{1, 0.8}});
       CHECK_FALSE(figure.title.empty());
       CHECK_FALSE(figure.subtitle.empty());
       for (const Panel& panel : figure.panels) {
@@ -115,7 +98,7 @@ TEST_CASE("Every view at every patch ratio: drawn, finite within its axes, with 
 TEST_CASE("Seen lines are smooth: no two pieces of an orbit meet at a sharp angle on paper", "[invariant]") {
   for (double mu : patch_ratios) {
     for (View view : {View::log, View::similarity, View::blowup, View::disc, View::patch}) {
-      const Figure figure = portraits::draw(portrait_of(mu, view), {}, plain());
+      const Figure figure = draw(portrait_of(mu, {.view = view}), {}, plain);
       for (const Panel& panel : figure.panels) {
         double sharpest = 0;
         for (const auto& line : layer(panel, "orbits").lines) {
@@ -141,7 +124,7 @@ TEST_CASE("The plane shows orbits, isochrones and both invariant axes, each in t
   for (double mu : {0.3, 0.099, 0.0035}) {
     CAPTURE(mu);
     const auto portrait = portrait_of(mu);
-    const Panel panel = portraits::draw(portrait, {}, plain()).panels.front();
+    const Panel panel = draw(portrait, {}, plain).panels.front();
     CHECK(layer(panel, "orbits").lines.size() == portrait.orbits.size());
     CHECK(layer(panel, "time left").lines.size() >= 4);
     const auto& axes = layer(panel, "invariant axes").lines;
@@ -154,9 +137,9 @@ TEST_CASE("The plane shows orbits, isochrones and both invariant axes, each in t
 TEST_CASE("Colours by time cut orbits into pieces and lose none", "[invariant]") {
   for (double mu : {0.3, 0.05}) {
     const auto portrait = portrait_of(mu);
-    const Figure figure = portraits::draw(portrait);
+    const Figure figure = draw(portrait);
     const Panel& panel = figure.panels.front();
-    const auto whole = layer(portraits::draw(portrait, {}, plain()).panels.front(), "orbits").lines;
+    const auto whole = layer(draw(portrait, {}, plain).panels.front(), "orbits").lines;
     CHECK(length(panel, coloured(panel)) == Approx(length(panel, whole)).epsilon(1e-9));
     REQUIRE(figure.colour_bar);
     // As many colours as bands, from dark to light: legible in grey.
@@ -173,10 +156,10 @@ TEST_CASE("Colours by time cut orbits into pieces and lose none", "[invariant]")
 
 TEST_CASE("A piece has the colour of the time left on it", "[route]") {
   const auto portrait = portrait_of(0.3);
-  const Figure figure = portraits::draw(portrait);
+  const Figure figure = draw(portrait);
   const Panel& panel = figure.panels.front();
   const double step = portrait.isochrones.front().tau_stop / 3;
-  const Clock clock(portrait.system);
+  const Clock clock(portrait.system());
   for (const auto& layer : panel.lines) {
     if (!layer.legend.empty()) continue;
     const auto band = std::ranges::find(figure.colour_bar->colours, layer.stroke.colour.rgb, &portraits::Colour::rgb) -
@@ -195,7 +178,7 @@ TEST_CASE("A piece has the colour of the time left on it", "[route]") {
 TEST_CASE("Arrows point the way of the motion, and lie where equal times are left", "[invariant]") {
   for (double mu : {0.3, 0.099, 0.0035}) {
     const auto portrait = portrait_of(mu);
-    const Figure figure = portraits::draw(portrait);
+    const Figure figure = draw(portrait);
     for (const Panel& panel : figure.panels) {
       std::size_t count = 0;
       for (const auto& arrows : panel.arrows) {
@@ -209,7 +192,7 @@ TEST_CASE("Arrows point the way of the motion, and lie where equal times are lef
       CHECK(count > 20);
     }
     const double step = portrait.isochrones.front().tau_stop;
-    const Clock clock(portrait.system);
+    const Clock clock(portrait.system());
     for (const auto& arrows : figure.panels.front().arrows) {
       for (const auto& arrow : arrows.arrows) {
         const double tau = clock(arrow.at);
@@ -217,26 +200,24 @@ TEST_CASE("Arrows point the way of the motion, and lie where equal times are lef
       }
     }
   }
-  const auto heads = [](portraits::PortraitStyle::Arrows arrows) {
-    portraits::PortraitStyle style;
-    style.arrows = arrows;
-    const Figure figure = portraits::draw(portrait_of(0.3), {}, style);
+  const auto heads = [](PortraitStyle::Arrows arrows) {
+    const Panel panel = draw(portrait_of(0.3), {}, {.arrows = arrows}).panels[0];
     std::size_t count = 0;
-    for (const auto& layer : figure.panels[0].arrows) count += layer.arrows.size();
+    for (const auto& layer : panel.arrows) count += layer.arrows.size();
     return count;
   };
-  CHECK(heads(portraits::PortraitStyle::Arrows::none) == 0);
-  CHECK(heads(portraits::PortraitStyle::Arrows::one) <= 24);
-  CHECK(heads(portraits::PortraitStyle::Arrows::one) >= 20);
+  CHECK(heads(PortraitStyle::Arrows::none) == 0);
+  CHECK(heads(PortraitStyle::Arrows::one) <= 24);
+  CHECK(heads(PortraitStyle::Arrows::one) >= 20);
 }
 
 TEST_CASE("Isochrones are labelled, inside the panel, and no label touches an orbit or a label", "[invariant]") {
   for (double mu : {1.0, 0.5, 0.3, 0.2, 0.099, 0.01, 0.0035}) {
     CAPTURE(mu);
     const auto portrait = portrait_of(mu);
-    const Panel panel = portraits::draw(portrait).panels.front();
+    const Panel panel = draw(portrait).panels.front();
     CHECK(panel.labels.size() >= 3);
-    const auto orbits = layer(portraits::draw(portrait, {}, plain()).panels.front(), "orbits").lines;
+    const auto orbits = layer(draw(portrait, {}, plain).panels.front(), "orbits").lines;
     for (const auto& label : panel.labels) {
       CAPTURE(label.text);
       CHECK(inside(panel, label.at));
@@ -258,8 +239,8 @@ TEST_CASE("Isochrones are labelled, inside the panel, and no label touches an or
 TEST_CASE("What is drawn as an isochrone has the stop time that its label says", "[route]") {
   for (double mu : {0.3, 0.01}) {
     const auto portrait = portrait_of(mu);
-    const Panel panel = portraits::draw(portrait).panels.front();
-    const Clock clock(portrait.system);
+    const Panel panel = draw(portrait).panels.front();
+    const Clock clock(portrait.system());
     for (const auto& line : layer(panel, "time left").lines) {
       const double step = portrait.isochrones.front().tau_stop;
       for (const auto& point : line) {
@@ -278,7 +259,7 @@ TEST_CASE("Small mu gets a second panel in ln k, filled to its corners", "[invar
   CHECK(figure_of(0.3).panels.size() == 1);
   for (double mu : {0.099, 0.0035, 1e-6}) {
     CAPTURE(mu);
-    const Figure figure = portraits::draw(portrait_of(mu), {}, plain());
+    const Figure figure = draw(portrait_of(mu), {}, plain);
     REQUIRE(figure.panels.size() == 2);
     const Panel& panel = figure.panels[1];
     double lowest_start = panel.y.high;
@@ -293,7 +274,7 @@ TEST_CASE("Small mu gets a second panel in ln k, filled to its corners", "[invar
 }
 
 TEST_CASE("In (ln k, p) orbits are translates of one curve along p", "[symmetry]") {
-  const Figure figure = portraits::draw(portrait_of(0.3, View::similarity), {}, plain());
+  const Figure figure = draw(portrait_of(0.3, {.view = View::similarity}), {}, plain);
   REQUIRE(figure.panels.size() == 2);
   const auto& lines = layer(figure.panels[1], "orbits").lines;
   REQUIRE(lines.size() > 10);
@@ -315,11 +296,9 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
   };
   for (const auto& [law, gamma] : {Case{*reduction::find_law("uniform"), 3.9}, Case{*reduction::find_law("uniform"), 2},
                                    Case{reduction::PadeLaw{}, 2.5}}) {
-    portraits::PortraitRequest request;
-    request.view = View::similarity;
-    const auto portrait = portraits::phase_portrait({{law, 1, {.chi = 1, .gamma = gamma}}}, request);
+    const auto portrait = portraits::phase_portrait({{law, 1, {.chi = 1, .gamma = gamma}}}, {.view = View::similarity});
     REQUIRE(portrait.plane.tangents[0].direction == reduction::InvariantDirection::ray);
-    const Panel panel = portraits::draw(portrait, {}, plain()).panels.at(1);
+    const Panel panel = draw(portrait, {}, plain).panels.at(1);
     // In eighths of the panel's width: the ray is in the middle.
     std::map<int, int> lines;
     for (const auto& line : layer(panel, "orbits").lines) {
@@ -339,8 +318,8 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
 }
 
 TEST_CASE("The disc holds everything; its singular points are those of the plane", "[table]") {
-  const auto portrait = portrait_of(0.3, View::disc);
-  const Panel panel = portraits::draw(portrait, {}, plain()).panels.front();
+  const auto portrait = portrait_of(0.3, {.view = View::disc});
+  const Panel panel = draw(portrait, {}, plain).panels.front();
   CHECK(panel.to_scale);
   for (const auto& line : layer(panel, "orbits").lines) {
     for (const auto& point : line) CHECK(std::hypot(point.x, point.y) < 1 + 1e-12);
@@ -360,8 +339,8 @@ TEST_CASE("The disc holds everything; its singular points are those of the plane
 }
 
 TEST_CASE("The blown-up origin is a circle of its own, with a node and a saddle", "[table]") {
-  const auto portrait = portrait_of(0.3, View::blowup);
-  const Figure figure = portraits::draw(portrait, {}, plain());
+  const auto portrait = portrait_of(0.3, {.view = View::blowup});
+  const Figure figure = draw(portrait, {}, plain);
   REQUIRE(figure.panels.size() == 2);
   const Panel& panel = figure.panels.front();
   double hole = 1;
@@ -382,7 +361,7 @@ TEST_CASE("The blown-up origin is a circle of its own, with a node and a saddle"
 
 TEST_CASE("Against time both speeds fall from 1 to 0, and k starts where its legend says", "[invariant]") {
   for (double mu : {0.5, 0.01}) {
-    const Figure figure = figure_of(mu, View::time);
+    const Figure figure = figure_of(mu, {.view = View::time});
     REQUIRE(figure.panels.size() == 3);
     for (int i : {0, 1}) {
       REQUIRE(figure.panels[i].lines.size() == 5);
@@ -405,17 +384,15 @@ TEST_CASE("Against time both speeds fall from 1 to 0, and k starts where its leg
 }
 
 TEST_CASE("The field points along the motion, and its needles lengthen with the speed", "[route]") {
-  const auto portrait = portrait_of(0.5, View::uv);
-  portraits::PortraitStyle style;
-  for (auto field : {portraits::PortraitStyle::Field::motion, portraits::PortraitStyle::Field::regularised}) {
-    style.field = field;
-    const Panel panel = portraits::draw(portrait, {}, style).panels.front();
+  const auto portrait = portrait_of(0.5, {.view = View::uv});
+  for (auto field : {PortraitStyle::Field::motion, PortraitStyle::Field::regularised}) {
+    const Panel panel = draw(portrait, {}, {.field = field}).panels.front();
     const auto& needles = layer(panel, "direction of").lines;
     CHECK(needles.size() > 300);
     double shortest = 1, longest = 0;
     for (const auto& needle : needles) {
       REQUIRE(needle.size() == 2);
-      const auto rate = portrait.system.field({(needle[0].x + needle[1].x) / 2, (needle[0].y + needle[1].y) / 2});
+      const auto rate = portrait.system().field({(needle[0].x + needle[1].x) / 2, (needle[0].y + needle[1].y) / 2});
       const double dx = needle[1].x - needle[0].x, dy = needle[1].y - needle[0].y;
       CHECK(std::abs(dx * rate.v - dy * rate.u) < 1e-3 * std::hypot(dx, dy) * std::hypot(rate.u, rate.v));
       CHECK(dx * rate.u + dy * rate.v > 0);
@@ -432,21 +409,18 @@ TEST_CASE("Every panel of every view draws the other law too", "[invariant]") {
   // The puck's orbits end on a ray under the first law, along the axis u = 0 under the other.
   const reduction::ReducedSystem ball(reduction::HertzLaw{}, 0.3),
       puck(PressureLaw::uniform(), 1, {.chi = 1, .gamma = 2});
-  for (const auto& [system, rival] : {std::pair<reduction::ReducedSystem, reduction::Law>{ball, reduction::PadeLaw{}},
+  for (const auto& [system, other] : {std::pair<reduction::ReducedSystem, reduction::Law>{ball, reduction::PadeLaw{}},
                                       std::pair<reduction::ReducedSystem, reduction::Law>{puck, PressureLaw::ring()}}) {
-    portraits::PortraitRequest request;
-    request.against = rival;
     for (View view : portraits::views()) {
-      request.view = view;
-      const Figure figure = portraits::draw(portraits::phase_portrait(system, request));
+      const Figure figure = draw(portraits::phase_portrait(system, {.view = view, .comparison = other}));
       for (const Panel& panel : figure.panels) {
-        INFO(portraits::name(view) << ", law " << rival.name() << ", " << panel.title);
-        const portraits::Lines& lines = layer(panel, "law " + rival.name());
+        INFO(portraits::name(view) << ", law " << other.name() << ", " << panel.title);
+        const portraits::Lines& lines = layer(panel, "law " + other.name());
         CHECK(lines.stroke.dashed);
         std::size_t seen = 0;
-        for (const auto& other : panel.lines) {
-          if (other.legend != lines.legend) continue;
-          for (const auto& line : other.lines) seen += portraits::clipped(panel, line).size();
+        for (const auto& same : panel.lines) {
+          if (same.legend != lines.legend) continue;
+          for (const auto& line : same.lines) seen += portraits::clipped(panel, line).size();
         }
         CHECK(seen >= 5);
       }
@@ -456,21 +430,16 @@ TEST_CASE("Every panel of every view draws the other law too", "[invariant]") {
 
 TEST_CASE("A portrait without what its view does not draw is the same drawing", "[route]") {
   for (View view : portraits::views()) {
-    portraits::PortraitRequest request;
-    request.view = view;
-    request.through = {{0.3, 0.5}};
-    const reduction::ReducedSystem system(reduction::HertzLaw{}, 0.3);
-    const std::string whole = portraits::pgfplots(portraits::draw(portraits::phase_portrait(system, request)));
-    request.drawn_only = true;
-    CHECK(portraits::pgfplots(portraits::draw(portraits::phase_portrait(system, request))) == whole);
+    const auto drawing = [&](bool drawn_only) {
+      return portraits::pgfplots(figure_of(0.3, {.view = view, .through = {{0.3, 0.5}}, .drawn_only = drawn_only}));
+    };
+    CHECK(drawing(true) == drawing(false));
   }
 }
 
 TEST_CASE("Two laws in one figure: each its look, and no colours of time", "[table]") {
-  portraits::PortraitRequest request;
-  request.against = reduction::HertzLaw{};
-  const auto portrait = portraits::phase_portrait({{reduction::PadeLaw{}, 0.5}}, request);
-  const Figure figure = portraits::draw(portrait);
+  const Figure figure =
+      draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.5}}, {.comparison = reduction::HertzLaw{}}));
   CHECK_FALSE(figure.colour_bar);
   CHECK_FALSE(layer(figure.panels[0], "law pade").stroke.dashed);
   CHECK(layer(figure.panels[0], "law exact").stroke.dashed);
@@ -481,19 +450,16 @@ TEST_CASE("Two laws in one figure: each its look, and no colours of time", "[tab
 
 TEST_CASE("A highlighted orbit is marked at its start, and points asked for have their orbit", "[table]") {
   for (double sign : {1.0, -1.0}) {
-    const Panel panel = figure_of(0.3, {}, reduction::State{sign, 2}).panels.front();
+    const Panel panel = figure_of(0.3, {.highlight = State{sign, 2}}).panels.front();
     REQUIRE(panel.marks.size() == 1);
     CHECK(panel.marks[0].points[0].x == sign);
   }
-  portraits::PortraitRequest request;
-  request.through = {{0.5, 1}, {-0.5, 2}};
-  const auto figure = portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request));
-  CHECK(layer(figure.panels[0], "through").lines.size() == 2);
+  CHECK(layer(figure_of(0.3, {.through = {{0.5, 1}, {-0.5, 2}}}).panels[0], "through").lines.size() == 2);
 }
 
 TEST_CASE("An orbit stays on its side of the blown-up origin to the end", "[invariant]") {
   for (double sign : {1.0, -1.0}) {
-    const Panel panel = figure_of(0.3, View::blowup, reduction::State{sign * 0.5, 2}).panels.front();
+    const Panel panel = figure_of(0.3, {.view = View::blowup, .highlight = State{sign * 0.5, 2}}).panels.front();
     REQUIRE(panel.marks.size() > 1);
     std::size_t found = 0;
     for (const auto& lines : panel.lines) {
@@ -509,10 +475,7 @@ TEST_CASE("An orbit stays on its side of the blown-up origin to the end", "[inva
 
 TEST_CASE("Times keep off the orbits that were asked for", "[invariant]") {
   for (double u : {0.2, 0.4, 0.6, 0.7, 0.8, 0.9}) {
-    portraits::PortraitRequest request;
-    request.window = portraits::Window{1, 4};
-    request.through = {{u, 3.5}};
-    const Panel panel = portraits::draw(portraits::phase_portrait({{reduction::HertzLaw{}, 0.3}}, request)).panels[0];
+    const Panel panel = figure_of(0.3, {.window = portraits::Window{1, 4}, .through = {{u, 3.5}}}).panels[0];
     REQUIRE(panel.labels.size() >= 4);
     for (const auto& label : panel.labels) {
       for (const auto& point : layer(panel, "through").lines.front()) {
@@ -524,12 +487,8 @@ TEST_CASE("Times keep off the orbits that were asked for", "[invariant]") {
 }
 
 TEST_CASE("Size, axes and the screen style are as asked", "[table]") {
-  portraits::PortraitStyle style;
-  style.width_mm = 100;
-  style.height_mm = 80;
-  style.screen = true;
-  style.invariant = false;
-  const Figure figure = portraits::draw(portrait_of(0.3), {}, style);
+  const Figure figure =
+      draw(portrait_of(0.3), {}, {.invariant = false, .screen = true, .width_mm = 100, .height_mm = 80});
   CHECK(figure.width_mm == 100);
   CHECK(figure.height_mm == 80);
   CHECK(figure.theme.ground.rgb < 0x303030);
@@ -538,15 +497,8 @@ TEST_CASE("Size, axes and the screen style are as asked", "[table]") {
 }
 
 TEST_CASE("Captions replace title, units and the unit of the labels", "[table]") {
-  portraits::PortraitRequest request;
-  request.time_unit = 4;
-  const auto portrait = portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, request);
-  portraits::PortraitCaption caption;
-  caption.title = "A ball";
-  caption.speed_unit = "m/s";
-  caption.time_unit = 4;
-  caption.time_unit_name = "s";
-  const Figure figure = portraits::draw(portrait, caption);
+  const Figure figure = draw(portrait_of(0.3, {.time_unit = 4}),
+                             {.title = "A ball", .speed_unit = "m/s", .time_unit_name = "s", .time_unit = 4});
   CHECK(figure.title == "A ball");
   CHECK(figure.panels[0].y.name.ends_with("m/s"));
   CHECK(layer(figure.panels[0], "time left").legend.ends_with(", s"));

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/portraits/gnuplot.hpp"
+#include "figures.hpp"
 
 using namespace contensou::portraits;
 
@@ -24,10 +25,6 @@ RollCurve curve(double push, double last) {
   c.speed = (1 + (push * slides).square()).sqrt();
   c.rolls = 1;
   return c;
-}
-
-bool inside(const Panel& panel, const Point& point) {
-  return point.x >= panel.x.low && point.x <= panel.x.high && point.y >= panel.y.low && point.y <= panel.y.high;
 }
 
 }  // namespace

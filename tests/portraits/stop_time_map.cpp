@@ -1,31 +1,43 @@
 #include "contensou/portraits/stop_time_map.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
+#include <string>
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/flow.hpp"
+#include "contensou/portraits/gnuplot.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/stop_time_table.hpp"
+#include "figures.hpp"
 
 using namespace contensou;
-using portraits::MapAxes;
-using portraits::StopTimeMap;
+using namespace contensou::portraits;
+using reduction::Flow;
 
 namespace {
 
 Eigen::ArrayXd even(Eigen::Index count, double low, double high) { return Eigen::ArrayXd::LinSpaced(count, low, high); }
 
-StopTimeMap map_of(const reduction::Law& law, double mu, const MapAxes& axes) {
-  return portraits::stop_time_map(reduction::StopTimeTable(reduction::ReducedSystem(law, mu)), axes);
+/// From 10^low to 10^high.
+Eigen::ArrayXd decades(Eigen::Index count, double low, double high) {
+  return (even(count, low, high) * std::numbers::ln10).exp();
 }
+
+StopTimeMap map_of(double mu, const MapAxes& axes) { return stop_time_map({{reduction::PadeLaw{}, mu}}, axes); }
+
+Figure figure_of(double mu, const MapAxes& axes) { return draw(map_of(mu, axes)); }
+Figure linear() { return figure_of(0.3, {even(101, -2, 2), even(101, 0, 3)}); }
+Figure logarithmic() { return figure_of(0.1, {decades(101, -2, 2), decades(101, -3, 2), true}); }
 
 }  // namespace
 
 TEST_CASE("A map has a row for each v0 and a column for each u0", "[route]") {
-  const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
-  const StopTimeMap map = map_of(flow.system().law(), 0.3, {even(7, -1, 2), even(3, 0, 4)});
+  const Flow flow({reduction::HertzLaw{}, 0.3});
+  const StopTimeMap map = stop_time_map(flow, {even(7, -1, 2), even(3, 0, 4)});
   REQUIRE(map.tau.rows() == 3);
   REQUIRE(map.tau.cols() == 7);
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -42,9 +54,9 @@ TEST_CASE("Every point of an isochrone stops at its time, and lies in the map", 
     for (const MapAxes& axes :
          {MapAxes{even(5, -2, 2), even(5, 0, 3), false}, MapAxes{even(5, 1, 2), even(5, 1, 3), false},
           MapAxes{even(5, -4, -1), even(5, 0, 3), false}, MapAxes{even(5, 1e-3, 2), even(5, 1e-5, 30), true}}) {
-      const StopTimeMap map = map_of(reduction::PadeLaw{}, mu, axes);
+      const StopTimeMap map = stop_time_map(flow, axes);
       CHECK(map.isochrones.size() >= 3);
-      for (const portraits::Isochrone& isochrone : map.isochrones) {
+      for (const Isochrone& isochrone : map.isochrones) {
         for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
           const double u = isochrone.u[i], v = isochrone.v[i];
           CHECK(flow.stop_time({u, v}).tau == Approx(isochrone.tau_stop).epsilon(1e-12));
@@ -56,8 +68,8 @@ TEST_CASE("Every point of an isochrone stops at its time, and lies in the map", 
 }
 
 TEST_CASE("An isochrone runs from border to border", "[limit]") {
-  const StopTimeMap map = map_of(reduction::PadeLaw{}, 0.5, {even(3, -2, 2), even(3, 0, 3)});
-  for (const portraits::Isochrone& isochrone : map.isochrones) {
+  const StopTimeMap map = map_of(0.5, {even(3, -2, 2), even(3, 0, 3)});
+  for (const Isochrone& isochrone : map.isochrones) {
     for (const Eigen::Index end : {Eigen::Index{0}, isochrone.u.size() - 1}) {
       const double u = isochrone.u[end], v = isochrone.v[end];
       const double gap = std::min({2 - std::abs(u), v, 3 - v});
@@ -71,25 +83,23 @@ TEST_CASE("An isochrone runs from border to border", "[limit]") {
 }
 
 TEST_CASE("Isochrones are at round times", "[table]") {
-  std::vector<double> times;
+  const auto times = [](const MapAxes& axes) {
+    std::vector<double> result;
+    for (const Isochrone& isochrone : map_of(0.32, axes).isochrones) result.push_back(isochrone.tau_stop);
+    return result;
+  };
   // From 0 to 16 * 1/(5 * 0.32) = 10.
-  for (const auto& isochrone : map_of(reduction::PadeLaw{}, 0.32, {even(3, 0, 1), even(2, 0, 1e-3)}).isochrones) {
-    times.push_back(isochrone.tau_stop);
-  }
-  CHECK(times == std::vector<double>{2, 4, 6, 8, 10});
-  times.clear();
-  const MapAxes wide{even(2, 1e-3, 1), even(2, 1e-9, 1e-6), true};
-  for (const auto& isochrone : map_of(reduction::PadeLaw{}, 0.32, wide).isochrones) times.push_back(isochrone.tau_stop);
-  REQUIRE(times.size() == 9);
-  CHECK(times[0] == Approx(0.02));
-  CHECK(times[1] == Approx(0.05));
-  CHECK(times[8] == Approx(10));
+  CHECK(times({even(3, 0, 1), even(2, 0, 1e-3)}) == std::vector<double>{2, 4, 6, 8, 10});
+  const std::vector<double> wide = times({even(2, 1e-3, 1), even(2, 1e-9, 1e-6), true});
+  REQUIRE(wide.size() == 9);
+  CHECK(wide[0] == Approx(0.02));
+  CHECK(wide[1] == Approx(0.05));
+  CHECK(wide[8] == Approx(10));
 }
 
 TEST_CASE("A map that cannot be drawn is refused", "[domain]") {
   const auto refused = [](const MapAxes& axes, const std::string& word) {
-    CHECK_THROWS_WITH(map_of(reduction::PadeLaw{}, 0.3, axes),
-                      Catch::Contains("stop_time_map: ") && Catch::Contains(word));
+    CHECK_THROWS_WITH(map_of(0.3, axes), Catch::Contains("stop_time_map: ") && Catch::Contains(word));
   };
   refused({even(1, 1, 1), even(2, 0, 1)}, "u0 needs two values or more, got 1");
   refused({even(2, 0, 1), even(1, 1, 1)}, "v0 needs two values or more, got 1");
@@ -98,6 +108,81 @@ TEST_CASE("A map that cannot be drawn is refused", "[domain]") {
   refused({even(3, 0, 1), even(2, 1, 2), true}, "u0 must be > 0 on logarithmic axes, got 0");
   refused({even(3, 0, 1e101), even(2, 1, 2)}, "u0 from 0 to 1e+101 cannot be drawn");
   refused({even(3, 0, 1e-101), even(2, 1, 2)}, "u0 from 0 to 1e-101 cannot be drawn");
-  CHECK_THROWS_WITH(map_of(reduction::PadeLaw{}, 1e-300, {even(2, 0, 1e99), even(2, 0, 1)}),
-                    Catch::Contains("beyond the largest double"));
+  CHECK_THROWS_WITH(map_of(1e-300, {even(2, 0, 1e99), even(2, 0, 1)}), Catch::Contains("beyond the largest double"));
+}
+
+TEST_CASE("The colours of a map are its stop times, from the lower left", "[table]") {
+  for (const Figure& figure : {linear(), logarithmic()}) {
+    const Panel& panel = figure.panels.at(0);
+    REQUIRE(panel.colours);
+    const ColourMap& colours = *panel.colours;
+    const std::size_t rows = colours.values.size() / colours.columns;
+    const auto at = [](const Axis& axis, double share) {
+      return axis.logarithmic ? axis.low * std::pow(axis.high / axis.low, share)
+                              : axis.low + share * (axis.high - axis.low);
+    };
+    const Flow flow({reduction::PadeLaw{}, panel.x.logarithmic ? 0.1 : 0.3});
+    double worst = 0;
+    for (std::size_t i = 0; i < rows; i += 7) {
+      for (std::size_t j = 0; j < colours.columns; j += 7) {
+        const double u = at(panel.x, (static_cast<double>(j) + 0.5) / static_cast<double>(colours.columns));
+        const double v = at(panel.y, (static_cast<double>(i) + 0.5) / static_cast<double>(rows));
+        const double tau = flow.stop_time({u, v}).tau;
+        const double unit = panel.x.logarithmic ? tau : colours.scale.high;
+        worst = std::max(worst, std::abs(colours.values[i * colours.columns + j] - tau) / unit);
+      }
+    }
+    CHECK(worst < 2e-3);  // of interpolation between the map's values
+    CHECK(colours.scale.low <= *std::ranges::min_element(colours.values));
+    CHECK(colours.scale.high >= *std::ranges::max_element(colours.values));
+    CHECK(colours.scale.logarithmic == panel.x.logarithmic);
+  }
+}
+
+TEST_CASE("Isochrones have labels that tell their time, inside the panel", "[invariant]") {
+  for (const Figure& figure : {linear(), logarithmic()}) {
+    const Panel& panel = figure.panels.at(0);
+    const Flow flow({reduction::PadeLaw{}, panel.x.logarithmic ? 0.1 : 0.3});
+    CHECK(panel.labels.size() >= 6);
+    for (const Label& label : panel.labels) {
+      CHECK(flow.stop_time({label.at.x, label.at.y}).tau == Approx(std::stod(label.text)).epsilon(1e-3));
+      CHECK(inside(panel, label.at));
+    }
+  }
+}
+
+TEST_CASE("The ray k = 1 is drawn where it crosses the map, and only there", "[limit]") {
+  const auto ray = [](const Figure& figure) { return figure.panels.at(0).lines.at(1).lines; };
+  REQUIRE(ray(linear()).size() == 2);
+  CHECK(ray(linear())[0].back().x == 2);
+  CHECK(ray(linear())[0].back().y == Approx(0.6));
+  CHECK(ray(linear())[1].back().x == -2);
+  CHECK(ray(logarithmic())[0].front().y == Approx(1e-3));
+  CHECK(figure_of(0.3, {even(2, 0, 1), even(2, 1, 2)}).panels.at(0).lines.size() == 1);
+  CHECK(figure_of(0.3, {even(2, 10, 11), even(2, 0, 1)}).panels.at(0).lines.size() == 1);
+  CHECK(ray(figure_of(1, {even(2, -3, -1), even(2, 0, 2)})).at(0).back().x == -2);
+}
+
+TEST_CASE("Axes have ticks whatever they span", "[limit]") {
+  for (const double span : {0.01, 0.1, 0.5, 1.0, 2.0, 4.0, 30.0}) {
+    const Panel panel = figure_of(0.3, {decades(3, 0, span), decades(3, 0, span), true}).panels.at(0);
+    INFO(span);
+    for (const Axis& axis : {panel.x, panel.y, panel.colours->scale}) {
+      CHECK(axis.ticks.size() >= 2);
+      CHECK(axis.ticks.size() <= 13);
+      for (const Axis::Tick& tick : axis.ticks) {
+        CHECK((tick.at >= axis.low * 0.999 && tick.at <= axis.high * 1.001));
+      }
+    }
+  }
+}
+
+TEST_CASE("A map is drawn by gnuplot, over axes of its own", "[table]") {
+  const std::string script = gnuplot_script(logarithmic());
+  CHECK(script.find("'-' matrix using ($1+0.5):($2+0.5):3 axes x2y2 with image") != std::string::npos);
+  CHECK(script.find("set palette defined") != std::string::npos);
+  CHECK(script.find("nan") == std::string::npos);
+  CHECK(script == gnuplot_script(logarithmic()));
+  CHECK(render(logarithmic(), PictureFormat::svg).find("<image") != std::string::npos);
+  CHECK(render(linear(), PictureFormat::png).starts_with("\x89PNG"));
 }

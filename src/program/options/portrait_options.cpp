@@ -117,7 +117,7 @@ void PortraitOptions::read(portraits::PortraitRequest& request) const {
                                  point.u, point.v, window_.typed()));
     }
   }
-  if (against_.given()) request.against = against_.read();
+  if (against_.given()) request.comparison = against_.read();
 }
 
 portraits::PortraitStyle PortraitOptions::style() const {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/portraits/law_figure.hpp"
+#include "contensou/portraits/paper_figures.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "input/csv.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_data.hpp"
 #include "contensou/reduction/phase_plane.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/portraits/stop_time_map_figure.hpp"
+#include "contensou/portraits/stop_time_map.hpp"
 #include "options/body_option.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -105,9 +105,9 @@ class SweepCommand final : public Verb {
       for (long i = 0; i < range.count(); ++i) array[i] = range[i];
       return array;
     };
-    const reduction::StopTimeTable table(system);
-    tell_if_not_proved(table);
-    return portraits::stop_time_map(table, {values(grid.u0), values(grid.v0), log_});
+    const reduction::Flow flow(system);
+    tell_if_not_proved(flow.table());
+    return portraits::stop_time_map(flow, {values(grid.u0), values(grid.v0), log_});
   }
 
   Argument mu_, u0_, v0_;

@@ -18,7 +18,7 @@ struct Window {
   double v;
 };
 
-/// Which axes.
+/// Which axes. A new view is an entry here, a function in views/ and a row in views/portrait_views.hpp.
 enum class View {
   uv,          ///< the paper's plane (u, v)
   patch,       ///< (mu u, v): the rim speed of pivoting and the speed of sliding, on axes that compare
@@ -44,10 +44,12 @@ struct PortraitOrbit {
   Eigen::ArrayXd ln_k;
   Eigen::ArrayXd tau_left;
 
-  /// The state of a row scaled by a factor > 0, as scaling symmetry allows.
+  /// One state of it, or of a copy.
   struct Instant {
     double u, v, ln_v, ln_k, tau_left;
   };
+
+  /// @param factor  > 0, by which the state is scaled, as scaling symmetry allows
   Instant at(Eigen::Index row, double factor = 1) const;
   Eigen::Index rows() const { return u.size(); }
 };
@@ -58,47 +60,43 @@ struct WholeCurve : PortraitOrbit {
   double k_to;    ///< of the one along which it enters the origin
 };
 
-/// All states of one stop time, from one end of the half-plane to the other.
+/// A piece of the line of all states with one stop time.
 struct Isochrone {
   double tau_stop;
   Eigen::ArrayXd u;
   Eigen::ArrayXd v;
 };
 
-/// Stop times of the states mu u = cos(theta), v = sin(theta), k = tan(theta); by scaling, all stop times.
-struct StopProfile {
-  Eigen::ArrayXd ln_k;  ///< increasing, from -infinity to infinity
-  Eigen::ArrayXd tau;
-};
-
-/// The phase plane of one system as data; nothing here is drawn.
+/// The phase plane of one system as data; nothing here is drawn. Speeds are in one unit, which is also that of tau.
 struct PhasePortrait {
-  reduction::ReducedSystem system;
+  reduction::Flow flow;
   reduction::PhasePlane plane;
   View view;
   Window window;
   std::vector<PortraitOrbit> orbits;  ///< from the border of the window to the origin
   /// By growing k, u > 0, mu u = 1 where they start: every orbit off the invariant half-lines is one of them, scaled.
   std::vector<WholeCurve> curves;
-  std::vector<Isochrone> isochrones;
-  StopProfile profile;
+  std::vector<Isochrone> isochrones;       ///< in the window
   std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
   std::vector<PortraitOrbit> through;      ///< the orbits through the points asked for, from the border
-  std::vector<PhasePortrait> against;      ///< the same window for another law, if asked for
+  /// Another law in the same window, with isochrones of the same times; one if asked for, else none.
+  std::vector<PhasePortrait> comparisons;
+
+  const reduction::ReducedSystem& system() const { return flow.system(); }
 };
 
 /// What to show. Left empty, the window and the view follow from mu.
 struct PortraitRequest {
-  std::optional<View> view;
-  std::optional<Window> window;
-  std::optional<reduction::State> highlight;  ///< the window then contains it
-  std::vector<reduction::State> through;
-  std::optional<int> orbits_per_side;
-  int isochrones = 7;  ///< about so many
-  std::optional<reduction::Law> against;
+  std::optional<View> view = {};
+  std::optional<Window> window = {};
+  std::optional<reduction::State> highlight = {};  ///< the window then contains it
+  std::vector<reduction::State> through = {};      ///< points in the window, neither u nor v 0
+  std::optional<int> orbits_per_side = {};         ///< of u = 0, >= 0
+  int isochrones = 7;                              ///< about so many, >= 0
+  std::optional<reduction::Law> comparison = {};
   bool stepped = false;  ///< orbits by (2.7), stepped in beta, in place of the flow's own
   /// Keep only what the view is drawn from: no whole curves for uv and patch, no orbits and isochrones for the others,
-  /// all for pair. Isochrones keep their times, without points.
+  /// all for pair.
   bool drawn_only = false;
   double time_unit = 1;  ///< isochrones are at round multiples of this many tau
 };
@@ -106,11 +104,17 @@ struct PortraitRequest {
 /// Computes the portrait: orbits seeded along the border at equal distances across the flow, u of both signs, and
 /// isochrones by scaling one curve.
 ///
-/// @throws std::domain_error  if the window is not positive and finite, a point lies on no orbit (u or v is 0) or out
-///                            of the window, or a number is negative
+/// @throws std::domain_error  if the sides of the window are not within 1e-150 .. 1e150, a point lies on no orbit (u or
+///                            v is 0) or out of the window, or a number is negative
 PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest& request);
 
-/// The largest of 1, 2, 5 times a power of ten that is at most x > 0.
-double round_down(double x);
+/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], orbits [{u, v, tau_left}], isochrones
+/// [{tau_stop, u, v}]; where asked for also highlight (an orbit), through (orbits), against {law, orbits, isochrones}.
+/// Numbers read back to the same doubles.
+std::string to_json(const PhasePortrait& portrait);
+
+/// The portrait as CSV with the columns kind,index,u,v,tau: kind is orbit, highlight, through or isochrone (of another
+/// law, against_orbit or against_isochrone), tau the time left.
+std::string to_csv(const PhasePortrait& portrait);
 
 }  // namespace contensou::portraits

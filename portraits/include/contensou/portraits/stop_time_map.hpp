@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/reduction/stop_time_table.hpp"
 
 namespace contensou::portraits {
 
@@ -26,11 +26,14 @@ struct StopTimeMap {
   std::vector<Isochrone> isochrones;  ///< at round stop times, each piece of one inside the map by itself
 };
 
-/// Computes the map. Isochrones come from the table itself, not from the map's values: tau*(c u, c v) = c tau*(u, v)
-/// says where a ray through the origin meets each of them.
+/// Computes the map. Isochrones come from the flow itself, not from the map's values.
 ///
 /// @throws std::domain_error  if an axis is not as MapAxes says, spans values outside 1e-100 .. 1e100, or a stop time
 ///                            is beyond the largest double
-StopTimeMap stop_time_map(const reduction::StopTimeTable& table, const MapAxes& axes);
+StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes);
+
+/// The map as a drawing: stop times as colours, dark for long ones, with a scale; labelled isochrones over them; the
+/// ray k = 1, above which the centre of rotation is outside the patch.
+Figure draw(const StopTimeMap& map);
 
 }  // namespace contensou::portraits

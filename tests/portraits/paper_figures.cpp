@@ -1,12 +1,18 @@
-#include "contensou/portraits/paper_drawings.hpp"
+#include "contensou/portraits/paper_figures.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <catch2/catch.hpp>
 
 #include "contensou/portraits/gnuplot.hpp"
+#include "contensou/portraits/layout.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "figures.hpp"
 
+using namespace contensou;
 using namespace contensou::portraits;
 using Catch::Matchers::Contains;
 
@@ -17,28 +23,21 @@ void check_framed(const Figure& figure) {
   REQUIRE(figure.panels.size() == 1);
   const Panel& panel = figure.panels.front();
   CHECK(panel.bare);
-  const auto check = [&](const Point& point) {
-    CHECK(point.x > panel.x.low);
-    CHECK(point.x < panel.x.high);
-    CHECK(point.y > panel.y.low);
-    CHECK(point.y < panel.y.high);
-  };
   for (const Lines& layer : panel.lines) {
     for (const Polyline& line : layer.lines) {
-      for (const Point& point : line) check(point);
+      for (const Point& point : line) CHECK(inside(panel, point));
     }
   }
-  for (const Label& label : panel.labels) check(label.at);
+  for (const Label& label : panel.labels) CHECK(inside(panel, label.at));
   CHECK(panel.labels.size() >= 8);
   CHECK(panel.arrows.size() >= 5);
 }
 
-/// A circle of radius 1 that is one on paper, too: as wide as high in millimetres.
+/// A circle of radius 1 is one on paper, too: as wide as high in millimetres.
 void check_scale(const Figure& figure) {
   const Panel& panel = figure.panels.front();
-  const double width = (figure.width_mm - 25) / (panel.x.high - panel.x.low);
-  const double height = 0.8 * figure.height_mm / (panel.y.high - panel.y.low);
-  CHECK(width == Approx(height).epsilon(1e-12));
+  const Box box = lay_out(figure).panels.front();
+  CHECK(box.width / (panel.x.high - panel.x.low) == Approx(box.height / (panel.y.high - panel.y.low)).epsilon(1e-12));
 }
 
 bool has_circle(const Figure& figure, Point centre) {
@@ -71,4 +70,24 @@ TEST_CASE("Fig. 1 and Fig. 3 are drawn inside their frames and to scale", "[pape
 TEST_CASE("a bare panel has no axes, and its figure a heading without a legend", "[paper_drawings][gnuplot]") {
   const std::string script = gnuplot_script(patch_drawing());
   CHECK_THAT(script, Contains("unset border\nunset tics") && Contains("NaN notitle") && Contains("Fig. 1"));
+}
+
+TEST_CASE("Fig. 2 draws force and moment of each law from the law itself", "[table]") {
+  const auto figure = law_figure({reduction::HertzLaw{}, reduction::PadeLaw{}});
+  REQUIRE(figure.panels.size() == 1);
+  const auto& lines = figure.panels[0].lines;
+  REQUIRE(lines.size() == 5);  // guides, and two curves for each of two laws
+  const auto check = [](const Polyline& line, const reduction::Law& law, auto part) {
+    CHECK(line.front().x == 0);
+    CHECK(line.back().x == 4);
+    for (const auto& point : line) CHECK(point.y == law(reduction::slip_of_ratio(point.x)).*part);
+  };
+  check(lines[1].lines[0], reduction::HertzLaw{}, &reduction::Resistance::force);
+  check(lines[2].lines[0], reduction::HertzLaw{}, &reduction::Resistance::moment);
+  check(lines[3].lines[0], reduction::PadeLaw{}, &reduction::Resistance::force);
+  check(lines[4].lines[0], reduction::PadeLaw{}, &reduction::Resistance::moment);
+  // As the paper draws them: F from 0 with slope 3 pi/8, M from 3 pi/16.
+  const auto& force = lines[1].lines[0];
+  CHECK(force[1].y / force[1].x == Approx(3 * std::numbers::pi / 8).epsilon(1e-4));
+  CHECK(lines[2].lines[0].front().y == Approx(3 * std::numbers::pi / 16).epsilon(1e-15));
 }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "contensou/portraits/figure.hpp"
+#include "contensou/reduction/friction_law.hpp"
 
 namespace contensou::portraits {
 
@@ -8,7 +11,10 @@ namespace contensou::portraits {
 /// coordinates (r, theta) about C in which the friction of an element is integrated (1.2).
 Figure patch_drawing();
 
-/// Fig. 3 of Zh98: the ball on the plane, its axes and the spot on which it touches.
+/// Fig. 2: the friction force Phi and the friction moment Psi against k from 0 to 4, one line style for each law.
+Figure law_figure(const std::vector<reduction::Law>& laws);
+
+/// Fig. 3: the ball on the plane, its axes and the spot on which it touches.
 Figure ball_drawing();
 
 }  // namespace contensou::portraits

@@ -1,9 +1,14 @@
-#include "contensou/portraits/paper_drawings.hpp"
+#include "contensou/portraits/paper_figures.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/pade_law.hpp"
 
 namespace contensou::portraits {
 
@@ -16,9 +21,6 @@ constexpr Colour guide{0x888888};
 constexpr Colour velocity_colour{0x0b4f8a};
 constexpr Colour force_colour{0xb3003b};
 constexpr Colour patch_colour{0xb9cfe4};
-
-/// Width over height of the only panel on paper (gnuplot.cpp).
-double panel_shape(const Figure& figure) { return (figure.width_mm - 25) / (0.8 * figure.height_mm); }
 
 /// An ellipse's arc; angles counter-clockwise from the x axis.
 Polyline arc(Point centre, double rx, double ry, double from, double to) {
@@ -62,11 +64,11 @@ class Sketch {
     panel_.arrows.push_back({{{from, {from.x - to.x, from.y - to.y}}}, guide});
   }
 
-  /// The figure, of that height about a middle, to scale.
-  Figure framed(Point middle, double height) {
-    const double width = height * panel_shape(figure_);
+  /// The figure, to scale, of that size about a middle.
+  Figure framed(Point middle, double width, double height) {
     panel_.x = {"", middle.x - width / 2, middle.x + width / 2, false, {}};
     panel_.y = {"", middle.y - height / 2, middle.y + height / 2, false, {}};
+    panel_.to_scale = true;
     figure_.panels = {panel_};
     return figure_;
   }
@@ -77,6 +79,35 @@ class Sketch {
 };
 
 std::string italic(const std::string& text) { return "{/:Italic " + text + "}"; }
+
+/// How the curves of one law look: the exact law heavy, its approximation dashed, further laws light.
+struct Look {
+  Colour force;
+  Colour moment;
+  double width;
+  bool dashed;
+};
+
+constexpr Look exact_look{{0x0b4f8a}, {0xb3003b}, 2.4, false};
+constexpr Look pade_look{{0x0b4f8a}, {0xb3003b}, 1.6, true};
+constexpr Look other_look{{0x4aa3df}, {0xf0709a}, 1.6, false};
+
+const Look& look_of(const reduction::Law& law) {
+  if (law.as<reduction::HertzLaw>()) return exact_look;
+  return law.as<reduction::PadeLaw>() ? pade_look : other_look;
+}
+
+constexpr double max_k = 4;
+
+Polyline curve(const reduction::Law& law, double reduction::Resistance::*part) {
+  constexpr int pieces = 400;
+  Polyline line;
+  for (int i = 0; i <= pieces; ++i) {
+    const double k = max_k * i / pieces;
+    line.push_back({k, law(reduction::slip_of_ratio(k)).*part});
+  }
+  return line;
+}
 
 }  // namespace
 
@@ -159,14 +190,14 @@ Figure patch_drawing() {
   sketch.arrow({{1.3, C.y}, {1.3, C.y + 0.45}}, ink, 1.2);
   sketch.label({1.82, C.y + 0.02}, italic("x"));
   sketch.label({1.3, C.y + 0.54}, italic("y"));
-  return sketch.framed({0.12, -0.27}, 3.2);
+  return sketch.framed({0.12, -0.27}, 3.57, 3.2);
 }
 
 Figure ball_drawing() {
   // Unit of length: R. The plane is seen from above at an angle.
   constexpr double depth_x = 0.6;
   constexpr double depth_y = 0.27;
-  const auto seen = [](double x, double y, double z) { return Point{x + depth_x * y, z + depth_y * y}; };
+  const auto seen = [](double x, double y) { return Point{x + depth_x * y, depth_y * y}; };
   Sketch sketch("The ball on the plane",
                 "Zh98, Fig. 3: it slides with " + italic("v") + ", spins with " + italic("ω_z") +
                     " and touches on a spot of radius " + italic("ε = μR"),
@@ -180,31 +211,25 @@ Figure ball_drawing() {
     const double linear = depth_y - x * depth_x;
     return (linear - std::sqrt(linear * linear - square * x * x)) / square;
   };
-  const Point far_right = seen(long_side, short_side, 0);
+  const Point far_right = seen(long_side, short_side);
   const double hidden = std::sqrt(1 - (1 - far_right.y) * (1 - far_right.y));
-  sketch.line({seen(-long_side, enters(-long_side), 0),
-               seen(-long_side, -short_side, 0),
-               seen(long_side, -short_side, 0),
+  sketch.line({seen(-long_side, enters(-long_side)),
+               seen(-long_side, -short_side),
+               seen(long_side, -short_side),
                far_right,
                {hidden, far_right.y}},
               {guide, 1, false});
 
   // The spot, a circle of the plane, hatched.
   constexpr double eps = 0.36;
-  const auto circle = [&](double radius, double height, double from, double to) {
-    Polyline line;
-    for (int i = 0; i <= 90; ++i) {
-      const double angle = from + (to - from) * i / 90;
-      line.push_back(seen(radius * std::cos(angle), radius * std::sin(angle), height));
-    }
-    return line;
-  };
   for (int i = -9; i <= 9; ++i) {
     const double y = eps * i / 9.5;
     const double half = std::sqrt(eps * eps - y * y);
-    sketch.line({seen(-half, y, 0), seen(half, y, 0)}, {patch_colour, 1, false});
+    sketch.line({seen(-half, y), seen(half, y)}, {patch_colour, 1, false});
   }
-  sketch.line(circle(eps, 0, 0, 2 * pi), {velocity_colour, 1.6, false});
+  Polyline spot;
+  for (const Point& point : arc({0, 0}, eps, eps, 0, 2 * pi)) spot.push_back(seen(point.x, point.y));
+  sketch.line(spot, {velocity_colour, 1.6, false});
 
   // The ball, with its equator: the near half drawn through.
   constexpr Point centre{0, 1};
@@ -213,32 +238,63 @@ Figure ball_drawing() {
   sketch.line(arc(centre, 1, 0.26, 0, pi), {guide, 0.9, true});
 
   // Axes through the point of contact: x along the slip.
-  sketch.line({seen(0, 0, 0), {0, 2}}, {guide, 0.9, true});
+  sketch.line({seen(0, 0), {0, 2}}, {guide, 0.9, true});
   sketch.arrow({{0, 2}, {0, 2.55}}, ink, 1.4);
   sketch.arrow({{0, 0}, {1.8, 0}}, ink, 1.4);
   constexpr double leaves = 2 * depth_y / (depth_x * depth_x + depth_y * depth_y);
-  sketch.line({{0, 0}, seen(0, leaves, 0)}, {guide, 0.9, true});
-  sketch.arrow({seen(0, leaves, 0), seen(0, 2.1, 0)}, ink, 1.4);
+  sketch.line({{0, 0}, seen(0, leaves)}, {guide, 0.9, true});
+  sketch.arrow({seen(0, leaves), seen(0, 2.1)}, ink, 1.4);
   sketch.label({0.12, 2.5}, italic("z"));
   sketch.label({1.9, 0}, italic("x"));
-  sketch.label({seen(0, 2.1, 0).x + 0.11, seen(0, 2.1, 0).y + 0.02}, italic("y"));
+  sketch.label({seen(0, 2.1).x + 0.11, seen(0, 2.1).y + 0.02}, italic("y"));
 
   // Its motion.
-  sketch.arrow({seen(0, 0, 0), seen(0.95, 0, 0)}, velocity_colour, 2.6);
+  sketch.arrow({seen(0, 0), seen(0.95, 0)}, velocity_colour, 2.6);
   sketch.label({0.86, -0.14}, italic("v"), velocity_colour);
   sketch.arrow(arc({0, 2.26}, 0.3, 0.1, -pi * 0.75, pi * 0.85), velocity_colour, 1.8);
   sketch.label({0.47, 2.27}, italic("ω_z"), velocity_colour);
-  sketch.arrow({seen(0, 0, 0), seen(-0.72, 0, 0)}, force_colour, 2.4);
+  sketch.arrow({seen(0, 0), seen(-0.72, 0)}, force_colour, 2.4);
   sketch.label({-0.82, 0.02}, italic("F"), force_colour);
   sketch.dot({0, 0});
 
   sketch.line({centre, {-std::cos(0.7), 1 + std::sin(0.7)}}, {ink, 1, false});
   sketch.label({-0.34, 1.42}, italic("R"));
   sketch.dot(centre);
-  sketch.line({seen(0, 0, 0), seen(-eps * std::cos(1.0), -eps * std::sin(1.0), 0)}, {ink, 1, false});
-  sketch.line({seen(-eps * 0.3, -eps * 0.5, 0), {-0.62, -0.24}}, {guide, 0.8, false});
+  sketch.line({seen(0, 0), seen(-eps * std::cos(1.0), -eps * std::sin(1.0))}, {ink, 1, false});
+  sketch.line({seen(-eps * 0.3, -eps * 0.5), {-0.62, -0.24}}, {guide, 0.8, false});
   sketch.label({-0.7, -0.27}, italic("ε"));
-  return sketch.framed({0, 1.02}, 3.3);
+  return sketch.framed({0, 1.02}, 4.86, 3.3);
+}
+
+Figure law_figure(const std::vector<reduction::Law>& laws) {
+  Panel panel;
+  panel.x = {"{/:Italic k = v}/({/:Italic ε}|{/:Italic ω_z}|)", 0, max_k, false, {}};
+  panel.y = {"{/:Italic Φ = F}/({/:Italic N f}),   {/:Italic Ψ = M}/({/:Italic N f ε})", 0, 1.05, false, {}};
+  panel.lines.push_back({{{{0, 1}, {max_k, 1}}, {{1, 0}, {1, 1.05}}}, {guide, 0.8, true}, ""});
+  for (const reduction::Law& law : laws) {
+    const Look& look = look_of(law);
+    panel.lines.push_back({{curve(law, &reduction::Resistance::force)},
+                           {look.force, look.width, look.dashed},
+                           fmt::format("{{/:Italic Φ}}, {}", literal(law.name(), 20))});
+    panel.lines.push_back({{curve(law, &reduction::Resistance::moment)},
+                           {look.moment, look.width, look.dashed},
+                           fmt::format("{{/:Italic Ψ}}, {}", literal(law.name(), 20))});
+  }
+  Figure figure;
+  figure.title = "Combined dry friction of a circular patch";
+  figure.subtitle = "Zh98, Fig. 2: the exact law (1.3), (1.5) and its Padé approximation (1.4), (1.6)";
+  if (laws.size() <= 2) {
+    panel.labels = {
+        {{2.9, 0.9}, "force  {/:Italic Φ}", exact_look.force, Label::Align::centre},
+        {{2.5, 0.2}, "moment  {/:Italic Ψ}", exact_look.moment, Label::Align::centre},
+        {{0.03, 0.63}, "3π/16", exact_look.moment, Label::Align::left},
+        {{1.04, 0.32}, "the centre of rotation leaves the patch", guide, Label::Align::left},
+    };
+  }
+  figure.width_mm = 170;
+  figure.height_mm = 115;
+  figure.panels = {panel};
+  return figure;
 }
 
 }  // namespace contensou::portraits

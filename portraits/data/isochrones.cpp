@@ -1,0 +1,97 @@
+#include "data/isochrones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace contensou::portraits {
+
+namespace {
+
+using reduction::State;
+
+/// Directions v/u, by a number that grows from u > 0 to u < 0: on logarithmic axes ln(v/u), else an angle in quarters
+/// of the turn, from 0 to 2, on the ellipse that the rectangle's sides span.
+class Directions {
+ public:
+  Directions(const reduction::Flow& flow, const Rectangle& rectangle) : flow_(flow), rectangle_(rectangle) {
+    const auto& [low, high, logarithmic] = rectangle;
+    const double u = std::max(std::abs(low.u), std::abs(high.u));
+    constexpr int steps = 360;
+    const double first = logarithmic ? std::log(low.v / high.u) : 0;
+    const double last = logarithmic ? std::log(high.v / low.u) : 2;
+    for (int i = 0; i <= steps; ++i) all_.push_back(first + (last - first) * i / steps);
+    if (logarithmic) return;
+    sides_ = {u, high.v};
+    // And down to k = 1e-4 next to the axis v = 0, where ln k changes fast.
+    for (int decade = -4; decade <= 3; ++decade) {
+      const double k = std::pow(10, decade);
+      const double quarter = std::atan(k * flow.system().mu() * u / high.v) / (std::numbers::pi / 2);
+      all_.insert(all_.end(), {quarter, 2 - quarter});
+    }
+    std::ranges::sort(all_);
+  }
+
+  const std::vector<double>& all() const { return all_; }
+
+  /// The state of that direction that stops after the time 1.
+  State unit(double direction) const {
+    State ray{std::exp(-direction / 2), std::exp(direction / 2)};
+    if (!rectangle_.logarithmic) {
+      const double quarter = direction < 1 ? direction : 2 - direction;
+      const double angle = quarter * std::numbers::pi / 2;
+      ray = {quarter == 1 ? 0 : sides_.u * std::cos(angle), sides_.v * std::sin(angle)};
+      if (direction > 1) ray.u = -ray.u;
+    }
+    const double tau = flow_.orbit(ray).stop_time();
+    return {ray.u / tau, ray.v / tau};
+  }
+
+ private:
+  const reduction::Flow& flow_;
+  const Rectangle& rectangle_;
+  State sides_{};
+  std::vector<double> all_;
+};
+
+}  // namespace
+
+std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& rectangle,
+                                  const std::vector<double>& times) {
+  const auto& [low, high, logarithmic] = rectangle;
+  const Directions directions(flow, rectangle);
+  const std::vector<double>& all = directions.all();
+  std::vector<State> units;
+  for (double direction : all) units.push_back(directions.unit(direction));
+
+  std::vector<Isochrone> result;
+  for (double tau : times) {
+    const auto scaled = [tau](State unit) { return State{tau * unit.u, tau * unit.v}; };
+    const auto inside = [&](State at) { return at.u >= low.u && at.u <= high.u && at.v >= low.v && at.v <= high.v; };
+    // The last state inside, between a direction outside and one inside.
+    const auto border = [&](double outside, double within) {
+      for (int i = 0; i < 50; ++i) {
+        const double middle = (outside + within) / 2;
+        (inside(scaled(directions.unit(middle))) ? within : outside) = middle;
+      }
+      return scaled(directions.unit(within));
+    };
+    std::vector<State> piece;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const State here = scaled(units[i]);
+      const bool is_inside = inside(here);
+      if (i > 0 && is_inside && piece.empty()) piece.push_back(border(all[i - 1], all[i]));
+      if (is_inside) piece.push_back(here);
+      if (piece.empty() || (is_inside && i + 1 < all.size())) continue;
+      if (!is_inside) piece.push_back(border(all[i], all[i - 1]));
+      const auto rows = static_cast<Eigen::Index>(piece.size());
+      // A state is its two speeds, one after the other.
+      const Eigen::Map<const Eigen::Array2Xd> columns(&piece.front().u, 2, rows);
+      result.push_back({tau, columns.row(0), columns.row(1)});
+      piece.clear();
+    }
+  }
+  return result;
+}
+
+}  // namespace contensou::portraits

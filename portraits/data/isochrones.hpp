@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "contensou/portraits/phase_portrait.hpp"
+
+namespace contensou::portraits {
+
+/// A rectangle of the half-plane v >= 0. On logarithmic axes both speeds of its corners are positive.
+struct Rectangle {
+  reduction::State low, high;
+  bool logarithmic = false;
+};
+
+/// The pieces of isochrones that lie in the rectangle, by growing time; along each, v/u turns from u > 0 to u < 0.
+///
+/// tau*(c u, c v) = c tau*(u, v): one of them is computed, as a function of the direction v/u, and the others are its
+/// copies. Points are close enough to be joined by lines, and end on the border to the last digits.
+std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& rectangle,
+                                  const std::vector<double>& times);
+
+}  // namespace contensou::portraits

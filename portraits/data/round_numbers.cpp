@@ -1,0 +1,53 @@
+#include "data/round_numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace contensou::portraits {
+
+double round_down(double x) {
+  const double power = std::pow(10, std::floor(std::log10(x)));
+  for (double digit : {5.0, 2.0}) {
+    if (digit * power <= x) return digit * power;
+  }
+  return power;
+}
+
+double round_step(double range, double pieces) { return round_down(range / pieces * 1.7); }
+
+std::vector<double> multiples(double low, double high, double step) {
+  std::vector<double> result;
+  for (double i = std::floor(low / step) + 1; i * step < high; ++i) result.push_back(i * step);
+  return result;
+}
+
+std::vector<double> round_ratios(double low, double high, double few_decades) {
+  const double decades = std::log10(high / low);
+  constexpr double pieces = 7;
+  if (decades < 0.7) return multiples(low, high, round_step(high - low, pieces));
+  const std::vector<double> digits = decades < few_decades ? std::vector<double>{1, 2, 5} : std::vector<double>{1};
+  const double stride = std::max(1.0, std::ceil(decades / 12));
+  std::vector<double> result;
+  for (double power = stride * std::floor(std::log10(low) / stride); power <= std::log10(high); power += stride) {
+    for (double digit : digits) {
+      const double value = digit * std::pow(10, power);
+      if (value > low && value < high) result.push_back(value);
+    }
+  }
+  return result;
+}
+
+std::string number(double value, int digits) {
+  if (value == 0) return "0";
+  value = std::stod(fmt::format("{:.{}g}", value, digits));
+  const double exponent = std::floor(std::log10(std::abs(value)) + 1e-9);
+  if (exponent >= -3 && exponent < 5) return fmt::format("{:.5g}", value);
+  const double mantissa = value / std::pow(10, exponent);
+  if (std::abs(mantissa - 1) < 1e-6) return fmt::format("10^{{{}}}", exponent);
+  return fmt::format("{:.3g}·10^{{{}}}", mantissa, exponent);
+}
+
+}  // namespace contensou::portraits
