@@ -75,7 +75,7 @@ TEST_CASE("bad input is status 2, says what was typed and a way out", "[cli]") {
       {{"check", "--mu", "0.1"}, {"--u0, --v0 missing"}},
       {{"balls", "pol"}, {"no such ball", "did you mean 'pool'"}},
       {{"balls", "pool", "--format", "json"}, {"a run file is text"}},
-      {{"balls", "./b.toml"}, {"./b.toml: no such ball", "a file is for --ball of another verb"}},
+      {{"balls", "./b.toml"}, {"./b.toml: balls takes no file, only a name", "stop --ball FILE"}},
       // A flag means the same whatever follows it.
       {{"sweep", "--mu", "0.1", "--u0", "1", "--v0", "1", "--log=false"}, {"'--log=false': --log takes no value"}},
       {{"sweep", "--mu", "0.1", "--u0", "1", "--v0", "1", "--log=true"}, {"'--log=true': --log takes no value"}},
@@ -86,7 +86,13 @@ TEST_CASE("bad input is status 2, says what was typed and a way out", "[cli]") {
       {{"--version=3"}, {"--version takes no value"}},
       // No mistake in an option that would not count.
       {{"stop", "--batch", "-", "--digits", "banana"}, {"--digits: 'banana' is not a whole number"}},
-      {{"stop", "--batch", "-", "--digits", "3"}, {"--digits 3: csv and json always have all digits"}},
+      {{"stop", "--batch", "-", "--digits", "3"},
+       {"--digits 3: a table of stop times always has all digits: leave it out"}},
+      {{"portrait", "--mu", "0.1", "-o", "-", "--format", "json", "--digits", "3"},
+       {"--digits 3: a portrait always has all digits: leave"}},
+      {{"orbit", "--ball", "pool", "--digits", "3"}, {"--digits 3: csv always has all digits; choose text"}},
+      {{"balls", "pool", "--digits", "3"}, {"--digits 3: a run file always has all digits"}},
+      {{"balls", "pool", "--format", "text", "--digits", "3"}, {"--digits 3: a run file always has all digits"}},
       {{"balls", "--digits", "banana"}, {"--digits: 'banana'"}},
       {{"balls", "pool", "--digits", "banana"}, {"--digits: 'banana'"}},
       {{"check", "--format", "jsn"}, {"unknown format", "did you mean 'json'"}},

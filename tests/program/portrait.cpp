@@ -63,7 +63,7 @@ TEST_CASE("portrait --facts excludes what it does not draw", "[cli]") {
   rejected("--mu 0.3 --facts --window 1,1 --view disc", "--facts and --view, --window exclude each other");
   rejected("--mu 0.3 --facts --route closed", "--facts and --route exclude each other");
   rejected("--mu 0.3 --facts --format svg", "--format svg: unknown format");
-  rejected("--mu 0.3 --facts --format csv --digits 3", "--digits 3: csv and json always have all digits");
+  rejected("--mu 0.3 --facts --format csv --digits 3", "--digits 3: csv always has all digits; choose text");
   rejected("--mu 0.3 --digits 3", "--digits 3: a picture has no digits");
   rejected("--mu 0.3 --facts --law pad", "no such law");
 }

@@ -67,9 +67,13 @@ Output OutputOptions::read(std::size_t place) const {
   const std::string path = file_.given() ? file_.text() : kind.path;
   if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
   const std::string format = read_format(kind, path);
-  if (digits_.given() && format != "text") {
-    digits_.reject(portraits::find_picture_format(format) ? "a picture has no digits"
-                                                          : "csv and json always have all digits; add --format text");
+  const bool has_rounded_text = is_one_of(kind.formats, "text") && is_one_of(kind.formats, "csv");  // no run file has
+  if (digits_.given() && !(format == "text" && has_rounded_text)) {
+    digits_.reject(
+        portraits::find_picture_format(format) ? "a picture has no digits"
+        : has_rounded_text
+            ? fmt::format("{} always has all digits; choose text, with --format text or the ending txt", format)
+            : fmt::format("{} always has all digits: leave it out", kind.noun));
   }
   return {path, format, static_cast<int>(digits_.value_or(standard_digits))};
 }

@@ -96,12 +96,10 @@ class BallsCommand final : public Verb {
 
  private:
   static const CatalogueEntry* find(const std::string& name) {
-    try {
-      return &require_ball(name);
-    } catch (const NotAllowed& error) {
-      const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
-      throw NotAllowed(error.what() + std::string(is_file ? "; a file is for --ball of another verb" : ""));
-    }
+    const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
+    if (!is_file) return &require_ball(name);
+    throw NotAllowed(
+        "balls takes no file, only a name: 'contensou balls' lists them; 'contensou stop --ball FILE' uses a file");
   }
 
   ArgumentOf<const CatalogueEntry*> ball_;
