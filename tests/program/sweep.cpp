@@ -183,6 +183,16 @@ TEST_CASE("bad ranges are refused with a way out", "[cli]") {
   }
 }
 
+TEST_CASE("a sweep that fails at its first start leaves standard output empty", "[cli]") {
+  for (const std::string format : {"csv", "npy"}) {
+    const Run run = run_program("sweep --law uniform --body 1,1 --mu 1e200 --u0 0:1:2 --v0 0:1:2 --format " + format);
+    INFO(run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains("r = gamma mu^2/chi must be positive and finite"));
+  }
+}
+
 TEST_CASE("a sweep without room on the disk is status 4 and leaves nothing", "[cli]") {
   const TemporaryDirectory scratch;
   // 8 PB as an array; csv under a limit of the file size.

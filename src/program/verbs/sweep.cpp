@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/compile.h>
@@ -40,8 +42,9 @@ struct Piece {
 
 class Sweep {
  public:
-  Sweep(const SweepRequest& request, OutputFile& output)
+  Sweep(const SweepRequest& request, std::string heading, OutputFile& output)
       : request_(request),
+        heading_(std::move(heading)),
         grid_(request.grid),
         output_(output),
         stop_times_(request.law, request.body, starts_of_mu_),
@@ -81,6 +84,7 @@ class Sweep {
   }
 
   void hand_on(const Piece& piece) {
+    output_.write(std::exchange(heading_, {}));
     output_.write(request_.format == SweepFormat::npy ? as_bytes(piece.taus)
                                                       : std::string_view(piece.text.data(), piece.text.size()));
     done_ += static_cast<double>(piece.taus.size());
@@ -110,6 +114,7 @@ class Sweep {
   }
 
   const SweepRequest& request_;
+  std::string heading_;  ///< is written with the first stop times
   const SweepGrid& grid_;
   OutputFile& output_;
   const long starts_of_mu_ = grid_.v0.count() * grid_.u0.count();
@@ -140,13 +145,12 @@ void sweep(const SweepRequest& request, OutputFile& output) {
     throw BadInput(
         fmt::format("{:.3g} starts are more than any file can hold: reduce N of --mu, --u0 or --v0", grid.points()));
   }
-  const std::string begins = heading(request);
+  std::string begins = heading(request);
   if (request.format == SweepFormat::npy) {
     const long points = grid.mu.count() * grid.v0.count() * grid.u0.count();
     output.reserve(begins.size() + sizeof(double) * static_cast<std::size_t>(points));
   }
-  output.write(begins);
-  Sweep(request, output).run();
+  Sweep(request, std::move(begins), output).run();
 }
 
 }  // namespace contensou::program
