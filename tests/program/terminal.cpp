@@ -25,6 +25,36 @@ TEST_CASE("terminal names the three regimes", "[cli]") {
   CHECK(rows_of(run_program("terminal --mu 0.3 --format csv").out)[0][5] == "k_star");
 }
 
+TEST_CASE("terminal says how good a ray is, next to which its law has few digits, too", "[cli]") {
+  const auto ray = json_of("terminal --law exact --mu 1 --body 1,4.999991639655138 --format json");
+  CHECK(ray["limit"] == "ray");
+  CHECK(ray.at("k_star_accuracy") == ray["rays"][0]["accuracy"]);
+  CHECK(ray.at("k_star_accuracy").get<double>() > 1e-12);
+  CHECK(json_of("terminal --mu 0.3 --format json").at("k_star_accuracy") == 0);
+  CHECK(json_of("terminal --mu 3 --body 1,1 --format json").at("k_star_accuracy") == 0);
+  const auto rows = rows_of(run_program("terminal --law exact --mu 1 --body 1,4.999991639655138 --format csv").out);
+  CHECK(rows[0].back() == "k_star_accuracy");
+  CHECK(std::stod(rows[1].back()) == ray.at("k_star_accuracy"));
+}
+
+TEST_CASE("of several ends, the one of the largest sector of starts stands first, with its sector", "[cli]") {
+  for (const std::string verb : {"terminal", "portrait --facts"}) {
+    const auto two = json_of(verb + " --law potential8 --mu 1 --body 1,1.995 --format json");
+    INFO(two.dump(2));
+    REQUIRE(two["ends"].size() == 2);
+    const auto& ray = two["ends"][1];
+    CHECK(two["ends"][0]["limit"] == "zero");
+    CHECK(ray.at("k_from") == two["rays"][0]["k"]);
+    CHECK(ray.at("k_to") == "inf");
+    CHECK(two["limit"] == "ray");
+    for (const char* key : {"limit", "k_star", "k_star_accuracy", "k_from", "k_to"}) CHECK(two.at(key) == ray.at(key));
+    CHECK(two.dump().find("null") == std::string::npos);
+    if (verb != "terminal") CHECK(two["contact_order"] == two["tangents"][1]["contact_order"]);
+  }
+  const auto one = json_of("terminal --mu 0.3 --format json");
+  CHECK((one.at("k_from") == 0 && one.at("k_to") == "inf"));
+}
+
 TEST_CASE("terminal rejects what no body is", "[cli]") {
   const auto rejected = [](const std::string& arguments, const std::string& words) {
     CAPTURE(arguments);

@@ -1,6 +1,8 @@
 #include "verbs/phase_plane_report.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -16,12 +18,20 @@ using reduction::PhasePlane;
 using reduction::ReducedSystem;
 using reduction::SingularKind;
 using reduction::SingularPoint;
+using reduction::TerminalRatio;
+using reduction::TerminalRatios;
 
 namespace {
 
 /// In the order of InvariantDirection: what tends to what along an orbit that enters the origin.
 constexpr std::array<std::string_view, 3> approaches{"along v = 0: k falls", "along the ray: k - k* falls",
                                                      "along u = 0: 1/k falls"};
+
+/// The end of the largest sector of starts, by the angle of (mu |u|, v).
+std::size_t usual_end(const TerminalRatios& ratios) {
+  const auto sector = [](const TerminalRatio& end) { return std::atan(end.to) - std::atan(end.from); };
+  return static_cast<std::size_t>(std::ranges::max_element(ratios.ends, {}, sector) - ratios.ends.begin());
+}
 
 bool is_separatrix(const SingularPoint& point) { return point.kind == SingularKind::saddle; }
 
@@ -32,7 +42,7 @@ std::string_view limit_name(reduction::TerminalRegime regime) {
   return names[static_cast<std::size_t>(regime)];
 }
 
-void add_terminal_ratios(JsonObject& document, const reduction::TerminalRatios& ratios) {
+void add_terminal_ratios(JsonObject& document, const TerminalRatios& ratios) {
   std::vector<std::string> rays, ends;
   for (const reduction::InvariantRay& ray : ratios.rays) {
     rays.push_back(JsonObject()
@@ -41,21 +51,26 @@ void add_terminal_ratios(JsonObject& document, const reduction::TerminalRatios& 
                        .add("accuracy", json(ray.accuracy))
                        .inline_text());
   }
-  for (const reduction::TerminalRatio& end : ratios.ends) {
-    ends.push_back(JsonObject()
-                       .add("limit", json(limit_name(end.regime)))
-                       .add("k_star", json(end.k))
-                       .add("k_from", json(end.from))
-                       .add("k_to", json(end.to))
-                       .inline_text());
+  const auto add = [&](JsonObject& object, const TerminalRatio& end) {
+    object.add("limit", json(limit_name(end.regime)))
+        .add("k_star", json(end.k))
+        .add("k_star_accuracy", json(accuracy_of(end, ratios)))
+        .add("k_from", json(end.from))
+        .add("k_to", json(end.to));
+  };
+  for (const TerminalRatio& end : ratios.ends) {
+    JsonObject object;
+    add(object, end);
+    ends.push_back(object.inline_text());
   }
-  const bool one = ratios.ends.size() == 1;
-  document.add("r_low", json(ratios.low))
-      .add("r_high", json(ratios.high))
-      .add("limit", json(one ? limit_name(ratios.ends.front().regime) : "several"))
-      .add("k_star", one ? json(ratios.ends.front().k) : "null")
-      .add("rays", json_array(rays))
-      .add("ends", json_array(ends));
+  document.add("r_low", json(ratios.low)).add("r_high", json(ratios.high));
+  add(document, ratios.ends[usual_end(ratios)]);
+  document.add("rays", json_array(rays)).add("ends", json_array(ends));
+}
+
+double accuracy_of(const TerminalRatio& end, const TerminalRatios& ratios) {
+  const auto ray = std::ranges::find(ratios.rays, end.k, &reduction::InvariantRay::k);
+  return ray == ratios.rays.end() ? 0 : ray->accuracy;
 }
 
 std::string phase_plane_as_text(const ReducedSystem& system, const PhasePlane& plane, int digits) {
@@ -133,11 +148,11 @@ std::string phase_plane_as_json(const ReducedSystem& system, const PhasePlane& p
            JsonObject().add("chi", json(system.inertia().chi)).add("gamma", json(system.inertia().gamma)).inline_text())
       .add("r", json(system.r()));
   add_terminal_ratios(document, plane.terminal);
-  const bool one = plane.tangents.size() == 1;
+  const reduction::Tangent& usual = plane.tangents[usual_end(plane.terminal)];
   document.add("mu_low", json(plane.mu_low))
       .add("mu_high", json(plane.mu_high))
-      .add("tangent", one ? json(name(plane.tangents.front().direction)) : "null")
-      .add("contact_order", one ? json(plane.tangents.front().contact_order) : "null")
+      .add("tangent", json(name(usual.direction)))
+      .add("contact_order", json(usual.contact_order))
       .add("tangents", json_array(tangents))
       .add("singular_points", json_array(points));
   return document.text();

@@ -48,12 +48,13 @@ class TerminalCommand final : public Verb {
  private:
   /// A row for each end.
   static std::string as_csv(const reduction::ReducedSystem& system, const TerminalRatios& ratios) {
-    std::string text = csv_line({"law", "r", "r_low", "r_high", "limit", "k_star", "k_from", "k_to"});
+    std::string text =
+        csv_line({"law", "r", "r_low", "r_high", "limit", "k_star", "k_from", "k_to", "k_star_accuracy"});
     for (const TerminalRatio& end : ratios.ends) {
       std::vector<std::string> row{system.law().name()};
       for (double value : {system.r(), ratios.low, ratios.high}) row.push_back(fmt::format("{}", value));
       row.emplace_back(limit_name(end.regime));
-      for (double value : {end.k, end.from, end.to}) row.push_back(fmt::format("{}", value));
+      for (double value : {end.k, end.from, end.to, accuracy_of(end, ratios)}) row.push_back(fmt::format("{}", value));
       text += csv_line(row);
     }
     return text;
