@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -265,6 +266,11 @@ std::string tex_text(std::string_view text) {
   return reader.read(false);
 }
 
-std::string pgfplots(const Figure& figure) { return Writer(figure).document(); }
+std::string pgfplots(const Figure& figure) {
+  if (std::ranges::any_of(figure.panels, [](const Panel& panel) { return panel.colours.has_value(); })) {
+    throw std::domain_error("pgfplots: a field of colours is more than TeX can draw: choose another format");
+  }
+  return Writer(figure).document();
+}
 
 }  // namespace contensou::portraits

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -52,6 +53,13 @@ TEST_CASE("A document has as many closing braces as opening ones, and only finit
     CHECK(tex.find("\\begin{tikzpicture}") != std::string::npos);
     CHECK(tex == document(view));
   }
+}
+
+TEST_CASE("TeX draws no field of colours", "[domain]") {
+  portraits::Figure map;
+  map.panels.resize(1);
+  map.panels[0].colours = portraits::ColourMap{.values = {1, 2}, .columns = 2};
+  CHECK_THROWS_AS(portraits::pgfplots(map), std::domain_error);
 }
 
 TEST_CASE("pdflatex compiles every view", "[route]") {

@@ -28,8 +28,8 @@ const std::vector<Writer> writers{
     {"balls", "a list of balls", {"txt", "csv", "json"}},
     {"balls pool", "a run file", {"toml", "txt"}},
     {"paper", "a table of statements", {"txt", "csv", "json"}},
-    {"sweep --mu 0.3 --u0 0:1:3 --v0 0:1:3", "a sweep", {"npy", "csv", "gp"}},
-    {"portrait --mu 0.3", "a portrait", {"gp", "tex", "csv", "json"}},
+    {"sweep --mu 0.3 --u0 0:1:3 --v0 0:1:3", "a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}},
+    {"portrait --mu 0.3", "a portrait", {"gp", "svg", "pdf", "png", "eps", "tex", "csv", "json"}},
     {"portrait --mu 0.3 --facts", "a table of facts", {"txt", "csv", "json"}},
 };
 
@@ -58,10 +58,23 @@ TEST_CASE("the ending decides the format, on every verb", "[cli]") {
   }
 }
 
+TEST_CASE("law and roll draw where the ending is a picture's", "[cli]") {
+  const TemporaryDirectory scratch;
+  for (const std::string verb : {"law", "roll --ball pool"}) {
+    for (const std::string ending : {"svg", "pdf", "png", "eps", "gp", "tex"}) {
+      const std::string file = scratch.file("result." + ending);
+      INFO(verb << " " << file);
+      CHECK(run_program(verb + " -o " + file).status == 0);
+      CHECK(read_file(file) == run_program(verb + " -o - --format " + ending).out);
+      CHECK(read_file(file).size() > 4000);
+    }
+  }
+}
+
 TEST_CASE("an ending that a verb does not write is bad input", "[cli]") {
   const TemporaryDirectory scratch;
   for (const auto& [command, noun, endings] : writers) {
-    for (const std::string wrong : {"jpg", "JSON", "text", "npy", "toml", "html"}) {
+    for (const std::string wrong : {"jpg", "JSON", "text", "npy", "toml", "html", "PNG"}) {
       if (std::ranges::find(endings, wrong) != endings.end()) continue;
       const std::string file = scratch.file("result." + wrong);
       const Run run = run_program(command + " -o " + file, start_table);
@@ -73,6 +86,7 @@ TEST_CASE("an ending that a verb does not write is bad input", "[cli]") {
       for (const std::string& ending : endings) CHECK_THAT(run.err, Contains(ending));
     }
   }
+  CHECK(run_program("sweep --mu 0.3 --u0 0:1:3 --v0 0:1:3 -o " + scratch.file("map.tex")).status == 2);
   CHECK(run_program("explore -o " + scratch.file("page.svg")).status == 2);
   CHECK(scratch.names().empty());
 }

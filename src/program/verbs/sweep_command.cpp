@@ -116,7 +116,7 @@ class SweepCommand final : public Verb {
   BodyOption body_;
   ThreadOption threads_;
   ProgressOption progress_;
-  OutputOptions output_{{{"a sweep", with_pictures({"npy", "csv"}), "csv"}}};
+  OutputOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "csv"}}};
 };
 
 const RegisteredVerb<SweepCommand> registered("sweep",
