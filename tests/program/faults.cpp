@@ -220,25 +220,28 @@ struct Fault {
   int value;
 };
 
+/// Preloads the library of faults, in the program's process, and tells it what to do.
+void preload(const char* variable, const std::string& value) {
+  ::setenv("LD_PRELOAD", CONTENSOU_FAULT_LIBRARY, 1);
+  ::setenv(variable, value.c_str(), 1);
+}
+
+void preload_fault(int call, Fault fault) {
+  preload("CONTENSOU_FAULT", std::to_string(call) + " " + fault.kind + " " + std::to_string(fault.value));
+}
+
 /// Lets each of the program's calls go wrong, one in each run.
 void try_faults(const Writer& writer, const std::vector<Fault>& faults) {
   Bench bench(writer);
-  const auto run = [&](const std::string& name, const std::string& value) {
-    return bench.run([&] {
-      ::setenv("LD_PRELOAD", CONTENSOU_FAULT_LIBRARY, 1);
-      ::setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
-      ::setenv(name.c_str(), value.c_str(), 1);
-    });
-  };
   bench.refresh(true);
-  bench.require_old_or_new(run("CONTENSOU_FAULT_COUNT", bench.tool("count")));
+  bench.require_old_or_new(bench.run([&] { preload("CONTENSOU_FAULT_COUNT", bench.tool("count")); }));
   const int calls = std::stoi(read_file(bench.tool("count")));
   REQUIRE(calls >= 4);
   for (int call = 1; call <= calls; ++call) {
-    for (const auto& [kind, value] : faults) {
-      CAPTURE(call, kind, value);
+    for (const Fault& fault : faults) {
+      CAPTURE(call, fault.kind, fault.value);
       bench.refresh(call % 2 == 0);
-      bench.require_old_or_new(run("CONTENSOU_FAULT", std::to_string(call) + " " + kind + " " + std::to_string(value)));
+      bench.require_old_or_new(bench.run([&] { preload_fault(call, fault); }));
     }
   }
 }
@@ -394,9 +397,7 @@ TEST_CASE("an ignored signal stays ignored", "[cli]") {
   const TemporaryDirectory folder;
   write_file(folder.file("table"), "mu,u0,v0\n0.1,1,1\n");
   const Ended ended = run_in(folder.path(), batch, [] {
-    ::setenv("LD_PRELOAD", CONTENSOU_FAULT_LIBRARY, 1);
-    ::setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
-    ::setenv("CONTENSOU_FAULT", ("2 b " + std::to_string(SIGHUP)).c_str(), 1);
+    preload_fault(2, {'b', SIGHUP});
     std::signal(SIGHUP, SIG_IGN);
   });
   CHECK(ended.status == 0);
@@ -423,9 +424,7 @@ TEST_CASE("process 1 of a container ends by a signal, too", "[cli]") {
   const TemporaryDirectory folder;
   write_file(folder.file("table"), "mu,u0,v0\n0.1,1,1\n");
   const Ended ended = run_in(folder.path(), batch, [] {
-    ::setenv("LD_PRELOAD", CONTENSOU_FAULT_LIBRARY, 1);
-    ::setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
-    ::setenv("CONTENSOU_FAULT", ("2 b " + std::to_string(SIGTERM)).c_str(), 1);
+    preload_fault(2, {'b', SIGTERM});
     if (::unshare(CLONE_NEWPID) != 0) ::_exit(98);
     const pid_t first = ::fork();
     if (first == 0) return;
