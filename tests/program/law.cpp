@@ -81,8 +81,9 @@ TEST_CASE("law by every name, by exponent and by table", "[cli]") {
 
 TEST_CASE("an exponent or a name that is no law", "[cli]") {
   const std::pair<const char*, const char*> complaints[] = {
-      {"pressure:", "exponent"},  {"pressure:x", "'x'"},  {"pressure:-1", "ring"},    {"pressure:nan", "nan"},
-      {"pressure:1e9", "-1 < P"}, {"uniforn", "uniform"}, {"pressure", "pressure:P"}, {"punsh", "'punch'"}};
+      {"pressure:", "exponent"}, {"pressure:x", "'x'"},      {"pressure:0.5abc", "'0.5abc'"},
+      {"pressure:-1", "ring"},   {"pressure:nan", "nan"},    {"pressure:1e9", "-1 < P"},
+      {"uniforn", "uniform"},    {"pressure", "pressure:P"}, {"punsh", "'punch'"}};
   for (const auto& [law, complaint] : complaints) {
     const Run run = run_program(std::string("law --k 1 --law ") + law);
     INFO(law << ": " << run.err);
@@ -95,13 +96,20 @@ TEST_CASE("an exponent or a name that is no law", "[cli]") {
 TEST_CASE("a table that is no pressure", "[cli]") {
   const TemporaryDirectory scratch;
   const std::string path = scratch.file("bad.csv");
-  const std::pair<const char*, const char*> tables[] = {
-      {"rho,pressure\n0.1,1\n1,1\n", ":2: "}, {"rho,pressure\n0,1\n0,1\n1,1\n", ":3: "},
-      {"rho,pressure\n0,1\n0.9,1\n", ":3: "}, {"rho,pressure\n0,1\n1.5,1\n", ":3: "},
-      {"rho,pressure\n0,1\n1,-1\n", ":3: "},  {"rho,pressure\n0,inf\n1,1\n", ":2: "},
-      {"rho,pressure\n0,0\n1,0\n", ":3: "},   {"rho,pressure\n0,1\n", ":1: "},
-      {"rho,p\n0,1\n1,1\n", ":1: "},          {"rho,pressure\n0,1\n1\n", ":3: "},
-      {"rho,pressure\n0,1\nnan,1\n", ":3: "}, {"", ":1: "}};
+  const std::pair<const char*, const char*> tables[] = {{"rho,pressure\n0.1,1\n1,1\n", ":2: "},
+                                                        {"rho,pressure\n0,1\n0,1\n1,1\n", ":3: "},
+                                                        {"rho,pressure\n0,1\n0.9,1\n", ":3: "},
+                                                        {"rho,pressure\n0,1\n1.5,1\n", ":3: "},
+                                                        {"rho,pressure\n0,1\n1,-1\n", ":3: "},
+                                                        {"rho,pressure\n0,inf\n1,1\n", ":2: "},
+                                                        {"rho,pressure\n0,0\n1,0\n", ":3: "},
+                                                        {"rho,pressure\n0,1\n", ":1: "},
+                                                        {"rho,p\n0,1\n1,1\n", ":1: "},
+                                                        {"rho,pressure\n0,1\n1\n", ":3: "},
+                                                        {"rho,pressure\n0,1\nnan,1\n", ":3: "},
+                                                        {"", ":1: "},
+                                                        {"rho,pressure\n0,1\n0.5,1\n0.4,1\n1,1\n", ":4: "},
+                                                        {"rho,pressure\n0,1\n0.5,1\n0.5,2\n0.5,3\n1,1\n", ":5: "}};
   for (const auto& [text, line] : tables) {
     write_file(path, text);
     const Run run = run_program("stop --mu 0.1 --u0 1 --v0 1 --law " + path);
@@ -127,4 +135,39 @@ TEST_CASE("every verb takes every law", "[cli]") {
     CHECK(run_program("portrait --mu 0.2 --law " + law + " -o " + scratch.file("p.json")).status == 0);
     CHECK(run_program("law --law " + law + " -o " + scratch.file("f.gp")).status == 0);
   }
+}
+
+TEST_CASE("a steep table is a disc of half the radius for every verb", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("gap.csv"), "rho,pressure\n0,1\n0.5,1\n0.5000000000000001,0\n1,0\n");
+  write_file(scratch.file("step.csv"), "rho,pressure\n0,1\n0.5,1\n0.5,0\n1,0\n");
+  constexpr double disc = 9.957387086512346;
+  for (const char* name : {"gap.csv", "step.csv"}) {
+    const std::string law = " --body 1,2 --law " + scratch.file(name);
+    INFO(law);
+    const auto stop = json_of("stop --mu 1 --u0 1 --v0 1 --format json" + law);
+    CHECK(stop.at("tau_stop").get<double>() == Approx(disc).epsilon(1e-14));
+    CHECK(stop.at("accuracy").get<double>() <= 1e-13);
+    const Run batch = run_program("stop --batch -" + law, "mu,u0,v0\n1,1,1\n");
+    CHECK(batch.err.empty());
+    CHECK(std::stod(rows_of(batch.out).at(1).at(3)) == Approx(disc).epsilon(1e-14));
+    const Run sweep = run_program("sweep --mu 1 --u0 1:2:2 --v0 1:2:2" + law);
+    CHECK(std::stod(rows_of(sweep.out).at(1).at(3)) == Approx(disc).epsilon(1e-14));
+    const auto terminal = json_of("terminal --mu 1 --format json" + law);
+    CHECK(terminal.at("r_low").get<double>() == Approx(6).epsilon(1e-14));
+    CHECK(terminal.at("r_high").get<double>() == Approx(16).epsilon(1e-14));
+    const Run check = run_program("check --mu 1 --u0 1 --v0 1" + law);
+    INFO(check.out);
+    CHECK(check.status <= 1);
+    CHECK_THAT(check.out, !Contains("nan"));
+  }
+}
+
+TEST_CASE("a table that no speed of the curves resolves is a numerical failure with a way out", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("dot.csv"), "rho,pressure\n0,1\n1e-13,1\n1e-13,0\n1,0\n");
+  const Run run = run_program("stop --mu 0.1 --u0 1 --v0 1 --law " + scratch.file("dot.csv"));
+  CHECK(run.status == 3);
+  CHECK(run.out.empty());
+  CHECK_THAT(run.err, Contains("dot.csv") && Contains("1e-11") && Contains("radius of the loaded part"));
 }

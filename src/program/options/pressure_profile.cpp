@@ -1,12 +1,12 @@
 #include "options/pressure_profile.hpp"
 
-#include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 #include <Eigen/Core>
 
-#include "contensou/reduction/profile_law.hpp"
+#include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "input/csv.hpp"
 
 namespace contensou::program {
@@ -20,13 +20,18 @@ reduction::Law read_pressure_profile(const std::string& path) {
   long last_line = 0;
   table.for_each_row([&](const CsvRow& row) {
     const double before = rho.empty() ? -1 : rho.back();
+    const double before_that = rho.size() < 2 ? -1 : rho[rho.size() - 2];
     rho.push_back(table.number(row, rho_column));
     pressure.push_back(table.number(row, pressure_column));
     if (before < 0 && rho.back() != 0) {
       throw table.complaint(row.line(), fmt::format("rho must begin at 0, the centre, got {}", rho.back()));
     }
-    if (!(rho.back() > before)) {
-      throw table.complaint(row.line(), fmt::format("rho must increase, got {} after {}", rho.back(), before));
+    if (!(rho.back() >= before)) {
+      throw table.complaint(row.line(), fmt::format("rho must not decrease, got {} after {}", rho.back(), before));
+    }
+    if (rho.back() == before && (rho.back() == 0 || rho.back() == before_that)) {
+      throw table.complaint(
+          row.line(), fmt::format("rho = {} again: a step of the pressure has two rows of one rho > 0", rho.back()));
     }
     if (rho.back() > 1) {
       throw table.complaint(row.line(), fmt::format("rho must end at 1, the edge of the patch, got {}", rho.back()));
@@ -45,8 +50,12 @@ reduction::Law read_pressure_profile(const std::string& path) {
   }
   if (!loaded) throw table.complaint(last_line, "the pressure is 0 in every row");
   const auto rows = static_cast<Eigen::Index>(rho.size());
-  return reduction::ProfileLaw(path, Eigen::Map<const Eigen::ArrayXd>(rho.data(), rows),
-                               Eigen::Map<const Eigen::ArrayXd>(pressure.data(), rows));
+  try {
+    return reduction::TabulatedPressureLaw(path, Eigen::Map<const Eigen::ArrayXd>(rho.data(), rows),
+                                           Eigen::Map<const Eigen::ArrayXd>(pressure.data(), rows));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
+  }
 }
 
 }  // namespace contensou::program

@@ -7,8 +7,9 @@
 namespace contensou::program {
 
 /// The law of the pressure in a CSV file with columns rho, pressure; its name is the path.
-/// @throws BadLine            naming file and line, if the table breaks a rule of ProfileLaw
-/// @throws std::system_error  if the file cannot be read
+/// @throws BadLine             naming file and line, if the table breaks a rule of TabulatedPressureLaw
+/// @throws std::runtime_error  naming the file, as TabulatedPressureLaw
+/// @throws std::system_error   if the file cannot be read
 reduction::Law read_pressure_profile(const std::string& path);
 
 }  // namespace contensou::program

@@ -1,0 +1,477 @@
+// Notation (README (R32) to (R34)): s = rho^2; a ring has the radius a, the load dL = p ds, and q < 1, the smaller of
+// k and a over the larger; y = 1 - q^2. Its force is Phi dL and its moment a Psi dL, with
+//   Phi = q A/2,  Psi = 1 - q^2 D  for k <= a;   Phi = 1 - q^2 D,  Psi = q A/2  for k >= a
+#include "contensou/reduction/tabulated_pressure_law.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <boost/math/quadrature/gauss.hpp>
+
+#include "contensou/reduction/pressure_law.hpp"
+#include "numerics/gauss_function.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+/// Functions of y in [0, 1], smooth but for y = 0, side by side in one table of polynomials.
+///
+/// A panel is a sixteenth of an octave of y, so its half width is at most 1/33 of the way to y = 0; the last begins at
+/// y = 0, where a singular part like y ln y is below the last bit.
+template <int functions>
+class FunctionTable {
+ public:
+  using Values = std::array<double, functions>;
+
+  template <class Function>
+  explicit FunctionTable(Function function) : panels_(panels) {
+    using Matrix = Eigen::Matrix<double, terms, terms>;
+    using Rows = Eigen::Matrix<double, terms, functions, functions == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+    Eigen::Array<double, terms, 1> nodes;  // Chebyshev's
+    for (int j = 0; j < terms; ++j) nodes[j] = std::cos(std::numbers::pi * (2 * j + 1) / (2 * terms));
+    Matrix powers;
+    for (int n = 0; n < terms; ++n) powers.col(n) = nodes.pow(terms - 1 - n);
+    const Eigen::PartialPivLU<Matrix> solver(powers);
+    for (int i = 0; i < panels; ++i) {
+      const auto [left, right] = edges(i);
+      Rows values;
+      for (int j = 0; j < terms; ++j) {
+        const Values at = function(left + (right - left) / 2 * (1 + nodes[j]));
+        values.row(j) = Eigen::Map<const Eigen::Matrix<double, 1, functions>>(at.data());
+      }
+      const Rows coefficients = solver.solve(values);
+      Eigen::Map<Rows>(panels_[static_cast<std::size_t>(i)].front().data()) = coefficients;
+    }
+  }
+
+  Values operator()(double y) const {
+    // The exponent and the first bits of the mantissa count the panels, the others go from -1 to 1 across each.
+    constexpr int fraction_bits = 52;
+    constexpr std::uint64_t fraction = (std::uint64_t{1} << fraction_bits) - 1;
+    constexpr auto first = std::bit_cast<std::uint64_t>(lowest) >> (fraction_bits - cut_bits);
+    const auto bits = std::bit_cast<std::uint64_t>(y);
+    if (y < lowest) return polynomial(0, 2 / lowest * y - 1);
+    if (y >= 1) return polynomial(panels - 1, 1);
+    const double rest = std::bit_cast<double>((bits << cut_bits & fraction) | std::bit_cast<std::uint64_t>(1.0));
+    return polynomial((bits >> (fraction_bits - cut_bits)) - first + 1, 2 * rest - 3);
+  }
+
+ private:
+  static constexpr int terms = 9;
+  static constexpr double lowest = 0x1p-60;
+  static constexpr int cut_bits = 4;
+  static constexpr int cuts = 1 << cut_bits;
+  static constexpr int panels = 60 * cuts + 1;
+
+  /// Edges of panel i; panel 0 is (0, lowest).
+  static std::pair<double, double> edges(int i) {
+    if (i == 0) return {0, lowest};
+    const double octave = std::ldexp(lowest, (i - 1) / cuts);
+    const double left = 1 + (i - 1) % cuts / double{cuts};
+    return {octave * left, octave * (left + 1.0 / cuts)};
+  }
+
+  Values polynomial(std::size_t panel, double t) const {
+    Values sum{};
+    for (const Values& coefficient : panels_[panel]) {
+      for (std::size_t f = 0; f < functions; ++f) sum[f] = sum[f] * t + coefficient[f];
+    }
+    return sum;
+  }
+
+  std::vector<std::array<Values, terms>> panels_;  ///< powers of (distance from the centre)/(half width), highest first
+};
+
+/// A and D of a thin ring, functions of y = 1 - q^2.
+const FunctionTable<2>& ring_functions() {
+  static const GaussFunction weaker(0.5L, 0.5L, 2), stronger(-0.5L, 0.5L, 1);
+  static const FunctionTable<2> table([](double y) {
+    return std::array{weaker(1 - y, y), stronger.deficit(1 - y, y)};
+  });
+  return table;
+}
+
+/// Rings of neighbouring radii, and k among them: (R34), with u = s/k^2 - 1.
+class NearRings {
+ public:
+  /// Of Phi and a Psi/k of a ring as functions of u: the integral from 0 to u, and the integral of that.
+  struct Integrals {
+    double force, force_again, moment, moment_again;
+  };
+
+  static Integrals at(double u) {
+    static const NearRings instance;
+    if (u == 0) return {0, 0, 0, 0};
+    std::array<double, columns> sum{};
+    // As many powers as count: 2^(-n distance) < 2^-56.
+    const int distance = -std::ilogb(u);
+    const std::size_t count = distance > 1 ? std::min<std::size_t>(terms, 56 / (distance - 1) + 2) : terms;
+    for (const auto& coefficients : std::span(instance.powers_).last(count)) {
+      for (std::size_t j = 0; j < columns; ++j) sum[j] = coefficients[j] - sum[j] * u;
+    }
+    const double log = std::log(std::abs(u));
+    const auto [force, force_log, force_again, force_again_log, moment, moment_log, moment_again, moment_again_log] =
+        sum;
+    return {u * (force + force_log * log), u * u * (force_again + force_again_log * log),
+            u * (moment + moment_log * log), u * u * (moment_again + moment_again_log * log)};
+  }
+
+ private:
+  static constexpr std::size_t columns = 8;
+  static constexpr int terms = 36;
+
+  /// The coefficient of (-u)^n (plain + log ln|u|) after one more integration, without the factor u.
+  struct Term {
+    double plain;
+    double log;
+    Term integrated(int n) const { return {plain / (n + 1) - log / ((n + 1) * (n + 1)), log / (n + 1)}; }
+  };
+
+  NearRings() {
+    // E(1 - y) = sum of y^n E_n, K(1 - y) = sum of y^n K_n.
+    double square = 1;                   // ((1/2)_n/n!)^2
+    double digamma = std::numbers::ln2;  // (psi(1 + n) - psi(1/2 + n))/2
+    Term elliptic_e{1, 0};
+    Term elliptic_k_before{0, 0};
+    for (int n = 0; n < terms; ++n) {
+      const Term force{elliptic_e.plain, elliptic_e.log};
+      const Term moment{elliptic_e.plain - elliptic_k_before.plain, elliptic_e.log - elliptic_k_before.log};
+      auto& column = powers_[static_cast<std::size_t>(terms - 1 - n)];
+      std::size_t j = 0;
+      for (const Term& term : {force, moment}) {
+        const Term once = term.integrated(n);
+        const Term twice = once.integrated(n + 1);
+        for (double coefficient : {once.plain, once.log, twice.plain, twice.log}) {
+          column[j++] = 2 / std::numbers::pi * coefficient;
+        }
+      }
+      elliptic_k_before = {2 * square * digamma, -square / 2};
+      const double between = 1.0 / ((2 * n + 1) * (2 * n + 2));
+      const double product = square * (2 * n + 1) / (n + 1);  // (1/2)_n (3/2)_n/((2)_n n!)
+      elliptic_e = {product * (digamma - between / 2), -product / 4};
+      digamma -= between;
+      square *= (n + 0.5) / (n + 1) * ((n + 0.5) / (n + 1));
+    }
+  }
+
+  std::array<std::array<double, columns>, terms> powers_{};  ///< of -u, highest first
+};
+
+struct Ring {
+  double radius;
+  double load;
+};
+
+/// Rings that stand for all between two radii: a Gauss rule in s with the pressure as its weight.
+using Rule = std::vector<Ring>;
+constexpr int rule_order = 10;
+
+/// Rows between which the pressure is linear in s. p is relative to the load of the whole patch.
+struct Piece {
+  double inner, outer;  ///< radii
+  double inner_pressure, outer_pressure;
+
+  double width() const { return (outer - inner) * (outer + inner); }  ///< in s
+  double load() const { return (inner_pressure + outer_pressure) / 2 * width(); }
+};
+
+Rule rule_of(const Piece& piece) {
+  using Gauss = boost::math::quadrature::gauss<double, rule_order>;
+  Rule rule;
+  for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
+    for (double t : {-Gauss::abscissa()[i], Gauss::abscissa()[i]}) {
+      const double share = (1 + t) / 2;
+      const double radius = std::sqrt(piece.inner * piece.inner + share * piece.width());
+      const double pressure = (1 - share) * piece.inner_pressure + share * piece.outer_pressure;
+      rule.push_back(
+          {std::clamp(radius, piece.inner, piece.outer), Gauss::weights()[i] / 2 * piece.width() * pressure});
+    }
+  }
+  return rule;
+}
+
+/// The Gauss rule for the rings of two others, by Lanczos' recurrence.
+Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
+  Rule all = left;
+  all.insert(all.end(), right.begin(), right.end());
+  const auto count = static_cast<Eigen::Index>(all.size());
+  const double middle = std::sqrt((inner * inner + outer * outer) / 2);
+  const double half = (outer - inner) * (outer + inner) / 2;
+  Eigen::VectorXd place(count), vector(count);
+  double load = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Ring& ring = all[static_cast<std::size_t>(i)];
+    place[i] = (ring.radius - middle) * (ring.radius + middle) / half;
+    vector[i] = std::sqrt(ring.load);
+    load += ring.load;
+  }
+  vector.normalize();
+  Eigen::MatrixXd basis(count, rule_order);
+  Eigen::VectorXd diagonal(rule_order), beside(rule_order);
+  Eigen::Index order = 0;
+  while (order < std::min<Eigen::Index>(rule_order, count)) {
+    basis.col(order) = vector;
+    const Eigen::VectorXd next = place.cwiseProduct(vector);
+    diagonal[order] = vector.dot(next);
+    vector = next;
+    for (int twice = 0; twice < 2; ++twice) {
+      vector -= basis.leftCols(order + 1) * (basis.leftCols(order + 1).transpose() * vector);
+    }
+    beside[order] = vector.norm();
+    ++order;
+    if (!(beside[order - 1] > 1e-14)) break;  // no more radii than these
+    vector /= beside[order - 1];
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal.head(order), beside.head(order - 1));
+  Rule rule;
+  for (Eigen::Index i = 0; i < order; ++i) {
+    const double radius = std::sqrt(middle * middle + half * solver.eigenvalues()[i]);
+    const double share = solver.eigenvectors()(0, i) * solver.eigenvectors()(0, i);
+    rule.push_back({std::clamp(radius, inner, outer), share * load});
+  }
+  return rule;
+}
+
+/// Neighbouring pieces, and the rings that stand for them where k is no nearer than the block is wide.
+struct Block {
+  double inner_square, outer_square, width;
+  Rule rule;                   ///< none where the block reaches too near to the centre
+  Piece piece;                 ///< the first
+  double pivoting_moment = 0;  ///< of a block that is one piece
+  std::size_t next;            ///< the first block that is not a part of this; block + 1 if it is one piece
+
+  bool far_from(double square) const { return square <= inner_square - width || square >= outer_square + width; }
+};
+
+void require_table(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
+  const auto reject = [](Eigen::Index row, const std::string& rule) {
+    throw std::domain_error(fmt::format("TabulatedPressureLaw: row {}: {}", row + 1, rule));
+  };
+  if (rho.size() != pressure.size() || rho.size() < 2) {
+    throw std::domain_error(fmt::format(
+        "TabulatedPressureLaw: two or more rows are needed, got {} rho and {} pressures", rho.size(), pressure.size()));
+  }
+  const Eigen::Index last = rho.size() - 1;
+  if (rho[0] != 0) reject(0, fmt::format("rho must begin at 0, got {}", rho[0]));
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    if (i > 0 && !(rho[i] >= rho[i - 1])) reject(i, fmt::format("rho must not decrease, got {}", rho[i]));
+    if (i > 0 && rho[i] == 0) reject(i, "rho = 0 must be in one row only");
+    if (i > 1 && rho[i] == rho[i - 2]) {
+      reject(i, fmt::format("no more than two rows, a step, may have the same rho, got {}", rho[i]));
+    }
+    if (!(pressure[i] >= 0) || !std::isfinite(pressure[i])) {
+      reject(i, fmt::format("the pressure must be finite and >= 0, got {}", pressure[i]));
+    }
+  }
+  if (rho[last] != 1) reject(last, fmt::format("rho must end at 1, got {}", rho[last]));
+  if (!(pressure.maxCoeff() > 0)) throw std::domain_error("TabulatedPressureLaw: the pressure is 0 in every row");
+}
+
+}  // namespace
+
+/// The patch as a disc in the middle, up to the second row, and rings around it.
+class TabulatedPressureLaw::Rings {
+ public:
+  struct Sum {
+    double force;
+    double moment;
+    double deficit;  ///< moment of pure pivoting less this one
+  };
+
+  Rings(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
+    std::vector<Piece> pieces;
+    const Eigen::ArrayXd relative = pressure / pressure.maxCoeff();
+    for (Eigen::Index i = 1; i < rho.size(); ++i) {
+      if (rho[i] > rho[i - 1]) pieces.push_back({rho[i - 1], rho[i], relative[i - 1], relative[i]});
+    }
+    double load = 0;
+    for (const Piece& piece : pieces) load += piece.load();
+    if (!(load > 1e-100)) refuse_centre();
+    for (Piece& piece : pieces) {
+      piece.inner_pressure /= load;
+      piece.outer_pressure /= load;
+    }
+    const Piece& middle = pieces.front();
+    radius_ = middle.outer;
+    flat_load_ = middle.outer_pressure * middle.width();
+    round_load_ = (middle.inner_pressure - middle.outer_pressure) * middle.width() / 2;
+    std::vector<Piece> cut;
+    for (const Piece& piece : std::span(pieces).subspan(1)) add_narrow_parts(piece, cut);
+    if (!cut.empty()) add_blocks(cut);
+    const Sum sliding = sum(std::numeric_limits<double>::infinity());
+    const Sum pivoting = sum(0);
+    load_ = sliding.force;
+    pivoting_moment_ = pivoting.moment;
+    // Curves are sampled from k = 4e-18; below, Phi is taken to be linear.
+    constexpr double slow = 0x1p-57;
+    constexpr double slower = 0x1p-100;
+    if (!(std::abs(sum(slow).force * (slower / slow) / sum(slower).force - 1) < 1e-13)) refuse_centre();
+  }
+
+  Resistance resistance(double k) const {
+    const Sum of_all = sum(k);
+    return {std::min(of_all.force / load_, 1.0), of_all.moment / load_};
+  }
+
+  double moment_deficit(double k) const { return sum(k).deficit / pivoting_moment_; }
+
+ private:
+  [[noreturn]] static void refuse_centre() {
+    throw std::runtime_error(
+        "TabulatedPressureLaw: rows within rho = 1e-11 decide how the patch resists slow sliding, and no k >= 4e-18 "
+        "tells how; if the pressure is 0 farther out, take the radius of the loaded part as that of the patch");
+  }
+
+  static void add_narrow_parts(const Piece& piece, std::vector<Piece>& parts) {
+    constexpr double widest = 1.06;  // ratio of the radii
+    constexpr double faint = 1e-200;
+    if (!(piece.load() > faint)) return;
+    const double octaves = std::log(piece.outer / piece.inner) / std::log(widest);
+    const int count = std::max(1, static_cast<int>(std::ceil(octaves)));
+    Piece part = piece;
+    for (int i = 1; i <= count; ++i) {
+      part.outer = i == count ? piece.outer : piece.inner * std::pow(piece.outer / piece.inner, double(i) / count);
+      const double share = (part.outer - piece.inner) * (part.outer + piece.inner) / piece.width();
+      part.outer_pressure =
+          i == count ? piece.outer_pressure : (1 - share) * piece.inner_pressure + share * piece.outer_pressure;
+      if (part.load() > faint) parts.push_back(part);
+      part.inner = part.outer;
+      part.inner_pressure = part.outer_pressure;
+    }
+  }
+
+  /// The block of these pieces and, after it, those of its two halves.
+  void add_blocks(std::span<const Piece> pieces) {
+    const double inner = pieces.front().inner;
+    const double outer = pieces.back().outer;
+    const std::size_t here = blocks_.size();
+    blocks_.push_back(
+        {inner * inner, outer * outer, (outer - inner) * (outer + inner), {}, pieces.front(), 0, here + 1});
+    if (pieces.size() == 1) {
+      Block& block = blocks_[here];
+      block.rule = rule_of(pieces.front());
+      for (const auto& [radius, load] : block.rule) block.pivoting_moment += load * radius;
+      return;
+    }
+    const double middle = (inner * inner + outer * outer) / 2;
+    const auto beyond = std::ranges::lower_bound(pieces, middle, {}, [](const Piece& p) { return p.inner * p.inner; });
+    const auto half = std::clamp<std::ptrdiff_t>(beyond - pieces.begin(), 1, std::ssize(pieces) - 1);
+    add_blocks(pieces.first(static_cast<std::size_t>(half)));
+    const std::size_t second = blocks_.size();
+    add_blocks(pieces.subspan(static_cast<std::size_t>(half)));
+    Block& block = blocks_[here];
+    block.next = blocks_.size();
+    if (block.outer_square <= 2 * block.inner_square) {
+      block.rule = merged(blocks_[here + 1].rule, blocks_[second].rule, inner, outer);
+    }
+  }
+
+  Sum sum(double k) const {
+    Sum total = disc(k);
+    const double square = k * k;
+    for (std::size_t i = 0; i < blocks_.size();) {
+      const Block& block = blocks_[i];
+      if (!block.rule.empty() && block.far_from(square)) {
+        add_far(block.rule, k, total);
+        i = block.next;
+      } else {
+        if (block.next == i + 1) add_near(block.piece, block.pivoting_moment, k, total);
+        ++i;
+      }
+    }
+    return total;
+  }
+
+  /// The disc in the middle: a uniform one and a paraboloid.
+  Sum disc(double k) const {
+    static const PressureLaw flat = PressureLaw::uniform(), round(1);
+    Sum total{0, 0, 0};
+    const Slip slip = k <= radius_ ? Slip{k / radius_, 1} : Slip{1, radius_ / k};
+    for (const auto& [law, load] : {std::pair{&flat, flat_load_}, {&round, round_load_}}) {
+      if (load == 0) continue;
+      const auto [force, moment] = (*law)(slip);
+      total.force += load * force;
+      total.moment += load * radius_ * moment;
+      total.deficit += load * radius_ * ((*law)({0, 1}).moment * law->moment_deficit(slip));
+    }
+    return total;
+  }
+
+  static void add_far(const Rule& rule, double k, Sum& total) {
+    const FunctionTable<2>& functions = ring_functions();
+    if (k <= rule.front().radius) {
+      for (const auto& [radius, load] : rule) {
+        const double q = k / radius;
+        const auto [a, d] = functions((1 - q) * (1 + q));
+        const double loss = q * q * d;
+        total.force += load * (q / 2 * a);
+        total.moment += load * radius * (1 - loss);
+        total.deficit += load * radius * loss;
+      }
+    } else {
+      for (const auto& [radius, load] : rule) {
+        const double q = radius / k;
+        const auto [a, d] = functions((1 - q) * (1 + q));
+        const double moment = q / 2 * a;
+        total.force += load * (1 - q * q * d);
+        total.moment += load * radius * moment;
+        total.deficit += load * radius * (1 - moment);
+      }
+    }
+  }
+
+  static void add_near(const Piece& piece, double pivoting_moment, double k, Sum& total) {
+    const double square = k * k;
+    const double width = piece.width() / square;
+    const auto inner = NearRings::at((piece.inner - k) * (piece.inner + k) / square);
+    const auto outer = NearRings::at((piece.outer - k) * (piece.outer + k) / square);
+    const auto mean = [&](double inner_once, double inner_twice, double outer_once, double outer_twice) {
+      const double change = outer_twice - inner_twice;
+      return (piece.inner_pressure * (change - width * inner_once) +
+              piece.outer_pressure * (width * outer_once - change)) /
+             width * square;
+    };
+    const double moment = k * mean(inner.moment, inner.moment_again, outer.moment, outer.moment_again);
+    total.force += mean(inner.force, inner.force_again, outer.force, outer.force_again);
+    total.moment += moment;
+    total.deficit += pivoting_moment - moment;  // Psi is nearly 2/pi, that of k = a: nothing cancels
+  }
+
+  double radius_ = 1;
+  double flat_load_ = 0;
+  double round_load_ = 0;
+  std::vector<Block> blocks_;  ///< each is followed by its parts
+  double load_ = 1;
+  double pivoting_moment_ = 0;
+};
+
+TabulatedPressureLaw::TabulatedPressureLaw(std::string name, const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure)
+    : name_(std::move(name)) {
+  require_table(rho, pressure);
+  rings_ = std::make_shared<const Rings>(rho, pressure);
+}
+
+Resistance TabulatedPressureLaw::operator()(Slip slip) const {
+  require_slip("TabulatedPressureLaw", slip);
+  return rings_->resistance(slip.sliding / slip.pivoting);
+}
+
+double TabulatedPressureLaw::moment_deficit(Slip slip) const {
+  require_slip("TabulatedPressureLaw", slip);
+  return rings_->moment_deficit(slip.sliding / slip.pivoting);
+}
+
+}  // namespace contensou::reduction
