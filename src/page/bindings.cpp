@@ -11,7 +11,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -60,8 +59,6 @@ val answer(Function function) {
 }
 
 Law law_of(const std::string& name) {
-  constexpr std::string_view family = "pressure:";
-  if (name.starts_with(family)) return reduction::PressureLaw(std::stod(name.substr(family.size())));
   if (auto law = reduction::find_law(name)) return *law;
   throw std::domain_error(fmt::format("no such law: {}", name));
 }

@@ -24,8 +24,6 @@ class LawOption {
   reduction::Law read() const;
 
  private:
-  reduction::Law of_the_family() const;
-
   Argument law_;
 };
 

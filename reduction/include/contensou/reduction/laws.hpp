@@ -14,7 +14,9 @@ const std::vector<Law>& paper_laws();
 /// Every law that has a name, in the order in which it is shown: those of the paper first.
 const std::vector<Law>& named_laws();
 
-/// The law of that name, if there is one.
+/// The law of that name, or of the exponent P in "pressure:P" (PressureLaw::name); empty if there is no such law.
+/// @throws std::domain_error  after "pressure:", for what is no number or no exponent of PressureLaw; names neither law
+///                            nor function: the caller does
 std::optional<Law> find_law(std::string_view name);
 
 }  // namespace contensou::reduction
