@@ -16,7 +16,7 @@ using nlohmann::json;
 
 TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
   const json stop = json_of("stop --mu 0.1 --u0 2 --v0 1 --format json");
-  CHECK(stop.size() == 12);
+  CHECK(stop.size() == 13);
   CHECK(stop.at("schema") == 1);
   CHECK(stop.at("law") == "pade");
   CHECK(stop.at("route") == "closed");
@@ -35,7 +35,7 @@ TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
 
 TEST_CASE("stop of a ball has seconds and the final motion", "[cli]") {
   const json stop = json_of("stop --ball pool --format json");
-  CHECK(stop.size() == 14);
+  CHECK(stop.size() == 15);
   CHECK(stop.at("t_stop").get<double>() == Approx(10.2).margin(0.05));
   CHECK(stop.at("final").at("velocity").size() == 2);
   CHECK(stop.at("final").at("velocity").at(0).get<double>() == Approx(5.0 / 7).epsilon(1e-15));
@@ -147,6 +147,18 @@ TEST_CASE("stop as CSV reads back", "[cli]") {
   REQUIRE(rows[0].size() == rows[1].size());
   CHECK(rows[0][5] == "tau_stop");
   CHECK(std::stod(rows[1][5]) == Flow({PadeLaw{}, 0.1}).stop_time({2, 1}).tau);
+}
+
+TEST_CASE("a known accuracy is in every format", "[cli]") {
+  for (const auto& [law, accuracy] : {std::pair{"pade", 1e-15}, {"uniform", 1e-13}}) {
+    const std::string start = std::string("stop --mu 0.1 --u0 2 --v0 1 --law ") + law;
+    CHECK(json_of(start + " --format json").at("accuracy") == accuracy);
+    const auto rows = rows_of(run_program(start + " --format csv").out);
+    const auto column = std::ranges::find(rows[0], "accuracy") - rows[0].begin();
+    REQUIRE(column < std::ssize(rows[1]));
+    CHECK(std::stod(rows[1][static_cast<std::size_t>(column)]) == accuracy);
+    CHECK_THAT(run_program(start).out, Contains("relative error below"));
+  }
 }
 
 TEST_CASE("stop --estimate: the estimates for small mu and what they miss by", "[cli]") {

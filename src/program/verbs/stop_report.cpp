@@ -180,6 +180,7 @@ std::string stop_report_as_json(const StopReport& report) {
       .add("u0", json(state.u))
       .add("v0", json(state.v))
       .add("tau_stop", json(report.stop.tau))
+      .add("accuracy", json(report.stop.accuracy))
       .add("T_stop", json(report.T_stop))
       .add("bounds", json_array({json(report.stop.bounds.lower), json(report.stop.bounds.upper)}))
       .add("limits", JsonObject()
@@ -214,12 +215,13 @@ std::string stop_report_as_json(const StopReport& report) {
 
 std::string stop_report_as_csv(const StopReport& report) {
   const auto& [body, state, shot] = report.start;
-  std::vector<std::string> names{"law",          "route",         "mu",  "u0",    "v0",    "tau_stop", "lower", "upper",
-                                 "sliding_only", "pivoting_only", "chi", "gamma", "T_stop"};
+  std::vector<std::string> names{"law",      "route", "mu",     "u0",           "v0",
+                                 "tau_stop", "lower", "upper",  "sliding_only", "pivoting_only",
+                                 "chi",      "gamma", "T_stop", "accuracy"};
   std::vector<std::string> values{report.system.law().name(), std::string(name(report.stop.route))};
-  for (double value :
-       {body.mu, state.u, state.v, report.stop.tau, report.stop.bounds.lower, report.stop.bounds.upper,
-        report.sliding_only, report.pivoting_only, body.inertia.chi, body.inertia.gamma, report.T_stop}) {
+  for (double value : {body.mu, state.u, state.v, report.stop.tau, report.stop.bounds.lower, report.stop.bounds.upper,
+                       report.sliding_only, report.pivoting_only, body.inertia.chi, body.inertia.gamma, report.T_stop,
+                       report.stop.accuracy}) {
     values.push_back(fmt::format("{}", value));
   }
   if (const auto& other = report.other) {
