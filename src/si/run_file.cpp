@@ -44,6 +44,8 @@ std::string place(const Section& section, std::string_view key) {
   return section.path.empty() ? fmt::format("'{:.80}'", key) : fmt::format("'{:.80}' in [{}]", key, section.path);
 }
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }
+
 constexpr std::size_t max_size = 1 << 16;
 constexpr std::size_t max_depth = 16;
 
@@ -173,7 +175,9 @@ class Reader {
 
  private:
   [[noreturn]] void fail(toml::source_position where, std::string_view message) const {
-    throw RunFileError(fmt::format("{}:{}:{}: {}", source_, where.line, where.column, message));
+    std::string shown(message);  // it may quote the file
+    std::ranges::replace_if(shown, is_control, '?');
+    throw RunFileError(fmt::format("{}:{}:{}: {}", source_, where.line, where.column, shown));
   }
 
   /// Gives the complaint of a check a place in the file.
@@ -222,7 +226,6 @@ class Reader {
     if (node == nullptr) return "ball";
     if (!node->is_string()) fail(node->source().begin, "'name' in [ball] must be a string in quotes");
     const std::string& text = node->as_string()->get();
-    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; };
     if (std::ranges::any_of(text, is_control)) {
       fail(node->source().begin, "'name' in [ball] must be one line of text without control characters");
     }

@@ -194,6 +194,9 @@ TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
     for (int i = 0; i < times; ++i) text += piece;
     return text;
   };
+  // No control character of the file is printed.
+  refused("\"a\\u0007b\" = 1", "x.toml:1:1: unknown key 'a?b'");
+  refused("a = t\tx", "saw 't?'");
   // A failed assertion: a header that does not begin with a key.
   for (const char* header : {"[(x]", "[,x]", "[ .x]", "[[=x]]", "[[[x]]]", "[\n]", "[#]", "a = 1\n [+1]"}) {
     refused(header, "not TOML: ");
