@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <iterator>
 #include <new>
-#include <ranges>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -220,7 +220,8 @@ CsvColumn CsvReader::column(std::string_view name) const {
   if (count == 1) return {std::string(name), static_cast<std::size_t>(place)};
   if (count > 1) throw complaint(header_line_, fmt::format("{} columns are called '{}'; one is allowed", count, name));
   std::vector<std::string> shown;
-  std::ranges::transform(names_ | std::views::take(20), std::back_inserter(shown), quotation);
+  std::ranges::transform(std::span(names_).first(std::min<std::size_t>(names_.size(), 20)), std::back_inserter(shown),
+                         quotation);
   if (shown.size() < names_.size()) shown.emplace_back("...");
   throw complaint(header_line_, fmt::format("no column is called '{}'; the columns are {}{}", name,
                                             fmt::join(shown, ", "), separator_hint(names_.front())));
