@@ -1,0 +1,25 @@
+// A table of pressures is a law with finite Phi and Psi in their range, or refused in a readable message.
+#include <cmath>
+
+#include "finding.hpp"
+#include "options/pressure_profile.hpp"
+
+using namespace contensou;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fuzz::MemoryFile file(fuzz::text_of(data, size));
+  try {
+    const reduction::Law law = program::read_pressure_profile(file.path());
+    const double most = law.pivoting_moment();
+    fuzz::require(most > 0 && std::isfinite(law.force_slope()), "pure pivoting");
+    for (int i = -80; i <= 80; ++i) {
+      const auto [force, moment] = law(reduction::slip_of_ratio(std::exp2(0.5 * i)));
+      constexpr double rounding = 1e-12;
+      fuzz::require(force >= 0 && force <= 1 + rounding, fmt::format("Phi(2^{}) = {}", 0.5 * i, force));
+      fuzz::require(moment >= 0 && moment <= most * (1 + rounding), fmt::format("Psi(2^{}) = {}", 0.5 * i, moment));
+    }
+  } catch (const std::domain_error& error) {
+    fuzz::require_readable(error.what());
+  }
+  return 0;
+}
