@@ -78,8 +78,12 @@ Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution&
   ln_k0_ = log_ratio(v0_, system.mu(), std::abs(u0_), v_, w_);
   curve_ = solution.through(ln_k0_);
   xi0_ = curve_->approach().coordinate(ln_k0_);
-  log_rim0_ = curve_->log_rim(xi0_);
   share0_ = curve_->sliding_share(xi0_);
+}
+
+Orbit&& Orbit::begun() && {
+  if (!on_axis()) log_rim0_ = curve_->log_rim(xi0_);
+  return std::move(*this);
 }
 
 const SimilarityCurve& Orbit::curve() const {
@@ -176,16 +180,28 @@ OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
   return {tau, u0_ * left_share, 0, -infinity, 0, beta};
 }
 
+double Orbit::age(double xi, const Progress& now) const {
+  // Beside a ray k hardly changes: w falls linearly, and dtau/dbeta like w^2. At a law's kink x ln|x| the distance from
+  // the ray is squared while w is halved: beyond sqrt(eps) of it xi would not do.
+  constexpr double unchanged = 3e-7;
+  const Approach& approach = curve_->approach();
+  if (std::isfinite(approach.log_terminal_ratio()) && std::abs(approach.log_ratio(xi) - ln_k0_) < unchanged) {
+    const double k = std::exp(approach.log_ratio(xi));
+    const double weight = (16 + 15 * pi * k) * (8 + 3 * pi * k);
+    const double pivoting_rate = system_.r() * system_.law()(slip_of_ratio(k)).moment;
+    return (1 / now.w - 1) / (w_ * weight * pivoting_rate);
+  }
+  return curve_->regularised_age(xi) / (w_ * now.w + v_ * now.v) - curve_->regularised_age(xi0_) / (w_ + v_);
+}
+
 OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
   if (tau == 0) return {tau, u0_, v0_, std::log(v0_), v_ / w_, 0};
-  const double age =
-      curve_->regularised_age(xi) / (w_ * now.w + v_ * now.v) - curve_->regularised_age(xi0_) / (w_ + v_);
   return {.tau = tau,
           .u = u0_ * now.w,
           .v = v0_ * now.v,
           .ln_v = std::log(v0_) + now.ln_v,
           .k = std::exp(curve_->approach().log_ratio(xi)),
-          .beta = std::ldexp(std::max(0.0, age) / system_.scaled_time_rate(), -exponent_)};
+          .beta = std::ldexp(std::max(0.0, age(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
 
 /// Beside an invariant ray the speeds fall while k hardly changes, and the time that is left tells more of them than

@@ -56,7 +56,7 @@ Fractions fractions(double z) {
 }  // namespace
 
 PadeCurve::PadeCurve(double r)
-    : SimilarityCurve(r, Approach::to_zero(), lowest_ln_k),
+    : SimilarityCurve(r, Approach::to_zero()),
       A_(8 * (2 - r)),
       B_(3 * pi * (5 - r)),
       a_(r / (2 - r)),
@@ -75,6 +75,8 @@ PadeCurve::PadeCurve(double r)
     far_age_ += age_terms_[n] * half_power;
   }
 }
+
+double PadeCurve::limit() const { return lowest_ln_k; }
 
 double PadeCurve::log_rim(double ln_k) const {
   const auto at = fractions(ln_k + log_ratio_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "contensou/reduction/approach.hpp"
@@ -16,7 +17,15 @@ namespace contensou::reduction {
 class RegularSolution {
  public:
   /// @param approach  on whose way Phi - r k Psi does not change its sign
+  /// @throws std::domain_error  if it does, or unless r > 0
   RegularSolution(const Law& law, double r, const Approach& approach);
+
+  /// Where its panels begin and end, in +- ln k, which grows away from the stop.
+  struct Interval {
+    double left, right;
+    double t(double z) const { return 2 * ((z - left) / (right - left)) - 1; }
+  };
+  std::vector<Interval> intervals() const;
 
   double sliding_share(double ln_k) const;  ///< m
   double slip_excess(double ln_k) const;    ///< n
@@ -31,11 +40,8 @@ class RegularSolution {
   struct Values {
     double sliding_share, slip_excess;
   };
-  /// On [left, right] in z = ln k (from above) or -ln k (from below), which grows away from the stop.
-  struct Panel {
-    double left, right;
+  struct Panel : Interval {
     LegendreSeries sliding_share, slip_excess;
-    double t(double z) const { return 2 * ((z - left) / (right - left)) - 1; }
   };
 
   /// Adds the panels from left to right.
@@ -43,12 +49,33 @@ class RegularSolution {
   /// The panel at z and the t there.
   std::pair<const Panel&, double> place(double ln_k) const;
 
+  Approach approach_;
   double sign_;
   Values first_{};  ///< at the stop
   Values last_{};   ///< at the right end of the last panel
   std::vector<Panel> panels_;
   double truncation_ = 0;
   long evaluations_ = 0;
+};
+
+/// b of README (R7) as a function of ln k, on the panels of a RegularSolution, from far away towards the stop: there D
+/// has the other sign in its equation (R7), and the regular solution is the one that is regular at the far end.
+class BetaSolution {
+ public:
+  BetaSolution(const Law& law, double r, const Approach& approach, const RegularSolution& grid);
+
+  double operator()(double ln_k) const;
+
+ private:
+  struct Panel : RegularSolution::Interval {
+    LegendreSeries b;
+  };
+
+  double sign_;
+  double far_ = 0;      ///< b beyond the last panel
+  double at_stop_ = 0;  ///< b in the limit of the stop
+  double rate_ = 0;     ///< d ln(b - at_stop)/d z before the first panel
+  std::vector<Panel> panels_;
 };
 
 }  // namespace contensou::reduction

@@ -86,12 +86,21 @@ const SimilaritySolution& Flow::solution() const { return solved_->solution; }
 
 bool Flow::is_by_quadrature() const { return solved_->by_quadrature; }
 
-Orbit Flow::orbit(State start) const { return {solved_->system, start, solved_->solution}; }
+Orbit Flow::orbit(State start) const {
+  constexpr double max_r = 1e250;
+  if (system().r() > max_r) {
+    throw std::domain_error(
+        fmt::format("Flow::orbit: gamma mu^2/chi = {} is too large: at most {} is allowed; such a body slides as if on "
+                    "the axis u = 0",
+                    system().r(), max_r));
+  }
+  return Orbit(solved_->system, start, solved_->solution).begun();
+}
 
 StopTime Flow::stop_time(State start) const {
   const Solved& solved = *solved_;
   if (solved.closed_time) return reduction::stop_time(solved.system, start, Route::closed);
-  const Orbit motion = orbit(start);
+  const Orbit motion(solved.system, start, solved.solution);
   const Route route = solved.by_quadrature ? Route::quadrature : Route::closed;
   return {motion.stop_time(), route, motion.accuracy(), motion.evaluations(), solved.system.stop_time_bounds(start)};
 }

@@ -80,7 +80,7 @@ Bounds ReducedSystem::stop_time_bounds(State start) const {
   const auto [least, most] = *law_.sliding_share();
   const double least_sliding = least == 0 ? 0 : least * sliding;  // sliding may be infinite
   // Outwards by the rounding of these sums and of the stop time itself, so that it is never outside.
-  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const double rounding = (8 + std::log1p(r_)) * std::numeric_limits<double>::epsilon();
   return {std::max(pivoting + least_sliding, sliding) * (1 - rounding), (pivoting + most * sliding) * (1 + rounding)};
 }
 

@@ -19,15 +19,15 @@ struct CurveLie {
 /// A curve with functions that are not its own.
 class LyingCurve final : public reduction::SimilarityCurve {
  public:
-  // It never comes to its limit: every ln k is asked for.
   LyingCurve(reduction::SimilaritySolution::Curve truth, CurveLie lie)
-      : SimilarityCurve(truth->r(), truth->approach(), -1e6), truth_(std::move(truth)), lie_(std::move(lie)) {}
+      : SimilarityCurve(truth->r(), truth->approach()), truth_(std::move(truth)), lie_(std::move(lie)) {}
   double log_rim(double ln_k) const override { return lie_.log_rim(ln_k, truth_->log_rim(ln_k)); }
   double sliding_share(double ln_k) const override { return lie_.sliding_share(ln_k, truth_->sliding_share(ln_k)); }
   double slip_excess(double ln_k) const override { return truth_->slip_excess(ln_k); }
   double regularised_age(double ln_k) const override {
     return lie_.regularised_age(ln_k, truth_->regularised_age(ln_k));
   }
+  double limit() const override { return -1e6; }  // it never comes there: every ln k is asked for
   double time_rate(double ln_k) const override { return truth_->time_rate(ln_k); }
   double accuracy() const override { return truth_->accuracy(); }
 

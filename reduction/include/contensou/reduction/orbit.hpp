@@ -15,9 +15,9 @@ class Flow;
 /// There are no time steps: any instant is found by itself. Invariant axes (u0 = 0, v0 = 0), the invariant ray and rest
 /// are ordinary starts.
 ///
-/// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference). Near
-///           the stop the conditioning is that of the question: the speeds are proportional to stop_time() - tau, so
-///           ask at_time_left().
+/// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference), beta to
+///           1e-8, and to 1e-5 within 1e-3 of an invariant ray. Near the stop the conditioning is that of the question:
+///           the speeds are proportional to stop_time() - tau, so ask at_time_left().
 class Orbit {
  public:
   double stop_time() const;
@@ -78,7 +78,10 @@ class Orbit {
 
  private:
   friend class Flow;
+  /// As far as a stop time needs it.
   Orbit(const ReducedSystem& system, State start, const SimilaritySolution& solution);
+  /// And all else.
+  Orbit&& begun() &&;
 
   void require_coordinate(const char* function, double xi) const;
   OrbitPoint rest(double tau) const;
@@ -91,6 +94,7 @@ class Orbit {
   };
   Progress progress(double xi) const;
   Progress progress(double xi, double left) const;
+  double age(double xi, const Progress& now) const;
   OrbitPoint point(double tau, double xi, const Progress& now) const;
   OrbitPoint point_with_left(double tau, double xi, double left) const;
 

@@ -26,6 +26,7 @@ class PadeCurve final : public SimilarityCurve {
   double slip_excess(double ln_k) const override;
   double regularised_age(double ln_k) const override;
   double time_rate(double ln_k) const override;
+  double limit() const override;
   double accuracy() const override { return 1e-14; }
 
   double A() const { return A_; }  ///< 8 (2 - r)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+#include <mutex>
 
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/similarity_curve.hpp"
@@ -12,15 +12,16 @@ class RegularSolution;
 
 /// The similarity curve of any friction law, by quadrature of the separated equation.
 ///
-/// m and n are found in ln k, outwards from the stop (RegularSolution). ln w, b and c are found in xi, (R26), panel by
-/// panel: on each, their coefficients are sampled at Gauss points (Boost.Math), and solved as Legendre series. Panels
+/// m and n, all that a stop time needs, are found in ln k, outwards from the stop (RegularSolution). ln w, b and c are
+/// found in xi, (R26), when one of them is first asked for, panel by panel: on each, their coefficients are sampled at
+/// Gauss points (Boost.Math), and solved as Legendre series. Panels
 /// meet at k = 1 and are halved until the series have converged. They reach from k = 4e-18 to 1e19, where the limits
 /// hold to the last bit; and towards an invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
 ///
 /// Accuracy  sliding_share 2 eps for a law that is smooth on either side of k = 1, on and beside rays, too; the other
 ///           functions 1e-13, and less next to a ray (measured: tests/reference/README.md).
-/// Cost      about 10 000 evaluations of the law, once; then some 30 ns for each value. Noise in the law costs up to a
-///           million, and shows in truncation().
+/// Cost      about 3 000 evaluations of the law for m and n, and as many again for ln w, b and c; then some 30 ns for
+///           each value. Noise in the law costs up to a million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi
@@ -41,24 +42,20 @@ class QuadratureCurve final : public SimilarityCurve {
   /// 1e-13, or more where a law has noise.
   double accuracy() const override;
 
-  long evaluations() const override { return evaluations_; }
+  long evaluations() const override;
+
+  double limit() const override;
+
+  ~QuadratureCurve() override;
 
  private:
-  struct Panel;
-  class Sampler;
-  const Panel& find(double xi) const;
-  void solve(double anchor);
+  class Panels;
+  const Panels& panels() const;
 
+  Law law_;
   std::unique_ptr<const RegularSolution> shares_;
-  std::vector<Panel> panels_;
-  double lower_slope_ = 0;  ///< d log_rim/d xi as xi -> -infinity
-  double upper_slope_ = 0;  ///< the same as xi -> infinity
-  double age_rate_ = 0;     ///< d ln(w + v)/d xi as xi -> -infinity
-  double final_age_ = 0;    ///< b there
-  long evaluations_ = 0;
-
- public:
-  ~QuadratureCurve() override;
+  mutable std::once_flag made_;
+  mutable std::unique_ptr<const Panels> panels_;
 };
 
 }  // namespace contensou::reduction

@@ -66,7 +66,7 @@ class ReducedSystem {
   double pivoting_limit(double u) const;
 
   /// Two-sided bound of the stop time from the law's own SlidingShare and max(S, P) (README (R6)); widened by
-  /// 8 eps for rounding; [0, infinity] for a law that states none.
+  /// (8 + ln(1 + r)) eps for rounding; [0, infinity] for a law that states none.
   Bounds stop_time_bounds(State start) const;
 
  private:

@@ -33,7 +33,7 @@ class SimilarityCurve {
   /// Relative error of sliding_share.
   virtual double accuracy() const = 0;
 
-  /// How often the law was called to make it.
+  /// How often the law was called for sliding_share.
   virtual long evaluations() const { return 0; }
 
   /// r = gamma mu^2/chi.
@@ -42,20 +42,17 @@ class SimilarityCurve {
   const Approach& approach() const { return approach_; }
 
   /// Below this xi ln w is linear and the other functions are constant, to the last bit.
-  double limit() const { return limit_; }
+  virtual double limit() const = 0;
 
   SimilarityCurve(const SimilarityCurve&) = delete;
   SimilarityCurve& operator=(const SimilarityCurve&) = delete;
 
  protected:
-  SimilarityCurve(double r, const Approach& approach, double limit) : r_(r), approach_(approach), limit_(limit) {}
-
-  void set_limit(double limit) { limit_ = limit; }
+  SimilarityCurve(double r, const Approach& approach) : r_(r), approach_(approach) {}
 
  private:
   double r_;
   Approach approach_;
-  double limit_;
 };
 
 }  // namespace contensou::reduction
