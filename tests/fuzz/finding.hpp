@@ -26,10 +26,10 @@ inline void require(bool holds, std::string_view what) {
   std::abort();
 }
 
-/// A message can be shown on a terminal: no control characters, and not as long as the input.
+/// A message can be shown on a terminal: no control characters, and no longer than the names of 20 columns.
 inline void require_readable(std::string_view message) {
   const auto is_control = [](char c) { return (static_cast<unsigned char>(c) < ' ' && c != '\n') || c == '\x7f'; };
-  require(!message.empty() && message.size() < 1000, message);
+  require(!message.empty() && message.size() < 8000, message);
   require(std::ranges::none_of(message, is_control), message);
 }
 

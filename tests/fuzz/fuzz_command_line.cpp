@@ -1,0 +1,133 @@
+// A command line, one word a line, is answered or refused in a readable message: no other exception leaves it. What
+// takes long, and what calls gnuplot, is parsed and not run.
+#define main program_main
+#include "main.cpp"
+#undef main
+
+#include <cctype>
+#include <filesystem>
+#include <list>
+#include <span>
+#include <sstream>
+#include <typeinfo>
+
+#include "finding.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace contensou;
+using program::Verb;
+
+/// Whether the verbs are to be run as well as parsed.
+bool running = false;
+
+template <std::size_t place>
+class Guarded final : public Verb {
+ public:
+  static inline std::unique_ptr<Verb> (*make)() = nullptr;
+  void add_options(CLI::App& app) override { verb_->add_options(app); }
+  program::ExitStatus run() override { return running ? verb_->run() : program::ExitStatus::done; }
+
+ private:
+  std::unique_ptr<Verb> verb_ = make();
+};
+
+template <std::size_t place = 0>
+void guard() {
+  if constexpr (place < 32) {
+    if (place == program::verbs().size()) return;
+    Guarded<place>::make = std::exchange(program::verbs()[place].make,
+                                         []() -> std::unique_ptr<Verb> { return std::make_unique<Guarded<place>>(); });
+    guard<place + 1>();
+  }
+}
+
+/// No number with more than two digits in a row, and no exponent.
+bool is_tiny(const std::string& word) {
+  int digits = 0;
+  for (const char letter : word) {
+    const bool exponent = digits > 0 && std::tolower(static_cast<unsigned char>(letter)) == 'e';
+    digits = std::isdigit(static_cast<unsigned char>(letter)) != 0 ? digits + 1 : 0;
+    if (exponent || digits > 2) return false;
+  }
+  return true;
+}
+
+bool is_cheap(const std::vector<std::string>& words) {
+  if (words.empty()) return false;
+  const auto has = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
+  if (has("check") || has("paper") || (has("portrait") && !has("--facts"))) return false;
+  const auto other_verbs = {"balls", "law", "terminal", "explore"};
+  return std::ranges::find(other_verbs, words.front()) != other_verbs.end() || std::ranges::all_of(words, is_tiny);
+}
+
+void write_files() {
+  const auto write = [](const char* name, std::string_view text) {
+    std::FILE* const file = std::fopen(name, "w");
+    fuzz::require(file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size(), name);
+    std::fclose(file);
+  };
+  write("p.csv", "rho,pressure\n0,1\n0.5,0.75\n1,0\n");
+  write("s.csv", "mu,u0,v0\n0.1,1,1\n0.2,1,bad\n");
+  write("k.csv", "k\n0\n1\ninf\n");
+  write("b.toml",
+        "[ball]\nmass = 0.17\nradius = 0.0286\n[contact]\nfriction = 0.2\nspin_deceleration = 10\n[start]\nslip = 1\n"
+        "spin = 100\n");
+}
+
+/// Begins to run in an empty folder of its own; the paths that the fuzzer was given keep their meaning.
+void move_to_own_folder(int count, char** arguments) {
+  static std::list<std::string> absolute;
+  constexpr std::string_view prefix = "-artifact_prefix=";
+  for (char*& argument : std::span(arguments, static_cast<std::size_t>(count)).subspan(1)) {
+    const std::string_view given = argument;
+    const bool is_prefix = given.starts_with(prefix);
+    if (given.starts_with('-') && !is_prefix) continue;
+    absolute.push_back(is_prefix ? std::string(prefix) + fs::absolute(given.substr(prefix.size())).string()
+                                 : fs::absolute(given).string());
+    argument = absolute.back().data();
+  }
+  std::string folder = (fs::temp_directory_path() / "contensou-fuzz-XXXXXX").string();
+  fuzz::require(::mkdtemp(folder.data()) != nullptr, "mkdtemp");
+  fs::current_path(folder);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
+  move_to_own_folder(*count, *arguments);
+  guard();
+  ::setenv("PATH", "", 1);  // no gnuplot
+  const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  ::dup2(nothing, STDIN_FILENO);
+  ::dup2(nothing, STDOUT_FILENO);
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::istringstream lines{std::string(fuzz::text_of(data, size))};
+  std::vector<std::string> words;
+  for (std::string word; std::getline(lines, word);) {
+    // No other folder's files, and no command line has a null character.
+    if (word.find('/') != std::string::npos || word.find('\0') != std::string::npos) return 0;
+    words.push_back(word);
+  }
+  running = is_cheap(words);
+  for (const auto& entry : fs::directory_iterator(".")) fs::remove_all(entry);
+  write_files();
+  std::string verb;
+  try {
+    program::run(words, verb);
+  } catch (const std::domain_error& error) {
+    fuzz::require_readable(error.what());
+  } catch (const program::FileFailure& error) {
+    fuzz::require_readable(error.what());
+  } catch (const std::system_error& error) {
+    fuzz::require_readable(error.what());
+  } catch (const std::runtime_error& error) {
+    fuzz::require(typeid(error) == typeid(std::runtime_error), typeid(error).name());
+    fuzz::require_readable(error.what());
+  }
+  return 0;
+}
