@@ -28,9 +28,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Below this patch ratio the plane (u, v) alone shows a comb of verticals.
 constexpr double pair_below = 0.1;
 
-/// Where whole curves begin, next to infinity: at k or 1/k; more where the window is steeper.
-constexpr double max_k = 1e6;
-
 /// @param shown  states that the window must contain
 Window default_window(const ReducedSystem& system, View view, const std::vector<State>& shown) {
   State far{0, 0};
@@ -47,88 +44,78 @@ Window default_window(const ReducedSystem& system, View view, const std::vector<
   return {1, round_down(system.pivoting_limit(1) / system.sliding_limit(1))};
 }
 
-/// A state of an orbit with the time until its stop; v and u may underflow, ln v does not.
-struct TimedState {
-  OrbitPoint point;
-  double left;
-};
-using Track = std::vector<TimedState>;  // from first to stop
+using Instant = PortraitOrbit::Instant;
+using Track = std::vector<Instant>;  // from first to stop
 
 /// How far apart two states may be that lie next to each other on an orbit: 1 and no more.
-using Distance = std::function<double(const OrbitPoint&, const OrbitPoint&)>;
+using Distance = std::function<double(const Instant&, const Instant&)>;
 
-double log_ratio(const OrbitPoint& point, double mu) {
-  if (point.u == 0) return point.v > 0 ? infinity : -infinity;
-  return point.ln_v - std::log(mu * std::abs(point.u));
+/// The state of an orbit that has so much time left.
+/// @param ln_k_stop  of the terminal ratio, which is taken for that of rest
+Instant instant(const OrbitPoint& point, double left, double mu, double ln_k_stop) {
+  const double ln_k =
+      point.u == 0 ? (point.v > 0 ? infinity : ln_k_stop) : point.ln_v - std::log(mu * std::abs(point.u));
+  return {point.u, point.v, point.ln_v, ln_k, left};
 }
 
-/// ln k where it is seen to change: beyond, orbits hug an axis.
-double seen_log_ratio(const OrbitPoint& point, double mu) { return std::clamp(log_ratio(point, mu), -20.0, 20.0); }
+/// By how much ln k differs where it is seen to change: beyond, orbits hug an axis.
+double turn(const Instant& a, const Instant& b) {
+  return std::abs(std::clamp(a.ln_k, -20.0, 20.0) - std::clamp(b.ln_k, -20.0, 20.0));
+}
 
 /// Adds what lies between the last state of a track and those at the given places, halved until neighbours are near.
 template <class At>
 void refine(Track& track, double from, const std::vector<double>& places, At at, const Distance& distance) {
-  std::vector<std::pair<double, TimedState>> open;  // the next at the back
+  std::vector<std::pair<double, Instant>> open;  // the next at the back
   for (double place : places) open.insert(open.begin(), {place, at(place)});
   while (!open.empty()) {
     const auto [place, state] = open.back();
     constexpr double closest = 1e-5;
-    if (std::abs(place - from) > closest && distance(track.back().point, state.point) > 1) {
+    if (std::abs(place - from) > closest && distance(track.back(), state) > 1) {
       const double middle = (from + place) / 2;
       open.emplace_back(middle, at(middle));
       continue;
     }
     constexpr double near = 0.3;
-    if (distance(track.back().point, state.point) > near) track.push_back(state);
+    if (distance(track.back(), state) > near) track.push_back(state);
     from = place;
     open.pop_back();
   }
 }
 
-/// The orbit, by its nearness xi to the terminal ratio while k is seen to change, then by the time left, whose
-/// logarithm falls in even steps.
-Track exact_track(const Orbit& orbit, const Distance& distance) {
-  const double stop = orbit.stop_time();
-  Track track{{orbit.at_time(0), stop}};
-  if (!orbit.on_axis()) {
-    constexpr double lowest = -20;
-    const double start = orbit.start_coordinate();
-    const auto at = [&](double xi) { return TimedState{orbit.at_coordinate(xi), orbit.time_left_at_coordinate(xi)}; };
-    refine(track, start, {std::min(lowest, start + lowest)}, at, distance);
+/// The last number in the direction of a step from another at which a condition holds, before it fails for good.
+template <class Holds>
+double last_where(Holds holds, double from, double step) {
+  for (; holds(from + step); step *= 1.5) from += step;
+  for (int i = 0; i < 50; ++i) {
+    step /= 2;
+    if (holds(from + step)) from += step;
   }
-  const double begin = std::log(track.back().left);
-  std::vector<double> places;
-  constexpr int folds = 30;
-  for (int i = 1; i <= folds; ++i) places.push_back(begin - i);
-  const auto at = [&](double place) { return TimedState{orbit.at_time_left(std::exp(place)), std::exp(place)}; };
-  refine(track, begin, places, at, distance);
-  track.push_back({orbit.at_time_left(0), 0});
-  return track;
+  return from;
+}
+
+PortraitOrbit columns(const Track& track) {
+  const Eigen::ArrayXd empty(static_cast<Eigen::Index>(track.size()));
+  PortraitOrbit orbit{empty, empty, empty, empty, empty};
+  Eigen::Index row = 0;
+  for (const Instant& at : track) {
+    orbit.u[row] = at.u;
+    orbit.v[row] = at.v;
+    orbit.ln_v[row] = at.ln_v;
+    orbit.ln_k[row] = at.ln_k;
+    orbit.tau_left[row++] = at.tau_left;
+  }
+  return orbit;
 }
 
 class OrbitTracer {
  public:
   OrbitTracer(const Flow& flow, Window window, bool stepped) : flow_(flow), window_(window), is_stepped_(stepped) {}
 
-  PortraitOrbit orbit(State start) const {
-    const Distance distance = [this](const OrbitPoint& a, const OrbitPoint& b) { return on_window(a, b); };
-    return columns(is_stepped_ ? stepped(start) : exact(start, distance), start);
-  }
+  PortraitOrbit orbit(State start) const { return columns(is_stepped_ ? stepped(start) : exact(start)); }
 
   /// The orbit through a point, from where it enters the window.
   PortraitOrbit orbit_through(State point) const { return orbit(entry(point)); }
-
-  /// From next to infinity to the origin, one for each curve of the solution.
-  std::vector<WholeCurve> whole_curves() const {
-    std::vector<WholeCurve> curves;
-    for (const auto& curve : flow_.solution().curves()) {
-      const reduction::Approach& approach = curve->approach();
-      curves.push_back(
-          {whole_curve(approach), std::exp(approach.log_far_ratio()), std::exp(approach.log_terminal_ratio())});
-    }
-    std::ranges::sort(curves, {}, [](const WholeCurve& curve) { return std::min(curve.k_from, curve.k_to); });
-    return curves;
-  }
 
   /// Starts along the right half of the border, at equal distances across the flow as it is seen on paper.
   std::vector<State> seeds(int count) const {
@@ -157,59 +144,57 @@ class OrbitTracer {
       const double wanted = across * (i + 0.5) / count;
       result.push_back(std::ranges::lower_bound(border, wanted, {}, &Step::across)->at);
     }
-    return result;
-  }
-
- private:
-  PortraitOrbit whole_curve(const reduction::Approach& approach) const {
-    const double mu = system_.mu();
-    const Distance distance = [mu](const OrbitPoint& a, const OrbitPoint& b) {
-      const double turn = std::abs(std::atan(a.k) - std::atan(b.k)) / 0.02;
-      const double ratio = std::abs(seen_log_ratio(a, mu) - seen_log_ratio(b, mu)) / 0.25;
-      const double shrink = std::abs(std::log(std::hypot(mu * a.u, a.v) / std::hypot(mu * b.u, b.v))) / 0.1;
-      return std::max({turn, ratio, std::isfinite(shrink) ? shrink : 0});
-    };
-    // Steep; or, from a ray, so much beside it that it is told from it.
-    const double steepest = std::max(max_k, 1e3 * window_.v / (mu * window_.u));
-    const double end = std::exp(approach.log_terminal_ratio());
-    const double far = std::exp(approach.log_far_ratio());
-    constexpr double beside = 14;  // exp(-14) = 1e-6
-    const double from_ray = (approach.side() == reduction::Approach::Side::above ? 1 : -1) * approach.log_far_ratio();
-    const double k = far == 0          ? std::min(1 / steepest, 1e-3 * end)
-                     : std::isinf(far) ? std::max(steepest, 1e3 * end)
-                                       : std::exp(approach.log_ratio(from_ray + beside));
-    return columns(exact({1 / mu, k}, distance), {1 / mu, k});
-  }
-
-  Track exact(State start, const Distance& distance) const { return exact_track(flow_.orbit(start), distance); }
-
-  PortraitOrbit columns(const Track& track, State start) const {
-    const double k_stop =
-        flow_.terminal().end_of(start.u == 0 ? infinity : start.v / (system_.mu() * std::abs(start.u))).k;
-    const auto rows = static_cast<Eigen::Index>(track.size());
-    const Eigen::ArrayXd empty(rows);
-    PortraitOrbit result{empty, empty, empty, empty, empty};
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const auto& [point, left] = track[static_cast<std::size_t>(i)];
-      result.u[i] = point.u;
-      result.v[i] = point.v;
-      result.ln_v[i] = point.ln_v;
-      const bool rest = point.u == 0 && point.v == 0;
-      result.ln_k[i] = rest ? std::log(k_stop) : log_ratio(point, system_.mu());
-      result.tau_left[i] = left;
+    if (count == 0) return result;
+    for (const auto& curve : flow_.solution().curves()) {
+      // A sector between two rays that is too narrow for any of these has one in its middle.
+      const auto inside = [&](State at) {
+        return flow_.solution().through(std::log(at.v / (system_.mu() * at.u))) == curve;
+      };
+      if (std::ranges::any_of(result, inside)) continue;
+      const auto first = std::ranges::find_if(border, inside, &Step::at);
+      result.push_back(first[std::ranges::count_if(border, inside, &Step::at) / 2].at);
     }
     return result;
   }
 
-  double on_window(const OrbitPoint& a, const OrbitPoint& b) const {
+ private:
+  double ln_k_stop(State start) const {
+    return std::log(flow_.terminal().end_of(start.u == 0 ? infinity : start.v / (system_.mu() * std::abs(start.u))).k);
+  }
+
+  /// The orbit, by its nearness xi to the terminal ratio while k is seen to change, then by the time left, whose
+  /// logarithm falls in even steps.
+  Track exact(State start) const {
+    const Orbit orbit = flow_.orbit(start);
+    const Distance distance = [this](const Instant& a, const Instant& b) { return on_window(a, b); };
+    const auto timed = [&, end = ln_k_stop(start)](const OrbitPoint& point, double left) {
+      return instant(point, left, system_.mu(), end);
+    };
+    Track track{timed(orbit.at_time(0), orbit.stop_time())};
+    if (!orbit.on_axis()) {
+      constexpr double lowest = -20;
+      const double first = orbit.start_coordinate();
+      const auto at = [&](double xi) { return timed(orbit.at_coordinate(xi), orbit.time_left_at_coordinate(xi)); };
+      refine(track, first, {std::min(lowest, first + lowest)}, at, distance);
+    }
+    const double begin = std::log(track.back().tau_left);
+    std::vector<double> places;
+    constexpr int folds = 30;
+    for (int i = 1; i <= folds; ++i) places.push_back(begin - i);
+    const auto at = [&](double place) { return timed(orbit.at_time_left(std::exp(place)), std::exp(place)); };
+    refine(track, begin, places, at, distance);
+    track.push_back(timed(orbit.at_time_left(0), 0));
+    return track;
+  }
+
+  double on_window(const Instant& a, const Instant& b) const {
     const double u = std::abs(a.u - b.u) / window_.u / 0.02;
     const double v = std::abs(a.v - b.v) / window_.v / 0.02;
-    const double ratio = std::abs(seen_log_ratio(a, system_.mu()) - seen_log_ratio(b, system_.mu())) / 0.4;
     // By ratio next to the axes, where the curve may turn sharply.
     const auto fold = [](double x, double y) { return std::abs(std::log(std::max(x, 1e-3) / std::max(y, 1e-3))); };
     const double folds = std::max(fold(std::abs(a.u) / window_.u, std::abs(b.u) / window_.u) / 0.15,
                                   fold(a.v / window_.v, b.v / window_.v) / 0.4);
-    return std::max({u, v, ratio, folds});
+    return std::max({u, v, turn(a, b) / 0.4, folds});
   }
 
   /// Where the orbit through a point enters the window: backwards along its curve, scaled onto the point.
@@ -224,17 +209,7 @@ class OrbitTracer {
       return State{std::copysign(w / mu, point.u), w * std::exp(curve.approach().log_ratio(xi))};
     };
     const auto outside = [this](State state) { return !(std::abs(state.u) <= window_.u && state.v <= window_.v); };
-    double inside = here;
-    double step = 1;
-    while (!outside(upstream(inside + step))) {
-      inside += step;
-      step *= 1.5;
-    }
-    for (int i = 0; i < 50; ++i) {
-      step /= 2;
-      if (!outside(upstream(inside + step))) inside += step;
-    }
-    return upstream(inside);
+    return upstream(last_where([&](double xi) { return !outside(upstream(xi)); }, here, 1));
   }
 
   Track stepped(State start) const {
@@ -243,7 +218,7 @@ class OrbitTracer {
     Track track;
     for (Eigen::Index i = 0; i < motion.points.rows(); ++i) {
       const OrbitPoint point = motion.points.row(i);
-      track.push_back({point, std::max(0.0, motion.stop_time - point.tau)});
+      track.push_back(instant(point, std::max(0.0, motion.stop_time - point.tau), system_.mu(), ln_k_stop(start)));
     }
     return track;
   }
@@ -261,16 +236,19 @@ PortraitOrbit mirrored(PortraitOrbit orbit) {
 
 void require(const PortraitRequest& request) {
   if (request.orbits_per_side.value_or(0) < 0 || request.isochrones < 0) {
-    throw std::domain_error(fmt::format("phase_portrait: numbers of orbits and isochrones must be >= 0, got {} and {}",
-                                        request.orbits_per_side.value_or(0), request.isochrones));
+    throw std::domain_error(
+        fmt::format("phase_portrait: numbers of orbits and isochrones must be "
+                    ">= 0, got {} and {}",
+                    request.orbits_per_side.value_or(0), request.isochrones));
   }
   if (request.highlight) reduction::require_state("phase_portrait", *request.highlight);
   for (const State& point : request.through) {
     reduction::require_state("phase_portrait", point);
     if (point.u != 0 && point.v != 0) continue;
-    throw std::domain_error(fmt::format(
-        "phase_portrait: the orbit through ({}, {}) is an axis, which is drawn anyway; u and v must not be 0", point.u,
-        point.v));
+    throw std::domain_error(
+        fmt::format("phase_portrait: the orbit through ({}, {}) is an axis, "
+                    "which is drawn anyway; u and v must not be 0",
+                    point.u, point.v));
   }
 }
 
@@ -279,24 +257,25 @@ void require(Window window, const PortraitRequest& request) {
   constexpr double smallest = 1e-150;
   const auto reasonable = [](double side) { return side >= smallest && side <= 1 / smallest; };
   if (!reasonable(window.u) || !reasonable(window.v)) {
-    throw std::domain_error(fmt::format(
-        "phase_portrait: the sides of the window must be between {} and {}, got {} by {}: use another unit of speed",
-        smallest, 1 / smallest, window.u, window.v));
+    throw std::domain_error(
+        fmt::format("phase_portrait: the sides of the window must be between "
+                    "{} and {}, got {} by {}: use another unit of speed",
+                    smallest, 1 / smallest, window.u, window.v));
   }
   for (const State& point : request.through) {
     if (std::abs(point.u) <= window.u && point.v <= window.v) continue;
-    throw std::domain_error(fmt::format("phase_portrait: the point ({}, {}) lies outside the window |u| <= {}, v <= {}",
-                                        point.u, point.v, window.u, window.v));
+    throw std::domain_error(
+        fmt::format("phase_portrait: the point ({}, {}) lies outside the "
+                    "window |u| <= {}, v <= {}",
+                    point.u, point.v, window.u, window.v));
   }
 }
 
 PhasePortrait portrait_in(const Flow& flow, View view, Window window, const PortraitRequest& request,
                           const std::vector<double>& times) {
   const OrbitTracer tracer(flow, window, request.stepped);
-  PhasePortrait portrait{flow, reduction::phase_plane(flow.system()), view, window, {}, {}, {}, {}, {}, {}};
-  const bool whole = !request.drawn_only || view == View::pair;
-  const bool speeds = view == View::uv || view == View::patch;
-  if (whole || speeds) {
+  PhasePortrait portrait{flow, reduction::phase_plane(flow.system()), view, window, {}, {}, {}, {}, {}};
+  if (!request.drawn_only || view == View::uv || view == View::patch || view == View::pair) {
     portrait.isochrones = isochrones(flow, {{-window.u, 0}, {window.u, window.v}}, times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
     for (const State& seed : tracer.seeds(request.orbits_per_side.value_or(with_room_for_labels))) {
@@ -304,7 +283,6 @@ PhasePortrait portrait_in(const Flow& flow, View view, Window window, const Port
       portrait.orbits.push_back(mirrored(portrait.orbits.back()));
     }
   }
-  if (whole || !speeds) portrait.curves = tracer.whole_curves();
   if (request.highlight && (request.highlight->u != 0 || request.highlight->v != 0)) {
     portrait.highlight = tracer.orbit(*request.highlight);
   }
@@ -324,6 +302,32 @@ std::vector<double> round_times(const Flow& flow, Window window, const PortraitR
 
 PortraitOrbit::Instant PortraitOrbit::at(Eigen::Index row, double factor) const {
   return {factor * u[row], factor * v[row], ln_v[row] + std::log(factor), ln_k[row], factor * tau_left[row]};
+}
+
+PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double upstream) {
+  const reduction::SimilarityCurve& curve = *flow.solution().through(ln_k);
+  const reduction::Approach& approach = curve.approach();
+  const double here = approach.coordinate(ln_k);
+  const double ln_scale = ln_v - ln_k - curve.log_rim(here);
+  const auto at = [&](double xi) {
+    const double ln_w = ln_scale + curve.log_rim(xi), its_ln_k = approach.log_ratio(xi);
+    const State state{std::exp(ln_w) / flow.system().mu(), std::exp(ln_w + its_ln_k)};
+    return Instant{state.u, state.v, ln_w + its_ln_k, its_ln_k, flow.orbit(state).stop_time()};
+  };
+  const auto ln_size = [&](double xi) { return ln_scale + curve.log_rim(xi) + std::max(approach.log_ratio(xi), 0.0); };
+  const double size = ln_size(here);
+  constexpr double downstream = 30;
+  const double first =
+      upstream > 0 ? last_where([&](double xi) { return ln_size(xi) < size + upstream; }, here, 1) : here;
+  const double last = last_where([&](double xi) { return ln_size(xi) > size - downstream; }, here, -1);
+  Track track{at(first)};
+  refine(track, first, {last}, at, [](const Instant& a, const Instant& b) {
+    const double angle = std::abs(std::atan(std::exp(a.ln_k)) - std::atan(std::exp(b.ln_k)));
+    const double shrinks = std::abs(a.ln_v - b.ln_v + std::min(b.ln_k, 0.0) - std::min(a.ln_k, 0.0));
+    return std::max({angle / 0.02, turn(a, b) / 0.25, shrinks / 0.1});
+  });
+  track.push_back({0, 0, -infinity, approach.log_terminal_ratio(), 0});
+  return columns(track);
 }
 
 PhasePortrait phase_portrait(const Flow& flow, const PortraitRequest& request) {

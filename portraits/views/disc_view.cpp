@@ -1,6 +1,7 @@
 // The whole half-plane in one picture: the Poincare disc, and the same with the origin blown up.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -42,22 +43,6 @@ Polyline half_circle(double radius) {
     line.push_back({radius * std::cos(pi * i / pieces), radius * std::sin(pi * i / pieces)});
   }
   return line;
-}
-
-/// Copies of each curve that cross the middle of its sector at even steps of the radius.
-std::vector<PortraitPanel::Copy> evenly(const PhasePortrait& portrait, const PolarMap& map, int count) {
-  std::vector<PortraitPanel::Copy> copies;
-  for (const WholeCurve& curve : portrait.curves) {
-    // At the middle of the sector that the curve crosses.
-    const double middle = (std::atan(curve.k_from) + std::atan(curve.k_to)) / 2;
-    const Instant at = at_log_ratio(curve, std::log(std::tan(middle)));
-    const double rho = std::hypot(portrait.system().mu() * at.u, at.v);
-    for (int i = 0; i < count; ++i) {
-      const double radius = map.hole + (1 - map.hole) * (i + 0.5) / count;
-      for (double sign : {1.0, -1.0}) copies.push_back({curve, map.rho(radius) / rho, sign});
-    }
-  }
-  return copies;
 }
 
 /// Singular points by kind, on the circle at infinity and on the origin's.
@@ -125,7 +110,25 @@ Panel polar_panel(const Drawing& drawing, double hole) {
     return map.at(rho, theta, std::copysign(1, at.u));
   });
   layers.set_arrows(0.4, 0.02);
-  layers.add_orbits([&](const PhasePortrait& of) { return evenly(of, map, 10); });
+  const auto copies = [&](const PortraitOrbit& curve) {
+    // Across k = 1 at even steps of the radius.
+    constexpr int count = 10;
+    const Instant at = at_log_ratio(curve, 0);
+    const double rho = std::hypot(mu * at.u, at.v);
+    std::vector<PortraitPanel::Copy> result;
+    for (int i = 0; i < count; ++i) {
+      const double radius = hole + (1 - hole) * (i + 0.5) / count;
+      for (double sign : {1.0, -1.0}) result.push_back({curve, map.rho(radius) / rho, sign});
+    }
+    return result;
+  };
+  const auto state = [&](Point at) {
+    const double radius = std::hypot(at.x, at.y);
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (radius <= hole || radius >= 1 || at.y <= 0) return LogState{none, none};
+    return LogState{std::log(at.y / std::abs(at.x)), std::log(map.rho(radius) * at.y / radius)};
+  };
+  layers.add_copies(copies, state, true);
   const auto half_line = [&](double theta, double sign) {
     return Polyline{map.at(0, theta, sign), map.at(std::numeric_limits<double>::infinity(), theta, sign)};
   };
@@ -173,19 +176,21 @@ std::vector<Panel> blowup_view(const Drawing& drawing) {
   PortraitPanel layers(drawing, std::move(chart), [top](const Instant& at) {
     return Point{at.u, std::min(std::exp(at.ln_k), 100 * top)};
   });
-  layers.add_orbits([&](const PhasePortrait& of) {
-    const bool ray = !of.plane.terminal.rays.empty();
-    std::vector<PortraitPanel::Copy> copies;
-    for (const WholeCurve& curve : of.curves) {
-      constexpr int count = 12;
-      const bool falls = curve.k_from > curve.k_to;
-      const double ln_k =
-          ray ? spread_log_ratio(curve, falls ? std::log(1.6) : -std::log(0.45)) : std::log(falls ? top : top / 3);
-      const double u = at_log_ratio(curve, ln_k).u;
-      for (int i = 0; i < count; ++i) copies.push_back({curve, (i + 0.5) / count * U * (ray ? 1.6 : 1) / u});
-    }
-    return copies;
-  });
+  const double mu = portrait.system().mu();
+  const bool falls = portrait.plane.terminal.ends.front().k == 0;
+  const auto copies = [&](const PortraitOrbit& curve) {
+    constexpr int count = 12;
+    const double u = at_log_ratio(curve, std::log(falls ? top : top / 3)).u;
+    std::vector<PortraitPanel::Copy> result;
+    for (int i = 0; i < count; ++i) result.push_back({curve, (i + 0.5) / count * U / u});
+    return result;
+  };
+  layers.add_copies(
+      copies,
+      [&](Point at) {
+        return LogState{std::log(at.y), std::log(mu * at.x * at.y)};
+      },
+      false);
   layers.add_invariant({{{0, 0}, {U, 0}}, {{0, 0}, {0, top}}}, [&](double ln_k) {
     const double k = std::exp(ln_k);
     return std::vector<Polyline>{{{0, k}, {U, k}}};

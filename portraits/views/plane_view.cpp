@@ -20,11 +20,7 @@ Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   panel.x = {drawing.speed(name), -unit * U, unit * U, false, {}};
   panel.y = {drawing.speed("{/:Italic v}"), 0, V, false, {}};
   PortraitPanel layers(drawing, std::move(panel), [unit](const Instant& at) { return Point{unit * at.u, at.v}; });
-  layers.add_orbits([](const PhasePortrait& of) {
-    Copies copies;
-    for (const PortraitOrbit& orbit : of.orbits) copies.push_back({orbit});
-    return copies;
-  });
+  layers.add_orbits();
   layers.add_isochrones();
   layers.add_field([unit](Point at) { return reduction::State{at.x / unit, at.y}; });
   const double x = unit * U;
@@ -36,9 +32,8 @@ Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   return std::move(layers).finished();
 }
 
-/// Copies of the whole curves that pass, at a given ln k, through evenly spaced u of both signs.
+/// Copies that pass, at a given ln k, through evenly spaced u of both signs.
 void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double max_u, int count) {
-  if (!reaches(curve, ln_k)) return;
   const double u = at_log_ratio(curve, ln_k).u;
   for (int i = 0; i < count; ++i) {
     for (double sign : {1.0, -1.0}) copies.push_back({curve, (i + 0.5) / count * max_u / u, sign});
@@ -75,34 +70,34 @@ Panel contact_panel(const Drawing& drawing) {
     panel.y.low = lowest - reach;
     panel.y.high = highest + reach;
   }
-  const auto copies_of = [=](const PhasePortrait& of) {
-    Copies copies;
-    for (const WholeCurve& curve : of.curves) {
-      if (!pivoting) {
-        const bool above = curve.k_from > curve.k_to;
-        const double far = rays.empty() ? 2 + (above ? reach : -reach) : spread_log_ratio(curve, reach);
-        const double near = rays.empty() ? 2 + 0.3 * (above ? reach : -reach) : spread_log_ratio(curve, 0.3 * reach);
-        add_evenly(copies, curve, far, U, per_side);
-        add_evenly(copies, curve, near, 3 * U, per_side);
-        continue;
-      }
-      add_evenly(copies, curve, top, U, per_side);
-      if (!reaches(curve, top)) continue;
-      // Orbits that enter from the sides, evenly down to the bottom.
-      const double u = at_log_ratio(curve, top).u;
-      for (int i = 1; i <= per_side; ++i) {
-        const double factor = std::pow(shrinks, static_cast<double>(i) / (per_side + 0.5));
-        for (double sign : {1.0, -1.0}) copies.push_back({curve, factor * U / u, sign});
-      }
+  const auto copies = [=](const PortraitOrbit& curve) {
+    Copies result;
+    if (!pivoting) {
+      add_evenly(result, curve, lowest - reach, U, per_side);
+      add_evenly(result, curve, lowest - 0.3 * reach, 3 * U, per_side);
+      return result;
     }
-    return copies;
+    add_evenly(result, curve, top, U, per_side);
+    // Orbits that enter from the sides, evenly down to the bottom.
+    const double u = at_log_ratio(curve, top).u;
+    for (int i = 1; i <= per_side; ++i) {
+      const double factor = std::pow(shrinks, static_cast<double>(i) / (per_side + 0.5));
+      for (double sign : {1.0, -1.0}) result.push_back({curve, factor * U / u, sign});
+    }
+    return result;
   };
   const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // -infinity is below the border
   PortraitPanel layers(drawing, std::move(panel), [low](const Instant& at) {
     return Point{at.u, std::clamp(at.ln_k, low, 1e300)};
   });
   layers.set_arrows(0.3, 0.06);
-  layers.add_orbits(copies_of);
+  const double ln_mu = std::log(portrait.system().mu());
+  layers.add_copies(
+      copies,
+      [=](Point at) {
+        return LogState{at.y, at.y + ln_mu + std::log(std::abs(at.x))};
+      },
+      true);
   layers.add_highlights();
   layers.add_invariant({}, [U](double ln_k) { return std::vector<Polyline>{{{-U, ln_k}, {U, ln_k}}}; });
   return std::move(layers).finished();
@@ -150,21 +145,24 @@ std::vector<Panel> log_view(const Drawing& drawing) {
   PortraitPanel layers(drawing, panel, [=](const Instant& at) {
     return Point{at.u == 0 ? nowhere.x : ln_mu + std::log(std::abs(at.u)), std::max(at.ln_v, nowhere.y)};
   });
-  layers.add_orbits([&](const PhasePortrait& of) {
+  const auto copies = [&](const PortraitOrbit& curve) {
     // Translates along the diagonal, evenly across the panel.
     constexpr int count = 14;
-    Copies copies;
-    for (const WholeCurve& curve : of.curves) {
-      const double ln_k = spread_log_ratio(curve, 1);
-      if (!reaches(curve, ln_k)) continue;
-      const double w = ln_mu + std::log(at_log_ratio(curve, ln_k).u);
-      const double first = spins_last && rays.empty() ? panel.x.low : panel.x.low - 6;
-      const double last = spins_last && rays.empty() ? panel.x.high + shrinks : panel.x.high + 6;
-      for (int i = 0; i < count; ++i)
-        copies.push_back({curve, std::exp(first + (i + 0.5) * (last - first) / count - w)});
+    const double w = ln_mu + std::log(at_log_ratio(curve, 0).u);
+    const double first = spins_last ? panel.x.low : panel.x.low - 6;
+    const double last = spins_last ? panel.x.high + shrinks : panel.x.high + 6;
+    Copies result;
+    for (int i = 0; i < count; ++i) {
+      result.push_back({curve, std::exp(first + (i + 0.5) * (last - first) / count - w)});
     }
-    return copies;
-  });
+    return result;
+  };
+  layers.add_copies(
+      copies,
+      [](Point at) {
+        return LogState{at.y - at.x, at.y};
+      },
+      false);
   constexpr double squeezed = 200;  // from which the diagonal is the upper border
   if (x_range < squeezed && y_range < squeezed)
     layers.panel().lines.push_back({{{{panel.y.low, panel.y.low}, {panel.y.high, panel.y.high}}},

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -172,16 +173,6 @@ std::vector<double> ray_log_ratios(const PhasePortrait& portrait) {
   return ln_k;
 }
 
-double spread_log_ratio(const WholeCurve& curve, double away) {
-  const auto [low, high] = std::minmax({std::log(curve.k_from), std::log(curve.k_to)});
-  if (std::isfinite(low) && std::isfinite(high)) return (low + high) / 2;
-  return std::isfinite(low) ? low + away : std::isfinite(high) ? high - away : 0;
-}
-
-bool reaches(const PortraitOrbit& curve, double ln_k) {
-  return (curve.ln_k[0] - ln_k) * (curve.ln_k[curve.rows() - 1] - ln_k) < 0;
-}
-
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k) {
   for (Eigen::Index i = 1; i < curve.rows(); ++i) {
     const double before = curve.ln_k[i - 1], now = curve.ln_k[i];
@@ -219,7 +210,75 @@ Point PortraitPanel::place(double u, double v) const {
   return place_({u, v, std::log(v), std::log(v / (drawing_.portrait.system().mu() * std::abs(u))), 0});
 }
 
-void PortraitPanel::add_orbits(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies) {
+void PortraitPanel::add_orbits() {
+  add_layers([](const PhasePortrait& of) {
+    std::vector<Copy> copies;
+    for (const PortraitOrbit& orbit : of.orbits) copies.push_back({orbit});
+    return copies;
+  });
+}
+
+void PortraitPanel::add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies,
+                               const std::function<LogState(Point)>& state, bool mirrored) {
+  const bool has_rays = !drawing_.portrait.plane.terminal.rays.empty();
+  add_layers([&](const PhasePortrait& of) {
+    if (has_rays || !of.plane.terminal.rays.empty()) return filling(of.flow, state, mirrored);
+    // From so steep that it passes the whole window.
+    const double steepest = std::log(of.window.v / (of.system().mu() * of.window.u)) + 7;
+    return copies(traced_.emplace_back(orbit_through(of.flow, 0, 0, std::max(14.0, steepest))));
+  });
+}
+
+std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& flow,
+                                                        const std::function<LogState(Point)>& state, bool mirrored) {
+  constexpr double gap_mm = 4, first = 1e3;
+  constexpr std::size_t max_count = 60;
+  struct Seed {
+    Point at;  ///< on paper
+    LogState state;
+    const reduction::SimilarityCurve* sector;  ///< between two invariant half-lines, which no orbit crosses
+    double border = first;                     ///< mm to another sector, twice
+    double gap = first;                        ///< mm to the nearest line of its sector, or to the border
+  };
+  const auto distance = [mm = drawing_.panel_mm](Point a, Point b) {
+    return std::hypot((a.x - b.x) * mm.x, (a.y - b.y) * mm.y);
+  };
+  std::vector<Seed> seeds;
+  constexpr int columns = 48, rows = 32;
+  for (int i = mirrored ? columns / 2 : 0; i < columns; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      const Point at{(i + 0.5) / columns, (j + 0.5) / rows};
+      const LogState there = state(from_paper(panel_, at));
+      if (!std::isfinite(there.ln_k) || !std::isfinite(there.ln_v)) continue;
+      seeds.push_back({at, there, flow.solution().through(there.ln_k).get()});
+    }
+  }
+  for (Seed& seed : seeds) {
+    for (const Seed& other : seeds) {
+      if (other.sector != seed.sector) seed.border = std::min(seed.border, 2 * distance(seed.at, other.at));
+    }
+    seed.gap += seed.border;  // a sector has one orbit at least, in its middle
+  }
+  std::vector<Copy> copies;
+  while (!seeds.empty() && copies.size() < max_count) {
+    const Seed widest = *std::ranges::max_element(seeds, {}, &Seed::gap);
+    if (widest.gap < gap_mm) break;
+    constexpr double upstream = 12;
+    copies.push_back({traced_.emplace_back(orbit_through(flow, widest.state.ln_k, widest.state.ln_v, upstream))});
+    for (const Polyline& part : clipped(panel_, line_of(copies.back()))) {
+      for (const Point& at : on_paper_along(part, 0.01)) {
+        for (Seed& seed : seeds) {
+          if (seed.sector == widest.sector) seed.gap = std::min({seed.gap, seed.border, distance(seed.at, at)});
+        }
+      }
+    }
+    std::erase_if(seeds, [&](const Seed& seed) { return seed.gap < gap_mm; });
+    if (mirrored) copies.push_back({traced_.back(), 1, -1});
+  }
+  return copies;
+}
+
+void PortraitPanel::add_layers(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies) {
   const PhasePortrait& portrait = drawing_.portrait;
   if (drawing_.coloured()) {
     add_coloured(copies(portrait));
@@ -324,19 +383,25 @@ void PortraitPanel::add_highlights() {
   }
 }
 
+/// Points on paper along a line, no farther apart than a step.
+std::vector<Point> PortraitPanel::on_paper_along(const Polyline& line, double step) const {
+  std::vector<Point> points;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Point from = on_paper(panel_, line[i - 1]), to = on_paper(panel_, line[i]);
+    const int pieces = 1 + static_cast<int>(std::min(1 / step, std::hypot(to.x - from.x, to.y - from.y) / step));
+    for (int j = 0; j < pieces; ++j) points.push_back(between(from, to, static_cast<double>(j) / pieces));
+  }
+  if (!line.empty()) points.push_back(on_paper(panel_, line.back()));
+  return points;
+}
+
 /// Points on paper that labels keep off, by growing x: orbits, also those that are drawn later on top, and arrows.
 std::vector<Point> PortraitPanel::obstacles() const {
   std::vector<Point> points = heads_;
   std::vector<Polyline> crossed = orbits_;
   for (const PortraitOrbit& orbit : drawing_.portrait.through) crossed.push_back(line_of({orbit}));
   if (drawing_.portrait.highlight) crossed.push_back(line_of({*drawing_.portrait.highlight}));
-  for (const Polyline& orbit : crossed) {
-    for (std::size_t i = 1; i < orbit.size(); ++i) {
-      const Point a = on_paper(panel_, orbit[i - 1]), b = on_paper(panel_, orbit[i]);
-      const int pieces = 1 + static_cast<int>(std::min(100.0, std::hypot(a.x - b.x, a.y - b.y) / 0.01));
-      for (int j = 0; j <= pieces; ++j) points.push_back(between(a, b, static_cast<double>(j) / pieces));
-    }
-  }
+  for (const Polyline& orbit : crossed) std::ranges::copy(on_paper_along(orbit, 0.01), std::back_inserter(points));
   std::erase_if(points, [](Point point) { return !inside(point, -1); });
   std::ranges::sort(points, {}, &Point::x);
   return points;
@@ -360,13 +425,8 @@ void PortraitPanel::add_isochrones() {
                      letters * 1.9 / drawing_.panel_mm.y);
     for (; piece != isochrones.end() && piece->tau_stop == time; ++piece) {
       const Polyline line = line_of(*piece);
-      for (std::size_t i = 1; i < line.size(); ++i) {
-        const Point from = on_paper(panel_, line[i - 1]), to = on_paper(panel_, line[i]);
-        const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y) / 0.004);
-        for (int j = 0; j < steps; ++j) {
-          const Point at = between(from, to, static_cast<double>(j) / steps);
-          if (inside(at, 0.05)) place.try_at(at, points, labels, middle);
-        }
+      for (const Point& at : on_paper_along(line, 0.004)) {
+        if (inside(at, 0.05)) place.try_at(at, points, labels, middle);
       }
       lines.lines.push_back(line);
     }

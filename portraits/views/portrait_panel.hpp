@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <string>
 #include <vector>
@@ -60,14 +61,13 @@ std::string law_legend(const PhasePortrait& portrait);
 /// ln k of the invariant rays, by growing k.
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 
-/// ln k at which copies of a whole curve are spread: half-way between two rays, `away` from the only one, 0 without.
-double spread_log_ratio(const WholeCurve& curve, double away);
+/// The state at which an orbit has that ln k, interpolated between its rows; the last before the stop if it has none.
+Instant at_log_ratio(const PortraitOrbit& orbit, double ln_k);
 
-/// Whether ln k passes that value along a whole curve.
-bool reaches(const PortraitOrbit& curve, double ln_k);
-
-/// The state at which a whole curve has that ln k, interpolated between its rows; the last that it reaches otherwise.
-Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
+/// A state by logarithms, which do not underflow; one of them not finite: none.
+struct LogState {
+  double ln_k, ln_v;
+};
 
 /// A panel that fills with layers of the phase plane, placed by one function of the state.
 class PortraitPanel {
@@ -89,8 +89,17 @@ class PortraitPanel {
     double sign = 1;
   };
 
-  /// Orbits of the portrait, and in the same way those of the law that it is compared with.
-  void add_orbits(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies);
+  /// The orbits of the portrait, and those of the law that it is compared with.
+  void add_orbits();
+
+  /// The same for what is seen beyond the window. Without invariant rays all orbits off the axes are copies of one;
+  /// with rays orbits fill the panel one by one, each through the middle of the widest gap.
+  ///
+  /// @param copies    some of a curve that passes k = 1 at v = 1
+  /// @param state     at a point of the panel
+  /// @param mirrored  whether the left half of the panel is the mirror image of the right one
+  void add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies,
+                  const std::function<LogState(Point)>& state, bool mirrored);
   void add_highlights();
   /// Isochrones, labelled where orbits leave room; those of the other law without labels.
   void add_isochrones();
@@ -108,12 +117,15 @@ class PortraitPanel {
     double left;  ///< the time there
   };
 
+  void add_layers(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies);
+  std::vector<Copy> filling(const reduction::Flow& flow, const std::function<LogState(Point)>& state, bool mirrored);
   void add_coloured(const std::vector<Copy>& copies);
   void add_plain(const std::vector<Copy>& copies, Stroke stroke, const std::string& legend);
   Polyline line_of(const Copy& copy) const;
   Polyline line_of(const Isochrone& isochrone) const;
   Point place(double u, double v) const;
   std::vector<TimedArrow> arrows_on(const Copy& copy, const Polyline& line);
+  std::vector<Point> on_paper_along(const Polyline& line, double step) const;
   std::vector<Point> obstacles() const;
 
   const Drawing& drawing_;
@@ -121,8 +133,9 @@ class PortraitPanel {
   Place place_;
   double arrow_share_ = 0.3;
   double keep_off_ = 0.04;
-  std::vector<Polyline> orbits_;  ///< that labels keep off
-  std::vector<Point> heads_;      ///< on paper
+  std::deque<PortraitOrbit> traced_;  ///< that copies refer to
+  std::vector<Polyline> orbits_;      ///< that labels keep off
+  std::vector<Point> heads_;          ///< on paper
 };
 
 }  // namespace contensou::portraits

@@ -14,38 +14,40 @@ constexpr double step = 0.8;       // between translates, or more where k hardly
 constexpr int max_count = 24;      // translates of a curve
 
 /// One panel: translates of each curve, with the arrow of the symmetry.
-Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa) {
+Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
+                 const std::function<double(double x)>& ln_k_at) {
   const double middle = std::log(drawing.portrait.window.v);
   axes.y = {"{/:Italic p} = ln {/:Italic v}", middle - half_height, middle + half_height, false, {}};
   const double below = middle - 100 * half_height;
   PortraitPanel layers(drawing, std::move(axes), [abscissa, below](const Instant& at) {
     return Point{abscissa(at.ln_k), std::max(at.ln_v, below)};
   });
-  layers.add_orbits([&](const PhasePortrait& of) {
-    std::vector<PortraitPanel::Copy> copies;
-    const std::vector<double> rays = ray_log_ratios(drawing.portrait);
-    for (const WholeCurve& curve : of.curves) {
-      const Instant at = at_log_ratio(curve, spread_log_ratio(curve, 1));
-      // From the one that only touches the lower border to the one that only touches the upper, but next to an axis or
-      // a ray, which no number of them would reach.
-      const Axis& x = layers.panel().x;
-      const double margin = 0.02 * (x.high - x.low);
-      double rise = 0, fall = 0;
-      for (Eigen::Index i = 0; i < curve.rows(); ++i) {
-        const double there = abscissa(curve.ln_k[i]);
-        const auto hides = [&](double ray) { return std::abs(there - abscissa(ray)) < margin; };
-        const bool seen = there >= x.low + margin && there <= x.high - margin;
-        if (!seen || std::ranges::any_of(rays, hides)) continue;
-        rise = std::max(rise, curve.ln_v[i] - at.ln_v);
-        fall = std::max(fall, at.ln_v - curve.ln_v[i]);
-      }
-      const double apart = std::max(step, (2 * half_height + rise + fall) / max_count);
-      const int first = -static_cast<int>(std::ceil((half_height + rise) / apart));
-      const int last = static_cast<int>(std::ceil((half_height + fall) / apart));
-      for (int i = first; i <= last; ++i) copies.push_back({curve, std::exp(middle + i * apart - at.ln_v)});
+  const auto copies = [&](const PortraitOrbit& curve) {
+    const Instant at = at_log_ratio(curve, 0);
+    // From the one that only touches the lower border to the one that only touches the upper, but next to an axis,
+    // which no number of them would reach.
+    const Axis& x = layers.panel().x;
+    const double margin = 0.02 * (x.high - x.low);
+    double rise = 0, fall = 0;
+    for (Eigen::Index i = 0; i < curve.rows(); ++i) {
+      const double there = abscissa(curve.ln_k[i]);
+      if (there < x.low + margin || there > x.high - margin) continue;
+      rise = std::max(rise, curve.ln_v[i] - at.ln_v);
+      fall = std::max(fall, at.ln_v - curve.ln_v[i]);
     }
-    return copies;
-  });
+    const double apart = std::max(step, (2 * half_height + rise + fall) / max_count);
+    const int first = -static_cast<int>(std::ceil((half_height + rise) / apart));
+    const int last = static_cast<int>(std::ceil((half_height + fall) / apart));
+    std::vector<PortraitPanel::Copy> result;
+    for (int i = first; i <= last; ++i) result.push_back({curve, std::exp(middle + i * apart - at.ln_v)});
+    return result;
+  };
+  layers.add_copies(
+      copies,
+      [&](Point at) {
+        return LogState{ln_k_at(at.x), at.y};
+      },
+      false);
   const Axis& y = layers.panel().y;
   layers.add_invariant({}, [&](double ln_k) {
     const double x = abscissa(ln_k);
@@ -75,9 +77,11 @@ std::vector<Panel> similarity_view(const Drawing& drawing) {
   by_ratio.title = "the same against ln {/:Italic k}";
   by_ratio.x = {"ln {/:Italic k}", low - 4, high + 4, false, {}};
   std::vector<Panel> panels;
-  panels.push_back(
-      translates(drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); }));
-  panels.push_back(translates(drawing, std::move(by_ratio), [](double ln_k) { return std::max(ln_k, -1e3); }));
+  panels.push_back(translates(
+      drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); },
+      [mu](double q) { return std::log(q / mu); }));
+  panels.push_back(translates(
+      drawing, std::move(by_ratio), [](double ln_k) { return std::max(ln_k, -1e3); }, [](double x) { return x; }));
   return panels;
 }
 

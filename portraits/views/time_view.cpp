@@ -15,14 +15,14 @@ struct Course {
   Polyline u, v, ln_k;
 };
 
-Course course(const PortraitOrbit& orbit, const Instant& start, double deepest) {
-  Course course{{{0, 1}}, {{0, 1}}, {{0, start.ln_k}}};
+Course course(const PortraitOrbit& orbit) {
+  constexpr double lowest = -60;
+  Course course;
   for (Eigen::Index i = 0; i < orbit.rows(); ++i) {
-    if (orbit.tau_left[i] >= start.tau_left) continue;
-    const double passed = 1 - orbit.tau_left[i] / start.tau_left;
-    course.u.push_back({passed, orbit.u[i] / start.u});
-    course.v.push_back({passed, orbit.v[i] / start.v});
-    course.ln_k.push_back({passed, std::clamp(orbit.ln_k[i], -deepest, deepest)});
+    const double passed = 1 - orbit.tau_left[i] / orbit.tau_left[0];
+    course.u.push_back({passed, orbit.u[i] / orbit.u[0]});
+    course.v.push_back({passed, orbit.v[i] / orbit.v[0]});
+    course.ln_k.push_back({passed, std::clamp(orbit.ln_k[i], lowest, -lowest)});
   }
   // At rest k is only a limit, that the last rows are next to.
   course.ln_k.back().y = course.ln_k[course.ln_k.size() - 2].y;
@@ -63,7 +63,6 @@ std::vector<Panel> time_view(const Drawing& drawing) {
     v.lines.push_back({{line.v}, stroke, legend});
     k.lines.push_back({{line.ln_k}, stroke, legend});
   };
-  constexpr double deepest = 60;
   const auto add_courses = [&](const PhasePortrait& of, bool compared) {
     const std::vector<Colour>& times = drawing.palette.times;
     for (std::size_t i = 0; i < std::size(time_ratios); ++i) {
@@ -72,9 +71,7 @@ std::vector<Panel> time_view(const Drawing& drawing) {
                                      : Stroke{times[i * (times.size() - 1) / (std::size(time_ratios) - 1)], 1.8, false};
       const std::string legend =
           compared ? law_legend(of) : fmt::format("{{/:Italic k}}_0 = {}", number(std::exp(ln_k), 3));
-      for (const PortraitOrbit& curve : of.curves) {
-        if (reaches(curve, ln_k)) add(course(curve, at_log_ratio(curve, ln_k), deepest), stroke, legend);
-      }
+      add(course(orbit_through(of.flow, ln_k, 0, 0)), stroke, legend);
     }
   };
   add_courses(portrait, false);
@@ -90,7 +87,7 @@ std::vector<Panel> time_view(const Drawing& drawing) {
   if (portrait.highlight) asked.push_back(&*portrait.highlight);
   for (const PortraitOrbit* orbit : asked) {
     if (orbit->u[0] == 0 || orbit->v[0] == 0) continue;
-    add(course(*orbit, orbit->at(0), deepest), {drawing.palette.highlight, 2.6, false},
+    add(course(*orbit), {drawing.palette.highlight, 2.6, false},
         portrait.highlight && orbit == &*portrait.highlight ? drawing.caption.highlight : "through the points given");
   }
   return {std::move(u), std::move(v), std::move(k)};

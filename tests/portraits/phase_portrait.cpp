@@ -282,25 +282,26 @@ TEST_CASE("An orbit through a point begins on the border and passes through it",
   }
 }
 
-TEST_CASE("The whole curve scaled is each orbit", "[symmetry]") {
-  for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
-    REQUIRE(portrait.curves.size() == 1);
-    const PortraitOrbit& curve = portrait.curves.front();
-    CHECK(curve.ln_k[0] > std::log(1e5));
-    CHECK(curve.u[curve.rows() - 1] == 0);
-    const Orbit orbit = Flow(system).orbit({curve.u[0], curve.v[0]});
-    for (Eigen::Index i = 1; i + 1 < curve.rows(); ++i) {
-      CHECK(curve.tau_left[i] < curve.tau_left[i - 1]);
+TEST_CASE("An orbit through a state given by logarithms passes through it, without gaps", "[route]") {
+  for_each_portrait([](const ReducedSystem& system, const PhasePortrait&) {
+    const PortraitOrbit orbit = portraits::orbit_through(system, 0, std::log(2), 14);
+    CHECK(std::max(system.mu() * orbit.u[0], orbit.v[0]) == Approx(2 * std::exp(14)));
+    CHECK(orbit.u[orbit.rows() - 1] == 0);
+    CHECK(orbit.tau_left[orbit.rows() - 1] == 0);
+    const Flow flow = Flow::by_quadrature(system);
+    CHECK(flow.orbit({orbit.u[0], orbit.v[0]}).at_log_ratio(0).v == Approx(2).epsilon(1e-9));
+    for (Eigen::Index i = 1; i + 1 < orbit.rows(); ++i) {
+      CHECK(orbit.tau_left[i] < orbit.tau_left[i - 1]);
       // No gap that a stretched view would show.
-      const double turn = std::atan(std::exp(curve.ln_k[i - 1])) - std::atan(std::exp(curve.ln_k[i]));
+      const double turn = std::atan(std::exp(orbit.ln_k[i - 1])) - std::atan(std::exp(orbit.ln_k[i]));
       CHECK(turn < 0.05);
-      if (curve.ln_k[i] > -15) CHECK(curve.ln_k[i - 1] - curve.ln_k[i] < 0.6);
+      if (orbit.ln_k[i] > -15) CHECK(orbit.ln_k[i - 1] - orbit.ln_k[i] < 0.6);
     }
-    const Eigen::Index row = curve.rows() / 2;
-    const auto scaled = curve.at(row, 7);
-    const double stop = Flow(system).orbit({scaled.u, scaled.v}).stop_time();
-    CHECK(scaled.tau_left == Approx(stop).epsilon(1e-10));
-    CHECK(scaled.ln_v == Approx(std::log(7) + curve.ln_v[row]));
+    const Eigen::Index row = orbit.rows() / 2;
+    const auto scaled = orbit.at(row, 7);
+    CHECK(scaled.tau_left == Approx(flow.orbit({scaled.u, scaled.v}).stop_time()).epsilon(1e-10));
+    CHECK(scaled.ln_v == Approx(std::log(7) + orbit.ln_v[row]));
+    CHECK(portraits::orbit_through(system, 1, 0, 0).v[0] == Approx(1).epsilon(1e-14));
   });
 }
 

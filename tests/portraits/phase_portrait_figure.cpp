@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -313,6 +314,57 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
     for (int eighth = 0; eighth < 8; ++eighth) {
       CAPTURE(law.name(), gamma, eighth);
       CHECK(lines[eighth] >= 2);
+    }
+  }
+}
+
+TEST_CASE("Every sector between two invariant half-lines has its orbits in every panel, and no orbit leaves it",
+          "[limit]") {
+  using Function = double (*)(portraits::Point);  // ln k at a point, for mu = 1
+  const Function speeds = [](portraits::Point p) { return std::log(p.y / std::abs(p.x)); };
+  const Function up = [](portraits::Point p) { return p.y; };
+  const std::map<View, std::vector<Function>> ln_k{
+      {View::uv, {speeds}},
+      {View::patch, {speeds}},
+      {View::log, {[](portraits::Point p) { return p.y - p.x; }}},
+      {View::similarity, {[](portraits::Point p) { return std::log(p.x); }, [](portraits::Point p) { return p.x; }}},
+      {View::blowup, {speeds, [](portraits::Point p) { return std::log(p.y); }}},
+      {View::disc, {speeds}},
+      {View::pair, {speeds, up}}};
+  const reduction::Law uniform = *reduction::find_law("uniform"), octic = *reduction::find_law("potential8");
+  // One ray; two; one that touches, where v = 0 is degenerate.
+  for (const auto& [law, gamma] : {std::pair{uniform, 2.0}, std::pair{octic, 1.995}, std::pair{octic, 2.0}}) {
+    const reduction::Flow flow({law, 1, {.chi = 1, .gamma = gamma}});
+    const auto sector = [&](double at) {
+      return std::ranges::count_if(flow.terminal().rays, [&](const auto& ray) { return std::log(ray.k) < at; });
+    };
+    for (const auto& [view, functions] : ln_k) {
+      const Figure figure = draw(portraits::phase_portrait(flow, {.view = view}), {}, plain);
+      REQUIRE(figure.panels.size() == functions.size());
+      for (std::size_t i = 0; i < functions.size(); ++i) {
+        std::map<std::ptrdiff_t, int> lines;
+        for (const auto& line : layer(figure.panels[i], "orbits").lines) {
+          std::set<std::ptrdiff_t> sectors;
+          for (const auto& part : portraits::clipped(figure.panels[i], line)) {
+            for (const auto& point : part) {
+              const double at = functions[i](point);
+              const auto on = [&](const auto& ray) { return std::abs(std::log(ray.k) - at) < 1e-4; };
+              if (std::isfinite(at) && std::ranges::none_of(flow.terminal().rays, on)) sectors.insert(sector(at));
+            }
+          }
+          CHECK(sectors.size() <= 1);
+          for (const std::ptrdiff_t crossed : sectors) ++lines[crossed];
+        }
+        CAPTURE(law.name(), gamma, portraits::name(view), i);
+        CHECK(lines.size() == flow.terminal().rays.size() + 1);
+      }
+    }
+    const Panel ratio = draw(portraits::phase_portrait(flow, {.view = View::time}), {}, plain).panels.at(2);
+    for (const auto& lines : ratio.lines) {
+      const auto& line = lines.lines.front();
+      CHECK(sector(line.front().y) == sector(line[line.size() / 2].y));
+      CHECK((std::ranges::is_sorted(line, {}, &portraits::Point::y) ||
+             std::ranges::is_sorted(line, std::greater<>(), &portraits::Point::y)));
     }
   }
 }

@@ -54,12 +54,6 @@ struct PortraitOrbit {
   Eigen::Index rows() const { return u.size(); }
 };
 
-/// The orbit that all those between two neighbouring invariant half-lines are scaled copies of.
-struct WholeCurve : PortraitOrbit {
-  double k_from;  ///< of the half-line that it is born at, next to infinity
-  double k_to;    ///< of the one along which it enters the origin
-};
-
 /// A piece of the line of all states with one stop time.
 struct Isochrone {
   double tau_stop;
@@ -73,9 +67,7 @@ struct PhasePortrait {
   reduction::PhasePlane plane;
   View view;
   Window window;
-  std::vector<PortraitOrbit> orbits;  ///< from the border of the window to the origin
-  /// By growing k, u > 0, mu u = 1 where they start: every orbit off the invariant half-lines is one of them, scaled.
-  std::vector<WholeCurve> curves;
+  std::vector<PortraitOrbit> orbits;       ///< from the border of the window to the origin
   std::vector<Isochrone> isochrones;       ///< in the window
   std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
   std::vector<PortraitOrbit> through;      ///< the orbits through the points asked for, from the border
@@ -95,8 +87,7 @@ struct PortraitRequest {
   int isochrones = 7;                              ///< about so many, >= 0
   std::optional<reduction::Law> comparison = {};
   bool stepped = false;  ///< orbits by (2.7), stepped in beta, in place of the flow's own
-  /// Keep only what the view is drawn from: no whole curves for uv and patch, no orbits and isochrones for the others,
-  /// all for pair.
+  /// Keep only what the view is drawn from: orbits and isochrones for uv, patch and pair.
   bool drawn_only = false;
   double time_unit = 1;  ///< isochrones are at round multiples of this many tau
 };
@@ -107,6 +98,14 @@ struct PortraitRequest {
 /// @throws std::domain_error  if the sides of the window are not within 1e-150 .. 1e150, a point lies on no orbit (u or
 ///                            v is 0) or out of the window, or a number is negative
 PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest& request);
+
+/// The orbit through a state with u > 0, from beyond the window to the stop. The state is given by logarithms, which do
+/// not underflow; it is neither on an axis nor on an invariant ray.
+///
+/// @param ln_k      ln of v/(mu u)
+/// @param ln_v      of v in the unit of speed
+/// @param upstream  >= 0: where it starts, the larger of mu u and v is exp(upstream) times as large
+PortraitOrbit orbit_through(const reduction::Flow& flow, double ln_k, double ln_v, double upstream);
 
 /// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], orbits [{u, v, tau_left}], isochrones
 /// [{tau_stop, u, v}]; where asked for also highlight (an orbit), through (orbits), against {law, orbits, isochrones}.
