@@ -97,10 +97,12 @@ class Examination {
     add("stop time of the scaled start, (2.6)", relative(scaled, factor * orbit_.stop_time()), stepping);
   }
 
-  /// The start, or one with partial derivatives: at k = 1 the ring and the uniform disc have none.
+  /// The start, or one with partial derivatives: at their kinks the ring and the uniform disc have none.
   State beside_the_kink() const {
     const double k = start_.v / (system_.mu() * std::abs(start_.u));
-    return std::abs(k - 1) < 1e-3 ? State{start_.u, 1.01 * start_.v} : start_;
+    const bool beside =
+        std::ranges::any_of(system_.law().kinks(), [&](double kink) { return std::abs(k - kink) < 1e-3 * kink; });
+    return beside ? State{start_.u, 1.01 * start_.v} : start_;
   }
 
   void separated_equation() {
@@ -116,9 +118,13 @@ class Examination {
         return q * separated_slope(system_, q);
       };
       using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
-      const double middle = std::clamp(0.0, bottom, top);  // k = 1, where the law may have a kink
-      const double change =
-          Rule::integrate(slope, bottom, middle, 8, 1e-14) + Rule::integrate(slope, middle, top, 8, 1e-14);
+      std::vector<double> edges{bottom, top};
+      for (double k : system_.law().kinks()) edges.push_back(std::clamp(std::log(k), bottom, top));
+      std::ranges::sort(edges);
+      double change = 0;
+      for (std::size_t i = 1; i < edges.size(); ++i) {
+        if (edges[i] > edges[i - 1]) change += Rule::integrate(slope, edges[i - 1], edges[i], 8, 1e-14);
+      }
       const double along = orbit_.at_coordinate(xi).ln_v - orbit_.at_coordinate(xi - 1).ln_v;
       // dp/dq has the digits that Phi - r k Psi has.
       const double digits = 1 / std::max(1.0, steepness(approach.log_ratio(xi - 1)));

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -280,6 +281,33 @@ void require_table(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
   if (!(pressure.maxCoeff() > 0)) throw std::domain_error("TabulatedPressureLaw: the pressure is 0 in every row");
 }
 
+/// Where the pressure has a step, or its slope in s changes by more than its mean slope; the sharpest of them.
+std::vector<double> sharpest_bends(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
+  constexpr std::size_t most = 32;
+  struct Bend {
+    double rho, sharpness;
+  };
+  std::vector<Bend> bends;
+  const double largest = pressure.maxCoeff();
+  const Eigen::Index last = rho.size() - 1;
+  const auto slope = [&](Eigen::Index i) {
+    if (i > last) return pressure[last] == 0 ? 0.0 : std::numeric_limits<double>::infinity();
+    const double change = (pressure[i] - pressure[i - 1]) / largest;
+    return change == 0 ? 0.0 : change / ((rho[i] - rho[i - 1]) * (rho[i] + rho[i - 1]));
+  };
+  for (Eigen::Index i = 1; i <= last; ++i) {
+    const double before = slope(i), after = slope(i + 1);
+    const double sharpness = before == after ? 0 : std::abs(after - before) * rho[i] * rho[i];
+    if (sharpness > 1) bends.push_back({rho[i], sharpness});
+  }
+  std::ranges::sort(bends, std::greater{}, &Bend::sharpness);
+  std::vector<double> kinks;
+  for (std::size_t i = 0; i < std::min(bends.size(), most); ++i) kinks.push_back(bends[i].rho);
+  std::ranges::sort(kinks);
+  kinks.erase(std::unique(kinks.begin(), kinks.end()), kinks.end());
+  return kinks;
+}
+
 }  // namespace
 
 /// The patch as a disc in the middle, up to the second row, and rings around it.
@@ -461,6 +489,7 @@ class TabulatedPressureLaw::Rings {
 TabulatedPressureLaw::TabulatedPressureLaw(std::string name, const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure)
     : name_(std::move(name)) {
   require_table(rho, pressure);
+  kinks_ = sharpest_bends(rho, pressure);
   rings_ = std::make_shared<const Rings>(rho, pressure);
 }
 

@@ -81,7 +81,7 @@ class QuadratureCurve::Panels {
     return after == panels_.begin() ? panels_.front() : *std::prev(after);
   }
 
-  /// Panels of width 1 with an edge at k = 1, as far as D has a digit.
+  /// Panels of width 1 with edges at k = 1 and the law's kinks, as far as D has a digit.
   /// @return  the edge where it has most
   double sample() {
     const bool from_above = approach_.side() == Approach::Side::above;
@@ -100,6 +100,11 @@ class QuadratureCurve::Panels {
       if (clear <= clearest) continue;
       clearest = clear;
       anchor = xi;
+    }
+    for (double k : law_.kinks()) {
+      const double ln_k = std::log(k);
+      if (!approach_.reaches(ln_k)) continue;
+      if (const double xi = approach_.coordinate(ln_k); xi > near && xi < most) kinks_.push_back(xi);
     }
     const auto both_ways = [&] {
       for (double from = anchor; from > near && sample(from, from - 1, 0);) from -= 1;
@@ -147,6 +152,13 @@ class QuadratureCurve::Panels {
 
   /// @return  false if what lies between reaches into where D is all rounding: the panel there is left out
   bool sample(double from, double to, int depth) {
+    constexpr double narrowest = 1e-12;
+    for (double kink : kinks_) {
+      const double beyond = (kink - from) / (to - from);
+      if (std::min(beyond, 1 - beyond) * std::abs(to - from) > narrowest) {
+        return sample(from, kink, depth) && sample(kink, to, depth);
+      }
+    }
     Panel panel{};
     panel.left = std::min(from, to);
     panel.right = std::max(from, to);
@@ -199,6 +211,7 @@ class QuadratureCurve::Panels {
   double r_;
   Approach approach_;
   BetaSolution beta_;
+  std::vector<double> kinks_;  ///< in xi
   bool frozen_ = false;
   std::vector<Panel> panels_;
   double lower_slope_ = 0;  ///< d log_rim/d xi as xi -> -infinity

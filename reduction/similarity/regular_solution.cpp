@@ -61,10 +61,13 @@ RegularSolution::RegularSolution(const Law& law, double r, const Approach& appro
 
   const auto at_stop = coefficients(law, r, std::exp(sign_ * begin));
   first_ = last_ = {at_stop.deficit / at_stop.force, at_stop.excess / (at_stop.force + at_stop.drag)};
-  // Panels meet where z is an integer: the kink k = 1 is an edge.
+  // Panels meet where z is an integer, and at the law's kinks.
   constexpr double narrowest = 4 * std::numeric_limits<double>::epsilon();
   for (double left = begin; left < end;) {
-    const double right = std::min(std::floor(left) + 1, end);
+    double right = std::min(std::floor(left) + 1, end);
+    for (double k : law.kinks()) {
+      if (const double kink = sign_ * std::log(k); kink > left && kink < right) right = kink;
+    }
     if (right - left > narrowest) march(law, r, left, right, 0);
     left = right;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
@@ -24,11 +25,14 @@ namespace odeint = boost::numeric::odeint;
 using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + age/age_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
-/// Next to k = 1 a law may have a term x ln|x|, x = ln k, to which Fehlberg's estimate of the error is as good as blind
+/// Next to a kink a law may have a term x ln|x|, x = ln k less that of the kink, to which Fehlberg's estimate of the error is as good as blind
 /// (all its stages but those at the two ends of a step cancel): steps there change x by this share of itself, down to
 /// what x^2 does not feel.
 constexpr double share_of_kink = 0.5;
 constexpr double nearest_kink = 1e-8;
+
+/// Within this the step before ended on the kink.
+constexpr double on_kink = 16 * std::numeric_limits<double>::epsilon();
 
 struct DirectEquations {
   const ReducedSystem& system;
@@ -66,6 +70,9 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   DirectEquations equations{system, age_unit};
   auto stepper = odeint::make_controlled(stepping.tolerance, 0.0, Fehlberg());
 
+  std::vector<double> kinks;  // in ln k
+  for (double k : system.law().kinks()) kinks.push_back(std::log(k));
+
   Values x{here.ln_w, here.ln_v, 0};
   double s = 0;
   double step = 1e-3 * std::max(std::exp(here.ln_w), std::exp(here.ln_v)) / std::max(1.0, 0.01 * system.r());
@@ -78,7 +85,9 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
     const double wanted = report.next_time();
     Values rate;
     equations(x, rate, s);
-    const double distance = std::max(std::abs(x[1] - x[0]), nearest_kink);
+    double distance = std::numeric_limits<double>::infinity();
+    for (double kink : kinks) distance = std::min(distance, std::abs(x[1] - x[0] - kink));
+    distance = std::max(distance, nearest_kink);
     const double limit = std::min(wanted - s, share_of_kink * distance / std::abs(rate[1] - rate[0]));
     double trial = std::min(step, limit);
     const Values before = x;
@@ -96,22 +105,27 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
     const bool shortened = taken == limit;
     step = shortened ? std::max(step, trial) : trial;
 
-    const double side = before[1] - before[0];
-    if (side != 0 && (side > 0) != (x[1] > x[0])) {
-      // Land on k = 1: the length of the step that ends there, by the secant method from both its ends.
+    const auto crossed = std::ranges::find_if(kinks, [&](double kink) {
+      const double side = before[1] - before[0] - kink;
+      return std::abs(side) > on_kink && (side > 0) != (x[1] - x[0] > kink);
+    });
+    if (crossed != kinks.end()) {
+      // Land on the kink: the length of the step that ends there, by the secant method from both its ends.
+      const auto gap_of = [&](const Values& at) { return at[1] - at[0] - *crossed; };
       Fehlberg base;
       double low = 0;
       double high = taken;
-      double at_low = side;
-      double at_high = x[1] - x[0];
+      double at_low = gap_of(before);
+      double at_high = gap_of(x);
+      const bool from_above = at_low > 0;
       Values landed = x;
       double length = high;
-      for (int i = 0; i < 60 && landed[1] != landed[0]; ++i) {
+      for (int i = 0; i < 60 && gap_of(landed) != 0; ++i) {
         length = std::clamp(high - at_high * (high - low) / (at_high - at_low), low, high);
         if (length == low || length == high) break;
         base.do_step(std::ref(equations), before, s_before, landed, length);
-        const double gap = landed[1] - landed[0];
-        const bool same_side = (gap > 0) == (side > 0);
+        const double gap = gap_of(landed);
+        const bool same_side = (gap > 0) == from_above;
         (same_side ? low : high) = length;
         (same_side ? at_low : at_high) = gap;
         // Illinois: halve the end that stays, so that both close in.
@@ -119,7 +133,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
         if (std::abs(gap) < 4 * std::numeric_limits<double>::epsilon()) break;
       }
       x = landed;
-      x[1] = x[0];
+      x[1] = x[0] + *crossed;
       s = s_before + length;
     }
     here = log_state();

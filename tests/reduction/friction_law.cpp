@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -79,6 +80,7 @@ TEST_CASE("a law of one function has the defaults", "[friction_law]") {
   CHECK(law.pivoting_moment() == law({0, 1}).moment);
   CHECK(law.force_slope() == 1 / 0.8);
   CHECK_FALSE(law.sliding_share());
+  CHECK(law.kinks() == std::vector<double>{1});
   CHECK(law.moment_deficit({1, 1}) == 1 - law({1, 1}).moment / law.pivoting_moment());
 
   const ReducedSystem system(law, 0.1);

@@ -12,6 +12,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/verification.hpp"
 #include "law_checks.hpp"
 #include "rings.hpp"
 
@@ -226,6 +227,30 @@ TEST_CASE("a thin annulus stops like a ring", "[tabulated_pressure_law][limit]")
   const Flow annulus({table_of({0, 0.5, 0.5, 0.5 + 1e-12, 0.5 + 1e-12, 1}, {0, 0, 1, 1, 0, 0}), 1});
   const Flow ring({PressureLaw::ring(), 0.5});
   CHECK(annulus.stop_time({1, 1}).tau == Approx(ring.stop_time({1, 1}).tau).epsilon(1e-11));
+}
+
+TEST_CASE("a table names its steps and sharp bends as kinks", "[tabulated_pressure_law][limit]") {
+  using Kinks = std::vector<double>;
+  CHECK(table_of({0, 0.3, 0.3, 0.5, 0.5 + 2e-16, 1}, {1, 1, 2, 2, 0, 0}).kinks() == Kinks{0.3, 0.5, 0.5 + 2e-16});
+  CHECK(table_of({0, 0.5, 1}, {1, 1, 1}).kinks() == Kinks{1});
+  CHECK(table_of({0, 0.5, 1}, {1, 0.75, 0}).kinks().empty());
+  CHECK(table([](double rho) { return std::sin(1e3 * rho) + 1; }, 1000).kinks().size() == 32);
+  CHECK(Law(table_of({0, 0.3, 0.3, 1}, {1, 1, 0, 0})).kinks() == Kinks{0.3});
+}
+
+TEST_CASE("every statement of the theory holds under a table with steps", "[tabulated_pressure_law][invariant]") {
+  const TabulatedPressureLaw tables[] = {table_of({0, 0.5, 0.5, 1}, {1, 1, 0, 0}),
+                                         table_of({0, 0.5, 0.5 + 2e-16, 1}, {1, 1, 0, 0}),
+                                         table_of({0, 0.2, 0.2, 0.6, 0.6, 0.8, 1}, {1, 3, 1, 4, 2.5, 0, 0.5}),
+                                         table_of({0, 0.5, 0.5, 0.5 + 1e-6, 0.5 + 1e-6, 1}, {0, 0, 1, 1, 0, 0})};
+  for (const TabulatedPressureLaw& law : tables) {
+    for (double v : {0.3, 0.5, 1.0, 5.0}) {
+      for (const Check& check : verify(ReducedSystem(law, 1, {.chi = 1, .gamma = 2}), State{1, v})) {
+        CAPTURE(law.kinks(), v, check.name, check.measured);
+        CHECK(check.passed());
+      }
+    }
+  }
 }
 
 TEST_CASE("a load within the centre's last digits is refused with a way out", "[tabulated_pressure_law][domain]") {

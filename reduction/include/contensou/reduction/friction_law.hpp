@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "contensou/reduction/slip.hpp"
 
@@ -17,13 +18,15 @@ namespace contensou::reduction {
 /// What the library relies on, and checks only where it says so:
 ///   - degree 0: the answer depends on the ratio k = sliding/pivoting alone;
 ///   - Phi(k) = Phi'(0) k + o(k) with Phi'(0) > 0, Phi(infinity) = 1; Psi(0) > 0, k Psi(k) bounded;
-///   - Phi and Psi continuous and piecewise smooth, with k = 1 the only likely kink;
+///   - Phi and Psi continuous and piecewise smooth;
 ///   - the call is const and may come from several threads at once.
 ///
 /// A law may state more; each of these is used when it is there:
 ///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
-///   - `static constexpr SlidingShare sliding_share`, its two-sided bound of the stop time.
+///   - `static constexpr SlidingShare sliding_share`, its two-sided bound of the stop time;
+///   - `kinks()`, every k where Phi or Psi is not smooth (1 unless stated: where the rim of the patch is at rest). A kink
+///     that is not named costs accuracy of the steppers, and of the curves only time.
 ///
 /// A law says nothing of how motions under it are solved: closed forms are found by a law's type (closed_solution,
 /// closed_stop_time), never by its name.
@@ -62,6 +65,11 @@ class Law {
                   }) {
       function->sliding_share = L::sliding_share;
     }
+    if constexpr (requires {
+                    { kept.kinks() } -> std::convertible_to<std::vector<double>>;
+                  }) {
+      function->kinks = kept.kinks();
+    }
     function->read_limits();
     function_ = std::move(function);
   }
@@ -95,6 +103,9 @@ class Law {
   /// The law's own bounds of the stop time, if it states any.
   const std::optional<SlidingShare>& sliding_share() const { return function_->sliding_share; }
 
+  /// The k where Phi or Psi may not be smooth.
+  const std::vector<double>& kinks() const { return function_->kinks; }
+
  private:
   /// A law of any type, with what is read from it once.
   struct Function {
@@ -105,6 +116,7 @@ class Law {
 
     std::string name = "user's law";
     std::optional<SlidingShare> sliding_share;
+    std::vector<double> kinks{1};
     double pivoting_moment = std::numeric_limits<double>::quiet_NaN();
     double force_slope = std::numeric_limits<double>::quiet_NaN();
   };

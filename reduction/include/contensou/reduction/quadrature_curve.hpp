@@ -14,11 +14,11 @@ class RegularSolution;
 ///
 /// m and n, all that a stop time needs, are found in ln k, outwards from the stop (RegularSolution). ln w, b and c are
 /// found in xi, (R26), when one of them is first asked for, panel by panel: on each, their coefficients are sampled at
-/// Gauss points (Boost.Math), and solved as Legendre series. Panels
-/// meet at k = 1 and are halved until the series have converged. They reach from k = 4e-18 to 1e19, where the limits
-/// hold to the last bit; and towards an invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
+/// Gauss points (Boost.Math), and solved as Legendre series. Panels meet at the law's kinks and are halved until the
+/// series have converged. They reach from k = 4e-18 to 1e19, where the limits hold to the last bit; and towards an
+/// invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
 ///
-/// Accuracy  sliding_share 2 eps for a law that is smooth on either side of k = 1, on and beside rays, too; the other
+/// Accuracy  sliding_share 2 eps for a law that is smooth between its kinks, on and beside rays, too; the other
 ///           functions 1e-13, and less next to a ray (measured: tests/reference/README.md).
 /// Cost      about 3 000 evaluations of the law for m and n, and as many again for ln w, b and c; then some 30 ns for
 ///           each value. Noise in the law costs up to a million, and shows in truncation().

@@ -30,6 +30,9 @@ class TabulatedPressureLaw {
 
   const std::string& name() const { return name_; }
 
+  /// k = rho of the steps and of the sharpest bends of the pressure, growing; at most 32.
+  const std::vector<double>& kinks() const { return kinks_; }
+
   /// @throws std::domain_error  for a slip that no law can answer (require_slip)
   Resistance operator()(Slip slip) const;
 
@@ -40,6 +43,7 @@ class TabulatedPressureLaw {
   class Rings;
 
   std::string name_;
+  std::vector<double> kinks_;
   std::shared_ptr<const Rings> rings_;
 };
 
