@@ -29,7 +29,7 @@
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/final_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "contensou/si/whole_motion.hpp"
 #include "javascript.hpp"

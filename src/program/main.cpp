@@ -13,11 +13,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/si/nearest_name.hpp"
 #include "contensou/si/run_file.hpp"
-#include "input/quotation.hpp"
+#include "input/parse.hpp"
 #include "output/interruption.hpp"
 #include "output/output.hpp"
+#include "text/nearest_name.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -47,11 +47,11 @@ void reject_extras(const CLI::App& app, const std::vector<std::string>& names) {
     for (const CLI::Option* known : app.get_options()) {
       for (const std::string& name : known->get_lnames()) options.push_back("--" + name);
     }
-    throw BadInput(fmt::format("unknown option {}{}", quotation(option), si::suggestion(option, options)));
+    throw BadInput(fmt::format("unknown option {}{}", quotation(option), suggestion(option, options)));
   }
   if (names.empty()) throw BadInput(fmt::format("unexpected argument {}", quotation(typed)));
-  throw BadInput(fmt::format("unknown verb {}{}; verbs: {}", quotation(typed), si::suggestion(typed, names),
-                             fmt::join(names, ", ")));
+  throw BadInput(
+      fmt::format("unknown verb {}{}; verbs: {}", quotation(typed), suggestion(typed, names), fmt::join(names, ", ")));
 }
 
 /// CLI11 takes any word for the value of a flag, and a last -- for nothing.

@@ -121,34 +121,23 @@ class Tail {
   Values at_time(double t) const {
     const double share = t < stop() && left_ > 0 ? std::min((stop() - t) / left_, 1.0) : 0.0;
     const double passed = std::min(t, stop()) - start_;
+    const double mean = (1 + share) / 2 * passed;  // time at the first speed for the same way
+    const double v = slides_ ? ball_.slip(from_) : 0;
+    const double omega = slides_ ? 0 : ball_.spin(from_);
+    const double part = ball_.R * ball_.R / ball_.J / (1 / ball_.m + ball_.R * ball_.R / ball_.J);  // to rotation
+    const Vector2d e = ball_.direction(from_);
     const double length = ball_.speed_scale * ball_.time_scale;
     Values x = from_;
     x[slides_ ? 0 : 2] += std::log(share);
     x[slides_ ? 2 : 0] += share > 0 ? other_slope_ * std::log(share) : -std::numeric_limits<double>::infinity();
-    const double v = ball_.slip(from_);
-    const double omega = ball_.spin(from_);
-    if (slides_) {
-      const Vector2d e = ball_.direction(from_);
-      const double lost = v * (1 - share);
-      const double part = ball_.R * ball_.R / ball_.J / (1 / ball_.m + ball_.R * ball_.R / ball_.J);  // to rotation
-      x[3] -= part * lost * e.y() / ball_.speed_scale;
-      x[4] += part * lost * e.x() / ball_.speed_scale;
-      const double slid = v * (1 + share) / 2 * passed;
-      const Vector2d way = ball_.velocity(from_) * passed - (1 - part) * (v * passed - slid) * e;
-      x[5] += way.x() / length;
-      x[6] += way.y() / length;
-      x[7] += slid / ball_.slip_scale;
-    } else {
-      const Vector2d way = ball_.velocity(from_) * passed;
-      x[5] += way.x() / length;
-      x[6] += way.y() / length;
-      x[8] += ball_.R * omega * (1 + share) / 2 * passed / length;
-    }
-    if (t > stop()) {
-      const Vector2d way = ball_.velocity(x) * (t - stop());
-      x[5] += way.x() / length;
-      x[6] += way.y() / length;
-    }
+    x[3] -= part * v * (1 - share) * e.y() / ball_.speed_scale;
+    x[4] += part * v * (1 - share) * e.x() / ball_.speed_scale;
+    const Vector2d way = ball_.velocity(from_) * passed - (1 - part) * v * (passed - mean) * e +
+                         ball_.velocity(x) * std::max(t - stop(), 0.0);
+    x[5] += way.x() / length;
+    x[6] += way.y() / length;
+    x[7] += v * mean / ball_.slip_scale;
+    x[8] += ball_.R * omega * mean / length;
     return x;
   }
 

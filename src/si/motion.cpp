@@ -29,6 +29,16 @@ EnergyLoss energy_loss(const Shot& shot) {
   return {shot.ball.mass * v * v / 7, shot.ball.mass * u * u / 5};
 }
 
+FinalMotion final_motion(const Shot& shot) {
+  const double R = shot.ball.radius;
+  if (const auto* start = std::get_if<SlipAndSpin>(&shot.start)) {
+    const double speed = start->slip * (5.0 / 7.0);
+    return {{speed, 0}, {0, speed / R, 0}};
+  }
+  const Eigen::Vector2d rolling = velocities_of(shot.start).velocity - slip_velocity_at_start(shot) * (2.0 / 7.0);
+  return {rolling, {(0 - rolling.y()) / R, rolling.x() / R, 0}};  // 0 - y: no -0
+}
+
 MotionPoint motion_by_slip(const Shot& shot, double t, double slip, double slip_length, double spin) {
   const Velocities start = velocities_of(shot.start);
   const Eigen::Vector2d contact = slip_velocity_at_start(shot);

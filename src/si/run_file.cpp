@@ -2,20 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "contensou/si/nearest_name.hpp"
 #include "contensou/si/quantity.hpp"
-#include "contensou/si/text_file.hpp"
+#include "text/nearest_name.hpp"
 
 namespace contensou::si {
 
@@ -24,7 +27,7 @@ namespace {
 /// A table of the file with what messages need to know about it.
 struct Section {
   std::string path;          ///< as in its header; empty for the file itself
-  const toml::table* table;  ///< null if the file does not have it
+  const toml::table* table;  ///< empty if the file does not have it
   toml::source_position position;
 };
 
@@ -204,14 +207,14 @@ class Reader {
 
   Section section(const Section& parent, std::string_view key) const {
     const std::string path = parent.path.empty() ? std::string(key) : fmt::format("{}.{}", parent.path, key);
-    const toml::node* node = parent.table == nullptr ? nullptr : parent.table->get(key);
-    if (node == nullptr) return {path, nullptr, parent.position};
+    static const toml::table none;
+    const toml::node* node = parent.table->get(key);
+    if (node == nullptr) return {path, &none, parent.position};
     if (!node->is_table()) fail(node->source().begin, fmt::format("'{}' must be a table: write [{}]", key, path));
     return {path, node->as_table(), node->source().begin};
   }
 
   void allow(const Section& section, std::initializer_list<std::string_view> keys) const {
-    if (section.table == nullptr) return;
     const std::vector<std::string> names(keys.begin(), keys.end());
     for (const auto& [key, node] : *section.table) {
       if (std::ranges::find(names, key.str()) != names.end()) continue;
@@ -222,7 +225,7 @@ class Reader {
   }
 
   std::string name(const Section& ball) const {
-    const toml::node* node = ball.table == nullptr ? nullptr : ball.table->get("name");
+    const toml::node* node = ball.table->get("name");
     if (node == nullptr) return "ball";
     if (!node->is_string()) fail(node->source().begin, "'name' in [ball] must be a string in quotes");
     const std::string& text = node->as_string()->get();
@@ -248,7 +251,7 @@ class Reader {
 
   double number(const Section& section, const Quantity& quantity, std::optional<double> standard = {}) const {
     if (const auto found = overrides_.find(quantity.name); found != overrides_.end()) return found->second;
-    const toml::node* node = section.table == nullptr ? nullptr : section.table->get(quantity.name);
+    const toml::node* node = section.table->get(quantity.name);
     if (node != nullptr) return number(*node, section, quantity);
     if (standard) return *standard;
     fail(section.position, fmt::format("{} is missing: {}{}{}", place(section, quantity.name), quantity.meaning,
@@ -258,7 +261,7 @@ class Reader {
   template <std::size_t Count>
   std::array<double, Count> numbers(const Section& section, const Quantity& quantity) const {
     static_assert(Count == 2 || Count == 3);
-    const toml::node* node = section.table == nullptr ? nullptr : section.table->get(quantity.name);
+    const toml::node* node = section.table->get(quantity.name);
     if (node == nullptr) {
       fail(section.position, fmt::format("{} is missing: {}", place(section, quantity.name), quantity.meaning));
     }
@@ -283,7 +286,6 @@ class Reader {
   /// slip and spin, or velocity and angular_velocity; never both.
   Start given_start(const Section& start) const {
     const auto key_of = [&](const Quantity& quantity) -> const toml::key* {
-      if (start.table == nullptr) return nullptr;
       const auto found = start.table->find(quantity.name);
       return found == start.table->end() ? nullptr : &found->first;
     };
@@ -311,7 +313,7 @@ class Reader {
 
     std::vector<std::string_view> given;
     for (std::string_view key : {patch_radius.name, spin_deceleration.name, std::string_view("hertz")}) {
-      if (contact.table != nullptr && contact.table->contains(key)) given.push_back(key);
+      if (contact.table->contains(key)) given.push_back(key);
     }
     const bool overridden = radius_given || deceleration_given;
     if (given.size() > 1 || (given.empty() && !overridden)) {
@@ -334,34 +336,13 @@ class Reader {
   const StartOverride& start_;
 };
 
-std::string line(const Quantity& quantity, double value) {
-  return fmt::format("{} = {}  # {}{}{}\n", quantity.name, shortest(value), quantity.unit,
-                     quantity.unit.empty() ? "" : ", ", quantity.meaning);
-}
-
-template <class Values>
-std::string list_line(const Quantity& quantity, const Values& values) {
+std::string line(const Quantity& quantity, const std::vector<double>& values) {
   std::vector<std::string> texts;
   for (double value : values) texts.push_back(shortest(value));
-  return fmt::format("{} = [{}]  # {}{}{}\n", quantity.name, fmt::join(texts, ", "), quantity.unit,
-                     quantity.unit.empty() ? "" : ", ", quantity.meaning);
+  const bool one = values.size() == 1;
+  return fmt::format("{} = {}{}{}  # {}{}{}\n", quantity.name, one ? "" : "[", fmt::join(texts, ", "), one ? "" : "]",
+                     quantity.unit, quantity.unit.empty() ? "" : ", ", quantity.meaning);
 }
-
-struct WritePatch {
-  std::string operator()(PatchRadius patch) const { return line(patch_radius, patch.value); }
-  std::string operator()(SpinDeceleration measured) const { return line(spin_deceleration, measured.value); }
-  std::string operator()(const HertzModuli& moduli) const {
-    return "\n[contact.hertz]\n" + list_line(youngs_modulus, moduli.youngs_modulus) +
-           list_line(poisson_ratio, moduli.poisson_ratio);
-  }
-};
-
-struct WriteStart {
-  std::string operator()(const SlipAndSpin& start) const { return line(slip, start.slip) + line(spin, start.spin); }
-  std::string operator()(const Velocities& start) const {
-    return list_line(velocity, start.velocity) + list_line(angular_velocity, start.angular_velocity);
-  }
-};
 
 }  // namespace
 
@@ -380,7 +361,13 @@ Shot parse_run_file(std::string_view text, std::string_view source, const Overri
 }
 
 Shot read_run_file(const std::string& path, const Overrides& overrides, const StartOverride& start) {
-  return parse_run_file(read_text_file(path, max_size + 1), path, overrides, start);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  std::string text(max_size + 1, '\0');
+  if (file) text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+  if (!file || std::ferror(file.get()) != 0) {
+    throw std::system_error(errno, std::generic_category(), "cannot read " + path);
+  }
+  return parse_run_file(text, path, overrides, start);
 }
 
 std::string run_file(const Shot& shot, std::string_view remark) {
@@ -390,11 +377,18 @@ std::string run_file(const Shot& shot, std::string_view remark) {
   std::ostringstream name;
   name << toml::value<std::string>(shot.ball.name);
 
+  const auto add = [&](const std::vector<GivenQuantity>& given) {
+    for (const auto& [quantity, values] : given) text += line(*quantity, values);
+  };
+  const auto& [ball, contact, start, environment] = shot;
   text += fmt::format("[ball]\nname = {}\n", name.str());
-  text += line(mass, shot.ball.mass) + line(radius, shot.ball.radius);
-  text += "\n[contact]\n" + line(friction, shot.contact.friction) + std::visit(WritePatch{}, shot.contact.patch);
-  text += "\n[start]\n" + std::visit(WriteStart{}, shot.start);
-  text += "\n[environment]\n" + line(gravity, shot.environment.gravity);
+  add({{&mass, {ball.mass}}, {&radius, {ball.radius}}});
+  text += "\n[contact]\n" + line(friction, {contact.friction});
+  if (std::holds_alternative<HertzModuli>(contact.patch)) text += "\n[contact.hertz]\n";
+  add(given_by(contact.patch));
+  text += "\n[start]\n";
+  add(given_by(start));
+  text += "\n[environment]\n" + line(gravity, {environment.gravity});
   return text;
 }
 

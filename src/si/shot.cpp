@@ -9,62 +9,33 @@
 
 namespace contensou::si {
 
-namespace {
+std::vector<GivenQuantity> given_by(const PatchSource& patch) {
+  if (const auto* given = std::get_if<PatchRadius>(&patch)) return {{&patch_radius, {given->value}}};
+  if (const auto* measured = std::get_if<SpinDeceleration>(&patch)) return {{&spin_deceleration, {measured->value}}};
+  const auto& [moduli, ratios] = std::get<HertzModuli>(patch);
+  return {{&youngs_modulus, {moduli.begin(), moduli.end()}}, {&poisson_ratio, {ratios.begin(), ratios.end()}}};
+}
 
-/// What depends on how the patch is given: its radius, its checks, its words.
-struct RadiusOf {
-  const Shot& shot;
+std::vector<GivenQuantity> given_by(const Start& start) {
+  if (const auto* along_x = std::get_if<SlipAndSpin>(&start))
+    return {{&slip, {along_x->slip}}, {&spin, {along_x->spin}}};
+  const auto& [centre, body] = std::get<Velocities>(start);
+  return {{&velocity, {centre.begin(), centre.end()}}, {&angular_velocity, {body.begin(), body.end()}}};
+}
 
-  double operator()(PatchRadius patch) const { return patch.value; }
-
-  double operator()(SpinDeceleration measured) const {
-    return patch_radius_of_deceleration(shot.ball.radius, measured.value, shot.contact.friction,
-                                        shot.environment.gravity);
+double patch_radius_of(const Shot& shot) {
+  const auto& [ball, contact, start, environment] = shot;
+  if (const auto* given = std::get_if<PatchRadius>(&contact.patch)) return given->value;
+  if (const auto* measured = std::get_if<SpinDeceleration>(&contact.patch)) {
+    return patch_radius_of_deceleration(ball.radius, measured->value, contact.friction, environment.gravity);
   }
+  return hertz_patch_radius(ball.mass * environment.gravity, ball.radius, std::get<HertzModuli>(contact.patch));
+}
 
-  double operator()(const HertzModuli& moduli) const {
-    return hertz_patch_radius(shot.ball.mass * shot.environment.gravity, shot.ball.radius, moduli);
-  }
-};
-
-struct Require {
-  void operator()(PatchRadius patch) const { require(patch_radius, patch.value); }
-  void operator()(SpinDeceleration measured) const { require(spin_deceleration, measured.value); }
-  void operator()(const HertzModuli& moduli) const {
-    for (double value : moduli.youngs_modulus) require(youngs_modulus, value);
-    for (double value : moduli.poisson_ratio) require(poisson_ratio, value);
-  }
-};
-
-struct RequireStart {
-  void operator()(const SlipAndSpin& start) const {
-    require(slip, start.slip);
-    require(spin, start.spin);
-  }
-  void operator()(const Velocities& start) const {
-    for (double part : start.velocity) require(velocity, part);
-    for (double part : start.angular_velocity) require(angular_velocity, part);
-  }
-};
-
-struct VelocitiesOf {
-  Velocities operator()(const SlipAndSpin& start) const { return {{start.slip, 0}, {0, 0, start.spin}}; }
-  Velocities operator()(const Velocities& start) const { return start; }
-};
-
-struct Origin {
-  std::string operator()(PatchRadius) const { return "given"; }
-  std::string operator()(SpinDeceleration measured) const {
-    return fmt::format("from a spin deceleration of {} rad/s^2", measured.value);
-  }
-  std::string operator()(const HertzModuli&) const { return "from Hertz's formula"; }
-};
-
-}  // namespace
-
-double patch_radius_of(const Shot& shot) { return std::visit(RadiusOf{shot}, shot.contact.patch); }
-
-Velocities velocities_of(const Start& start) { return std::visit(VelocitiesOf{}, start); }
+Velocities velocities_of(const Start& start) {
+  if (const auto* along_x = std::get_if<SlipAndSpin>(&start)) return {{along_x->slip, 0}, {0, 0, along_x->spin}};
+  return std::get<Velocities>(start);
+}
 
 Eigen::Vector2d slip_velocity_at_start(const Shot& shot) {
   const auto [centre, body] = velocities_of(shot.start);
@@ -83,15 +54,23 @@ void require_shot(const Shot& shot) {
   require(mass, shot.ball.mass);
   require(radius, shot.ball.radius);
   require(friction, shot.contact.friction);
-  std::visit(Require{}, shot.contact.patch);
-  std::visit(RequireStart{}, shot.start);
+  for (const auto& given : {given_by(shot.contact.patch), given_by(shot.start)}) {
+    for (const auto& [quantity, values] : given) {
+      for (double value : values) require(*quantity, value);
+    }
+  }
   require(gravity, shot.environment.gravity);
 
   const double patch = patch_radius_of(shot);
   if (!(patch > 0 && patch <= shot.ball.radius)) {
+    const auto* measured = std::get_if<SpinDeceleration>(&shot.contact.patch);
+    const bool by_hertz = std::holds_alternative<HertzModuli>(shot.contact.patch);
+    const std::string origin = measured != nullptr
+                                   ? fmt::format("from a spin deceleration of {} rad/s^2", measured->value)
+                                   : (by_hertz ? "from Hertz's formula" : "given");
     throw std::domain_error(
         fmt::format("the patch radius must be above 0 and at most the ball's radius {} m, got {} m ({})",
-                    shot.ball.radius, patch, std::visit(Origin{}, shot.contact.patch)));
+                    shot.ball.radius, patch, origin));
   }
   if (!std::isfinite(shot.ball.radius * spin_at_start(shot))) {
     throw std::domain_error(

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contensou/si/bridge.hpp"
 
@@ -13,6 +14,12 @@ UncoupledMotion::UncoupledMotion(const Shot& shot, const reduction::Law& law) : 
   const reduction::State start = reduced_start(shot);
   slip_end_ = seconds(shot, system.sliding_limit(start.v));
   spin_end_ = seconds(shot, system.pivoting_limit(start.u));
+}
+
+double UncoupledMotion::path_length(double t) const {
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+  constexpr unsigned depth = 12;
+  return t > 0 ? Rule::integrate([this](double at) { return at_time(at).velocity.norm(); }, 0, t, depth, 1e-10) : 0;
 }
 
 MotionPoint UncoupledMotion::at_time(double t) const {

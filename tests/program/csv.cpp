@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "input/quotation.hpp"
+#include "input/parse.hpp"
 
 using namespace contensou::program;
 using Catch::Matchers::Equals;

@@ -9,7 +9,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/final_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 using namespace contensou;
 

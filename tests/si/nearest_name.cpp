@@ -1,11 +1,11 @@
-#include "contensou/si/nearest_name.hpp"
+#include "text/nearest_name.hpp"
 
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-using contensou::si::nearest_name;
-using contensou::si::suggestion;
+using contensou::nearest_name;
+using contensou::suggestion;
 
 TEST_CASE("the nearest name", "[table]") {
   const std::vector<std::string> names{"pool", "steel", "bowling", "rubber", "gel"};

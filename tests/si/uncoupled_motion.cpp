@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/si/final_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/whole_motion.hpp"
 #include "motion_cases.hpp"
 
@@ -22,6 +22,9 @@ TEST_CASE("the textbook's motion is the limit of the whole one", "[limit]") {
     const UncoupledMotion textbook(shot, law);
     const double stop = whole.stop_time();
     CHECK(std::max(textbook.slip_end(), textbook.spin_end()) == Approx(stop).epsilon(1e-14));
+    CHECK(textbook.slip_length() == Approx(whole.slip_length()).epsilon(1e-13));
+    CHECK(textbook.spin_angle() == Approx(whole.spin_angle()).epsilon(1e-9));
+    CHECK(textbook.path_length(textbook.slip_end()) == Approx(whole.path_length(textbook.slip_end())).epsilon(1e-9));
     for (double share : {0.0, 0.3, 0.9, 1.5}) {
       const MotionPoint a = whole.at_time(share * stop);
       const MotionPoint b = textbook.at_time(share * stop);

@@ -11,8 +11,8 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/final_motion.hpp"
 #include "contensou/si/integrated_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "motion_cases.hpp"
 
 using namespace contensou;

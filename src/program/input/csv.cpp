@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <iterator>
-#include <new>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -16,8 +16,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "input/quotation.hpp"
-
 namespace contensou::program {
 
 namespace {
@@ -25,20 +23,10 @@ namespace {
 constexpr std::size_t block_size = 8192;
 constexpr std::size_t max_record = std::size_t{1} << 26;
 
-/// libcsv's buffer for a field grows by so much at a time: by its own 128 bytes, a long field costs the square of its
-/// length.
-constexpr std::size_t field_growth = std::size_t{1} << 20;
-
 std::string_view without_spaces(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// The length of the line that a text begins with, with the first character of its end.
-std::size_t line_size(std::string_view text) {
-  const std::size_t feed = std::min(text.find('\n'), text.size() - 1);
-  return std::min(text.substr(0, feed).find('\r'), feed) + 1;
 }
 
 /// The name that iconv has for the encoding of a text in which each letter takes two bytes; empty for other texts.
@@ -59,83 +47,67 @@ std::string separator_hint(std::string_view name) {
 
 }  // namespace
 
-CsvParser::CsvParser(std::string source) : source_(std::move(source)) {
-  csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI);
-  csv_set_blk_size(&parser_, field_growth);
-  csv_set_space_func(&parser_, [](unsigned char) { return 0; });  // spaces belong to the field
-}
-
 void CsvParser::add(std::string_view piece, CsvBlock& block) {
-  block_ = &block;
-  while (!piece.empty()) {
-    const std::size_t size = line_size(piece);
-    add_to_line(piece.substr(0, size));
-    piece.remove_prefix(size);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (place_ == Place::field) {
+      const std::size_t begin = i;
+      while (i < piece.size() && !std::strchr(",\"\r\n", piece[i])) ++i;
+      text_.append(piece, begin, i - begin);
+      values_.append(piece, begin, i - begin);
+    }
+    if (i < piece.size()) add(piece[i], block);
+    if (text_.size() > max_record) {
+      throw complaint(record_line_,
+                      fmt::format("a record longer than {} MiB begins here: is a quote missing?", max_record >> 20));
+    }
   }
 }
 
-void CsvParser::add_to_line(std::string_view piece) {
-  const bool ends_line = piece.ends_with('\n') || piece.ends_with('\r');
-  const bool blank = ends_line && piece.size() == 1 && !in_record_;
-  if (at_line_start_ && !(after_return_ && piece.front() == '\n')) {
-    ++line_;
-    in_comment_ = !in_record_ && piece.front() == '#';
-  }
+void CsvParser::add(char letter, CsvBlock& block) {
+  const bool ends_line = letter == '\n' || letter == '\r';
+  const bool line_goes_on = !at_line_start_ || (letter == '\n' && after_return_);
+  if (!line_goes_on) ++line_;
   at_line_start_ = ends_line;
-  after_return_ = piece.ends_with('\r');
-  if (in_comment_ || blank) return;
-  const bool plain = !in_record_ && ends_line && piece.find('"') == std::string_view::npos;
-  if (!in_record_) record_line_ = line_;
-  in_record_ = true;
-  text_ += piece;
-  if (plain) return split(piece.substr(0, piece.size() - 1));
-  if (csv_parse(&parser_, piece.data(), piece.size(), field_ended, record_ended, this) != piece.size()) {
-    if (csv_error(&parser_) != CSV_EPARSE) throw std::bad_alloc();
+  after_return_ = letter == '\r';
+  if (place_ == Place::between_records && !ends_line) {
+    place_ = letter == '#' ? Place::comment : Place::field_start;
+    record_line_ = line_;
+  }
+  if (place_ == Place::comment && ends_line) place_ = Place::between_records;
+  if (place_ == Place::between_records || place_ == Place::comment) return;
+  if (place_ != Place::quoted && ends_line) return end_record(block);
+
+  text_ += letter;
+  if (letter == ',' && place_ != Place::quoted) {
+    ends_.push_back(values_.size());
+    place_ = Place::field_start;
+  } else if (letter == '"' && place_ != Place::field) {
+    if (place_ == Place::after_quote) values_ += letter;
+    place_ = place_ == Place::quoted ? Place::after_quote : Place::quoted;
+  } else if (letter == '"' || place_ == Place::after_quote) {
     throw complaint(line_, "a quote inside a field: put the field in quotes and double those inside");
-  }
-  if (text_.size() > max_record) {
-    throw complaint(record_line_,
-                    fmt::format("a record longer than {} MiB begins here: is a quote missing?", max_record >> 20));
+  } else {
+    if (place_ == Place::field_start) place_ = Place::field;
+    values_ += letter;
   }
 }
 
-void CsvParser::split(std::string_view line) {
-  for (std::size_t begin = 0, end = 0; end < line.size(); begin = end + 1) {
-    end = std::min(line.find(',', begin), line.size());
-    take_field(line.substr(begin, end - begin));
-  }
-  take_record();
-}
-
-void CsvParser::finish(CsvBlock& block) {
-  block_ = &block;
-  if (csv_fini(&parser_, field_ended, record_ended, this) == 0) return;
-  throw complaint(record_line_, "the quotes that open here are never closed");
-}
-
-void CsvParser::take_field(std::string_view field) {
-  values_ += field;
+void CsvParser::end_record(CsvBlock& block) {
   ends_.push_back(values_.size());
-}
-
-void CsvParser::take_record() {
-  if (at_line_start_) text_.pop_back();
-  block_->records_.push_back(
-      {record_line_, block_->text_.size(), text_.size(), block_->ends_.size() - 1, ends_.size()});
-  for (const std::size_t end : ends_) block_->ends_.push_back(block_->values_.size() + end);
-  block_->text_ += text_;
-  block_->values_ += values_;
+  block.records_.push_back({record_line_, block.text_.size(), text_.size(), block.ends_.size() - 1, ends_.size()});
+  for (const std::size_t end : ends_) block.ends_.push_back(block.values_.size() + end);
+  block.text_ += text_;
+  block.values_ += values_;
   text_.clear();
   values_.clear();
   ends_.clear();
-  in_record_ = false;
+  place_ = Place::between_records;
 }
 
-void CsvParser::field_ended(void* field, std::size_t size, void* parser) {
-  static_cast<CsvParser*>(parser)->take_field({static_cast<const char*>(field), size});
+void CsvParser::finish(CsvBlock& block) {
+  if (place_ == Place::quoted) throw complaint(record_line_, "the quotes that open here are never closed");
+  if (place_ != Place::between_records && place_ != Place::comment) end_record(block);
 }
-
-void CsvParser::record_ended(int /*terminator*/, void* parser) { static_cast<CsvParser*>(parser)->take_record(); }
 
 BadLine CsvParser::complaint(long line, std::string_view message) const {
   return BadLine(fmt::format("{}:{}: {}", source_, line, message));

@@ -6,12 +6,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include <csv.h>
-
 #include "exit_status.hpp"
-#include "input/number.hpp"
+#include "input/parse.hpp"
 
 namespace contensou::program {
 
@@ -72,10 +71,7 @@ inline CsvRow CsvBlock::operator[](std::size_t place) const { return {*this, rec
 class CsvParser {
  public:
   /// @param source  what messages call the text
-  explicit CsvParser(std::string source);
-  ~CsvParser() { csv_free(&parser_); }
-  CsvParser(const CsvParser&) = delete;
-  CsvParser& operator=(const CsvParser&) = delete;
+  explicit CsvParser(std::string source) : source_(std::move(source)) {}
 
   /// Appends the records to a block that end in the next piece of text.
   /// @throws BadLine  after appending those before it, at a quote inside a field, or in a record longer than 64 MiB
@@ -89,31 +85,20 @@ class CsvParser {
   BadLine complaint(long line, std::string_view message) const;
 
  private:
-  /// @param piece  of one line
-  void add_to_line(std::string_view piece);
+  enum class Place { between_records, comment, field_start, field, quoted, after_quote };
 
-  /// Takes a line without quotes, where commas alone separate the fields: libcsv takes four times as long.
-  void split(std::string_view line);
-
-  void take_field(std::string_view field);
-  void take_record();
-
-  // What libcsv calls.
-  static void field_ended(void* field, std::size_t size, void* parser);
-  static void record_ended(int terminator, void* parser);
+  void add(char letter, CsvBlock& block);
+  void end_record(CsvBlock& block);
 
   std::string source_;
-  csv_parser parser_{};
-  CsvBlock* block_ = nullptr;  ///< takes the records
-  bool in_record_ = false;
+  Place place_ = Place::between_records;
+  long line_ = 0;
+  bool at_line_start_ = true;
+  bool after_return_ = false;  ///< a line feed here belongs to the line end before
   long record_line_ = 0;
   std::string text_;    ///< of the record so far
   std::string values_;  ///< its fields
   std::vector<std::size_t> ends_;
-  long line_ = 0;
-  bool in_comment_ = false;
-  bool at_line_start_ = true;
-  bool after_return_ = false;  ///< a line feed here belongs to the line end before
 };
 
 /// A column of a table.

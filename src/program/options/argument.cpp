@@ -1,40 +1,39 @@
 #include "options/argument.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/si/nearest_name.hpp"
-#include "input/quotation.hpp"
+#include "text/nearest_name.hpp"
 
 namespace contensou::program {
 
 CLI::Option* Argument::add(CLI::App& app, const std::string& names, const std::string& value_name,
-                           const std::string& help) {
+                           const std::string& help, Take take, bool repeatable) {
   name_ = names.substr(0, names.find(','));
-  option_ = app.add_option(
-      names,
-      [this, &app](const CLI::results_t& values) {
-        accept(app, values);
-        return true;
-      },
-      help);
-  option_->type_name(value_name)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  return option_;
+  const auto accepted = [this, &app, take = std::move(take), repeatable](const CLI::results_t& values) {
+    accept(app, values, take, repeatable);
+    return true;
+  };
+  option_ = app.add_option(names, accepted, help);
+  return option_->type_name(value_name)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void Argument::accept(const CLI::App& app, const std::vector<std::string>& values) {
+void Argument::accept(const CLI::App& app, const std::vector<std::string>& values, const Take& take,
+                      bool repeatable) const {
   for (const std::string& value : values) {
     // An option whose value was forgotten takes the next option for it.
     if (value.starts_with('-') && app.get_option_no_throw(value) != nullptr) {
       throw BadInput(fmt::format("{} needs a value before '{}'", name_, value));
     }
   }
-  if (values.size() > 1 && !repeatable()) {
+  if (values.size() > 1 && !repeatable) {
     throw BadInput(fmt::format("{} is given {} times; once is allowed", name_, values.size()));
   }
   for (const std::string& value : values) {
     try {
-      read(value);
+      if (take) take(value);
     } catch (const BadLine&) {
       throw;  // it names its file
     } catch (const NotAllowed& error) {
@@ -60,9 +59,20 @@ std::string names_given(const std::vector<const Argument*>& arguments) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+bool names_a_file(const std::string& typed, const std::vector<std::string>& endings) {
+  return typed.find('/') != std::string::npos ||
+         std::ranges::any_of(endings, [&](const std::string& ending) { return typed.ends_with(ending); });
+}
+
+std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names) {
+  std::vector<double> values = parse_numbers(typed);
+  if (values.size() != count) throw NotAllowed(fmt::format("{} numbers are needed, {}", count, names));
+  return values;
+}
+
 NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names) {
   const std::string list = fmt::format("{}", fmt::join(names, ", "));
-  const std::string nearest = si::suggestion(typed, names);
+  const std::string nearest = suggestion(typed, names);
   if (kind.empty()) return NotAllowed(fmt::format("one of {} is needed{}", list, nearest));
   return NotAllowed(fmt::format("no such {}{}; {}: {}", kind, nearest, kind == "body" ? "bodies" : kind + "s", list));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "exit_status.hpp"
-#include "input/number.hpp"
+#include "input/parse.hpp"
 
 namespace contensou::program {
 
@@ -21,11 +22,15 @@ struct NotAllowed : BadInput {
 /// An option whose value stays the text as typed.
 class Argument {
  public:
-  virtual ~Argument() = default;
+  /// Reads a value when the command line is parsed.
+  /// @throws NotAllowed, BadInput  for a bad value; the argument puts its name before the message
+  using Take = std::function<void(const std::string& typed)>;
 
   /// @param names       as CLI11 takes them, such as "-o,--output"; without dashes, a positional argument
   /// @param value_name  what the help calls the value
-  CLI::Option* add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help);
+  /// @param repeatable  whether it may be given often
+  CLI::Option* add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help,
+                   Take take = {}, bool repeatable = false);
 
   /// False for an argument that a verb does not have.
   bool given() const { return option_ != nullptr && option_->count() > 0; }
@@ -41,15 +46,8 @@ class Argument {
   /// Throws BadInput with the option and its value before the message.
   [[noreturn]] void reject(const std::string& message) const;
 
- protected:
-  /// What a second value of the same option means: nothing, unless it may be given often.
-  virtual bool repeatable() const { return false; }
-
-  /// Reads one value as it is parsed.
-  virtual void read(const std::string& /*typed*/) {}
-
  private:
-  void accept(const CLI::App& app, const std::vector<std::string>& values);
+  void accept(const CLI::App& app, const std::vector<std::string>& values, const Take& take, bool repeatable) const;
   std::string typed(const std::string& value) const;
 
   CLI::Option* option_ = nullptr;
@@ -58,44 +56,43 @@ class Argument {
 
 /// An option whose value is read, and its mistakes are found, when the command line is parsed.
 template <class Value>
-class ArgumentOf final : public Argument {
+class ArgumentOf : public Argument {
  public:
-  /// @throws NotAllowed, BadInput  for a bad value; the argument puts its name before the message
-  using Read = std::function<Value(const std::string& typed)>;
+  using Read = std::function<Value(const std::string& typed)>;  ///< throws as Take
 
   CLI::Option* add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help,
-                   Read read) {
-    read_ = std::move(read);
-    return Argument::add(app, names, value_name, help);
+                   Read read, bool repeatable = false) {
+    const Take take = [this, read = std::move(read)](const std::string& typed) { values_.push_back(read(typed)); };
+    return Argument::add(app, names, value_name, help, take, repeatable);
   }
 
-  /// For an option that may be given often.
-  void make_repeatable() { repeatable_ = true; }
-
   const Value& operator*() const { return values_.front(); }
+  const Value* operator->() const { return &values_.front(); }
   Value value_or(Value standard) const { return given() ? values_.front() : std::move(standard); }
+  std::optional<Value> optional() const { return given() ? std::optional(values_.front()) : std::nullopt; }
 
   /// Of each time that it was given.
   const std::vector<Value>& all() const { return values_; }
 
  private:
-  bool repeatable() const override { return repeatable_; }
-  void read(const std::string& typed) override { values_.push_back(read_(typed)); }
-
-  Read read_;
-  bool repeatable_ = false;
   std::vector<Value> values_;
 };
 
 /// The names that were given, joined for a message; empty if none was.
 std::string names_given(const std::vector<const Argument*>& arguments);
 
-/// Readers of a number, of numbers between commas, of a whole number.
+/// Whether a value is the path of a file: it has a / or one of these endings.
+bool names_a_file(const std::string& typed, const std::vector<std::string>& endings);
+
+/// Readers of a number, and of a whole number.
 inline double number(const std::string& typed) { return parse_number(typed); }
-inline std::vector<double> numbers(const std::string& typed) { return parse_numbers(typed); }
 inline auto whole_number(long lowest, long highest) {
   return [=](const std::string& typed) { return parse_integer(typed, lowest, highest); };
 }
+
+/// Reads so many numbers between commas.
+/// @param names  of the numbers, for messages, such as U,V
+std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names);
 
 /// One of some names, and what it stands for.
 template <class Value>
@@ -105,7 +102,7 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 /// @param kind  what the names are of, such as "law"; none: "one of them is needed"
 NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names);
 
-/// Reads the value that a name stands for.
+/// Reads the value that a name stands for; the empty name is not told.
 template <class Value>
 std::function<Value(const std::string&)> one_of(Choices<Value> choices, std::string kind = "") {
   return [choices = std::move(choices), kind = std::move(kind)](const std::string& typed) {

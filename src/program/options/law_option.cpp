@@ -6,8 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/nearest_name.hpp"
 #include "options/pressure_profile.hpp"
+#include "text/nearest_name.hpp"
 
 namespace contensou::program {
 
@@ -25,8 +25,6 @@ std::vector<std::string> law_forms() {
   forms.insert(forms.end(), {"pressure:P", "FILE.csv"});
   return forms;
 }
-
-bool names_a_file(const std::string& text) { return text.find('/') != std::string::npos || text.ends_with(".csv"); }
 
 }  // namespace
 
@@ -47,9 +45,9 @@ reduction::Law LawOption::read() const {
   } catch (const std::domain_error& error) {
     law_.reject(error.what());
   }
-  if (names_a_file(law_.text())) return read_pressure_profile(law_.text());
+  if (names_a_file(law_.text(), {".csv"})) return read_pressure_profile(law_.text());
   const std::vector<std::string> forms = law_forms();
-  law_.reject(fmt::format("no such law{}; laws: {}", si::suggestion(law_.text(), forms), fmt::join(forms, ", ")));
+  law_.reject(fmt::format("no such law{}; laws: {}", suggestion(law_.text(), forms), fmt::join(forms, ", ")));
 }
 
 }  // namespace contensou::program

@@ -1,14 +1,13 @@
 #include "options/output_options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/si/nearest_name.hpp"
-#include "input/quotation.hpp"
 #include "output/output.hpp"
-#include "output/picture.hpp"
+#include "text/nearest_name.hpp"
 
 namespace contensou::program {
 
@@ -27,6 +26,12 @@ std::string endings_of(const OutputKind& kind) {
   return fmt::format("{}", fmt::join(endings, ", "));
 }
 
+/// What follows the last dot of a path's file name; empty if nothing does.
+std::string ending_of(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension.empty() ? extension : extension.substr(1);
+}
+
 }  // namespace
 
 std::vector<std::string> with_pictures(std::vector<std::string> first, const std::vector<std::string>& last) {
@@ -37,9 +42,16 @@ std::vector<std::string> with_pictures(std::vector<std::string> first, const std
 
 void Output::write(std::string_view content) const { write_output(path, content); }
 
-void Output::write_as(const std::function<std::string(int)>& text, const std::function<std::string()>& csv,
-                      const std::function<std::string()>& json) const {
-  write(format == "text" ? text(digits) : format == "csv" ? csv() : json());
+void Output::write(const Answer& answer) const { write(render(answer, format, digits)); }
+
+void Output::write(const portraits::Figure& figure) const { write(drawn(figure, picture().value())); }
+
+std::string drawn(const portraits::Figure& figure, portraits::PictureFormat format) {
+  try {
+    return portraits::render(figure, format);
+  } catch (const portraits::GnuplotError& error) {
+    throw FileFailure(error.what());
+  }
 }
 
 void OutputOptions::add(CLI::App& app) {
@@ -75,21 +87,20 @@ Output OutputOptions::read(std::size_t place) const {
             ? fmt::format("{} always has all digits; choose text, with --format text or the ending txt", format)
             : fmt::format("{} always has all digits: leave it out", kind.noun));
   }
-  return {path, format, static_cast<int>(digits_.value_or(standard_digits))};
+  return {path, format, {static_cast<int>(digits_.value_or(standard_digits))}};
 }
 
 std::string OutputOptions::read_format(const OutputKind& kind, const std::string& path) const {
   if (format_.given() && !is_one_of(kind.formats, format_.text())) {
-    format_.reject(fmt::format("unknown format{}; formats: {}", si::suggestion(format_.text(), kind.formats),
+    format_.reject(fmt::format("unknown format{}; formats: {}", suggestion(format_.text(), kind.formats),
                                fmt::join(kind.formats, ", ")));
   }
-  const std::string file_ending = path == "-" ? "" : ending(path);
-  const std::string by_ending = file_ending == "txt" ? "text" : file_ending;
+  const std::string ending = path == "-" ? "" : ending_of(path);
+  const std::string by_ending = ending == "txt" ? "text" : ending;
   const bool guessable = path == "-" || kind.formats.size() == 1 || is_one_of(kind.formats, "text");
-  if (by_ending.empty() ? !format_.given() && !guessable
-                        : file_ending == "text" || !is_one_of(kind.formats, by_ending)) {
-    file_.reject(fmt::format("{} is written as one of {}; {} is none of them", kind.noun, endings_of(kind),
-                             quotation(file_ending)));
+  if (by_ending.empty() ? !format_.given() && !guessable : ending == "text" || !is_one_of(kind.formats, by_ending)) {
+    file_.reject(
+        fmt::format("{} is written as one of {}; {} is none of them", kind.noun, endings_of(kind), quotation(ending)));
   }
   if (by_ending.empty()) return format_.given() ? format_.text() : kind.standard;
   if (format_.given() && format_.text() != by_ending) {

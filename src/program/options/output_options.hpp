@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +7,7 @@
 
 #include "contensou/portraits/gnuplot.hpp"
 #include "options/argument.hpp"
+#include "output/answer.hpp"
 
 namespace contensou::program {
 
@@ -15,8 +15,8 @@ namespace contensou::program {
 struct OutputKind {
   std::string noun;                  ///< with its article, for messages
   std::vector<std::string> formats;  ///< names for --format; they are endings of files, but for text, which is txt
-  std::string standard;              ///< on standard output
   std::string path = "-";            ///< without -o
+  std::string standard = formats.front();
 };
 
 /// Formats of numbers, those of pictures, and other formats of numbers.
@@ -26,18 +26,22 @@ std::vector<std::string> with_pictures(std::vector<std::string> first, const std
 struct Output {
   std::string path;
   std::string format;
-  int digits;  ///< of text
+  Digits digits;  ///< of text
 
   std::optional<portraits::PictureFormat> picture() const { return portraits::find_picture_format(format); }
 
   /// @throws FileFailure  as write_output
   void write(std::string_view content) const;
+  void write(const Answer& answer) const;
 
-  /// Writes what the maker of the format makes; that of text takes the number of digits.
-  /// @throws FileFailure  as write_output
-  void write_as(const std::function<std::string(int)>& text, const std::function<std::string()>& csv,
-                const std::function<std::string()>& json) const;
+  /// A picture, in its format.
+  /// @throws FileFailure  as write_output, and if gnuplot is missing or fails
+  void write(const portraits::Figure& figure) const;
 };
+
+/// The bytes of a figure.
+/// @throws FileFailure  if gnuplot is missing or fails
+std::string drawn(const portraits::Figure& figure, portraits::PictureFormat format);
 
 /// -o, --format and --digits.
 class OutputOptions {

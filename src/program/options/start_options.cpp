@@ -1,28 +1,72 @@
 #include "options/start_options.hpp"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "contensou/si/bridge.hpp"
-#include "exit_status.hpp"
 
 namespace contensou::program {
 
 namespace {
 
-std::string option_name(const si::Quantity& quantity) {
-  std::string name = fmt::format("--{}", quantity.name);
-  std::ranges::replace(name, '_', '-');
-  return name;
+/// A name, or two numbers.
+Body parse_body(const std::string& typed) {
+  static const Choices<Body> bodies{
+      {"ball", {}},
+      {"hollow-ball", {.inertia = {.chi = 2.5, .gamma = 1.5}}},
+      {"disc", {{.chi = 1, .gamma = 2}, 1.0, false}},
+      {"ring", {{.chi = 1, .gamma = 1}, 1.0, false}},
+  };
+  if (typed.find(',') == std::string::npos) {
+    try {
+      return one_of(bodies, "body")(typed);
+    } catch (const NotAllowed& error) {
+      throw NotAllowed(fmt::format("{}, or two numbers CHI,GAMMA", error.what()));
+    }
+  }
+  const std::vector<double> ratios = numbers(typed, 2, "CHI,GAMMA");
+  if (!(ratios[0] > 0 && ratios[1] > 0)) throw NotAllowed("chi and gamma must be positive");
+  return {{.chi = ratios[0], .gamma = ratios[1]}, std::nullopt, false};
 }
 
-bool is_file(const std::string& ball) { return ball.find('/') != std::string::npos || ball.ends_with(".toml"); }
+double parse_sliding_speed(const std::string& typed) {
+  const double v0 = parse_number(typed);
+  if (v0 < 0) throw NotAllowed("a sliding speed is >= 0; turn the axes so that the ball slides along x");
+  return v0;
+}
 
 }  // namespace
+
+std::string Body::complaint(double mu) const {
+  if (patch_ratio) return mu == *patch_ratio ? "" : "a puck rests on its whole face, so mu is 1: leave --mu out";
+  if (rolls_on_a_small_patch) return mu > 0 && mu <= 1 ? "" : "0 < mu <= 1 is required";
+  return mu > 0 ? "" : "mu > 0 is required";
+}
+
+void BodyOptions::add_mu(CLI::App& app) {
+  mu_.add(app, "--mu", "M", "patch ratio, patch radius/R; a ball: 0 < M <= 1, another body: M > 0 (disc, ring: 1)",
+          number);
+}
+
+void BodyOptions::add_body(CLI::App& app) {
+  body_.add(
+      app, "--body", "BODY",
+      "ball (default), hollow-ball, disc or ring (flat pucks that cannot roll: mu = 1), or CHI,GAMMA: chi = 1 + m "
+      "R^2/J about a horizontal axis (1: cannot roll), gamma = m R^2/J_z",
+      parse_body);
+}
+
+GivenBody BodyOptions::read(const std::string& ways) const {
+  if (!mu_.given() && !body().patch_ratio) {
+    throw BadInput(fmt::format("--mu missing: give {}, or a --body that lies flat, disc or ring", ways));
+  }
+  const double mu = mu_.given() ? *mu_ : *body().patch_ratio;
+  if (const std::string complaint = body().complaint(mu); !complaint.empty()) mu_.reject(complaint);
+  return {mu, body().inertia};
+}
 
 const si::CatalogueEntry& require_ball(const std::string& name) {
   if (const si::CatalogueEntry* entry = si::find_ball(name)) return *entry;
@@ -32,33 +76,30 @@ const si::CatalogueEntry& require_ball(const std::string& name) {
 }
 
 void StartOptions::add(CLI::App& app) {
-  add_patch_ratio(mu_, app);
+  body_.add_mu(app);
   u0_.add(app, "--u0", "U", "pivoting R omega_z at the start, either sign, in any unit of speed", number);
-  v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0", [](const std::string& typed) {
-    const double v0 = parse_number(typed);
-    if (v0 < 0) throw NotAllowed("a sliding speed is >= 0; turn the axes so that the ball slides along x");
-    return v0;
-  });
-  body_.add(app);
+  v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0", parse_sliding_speed);
+  body_.add_body(app);
   add_ball(app, "instead of these four: a ball in SI units, built in or from a run file");
 }
-
-void StartOptions::add_ball(CLI::App& app) { add_ball(app, "a ball in SI units, built in or from a run file"); }
 
 void StartOptions::add_ball(CLI::App& app, const std::string& help) {
   ball_.add(app, "--ball", "NAME|FILE.toml", help);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const si::Quantity& quantity = *quantities[i];
-    overrides_[i].add(app, option_name(quantity), quantity.unit.empty() ? "X" : std::string(quantity.unit),
-                      fmt::format("with --ball: {}", quantity.meaning), [&quantity](const std::string& typed) {
-                        const double value = parse_number(typed);
-                        try {
-                          si::require(quantity, value);
-                        } catch (const std::domain_error& error) {
-                          throw NotAllowed(error.what());
-                        }
-                        return value;
-                      });
+    std::string name = fmt::format("--{}", quantity.name);
+    std::ranges::replace(name, '_', '-');
+    const auto read = [&quantity](const std::string& typed) {
+      const double value = parse_number(typed);
+      try {
+        si::require(quantity, value);
+      } catch (const std::domain_error& error) {
+        throw NotAllowed(error.what());
+      }
+      return value;
+    };
+    overrides_[i].add(app, name, quantity.unit.empty() ? "X" : std::string(quantity.unit),
+                      fmt::format("with --ball: {}", quantity.meaning), read);
   }
 }
 
@@ -69,19 +110,19 @@ std::string StartOptions::override_names() const {
 }
 
 std::string StartOptions::given_names() const {
-  const std::string first = names_given({&mu_, &u0_, &v0_, &ball_});
+  const std::string first = names_given({&body_.mu(), &u0_, &v0_, &ball_});
   const std::string others = override_names();
   return first + (first.empty() || others.empty() ? "" : ", ") + others;
 }
 
 void StartOptions::require_one_kind() const {
-  const std::string reduced = names_given({&mu_, &u0_, &v0_});
+  const std::string reduced = names_given({&body_.mu(), &u0_, &v0_});
   if (ball_.given() && !reduced.empty()) {
     throw BadInput(fmt::format("{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip",
                                ball_.typed(), reduced));
   }
-  if (ball_.given() && body_.given()) {
-    body_.reject("--ball is a homogeneous ball already: with another body give --mu, --u0 and --v0");
+  if (ball_.given() && body_argument().given()) {
+    body_argument().reject("--ball is a homogeneous ball already: with another body give --mu, --u0 and --v0");
   }
   if (!ball_.given() && !override_names().empty()) {
     throw BadInput(fmt::format("{} changes a ball: add --ball NAME|FILE.toml", override_names()));
@@ -95,7 +136,7 @@ GivenStart StartOptions::read() const {
     return {{si::patch_ratio(shot), reduction::homogeneous_ball}, si::reduced_start(shot), shot};
   }
   std::vector<std::string> missing;
-  if (!mu_.given() && !body_.read().patch_ratio) missing.push_back(mu_.name());
+  if (!body_.mu().given() && !body().patch_ratio) missing.push_back(body_.mu().name());
   for (const Argument* argument : {&u0_, &v0_}) {
     if (!argument->given()) missing.push_back(argument->name());
   }
@@ -103,17 +144,13 @@ GivenStart StartOptions::read() const {
     throw BadInput(
         fmt::format("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", ")));
   }
-  return {read_body(), {.u = *u0_, .v = *v0_}, std::nullopt};
+  return {body_.read(), {.u = *u0_, .v = *v0_}, std::nullopt};
 }
 
 GivenBody StartOptions::read_body() const {
   require_one_kind();
   if (ball_.given()) return {si::patch_ratio(read_ball()), reduction::homogeneous_ball};
-  const Body body = body_.read();
-  if (!mu_.given() && !body.patch_ratio) {
-    throw BadInput("--mu missing: give --mu M, --ball NAME|FILE.toml, or a --body that lies flat, disc or ring");
-  }
-  return {BodyOption::read_patch_ratio(mu_, body), body.inertia};
+  return body_.read("--mu M, --ball NAME|FILE.toml");
 }
 
 bool StartOptions::overrides_start() const {
@@ -145,7 +182,7 @@ si::Shot StartOptions::read_ball(const si::StartOverride& start) const {
 }
 
 si::Shot StartOptions::read_shot(const si::Overrides& overrides, const si::StartOverride& start) const {
-  if (is_file(ball_.text())) return si::read_run_file(ball_.text(), overrides, start);
+  if (names_a_file(ball_.text(), {".toml"})) return si::read_run_file(ball_.text(), overrides, start);
   const si::CatalogueEntry& entry = require_ball(ball_.text());
   return si::parse_run_file(si::run_file(entry.shot, entry.sources), "built-in ball " + entry.name, overrides, start);
 }

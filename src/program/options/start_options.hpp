@@ -2,19 +2,25 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
 #include "options/argument.hpp"
-#include "options/body_option.hpp"
 
 namespace contensou::program {
 
-/// The built-in ball of a name.
-/// @throws NotAllowed  for an unknown name
-const si::CatalogueEntry& require_ball(const std::string& name);
+/// An axisymmetric body as --body names it.
+struct Body {
+  reduction::Inertia inertia = reduction::homogeneous_ball;
+  std::optional<double> patch_ratio{};  ///< where the body itself decides it: a flat puck rests on its whole face
+  bool rolls_on_a_small_patch = true;   ///< mu <= 1
+
+  /// What is wrong with a mu for this body; empty if nothing is.
+  std::string complaint(double mu) const;
+};
 
 /// What slides and pivots, in the paper's variables.
 struct GivenBody {
@@ -24,11 +30,39 @@ struct GivenBody {
   reduction::ReducedSystem system(const reduction::Law& law) const { return {law, mu, inertia}; }
 };
 
+/// --mu and --body.
+class BodyOptions {
+ public:
+  void add_mu(CLI::App& app);
+  void add_body(CLI::App& app);
+
+  const ArgumentOf<double>& mu() const { return mu_; }
+  const ArgumentOf<Body>& argument() const { return body_; }
+
+  /// The body; a homogeneous ball if none was given.
+  Body body() const { return body_.value_or({}); }
+
+  /// The body with its mu: that of --mu, or the one that the body itself decides.
+  /// @param ways  to a mu, for a message
+  /// @throws BadInput  if there is none, or one that the body cannot have
+  GivenBody read(const std::string& ways = "--mu M") const;
+
+ private:
+  ArgumentOf<double> mu_;
+  ArgumentOf<Body> body_;
+};
+
+/// The built-in ball of a name.
+/// @throws NotAllowed  for an unknown name
+const si::CatalogueEntry& require_ball(const std::string& name);
+
 /// The start that the command line gives.
 struct GivenStart {
   GivenBody body;
   reduction::State state;
   std::optional<si::Shot> shot;  ///< where it came from, if it is a ball in SI units
+
+  bool at_rest() const { return state.u == 0 && state.v == 0; }
 };
 
 /// --mu, --u0, --v0 and --body, or --ball with its overrides.
@@ -37,7 +71,7 @@ class StartOptions {
   void add(CLI::App& app);
 
   /// --ball and its overrides alone, for a verb that is in SI units.
-  void add_ball(CLI::App& app);
+  void add_ball(CLI::App& app, const std::string& help = "a ball in SI units, built in or from a run file");
 
   /// Whether any of them was given, --body aside.
   bool given() const { return !given_names().empty(); }
@@ -63,7 +97,8 @@ class StartOptions {
   GivenBody read_body() const;
 
   /// --body, by itself.
-  const BodyOption& body() const { return body_; }
+  const ArgumentOf<Body>& body_argument() const { return body_.argument(); }
+  Body body() const { return body_.body(); }
 
  private:
   /// What single options can change of a ball.
@@ -71,14 +106,13 @@ class StartOptions {
       &si::radius,  &si::mass, &si::friction, &si::patch_radius, &si::spin_deceleration,
       &si::gravity, &si::slip, &si::spin};
 
-  void add_ball(CLI::App& app, const std::string& help);
   si::Shot read_shot(const si::Overrides& overrides, const si::StartOverride& start) const;
   void require_one_kind() const;
   std::string override_names() const;
 
-  ArgumentOf<double> mu_, u0_, v0_;
+  BodyOptions body_;
+  ArgumentOf<double> u0_, v0_;
   Argument ball_;
-  BodyOption body_;
   std::array<ArgumentOf<double>, quantities.size()> overrides_;  ///< of quantities
 };
 

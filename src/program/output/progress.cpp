@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include <unistd.h>
-
 #include <fmt/format.h>
 
 namespace contensou::program {
@@ -61,17 +59,6 @@ void Progress::finish(double done) {
   visible_ = false;
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   rewrite(fmt::format("{:.6g} {} in {:.3g} s, {:.3g} {}/s", done, what_, seconds, done / seconds, what_), "\n");
-}
-
-void ProgressOption::add(CLI::App& app) {
-  progress_.add(app, "--progress", "WHEN",
-                "auto (default: if standard error is a terminal), always or never show progress on standard error",
-                one_of<std::optional<bool>>({{"auto", std::nullopt}, {"always", true}, {"never", false}}));
-}
-
-bool ProgressOption::read(const std::string& output) const {
-  const bool watched = ::isatty(STDERR_FILENO) != 0 && (output != "-" || ::isatty(STDOUT_FILENO) == 0);
-  return progress_.value_or(std::nullopt).value_or(watched);
 }
 
 }  // namespace contensou::program

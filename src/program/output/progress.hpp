@@ -1,10 +1,7 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
 #include <string>
-
-#include "options/argument.hpp"
 
 namespace contensou::program {
 
@@ -40,21 +37,5 @@ class Progress {
 /// The bar at that fraction of the work, with rate and time left, or how much was done where the total is NaN; without
 /// a line end.
 std::string progress_line(double done, double total, const std::string& what, double seconds);
-
-/// --progress.
-class ProgressOption {
- public:
-  void add(CLI::App& app);
-
-  const Argument& argument() const { return progress_; }
-
-  /// Whether progress is to be shown: if standard error is a terminal to which no output goes, unless always or never
-  /// was asked for.
-  /// @param output  the file of -o; "-" is standard output
-  bool read(const std::string& output) const;
-
- private:
-  ArgumentOf<std::optional<bool>> progress_;
-};
 
 }  // namespace contensou::program

@@ -68,7 +68,7 @@ double moment_by_chords(double k) {
 double inner_remainder(double k) { return std::abs(true_force(k) - 3 * pi / 8 * k); }
 double outer_remainder(double k) { return std::abs(1 - 1 / (10 * k * k) - true_force(k)); }
 
-double load(double) {
+double load() {
   return 2 * pi * integral([](double c) { return c * pressure(std::sqrt((1 - c) * (1 + c))); }, 0, 1);
 }
 
@@ -104,12 +104,12 @@ double worst_of_pade() {
 
 std::vector<Statement> patch_statements() {
   std::vector<Statement> statements{
-      {"sigma", "3N/(2 pi eps^2) sqrt(1 - rho^2/eps^2) carries the load N", constant<1>, load, by_integral, 0,
+      {"sigma", "3N/(2 pi eps^2) sqrt(1 - rho^2/eps^2) carries the load N", 1., load(), by_integral, 0,
        "0 <= rho <= eps"},
       {"(1.1)", "F is f times the integral of sigma cos(theta): that of (1.3)", inner_force, true_force, by_integral,
        0.5},
-      {"", "friction across the slip integrates to 0", constant<0>, force_across, 1e-9, 1.5},
-      {"", "q_- and q_+ are where a chord meets the edge, rho = eps", constant<1>, worst_chord_end, by_integral, 2},
+      {"", "friction across the slip integrates to 0", 0., force_across, 1e-9, 1.5},
+      {"", "q_- and q_+ are where a chord meets the edge, rho = eps", 1., worst_chord_end, by_integral, 2},
       {"(1.2)", "k > 1: F is 3/pi times the integral of Q_1 over (0, theta*)", force_by_chords<0>, true_force,
        by_integral, 2, "", Verdict::erratum, "the integral of Q_1 cos(theta)", force_by_chords<1>},
       {"(1.2)", "k <= 1: F is 3/(2 pi) times the integral of Q_1 over (0, pi)", force_by_chords<0>, true_force,
@@ -118,19 +118,18 @@ std::vector<Statement> patch_statements() {
       {"(1.3)", "F for k > 1", outer_force, true_force, by_integral, 2},
       {"(1.3)", "F is continuous at k = 1", inner_force, outer_force, by_integral, 1},
       {"(1.3)", "and so is its derivative", derivative<inner_force, -1>, derivative<outer_force, 1>, by_difference, 1},
-      {"", "F = (3 pi/8) k + O(k^2), the slope", [](double) { return 3 * pi / 8; },
-       [](double k) { return true_force(k) / k; }, 1e-6, 1e-5},
-      {"", "its remainder is O(k^2); sharper, O(k^3): the order found", constant<2>, order<inner_remainder>,
-       lower_bound, 0.02, "k -> 0"},
-      {"", "F = 1 - 1/(10 k^2) + O(1/k^3), the coefficient", constant<1, 10>,
+      {"", "F = (3 pi/8) k + O(k^2), the slope", 3 * pi / 8, [](double k) { return true_force(k) / k; }, 1e-6, 1e-5},
+      {"", "its remainder is O(k^2); sharper, O(k^3): the order found", 2., order<inner_remainder>, lower_bound, 0.02,
+       "k -> 0"},
+      {"", "F = 1 - 1/(10 k^2) + O(1/k^3), the coefficient", 1. / 10,
        [](double k) { return k * k * (1 - true_force(k)); }, 1e-4, 100},
-      {"", "its remainder is O(1/k^3); sharper, O(1/k^4): the order found", constant<3>,
+      {"", "its remainder is O(1/k^3); sharper, O(1/k^4): the order found", 3.,
        [](double k) { return -order<outer_remainder>(k); }, lower_bound, 10, "k -> inf"},
       {"(1.4)", "the Pade force keeps the derivative at 0", derivative<pade_force, 1>, derivative<true_force, 1>, 1e-6,
        0},
       {"(1.4)", "and the limit at infinity", pade_force, true_force, 1e-8, 1e9},
-      {"(1.4)", "approximates (1.3) well in numbers, too: the relative error", constant<0>, pade_error,
-       quantitatively_well, worst_of_pade(), "", Verdict::not_true, "it misses by {percent:.3g} % at worst"},
+      {"(1.4)", "approximates (1.3) well in numbers, too: the relative error", 0., pade_error, quantitatively_well,
+       worst_of_pade(), "", Verdict::not_true, "it misses by {percent:.3g} % at worst"},
       {"M^h", "k <= 1: Q_2 over theta from 0 to 2 pi; M^h - h F for k -> 0", moment_by_chords<2>, true_moment,
        by_integral, 1e-6, "", Verdict::erratum, "theta from 0 to pi", moment_by_chords<1>},
       {"M^h", "k > 1: twice the integral of Q_2 over (0, theta*); M^h - h F", moment_by_chords<1>, true_moment,
@@ -143,17 +142,16 @@ std::vector<Statement> patch_statements() {
       {"(1.6)", "the Pade moment keeps the value at 0", pade_moment, true_moment, by_integral, 0},
       {"(1.6)", "and the behaviour at infinity, k M", [](double k) { return k * pade_moment(k); },
        [](double k) { return k * true_moment(k); }, 1e-3, 1e3},
-      {"1.", "the two frictions are not independent: F falls with spin, by", constant<1, 10>,
+      {"1.", "the two frictions are not independent: F falls with spin, by", 1. / 10,
        [](double k) { return 1 - true_force(k); }, lower_bound, 0.5, "k = inf to 0.5"},
-      {"1.", "M falls with sliding, by", constant<1, 10>, [](double k) { return true_moment(0) - true_moment(k); },
-       lower_bound, 1, "k = 0 to 1"},
-      {"2.", "no break-away: F is viscous, a power of v for v -> 0", constant<1>, order<true_force>, 1e-6, 1e-4,
-       "k -> 0"},
-      {"2.", "likewise M, a power of omega for omega -> 0", constant<-1>, order<true_moment>, 1e-6, 1e4, "k -> inf"},
-      {"3.", "no limit at v = omega = 0: F differs from ray to ray, by", constant<1, 2>,
+      {"1.", "M falls with sliding, by", 1. / 10, [](double k) { return true_moment(0) - true_moment(k); }, lower_bound,
+       1, "k = 0 to 1"},
+      {"2.", "no break-away: F is viscous, a power of v for v -> 0", 1., order<true_force>, 1e-6, 1e-4, "k -> 0"},
+      {"2.", "likewise M, a power of omega for omega -> 0", -1., order<true_moment>, 1e-6, 1e4, "k -> inf"},
+      {"3.", "no limit at v = omega = 0: F differs from ray to ray, by", 1. / 2,
        [](double k) { return true_force(k) - true_force(1 / k); }, lower_bound, 1e9, "k = 0, inf"},
-      {"3.", "M differs from ray to ray, by", constant<1, 2>,
-       [](double k) { return true_moment(1 / k) - true_moment(k); }, lower_bound, 1e9, "k = 0, inf"},
+      {"3.", "M differs from ray to ray, by", 1. / 2, [](double k) { return true_moment(1 / k) - true_moment(k); },
+       lower_bound, 1e9, "k = 0, inf"},
   };
   for (Statement& statement : statements) {
     if (statement.where.empty()) statement.where = "k = {:.4g}";

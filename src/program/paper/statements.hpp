@@ -1,7 +1,7 @@
 #pragma once
 
+#include <functional>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,15 +27,19 @@ struct Finding {
 /// In place of what is allowed: the printed number is a lower bound.
 constexpr double lower_bound = -1;
 
-/// A statement of Zh98 as two functions of a number: of k in section 1, of mu in the plane (u, v).
+/// A statement of Zh98 as two numbers that have to agree, or two functions of k.
 struct Statement {
-  using Number = double (*)(double);
+  struct Number : std::function<double(double)> {
+    using function::function;
+    Number() = default;
+    Number(double value) : function([value](double) { return value; }) {}
+  };
 
   std::string_view equation, says;
   Number printed;                     ///< what the statement gives
   Number computed;                    ///< what is found without it
   double allowed;                     ///< how far apart they may be, relative to max(1, |computed|)
-  double at = 0;                      ///< the k or mu at which they are compared
+  double at = 0;                      ///< the k at which they are compared, or the mu
   std::string_view where = {};        ///< that for people: fmt's format, with `at` as its argument
   Verdict recorded = Verdict::holds;  ///< what README.md says of it
   std::string_view correction = {};   ///< fmt's format, with the arguments `computed` and `percent`
@@ -44,12 +48,6 @@ struct Statement {
   /// Not a number agrees with nothing.
   Finding examine() const;
 };
-
-/// A printed number that depends on nothing.
-template <int numerator, int denominator = 1>
-double constant(double) {
-  return double(numerator) / denominator;
-}
 
 /// Section 1, against Coulomb friction under Hertz pressure, integrated over the patch.
 std::vector<Statement> patch_statements();

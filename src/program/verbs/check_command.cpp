@@ -2,18 +2,15 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/verification.hpp"
-#include "input/quotation.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
-#include "output/columns.hpp"
-#include "output/json.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -24,11 +21,13 @@ using reduction::Check;
 using reduction::Law;
 using reduction::State;
 
-/// The checks of one law.
-struct Verdict {
+/// A check of a law.
+struct Row {
   std::string law;
-  std::vector<Check> checks;
+  Check check;
 };
+
+const char* verdict(const Check& check) { return check.passed() ? "ok" : "FAIL"; }
 
 constexpr std::array built_in_patch_ratios{1e-4, 0.0035, 0.099, 0.3, 1.0};
 
@@ -73,6 +72,32 @@ std::string label(const std::string& law) {
   return text;
 }
 
+std::string heading() {
+  return fmt::format("The worst of {} starts: mu from {} to {}, v0/(mu u0) from 1e-4 to 1e6.\n\n",
+                     built_in_patch_ratios.size() * built_in_starts(1).size(), built_in_patch_ratios.front(),
+                     built_in_patch_ratios.back());
+}
+
+std::string as_text(const std::vector<Row>& rows, const Digits& digits) {
+  std::size_t law_width = 0, check_width = 0;
+  for (const auto& [law, check] : rows) {
+    law_width = std::max(law_width, label(law).size());
+    check_width = std::max(check_width, check.name.size());
+  }
+  std::string text;
+  const auto add = [&](const std::string& law, const std::string& check, const std::string& measured,
+                       const std::string& allowed, std::string_view end) {
+    text += fmt::format("{:<{}}  {:<{}}{:>{}}{:>10}{}\n", law, law_width, check, check_width, measured, digits.width(),
+                        allowed, end);
+  };
+  add("law", "check", "measured", "allowed", "");
+  for (const auto& [law, check] : rows) {
+    add(label(law), check.name, digits(check.measured), fmt::format("{:.2g}", check.allowed),
+        fmt::format("  {}", verdict(check)));
+  }
+  return text;
+}
+
 class CheckCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
@@ -83,87 +108,40 @@ class CheckCommand final : public Verb {
 
   ExitStatus run() override {
     const Output output = output_.read();
-    const std::vector<Law> laws = law_.given() ? std::vector{law_.read()} : reduction::paper_laws();
-    std::vector<Verdict> verdicts;
-    if (start_.given() || start_.body().given()) {
-      const GivenStart start = start_.read();
-      if (start.state.u == 0 && start.state.v == 0) {
-        throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
-      }
-      for (const Law& law : laws) verdicts.push_back({law.name(), verify(start.body.system(law), start.state)});
-    } else {
-      for (const Law& law : laws) verdicts.push_back({law.name(), built_in_checks(law)});
+    const bool of_one_start = start_.given() || start_.body_argument().given();
+    const std::optional<GivenStart> start = of_one_start ? std::optional(start_.read()) : std::nullopt;
+    if (start && start->at_rest()) {
+      throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
     }
-    output.write_as([&](int digits) { return as_text(verdicts, digits); }, [&] { return as_csv(verdicts); },
-                    [&] { return as_json(verdicts); });
-    const bool passed = std::ranges::all_of(
-        verdicts, [](const Verdict& verdict) { return std::ranges::all_of(verdict.checks, &Check::passed); });
+    std::vector<Row> rows;
+    for (const Law& law : law_.given() ? std::vector{law_.read()} : reduction::paper_laws()) {
+      for (Check& check : start ? verify(start->body.system(law), start->state) : built_in_checks(law)) {
+        rows.push_back({law.name(), std::move(check)});
+      }
+    }
+    Answer answer;
+    answer.members["checks"] = Json::array();
+    for (const auto& [law, check] : rows) {
+      Json row{
+          {"law", law}, {"check", check.name}, {"measured", or_infinity(check.measured)}, {"allowed", check.allowed}};
+      answer.rows.push_back(row);
+      answer.rows.back()["verdict"] = verdict(check);
+      row["passed"] = check.passed();
+      answer.members["checks"].push_back(std::move(row));
+    }
+    answer.text = [&](const Digits& digits) { return (start_.given() ? "" : heading()) + as_text(rows, digits); };
+    output.write(answer);
+    const bool passed = std::ranges::all_of(rows, [](const Row& row) { return row.check.passed(); });
     return passed ? ExitStatus::done : ExitStatus::check_failed;
   }
 
  private:
-  std::string as_text(const std::vector<Verdict>& verdicts, int digits) const {
-    const int width = digits + 8;
-    std::size_t law_width = 0, check_width = 0;
-    for (const auto& [law, checks] : verdicts) {
-      law_width = std::max(law_width, label(law).size());
-      for (const Check& check : checks) check_width = std::max(check_width, check.name.size());
-    }
-    std::string text;
-    if (!start_.given()) {
-      text = fmt::format("The worst of {} starts: mu from {} to {}, v0/(mu u0) from 1e-4 to 1e6.\n\n",
-                         built_in_patch_ratios.size() * built_in_starts(1).size(), built_in_patch_ratios.front(),
-                         built_in_patch_ratios.back());
-    }
-    const auto row = [&](const std::string& law, const std::string& check, const std::string& measured,
-                         const std::string& allowed, std::string_view verdict) {
-      text += fmt::format("{:<{}}  {:<{}}{:>{}}{:>10}{}\n", law, law_width, check, check_width, measured, width,
-                          allowed, verdict);
-    };
-    row("law", "check", "measured", "allowed", "");
-    for (const auto& [law, checks] : verdicts) {
-      for (const Check& check : checks) {
-        row(label(law), check.name, fmt::format("{:.{}g}", check.measured, digits),
-            fmt::format("{:.2g}", check.allowed), check.passed() ? "  ok" : "  FAIL");
-      }
-    }
-    return text;
-  }
-
-  static std::string as_csv(const std::vector<Verdict>& verdicts) {
-    std::string text = csv_line({"law", "check", "measured", "allowed", "verdict"});
-    for (const auto& [law, checks] : verdicts) {
-      for (const Check& check : checks) {
-        text += csv_line({law, check.name, fmt::format("{}", check.measured), fmt::format("{}", check.allowed),
-                          check.passed() ? "ok" : "FAIL"});
-      }
-    }
-    return text;
-  }
-
-  static std::string as_json(const std::vector<Verdict>& verdicts) {
-    std::vector<std::string> rows;
-    for (const auto& [law, checks] : verdicts) {
-      for (const Check& check : checks) {
-        const double measured = std::isnan(check.measured) ? std::numeric_limits<double>::infinity() : check.measured;
-        rows.push_back(JsonObject()
-                           .add("law", json(law))
-                           .add("check", json(check.name))
-                           .add("measured", json(measured))
-                           .add("allowed", json(check.allowed))
-                           .add("passed", check.passed() ? "true" : "false")
-                           .inline_text());
-      }
-    }
-    return JsonObject::document().add("checks", json_array(rows)).text();
-  }
-
   StartOptions start_;
   LawOption law_;
-  OutputOptions output_{{{"a table of checks", {"text", "csv", "json"}, "text"}}};
+  OutputOptions output_{{{"a table of checks", answer_formats("text")}}};
 };
 
-const RegisteredVerb<CheckCommand> registered("check", "Every statement of the theory as a number that must be small",
+const RegisteredVerb<CheckCommand> check_verb("check", "Every statement of the theory as a number that must be small",
                                               "contensou check --mu 0.1 --u0 1 --v0 1");
 
 }  // namespace

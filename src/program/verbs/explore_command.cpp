@@ -23,12 +23,12 @@ class ExploreCommand final : public Verb {
   }
 
  private:
-  OutputOptions output_{{{"a page", {"html"}, "html", "page.html"}}};
+  OutputOptions output_{{{"a page", {"html"}, "page.html"}}};
 };
 
-const RegisteredVerb<ExploreCommand> registered("explore",
-                                                "A page to explore the phase plane: one HTML file, for any browser",
-                                                "contensou explore -o page.html");
+const RegisteredVerb<ExploreCommand> explore_verb("explore",
+                                                  "A page to explore the phase plane: one HTML file, for any browser",
+                                                  "contensou explore -o page.html");
 
 }  // namespace
 

@@ -9,9 +9,6 @@
 #include "input/csv.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
-#include "output/columns.hpp"
-#include "output/json.hpp"
-#include "output/picture.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -30,9 +27,9 @@ class LawCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     const reduction::Law law = law_.read();
-    if (const auto picture = output.picture()) {
+    if (output.picture()) {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
-      output.write(drawn(portraits::law_figure(shown(law)), *picture));
+      output.write(portraits::law_figure(shown(law)));
       return ExitStatus::done;
     }
     if (!k_.given() && !batch_.given()) {
@@ -40,11 +37,9 @@ class LawCommand final : public Verb {
           "--k missing: give --k K1,K2,... or --batch FILE; or -o FILE with a picture's ending svg, pdf, png, eps, gp, "
           "tex");
     }
-
-    const std::vector<Column> columns =
-        evaluate(law, k_.given() ? *k_ : read_column(batch_.text(), "k", Infinity::allowed));
-    output.write_as([&](int digits) { return columns_as_text(columns, digits); },
-                    [&] { return columns_as_csv(columns); }, [&] { return document(law, columns); });
+    output.write(
+        Answer{.members = {{"law", law.name()}},
+               .columns = evaluate(law, k_.given() ? *k_ : read_column(batch_.text(), "k", Infinity::allowed))});
     return ExitStatus::done;
   }
 
@@ -76,22 +71,15 @@ class LawCommand final : public Verb {
     return {{"k", k}, {"phi", phi}, {"psi", psi}};
   }
 
-  static std::string document(const reduction::Law& law, const std::vector<Column>& columns) {
-    JsonObject document = JsonObject::document();
-    document.add("law", json(law.name()));
-    for (const auto& [name, values] : columns) document.add(name, json(values));
-    return document.text();
-  }
-
   LawOption law_;
   ArgumentOf<std::vector<double>> k_;
   Argument batch_;
-  OutputOptions output_{{{"a law", with_pictures({"csv", "text", "json"}), "csv"}}};
+  OutputOptions output_{{{"a law", with_pictures(answer_formats("csv"))}}};
 };
 
-const RegisteredVerb<LawCommand> registered("law",
-                                            "Friction force and moment against k: k,phi,psi, or the paper's Fig. 2",
-                                            "contensou law --law exact --k 0,0.5,1,2,inf");
+const RegisteredVerb<LawCommand> law_verb("law",
+                                          "Friction force and moment against k: k,phi,psi, or the paper's Fig. 2",
+                                          "contensou law --law exact --k 0,0.5,1,2,inf");
 
 }  // namespace
 

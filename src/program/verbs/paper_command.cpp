@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <future>
-#include <limits>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -18,11 +16,8 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "options/output_options.hpp"
-#include "output/columns.hpp"
 #include "output/interruption.hpp"
-#include "output/json.hpp"
 #include "output/output.hpp"
-#include "output/picture.hpp"
 #include "paper/statements.hpp"
 #include "verb.hpp"
 
@@ -121,6 +116,31 @@ void write_files(const Argument& out, const std::vector<File>& files) {
   }
 }
 
+std::string as_text(const std::vector<Row>& rows, const Digits& digits) {
+  const int width = digits.width();
+  std::string text =
+      fmt::format("{:<7}{:<67}{:>{}}{:>{}}  verdict\n", "Zh98", "says", "printed", width, "computed", width);
+  std::string_view equation = "none";
+  for (const Row& row : rows) {
+    const auto& [printed, computed, corrected, verdict] = row.found;
+    const std::string bound = (row.statement.allowed == lower_bound ? ">= " : "") + digits(printed);
+    text +=
+        fmt::format("{:<7}{:<67}{:>{}}{:>{}}  {}{}\n", row.statement.equation == equation ? "" : row.statement.equation,
+                    row.statement.says, bound, width, digits(computed), width, word(verdict),
+                    row.as_recorded() ? "" : fmt::format("  FAIL: recorded as {}", word(row.statement.recorded)));
+    equation = row.statement.equation;
+    if (row.correction.empty()) continue;
+    const std::string arrow = "         -> " + row.correction;
+    text += corrected ? fmt::format("{:<74}{:>{}}\n", arrow, digits(*corrected), width) : arrow + "\n";
+  }
+  const auto count = [&](Verdict verdict) {
+    return std::ranges::count_if(rows, [&](const Row& row) { return row.found.verdict == verdict; });
+  };
+  return text + fmt::format("\n{} statements: {} hold, {} are slips, {} are false; {} not as recorded\n", rows.size(),
+                            count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
+                            std::ranges::count(rows, false, &Row::as_recorded));
+}
+
 class PaperCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
@@ -133,75 +153,29 @@ class PaperCommand final : public Verb {
     if (out_.given() && out_.text().empty()) out_.reject("a folder's name is needed");
     const std::vector<Row> rows = recompute();
     if (out_.given()) write_files(out_, draw_figures(out_.text()));
-    output.write_as([&](int digits) { return as_text(rows, digits); }, [&] { return as_csv(rows); },
-                    [&] { return as_json(rows); });
+    Answer answer;
+    for (const auto& [statement, found, correction, where] : rows) {
+      answer.rows.push_back({{"equation", statement.equation},
+                             {"statement", statement.says},
+                             {"printed", or_infinity(found.printed)},
+                             {"computed", or_infinity(found.computed)},
+                             {"verdict", word(found.verdict)},
+                             {"recorded", word(statement.recorded)},
+                             {"correction", correction},
+                             {"at", where}});
+    }
+    answer.members["claims"] = answer.rows;
+    answer.text = [&](const Digits& digits) { return as_text(rows, digits); };
+    output.write(answer);
     return std::ranges::all_of(rows, &Row::as_recorded) ? ExitStatus::done : ExitStatus::check_failed;
   }
 
  private:
-  static std::string as_text(const std::vector<Row>& rows, int digits) {
-    const int width = digits + 8;
-    std::string text =
-        fmt::format("{:<7}{:<67}{:>{}}{:>{}}  verdict\n", "Zh98", "says", "printed", width, "computed", width);
-    std::string_view equation = "none";
-    for (const Row& row : rows) {
-      const auto& [printed, computed, corrected, verdict] = row.found;
-      const std::string bound =
-          fmt::format("{}{:.{}g}", row.statement.allowed == lower_bound ? ">= " : "", printed, digits);
-      text += fmt::format("{:<7}{:<67}{:>{}}{:>{}.{}g}  {}{}\n",
-                          row.statement.equation == equation ? "" : row.statement.equation, row.statement.says, bound,
-                          width, computed, width, digits, word(verdict),
-                          row.as_recorded() ? "" : fmt::format("  FAIL: recorded as {}", word(row.statement.recorded)));
-      equation = row.statement.equation;
-      if (row.correction.empty()) continue;
-      const std::string arrow = "         -> " + row.correction;
-      text += corrected ? fmt::format("{:<74}{:>{}.{}g}\n", arrow, *corrected, width, digits) : arrow + "\n";
-    }
-    const auto count = [&](Verdict verdict) {
-      return std::ranges::count_if(rows, [&](const Row& row) { return row.found.verdict == verdict; });
-    };
-    return text + fmt::format("\n{} statements: {} hold, {} are slips, {} are false; {} not as recorded\n", rows.size(),
-                              count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
-                              std::ranges::count(rows, false, &Row::as_recorded));
-  }
-
-  static std::string as_csv(const std::vector<Row>& rows) {
-    std::string text =
-        csv_line({"equation", "statement", "printed", "computed", "verdict", "recorded", "correction", "at"});
-    for (const Row& row : rows) {
-      text += csv_line({std::string(row.statement.equation), std::string(row.statement.says),
-                        fmt::format("{}", row.found.printed), fmt::format("{}", row.found.computed),
-                        std::string(word(row.found.verdict)), std::string(word(row.statement.recorded)), row.correction,
-                        row.where});
-    }
-    return text;
-  }
-
-  static std::string as_json(const std::vector<Row>& rows) {
-    const auto number = [](double value) {
-      return json(std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
-    };
-    std::vector<std::string> claims;
-    for (const Row& row : rows) {
-      claims.push_back(JsonObject()
-                           .add("equation", json(row.statement.equation))
-                           .add("statement", json(row.statement.says))
-                           .add("printed", number(row.found.printed))
-                           .add("computed", number(row.found.computed))
-                           .add("verdict", json(word(row.found.verdict)))
-                           .add("recorded", json(word(row.statement.recorded)))
-                           .add("correction", json(row.correction))
-                           .add("at", json(row.where))
-                           .inline_text());
-    }
-    return JsonObject::document().add("claims", json_array(claims)).text();
-  }
-
   Argument out_;
-  OutputOptions output_{{{"a table of statements", {"text", "csv", "json"}, "text"}}};
+  OutputOptions output_{{{"a table of statements", answer_formats("text")}}};
 };
 
-const RegisteredVerb<PaperCommand> registered("paper",
+const RegisteredVerb<PaperCommand> paper_verb("paper",
                                               "Every equation and claim of the paper recomputed; its four figures",
                                               "contensou paper --out figures");
 

@@ -1,23 +1,80 @@
+#include <cmath>
+#include <deque>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/reduction/phase_plane.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
-#include "options/portrait_options.hpp"
 #include "options/portrait_question.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
-#include "output/output.hpp"
-#include "output/picture.hpp"
 #include "verb.hpp"
-#include "verbs/phase_plane_report.hpp"
+#include "verbs/phase_plane_answer.hpp"
 
 namespace contensou::program {
 
 namespace {
+
+using portraits::View;
+using portraits::Window;
+using reduction::State;
+
+/// Of a figure, in mm.
+struct Size {
+  double width, height;
+};
+
+Window parse_window(const std::string& typed) {
+  const std::vector<double> sides = numbers(typed, 2, "U,V");
+  if (!(sides[0] > 0 && sides[1] > 0)) throw NotAllowed("both sides of the window must be positive");
+  return {sides[0], sides[1]};
+}
+
+State parse_point(const std::string& typed) {
+  const std::vector<double> pair = numbers(typed, 2, "U,V");
+  if (pair[0] == 0 || !(pair[1] > 0)) {
+    throw NotAllowed("U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
+  }
+  return {pair[0], pair[1]};
+}
+
+constexpr double min_side = 40;
+constexpr double max_side = 2000;
+
+double parse_side(const std::string& typed) {
+  constexpr const char* wanted = "width and height in mm are needed, as in 180x120";
+  if (typed.empty()) throw NotAllowed(wanted);
+  double side = 0;
+  try {
+    side = parse_number(typed);
+  } catch (const BadInput& error) {
+    throw NotAllowed(fmt::format("{}; {}", error.what(), wanted));
+  }
+  if (side >= min_side && side <= max_side) return side;
+  throw NotAllowed(fmt::format("width and height must be {} to {} mm, as in 180x120", min_side, max_side));
+}
+
+Size parse_size(const std::string& typed) {
+  const std::size_t cross = std::min(typed.find('x'), typed.size());
+  const double width = parse_side(typed.substr(0, cross));
+  return {width, parse_side(typed.substr(std::min(cross + 1, typed.size())))};
+}
+
+/// Takes the value of an option into a variable.
+template <class Target, class Read>
+Argument::Take into(Target& target, Read read) {
+  return [&target, read = std::move(read)](const std::string& typed) { target = read(typed); };
+}
+
+/// Reads how many are wanted.
+auto at_most(int highest) {
+  return [=](const std::string& typed) { return static_cast<int>(parse_integer(typed, 0, highest)); };
+}
 
 class PortraitCommand final : public Verb {
  public:
@@ -25,7 +82,7 @@ class PortraitCommand final : public Verb {
     start_.add(app);
     law_.add(app);
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
-    options_.add(app);
+    add_looks(app);
     app.add_flag(
         "--facts", facts_,
         "print the plane's facts instead: regime, singular points at the origin and at infinity with eigenvalues and "
@@ -34,7 +91,8 @@ class PortraitCommand final : public Verb {
   }
 
   ExitStatus run() override {
-    const GivenStart start = start_.without_motion() ? GivenStart{start_.read_body(), {}, {}} : start_.read();
+    const bool has_start = !start_.without_motion();
+    const GivenStart start = has_start ? start_.read() : GivenStart{start_.read_body(), {}, {}};
     const reduction::ReducedSystem system = start.body.system(law_.read());
     if (facts_) return print_facts(system);
     const Output output = output_.read();
@@ -42,49 +100,111 @@ class PortraitCommand final : public Verb {
     if (route == reduction::Route::direct) {
       throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
     }
-    PortraitQuestion question{.flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(system)
-                                                                            : reduction::Flow(system)};
-    if (!start_.without_motion()) {
-      question.start = start.state;
-      question.shot = start.shot;
+    for (const State& point : request_.through) {
+      if (request_.window && !(std::abs(point.u) <= request_.window->u && point.v <= request_.window->v)) {
+        throw BadInput(fmt::format("--through {},{}: outside the window {}; leave it out, or make it larger", point.u,
+                                   point.v, window_->typed()));
+      }
     }
+    PortraitQuestion question{
+        .flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(system) : system,
+        .start = has_start ? std::optional(start.state) : std::nullopt,
+        .shot = start.shot,
+        .request = request_,
+        .style = style_};
     question.request.stepped = route == reduction::Route::regularised;
-    options_.read(question.request);
-    question.style = options_.style();
-
+    if (against_.given()) question.request.comparison = against_.read();
     const portraits::PhasePortrait portrait = question.portrait();
-    const auto picture = output.picture();
-    output.write(picture                  ? drawn(question.figure(portrait), *picture)
-                 : output.format == "csv" ? portraits::to_csv(portrait)
-                                          : portraits::to_json(portrait));
+    if (output.picture()) {
+      output.write(question.figure(portrait));
+    } else {
+      output.write(output.format == "csv" ? portraits::to_csv(portrait) : portraits::to_json(portrait));
+    }
     return ExitStatus::done;
   }
 
  private:
+  using Style = portraits::PortraitStyle;
+
+  /// What the portrait shows and how it looks.
+  void add_looks(CLI::App& app) {
+    constexpr int max_orbits = 200;
+    constexpr int max_isochrones = 100;
+    const auto add = [&, this](const char* name, const char* value_name, const std::string& help, Argument::Take take,
+                               bool repeatable = false) {
+      return looks_.emplace_back().add(app, name, value_name, help, std::move(take), repeatable);
+    };
+    Choices<View> views;
+    std::vector<std::string_view> names;
+    for (View view : portraits::views()) {
+      names.push_back(name(view));
+      views.emplace_back(name(view), view);
+    }
+    add("--view", "VIEW", fmt::format("the axes: {} (default uv; pair for mu < 0.1)", fmt::join(names, ", ")),
+        into(request_.view, one_of(views, "view")));
+    add("--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)",
+        into(request_.window, parse_window));
+    window_ = &looks_.back();
+    add("--orbits", "N", fmt::format("orbits on each side of u = 0, 0 to {} (default 12)", max_orbits),
+        into(request_.orbits_per_side, at_most(max_orbits)));
+    add(
+        "--through", "U,V", "also the orbit through this point; may be repeated",
+        [this](const std::string& typed) { request_.through.push_back(parse_point(typed)); }, true);
+    add("--isochrones", "N", fmt::format("about N isochrones of the stop time, 0 to {} (default 7)", max_isochrones),
+        [this, read = at_most(max_isochrones)](const std::string& typed) {
+          if (!typed.empty()) request_.isochrones = read(typed);
+        })
+        ->expected(0, 1);
+    add("--arrows", "WHERE", "arrows on orbits: at equal times (time, default), one on each, none",
+        into(style_.arrows,
+             one_of<Style::Arrows>(
+                 {{"time", Style::Arrows::time}, {"one", Style::Arrows::one}, {"none", Style::Arrows::none}})));
+    add("--field", "FIELD", "the direction field, length by logarithm: motion (2.6), regularised (2.7), none (default)",
+        into(style_.field, one_of<Style::Field>({{"none", Style::Field::none},
+                                                 {"motion", Style::Field::motion},
+                                                 {"regularised", Style::Field::regularised},
+                                                 {"", Style::Field::motion}})))
+        ->expected(0, 1);
+    add("--axes", "on|off", "the invariant axes and the invariant ray, which are the nullclines (default on)",
+        into(style_.invariant, one_of<bool>({{"on", true}, {"off", false}})));
+    add("--colour", "BY", "orbits by the time left (time, default) or in one colour (none)",
+        into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
+    against_.add(app, "--against", "LAW", "the same for another law, dashed, in the same figure");
+    add("--style", "STYLE", "print (default), or screen: light on dark, for a projector",
+        into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
+    add("--size", "WxH", fmt::format("size of the figure in mm, each {} to {} (default: by view)", min_side, max_side),
+        [this](const std::string& typed) {
+          const auto [width, height] = parse_size(typed);
+          style_.width_mm = width;
+          style_.height_mm = height;
+        });
+  }
+
   ExitStatus print_facts(const reduction::ReducedSystem& system) const {
-    if (!options_.given_names().empty()) {
+    std::vector<const Argument*> useless{&against_.argument()};
+    for (const Argument& look : looks_) useless.push_back(&look);
+    if (const std::string names = names_given(useless); !names.empty()) {
       throw BadInput(
-          fmt::format("--facts and {} exclude each other: facts are of the whole plane, and print no picture",
-                      options_.given_names()));
+          fmt::format("--facts and {} exclude each other: facts are of the whole plane, and print no picture", names));
     }
     if (route_.given()) throw BadInput("--facts and --route exclude each other: facts follow no orbit");
-    const reduction::PhasePlane plane = reduction::phase_plane(system);
-    output_.read(1).write_as([&](int digits) { return phase_plane_as_text(system, plane, digits); },
-                             [&] { return phase_plane_as_csv(plane); },
-                             [&] { return phase_plane_as_json(system, plane); });
+    output_.read(1).write(phase_plane_answer(system));
     return ExitStatus::done;
   }
 
   StartOptions start_;
-  LawOption law_;
+  LawOption law_, against_;
   RouteOption route_;
-  PortraitOptions options_;
+  std::deque<Argument> looks_;
+  const Argument* window_ = nullptr;  ///< of looks_
+  portraits::PortraitRequest request_;
+  Style style_;
   bool facts_ = false;
-  OutputOptions output_{{{"a portrait", with_pictures({}, {"csv", "json"}), "svg", "portrait.svg"},
-                         {"a table of facts", {"text", "csv", "json"}, "text"}}};
+  OutputOptions output_{{{"a portrait", with_pictures({}, {"csv", "json"}), "portrait.svg"},
+                         {"a table of facts", answer_formats("text")}}};
 };
 
-const RegisteredVerb<PortraitCommand> registered(
+const RegisteredVerb<PortraitCommand> portrait_verb(
     "portrait", "A phase portrait: orbits, isochrones of the stop time, invariant axes",
     "contensou portrait --mu 0.3 -o portrait.svg");
 

@@ -10,9 +10,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_stop_time.hpp"
-#include "output/columns.hpp"
+#include "output/answer.hpp"
 #include "output/ordered_work.hpp"
 #include "output/progress.hpp"
 #include "verbs/stop_times.hpp"
@@ -42,8 +40,6 @@ class Batch {
         output_(output),
         request_(request),
         columns_{table.column("mu"), table.column("u0"), table.column("v0")},
-        closed_(request.law.as<reduction::PadeLaw>() != nullptr &&
-                request.route.value_or(reduction::Route::closed) == reduction::Route::closed),
         stop_times_(request.law, request.body.inertia, request.route),
         progress_("rows", request.progress) {
     if (table.has_column(result)) {
@@ -138,7 +134,7 @@ class Batch {
     }
     if (start.v < 0) throw table_.complaint(row.line(), fmt::format("v0: v0 >= 0 is required, got {}", start.v));
     try {
-      return closed_ ? reduction::pade_stop_time(mu, start, request_.body.inertia) : (*stop_times_.of_patch(mu))(start);
+      return stop_times_(mu, start);
     } catch (const std::domain_error& error) {
       throw table_.complaint(row.line(), error.what());
     } catch (const std::runtime_error& error) {
@@ -152,7 +148,6 @@ class Batch {
   struct {
     CsvColumn mu, u0, v0;
   } columns_;
-  bool closed_;  ///< by a plain function
   StopTimes stop_times_;
   Progress progress_;
   std::string header_;  ///< is written with the first rows

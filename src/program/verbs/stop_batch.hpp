@@ -5,8 +5,8 @@
 #include "contensou/reduction/friction_law.hpp"
 #include "exit_status.hpp"
 #include "input/csv.hpp"
-#include "options/body_option.hpp"
 #include "options/route_option.hpp"
+#include "options/start_options.hpp"
 #include "output/output.hpp"
 
 namespace contensou::program {

@@ -1,12 +1,11 @@
+#include "options/bulk_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
-#include "options/thread_option.hpp"
-#include "output/progress.hpp"
 #include "verb.hpp"
+#include "verbs/stop_answer.hpp"
 #include "verbs/stop_batch.hpp"
-#include "verbs/stop_report.hpp"
 
 namespace contensou::program {
 
@@ -21,23 +20,18 @@ class StopCommand final : public Verb {
     app.add_flag("--estimate", estimate_, "the estimates for small mu beside the stop time, with their errors");
     batch_.add(app, "--batch", "FILE", "CSV with columns mu,u0,v0; adds tau_stop to each row; - is standard input");
     app.add_flag("--keep-going", keep_going_, "with --batch: leave tau_stop of a bad row empty and go on");
-    threads_.add(app);
-    progress_.add(app);
+    bulk_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     if (batch_.given()) return run_batch();
     if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
-    if (threads_.argument().given()) throw BadInput("--threads is for many starts: add --batch FILE");
-    if (progress_.argument().given()) throw BadInput("--progress is for many starts: add --batch FILE");
+    bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     const GivenStart start = start_.read();
     const reduction::ReducedSystem system = start.body.system(law_.read());
-    StopReport report = make_stop_report(start, system, route_.read(system));
-    if (estimate_) report.estimates = reduction::small_mu_estimates(system, start.state);
-    output.write_as([&](int digits) { return stop_report_as_text(report, digits); },
-                    [&] { return stop_report_as_csv(report); }, [&] { return stop_report_as_json(report); });
+    output.write(stop_answer(start, system, route_.read(system), estimate_));
     return ExitStatus::done;
   }
 
@@ -48,8 +42,8 @@ class StopCommand final : public Verb {
     }
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     const Output out = output_.read(1);
-    const BatchRequest request{law_.read(), start_.body().read(), route_,
-                               keep_going_, threads_.read(),      progress_.read(out.path)};
+    const BatchRequest request{law_.read(), start_.body(),   route_,
+                               keep_going_, bulk_.threads(), bulk_.progress(out.path)};
     OutputFile output(out.path);  // before the input, which may be long in coming
     CsvReader table(batch_.text());
     const ExitStatus status = stop_batch(table, output, request);
@@ -63,13 +57,12 @@ class StopCommand final : public Verb {
   Argument batch_;
   bool estimate_ = false;
   bool keep_going_ = false;
-  ThreadOption threads_;
-  ProgressOption progress_;
-  OutputOptions output_{{{"a stop time", {"text", "csv", "json"}, "text"}, {"a table of stop times", {"csv"}, "csv"}}};
+  BulkOptions bulk_;
+  OutputOptions output_{{{"a stop time", answer_formats("text")}, {"a table of stop times", {"csv"}}}};
 };
 
-const RegisteredVerb<StopCommand> registered("stop", "When the ball stops sliding and spinning, and how it rolls then",
-                                             "contensou stop --ball pool --slip 2");
+const RegisteredVerb<StopCommand> stop_verb("stop", "When the ball stops sliding and spinning, and how it rolls then",
+                                            "contensou stop --ball pool --slip 2");
 
 }  // namespace
 

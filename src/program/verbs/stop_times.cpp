@@ -5,7 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pade_stop_time.hpp"
+
 namespace contensou::program {
+
+using reduction::Route;
+using reduction::State;
 
 namespace {
 
@@ -19,48 +25,46 @@ constexpr long starts_that_pay = 1 << 15;
 
 }  // namespace
 
-PatchStopTimes::PatchStopTimes(const reduction::ReducedSystem& system, const RouteOption& route)
-    : system_(system), route_(route.read(system_)) {
-  if (route_ == reduction::Route::quadrature) flow_ = reduction::Flow::by_quadrature(system_);
-}
-
-PatchStopTimes::PatchStopTimes(reduction::StopTimeTable table)
-    : system_(table.system()), route_(reduction::routes(system_).front()), table_(std::move(table)) {}
-
-double PatchStopTimes::operator()(reduction::State start) const {
-  if (table_) return (*table_)(start.u, start.v);
-  if (flow_) return flow_->stop_time(start).tau;
-  return reduction::stop_time(system_, start, route_).tau;
-}
-
-void PatchStopTimes::row(std::span<const double> u0, double v0, std::span<double> taus) const {
-  if (table_) return table_->evaluate_row(u0, v0, taus);
-  std::ranges::transform(u0, taus.begin(), [&](double u) { return (*this)({.u = u, .v = v0}); });
+void StopTimes::AtMu::row(std::span<const double> u0, double v0, std::span<double> taus) const {
+  if (table) return table->evaluate_row(u0, v0, taus);
+  std::ranges::transform(u0, taus.begin(), [&](double u) { return one({.u = u, .v = v0}); });
 }
 
 StopTimes::StopTimes(reduction::Law law, reduction::Inertia body, long starts)
     : law_(std::move(law)), body_(body), by_table_(starts >= starts_that_pay) {}
 
-StopTimes::Patch StopTimes::made(double mu) {
+StopTimes::AtMu StopTimes::made(double mu) {
   const reduction::ReducedSystem system(law_, mu, body_);
-  if (!by_table_) return std::make_shared<const PatchStopTimes>(system, route_);
-  reduction::StopTimeTable table(system);
-  if (!table.proved() && !told_.exchange(true)) tell_if_not_proved(table);
-  return std::make_shared<const PatchStopTimes>(std::move(table));
+  if (by_table_) {
+    reduction::StopTimeTable table(system);
+    if (!table.proved() && !told_.exchange(true)) tell_if_not_proved(table);
+    return {.table = std::move(table), .one = {}};
+  }
+  const Route route = route_.read(system);
+  if (route != Route::quadrature) {
+    return {.table = {}, .one = [=](State start) { return reduction::stop_time(system, start, route).tau; }};
+  }
+  return {.table = {},
+          .one = [flow = reduction::Flow::by_quadrature(system)](State start) { return flow.stop_time(start).tau; }};
 }
 
-std::shared_ptr<const PatchStopTimes> StopTimes::of_patch(double mu) {
-  std::shared_future<Patch> patch;
+std::shared_ptr<const StopTimes::AtMu> StopTimes::at(double mu) {
+  std::shared_future<std::shared_ptr<const AtMu>> made_once;
   {
     const std::lock_guard lock(guard_);
-    if (const auto known = patches_.find(mu); known != patches_.end()) {
-      patch = known->second;
-    } else {
-      if (patches_.size() == (by_table_ ? max_tables : max_curves)) patches_.clear();
-      patch = patches_.emplace(mu, std::async(std::launch::deferred, [this, mu] { return made(mu); })).first->second;
+    if (known_.size() == (by_table_ ? max_tables : max_curves) && !known_.contains(mu)) known_.clear();
+    auto& place = known_[mu];
+    if (!place.valid()) {
+      place = std::async(std::launch::deferred, [=, this] { return std::make_shared<const AtMu>(made(mu)); });
     }
+    made_once = place;
   }
-  return patch.get();  // the first thread makes it, and others wait
+  return made_once.get();  // the first thread makes it, and others wait
+}
+
+double StopTimes::operator()(double mu, State start) {
+  const bool by_function = law_.as<reduction::PadeLaw>() != nullptr && route_.value_or(Route::closed) == Route::closed;
+  return by_function ? reduction::pade_stop_time(mu, start, body_) : at(mu)->one(start);
 }
 
 void tell_if_not_proved(const reduction::StopTimeTable& table) {

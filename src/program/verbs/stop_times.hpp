@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
@@ -13,48 +14,35 @@
 
 namespace contensou::program {
 
-/// Stop times of many starts that share law and mu. Threads may share it.
-class PatchStopTimes {
- public:
-  /// By a route, start by start.
-  /// @throws  as RouteOption::read and the making of the solution
-  PatchStopTimes(const reduction::ReducedSystem& system, const RouteOption& route);
-
-  /// By a table.
-  explicit PatchStopTimes(reduction::StopTimeTable table);
-
-  double mu() const { return system_.mu(); }
-
-  /// @throws  as reduction::stop_time
-  double operator()(reduction::State start) const;
-
-  /// The stop times of (u0[i], v0).
-  /// @param taus  as many as u0
-  void row(std::span<const double> u0, double v0, std::span<double> taus) const;
-
- private:
-  reduction::ReducedSystem system_;
-  reduction::Route route_;
-  std::optional<reduction::Flow> flow_;  ///< of the route quadrature
-  std::optional<reduction::StopTimeTable> table_;
-};
-
 /// Stop times of many starts of one body under one law. What depends on mu alone is computed once for each mu, by the
 /// first thread that needs it, and kept for as many of them as take a bounded memory. Threads may share it.
 class StopTimes {
  public:
+  /// Those of one mu. Threads may share it.
+  struct AtMu {
+    std::optional<reduction::StopTimeTable> table;
+    std::function<double(reduction::State)> one;  ///< start by start, where there is no table; throws as stop_time
+
+    /// The stop times of (u0[i], v0).
+    /// @param taus  as many as u0
+    void row(std::span<const double> u0, double v0, std::span<double> taus) const;
+  };
+
+  /// By a route.
   StopTimes(reduction::Law law, reduction::Inertia body, const RouteOption& route)
       : law_(std::move(law)), body_(body), route_(route) {}
 
   /// By the best route, for so many starts of each mu: by a table where they pay for it.
   StopTimes(reduction::Law law, reduction::Inertia body, long starts);
 
-  /// @throws  as PatchStopTimes
-  std::shared_ptr<const PatchStopTimes> of_patch(double mu);
+  /// @throws  as RouteOption::read and the making of the solution
+  std::shared_ptr<const AtMu> at(double mu);
+
+  /// @throws  as at and stop_time
+  double operator()(double mu, reduction::State start);
 
  private:
-  using Patch = std::shared_ptr<const PatchStopTimes>;
-  Patch made(double mu);
+  AtMu made(double mu);
 
   reduction::Law law_;
   reduction::Inertia body_;
@@ -62,7 +50,7 @@ class StopTimes {
   bool by_table_ = false;
   std::atomic<bool> told_ = false;  ///< that a table is not whole
   std::mutex guard_;
-  std::map<double, std::shared_future<Patch>> patches_;
+  std::map<double, std::shared_future<std::shared_ptr<const AtMu>>> known_;
 };
 
 /// Says on standard error if some starts are computed one by one because the table's panels there fail their proof.

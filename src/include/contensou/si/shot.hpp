@@ -2,12 +2,15 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "contensou/si/hertz_contact.hpp"
 
 namespace contensou::si {
+
+struct Quantity;
 
 /// A homogeneous ball.
 struct Ball {
@@ -61,6 +64,16 @@ struct Shot {
   Start start;
   Environment environment{};
 };
+
+/// One or more values of a quantity.
+struct GivenQuantity {
+  const Quantity* quantity;
+  std::vector<double> values;
+};
+
+/// What a patch or a start is given by.
+std::vector<GivenQuantity> given_by(const PatchSource& patch);
+std::vector<GivenQuantity> given_by(const Start& start);
 
 /// Radius of the contact patch in m, from whatever the contact gives it by.
 double patch_radius_of(const Shot& shot);

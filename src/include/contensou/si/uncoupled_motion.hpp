@@ -19,6 +19,15 @@ class UncoupledMotion {
   /// s until the spin has ended: 2 R |omega_z|/(5 mu Psi(0) f g).
   double spin_end() const { return spin_end_; }
 
+  /// m that the contact point slides on the ball.
+  double slip_length() const { return slip_at_start(shot_) * slip_end_ / 2; }
+
+  /// rad that the ball turns about the vertical.
+  double spin_angle() const { return spin_at_start(shot_) * spin_end_ / 2; }
+
+  /// m along the path of the centre until that time in s, at most slip_end(), to 1e-9.
+  double path_length(double t) const;
+
   /// @param t  s, >= 0
   /// @throws std::domain_error  if t is negative or not a number
   MotionPoint at_time(double t) const;

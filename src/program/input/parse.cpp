@@ -1,52 +1,54 @@
-#include "input/number.hpp"
+#include "input/parse.hpp"
 
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "exit_status.hpp"
-#include "input/quotation.hpp"
 
 namespace contensou::program {
 
 namespace {
 
-/// Without spaces around it and a leading plus, which std::from_chars does not know.
-std::string_view digits_of(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  text = text.substr(first, text.find_last_not_of(" \t") - first + 1);
+/// Reads a whole text, spaces around it and a leading plus aside, which std::from_chars does not know.
+template <class Value>
+std::errc read(std::string_view text, Value& value) {
+  const auto first = std::min(text.find_first_not_of(" \t"), text.size());
+  text = text.substr(first, text.find_last_not_of(" \t") + 1 - first);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  return text;
-}
-
-struct Number {
-  double value;
-  std::errc error;  ///< none, or out of range
-};
-
-std::optional<Number> read_number(std::string_view text) {
-  const std::string_view digits = digits_of(text);
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) return std::nullopt;
-  return Number{value, error};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return end == text.data() + text.size() ? error : std::errc::invalid_argument;
 }
 
 }  // namespace
 
-bool is_number(std::string_view text) { return read_number(text).has_value(); }
+std::string escaped(std::string_view input) {
+  const std::string in_quotes = fmt::format("{:?}", input);
+  return in_quotes.substr(1, in_quotes.size() - 2);
+}
+
+std::string quotation(std::string_view input) {
+  constexpr std::size_t max_size = 80;
+  if (input.size() <= max_size) return fmt::format("'{}'", escaped(input));
+  std::size_t size = max_size;
+  while (size > 0 && (static_cast<unsigned char>(input[size]) & 0xC0) == 0x80) --size;  // inside a character of UTF-8
+  return fmt::format("'{}...'", escaped(input.substr(0, size)));
+}
+
+bool is_number(std::string_view text) {
+  double value = 0;
+  return read(text, value) != std::errc::invalid_argument;
+}
 
 double parse_number(std::string_view text, Infinity infinity) {
-  const auto number = read_number(text);
-  if (!number) {
+  double value = 0;
+  const std::errc error = read(text, value);
+  if (error == std::errc::invalid_argument) {
     throw BadInput(fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3{}", quotation(text),
                                text.find(',') == std::string_view::npos ? "" : ": decimals take a point"));
   }
-  const auto [value, error] = *number;
   if (error == std::errc::result_out_of_range) {
     throw BadInput(fmt::format("{} does not fit a double (5e-324 to 1.8e308)", quotation(text)));
   }
@@ -66,10 +68,8 @@ std::vector<double> parse_numbers(std::string_view text, Infinity infinity) {
 }
 
 long parse_integer(std::string_view text, long lowest, long highest) {
-  const std::string_view digits = digits_of(text);
   long value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || value < lowest || value > highest) {
+  if (read(text, value) != std::errc() || value < lowest || value > highest) {
     throw BadInput(fmt::format("{} is not a whole number from {} to {}", quotation(text), lowest, highest));
   }
   return value;

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace contensou::si {
+namespace contensou {
 
 /// The name that was probably meant: the one that the fewest edits (insert, delete, replace, swap neighbours) lead to.
 /// Empty if even that one needs edits for more than half of its letters.
@@ -13,4 +13,4 @@ std::string nearest_name(std::string_view typed, std::span<const std::string> na
 /// The same as the end of a message: " (did you mean 'NAME'?)", or nothing.
 std::string suggestion(std::string_view typed, std::span<const std::string> names);
 
-}  // namespace contensou::si
+}  // namespace contensou

@@ -1,4 +1,4 @@
-#include "contensou/si/nearest_name.hpp"
+#include "text/nearest_name.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace contensou::si {
+namespace contensou {
 
 namespace {
 
@@ -41,4 +41,4 @@ std::string suggestion(std::string_view typed, std::span<const std::string> name
   return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest);
 }
 
-}  // namespace contensou::si
+}  // namespace contensou

@@ -1,0 +1,40 @@
+#include "options/bulk_options.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include <unistd.h>
+
+namespace contensou::program {
+
+namespace {
+
+constexpr long max_threads = 1024;
+
+}  // namespace
+
+void BulkOptions::add(CLI::App& app) {
+  threads_.add(app, "--threads", "N", "threads to compute with (default: all cores); the result does not depend on it",
+               whole_number(1, max_threads));
+  progress_.add(app, "--progress", "WHEN",
+                "auto (default: if standard error is a terminal), always or never show progress on standard error",
+                one_of<std::optional<bool>>({{"auto", std::nullopt}, {"always", true}, {"never", false}}));
+}
+
+void BulkOptions::refuse(const std::string& reason) const {
+  if (const std::string given = names_given({&threads_, &progress_}); !given.empty()) {
+    throw BadInput(given + " is for " + reason);
+  }
+}
+
+int BulkOptions::threads() const {
+  const long cores = std::thread::hardware_concurrency();
+  return static_cast<int>(threads_.value_or(std::clamp(cores, 1L, max_threads)));
+}
+
+bool BulkOptions::progress(const std::string& output) const {
+  const bool watched = ::isatty(STDERR_FILENO) != 0 && (output != "-" || ::isatty(STDOUT_FILENO) == 0);
+  return progress_.value_or(std::nullopt).value_or(watched);
+}
+
+}  // namespace contensou::program

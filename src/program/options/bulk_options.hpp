@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "options/argument.hpp"
+
+namespace contensou::program {
+
+/// --threads and --progress, for a verb that computes much.
+class BulkOptions {
+ public:
+  void add(CLI::App& app);
+
+  /// Throws BadInput if one of them was given where they mean nothing.
+  /// @param reason  follows "--threads " and " is for "
+  void refuse(const std::string& reason) const;
+
+  /// As many as the machine runs at once if none were given.
+  int threads() const;
+
+  /// Whether progress is to be shown: if standard error is a terminal to which no output goes, unless always or never
+  /// was asked for.
+  /// @param output  the file of -o; "-" is standard output
+  bool progress(const std::string& output) const;
+
+ private:
+  ArgumentOf<long> threads_;
+  ArgumentOf<std::optional<bool>> progress_;
+};
+
+}  // namespace contensou::program

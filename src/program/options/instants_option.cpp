@@ -1,0 +1,33 @@
+#include "options/instants_option.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "input/csv.hpp"
+
+namespace contensou::program {
+
+CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const std::string& unit,
+                                 const std::string& extent) {
+  constexpr long max_samples = 10'000'000;
+  const auto read = [time](const std::string& typed) -> Eigen::ArrayXd {
+    const bool is_file = typed == "-" || names_a_file(typed, {".csv", ".txt"});
+    const std::vector<double> times = is_file ? read_column(typed, time, Infinity::forbidden) : parse_numbers(typed);
+    if (const auto early = std::ranges::find_if(times, [](double at) { return at < 0; }); early != times.end()) {
+      throw NotAllowed(fmt::format("{} is before the start: {} >= 0 is required", *early, time));
+    }
+    return Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size()));
+  };
+  CLI::Option* at = at_.add(
+      app, "--at", "T1,T2,...|FILE",
+      fmt::format("these {0} >= 0{1}, in any order; FILE has a column {0}, or one number a line", time, unit), read);
+  samples_
+      .add(app, "--samples", "N",
+           fmt::format("instead: equidistant instants{}, 2 or more (default {})", extent, standard_samples),
+           whole_number(2, max_samples))
+      ->excludes(at);
+  return at;
+}
+
+}  // namespace contensou::program

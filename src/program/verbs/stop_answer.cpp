@@ -1,0 +1,238 @@
+#include "verbs/stop_answer.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/small_mu.hpp"
+#include "contensou/si/bridge.hpp"
+#include "contensou/si/motion.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+struct OtherLaw {
+  std::string law;
+  double tau;
+};
+
+struct StopReport {
+  GivenStart start;
+  reduction::ReducedSystem system;
+  reduction::StopTime stop;
+  double sliding_only;                             ///< tau of a body that did not pivot
+  double pivoting_only;                            ///< tau of a body that did not slide
+  std::optional<OtherLaw> other;                   ///< the other law of the paper, beside one of its laws
+  std::vector<reduction::StopEstimate> estimates;  ///< for small mu
+};
+
+/// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say nothing,
+/// nor of a ball at rest.
+std::optional<OtherLaw> other_law(const GivenStart& start, const reduction::Law& law) {
+  const bool is_pade = law.as<reduction::PadeLaw>() != nullptr;
+  if (start.at_rest() || (!is_pade && !law.as<reduction::HertzLaw>())) return std::nullopt;
+  const reduction::Law& other = reduction::paper_laws()[is_pade ? 1 : 0];
+  return OtherLaw{other.name(), reduction::Flow(start.body.system(other)).stop_time(start.state).tau};
+}
+
+/// What an estimate is too long by; 0 where both are infinite.
+double error_of(const reduction::StopEstimate& estimate, const reduction::StopTime& stop) {
+  return estimate.tau == stop.tau ? 0 : estimate.tau - stop.tau;
+}
+
+Json members_of(const StopReport& report) {
+  const auto& [body, state, shot] = report.start;
+  const double tau = report.stop.tau;
+  Json members{
+      {"law", report.system.law().name()},
+      {"route", name(report.stop.route)},
+      {"mu", body.mu},
+      {"body", {{"chi", body.inertia.chi}, {"gamma", body.inertia.gamma}}},
+      {"u0", state.u},
+      {"v0", state.v},
+      {"tau_stop", tau},
+      {"accuracy", report.stop.accuracy},
+      {"T_stop", 2 * tau / (3 * std::numbers::pi)},  // f g t, without the paper's factor 3 pi/2
+      {"bounds", {report.stop.bounds.lower, report.stop.bounds.upper}},
+      {"limits", {{"sliding_only", report.sliding_only}, {"pivoting_only", report.pivoting_only}}},
+  };
+  if (report.other) members["other_law"] = {{"law", report.other->law}, {"tau_stop", report.other->tau}};
+  for (const reduction::StopEstimate& estimate : report.estimates) {
+    members["estimates"].push_back(
+        {{"name", estimate.name}, {"tau_stop", estimate.tau}, {"error", error_of(estimate, report.stop)}});
+  }
+  if (shot) {
+    const auto [velocity, angular_velocity] = si::final_motion(*shot);
+    members["t_stop"] = si::seconds(*shot, tau);
+    members["final"] = {{"velocity", std::vector(velocity.begin(), velocity.end())},
+                        {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
+  }
+  return members;
+}
+
+/// The members as columns of CSV.
+Json row_of(const Json& members) {
+  Json row;
+  for (const auto& [column, place] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"law", "/law"},
+                                                                  {"route", "/route"},
+                                                                  {"mu", "/mu"},
+                                                                  {"u0", "/u0"},
+                                                                  {"v0", "/v0"},
+                                                                  {"tau_stop", "/tau_stop"},
+                                                                  {"lower", "/bounds/0"},
+                                                                  {"upper", "/bounds/1"},
+                                                                  {"sliding_only", "/limits/sliding_only"},
+                                                                  {"pivoting_only", "/limits/pivoting_only"},
+                                                                  {"chi", "/body/chi"},
+                                                                  {"gamma", "/body/gamma"},
+                                                                  {"T_stop", "/T_stop"},
+                                                                  {"accuracy", "/accuracy"},
+                                                                  {"other_law", "/other_law/law"},
+                                                                  {"other_tau", "/other_law/tau_stop"},
+                                                                  {"t_stop", "/t_stop"}}) {
+    const Json::json_pointer pointer(place);
+    if (members.contains(pointer)) row[column] = members[pointer];
+  }
+  for (const Json& estimate : members.value("estimates", Json::array())) {
+    const auto name = estimate["name"].get<std::string>();
+    row["tau_" + name] = estimate["tau_stop"];
+    row["error_" + name] = estimate["error"];
+  }
+  return row;
+}
+
+/// The report for people.
+class Text {
+ public:
+  Text(const StopReport& report, const Digits& digits) : report_(report), number_(digits) {}
+
+  std::string all() const {
+    if (report_.start.at_rest()) {
+      return heading() + "\nstop time 0: the ball neither slides nor spins; it rolls already, or rests\n";
+    }
+    return heading() + "\n" + times() + "\n" + estimates() + methods() + ending();
+  }
+
+ private:
+  std::string heading() const {
+    const auto& [body, state, shot] = report_.start;
+    if (!shot) {
+      return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}", number_(body.mu),
+                         number_(state.u), number_(state.v), is_ball() ? "" : body_line());
+    }
+    return fmt::format(
+        "{}: radius {} m, mass {} kg, friction {}, patch radius {} m\n"
+        "slip {} m/s, spin {} rad/s: mu = {}, u0 = {} m/s, v0 = {} m/s\n",
+        shot->ball.name, number_(shot->ball.radius), number_(shot->ball.mass), number_(shot->contact.friction),
+        number_(si::patch_radius_of(*shot)), number_(si::slip_at_start(*shot)), number_(si::spin_at_start(*shot)),
+        number_(body.mu), number_(state.u), number_(state.v));
+  }
+
+  bool is_ball() const {
+    const auto [chi, gamma] = report_.system.inertia();
+    return chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
+  }
+
+  std::string body_line() const {
+    const auto [chi, gamma] = report_.system.inertia();
+    return fmt::format("body with chi = {}, gamma = {}: r = gamma mu^2/chi = {}\n", number_(chi), number_(gamma),
+                       number_(report_.system.r()));
+  }
+
+  /// A line of the table of times.
+  std::string line(const std::string& label, double tau, const std::string& note = "") const {
+    std::string text = fmt::format("{:<14}{:>{}}", label, number_(tau), number_.width());
+    if (const auto& shot = report_.start.shot) {
+      text += fmt::format("{:>{}}", number_(si::seconds(*shot, tau)), number_.width());
+    }
+    return text + (note.empty() ? "" : "    " + note) + "\n";
+  }
+
+  std::string times() const {
+    const double tau = report_.stop.tau;
+    const bool in_seconds = report_.start.shot.has_value();
+    std::string text = fmt::format("{:<14}{:>{}}", "", in_seconds ? "tau* (m/s)" : "tau*", number_.width());
+    if (in_seconds) text += fmt::format("{:>{}}", "t* (s)", number_.width());
+    text += "\n" +
+            line("stop time", tau,
+                 std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
+                                 : fmt::format("relative error below {:.0e}", report_.stop.accuracy)) +
+            line("at least", report_.stop.bounds.lower) + line("at most", report_.stop.bounds.upper) +
+            line("sliding only", report_.sliding_only, "limit u0 = 0") +
+            line("pivoting only", report_.pivoting_only, "limit v0 = 0");
+    if (!report_.other) return text;
+    const double other = report_.other->tau;
+    const double percent = 100 * (other / tau - 1);
+    const bool comparable = tau > 0 && std::isfinite(tau) && std::isfinite(other);
+    return text +
+           line("law " + report_.other->law, other,
+                comparable ? fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer") : "");
+  }
+
+  std::string estimates() const {
+    if (report_.estimates.empty()) return "";
+    const double r = report_.system.r();
+    const reduction::Law& law = report_.system.law();
+    const double limit = law.force_slope() / law.pivoting_moment();
+    const int width = number_.width();
+    std::string text = fmt::format("for small mu  {:>{}}{:>{}}    r = gamma mu^2/chi = {}{}\n", "tau*", width, "error",
+                                   width, number_(r), r > 0.1 * limit ? ": not small, trust none of these" : "");
+    for (const reduction::StopEstimate& estimate : report_.estimates) {
+      text += fmt::format("{:<14}{:>{}}{:>{}.2g}    {}\n", estimate.name, number_(estimate.tau), width,
+                          error_of(estimate, report_.stop), width, estimate.formula);
+    }
+    return text + "\n";
+  }
+
+  std::string methods() const {
+    return fmt::format(
+        "tau*   the paper's time, (3 pi/2) f g t: it has the unit of a speed\nlaw    {}\nroute  {}: {}\n",
+        report_.system.law().name(), name(report_.stop.route), description(report_.stop.route));
+  }
+
+  std::string ending() const {
+    const auto& [body, state, shot] = report_.start;
+    if (!shot) {
+      const double chi = report_.system.inertia().chi;
+      if (chi == 1) return "then   it lies still\n";
+      return fmt::format("then   it rolls; the centre's velocity has changed by {} = {} along the slip\n",
+                         is_ball() ? "-2 v0/7" : "-v0/chi", number_(0 - state.v / chi));
+    }
+    const auto [velocity, angular_velocity] = si::final_motion(*shot);
+    return fmt::format(
+        "then   it rolls: velocity {} m/s, angular velocity {} 1/s\n       ({}, z up)\n", number_.list(velocity),
+        number_.list(angular_velocity),
+        std::holds_alternative<si::SlipAndSpin>(shot->start) ? "x along the initial slip" : "axes of the start");
+  }
+
+  const StopReport& report_;
+  const Digits& number_;
+};
+
+}  // namespace
+
+Answer stop_answer(const GivenStart& start, const reduction::ReducedSystem& system, reduction::Route route,
+                   bool estimate) {
+  using Estimates = std::vector<reduction::StopEstimate>;
+  const StopReport report{start,
+                          system,
+                          reduction::stop_time(system, start.state, route),
+                          system.sliding_limit(start.state.v),
+                          system.pivoting_limit(start.state.u),
+                          other_law(start, system.law()),
+                          estimate ? reduction::small_mu_estimates(system, start.state) : Estimates{}};
+  const Json members = members_of(report);
+  return {.members = members, .rows = {row_of(members)}, .text = [=](const Digits& digits) {
+            return Text(report, digits).all();
+          }};
+}
+
+}  // namespace contensou::program

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "contensou/reduction/flow.hpp"
+#include "options/start_options.hpp"
+#include "output/answer.hpp"
+
+namespace contensou::program {
+
+/// Everything that `stop` says about one start.
+/// @param system    of the start
+/// @param estimate  also the estimates for small mu
+Answer stop_answer(const GivenStart& start, const reduction::ReducedSystem& system, reduction::Route route,
+                   bool estimate);
+
+}  // namespace contensou::program
