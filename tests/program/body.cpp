@@ -59,20 +59,13 @@ TEST_CASE("every verb with a start takes a body", "[cli]") {
 }
 
 TEST_CASE("a body that contradicts the rest is rejected", "[cli]") {
-  const auto rejected = [](const std::string& arguments, const std::string& words) {
-    CAPTURE(arguments);
-    const Run run = run_program(arguments);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains(words));
-  };
-  rejected("stop --body disc --mu 0.5 --u0 1 --v0 1", "--mu 0.5: a puck rests on its whole face, so mu is 1");
-  rejected("stop --body disc --v0 1", "--u0 missing");
-  rejected("stop --body 1,2 --u0 1 --v0 1", "--mu missing");
-  rejected("stop --body hollow-ball --mu 0 --u0 1 --v0 1", "--mu 0: ");
-  rejected("stop --body pukc --u0 1 --v0 1", "--body pukc: no such body");
-  rejected("stop --ball pool --body disc", "--body disc: --ball is a homogeneous ball already");
-  rejected("check --body disc", "--u0, --v0 missing");
+  check_rejected("stop --body disc --mu 0.5 --u0 1 --v0 1", "--mu 0.5: a puck rests on its whole face, so mu is 1");
+  check_rejected("stop --body disc --v0 1", "--u0 missing");
+  check_rejected("stop --body 1,2 --u0 1 --v0 1", "--mu missing");
+  check_rejected("stop --body hollow-ball --mu 0 --u0 1 --v0 1", "--mu 0: ");
+  check_rejected("stop --body pukc --u0 1 --v0 1", "--body pukc: no such body");
+  check_rejected("stop --ball pool --body disc", "--body disc: --ball is a homogeneous ball already");
+  check_rejected("check --body disc", "--u0, --v0 missing");
   CHECK_THAT(run_program("stop --batch - --body disc", "mu,u0,v0\n0.5,1,3\n").err,
              Contains("<stdin>:2: mu: a puck rests on its whole face"));
 }

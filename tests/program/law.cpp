@@ -85,11 +85,8 @@ TEST_CASE("an exponent or a name that is no law", "[cli]") {
       {"pressure:-1", "ring"},   {"pressure:nan", "nan"},    {"pressure:1e9", "-1 < P"},
       {"uniforn", "uniform"},    {"pressure", "pressure:P"}, {"punsh", "'punch'"}};
   for (const auto& [law, complaint] : complaints) {
-    const Run run = run_program(std::string("law --k 1 --law ") + law);
-    INFO(law << ": " << run.err);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains(complaint) && Contains(law));
+    check_rejected(std::string("law --k 1 --law ") + law, complaint);
+    check_rejected(std::string("law --k 1 --law ") + law, law);
   }
 }
 
@@ -112,11 +109,8 @@ TEST_CASE("a table that is no pressure", "[cli]") {
                                                         {"rho,pressure\n0,1\n0.5,1\n0.5,2\n0.5,3\n1,1\n", ":5: "}};
   for (const auto& [text, line] : tables) {
     write_file(path, text);
-    const Run run = run_program("stop --mu 0.1 --u0 1 --v0 1 --law " + path);
-    INFO(text << run.err);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains(path + line));
+    CAPTURE(text);
+    check_rejected("stop --mu 0.1 --u0 1 --v0 1 --law " + path, path + line);
   }
   CHECK(run_program("law --k 1 --law " + scratch.file("missing.csv")).status == 4);
 }

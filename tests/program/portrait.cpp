@@ -52,11 +52,7 @@ TEST_CASE("portrait --facts prints the same as a table and as text, for a ball t
 
 TEST_CASE("portrait --facts excludes what it does not draw", "[cli]") {
   const auto rejected = [](const std::string& arguments, const std::string& words) {
-    CAPTURE(arguments);
-    const Run run = run_program("portrait " + arguments);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains(words));
+    check_rejected("portrait " + arguments, words);
   };
   rejected("--facts", "--mu missing");
   rejected("--mu 2 --facts", "0 < mu <= 1");
@@ -118,19 +114,15 @@ TEST_CASE("portrait shows what its switches say", "[cli]") {
 TEST_CASE("portrait says what is wrong with a switch, and draws nothing", "[cli]") {
   const TemporaryDirectory scratch;
   const auto rejected = [&](const std::string& arguments, const std::string& words) {
-    CAPTURE(arguments);
-    const Run run = run_program("portrait --mu 0.3 -o " + scratch.file("p.gp") + " " + arguments);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains(words));
+    check_rejected("portrait --mu 0.3 -o " + scratch.file("p.gp") + " " + arguments, words);
   };
   rejected("--view dics", "--view dics: no such view (did you mean 'disc'?)");
-  rejected("--window 1", "--window 1: two numbers");
+  rejected("--window 1", "--window 1: 2 numbers");
   rejected("--window 0,1", "--window 0,1: both sides");
   rejected("--orbits -1", "--orbits: '-1'");
   rejected("--orbits 1.5", "--orbits: '1.5'");
   rejected("--isochrones many", "--isochrones: 'many'");
-  rejected("--through 1", "--through 1: two numbers");
+  rejected("--through 1", "--through 1: 2 numbers");
   rejected("--through 0,1", "--through 0,1: U must not be 0");
   rejected("--through 1,nan", "--through: 'nan'");
   rejected("--through 2,2 --window 1,3", "--through 2,2: outside the window --window 1,3");

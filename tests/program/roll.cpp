@@ -181,11 +181,7 @@ TEST_CASE("every built-in ball rolls", "[cli]") {
 }
 
 TEST_CASE("mistakes in a motion are bad input", "[cli]") {
-  struct Mistake {
-    std::string arguments;
-    std::string words;
-  };
-  const std::vector<Mistake> mistakes{
+  const std::vector<std::pair<std::string, std::string>> mistakes{
       {"roll", "--ball missing"},
       {"roll --mu 0.1 --u0 1 --v0 1", "unknown option '--mu'"},
       {"roll --ball pool --velocity 1", "--velocity 1: 2 numbers are needed, VX,VY"},
@@ -207,13 +203,7 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
       {"roll --ball pool --until inf", "'inf' is not a finite number"},
       {"roll --ball pool --samples 3 -o roll.svg", "leave them out"},
   };
-  for (const auto& [arguments, words] : mistakes) {
-    const Run run = run_program(arguments);
-    INFO(arguments << "\n" << run.err);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains(words));
-  }
+  for (const auto& [arguments, words] : mistakes) check_rejected(arguments, words);
 
   const TemporaryDirectory scratch;
   const std::string file = scratch.file("mixed.toml");

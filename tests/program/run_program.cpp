@@ -70,6 +70,14 @@ Run run_program(const std::string& arguments, std::string_view input) {
   return run_program(std::vector<std::string>(std::istream_iterator<std::string>(words), {}), input);
 }
 
+void check_rejected(const std::string& arguments, const std::string& words, std::string_view input) {
+  const Run run = run_program(arguments, input);
+  INFO(arguments << "\n" << run.err);
+  CHECK(run.status == 2);
+  CHECK(run.out.empty());
+  CHECK_THAT(run.err, Catch::Matchers::Contains(words));
+}
+
 nlohmann::json json_of(const std::string& arguments) {
   const Run run = run_program(arguments);
   INFO(arguments << "\n" << run.err);

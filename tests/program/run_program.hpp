@@ -20,6 +20,10 @@ Run run_program(const std::vector<std::string>& arguments, std::string_view inpu
 /// The same for arguments without spaces, written as on a command line.
 Run run_program(const std::string& arguments, std::string_view input = {});
 
+/// Checks that the program refuses the arguments as bad input: status 2, nothing on standard output, and these words on
+/// standard error.
+void check_rejected(const std::string& arguments, const std::string& words, std::string_view input = {});
+
 /// What a successful run printed, as JSON; fails the test otherwise.
 nlohmann::json json_of(const std::string& arguments);
 

@@ -127,11 +127,7 @@ TEST_CASE("a table of another kind is named, with a way out", "[cli]") {
   };
   for (const auto& [input, words] : others) {
     for (const std::string verb : {"stop --batch -", "law --batch -", "orbit --ball pool --at -"}) {
-      const Run run = run_program(verb, input);
-      INFO(verb << ": " << run.err);
-      CHECK(run.status == 2);
-      CHECK(run.out.empty());
-      if (verb.starts_with("stop")) CHECK_THAT(run.err, Contains(words));
+      check_rejected(verb, verb.starts_with("stop") ? words : "", input);
     }
   }
   // Excel's file of semicolons, converted as the message says.
@@ -175,9 +171,7 @@ TEST_CASE("progress of a batch", "[cli]") {
   const Run run = run_program(always + scratch.file("table.csv") + " -o " + scratch.file("out.csv"));
   CHECK_THAT(run.err, Contains(":3: mu: 'x' is not a number"));
   CHECK(run_program(always + "- --progress soon").status == 2);
-  const Run single = run_program("stop --ball pool --progress always");
-  CHECK(single.status == 2);
-  CHECK_THAT(single.err, Contains("--progress is for many starts"));
+  check_rejected("stop --ball pool --progress always", "--progress is for many starts");
 }
 
 TEST_CASE("a bad table is refused with its line", "[cli]") {
@@ -236,16 +230,10 @@ TEST_CASE("--keep-going leaves out what it cannot compute", "[cli]") {
 TEST_CASE("a batch excludes what makes no sense with it", "[cli]") {
   for (const std::string other : {"--mu 0.1", "--ball pool", "--slip 1", "--format json", "--format text",
                                   "--digits banana", "--digits 18", "--digits 5"}) {
-    const Run run = run_program("stop --batch - " + other, "mu,u0,v0\n1,0,0\n");
-    INFO(other);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
+    check_rejected("stop --batch - " + other, "", "mu,u0,v0\n1,0,0\n");
   }
   CHECK(run_program("stop --keep-going --ball pool").status == 2);
-  const Run unknown = run_program("stop --keep-going --batch - --route quick", "mu,u0,v0\n1,0,0\n");
-  CHECK(unknown.status == 2);
-  CHECK(unknown.out.empty());
-  CHECK_THAT(unknown.err, Contains("--route quick: no such route"));
+  check_rejected("stop --keep-going --batch - --route quick", "--route quick: no such route", "mu,u0,v0\n1,0,0\n");
   const Run missing = run_program("stop --batch - --law exact --route closed", "mu,u0,v0\n1,0,0\n");
   CHECK(missing.status == 2);
   CHECK_THAT(missing.err, StartsWith("<stdin>:2: ") && Contains("--route closed: law exact"));
@@ -349,15 +337,10 @@ TEST_CASE("a batch of any length takes constant memory", "[limit]") {
 
 TEST_CASE("--threads is a whole number, and for many starts", "[cli]") {
   for (const std::string threads : {"0", "-1", "1.5", "two", "1025"}) {
-    const Run run = run_program("stop --batch - --threads " + threads, "mu,u0,v0\n1,0,0\n");
-    INFO(threads);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains("--threads: '" + threads + "' is not a whole number from 1 to 1024"));
+    check_rejected("stop --batch - --threads " + threads,
+                   "--threads: '" + threads + "' is not a whole number from 1 to 1024", "mu,u0,v0\n1,0,0\n");
   }
-  const Run single = run_program("stop --ball pool --threads 2");
-  CHECK(single.status == 2);
-  CHECK_THAT(single.err, Contains("--threads is for many starts"));
+  check_rejected("stop --ball pool --threads 2", "--threads is for many starts");
 }
 
 TEST_CASE("a batch is written to a file whole or not at all", "[cli]") {

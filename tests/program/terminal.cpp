@@ -56,19 +56,12 @@ TEST_CASE("of several ends, the one of the largest sector of starts stands first
 }
 
 TEST_CASE("terminal rejects what no body is", "[cli]") {
-  const auto rejected = [](const std::string& arguments, const std::string& words) {
-    CAPTURE(arguments);
-    const Run run = run_program(arguments);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK(run.err.find(words) != std::string::npos);
-  };
-  rejected("terminal", "--mu missing");
-  rejected("terminal --mu 2", "0 < mu <= 1");
-  rejected("terminal --mu 0.5 --body disc", "leave --mu out");
-  rejected("terminal --mu 0.5 --body dsic", "did you mean 'disc'");
-  rejected("terminal --mu 0.5 --body 1", "CHI,GAMMA");
-  rejected("terminal --mu 0.5 --body 1,0", "positive");
-  rejected("terminal --mu 0.5 --body 1,2,3", "two numbers");
-  rejected("terminal --mu -1 --body 1,2", "mu > 0 is required");
+  check_rejected("terminal", "--mu missing");
+  check_rejected("terminal --mu 2", "0 < mu <= 1");
+  check_rejected("terminal --mu 0.5 --body disc", "leave --mu out");
+  check_rejected("terminal --mu 0.5 --body dsic", "did you mean 'disc'");
+  check_rejected("terminal --mu 0.5 --body 1", "CHI,GAMMA");
+  check_rejected("terminal --mu 0.5 --body 1,0", "positive");
+  check_rejected("terminal --mu 0.5 --body 1,2,3", "2 numbers");
+  check_rejected("terminal --mu -1 --body 1,2", "mu > 0 is required");
 }

@@ -130,7 +130,7 @@ class CsvReader {
   /// Whether next does not have to wait.
   bool ready() const;
 
-  /// The next records: what is there when the input pauses, some 8 kB at most; false at the end.
+  /// The next records: what is there when the input pauses, some 32 kB at most; false at the end.
   /// @throws BadLine            as CsvParser, when all records before have been given
   /// @throws std::system_error  if the file cannot be read
   bool next(CsvBlock& block);

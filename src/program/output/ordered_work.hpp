@@ -1,94 +1,48 @@
 #pragma once
 
-#include <condition_variable>
-#include <exception>
-#include <map>
-#include <mutex>
-#include <semaphore>
-#include <system_error>
-#include <thread>
+#include <cstddef>
+#include <deque>
+#include <future>
 #include <utility>
-#include <vector>
 
 namespace contensou::program {
 
-/// Works on a long sequence of pieces in several threads. Takes and hands on one piece at a time, in order, as soon as
-/// the pieces before it have been handed on; holds at most two pieces for each thread.
+/// Works on a long sequence of pieces, several at a time, each in a thread of its own. Takes and hands on one piece at a
+/// time, in order; holds at most one piece for each thread.
 ///
-/// @param take     bool(Piece&, settle): makes it the next piece; false if there is none. Before it waits for something
-///                 else than the pieces taken so far, it calls bool settle(), which waits for these; if that is false,
-///                 nothing more is to be taken
+/// @param ready    bool(): whether taking does not have to wait; if it has to, all pieces are handed on before
+/// @param take     bool(Piece&): makes it the next piece; false if there is none
 /// @param work     void(Piece&): does what takes long
 /// @param hand_on  void(Piece&): passes the result on
 /// @throws  what take, work or hand_on throws for the first piece in the order; nothing is handed on after it
-template <class Piece, class Take, class Work, class HandOn>
-void work_in_order(int threads, Take take, Work work, HandOn hand_on) {
-  struct Taken {
+template <class Piece, class Ready, class Take, class Work, class HandOn>
+void work_in_order(int threads, Ready ready, Take take, Work work, HandOn hand_on) {
+  struct Task {
     Piece piece;
-    std::exception_ptr error;
+    std::future<void> done;  ///< waits for the thread when it is destroyed
   };
-  const auto error_of = [](auto action) {
+  std::deque<Task> tasks;
+  const auto hand_on_all_but = [&](std::size_t left) {
+    for (; tasks.size() > left; tasks.pop_front()) {
+      tasks.front().done.get();
+      hand_on(tasks.front().piece);
+    }
+  };
+  // Deferred: where one thread is wanted, or no more can be had, it is the one that waits for the piece.
+  const auto policy = threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred;
+  for (;;) {
+    hand_on_all_but(ready() ? static_cast<std::size_t>(threads) - 1 : 0);
+    Piece piece;
     try {
-      action();
-      return std::exception_ptr();
+      if (!take(piece)) break;
     } catch (...) {
-      return std::current_exception();
+      hand_on_all_but(0);
+      throw;
     }
-  };
-  std::mutex taking, handing_on;
-  std::counting_semaphore<> room(2 * static_cast<std::ptrdiff_t>(threads));
-  std::condition_variable settled;
-  std::map<long, Taken> finished;
-  long taken = 0, handed_on = 0;
-  bool ended = false;          // of taking
-  std::exception_ptr failure;  // of handing on
-
-  const auto settle = [&] {
-    std::unique_lock lock(handing_on);
-    settled.wait(lock, [&] { return handed_on == taken; });
-    return !failure;
-  };
-  const auto take_next = [&](Taken& next) {
-    const std::lock_guard lock(taking);
-    if (ended) return -1L;
-    next.error = error_of([&] { ended = !take(next.piece, settle); });
-    if (!next.error && ended) return -1L;
-    ended = ended || next.error;
-    return taken++;
-  };
-  const auto hand_on_finished = [&] {
-    while (!finished.empty() && finished.begin()->first == handed_on) {
-      Taken& first = finished.begin()->second;
-      if (!failure) failure = first.error ? first.error : error_of([&] { hand_on(first.piece); });
-      finished.erase(finished.begin());
-      ++handed_on;
-      room.release();
-    }
-    settled.notify_one();
-    return !failure;
-  };
-  const auto run = [&] {
-    for (bool going_on = true; going_on;) {
-      room.acquire();
-      Taken next;
-      const long place = take_next(next);
-      if (place < 0) return room.release();
-      if (!next.error) next.error = error_of([&] { work(next.piece); });
-      const std::lock_guard lock(handing_on);
-      finished.emplace(place, std::move(next));
-      going_on = hand_on_finished();
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    try {
-      for (int i = 1; i < threads; ++i) others.emplace_back(run);
-    } catch (const std::system_error&) {
-      // The threads there are do all of it.
-    }
-    run();
+    Task& task = tasks.emplace_back(Task{std::move(piece), {}});
+    task.done = std::async(policy, [&] { work(task.piece); });
   }
-  if (failure) std::rethrow_exception(failure);
+  hand_on_all_but(0);
 }
 
 }  // namespace contensou::program

@@ -46,23 +46,21 @@ State parse_point(const std::string& typed) {
 constexpr double min_side = 40;
 constexpr double max_side = 2000;
 
-double parse_side(const std::string& typed) {
+Size parse_size(const std::string& typed) {
   constexpr const char* wanted = "width and height in mm are needed, as in 180x120";
-  if (typed.empty()) throw NotAllowed(wanted);
-  double side = 0;
+  const std::size_t cross = typed.find('x');
+  if (cross == std::string::npos) throw NotAllowed(wanted);
+  Size size{};
   try {
-    side = parse_number(typed);
+    size = {parse_number(typed.substr(0, cross)), parse_number(typed.substr(cross + 1))};
   } catch (const BadInput& error) {
     throw NotAllowed(fmt::format("{}; {}", error.what(), wanted));
   }
-  if (side >= min_side && side <= max_side) return side;
-  throw NotAllowed(fmt::format("width and height must be {} to {} mm, as in 180x120", min_side, max_side));
-}
-
-Size parse_size(const std::string& typed) {
-  const std::size_t cross = std::min(typed.find('x'), typed.size());
-  const double width = parse_side(typed.substr(0, cross));
-  return {width, parse_side(typed.substr(std::min(cross + 1, typed.size())))};
+  for (double side : {size.width, size.height}) {
+    if (side >= min_side && side <= max_side) continue;
+    throw NotAllowed(fmt::format("width and height must be {} to {} mm", min_side, max_side));
+  }
+  return size;
 }
 
 /// Takes the value of an option into a variable.

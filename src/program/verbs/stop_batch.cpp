@@ -53,8 +53,7 @@ class Batch {
 
   ExitStatus run() {
     work_in_order<Piece>(
-        request_.threads,
-        [this](Piece& piece, const auto& settle) { return (table_.ready() || settle()) && take(piece); },
+        request_.threads, [this] { return table_.ready(); }, [this](Piece& piece) { return take(piece); },
         [this](Piece& piece) { work(piece); }, [this](Piece& piece) { hand_on(piece); });
     output_.write(header_);
     progress_.finish(static_cast<double>(rows_));

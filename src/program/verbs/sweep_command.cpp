@@ -1,20 +1,217 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "contensou/portraits/stop_time_map.hpp"
 #include "options/bulk_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
+#include "output/ordered_work.hpp"
+#include "output/output.hpp"
+#include "output/progress.hpp"
 #include "verb.hpp"
 #include "verbs/stop_times.hpp"
-#include "verbs/sweep.hpp"
 
 namespace contensou::program {
 
 namespace {
+
+constexpr long points_at_once = 1 << 15;
+constexpr long longest_kept_axis = 1 << 20;
+constexpr double max_points = 1e18;  // times 8 bytes, below the largest file size
+
+/// Numbers from least to most in equal steps, or in equal ratios; both ends are among them.
+struct Range {
+  double least, most;
+  long count = 1;
+  bool in_ratios = false;
+
+  /// The number at a place from 0 to count - 1, rounded once where long double has digits to spare.
+  double operator[](long place) const {
+    const long last = count - 1;
+    if (place == 0) return least;
+    if (place == last) return most;
+    const auto mix = [&](long double low, long double high) {
+      return (low * static_cast<long double>(last - place) + high * static_cast<long double>(place)) /
+             static_cast<long double>(last);
+    };
+    const auto log = [](double end) { return std::log2(static_cast<long double>(end)); };
+    return static_cast<double>(in_ratios ? std::exp2(mix(log(least), log(most))) : mix(least, most));
+  }
+};
+
+/// The starts of a sweep: every mu with every v0 with every u0. Their order is that of a C array, u0 the fastest.
+struct SweepGrid {
+  Range mu;
+  bool mu_is_range;  ///< whether the array has an axis for it
+  Range u0;
+  Range v0;
+
+  /// Also where it would not fit an integer.
+  double points() const {
+    return static_cast<double>(mu.count) * static_cast<double>(v0.count) * static_cast<double>(u0.count);
+  }
+};
+
+enum class SweepFormat { npy, csv };
+
+/// How a sweep is computed.
+struct SweepRequest {
+  reduction::Law law;
+  reduction::Inertia body;
+  SweepGrid grid;
+  SweepFormat format;
+  int threads = 1;
+  bool progress = false;
+};
+
+std::vector<double> values_of(const Range& range, long begin, long count) {
+  std::vector<double> values(static_cast<std::size_t>(count));
+  for (double& value : values) value = range[begin++];
+  return values;
+}
+
+/// What a file begins with: the names of the columns, or NumPy's description of the array, whose doubles follow as they
+/// are in memory.
+std::string heading(const SweepRequest& request) {
+  if (request.format == SweepFormat::csv) return "mu,u0,v0,tau_stop\n";
+  const SweepGrid& grid = request.grid;
+  std::vector<long> shape{grid.v0.count, grid.u0.count};
+  if (grid.mu_is_range) shape.insert(shape.begin(), grid.mu.count);
+  constexpr char byte_order = std::endian::native == std::endian::little ? '<' : '>';
+  constexpr std::size_t preamble = 10;   // magic, version, length
+  constexpr std::size_t alignment = 64;  // of the doubles
+  std::string dictionary =
+      fmt::format("{{'descr': '{}f8', 'fortran_order': False, 'shape': ({}), }}", byte_order, fmt::join(shape, ", "));
+  const std::size_t used = preamble + dictionary.size() + 1;
+  dictionary.append((alignment - used % alignment) % alignment, ' ') += '\n';
+  const std::size_t length = dictionary.size();
+  const char length_bytes[]{static_cast<char>(length & 0xFF), static_cast<char>(length >> 8)};
+  return std::string("\x93NUMPY\x01\x00", 8) + std::string(length_bytes, 2) + dictionary;
+}
+
+/// A stretch of starts, all of one mu.
+struct Piece {
+  long begin = 0;  ///< number of the first start
+  double mu = 0;
+  std::vector<double> taus;
+  fmt::memory_buffer text;
+};
+
+class Sweep {
+ public:
+  Sweep(const SweepRequest& request, std::string heading, OutputFile& output)
+      : request_(request),
+        heading_(std::move(heading)),
+        output_(output),
+        stop_times_(request.law, request.body, starts_of_mu_),
+        progress_("stop times", request.progress) {
+    if (grid_.u0.count <= longest_kept_axis) u0_ = values_of(grid_.u0, 0, grid_.u0.count);
+  }
+
+  void run() {
+    work_in_order<Piece>(
+        request_.threads, [] { return true; }, [this](Piece& piece) { return take(piece); },
+        [this](Piece& piece) { work(piece); }, [this](const Piece& piece) { hand_on(piece); });
+    progress_.finish(grid_.points());
+  }
+
+ private:
+  bool take(Piece& piece) {
+    if (next_ == starts_of_mu_ * grid_.mu.count) return false;
+    const long count = std::min(points_at_once, starts_of_mu_ - next_ % starts_of_mu_);
+    piece.begin = next_;
+    piece.mu = grid_.mu[next_ / starts_of_mu_];
+    piece.taus.resize(static_cast<std::size_t>(count));
+    next_ += count;
+    return true;
+  }
+
+  void work(Piece& piece) {
+    const auto stop_times = stop_times_.at(piece.mu);
+    const long columns = grid_.u0.count;
+    for (std::size_t done = 0; done < piece.taus.size();) {
+      const long start = piece.begin + static_cast<long>(done);
+      const long count = std::min(columns - start % columns, static_cast<long>(piece.taus.size() - done));
+      const double v0 = grid_.v0[start / columns % grid_.v0.count];
+      const auto taus = std::span(piece.taus).subspan(done, static_cast<std::size_t>(count));
+      std::vector<double> computed;
+      if (u0_.empty()) computed = values_of(grid_.u0, start % columns, count);
+      const std::span<const double> u0 =
+          u0_.empty() ? std::span(computed)
+                      : std::span(u0_).subspan(static_cast<std::size_t>(start % columns), taus.size());
+      stop_times->row(u0, v0, taus);
+      if (request_.format == SweepFormat::csv) append_lines(piece.text, piece.mu, u0, v0, taus);
+      done += taus.size();
+    }
+  }
+
+  static void append_lines(fmt::memory_buffer& text, double mu, std::span<const double> u0, double v0,
+                           std::span<const double> taus) {
+    const std::string mu_text = fmt::format("{},", mu);
+    const std::string v0_text = fmt::format(",{},", v0);
+    for (std::size_t i = 0; i < taus.size(); ++i) {
+      text.append(mu_text);
+      fmt::format_to(fmt::appender(text), FMT_COMPILE("{}"), u0[i]);
+      text.append(v0_text);
+      fmt::format_to(fmt::appender(text), FMT_COMPILE("{}\n"), taus[i]);
+    }
+  }
+
+  void hand_on(const Piece& piece) {
+    output_.write(std::exchange(heading_, {}));
+    output_.write(
+        request_.format == SweepFormat::csv
+            ? std::string_view(piece.text.data(), piece.text.size())
+            : std::string_view(reinterpret_cast<const char*>(piece.taus.data()), piece.taus.size() * sizeof(double)));
+    done_ += static_cast<double>(piece.taus.size());
+    progress_.show(done_, grid_.points());
+  }
+
+  const SweepRequest& request_;
+  std::string heading_;  ///< is written with the first stop times
+  const SweepGrid& grid_ = request_.grid;
+  OutputFile& output_;
+  const long starts_of_mu_ = grid_.v0.count * grid_.u0.count;
+  StopTimes stop_times_;
+  Progress progress_;
+  std::vector<double> u0_;  ///< all values; empty if they are too many to be kept
+  long next_ = 0;           ///< start that is not taken yet
+  double done_ = 0;
+};
+
+/// Writes the stop times of all starts in the memory of a few blocks of them; the bytes do not depend on the number of
+/// threads.
+///   npy  NumPy's format 1.0: float64, shape (v0, u0), or (mu, v0, u0) if mu is a range
+///   csv  columns mu,u0,v0,tau_stop
+///
+/// @param output  not finished here
+/// @throws BadInput     if the array would be larger than any file
+/// @throws FileFailure  if there is no room for it
+void sweep(const SweepRequest& request, OutputFile& output) {
+  const SweepGrid& grid = request.grid;
+  if (grid.points() > max_points) {
+    throw BadInput(
+        fmt::format("{:.3g} starts are more than any file can hold: reduce N of --mu, --u0 or --v0", grid.points()));
+  }
+  std::string begins = heading(request);
+  if (request.format == SweepFormat::npy) {
+    const long points = grid.mu.count * grid.v0.count * grid.u0.count;
+    output.reserve(begins.size() + sizeof(double) * static_cast<std::size_t>(points));
+  }
+  Sweep(request, std::move(begins), output).run();
+}
 
 /// MIN:MAX:N, or a number alone.
 Range parse_range(const std::string& typed) {
@@ -111,14 +308,14 @@ class SweepCommand final : public Verb {
   }
 
   portraits::StopTimeMap make_map(const reduction::ReducedSystem& system, const SweepGrid& grid) const {
-    constexpr double max_points = 1e6;
+    constexpr double max_drawn = 1e6;
     if (grid.mu_is_range) mu_.reject("a picture shows one mu: give --mu M, or write npy or csv");
     for (const auto* axis : {&u0_, &v0_}) {
       if ((*axis)->count < 2) axis->reject("a picture needs a range, MIN:MAX:N");
     }
-    if (grid.points() > max_points) {
+    if (grid.points() > max_drawn) {
       throw BadInput(fmt::format("a picture shows at most {:g} starts, not {:g}: reduce N, or write npy or csv",
-                                 max_points, grid.points()));
+                                 max_drawn, grid.points()));
     }
     const auto values = [](const Range& range) -> Eigen::ArrayXd {
       return Eigen::ArrayXd::NullaryExpr(range.count, [&](Eigen::Index i) { return range[i]; });
