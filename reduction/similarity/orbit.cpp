@@ -97,7 +97,7 @@ double Orbit::scaled_of(double tau) const { return std::ldexp(tau, -exponent_) *
 
 double Orbit::stop_time() const { return tau_of(whole()); }
 
-double Orbit::accuracy() const { return on_axis() ? 1e-15 : curve_->accuracy(); }
+double Orbit::accuracy() const { return on_axis() ? rounding_of_stop_time(0) : curve_->accuracy(); }
 
 long Orbit::evaluations() const { return on_axis() ? 0 : curve_->evaluations(); }
 

@@ -232,7 +232,7 @@ double QuadratureCurve::limit() const { return panels().limit(); }
 
 double QuadratureCurve::truncation() const { return shares_->truncation(); }
 
-double QuadratureCurve::accuracy() const { return std::max(1e-13, 10 * truncation()); }
+double QuadratureCurve::accuracy() const { return rounding_of_stop_time(r()) + truncation(); }
 
 long QuadratureCurve::evaluations() const { return shares_->evaluations(); }
 

@@ -13,6 +13,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
 
@@ -25,10 +26,11 @@ struct RouteText {
 };
 
 constexpr std::array route_texts{
-    RouteText{Route::closed, "closed",
-              "closed form of the similarity solution, relative error below 1e-15; only where the law has one"},
+    RouteText{
+        Route::closed, "closed",
+        "closed form of the similarity solution, relative error below 1e-15 for mu <= 1; only where the law has one"},
     RouteText{Route::quadrature, "quadrature",
-              "quadrature of the separated equation, relative error below 1e-13; any law and body"},
+              "quadrature of the separated equation, relative error below 3e-15 for a smooth law; any law and body"},
     RouteText{Route::regularised, "regularised",
               "(2.7) in ln u, ln v stepped in beta with (2.8), relative error below 1e-10; any law and body"},
     RouteText{Route::direct, "direct",
@@ -72,7 +74,7 @@ StopTime stop_time(const ReducedSystem& system, State start, Route route) {
   switch (route) {
     case Route::closed: {
       if (const auto tau = closed_stop_time(system, start)) {
-        return {*tau, route, 1e-15, 0, system.stop_time_bounds(start)};
+        return {*tau, route, rounding_of_stop_time(system.r()), 0, system.stop_time_bounds(start)};
       }
       throw std::domain_error(fmt::format("stop_time: law {} has no closed form", system.law().name()));
     }

@@ -128,7 +128,7 @@ Ball by_fraction(const Relaxation& at) {
     arb_union(rest.get(), nearest.get(), farthest.get(), Ball::precision);
     for (slong n = depth - 1; n >= 0; --n) rest = b(n) + a(n + 1) / rest;
     G = Ball(1) / rest;
-    if (G.accuracy() >= wanted_bits) break;
+    if (G.accuracy() >= wanted_bits + 8) break;  // m and the stop time lose some
   }
   return G;
 }

@@ -125,6 +125,28 @@ TEST_CASE("m of the Pade law at random r and k against its enclosure", "[certify
   CHECK(certify_sliding_share(1.67, 7e8, 1 + 2.1782e-9) > 100);
 }
 
+TEST_CASE("the closed route keeps the accuracy it states up to mu = 1e6", "[certify]") {
+  Random random;
+  double worst = 0;
+  std::string where;
+  for (int i = 0; i < points / 4; ++i) {
+    const double mu = random.log_uniform(i % 2 == 0 ? 1e-10 : 1, 1e6);
+    // m counts where k is of the size of 1/r at least.
+    const double k0 = random.log_uniform(1e-3, 1e3) / (i % 3 == 0 ? 1 : std::max(1.0, mu * mu));
+    const ReducedSystem system(PadeLaw{}, mu);
+    const State start{1, mu * k0};
+    const StopTime stop = stop_time(system, start, Route::closed);
+    const double ulp = std::nextafter(stop.tau, infinity) - stop.tau;
+    const double share = certify_stop_time(system, start, stop.tau).error_ulp * ulp / (stop.accuracy * stop.tau);
+    if (share <= worst) continue;
+    worst = share;
+    where = fmt::format("mu = {}, v0 = {}", mu, start.v);
+  }
+  WARN(fmt::format("closed route, mu in [1e-10, 1e6]: {} starts, worst {:.2f} of the accuracy stated, at {}",
+                   points / 4, worst, where));
+  CHECK(worst <= 1);
+}
+
 TEST_CASE("random stop times of tables against their enclosures", "[certify]") {
   Random random;
   Sample tables("tables, mu in [1e-10, 1], k0 in [1e-8, 1e8]"), wide("tables, mu in [1, 3], k0 in [1e-4, 1e4]");

@@ -3,11 +3,13 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pressure_law.hpp"
 #include "run_program.hpp"
 
 using namespace contensou::reduction;
@@ -150,8 +152,9 @@ TEST_CASE("stop as CSV reads back", "[cli]") {
 }
 
 TEST_CASE("a known accuracy is in every format", "[cli]") {
-  for (const auto& [law, accuracy] : {std::pair{"pade", 1e-15}, {"uniform", 1e-13}}) {
-    const std::string start = std::string("stop --mu 0.1 --u0 2 --v0 1 --law ") + law;
+  for (const Law& law : {Law(PadeLaw{}), Law(PressureLaw::uniform())}) {
+    const double accuracy = Flow({law, 0.1}).stop_time({2, 1}).accuracy;
+    const std::string start = fmt::format("stop --mu 0.1 --u0 2 --v0 1 --law {}", law.name());
     CHECK(json_of(start + " --format json").at("accuracy") == accuracy);
     const auto rows = rows_of(run_program(start + " --format csv").out);
     const auto column = std::ranges::find(rows[0], "accuracy") - rows[0].begin();

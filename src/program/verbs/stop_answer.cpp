@@ -156,6 +156,12 @@ class Text {
     return text + (note.empty() ? "" : "    " + note) + "\n";
   }
 
+  /// To one digit.
+  static double rounded_up(double x) {
+    const double place = std::pow(10, std::floor(std::log10(x)));
+    return place * std::ceil(x / place - 1e-9);
+  }
+
   std::string times() const {
     const double tau = report_.stop.tau;
     const bool in_seconds = report_.start.shot.has_value();
@@ -164,7 +170,7 @@ class Text {
     text += "\n" +
             line("stop time", tau,
                  std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
-                                 : fmt::format("relative error below {:.0e}", report_.stop.accuracy)) +
+                                 : fmt::format("relative error below {:.0e}", rounded_up(report_.stop.accuracy))) +
             line("at least", report_.stop.bounds.lower) + line("at most", report_.stop.bounds.upper) +
             line("sliding only", report_.sliding_only, "limit u0 = 0") +
             line("pivoting only", report_.pivoting_only, "limit v0 = 0");

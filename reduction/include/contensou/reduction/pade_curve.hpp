@@ -27,7 +27,7 @@ class PadeCurve final : public SimilarityCurve {
   double regularised_age(double ln_k) const override;
   double time_rate(double ln_k) const override;
   double limit() const override;
-  double accuracy() const override { return 1e-14; }
+  double accuracy() const override { return rounding_of_stop_time(r()); }
 
   double A() const { return A_; }  ///< 8 (2 - r)
   double B() const { return B_; }  ///< 3 pi (5 - r)

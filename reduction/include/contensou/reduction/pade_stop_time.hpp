@@ -13,7 +13,7 @@ namespace contensou::reduction {
 ///                            v >= 0)
 ///
 /// Source    README (R4) with (R27) to (R30).
-/// Accuracy  4 ulp for 1e-10 <= mu <= 3 and every start (tests/reference/README.md).
+/// Accuracy  4 ulp for 1e-10 <= mu <= 3 and every start, rounding_of_stop_time(r) for every mu (tests/certify).
 double pade_stop_time(double mu, State start, Inertia inertia = homogeneous_ball);
 
 }  // namespace contensou::reduction

@@ -18,8 +18,8 @@ class RegularSolution;
 /// series have converged. They reach from k = 4e-18 to 1e19, where the limits hold to the last bit; and towards an
 /// invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
 ///
-/// Accuracy  sliding_share 2 eps for a law that is smooth between its kinks, on and beside rays, too; the other
-///           functions 1e-13, and less next to a ray (measured: tests/reference/README.md).
+/// Accuracy  sliding_share 3 eps for a law that is smooth between its kinks, on and beside rays, too
+///           (tests/reference/rays.csv); the other functions 1e-13, and less next to a ray.
 /// Cost      about 3 000 evaluations of the law for m and n, and as many again for ln w, b and c; then some 30 ns for
 ///           each value. Noise in the law costs up to a million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
@@ -39,7 +39,7 @@ class QuadratureCurve final : public SimilarityCurve {
   /// Estimate of the relative error of sliding_share from the last terms of the series.
   double truncation() const;
 
-  /// 1e-13, or more where a law has noise.
+  /// rounding_of_stop_time and truncation(): below 3e-15 for a smooth law, r < 1e4.
   double accuracy() const override;
 
   long evaluations() const override;
