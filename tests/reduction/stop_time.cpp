@@ -11,6 +11,8 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/stop_time_table.hpp"
 #include "reference_table.hpp"
 #include "stepper_checks.hpp"
 #include "stops_above_one.hpp"
@@ -59,6 +61,26 @@ TEST_CASE("stop time by steppers over the tables", "[stop_time][table]") {
   }
 }
 
+TEST_CASE("on and beside invariant rays stop times keep the accuracy they state", "[stop_time][table]") {
+  WorstCase quadrature("quadrature"), tables("tables");
+  for (const ReferenceRow& row : reference_table("rays")) {
+    const std::string& name = row.text("law");
+    const auto named = find_law(name);
+    const Law law = named ? *named : PressureLaw(std::stod(name.substr(name.find(':') + 1)));
+    const Flow flow = Flow::by_quadrature({law, row.input("mu"), {row.input("chi"), row.input("gamma")}});
+    const State start{row.input("u0"), row.input("v0")};
+    const long double wanted = row.result("tau_stop");
+    const StopTime got = flow.stop_time(start);
+    quadrature.add(wanted, got.tau, row.where());
+    tables.add(wanted, flow.table()(start.u, start.v), row.where());
+    CAPTURE(row.where());
+    CHECK(std::abs(got.tau - wanted) <= got.accuracy * wanted);
+    CHECK(got.accuracy < 3e-15);
+  }
+  CHECK_WITHIN_EPS(quadrature, 3);
+  CHECK_WITHIN_EPS(tables, 4);
+}
+
 TEST_CASE("stop time of other bodies, by every route", "[stop_time][table][route]") {
   WorstCase closed("bodies closed"), quadrature("bodies quadrature"), steppers("bodies steppers");
   for (const ReferenceRow& row : reference_table("bodies")) {
@@ -92,7 +114,7 @@ TEST_CASE("all routes give one stop time", "[stop_time][route]") {
       }
     }
   }
-  CHECK_WITHIN_EPS(closed, 1e-13 / eps);
+  CHECK_WITHIN_EPS(closed, 4);
   CHECK_WITHIN_EPS(regularised, 3e-11 / eps);
   CHECK_WITHIN_EPS(direct, 3e-11 / eps);
 }

@@ -958,19 +958,26 @@ def table_bodies():
 # ---------------------------------------------------------------------------------------------
 
 def elliptic(k):
-    """The ring and the uniform disc (law, k) by complete elliptic integrals, as mpmath's 2F1 is slow at k = 1."""
-    square = min(k, 1 / k) ** 2
-    first, second = mp.ellipk(square), mp.ellipe(square)
-    return square, first, second
+    """Parameter m = min(k, 1/k)^2, 1 - m, and the complete elliptic integrals of m by the arithmetic-geometric mean, as
+    mpmath's 2F1 is slow at k = 1 and its E loses digits there."""
+    modulus = min(k, 1 / k)
+    rest = (1 - modulus) * (1 + modulus)
+    a, b, share, power = mpf(1), mp.sqrt(rest), modulus ** 2 / 2, mpf(1) / 2
+    while abs(a - b) > mpf(10) ** (-mp.dps) * a:
+        a, b, c = (a + b) / 2, mp.sqrt(a * b), (a - b) / 2
+        power *= 2
+        share += power * c ** 2
+    first = mp.pi / (2 * a)
+    return modulus ** 2, rest, first, first * (1 - share)
 
 
 def ring(k):
     """Pressure of a thin ring."""
     if k == 1:
         return 2 / mp.pi, 2 / mp.pi
-    square, first, second = elliptic(k)
+    square, rest, first, second = elliptic(k)
     one = 2 / mp.pi * second
-    other = 2 / (mp.pi * mp.sqrt(square)) * (second - (1 - square) * first)
+    other = 2 / (mp.pi * mp.sqrt(square)) * (second - rest * first)
     return (other, one) if k < 1 else (one, other)
 
 
@@ -978,7 +985,7 @@ def uniform(k):
     """Uniform pressure."""
     if k == 1:
         return 8 / (3 * mp.pi), 8 / (9 * mp.pi)
-    _, first, second = elliptic(k)
+    _, _, first, second = elliptic(k)
     s = k ** 2
     if k < 1:
         return (4 / (3 * mp.pi * k) * ((s + 1) * second + (s - 1) * first),
@@ -1034,13 +1041,13 @@ def graded(start, end, kink, length, least):
     x = start
     while sign * (end - x) > 0:
         ahead = sign * (kink - x)           # > 0: the kink is still to come
-        if ahead > 0 and ahead <= least:    # across it, where nothing is left to see
-            x = kink + sign * least
-            continue
         distance = abs(ahead)
-        if ahead > 0 and distance <= 1:
+        across = 0 < ahead < 2 * least      # where nothing of it is left to see
+        if across:
+            right = kink + sign * least
+        elif ahead > 0 and distance < mpf(17) / 16:
             right = kink - sign * max(distance * mp.exp(-2), least)
-        elif ahead <= 0 and distance < 1:
+        elif ahead <= 0 and distance < mpf(15) / 16:
             right = kink + sign * min(max(distance, least) * mp.exp(2), mpf(1))
         else:
             right = x + sign * length
@@ -1048,7 +1055,7 @@ def graded(start, end, kink, length, least):
                 right = kink - sign
         if sign * (end - right) < 0:
             right = end
-        if distance <= 1 and abs(right - kink) <= 1 and x != kink and right != kink:
+        if not across and 0 < min(distance, abs(right - kink)) and max(distance, abs(right - kink)) < mpf(17) / 16:
             side = 1 if x > kink else -1
             yield logarithmic(abs(x - kink), abs(right - kink), side)
         else:
@@ -1080,11 +1087,20 @@ class RaySystem:
             x -= sign * step
         if abs(x) >= far:
             return -sign * mp.inf
+        # False position (Illinois); a bracket of two points that the excess does not tell apart is the root.
         low, high = x - sign * step, x
-        while abs(high - low) > mpf(10) ** -12:
-            middle = (low + high) / 2
-            low, high = (low, middle) if sign * self.excess(middle) > 0 else (middle, high)
-        return mp.findroot(self.excess, (low, high), solver="anderson", tol=mpf(10) ** (-2 * mp.dps + 20))
+        at_low, at_high = self.excess(low), self.excess(high)
+        while at_low != at_high and abs(high - low) > mpf(10) ** (5 - mp.dps):
+            middle = high - at_high * (high - low) / (at_high - at_low)
+            at_middle = self.excess(middle)
+            if at_middle * at_high < 0:
+                low, at_low = high, at_high
+            else:
+                at_low /= 2
+            high, at_high = middle, at_middle
+            if at_middle == 0 or middle == low:
+                return middle
+        return high
 
     def by_orbit(self, k0, k_end):
         """Time left over w, scaled: the integral of w along the orbit over z, where the distance of k (of 1/k from
@@ -1092,9 +1108,10 @@ class RaySystem:
         falls = k0 > k_end
         end = k_end if falls else 1 / k_end if k_end != mp.inf else mpf(0)
         distance = abs((k0 if falls else 1 / k0) - end)
+        if distance < mpf(10) ** -42 * end:
+            return 1 / (self.r * self.law(k0)[1])
         total, log_w, z = mpf(0), mpf(0), mpf(0)
-        kink_at = abs((1 if k_end != 1 else end) - end)
-        kink = mp.log(distance / kink_at) if kink_at and distance > kink_at else -mpf(10) ** 9
+        kink = mp.log(distance / (1 - end)) if end < 1 < end + distance else -mpf(10) ** 9
         rule = gauss_legendre(self.NODES, mp.dps)
         antiderivative = antiderivative_matrix(self.NODES, mp.dps)
 
@@ -1186,35 +1203,44 @@ RAYS = [                                            # law, chi, gamma, mu, u0, [
 ]
 
 
+def ray_points():
+    """RAYS; and for each law r next to both ends of the domain of rays and in its middle, starts on the ray, beside it
+    and far from it."""
+    points = list(RAYS)
+    for law, low, high in (("uniform", 1.5, 4.0), ("exact", 2.0, 5.0), ("punch", 1.0, 3.0), ("ring", 0.5, 2.0),
+                           ("pressure:3", 4.5, 10.0), ("pressure:7", 8.5, 18.0)):
+        for r in (low * (1 + 1e-5), (low + high) / 2, high * (1 - 1e-5)):
+            k = double(mp.exp(RaySystem(law, mpf(r)).end(mpf(0))))
+            points.append((law, 1.0, r, 1.0, 1.0, [k, k * (1 + 1e-9), 3 * k]))
+    return points
+
+
 def table_rays():
     """Stop times on and beside invariant rays, and where one is born."""
     yield ["law", "chi", "gamma", "mu", "u0", "v0", "v0_hex", "k_star", "tau_stop", "digits"]
-    for law, chi, gamma, mu, u0, speeds in RAYS:
+    for law, chi, gamma, mu, u0, speeds in ray_points():
         r = mpf(gamma) * mpf(mu) ** 2 / mpf(chi)
         w = mpf(mu) * mpf(u0)
         kappa = 3 * mp.pi / (2 * mpf(chi))
-        with mp.workdps(mp.dps + 10):
+        ratios = [mpf(speed) / w for speed in speeds]
+        with mp.workdps(PRINTED + 60):                      # D keeps the digits of a number 1e-42 from the ray
             system = RaySystem(law, r)
-            ends = {}
-            for speed in speeds:
-                k0 = mpf(speed) / w
-                end = system.end(mp.log(k0))
-                side = k0 > mp.exp(end)
-                ends.setdefault((mp.nstr(end, 20), side), (mp.exp(end), []))[1].append(k0)
-            regular = {}
-            for k_end, starts in ends.values():
-                regular.update({k0: (k_end, sigma)
-                                for k0, sigma in system.by_regular_solution(starts, k_end).items()})
-        for speed in speeds:
-            k_end, second = regular[mpf(speed) / w]
-            with mp.workdps(2 * mp.dps):
-                system_wide = RaySystem(law, r)
-                k_end = mp.exp(system_wide.end(mp.log(mpf(speed) / w)))
-                first = system_wide.by_orbit(mpf(speed) / w, k_end)
-            digits = check([(kappa * w * first, kappa * w * second)],
+            ends = [mp.exp(system.end(mp.log(k0))) for k0 in ratios]
+            first = [system.by_orbit(k0, end) for k0, end in zip(ratios, ends)]
+        with mp.workdps(PRINTED + 20):
+            system = RaySystem(law, r)
+            ways = {}
+            for k0 in ratios:
+                end = mp.exp(system.end(mp.log(k0)))
+                ways.setdefault((mp.nstr(end, 20), k0 > end), (end, []))[1].append(k0)
+            second = {}
+            for end, starts in ways.values():
+                second.update(system.by_regular_solution(starts, end))
+        for speed, k0, end, sigma in zip(speeds, ratios, ends, first):
+            digits = check([(kappa * w * sigma, kappa * w * second[k0])],
                            "rays %s gamma=%s u0=%s v0=%s" % (law, gamma, u0, speed))
             yield ([law, repr(chi), repr(gamma), repr(mu), repr(u0)] + exact(speed)
-                   + [text(k_end), text(kappa * w * first), digits])
+                   + [text(end), text(kappa * w * sigma), digits])
 
 
 # ---------------------------------------------------------------------------------------------
