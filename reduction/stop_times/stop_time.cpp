@@ -26,9 +26,8 @@ struct RouteText {
 };
 
 constexpr std::array route_texts{
-    RouteText{
-        Route::closed, "closed",
-        "closed form of the similarity solution, relative error below 1e-15 for mu <= 1; only where the law has one"},
+    RouteText{Route::closed, "closed",
+              "closed form, relative error below 1e-15 for mu <= 1; only where the law has one"},
     RouteText{Route::quadrature, "quadrature",
               "quadrature of the separated equation, relative error below 3e-15 for a smooth law; any law and body"},
     RouteText{Route::regularised, "regularised",
