@@ -101,7 +101,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto any = [&state] { return ((state = state * 1664525 + 1013904223) >> 24) % 16 + 1; };
   fuzz::require(parsed(text, any) == whole, "in pieces");
 
-  Table from_file = read(text, 8192 - first);
+  Table from_file = read(text, (1 << 15) - first);
   if (whole.rows.empty()) {
     const std::string expected = whole.complaint.empty() ? "0: empty input" : whole.complaint;
     fuzz::require(from_file.rows.empty() && from_file.complaint.starts_with(expected), from_file.complaint);
