@@ -202,11 +202,11 @@ class OrbitTracer {
     const double mu = system_.mu();
     const double ln_k = std::log(point.v / (mu * std::abs(point.u)));
     const reduction::SimilarityCurve& curve = *flow_.solution().through(ln_k);
-    const double here = curve.approach().coordinate(ln_k);
+    const double here = curve.chart().coordinate(ln_k);
     const auto upstream = [&](double xi) {
       if (xi == here) return point;
-      const double w = mu * std::abs(point.u) * std::exp(curve.log_rim(xi) - curve.log_rim(here));
-      return State{std::copysign(w / mu, point.u), w * std::exp(curve.approach().log_ratio(xi))};
+      const double w = mu * std::abs(point.u) * std::exp(curve.ln_w(xi) - curve.ln_w(here));
+      return State{std::copysign(w / mu, point.u), w * std::exp(curve.chart().log_ratio(xi))};
     };
     const auto outside = [this](State state) { return !(std::abs(state.u) <= window_.u && state.v <= window_.v); };
     return upstream(last_where([&](double xi) { return !outside(upstream(xi)); }, here, 1));
@@ -306,15 +306,15 @@ PortraitOrbit::Instant PortraitOrbit::at(Eigen::Index row, double factor) const 
 
 PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double upstream) {
   const reduction::SimilarityCurve& curve = *flow.solution().through(ln_k);
-  const reduction::Approach& approach = curve.approach();
-  const double here = approach.coordinate(ln_k);
-  const double ln_scale = ln_v - ln_k - curve.log_rim(here);
+  const reduction::TerminalChart& chart = curve.chart();
+  const double here = chart.coordinate(ln_k);
+  const double ln_scale = ln_v - ln_k - curve.ln_w(here);
   const auto at = [&](double xi) {
-    const double ln_w = ln_scale + curve.log_rim(xi), its_ln_k = approach.log_ratio(xi);
+    const double ln_w = ln_scale + curve.ln_w(xi), its_ln_k = chart.log_ratio(xi);
     const State state{std::exp(ln_w) / flow.system().mu(), std::exp(ln_w + its_ln_k)};
     return Instant{state.u, state.v, ln_w + its_ln_k, its_ln_k, flow.orbit(state).stop_time()};
   };
-  const auto ln_size = [&](double xi) { return ln_scale + curve.log_rim(xi) + std::max(approach.log_ratio(xi), 0.0); };
+  const auto ln_size = [&](double xi) { return ln_scale + curve.ln_w(xi) + std::max(chart.log_ratio(xi), 0.0); };
   const double size = ln_size(here);
   constexpr double downstream = 30;
   const double first =
@@ -326,7 +326,7 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
     const double shrinks = std::abs(a.ln_v - b.ln_v + std::min(b.ln_k, 0.0) - std::min(a.ln_k, 0.0));
     return std::max({angle / 0.02, turn(a, b) / 0.25, shrinks / 0.1});
   });
-  track.push_back({0, 0, -infinity, approach.log_terminal_ratio(), 0});
+  track.push_back({0, 0, -infinity, chart.log_terminal_ratio(), 0});
   return columns(track);
 }
 

@@ -108,10 +108,10 @@ class Examination {
   void separated_equation() {
     // The change of p = ln v over one unit of xi, from the start and around k = 1.
     double worst = 0;
-    const Approach& approach = orbit_.approach();
-    for (double xi : {orbit_.start_coordinate(), std::min(orbit_.start_coordinate(), approach.coordinate(0) + 0.5)}) {
-      if (on_a_ray(approach.log_ratio(xi - 1))) continue;  // k = 1 may be on it, or on its other side
-      const auto [bottom, top] = std::minmax({approach.log_ratio(xi - 1), approach.log_ratio(xi)});
+    const TerminalChart& chart = orbit_.chart();
+    for (double xi : {orbit_.start_coordinate(), std::min(orbit_.start_coordinate(), chart.coordinate(0) + 0.5)}) {
+      if (on_a_ray(chart.log_ratio(xi - 1))) continue;  // k = 1 may be on it, or on its other side
+      const auto [bottom, top] = std::minmax({chart.log_ratio(xi - 1), chart.log_ratio(xi)});
       const double sign = std::copysign(1.0, start_.u);
       const auto slope = [&](double ln_k) {
         const double q = sign * system_.mu() * std::exp(ln_k);
@@ -127,7 +127,7 @@ class Examination {
       }
       const double along = orbit_.at_coordinate(xi).ln_v - orbit_.at_coordinate(xi - 1).ln_v;
       // dp/dq has the digits that Phi - r k Psi has.
-      const double digits = 1 / std::max(1.0, steepness(approach.log_ratio(xi - 1)));
+      const double digits = 1 / std::max(1.0, steepness(chart.log_ratio(xi - 1)));
       worst = worse(relative(along, std::copysign(change, along)) * digits, worst);
     }
     add("separated equation dp/dq", worst, 1e-12);
@@ -174,7 +174,7 @@ class Examination {
       const OrbitPoint stepped = regularised.points.row(i);
       const double ln_k = log_ratio(stepped);
       const OrbitPoint exact =
-          orbit_.at_coordinate(std::min(orbit_.approach().coordinate(ln_k), orbit_.start_coordinate()));
+          orbit_.at_coordinate(std::min(orbit_.chart().coordinate(ln_k), orbit_.start_coordinate()));
       const double blunt = 1 + steepness(ln_k);
       worst_tau = worse(std::abs(stepped.tau - exact.tau) / (orbit_.stop_time() * blunt), worst_tau);
       worst_beta = worse(std::abs(stepped.beta - exact.beta) / ((beta_unit + exact.beta) * blunt), worst_beta);
@@ -195,13 +195,13 @@ class Examination {
   }
 
   void bounds() {
-    if (!system_.law().sliding_share()) return;
+    if (!system_.law().sliding_coefficient()) return;
     const double stop = orbit_.stop_time();
     const auto [lower, upper] = system_.stop_time_bounds(start_);
     add("two-sided bound of the stop time", worse(lower / stop - 1, worse(stop / upper - 1, 0)), rounding);
 
     // The inequality that the bounds rest on: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 where m >= 1.
-    const double sign = system_.law().sliding_share()->least >= 1 ? 1 : -1;
+    const double sign = system_.law().sliding_coefficient()->least >= 1 ? 1 : -1;
     double worst = 0;
     for (int i = -200; i <= 200; ++i) {
       const Slip slip = slip_of_ratio(std::exp2(0.1 * i));
@@ -217,8 +217,8 @@ class Examination {
     // ln w changes by r times a number of order 1, and more as r -> 2.
     double worst = 0;
     for (double k : {1e-6, 1e-3, 0.03, 0.3, 0.7, 0.99}) {
-      const double elementary = hertz_inner_log_rim(system_.r(), 1) - hertz_inner_log_rim(system_.r(), k);
-      const double change = curve.log_rim(0) - curve.log_rim(std::log(k));
+      const double elementary = hertz_inner_ln_w(system_.r(), 1) - hertz_inner_ln_w(system_.r(), k);
+      const double change = curve.ln_w(0) - curve.ln_w(std::log(k));
       worst = worse(std::abs(change - elementary) / std::max(system_.r(), std::abs(change)), worst);
     }
     add("elementary orbit for k <= 1", worst, rounding);
@@ -236,10 +236,10 @@ class Examination {
 
 std::vector<Check> verify(const Flow& flow, const std::vector<State>& starts) {
   const ReducedSystem& system = flow.system();
-  constexpr double smallest_r = 1e-100;
-  if (system.r() < smallest_r) {
+  constexpr double min_r = 1e-100;
+  if (system.r() < min_r) {
     throw std::domain_error(fmt::format(
-        "verify: mu = {} is too small, the fields underflow; gamma mu^2/chi >= {} is needed", system.mu(), smallest_r));
+        "verify: mu = {} is too small, the fields underflow; gamma mu^2/chi >= {} is needed", system.mu(), min_r));
   }
   const Flow quadrature = flow.is_by_quadrature() ? flow : Flow::by_quadrature(system);
   std::vector<Check> all;

@@ -29,8 +29,8 @@ Law law_of_the_family(std::string_view exponent) {
     throw std::domain_error(fmt::format(
         "'{}' is not a number; the exponent P of the pressure (1 - rho^2)^P is needed, as in pressure:0.5", exponent));
   }
-  if (!(p > -1 && p <= PressureLaw::largest_p)) {
-    throw std::domain_error(fmt::format("-1 < P <= {} is required{}", PressureLaw::largest_p,
+  if (!(p > -1 && p <= PressureLaw::max_p)) {
+    throw std::domain_error(fmt::format("-1 < P <= {} is required{}", PressureLaw::max_p,
                                         p == -1 ? "; the limit P -> -1 is the law ring" : ""));
   }
   return PressureLaw(p);

@@ -56,10 +56,9 @@ PressureLaw::PressureLaw(double p, std::string name)
     : p_(p), name_(std::move(name)), series_(std::make_shared<const Series>(p)) {}
 
 PressureLaw::PressureLaw(double p)
-    : PressureLaw(p > -1 && p <= largest_p
-                      ? p
-                      : throw std::domain_error(
-                            fmt::format("PressureLaw: the exponent p must be > -1 and <= {}, got {}", largest_p, p)),
+    : PressureLaw(p > -1 && p <= max_p ? p
+                                       : throw std::domain_error(fmt::format(
+                                             "PressureLaw: the exponent p must be > -1 and <= {}, got {}", max_p, p)),
                   fmt::format("pressure:{}", p)) {}
 
 PressureLaw PressureLaw::uniform() { return {0, "uniform"}; }

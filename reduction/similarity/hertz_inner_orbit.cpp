@@ -10,10 +10,10 @@
 
 namespace contensou::reduction {
 
-double hertz_inner_log_rim(double r, double k) {
+double hertz_inner_ln_w(double r, double k) {
   if (!(r > 0 && r < 2 && k > 0 && k <= 1)) {
     throw std::domain_error(
-        fmt::format("hertz_inner_log_rim: 0 < r < 2 and 0 < k <= 1 required, got r = {}, k = {}", r, k));
+        fmt::format("hertz_inner_ln_w: 0 < r < 2 and 0 < k <= 1 required, got r = {}, k = {}", r, k));
   }
   const double root = std::sqrt(1 + r * (8 - 2 * r));
   // The printed roots subtract for small r: s+ from the product of the roots, s- from their sum of like signs.

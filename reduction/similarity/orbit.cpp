@@ -77,12 +77,12 @@ Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution&
   }
   ln_k0_ = log_ratio(v0_, system.mu(), std::abs(u0_), v_, w_);
   curve_ = solution.through(ln_k0_);
-  xi0_ = curve_->approach().coordinate(ln_k0_);
-  share0_ = curve_->sliding_share(xi0_);
+  xi0_ = curve_->chart().coordinate(ln_k0_);
+  share0_ = curve_->sliding_coefficient(xi0_);
 }
 
 Orbit&& Orbit::begun() && {
-  if (!on_axis()) log_rim0_ = curve_->log_rim(xi0_);
+  if (!on_axis()) ln_w0_ = curve_->ln_w(xi0_);
   return std::move(*this);
 }
 
@@ -102,16 +102,16 @@ double Orbit::accuracy() const { return on_axis() ? rounding_of_stop_time(0) : c
 long Orbit::evaluations() const { return on_axis() ? 0 : curve_->evaluations(); }
 
 Orbit::Progress Orbit::progress(double xi) const {
-  const double ln_w = curve_->log_rim(xi) - log_rim0_;
-  const double ln_v = ln_w + (curve_->approach().log_ratio(xi) - ln_k0_);
+  const double ln_w = curve_->ln_w(xi) - ln_w0_;
+  const double ln_v = ln_w + (curve_->chart().log_ratio(xi) - ln_k0_);
   return {ln_w, ln_v, std::exp(ln_w), std::exp(ln_v)};
 }
 
 Orbit::Progress Orbit::progress(double xi, double left) const {
   // Both speeds from k and  left = P w/w0 + S m v/v0.  With the ratio of their shares that is at most 1:
-  const double change = curve_->approach().log_ratio(xi) - ln_k0_;
+  const double change = curve_->chart().log_ratio(xi) - ln_k0_;
   const double ratio = std::exp(-std::abs(change));
-  const double sliding = v_ * curve_->sliding_share(xi);
+  const double sliding = v_ * curve_->sliding_coefficient(xi);
   const double larger = left / (change < 0 ? pivoting_ + sliding * ratio : pivoting_ * ratio + sliding);
   const double ln_larger = std::log(larger);
   if (change < 0) return {ln_larger, ln_larger + change, larger, larger * ratio};
@@ -120,17 +120,17 @@ Orbit::Progress Orbit::progress(double xi, double left) const {
 
 double Orbit::scaled_left(double xi) const {
   const Progress now = progress(xi);
-  return pivoting_ * now.w + v_ * now.v * curve_->sliding_share(xi);
+  return pivoting_ * now.w + v_ * now.v * curve_->sliding_coefficient(xi);
 }
 
 double Orbit::scaled_elapsed(double xi) const {
   const Progress now = progress(xi);
-  return -pivoting_ * std::expm1(now.ln_w) + v_ * (share0_ - now.v * curve_->sliding_share(xi));
+  return -pivoting_ * std::expm1(now.ln_w) + v_ * (share0_ - now.v * curve_->sliding_coefficient(xi));
 }
 
 double Orbit::slip_left(double xi) const {
   const Progress now = progress(xi);
-  return v_ * now.v * (v_ * now.v / 2 + curve_->slip_excess(xi) * w_ * now.w);
+  return v_ * now.v * (v_ * now.v / 2 + curve_->slip_length_coefficient(xi) * w_ * now.w);
 }
 
 double Orbit::scaled_left_slope(double xi) const {
@@ -184,14 +184,14 @@ double Orbit::age(double xi, const Progress& now) const {
   // Beside a ray k hardly changes: w falls linearly, and dtau/dbeta like w^2. At a law's kink x ln|x| the distance from
   // the ray is squared while w is halved: beyond sqrt(eps) of it xi would not do.
   constexpr double unchanged = 3e-7;
-  const Approach& approach = curve_->approach();
-  if (std::isfinite(approach.log_terminal_ratio()) && std::abs(approach.log_ratio(xi) - ln_k0_) < unchanged) {
-    const double k = std::exp(approach.log_ratio(xi));
+  const TerminalChart& chart = curve_->chart();
+  if (std::isfinite(chart.log_terminal_ratio()) && std::abs(chart.log_ratio(xi) - ln_k0_) < unchanged) {
+    const double k = std::exp(chart.log_ratio(xi));
     const double weight = (16 + 15 * pi * k) * (8 + 3 * pi * k);
     const double pivoting_rate = system_.r() * system_.law()(slip_of_ratio(k)).moment;
     return (1 / now.w - 1) / (w_ * weight * pivoting_rate);
   }
-  return curve_->regularised_age(xi) / (w_ * now.w + v_ * now.v) - curve_->regularised_age(xi0_) / (w_ + v_);
+  return curve_->beta_coefficient(xi) / (w_ * now.w + v_ * now.v) - curve_->beta_coefficient(xi0_) / (w_ + v_);
 }
 
 OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
@@ -200,7 +200,7 @@ OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
           .u = u0_ * now.w,
           .v = v0_ * now.v,
           .ln_v = std::log(v0_) + now.ln_v,
-          .k = std::exp(curve_->approach().log_ratio(xi)),
+          .k = std::exp(curve_->chart().log_ratio(xi)),
           .beta = std::ldexp(std::max(0.0, age(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
 
@@ -269,13 +269,13 @@ OrbitPoint Orbit::at_coordinate(double xi) const {
 }
 
 OrbitPoint Orbit::at_log_ratio(double ln_k) const {
-  if (on_axis() || !approach().reaches(ln_k) || !(approach().coordinate(ln_k) <= xi0_)) {
+  if (on_axis() || !chart().reaches(ln_k) || !(chart().coordinate(ln_k) <= xi0_)) {
     throw std::domain_error(
         fmt::format("Orbit::at_log_ratio: ln k must be between that of the start, {}, and that of the stop, and the "
                     "start not on an axis; got {}",
                     ln_k0_, ln_k));
   }
-  return at_coordinate(approach().coordinate(ln_k));
+  return at_coordinate(chart().coordinate(ln_k));
 }
 
 OrbitColumns Orbit::at_times(const Eigen::ArrayXd& times) const {

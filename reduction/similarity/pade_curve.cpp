@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/pade_sliding_share.hpp"
+#include "contensou/reduction/pade_sliding_coefficient.hpp"
 #include "similarity/pade_relaxation.hpp"
 
 namespace contensou::reduction {
@@ -20,7 +20,7 @@ namespace {
 using std::numbers::pi;
 
 /// Below, x is 0 to the last bit beside 1.
-constexpr double lowest_ln_k = -40;
+constexpr double min_ln_k = -40;
 
 constexpr int terms = PadeCurve::terms;
 
@@ -56,15 +56,15 @@ Fractions fractions(double z) {
 }  // namespace
 
 PadeCurve::PadeCurve(double r)
-    : SimilarityCurve(r, Approach::to_zero()),
+    : SimilarityCurve(r, TerminalChart::to_zero()),
       A_(8 * (2 - r)),
       B_(3 * pi * (5 - r)),
       a_(r / (2 - r)),
       e_(r / (5 - r)),
       log_ratio_(std::log(B_ / A_)),
       half_age_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)) {
-  if (!(r > 0 && r <= largest_r)) {
-    throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", largest_r, r));
+  if (!(r > 0 && r <= max_r)) {
+    throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", max_r, r));
   }
   double coefficient = -e_;
   double half_power = 0.5 * std::exp2(a_);
@@ -76,16 +76,16 @@ PadeCurve::PadeCurve(double r)
   }
 }
 
-double PadeCurve::limit() const { return lowest_ln_k; }
+double PadeCurve::limit() const { return min_ln_k; }
 
-double PadeCurve::log_rim(double ln_k) const {
+double PadeCurve::ln_w(double ln_k) const {
   const auto at = fractions(ln_k + log_ratio_);
   return a_ * at.ln_x - e_ * at.ln_y;
 }
 
-double PadeCurve::sliding_share(double ln_k) const { return pade_sliding_share(r(), std::exp(ln_k)); }
+double PadeCurve::sliding_coefficient(double ln_k) const { return pade_sliding_coefficient(r(), std::exp(ln_k)); }
 
-double PadeCurve::slip_excess(double ln_k) const {
+double PadeCurve::slip_length_coefficient(double ln_k) const {
   const double c = 2 + r();
   const double d = 5 - r();
   const double T = d * (3 * pi / 8 * std::exp(ln_k)) / c;
@@ -93,7 +93,7 @@ double PadeCurve::slip_excess(double ln_k) const {
   return 8 / (3 * pi) * (1 - r() / (5 + r()) * share);
 }
 
-double PadeCurve::regularised_age(double ln_k) const {
+double PadeCurve::beta_coefficient(double ln_k) const {
   const auto at = fractions(ln_k + log_ratio_);
   // y (1 + k), by the larger of the two.
   const double bounded =

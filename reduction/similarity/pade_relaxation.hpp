@@ -17,7 +17,7 @@ struct PadeRelaxation {
 /// Its value.
 ///
 /// Source    README (R29) to (R30).
-/// Accuracy  that of pade_sliding_share.
+/// Accuracy  that of pade_sliding_coefficient.
 double value(const PadeRelaxation& at);
 
 /// The same where the caller knows the constant of the logarithm in (R30), which value() takes some 200 ns to find.

@@ -18,8 +18,8 @@ namespace {
 using Samples = LegendreSeries::Samples;
 
 /// Beyond these, one term of each expansion is exact to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
-constexpr double lowest_ln_k = -40;
-constexpr double highest_ln_k = 44;
+constexpr double min_ln_k = -40;
+constexpr double max_ln_k = 44;
 
 /// So near a ray, relative to k*, a double k is k* itself.
 constexpr double nearest = -37;
@@ -28,12 +28,12 @@ constexpr double nearest = -37;
 constexpr double resolution = 128 * std::numeric_limits<double>::epsilon();
 
 constexpr double panel_tolerance = 1e-15;
-constexpr int deepest_split = 40;
-constexpr std::size_t most_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
+constexpr int max_depth = 40;
+constexpr std::size_t max_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
 
 /// The coefficients of the equations at one xi.
 struct Coefficients {
-  double rim_slope;     ///< (ln w)'
+  double ln_w_slope;    ///< (ln w)'
   double time;          ///< c
   double cancellation;  ///< the larger term of D over D
 };
@@ -44,20 +44,20 @@ struct Coefficients {
 class QuadratureCurve::Panels {
  public:
   Panels(const Law& law, const QuadratureCurve& curve)
-      : law_(law), r_(curve.r()), approach_(curve.approach()), beta_(law, r_, approach_, *curve.shares_) {
+      : law_(law), r_(curve.r()), chart_(curve.chart()), beta_(law, r_, chart_, *curve.shares_) {
     solve(sample());
   }
 
   double limit() const { return panels_.front().left; }
 
-  double log_rim(double xi) const {
+  double ln_w(double xi) const {
     const Panel& panel = find(xi);
-    if (xi < limit()) return panel.log_rim(-1) + lower_slope_ * (xi - limit());
-    if (xi > panel.right) return panel.log_rim(1) + upper_slope_ * (xi - panel.right);
-    return panel.log_rim(panel.t(xi));
+    if (xi < limit()) return panel.ln_w(-1) + lower_slope_ * (xi - limit());
+    if (xi > panel.right) return panel.ln_w(1) + upper_slope_ * (xi - panel.right);
+    return panel.ln_w(panel.t(xi));
   }
 
-  double regularised_age(double xi) const { return beta_(approach_.log_ratio(xi)); }
+  double beta_coefficient(double xi) const { return beta_(chart_.log_ratio(xi)); }
 
   double time_rate(double xi) const {
     const Panel& panel = find(xi);
@@ -68,8 +68,8 @@ class QuadratureCurve::Panels {
   struct Panel {
     double left;
     double right;
-    Samples rim_slope;
-    LegendreSeries log_rim, time_rate;
+    Samples ln_w_slope;
+    LegendreSeries ln_w, time_rate;
 
     double half() const { return (right - left) / 2; }
     double xi(double t) const { return left + half() * (1 + t); }
@@ -84,14 +84,14 @@ class QuadratureCurve::Panels {
   /// Panels of width 1 with edges at k = 1 and the law's kinks, as far as D has a digit.
   /// @return  the edge where it has most
   double sample() {
-    const bool from_above = approach_.side() == Approach::Side::above;
-    const double end = approach_.log_terminal_ratio() * (from_above ? 1 : -1);
-    const double far = approach_.log_far_ratio() * (from_above ? 1 : -1);
-    const double low = from_above ? lowest_ln_k : -highest_ln_k;
-    const double high = from_above ? highest_ln_k : -lowest_ln_k;
+    const bool from_above = chart_.side() == TerminalChart::Side::above;
+    const double end = chart_.log_terminal_ratio() * (from_above ? 1 : -1);
+    const double far = chart_.log_far_ratio() * (from_above ? 1 : -1);
+    const double low = from_above ? min_ln_k : -max_ln_k;
+    const double high = from_above ? max_ln_k : -min_ln_k;
     const double near = std::isfinite(end) ? end + nearest : low;
     const double most = std::isfinite(far) ? far - nearest : std::max(high, high + end);
-    const double kink = approach_.reaches(0) ? approach_.coordinate(0) : near;
+    const double kink = chart_.reaches(0) ? chart_.coordinate(0) : near;
     const double edge = kink > near && kink < most ? kink : std::isfinite(end) ? end : std::isfinite(far) ? far : 0;
     double anchor = edge;
     double clearest = 0;
@@ -103,8 +103,8 @@ class QuadratureCurve::Panels {
     }
     for (double k : law_.kinks()) {
       const double ln_k = std::log(k);
-      if (!approach_.reaches(ln_k)) continue;
-      if (const double xi = approach_.coordinate(ln_k); xi > near && xi < most) kinks_.push_back(xi);
+      if (!chart_.reaches(ln_k)) continue;
+      if (const double xi = chart_.coordinate(ln_k); xi > near && xi < most) kinks_.push_back(xi);
     }
     const auto both_ways = [&] {
       for (double from = anchor; from > near && sample(from, from - 1, 0);) from -= 1;
@@ -128,8 +128,8 @@ class QuadratureCurve::Panels {
     double difference;  ///< D, of the sign of the rate
   };
   Drag drag_at(double xi) const {
-    const double k = std::exp(approach_.log_ratio(xi));
-    const double rate = approach_.log_ratio_rate(xi);
+    const double k = std::exp(chart_.log_ratio(xi));
+    const double rate = chart_.log_ratio_rate(xi);
     const auto [force, moment] = law_(slip_of_ratio(k));
     const double drag = r_ * (k * moment);
     return {k, rate, force, drag, std::max(force, drag), rate > 0 ? force - drag : drag - force};
@@ -146,7 +146,7 @@ class QuadratureCurve::Panels {
     if (!frozen_ && !(difference > resolution * larger)) return false;
     // Where D has no digit from end to end, k changes as slowly as D tells.
     const double q = frozen_ ? 1 / (resolution * larger) : std::abs(rate) / difference;
-    at = {.rim_slope = drag * q, .time = k * q / (1 + k), .cancellation = frozen_ ? 1 : larger / difference};
+    at = {.ln_w_slope = drag * q, .time = k * q / (1 + k), .cancellation = frozen_ ? 1 : larger / difference};
     return true;
   }
 
@@ -167,7 +167,7 @@ class QuadratureCurve::Panels {
     for (int i = 0; i < LegendreSeries::order; ++i) {
       Coefficients at{};
       if (!coefficients(panel.xi(LegendreSeries::points()[i]), at)) return false;
-      panel.rim_slope[i] = at.rim_slope;
+      panel.ln_w_slope[i] = at.ln_w_slope;
       time[i] = at.time;
       cancellation = std::max(cancellation, at.cancellation);
     }
@@ -176,8 +176,8 @@ class QuadratureCurve::Panels {
     const auto left_out = [&](const Samples& samples) {
       return LegendreSeries::through(samples).tail() / (samples.maxCoeff() * cancellation) * (panel.right - panel.left);
     };
-    const double worst = std::max(left_out(panel.rim_slope), left_out(time));
-    if (worst > panel_tolerance && depth < deepest_split && panels_.size() < most_panels) {
+    const double worst = std::max(left_out(panel.ln_w_slope), left_out(time));
+    if (worst > panel_tolerance && depth < max_depth && panels_.size() < max_panels) {
       const double middle = (from + to) / 2;
       return sample(from, middle, depth + 1) && sample(middle, to, depth + 1);
     }
@@ -188,38 +188,37 @@ class QuadratureCurve::Panels {
 
   void solve(double anchor) {
     constexpr int last = LegendreSeries::order - 1;
-    lower_slope_ = panels_.front().rim_slope.mean();
-    upper_slope_ = panels_.back().rim_slope[last];
+    lower_slope_ = panels_.front().ln_w_slope.mean();
+    upper_slope_ = panels_.back().ln_w_slope[last];
     // From where ln w changes least, for at either end it may grow without bound.
-    for (Panel& panel : panels_)
-      panel.log_rim = LegendreSeries::through(panel.half() * panel.rim_slope).antiderivative();
+    for (Panel& panel : panels_) panel.ln_w = LegendreSeries::through(panel.half() * panel.ln_w_slope).antiderivative();
     const auto middle = std::ranges::lower_bound(panels_, anchor, {}, &Panel::left);
-    double log_rim = 0;
+    double ln_w = 0;
     for (auto panel = middle; panel != panels_.end(); ++panel) {
-      panel->log_rim += log_rim;
-      log_rim = panel->log_rim(1);
+      panel->ln_w += ln_w;
+      ln_w = panel->ln_w(1);
     }
-    log_rim = 0;
+    ln_w = 0;
     for (auto panel = middle; panel != panels_.begin();) {
       --panel;
-      panel->log_rim += log_rim - panel->log_rim(1);
-      log_rim = panel->log_rim(-1);
+      panel->ln_w += ln_w - panel->ln_w(1);
+      ln_w = panel->ln_w(-1);
     }
   }
 
   const Law& law_;
   double r_;
-  Approach approach_;
+  TerminalChart chart_;
   BetaSolution beta_;
   std::vector<double> kinks_;  ///< in xi
   bool frozen_ = false;
   std::vector<Panel> panels_;
-  double lower_slope_ = 0;  ///< d log_rim/d xi as xi -> -infinity
+  double lower_slope_ = 0;  ///< d ln_w/d xi as xi -> -infinity
   double upper_slope_ = 0;  ///< the same as xi -> infinity
 };
 
-QuadratureCurve::QuadratureCurve(const Law& law, double r, const Approach& approach)
-    : SimilarityCurve(r, approach), law_(law), shares_(std::make_unique<RegularSolution>(law, r, approach)) {}
+QuadratureCurve::QuadratureCurve(const Law& law, double r, const TerminalChart& chart)
+    : SimilarityCurve(r, chart), law_(law), shares_(std::make_unique<RegularSolution>(law, r, chart)) {}
 
 QuadratureCurve::~QuadratureCurve() = default;
 
@@ -236,13 +235,17 @@ double QuadratureCurve::accuracy() const { return rounding_of_stop_time(r()) + t
 
 long QuadratureCurve::evaluations() const { return shares_->evaluations(); }
 
-double QuadratureCurve::sliding_share(double xi) const { return shares_->sliding_share(approach().log_ratio(xi)); }
+double QuadratureCurve::sliding_coefficient(double xi) const {
+  return shares_->sliding_coefficient(chart().log_ratio(xi));
+}
 
-double QuadratureCurve::slip_excess(double xi) const { return shares_->slip_excess(approach().log_ratio(xi)); }
+double QuadratureCurve::slip_length_coefficient(double xi) const {
+  return shares_->slip_length_coefficient(chart().log_ratio(xi));
+}
 
-double QuadratureCurve::log_rim(double xi) const { return panels().log_rim(xi); }
+double QuadratureCurve::ln_w(double xi) const { return panels().ln_w(xi); }
 
-double QuadratureCurve::regularised_age(double xi) const { return panels().regularised_age(xi); }
+double QuadratureCurve::beta_coefficient(double xi) const { return panels().beta_coefficient(xi); }
 
 double QuadratureCurve::time_rate(double xi) const { return panels().time_rate(xi); }
 

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "numerics/relaxation.hpp"
+#include "numerics/linear_ode.hpp"
 
 namespace contensou::reduction {
 
@@ -21,16 +21,16 @@ using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
 
 /// Beyond these, one term of each expansion is exact to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
-constexpr double lowest_ln_k = -40;
-constexpr double highest_ln_k = 44;
+constexpr double min_ln_k = -40;
+constexpr double max_ln_k = 44;
 constexpr double highest_exponent = 700;  ///< of a double
 
 /// Phi - r k Psi relative to its larger term: beyond this its sign is no rounding.
 constexpr double certainty = 1e-9;
 
 constexpr double panel_tolerance = 1e-15;
-constexpr int deepest_split = 40;
-constexpr std::size_t most_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
+constexpr int max_depth = 40;
+constexpr std::size_t max_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
 
 /// The law at one k.
 struct Coefficients {
@@ -48,16 +48,16 @@ Coefficients coefficients(const Law& law, double r, double k) {
 
 }  // namespace
 
-RegularSolution::RegularSolution(const Law& law, double r, const Approach& approach)
-    : approach_(approach), sign_(approach.side() == Approach::Side::above ? 1 : -1) {
+RegularSolution::RegularSolution(const Law& law, double r, const TerminalChart& chart)
+    : chart_(chart), sign_(chart.side() == TerminalChart::Side::above ? 1 : -1) {
   if (!(r > 0) || !std::isfinite(r)) {
     throw std::domain_error(fmt::format("QuadratureCurve: r = gamma mu^2/chi must be positive and finite, got {}", r));
   }
-  const auto [low, high] = std::minmax({sign_ * lowest_ln_k, sign_ * highest_ln_k});
+  const auto [low, high] = std::minmax({sign_ * min_ln_k, sign_ * max_ln_k});
   // Towards k = infinity, w counts beside v until k is beyond r, too.
-  const double beyond = sign_ < 0 ? std::clamp(std::log(r), 0.0, highest_exponent - highest_ln_k) : 0;
-  const double begin = std::max(sign_ * approach.log_terminal_ratio(), low - beyond);
-  const double end = std::min(sign_ * approach.log_far_ratio(), high);
+  const double beyond = sign_ < 0 ? std::clamp(std::log(r), 0.0, highest_exponent - max_ln_k) : 0;
+  const double begin = std::max(sign_ * chart.log_terminal_ratio(), low - beyond);
+  const double end = std::min(sign_ * chart.log_far_ratio(), high);
 
   const auto at_stop = coefficients(law, r, std::exp(sign_ * begin));
   first_ = last_ = {at_stop.deficit / at_stop.force, at_stop.excess / (at_stop.force + at_stop.drag)};
@@ -90,33 +90,34 @@ void RegularSolution::march(const Law& law, double r, double left, double right,
       throw std::domain_error(fmt::format(
           "QuadratureCurve: Phi {} r k Psi must hold for every k between the terminal ratio {} and {}, but law {} has "
           "Phi = {}, r k Psi = {} at k = {} for r = {}: k tends to another ratio; routes regularised and direct answer",
-          sign_ > 0 ? '>' : '<', std::exp(approach_.log_terminal_ratio()), std::exp(approach_.log_far_ratio()),
-          law.name(), at.force, at.drag, k, r));
+          sign_ > 0 ? '>' : '<', std::exp(chart_.log_terminal_ratio()), std::exp(chart_.log_far_ratio()), law.name(),
+          at.force, at.drag, k, r));
     }
   }
   evaluations_ += LegendreSeries::order;
 
   const Samples difference = (sign_ * (force - drag)).max(0) / half;  // < 0: rounding
   Panel panel{{left, right},
-              relax(difference, force, deficit, last_.sliding_share),
-              relax(difference, force + drag, excess, last_.slip_excess)};
+              solve_linear_ode(difference, force, deficit, last_.sliding_coefficient),
+              solve_linear_ode(difference, force + drag, excess, last_.slip_length_coefficient)};
 
   // What the series leave out, relative to a panel of full width. 1 - Psi/Psi(0) and 1 - Phi count relative to 1: a law
   // may have them to eps of 1 only, and neither the time left, P + m S, nor the slip, v (v/2 + n w), feels more.
   const auto tail = [](const Samples& samples) { return LegendreSeries::through(samples).tail(); };
-  const double share_size = std::max({1.0, std::abs(panel.sliding_share(1)), 1 / force.maxCoeff()});
-  const double excess_size = std::max(largest_k, std::abs(panel.slip_excess(1)));
+  const double share_size = std::max({1.0, std::abs(panel.sliding_coefficient(1)), 1 / force.maxCoeff()});
+  const double excess_size = std::max(largest_k, std::abs(panel.slip_length_coefficient(1)));
   const double of_share = std::max({tail(force) / force.maxCoeff(), tail(drag) / drag.maxCoeff(), tail(deficit),
-                                    panel.sliding_share.tail() / share_size}) *
+                                    panel.sliding_coefficient.tail() / share_size}) *
                           (right - left);
-  const double of_excess = std::max(tail(excess) / largest_k, panel.slip_excess.tail() / excess_size) * (right - left);
-  if (std::max(of_share, of_excess) > panel_tolerance && depth < deepest_split && panels_.size() < most_panels) {
+  const double of_excess =
+      std::max(tail(excess) / largest_k, panel.slip_length_coefficient.tail() / excess_size) * (right - left);
+  if (std::max(of_share, of_excess) > panel_tolerance && depth < max_depth && panels_.size() < max_panels) {
     march(law, r, left, left + half, depth + 1);
     march(law, r, left + half, right, depth + 1);
     return;
   }
   truncation_ = std::max(truncation_, of_share);
-  last_ = {panel.sliding_share(1), panel.slip_excess(1)};
+  last_ = {panel.sliding_coefficient(1), panel.slip_length_coefficient(1)};
   panels_.push_back(std::move(panel));
 }
 
@@ -129,21 +130,21 @@ std::pair<const RegularSolution::Panel&, double> RegularSolution::place(double l
   return {panel, std::clamp(panel.t(z), -1.0, 1.0)};
 }
 
-double RegularSolution::sliding_share(double ln_k) const {
-  if (ln_k > highest_ln_k) return 1;
-  if (panels_.empty() || sign_ * ln_k <= panels_.front().left) return first_.sliding_share;
+double RegularSolution::sliding_coefficient(double ln_k) const {
+  if (ln_k > max_ln_k) return 1;
+  if (panels_.empty() || sign_ * ln_k <= panels_.front().left) return first_.sliding_coefficient;
   const auto [panel, t] = place(ln_k);
-  return panel.sliding_share(t);
+  return panel.sliding_coefficient(t);
 }
 
-double RegularSolution::slip_excess(double ln_k) const {
-  if (panels_.empty() || sign_ * ln_k <= panels_.front().left) return first_.slip_excess;
+double RegularSolution::slip_length_coefficient(double ln_k) const {
+  if (panels_.empty() || sign_ * ln_k <= panels_.front().left) return first_.slip_length_coefficient;
   const auto [panel, t] = place(ln_k);
-  return panel.slip_excess(t);
+  return panel.slip_length_coefficient(t);
 }
 
-BetaSolution::BetaSolution(const Law& law, double r, const Approach& approach, const RegularSolution& grid)
-    : sign_(approach.side() == Approach::Side::above ? 1 : -1) {
+BetaSolution::BetaSolution(const Law& law, double r, const TerminalChart& chart, const RegularSolution& grid)
+    : sign_(chart.side() == TerminalChart::Side::above ? 1 : -1) {
   struct Terms {
     double difference, growth, source;  // |D|, h, g
   };
@@ -156,7 +157,7 @@ BetaSolution::BetaSolution(const Law& law, double r, const Approach& approach, c
   };
   const auto intervals = grid.intervals();
   if (intervals.empty()) {
-    const auto [difference, growth, source] = terms(sign_ * approach.log_terminal_ratio());
+    const auto [difference, growth, source] = terms(sign_ * chart.log_terminal_ratio());
     far_ = at_stop_ = source / growth;
     return;
   }
@@ -172,9 +173,9 @@ BetaSolution::BetaSolution(const Law& law, double r, const Approach& approach, c
       growth[i] = at.growth;
       source[i] = at.source;
     }
-    const LegendreSeries series = relax(difference, growth, source, b);
+    const LegendreSeries series = solve_linear_ode(difference, growth, source, b);
     const double left_out = series.tail() / std::max(std::abs(b), std::abs(series(1))) * 2 * half;
-    if (left_out > panel_tolerance && depth < deepest_split && panels_.size() < most_panels) {
+    if (left_out > panel_tolerance && depth < max_depth && panels_.size() < max_panels) {
       self(self, {interval.right - half, interval.right}, depth + 1);
       self(self, {interval.left, interval.right - half}, depth + 1);
       return;
@@ -188,7 +189,7 @@ BetaSolution::BetaSolution(const Law& law, double r, const Approach& approach, c
   // where k -> 0, however small r is; nor does w where k -> infinity.
   const double z = panels_.front().left;
   auto [difference, growth, source] = terms(z);
-  if (std::isinf(approach.log_terminal_ratio())) {
+  if (std::isinf(chart.log_terminal_ratio())) {
     const auto at = coefficients(law, r, std::exp(sign_ * z));
     growth = sign_ > 0 ? at.drag : at.force;
   }

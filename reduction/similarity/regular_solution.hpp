@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "contensou/reduction/approach.hpp"
 #include "contensou/reduction/friction_law.hpp"
+#include "contensou/reduction/terminal_chart.hpp"
 #include "numerics/legendre_series.hpp"
 
 namespace contensou::reduction {
@@ -16,9 +16,9 @@ namespace contensou::reduction {
 /// where all its digits are lost, m has all of its own.
 class RegularSolution {
  public:
-  /// @param approach  on whose way Phi - r k Psi does not change its sign
+  /// @param chart     on whose way Phi - r k Psi does not change its sign
   /// @throws std::domain_error  if it does, or unless r > 0
-  RegularSolution(const Law& law, double r, const Approach& approach);
+  RegularSolution(const Law& law, double r, const TerminalChart& chart);
 
   /// Where its panels begin and end, in +- ln k, which grows away from the stop.
   struct Interval {
@@ -27,8 +27,8 @@ class RegularSolution {
   };
   std::vector<Interval> intervals() const;
 
-  double sliding_share(double ln_k) const;  ///< m
-  double slip_excess(double ln_k) const;    ///< n
+  double sliding_coefficient(double ln_k) const;      ///< m
+  double slip_length_coefficient(double ln_k) const;  ///< n
 
   /// What the last terms of the series leave out of m, relative to max(m, 1); the noise of the law is in it.
   double truncation() const { return truncation_; }
@@ -38,10 +38,10 @@ class RegularSolution {
 
  private:
   struct Values {
-    double sliding_share, slip_excess;
+    double sliding_coefficient, slip_length_coefficient;
   };
   struct Panel : Interval {
-    LegendreSeries sliding_share, slip_excess;
+    LegendreSeries sliding_coefficient, slip_length_coefficient;
   };
 
   /// Adds the panels from left to right.
@@ -49,7 +49,7 @@ class RegularSolution {
   /// The panel at z and the t there.
   std::pair<const Panel&, double> place(double ln_k) const;
 
-  Approach approach_;
+  TerminalChart chart_;
   double sign_;
   Values first_{};  ///< at the stop
   Values last_{};   ///< at the right end of the last panel
@@ -62,7 +62,7 @@ class RegularSolution {
 /// has the other sign in its equation (R7), and the regular solution is the one that is regular at the far end.
 class BetaSolution {
  public:
-  BetaSolution(const Law& law, double r, const Approach& approach, const RegularSolution& grid);
+  BetaSolution(const Law& law, double r, const TerminalChart& chart, const RegularSolution& grid);
 
   double operator()(double ln_k) const;
 

@@ -18,7 +18,7 @@ double rounding_of_stop_time(double r) { return std::numeric_limits<double>::eps
 
 const SimilaritySolution::Curve& SimilaritySolution::through(double ln_k) const {
   for (const Curve& curve : curves_) {
-    if (curve->approach().reaches(ln_k)) return curve;
+    if (curve->chart().reaches(ln_k)) return curve;
   }
   throw std::domain_error(fmt::format("SimilaritySolution: no curve through ln k = {}", ln_k));
 }
@@ -29,7 +29,8 @@ SimilaritySolution quadrature_solution(const Law& law, double r) {
     for (double far : {end.from, end.to}) {
       if (far == end.k) continue;
       try {
-        curves.push_back(std::make_shared<QuadratureCurve>(law, r, Approach::between(std::log(end.k), std::log(far))));
+        curves.push_back(
+            std::make_shared<QuadratureCurve>(law, r, TerminalChart::between(std::log(end.k), std::log(far))));
       } catch (const std::domain_error& unexpected) {
         // Phi/(k Psi) changes too fast for terminal_ratios: no fault of the caller's.
         throw std::runtime_error(unexpected.what());
@@ -40,7 +41,7 @@ SimilaritySolution quadrature_solution(const Law& law, double r) {
 }
 
 SimilaritySolution closed_solution(const Law& law, double r) {
-  if (law.as<PadeLaw>() && r <= PadeCurve::largest_r) return std::make_shared<PadeCurve>(r);
+  if (law.as<PadeLaw>() && r <= PadeCurve::max_r) return std::make_shared<PadeCurve>(r);
   return {};
 }
 

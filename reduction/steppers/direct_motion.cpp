@@ -13,7 +13,7 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "steppers/stepper_report.hpp"
+#include "steppers/motion_recorder.hpp"
 
 namespace contensou::reduction {
 
@@ -59,8 +59,8 @@ struct DirectEquations {
 }  // namespace
 
 Motion integrate_directly(const ReducedSystem& system, State start, const Eigen::ArrayXd& times,
-                          const Stepping& stepping) {
-  StepperReport report("integrate_directly", system, start, times);
+                          const StepperSettings& stepping) {
+  MotionRecorder report("integrate_directly", system, start, times);
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
@@ -79,7 +79,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   const auto log_state = [&] { return LogState{x[0], x[1], s, age_unit * std::expm1(x[2])}; };
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {
-    if (const auto tail = StopLimit::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
+    if (const auto tail = AsymptoticTail::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
 
     // Up to the next instant asked for, which must not shorten the steps after it.
     const double wanted = report.next_time();

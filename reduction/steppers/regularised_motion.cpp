@@ -11,7 +11,7 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 
-#include "steppers/stepper_report.hpp"
+#include "steppers/motion_recorder.hpp"
 
 namespace contensou::reduction {
 
@@ -49,8 +49,8 @@ struct RegularisedEquations {
 }  // namespace
 
 Motion integrate_regularised(const ReducedSystem& system, State start, const Eigen::ArrayXd& times,
-                             const Stepping& stepping) {
-  StepperReport report("integrate_regularised", system, start, times);
+                             const StepperSettings& stepping) {
+  MotionRecorder report("integrate_regularised", system, start, times);
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
@@ -66,7 +66,7 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
   bool fresh = true;
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {
-    if (const auto tail = StopLimit::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
+    if (const auto tail = AsymptoticTail::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
     if (fresh) stepper.initialize(x, here.age, step);
     fresh = false;
 

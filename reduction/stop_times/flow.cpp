@@ -47,7 +47,7 @@ void require_match(const ReducedSystem& system, const SimilaritySolution& soluti
   for (const TerminalRatio& end : terminal.ends) {
     for (double far : {end.from, end.to}) {
       if (far == end.k) continue;
-      const double ln_k = solution.through(between(end.k, far))->approach().log_terminal_ratio();
+      const double ln_k = solution.through(between(end.k, far))->chart().log_terminal_ratio();
       if (same_ratio(ln_k, std::log(end.k))) continue;
       throw std::domain_error(fmt::format("Flow: the solution tends to k = {} where law {} with r = {} tends to k = {}",
                                           std::exp(ln_k), system.law().name(), system.r(), end.k));
@@ -113,7 +113,7 @@ double Flow::log_first_integral(double u, double ln_v) const {
   }
   const double ln_k = ln_v - std::log(system().mu()) - ln_u;
   const SimilarityCurve& curve = *solution().through(ln_k);
-  return ln_u - curve.log_rim(curve.approach().coordinate(ln_k));
+  return ln_u - curve.ln_w(curve.chart().coordinate(ln_k));
 }
 
 const StopTimeTable& Flow::table() const {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/pade_sliding_share.hpp"
+#include "contensou/reduction/pade_sliding_coefficient.hpp"
 
 namespace contensou::reduction {
 
@@ -17,7 +17,7 @@ namespace {
 /// P + m S. In long double, so that of the two terms only the error of m is left.
 long double sum_of_limits(double mu, double u, double v, Inertia inertia) {
   const double r = std::clamp(inertia.gamma * (mu * mu) / inertia.chi, std::numeric_limits<double>::min(), 1e100);
-  const double m = v > 0 ? pade_sliding_share(r, v / (mu * u)) : 0;
+  const double m = v > 0 ? pade_sliding_coefficient(r, v / (mu * u)) : 0;
   constexpr long double pi = std::numbers::pi_v<long double>;
   const long double pivoting = 8 * static_cast<long double>(u) / (static_cast<long double>(inertia.gamma) * mu);
   const long double sliding = 3 * pi * v / (2 * static_cast<long double>(inertia.chi));

@@ -23,8 +23,8 @@ using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
 
 /// Beyond these, m is its limit to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
-constexpr double lowest_ln_k = -40;
-constexpr double highest_ln_k = 44;
+constexpr double min_ln_k = -40;
+constexpr double max_ln_k = 44;
 
 double share_rate(const Law& law, double k) {
   const Slip slip = slip_of_ratio(k);
@@ -73,14 +73,14 @@ ShareExpansion share_expansion(const Law& law, double ln_k) {
   if (!std::isfinite(ln_k)) {
     throw std::domain_error(fmt::format("share_expansion: ln k must be finite, got {}", ln_k));
   }
-  const double top = std::min(ln_k, highest_ln_k);
+  const double top = std::min(ln_k, max_ln_k);
   // So little is left below that its rate may count as constant.
-  const double k_low = std::exp(std::clamp(top, std::log(std::numeric_limits<double>::min()), lowest_ln_k));
+  const double k_low = std::exp(std::clamp(top, std::log(std::numeric_limits<double>::min()), min_ln_k));
   double first = k_low * share_rate(law, k_low);
   double second = 0;
-  if (top <= lowest_ln_k) return {first / k_low, 0};
+  if (top <= min_ln_k) return {first / k_low, 0};
 
-  for_each_panel(lowest_ln_k, top, [&](const Samples& y, double half) {
+  for_each_panel(min_ln_k, top, [&](const Samples& y, double half) {
     const Samples k = y.exp();
     Samples rate, moment_over_force;
     for (int i = 0; i < LegendreSeries::order; ++i) {

@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_sliding_share.hpp"
+#include "contensou/reduction/pade_sliding_coefficient.hpp"
 #include "stop_times/stop_time_loop.hpp"
 
 namespace contensou::reduction {
@@ -28,11 +28,11 @@ using Panel = Panels::Panel;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double tolerance = 4 * std::numeric_limits<double>::epsilon();
 
-double sliding_share(const Flow& flow, double k) {
-  if (flow.system().law().as<PadeLaw>()) return pade_sliding_share(flow.system().r(), k);
+double sliding_coefficient(const Flow& flow, double k) {
+  if (flow.system().law().as<PadeLaw>()) return pade_sliding_coefficient(flow.system().r(), k);
   const double ln_k = std::log(k);
   const auto& curve = flow.solution().through(ln_k);
-  return curve->sliding_share(curve->approach().coordinate(ln_k));
+  return curve->sliding_coefficient(curve->chart().coordinate(ln_k));
 }
 
 /// lever v0/|u0| at a y of the sheet of a panel.
@@ -155,7 +155,7 @@ struct StopTimeTable::Stored {
     const auto [left, width] = span(index);
     Fit::Values values;
     for (std::size_t i = 0; i < Fit::points; ++i) {
-      values[i] = sliding * sliding_share(flow, ratio(index, left - Panels::lowest + width * fit.x[i]));
+      values[i] = sliding * sliding_coefficient(flow, ratio(index, left - Panels::lowest + width * fit.x[i]));
     }
     return fit.panel(values, width);
   }

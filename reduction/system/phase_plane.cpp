@@ -75,7 +75,7 @@ PhasePlane phase_plane(const ReducedSystem& system) {
 
   // The sign of 1 - r/limit, 0 where they are not told apart.
   const auto sign_below = [r](double limit) {
-    return std::abs(r - limit) <= TerminalRatios::told_apart * limit ? 0.0 : r < limit ? 1.0 : -1.0;
+    return std::abs(r - limit) <= TerminalRatios::tolerance * limit ? 0.0 : r < limit ? 1.0 : -1.0;
   };
   const double below_low = sign_below(terminal.low);
   const double below_high = sign_below(terminal.high);

@@ -27,13 +27,13 @@
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
+#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
-#include "contensou/si/whole_motion.hpp"
 #include "javascript.hpp"
-#include "program/options/portrait_question.hpp"
+#include "program/options/portrait_spec.hpp"
 
 namespace contensou::page {
 
@@ -221,7 +221,7 @@ class Plane {
 };
 
 /// Of the laws pressure:P.
-double largest_exponent() { return reduction::PressureLaw::largest_p; }
+double largest_exponent() { return reduction::PressureLaw::max_p; }
 
 val names_of_laws() {
   val names = val::array();
@@ -245,7 +245,7 @@ si::Shot shot_of(const val& fields) {
 
 /// The question of portrait_request.js.
 /// @param known  the flow, where it is known
-program::PortraitQuestion question_of(const val& asked, const Flow* known = nullptr) {
+program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr) {
   const auto has = [&](const char* key) { return !asked[key].isNull(); };
   const auto state = [](const val& point) { return State{point["u"].as<double>(), point["v"].as<double>()}; };
   std::optional<si::Shot> shot;
@@ -259,7 +259,7 @@ program::PortraitQuestion question_of(const val& asked, const Flow* known = null
                          shot ? si::patch_ratio(*shot) : asked["mu"].as<double>(),
                          {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()});
   };
-  program::PortraitQuestion question{.flow = flow(), .shot = shot};
+  program::PortraitSpec question{.flow = flow(), .shot = shot};
   if (shot) {
     question.start = si::reduced_start(*shot);
   } else if (has("start")) {
@@ -284,7 +284,7 @@ program::PortraitQuestion question_of(const val& asked, const Flow* known = null
 /// for the page to draw.
 val portrait(const val& asked, const Plane& plane) {
   return answer([&] {
-    program::PortraitQuestion question = question_of(asked, &plane.flow());
+    program::PortraitSpec question = question_of(asked, &plane.flow());
     question.request.drawn_only = true;
     question.style.asked = false;
     const portraits::PhasePortrait portrait = question.portrait();
@@ -303,7 +303,7 @@ val portrait(const val& asked, const Plane& plane) {
 /// The file that the program writes when asked so.
 val portrait_file(const val& asked, const std::string& ending) {
   return answer([&] {
-    const program::PortraitQuestion question = question_of(asked);
+    const program::PortraitSpec question = question_of(asked);
     const portraits::PhasePortrait portrait = question.portrait();
     val result = val::object();
     result.set("text", ending == "tex"    ? portraits::pgfplots(question.figure(portrait))
@@ -351,7 +351,7 @@ val contact(const val& fields) {
 val roll(const std::string& law, const val& fields) {
   return answer([&] {
     const si::Shot shot = shot_of(fields);
-    const si::WholeMotion motion(shot, law_of(law));
+    const si::BallMotion motion(shot, law_of(law));
     constexpr double rolling_share = 1e-3;
     constexpr int instants = 240;
     const si::UncoupledMotion textbook(shot, law_of(law));
@@ -383,7 +383,7 @@ val roll(const std::string& law, const val& fields) {
 /// Where a ball is at one instant.
 val place(const std::string& law, const val& fields, double t) {
   return answer([&] {
-    const auto point = si::WholeMotion(shot_of(fields), law_of(law)).at_time(t);
+    const auto point = si::BallMotion(shot_of(fields), law_of(law)).at_time(t);
     val result = val::object();
     result.set("x", point.position.x());
     result.set("y", point.position.y());

@@ -71,7 +71,7 @@ thread_local slong Ball::precision = 128;
 
 /// Bits that a certificate has at least: 25 decimals and a thousandth of an ulp.
 constexpr slong wanted_bits = 90;
-constexpr slong most_bits = 1 << 16;
+constexpr slong max_bits = 1 << 16;
 
 /// (R28) in balls. begin and end are exact, or 5/r.
 struct Relaxation {
@@ -150,7 +150,7 @@ Ball by_hypergeometric(const Relaxation& at) {
 }
 
 /// m at a start with both speeds positive.
-Ball sliding_share(const ReducedSystem& system, State start) {
+Ball sliding_coefficient(const ReducedSystem& system, State start) {
   const Relaxation at = relaxation(system, start);
   const double T = at.T.approximately();
   const bool near = T <= 1 || T <= 16 * at.p.approximately();
@@ -162,7 +162,7 @@ Ball enclosure(const ReducedSystem& system, State start) {
   const Ball pivoting = Ball(8) * std::abs(start.u) / (Ball(system.inertia().gamma) * system.mu());
   const Ball sliding = Ball::pi() * 3 * start.v / (Ball(2) * system.inertia().chi);
   if (start.u == 0 || start.v == 0) return pivoting + sliding;
-  return pivoting + sliding * sliding_share(system, start);
+  return pivoting + sliding * sliding_coefficient(system, start);
 }
 
 /// A bound of the ball with 30 digits, rounded outwards.
@@ -212,7 +212,7 @@ Certificate certify_stop_time(const ReducedSystem& system, State start, double t
         fmt::format("certify_stop_time: only law pade has a closed form, got {}", system.law().name()));
   }
   Ball truth;
-  for (Ball::precision = 160; Ball::precision <= most_bits; Ball::precision *= 2) {
+  for (Ball::precision = 160; Ball::precision <= max_bits; Ball::precision *= 2) {
     truth = enclosure(system, start);
     if (truth.is_zero() || truth.accuracy() >= wanted_bits) {
       return {decimals(truth, false), decimals(truth, true), error_in_ulps(truth, tau)};
@@ -224,8 +224,8 @@ Certificate certify_stop_time(const ReducedSystem& system, State start, double t
 
 double certify_sliding_share(double r, double k, double m) {
   const ReducedSystem system(PadeLaw{}, 1, {.chi = 1, .gamma = r});
-  for (Ball::precision = 160; Ball::precision <= most_bits; Ball::precision *= 2) {
-    const Ball truth = sliding_share(system, {1, k});
+  for (Ball::precision = 160; Ball::precision <= max_bits; Ball::precision *= 2) {
+    const Ball truth = sliding_coefficient(system, {1, k});
     if (truth.accuracy() >= wanted_bits) return error_in_ulps(truth, m);
   }
   throw std::runtime_error(fmt::format("certify_sliding_share: no narrow enclosure at r = {}, k = {}", r, k));

@@ -15,7 +15,7 @@
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_sliding_share.hpp"
+#include "contensou/reduction/pade_sliding_coefficient.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/stop_time_table.hpp"
 #include "reduction/user_laws.hpp"
@@ -114,7 +114,7 @@ TEST_CASE("m of the Pade law at random r and k against its enclosure", "[certify
     for (int i = 0; i < points / 10; ++i) {
       const double r = low < 1e-3 || high > 10 ? random.log_uniform(low, high) : random.uniform(low, high);
       const double k = random.log_uniform(1e-12, 1e12);
-      const double error = certify_sliding_share(r, k, pade_sliding_share(r, k));
+      const double error = certify_sliding_share(r, k, pade_sliding_coefficient(r, k));
       if (error > worst) std::tie(worst, worst_r, worst_k) = std::tie(error, r, k);
     }
     WARN(fmt::format("m for {:.3g} < r < {:.3g}, k in [1e-12, 1e12]: {} pairs, worst {:.2f} ulp at r = {}, k = {}", low,

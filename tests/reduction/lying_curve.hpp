@@ -11,21 +11,23 @@ namespace contensou::tests {
 /// What a curve tells instead of the truth.
 struct CurveLie {
   using Lie = std::function<double(double ln_k, double truth)>;
-  Lie log_rim = [](double, double truth) { return truth; };
-  Lie sliding_share = [](double, double truth) { return truth; };
-  Lie regularised_age = [](double, double truth) { return truth; };
+  Lie ln_w = [](double, double truth) { return truth; };
+  Lie sliding_coefficient = [](double, double truth) { return truth; };
+  Lie beta_coefficient = [](double, double truth) { return truth; };
 };
 
 /// A curve with functions that are not its own.
 class LyingCurve final : public reduction::SimilarityCurve {
  public:
   LyingCurve(reduction::SimilaritySolution::Curve truth, CurveLie lie)
-      : SimilarityCurve(truth->r(), truth->approach()), truth_(std::move(truth)), lie_(std::move(lie)) {}
-  double log_rim(double ln_k) const override { return lie_.log_rim(ln_k, truth_->log_rim(ln_k)); }
-  double sliding_share(double ln_k) const override { return lie_.sliding_share(ln_k, truth_->sliding_share(ln_k)); }
-  double slip_excess(double ln_k) const override { return truth_->slip_excess(ln_k); }
-  double regularised_age(double ln_k) const override {
-    return lie_.regularised_age(ln_k, truth_->regularised_age(ln_k));
+      : SimilarityCurve(truth->r(), truth->chart()), truth_(std::move(truth)), lie_(std::move(lie)) {}
+  double ln_w(double ln_k) const override { return lie_.ln_w(ln_k, truth_->ln_w(ln_k)); }
+  double sliding_coefficient(double ln_k) const override {
+    return lie_.sliding_coefficient(ln_k, truth_->sliding_coefficient(ln_k));
+  }
+  double slip_length_coefficient(double ln_k) const override { return truth_->slip_length_coefficient(ln_k); }
+  double beta_coefficient(double ln_k) const override {
+    return lie_.beta_coefficient(ln_k, truth_->beta_coefficient(ln_k));
   }
   double limit() const override { return -1e6; }  // it never comes there: every ln k is asked for
   double time_rate(double ln_k) const override { return truth_->time_rate(ln_k); }

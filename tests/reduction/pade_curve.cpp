@@ -42,7 +42,7 @@ struct PrintedBall {
 /// tau* - P - S for u0 = 1, by the curve and by the expansions of small mu.
 double third_term(double mu, double k0) {
   const PadeCurve curve(r_of_ball(mu));
-  return 3 * pi / 7 * mu * k0 * (curve.sliding_share(std::log(k0)) - 1);
+  return 3 * pi / 7 * mu * k0 * (curve.sliding_coefficient(std::log(k0)) - 1);
 }
 
 double dilogarithm_of_minus(double z) {
@@ -64,7 +64,7 @@ TEST_CASE("the closed orbit is the printed one", "[pade_curve][route]") {
     for (double k0 : starts) {
       for (double share : {0.999, 0.5, 1e-3, 1e-9}) {
         const double k = share * k0;
-        const double u = std::exp(curve.log_rim(std::log(k)) - curve.log_rim(std::log(k0)));
+        const double u = std::exp(curve.ln_w(std::log(k)) - curve.ln_w(std::log(k0)));
         orbit.add(ball.u(k, k0), u, fmt::format("mu = {}, k0 = {}, k = {}", mu, k0, k));
       }
     }
@@ -82,7 +82,7 @@ TEST_CASE("the closed stop time is the separated quadrature", "[pade_curve][rout
     for (double k0 : starts) {
       const std::string where = fmt::format("mu = {}, k0 = {}", mu, k0);
       const double pivoting = 16 / (5 * mu);
-      const double closed = pivoting + 3 * pi / 7 * mu * k0 * curve.sliding_share(std::log(k0));
+      const double closed = pivoting + 3 * pi / 7 * mu * k0 * curve.sliding_coefficient(std::log(k0));
       const double over_k =
           finite.integrate([&](double k) { return k == 0 ? 0 : ball.rest_rate(k, k0); }, 0.0, k0, 1e-15);
       by_k.add(pivoting + over_k, closed, where);
@@ -95,7 +95,7 @@ TEST_CASE("the closed stop time is the separated quadrature", "[pade_curve][rout
           0.0, infinity, 1e-15);
       by_log.add(pivoting + over_log, closed, where);
       // The share itself, not hidden behind P.
-      by_k.add(over_k / (3 * pi / 7 * mu * k0), curve.sliding_share(std::log(k0)), where + " (m)");
+      by_k.add(over_k / (3 * pi / 7 * mu * k0), curve.sliding_coefficient(std::log(k0)), where + " (m)");
     }
   }
   CHECK_WITHIN_EPS(by_k, 200);
@@ -133,12 +133,12 @@ TEST_CASE("the sliding share runs from 5/2 to 1", "[pade_curve][limit]") {
   for (double r : {1e-20, 1e-6, 0.1, 5.0 / 7, 1.0}) {
     const PadeCurve curve(r);
     CAPTURE(r);
-    CHECK(curve.sliding_share(-700) == Approx(2.5).epsilon(1e-15));
-    CHECK(curve.sliding_share(1e6) == 1);
-    CHECK(curve.sliding_share(-1e300) == Approx(2.5).epsilon(1e-15));
+    CHECK(curve.sliding_coefficient(-700) == Approx(2.5).epsilon(1e-15));
+    CHECK(curve.sliding_coefficient(1e6) == 1);
+    CHECK(curve.sliding_coefficient(-1e300) == Approx(2.5).epsilon(1e-15));
     double before = 2.5 * (1 + 4e-16);
     for (double ln_k = -45; ln_k < 60; ln_k += 0.5) {
-      const double here = curve.sliding_share(ln_k);
+      const double here = curve.sliding_coefficient(ln_k);
       CAPTURE(ln_k);
       CHECK(here <= before * (1 + 1e-15));
       CHECK(here >= 1);
@@ -150,9 +150,9 @@ TEST_CASE("the sliding share runs from 5/2 to 1", "[pade_curve][limit]") {
 TEST_CASE("the logarithm of the rim speed has slope a at 0 and e at infinity", "[pade_curve][limit]") {
   for (double r : {1e-8, 0.1, 1.0}) {
     const PadeCurve curve(r);
-    CHECK((curve.log_rim(-800) - curve.log_rim(-1200)) / 400 == Approx(curve.a()).epsilon(1e-13));
-    CHECK((curve.log_rim(1200) - curve.log_rim(800)) / 400 == Approx(curve.e()).epsilon(1e-13));
-    CHECK(std::isfinite(curve.log_rim(-1e300)));
+    CHECK((curve.ln_w(-800) - curve.ln_w(-1200)) / 400 == Approx(curve.a()).epsilon(1e-13));
+    CHECK((curve.ln_w(1200) - curve.ln_w(800)) / 400 == Approx(curve.e()).epsilon(1e-13));
+    CHECK(std::isfinite(curve.ln_w(-1e300)));
   }
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("the two series of the regularised age meet at x = 1/2", "[pade_curve]
   for (double r : {1e-20, 1e-10, 1e-5, 1e-2, 0.2, 0.5, 5.0 / 7, 1.0}) {
     const PadeCurve curve(r);
     const double ln_k = std::log(curve.A() / curve.B());
-    age.add(curve.regularised_age(ln_k - 1e-15), curve.regularised_age(ln_k + 1e-15), fmt::format("r = {}", r));
+    age.add(curve.beta_coefficient(ln_k - 1e-15), curve.beta_coefficient(ln_k + 1e-15), fmt::format("r = {}", r));
   }
   CHECK_WITHIN_EPS(age, 24);
 }
@@ -172,15 +172,15 @@ TEST_CASE("the regularised age is the integral of dtau over the weight", "[pade_
   for (double r : {1e-8, 1e-3, 0.1, 5.0 / 7, 1.0}) {
     const PadeCurve curve(r);
     for (double ln_k : {-9.0, -3.0, -0.5, 0.0, 0.7, 3.0, 12.0}) {
-      const double rim = curve.log_rim(ln_k);
+      const double rim = curve.ln_w(ln_k);
       const auto rate = [&](double x) {
         const double k = std::exp(ln_k + x);
         if (!std::isfinite(k * k)) return 0.0;
         const auto [force, moment] = PadeLaw{}({k, 1});
-        return k * std::exp(rim - curve.log_rim(ln_k + x)) /
+        return k * std::exp(rim - curve.ln_w(ln_k + x)) /
                ((force - r * k * moment) * (16 + 15 * pi * k) * (8 + 3 * pi * k));
       };
-      age.add((1 + std::exp(ln_k)) * rule.integrate(rate, 0.0, infinity), curve.regularised_age(ln_k),
+      age.add((1 + std::exp(ln_k)) * rule.integrate(rate, 0.0, infinity), curve.beta_coefficient(ln_k),
               fmt::format("r = {}, ln k = {}", r, ln_k));
     }
   }
@@ -192,6 +192,6 @@ TEST_CASE("the closed form has a domain", "[pade_curve][domain]") {
     CHECK_THROWS_AS(PadeCurve(bad), std::domain_error);
   }
   CHECK_THROWS_WITH(PadeCurve(1.5), Catch::Matchers::Contains("PadeCurve") && Catch::Matchers::Contains("1.5"));
-  CHECK_NOTHROW(PadeCurve(PadeCurve::largest_r));
+  CHECK_NOTHROW(PadeCurve(PadeCurve::max_r));
   CHECK(PadeCurve(0.25).r() == 0.25);
 }

@@ -94,7 +94,7 @@ TEST_CASE("the curve (Phi, Psi) of every pressure is convex", "[pressure_law][in
 
 TEST_CASE("pressure laws reject what is no slip and no exponent", "[pressure_law][domain]") {
   check_domain(PressureLaw(1), "PressureLaw");
-  for (double bad : {-1.0, -7.0, std::nextafter(PressureLaw::largest_p, 100.0), std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+  for (double bad : {-1.0, -7.0, std::nextafter(PressureLaw::max_p, 100.0), std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     CAPTURE(bad);
     CHECK_THROWS_AS(PressureLaw(bad), std::domain_error);
   }

@@ -38,13 +38,13 @@ TEST_CASE("the quadrature of the Pade law is its closed form", "[quadrature_curv
     const QuadratureCurve curve(PadeLaw{}, r);
     const PadeCurve closed(r);
     CHECK(curve.truncation() < 1e-14);
-    const double constant = curve.log_rim(0) - closed.log_rim(0);
+    const double constant = curve.ln_w(0) - closed.ln_w(0);
     for (double ln_k :
          {-1e6, -700.0, -45.0, -40.0, -39.9, -20.0, -3.3, -0.2, 0.0, 0.5, 4.0, 21.7, 43.9, 44.0, 50.0, 700.0}) {
       const std::string where = fmt::format("r = {}, ln k = {}", r, ln_k);
-      rim.add(closed.log_rim(ln_k) + constant, curve.log_rim(ln_k), std::abs(closed.log_rim(ln_k)) + r, where);
-      share.add(closed.sliding_share(ln_k), curve.sliding_share(ln_k), where);
-      age.add(closed.regularised_age(ln_k), curve.regularised_age(ln_k), where);
+      rim.add(closed.ln_w(ln_k) + constant, curve.ln_w(ln_k), std::abs(closed.ln_w(ln_k)) + r, where);
+      share.add(closed.sliding_coefficient(ln_k), curve.sliding_coefficient(ln_k), where);
+      age.add(closed.beta_coefficient(ln_k), curve.beta_coefficient(ln_k), where);
       rate.add(closed.time_rate(ln_k), curve.time_rate(ln_k), where);
     }
   }
@@ -58,14 +58,14 @@ TEST_CASE("the exact law's share runs from 0 to 1", "[quadrature_curve][limit]")
   for (double r : {1e-10, 0.1, 1.0, 1.9}) {
     const QuadratureCurve curve(HertzLaw{}, r);
     CAPTURE(r);
-    CHECK(std::abs(curve.sliding_share(-1000)) < 1e-15);
-    CHECK(curve.sliding_share(1000) == 1);
-    CHECK(curve.sliding_share(44) == Approx(1).epsilon(1e-13));
+    CHECK(std::abs(curve.sliding_coefficient(-1000)) < 1e-15);
+    CHECK(curve.sliding_coefficient(1000) == 1);
+    CHECK(curve.sliding_coefficient(44) == Approx(1).epsilon(1e-13));
     for (double ln_k = -40; ln_k <= 44; ln_k += 0.37) {
       CAPTURE(ln_k);
-      CHECK(curve.sliding_share(ln_k) >= 0);
-      CHECK(curve.sliding_share(ln_k) <= 1 + 1e-14);
-      CHECK(curve.regularised_age(ln_k) > 0);
+      CHECK(curve.sliding_coefficient(ln_k) >= 0);
+      CHECK(curve.sliding_coefficient(ln_k) <= 1 + 1e-14);
+      CHECK(curve.beta_coefficient(ln_k) > 0);
     }
   }
 }
@@ -78,9 +78,9 @@ TEST_CASE("panels join without a step", "[quadrature_curve][limit]") {
       const double below = std::nextafter(static_cast<double>(edge), -infinity);
       const std::string where = fmt::format("{}, ln k = {}", law.name(), edge);
       const double ln_k = edge;
-      share.add(curve.sliding_share(below), curve.sliding_share(ln_k), 1, where);
-      age.add(curve.regularised_age(below), curve.regularised_age(ln_k), where);
-      rim.add(curve.log_rim(below), curve.log_rim(ln_k), 1 + std::abs(curve.log_rim(ln_k)), where);
+      share.add(curve.sliding_coefficient(below), curve.sliding_coefficient(ln_k), 1, where);
+      age.add(curve.beta_coefficient(below), curve.beta_coefficient(ln_k), where);
+      rim.add(curve.ln_w(below), curve.ln_w(ln_k), 1 + std::abs(curve.ln_w(ln_k)), where);
     }
   }
   CHECK_WITHIN_EPS(share, 8);
@@ -97,7 +97,7 @@ TEST_CASE("the curve has the slope of the separated equation", "[quadrature_curv
       const double k = std::exp(ln_k);
       const auto [force, moment] = law({k, 1});
       const double h = 1e-4;
-      const double slope = (curve.log_rim(ln_k + h) - curve.log_rim(ln_k - h)) / (2 * h);
+      const double slope = (curve.ln_w(ln_k + h) - curve.ln_w(ln_k - h)) / (2 * h);
       CHECK(slope == Approx(r * k * moment / (force - r * k * moment)).epsilon(1e-7));
     }
   }
@@ -120,7 +120,7 @@ TEST_CASE("a law with noise ends, and says so", "[quadrature_curve]") {
   const QuadratureCurve smooth(RootLaw{}, 0.1);
   CHECK(noisy.evaluations() < 5'000'000);
   CHECK(noisy.truncation() > 1e-13);
-  CHECK(noisy.sliding_share(0) == Approx(smooth.sliding_share(0)).epsilon(1e-7));
+  CHECK(noisy.sliding_coefficient(0) == Approx(smooth.sliding_coefficient(0)).epsilon(1e-7));
 }
 
 TEST_CASE("the curve is that of one side, and says what is not", "[quadrature_curve][domain]") {
@@ -128,7 +128,7 @@ TEST_CASE("the curve is that of one side, and says what is not", "[quadrature_cu
     CHECK_THROWS_AS(QuadratureCurve(PadeLaw{}, bad), std::domain_error);
   }
   // r = 2 is the first r with an invariant ray, r = 5 the last, for both laws.
-  const Approach to_infinity(Approach::Side::below, infinity);
+  const TerminalChart to_infinity(TerminalChart::Side::below, infinity);
   for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{})}) {
     CAPTURE(law.name());
     CHECK_NOTHROW(QuadratureCurve(law, 1.9));

@@ -39,10 +39,10 @@ TEST_CASE("the solution that is used is the closed one where there is one", "[si
 TEST_CASE("each k has the curve of its side of the ray", "[similarity_solution]") {
   const SimilaritySolution solution = quadrature_solution(HertzLaw{}, 2.5);
   const double ln_k_star = std::log(std::sqrt((32 - std::sqrt(544.0)) / 30));
-  CHECK(solution.through(ln_k_star + 0.1)->approach().side() == Approach::Side::above);
-  CHECK(solution.through(ln_k_star - 0.1)->approach().side() == Approach::Side::below);
+  CHECK(solution.through(ln_k_star + 0.1)->chart().side() == TerminalChart::Side::above);
+  CHECK(solution.through(ln_k_star - 0.1)->chart().side() == TerminalChart::Side::below);
   for (double ln_k : {-30.0, 30.0}) {
-    CHECK(solution.through(ln_k)->approach().log_terminal_ratio() == Approx(ln_k_star).epsilon(1e-14));
+    CHECK(solution.through(ln_k)->chart().log_terminal_ratio() == Approx(ln_k_star).epsilon(1e-14));
   }
   CHECK_THROWS_AS(SimilaritySolution().through(0), std::domain_error);
   CHECK_FALSE(SimilaritySolution());
@@ -171,7 +171,7 @@ TEST_CASE("a law with several rays has a curve on each side of each", "[similari
   CHECK(quadrature_solution(law, 2).curves().size() == 2);
   const SimilaritySolution solution = quadrature_solution(law, 1.995);
   REQUIRE(solution.curves().size() == 3);
-  const auto end = [&](double k) { return std::exp(solution.through(std::log(k))->approach().log_terminal_ratio()); };
+  const auto end = [&](double k) { return std::exp(solution.through(std::log(k))->chart().log_terminal_ratio()); };
   CHECK(end(0.08) == 0);
   CHECK(end(0.083) == Approx(0.1889458024).epsilon(1e-9));
   CHECK(end(0.19) == Approx(0.1889458024).epsilon(1e-9));

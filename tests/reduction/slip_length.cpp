@@ -43,8 +43,8 @@ TEST_CASE("the slip of the Pade law is its closed form", "[slip_length][route]")
     const PadeCurve closed(r);
     for (double ln_k : {-1e6, -60.0, -40.0, -10.0, -1.0, 0.0, 1.0, 5.0, 20.0, 40.0}) {
       // n enters as v w (n + k/2): its error counts relative to that.
-      const double wanted = closed.slip_excess(ln_k);
-      excess.add(wanted, curve.slip_excess(ln_k), wanted + std::exp(ln_k) / 2,
+      const double wanted = closed.slip_length_coefficient(ln_k);
+      excess.add(wanted, curve.slip_length_coefficient(ln_k), wanted + std::exp(ln_k) / 2,
                  fmt::format("r = {}, ln k = {}", r, ln_k));
     }
   }

@@ -42,7 +42,7 @@ void check_states(Integrate integrate) {
         Eigen::ArrayXd times(9);
         times << 0, 1e-9, 1e-3, 0.1, 0.3, 0.5, 0.5, 0.9, 1.5;
         times *= orbit.stop_time();
-        const Motion motion = integrate(system, start, times, Stepping{});
+        const Motion motion = integrate(system, start, times, StepperSettings{});
         CAPTURE(where, motion.outcome.sentence);
         REQUIRE(motion.outcome.ok());
         CHECK(motion.outcome.sentence == "The body came to rest.");
@@ -78,7 +78,7 @@ void check_every_step(Integrate integrate) {
   for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
     const Orbit orbit = Flow(system).orbit({2, 1});
-    const Motion motion = integrate(system, State{2, 1}, Eigen::ArrayXd{}, Stepping{});
+    const Motion motion = integrate(system, State{2, 1}, Eigen::ArrayXd{}, StepperSettings{});
     REQUIRE(motion.outcome.ok());
     REQUIRE(motion.points.rows() > 10);
     CHECK(motion.evaluations > motion.steps);
@@ -109,21 +109,21 @@ void check_axes_and_rest(Integrate integrate) {
   using namespace reduction;
   for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
-    const Motion sliding = integrate(system, State{0, 2}, Eigen::ArrayXd{{0.5, 100.0}}, Stepping{});
+    const Motion sliding = integrate(system, State{0, 2}, Eigen::ArrayXd{{0.5, 100.0}}, StepperSettings{});
     REQUIRE(sliding.outcome.ok());
     CHECK(sliding.stop_time == Approx(system.sliding_limit(2)).epsilon(1e-15));
     CHECK(sliding.points.u[0] == 0);
     CHECK(sliding.points.v[0] == Approx(2 - 7 / (3 * std::numbers::pi) * 0.5).epsilon(1e-14));
     CHECK(sliding.points.v[1] == 0);
     CHECK(sliding.points.beta[0] == Approx(Flow(system).orbit({0, 2}).at_time(0.5).beta).epsilon(1e-13));
-    const Motion pivoting = integrate(system, State{-2, 0}, Eigen::ArrayXd{{0.5, 100.0}}, Stepping{});
+    const Motion pivoting = integrate(system, State{-2, 0}, Eigen::ArrayXd{{0.5, 100.0}}, StepperSettings{});
     REQUIRE(pivoting.outcome.ok());
     CHECK(pivoting.stop_time == Approx(64).epsilon(1e-15));
     CHECK(pivoting.points.u[0] == Approx(-2 + 0.5 / 32).epsilon(1e-14));
     CHECK(pivoting.points.v[0] == 0);
     CHECK(pivoting.points.u[1] == 0);
     CHECK(pivoting.points.beta[0] == Approx(Flow(system).orbit({-2, 0}).at_time(0.5).beta).epsilon(1e-13));
-    const Motion rest = integrate(system, State{0, 0}, Eigen::ArrayXd{{0.0, 1.0}}, Stepping{});
+    const Motion rest = integrate(system, State{0, 0}, Eigen::ArrayXd{{0.0, 1.0}}, StepperSettings{});
     CHECK(rest.outcome.ok());
     CHECK(rest.stop_time == 0);
     REQUIRE(rest.points.rows() == 2);
@@ -138,11 +138,11 @@ void check_scaling(Integrate integrate) {
   using namespace reduction;
   for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.2);
-    const Motion here = integrate(system, State{-1, 2}, Eigen::ArrayXd{{0.3, 2.0}}, Stepping{});
+    const Motion here = integrate(system, State{-1, 2}, Eigen::ArrayXd{{0.3, 2.0}}, StepperSettings{});
     for (int power : {-1000, -500, 60, 1000}) {
       const auto scale = [&](double x) { return std::ldexp(x, power); };
       const Motion scaled =
-          integrate(system, State{scale(-1), scale(2)}, Eigen::ArrayXd{{scale(0.3), scale(2.0)}}, Stepping{});
+          integrate(system, State{scale(-1), scale(2)}, Eigen::ArrayXd{{scale(0.3), scale(2.0)}}, StepperSettings{});
       CAPTURE(law.name(), power);
       REQUIRE(scaled.outcome.ok());
       CHECK(scaled.stop_time == Approx(scale(here.stop_time)).epsilon(1e-11));
@@ -159,7 +159,7 @@ void check_outcomes(Integrate integrate, const std::string& name) {
   using namespace reduction;
   using Catch::Matchers::Contains;
   const ReducedSystem system(PadeLaw{}, 0.1);
-  Stepping impatient;
+  StepperSettings impatient;
   impatient.step_limit = 3;
   for (const Eigen::ArrayXd& times : {Eigen::ArrayXd{}, Eigen::ArrayXd{{1e-9, 20.0}}}) {
     const Motion motion = integrate(system, State{1, 1}, times, impatient);
@@ -173,7 +173,7 @@ void check_outcomes(Integrate integrate, const std::string& name) {
                Contains(name) && Contains("step limit") && Contains("3 steps") && Contains("u = 1"));
   }
 
-  const Motion broken = integrate(ReducedSystem(BrokenLaw{}, 0.3), State{1, 1}, Eigen::ArrayXd{}, Stepping{});
+  const Motion broken = integrate(ReducedSystem(BrokenLaw{}, 0.3), State{1, 1}, Eigen::ArrayXd{}, StepperSettings{});
   CHECK_FALSE(broken.outcome.ok());
   CHECK(broken.outcome.kind == Outcome::Kind::not_finite);
   CHECK(std::isnan(broken.stop_time));
@@ -190,15 +190,16 @@ void check_arguments(Integrate integrate, const std::string& name) {
   for (const State bad :
        {State{1, -1}, State{not_a_number, 1}, State{1, not_a_number}, State{infinity, 1}, State{1, infinity}}) {
     CAPTURE(bad.u, bad.v);
-    CHECK_THROWS_AS(integrate(system, bad, Eigen::ArrayXd{}, Stepping{}), std::domain_error);
+    CHECK_THROWS_AS(integrate(system, bad, Eigen::ArrayXd{}, StepperSettings{}), std::domain_error);
   }
   for (const Eigen::ArrayXd& bad : {Eigen::ArrayXd{{-1.0}}, Eigen::ArrayXd{{0.5, 0.4}}, Eigen::ArrayXd{{not_a_number}},
                                     Eigen::ArrayXd{{0.1, infinity}}}) {
-    CHECK_THROWS_AS(integrate(system, State{1, 1}, bad, Stepping{}), std::domain_error);
+    CHECK_THROWS_AS(integrate(system, State{1, 1}, bad, StepperSettings{}), std::domain_error);
   }
-  CHECK_THROWS_WITH(integrate(system, State{1, 1}, Eigen::ArrayXd{{0.5, 0.25}}, Stepping{}),
+  CHECK_THROWS_WITH(integrate(system, State{1, 1}, Eigen::ArrayXd{{0.5, 0.25}}, StepperSettings{}),
                     Contains(name) && Contains("0.25 after 0.5"));
-  CHECK_THROWS_WITH(integrate(system, State{1, -2}, Eigen::ArrayXd{}, Stepping{}), Contains(name) && Contains("-2"));
+  CHECK_THROWS_WITH(integrate(system, State{1, -2}, Eigen::ArrayXd{}, StepperSettings{}),
+                    Contains(name) && Contains("-2"));
 }
 
 }  // namespace contensou::tests

@@ -43,16 +43,16 @@ struct WrongDeficit : PadeLaw {
 };
 
 struct ShareTooLarge : PadeLaw {
-  static constexpr SlidingShare sliding_share{2.4, 2.5};
+  static constexpr SlidingShare sliding_coefficient{2.4, 2.5};
 };
 
 struct ShareTooSmall : PadeLaw {
-  static constexpr SlidingShare sliding_share{1, 1.01};
+  static constexpr SlidingShare sliding_coefficient{1, 1.01};
 };
 
 /// The bound of the Pade law, claimed for Coulomb friction.
 struct WrongSide : HertzLaw {
-  static constexpr SlidingShare sliding_share{1, 2.5};
+  static constexpr SlidingShare sliding_coefficient{1, 2.5};
 };
 
 const State start{-1, 0.5};
@@ -81,33 +81,33 @@ Flow pade_lie(CurveLie told) { return lying_flow(ReducedSystem(PadeLaw{}, 0.3), 
 Names failing_inside(const std::function<double(double truth)>& lie) {
   const ReducedSystem system(HertzLaw{}, 0.3);
   CurveLie told;
-  told.log_rim = [&](double ln_k, double truth) { return ln_k == std::log(0.3) ? lie(truth) : truth; };
+  told.ln_w = [&](double ln_k, double truth) { return ln_k == std::log(0.3) ? lie(truth) : truth; };
   return failing(verify(lying_flow(system, told), start));
 }
 
 CurveLie share_lie(CurveLie::Lie lie) {
   CurveLie told;
-  told.sliding_share = std::move(lie);
+  told.sliding_coefficient = std::move(lie);
   return told;
 }
 
 CurveLie rim_lie(CurveLie::Lie lie) {
   CurveLie told;
-  told.log_rim = std::move(lie);
+  told.ln_w = std::move(lie);
   return told;
 }
 
 CurveLie age_lie(CurveLie::Lie lie) {
   CurveLie told;
-  told.regularised_age = std::move(lie);
+  told.beta_coefficient = std::move(lie);
   return told;
 }
 
 CurveLie of_another_r() {
   const auto other = std::make_shared<PadeCurve>(0.99 * ReducedSystem(PadeLaw{}, 0.3).r());
-  return {.log_rim = [other](double ln_k, double) { return other->log_rim(ln_k); },
-          .sliding_share = [other](double ln_k, double) { return other->sliding_share(ln_k); },
-          .regularised_age = [other](double ln_k, double) { return other->regularised_age(ln_k); }};
+  return {.ln_w = [other](double ln_k, double) { return other->ln_w(ln_k); },
+          .sliding_coefficient = [other](double ln_k, double) { return other->sliding_coefficient(ln_k); },
+          .beta_coefficient = [other](double ln_k, double) { return other->beta_coefficient(ln_k); }};
 }
 
 struct Liar {

@@ -7,8 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/motion.hpp"
-#include "contensou/si/whole_motion.hpp"
 #include "motion_cases.hpp"
 
 using namespace contensou;
@@ -18,7 +18,7 @@ TEST_CASE("the textbook's motion is the limit of the whole one", "[limit]") {
   const reduction::PadeLaw law;
   for (const std::size_t alone : {std::size_t{5}, std::size_t{6}}) {  // pure spin, no spin
     const Shot shot = shot_of(motion_cases[alone], 0.1);
-    const WholeMotion whole(shot, law);
+    const BallMotion whole(shot, law);
     const UncoupledMotion textbook(shot, law);
     const double stop = whole.stop_time();
     CHECK(std::max(textbook.slip_end(), textbook.spin_end()) == Approx(stop).epsilon(1e-14));

@@ -10,7 +10,7 @@
 
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
-#include "options/portrait_question.hpp"
+#include "options/portrait_spec.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
@@ -104,7 +104,7 @@ class PortraitCommand final : public Verb {
                                    point.v, window_->typed()));
       }
     }
-    PortraitQuestion question{
+    PortraitSpec question{
         .flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(system) : system,
         .start = has_start ? std::optional(start.state) : std::nullopt,
         .shot = start.shot,

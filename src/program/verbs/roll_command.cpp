@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/roll_figure.hpp"
+#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/integrated_motion.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
-#include "contensou/si/whole_motion.hpp"
 #include "options/instants_option.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -27,7 +27,7 @@ struct Roll {
   si::Shot shot;
   reduction::Law law;
   bool integrated;  ///< the route of its columns: the equations of motion instead of the similarity solution
-  si::WholeMotion whole{shot, law};
+  si::BallMotion whole{shot, law};
 
   /// When the ball rolls, in s: its slip is below rolling_share of that at the start, or over where there is no spin.
   double rolling_time() const {

@@ -17,6 +17,6 @@ namespace contensou::reduction {
 ///
 /// Accuracy  stop time 3e-11 relative at the default tolerance; states 1e-10 for mu <= 1, 3e-10 up to r = 2.
 Motion integrate_directly(const ReducedSystem& system, State start, const Eigen::ArrayXd& times = {},
-                          const Stepping& stepping = {});
+                          const StepperSettings& stepping = {});
 
 }  // namespace contensou::reduction

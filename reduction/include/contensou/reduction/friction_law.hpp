@@ -24,7 +24,7 @@ namespace contensou::reduction {
 /// A law may state more; each of these is used when it is there:
 ///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
-///   - `static constexpr SlidingShare sliding_share`, its two-sided bound of the stop time;
+///   - `static constexpr SlidingShare sliding_coefficient`, its two-sided bound of the stop time;
 ///   - `kinks()`, every k where Phi or Psi is not smooth (1 unless stated: where the rim of the patch is at rest). A kink
 ///     that is not named costs accuracy of the steppers, and of the curves only time.
 ///
@@ -61,9 +61,9 @@ class Law {
                        })
       function->name = kept.name();
     if constexpr (requires {
-                    { L::sliding_share } -> std::convertible_to<SlidingShare>;
+                    { L::sliding_coefficient } -> std::convertible_to<SlidingShare>;
                   }) {
-      function->sliding_share = L::sliding_share;
+      function->sliding_coefficient = L::sliding_coefficient;
     }
     if constexpr (requires {
                     { kept.kinks() } -> std::convertible_to<std::vector<double>>;
@@ -101,7 +101,7 @@ class Law {
   double force_slope() const { return function_->force_slope; }
 
   /// The law's own bounds of the stop time, if it states any.
-  const std::optional<SlidingShare>& sliding_share() const { return function_->sliding_share; }
+  const std::optional<SlidingShare>& sliding_coefficient() const { return function_->sliding_coefficient; }
 
   /// The k where Phi or Psi may not be smooth.
   const std::vector<double>& kinks() const { return function_->kinks; }
@@ -115,7 +115,7 @@ class Law {
     void read_limits();
 
     std::string name = "user's law";
-    std::optional<SlidingShare> sliding_share;
+    std::optional<SlidingShare> sliding_coefficient;
     std::vector<double> kinks{1};
     double pivoting_moment = std::numeric_limits<double>::quiet_NaN();
     double force_slope = std::numeric_limits<double>::quiet_NaN();

@@ -27,7 +27,7 @@ struct Motion {
 };
 
 /// Settings of both steppers.
-struct Stepping {
+struct StepperSettings {
   double tolerance = 1e-14;  ///< local error of ln u, ln v and tau/(S + P)
   long step_limit = 2'000'000;
 };

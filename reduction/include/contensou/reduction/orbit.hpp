@@ -67,7 +67,7 @@ class Orbit {
   const SimilarityCurve& curve() const;
 
   /// How k tends to its terminal ratio. Throws as curve().
-  const Approach& approach() const { return curve().approach(); }
+  const TerminalChart& chart() const { return curve().chart(); }
 
   /// at_time for each entry, in the order given.
   OrbitColumns at_times(const Eigen::ArrayXd& times) const;
@@ -117,7 +117,7 @@ class Orbit {
   double pivoting_;  ///< P, scaled
   double ln_k0_;
   double xi0_ = 0;
-  double log_rim0_ = 0;
+  double ln_w0_ = 0;
   double share0_ = 1;     ///< m(k0)
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };

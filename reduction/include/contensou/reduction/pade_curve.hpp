@@ -9,31 +9,31 @@ namespace contensou::reduction {
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
 /// Source    README (R8) orbit, (R9) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time, (R14) slip.
-/// Accuracy  sliding_share, slip_excess and regularised_age about 5 eps relative, log_rim eps (|ln_rim| + r) absolute.
+/// Accuracy  sliding_coefficient, slip_length_coefficient and beta_coefficient about 5 eps relative, ln_w eps (|ln_rim| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
   /// Largest r of the closed form: (R11) loses digits as r -> 2. A ball has r <= 5/7.
-  static constexpr double largest_r = 1;
+  static constexpr double max_r = 1;
 
   /// Of a series in powers of 1/2 or less.
   static constexpr int terms = 56;
 
-  /// @throws std::domain_error  unless 0 < r <= largest_r
+  /// @throws std::domain_error  unless 0 < r <= max_r
   explicit PadeCurve(double r);
 
-  double log_rim(double ln_k) const override;
-  double sliding_share(double ln_k) const override;
-  double slip_excess(double ln_k) const override;
-  double regularised_age(double ln_k) const override;
+  double ln_w(double ln_k) const override;
+  double sliding_coefficient(double ln_k) const override;
+  double slip_length_coefficient(double ln_k) const override;
+  double beta_coefficient(double ln_k) const override;
   double time_rate(double ln_k) const override;
   double limit() const override;
   double accuracy() const override { return rounding_of_stop_time(r()); }
 
   double A() const { return A_; }  ///< 8 (2 - r)
   double B() const { return B_; }  ///< 3 pi (5 - r)
-  double a() const { return a_; }  ///< r/(2 - r): slope of log_rim at k = 0
+  double a() const { return a_; }  ///< r/(2 - r): slope of ln_w at k = 0
   double b() const { return a_ - e_; }
-  double e() const { return e_; }  ///< r/(5 - r): slope of log_rim at infinity
+  double e() const { return e_; }  ///< r/(5 - r): slope of ln_w at infinity
 
  private:
   double A_, B_, a_, e_;

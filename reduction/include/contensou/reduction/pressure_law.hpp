@@ -19,10 +19,10 @@ namespace contensou::reduction {
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 class PressureLaw {
  public:
-  static constexpr SlidingShare sliding_share{0, 1};
-  static constexpr double largest_p = 25;
+  static constexpr SlidingShare sliding_coefficient{0, 1};
+  static constexpr double max_p = 25;
 
-  /// @param p  -1 < p <= largest_p
+  /// @param p  -1 < p <= max_p
   /// @throws std::domain_error  for another p
   explicit PressureLaw(double p);
 

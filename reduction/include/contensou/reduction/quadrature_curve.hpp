@@ -18,25 +18,25 @@ class RegularSolution;
 /// series have converged. They reach from k = 4e-18 to 1e19, where the limits hold to the last bit; and towards an
 /// invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
 ///
-/// Accuracy  sliding_share 3 eps for a law that is smooth between its kinks, on and beside rays, too
+/// Accuracy  sliding_coefficient 3 eps for a law that is smooth between its kinks, on and beside rays, too
 ///           (tests/reference/rays.csv); the other functions 1e-13, and less next to a ray.
 /// Cost      about 3 000 evaluations of the law for m and n, and as many again for ln w, b and c; then some 30 ns for
 ///           each value. Noise in the law costs up to a million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi
-  /// @param approach  between two neighbours of 0, the invariant rays and infinity, to the one that k tends to
+  /// @param chart     between two neighbours of 0, the invariant rays and infinity, to the one that k tends to
   ///                  (terminal_ratios); the default is right for r up to Phi'(0)/Psi(0), and for every ball
   /// @throws std::domain_error  unless r > 0, and Phi - r k Psi has the sign of this approach everywhere on its way
-  QuadratureCurve(const Law& law, double r, const Approach& approach = Approach::to_zero());
+  QuadratureCurve(const Law& law, double r, const TerminalChart& chart = TerminalChart::to_zero());
 
-  double log_rim(double xi) const override;
-  double sliding_share(double xi) const override;
-  double slip_excess(double xi) const override;
-  double regularised_age(double xi) const override;
+  double ln_w(double xi) const override;
+  double sliding_coefficient(double xi) const override;
+  double slip_length_coefficient(double xi) const override;
+  double beta_coefficient(double xi) const override;
   double time_rate(double xi) const override;
 
-  /// Estimate of the relative error of sliding_share from the last terms of the series.
+  /// Estimate of the relative error of sliding_coefficient from the last terms of the series.
   double truncation() const;
 
   /// rounding_of_stop_time and truncation(): below 3e-15 for a smooth law, r < 1e4.

@@ -18,6 +18,6 @@ namespace contensou::reduction {
 ///
 /// Accuracy  stop time 1e-11 relative at the default tolerance; states 1e-10.
 Motion integrate_regularised(const ReducedSystem& system, State start, const Eigen::ArrayXd& times = {},
-                             const Stepping& stepping = {});
+                             const StepperSettings& stepping = {});
 
 }  // namespace contensou::reduction

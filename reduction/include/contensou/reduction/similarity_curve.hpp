@@ -1,11 +1,11 @@
 #pragma once
 
-#include "contensou/reduction/approach.hpp"
+#include "contensou/reduction/terminal_chart.hpp"
 
 namespace contensou::reduction {
 
 /// The one orbit that all motions which approach the terminal ratio from one side are scaled copies of, as functions of
-/// their nearness xi (Approach): ln k itself where k -> 0, which is every ball.
+/// their nearness xi (TerminalChart): ln k itself where k -> 0, which is every ball.
 ///
 /// Scaling symmetry leaves nothing else to compute: orbits, stop times, the state at a given time and the regularised
 /// time follow by exponentials and sums (Orbit). k = v/w, w = mu |u|, s is the scaled time of README (R1). All
@@ -16,30 +16,30 @@ class SimilarityCurve {
   virtual ~SimilarityCurve() = default;
 
   /// ln w along the curve, up to a constant; grows with xi (README (R2)).
-  virtual double log_rim(double xi) const = 0;
+  virtual double ln_w(double xi) const = 0;
 
   /// m: the time left is  P + m S  (README (R4)); 1 in the limit of pure sliding.
-  virtual double sliding_share(double xi) const = 0;
+  virtual double sliding_coefficient(double xi) const = 0;
 
   /// n: the length of slip that is left, the integral of v ds, is  v (v/2 + n w)  (README (R13)).
-  virtual double slip_excess(double xi) const = 0;
+  virtual double slip_length_coefficient(double xi) const = 0;
 
   /// b: the regularised time is  b/(w + v), up to its scale and a constant  (README (R7)).
-  virtual double regularised_age(double xi) const = 0;
+  virtual double beta_coefficient(double xi) const = 0;
 
   /// c: the time left grows with xi at the rate  c (w + v)  (README (R3)).
   virtual double time_rate(double xi) const = 0;
 
-  /// Bound of the relative error of a stop time with this sliding_share.
+  /// Bound of the relative error of a stop time with this sliding_coefficient.
   virtual double accuracy() const = 0;
 
-  /// How often the law was called for sliding_share.
+  /// How often the law was called for sliding_coefficient.
   virtual long evaluations() const { return 0; }
 
   /// r = gamma mu^2/chi.
   double r() const { return r_; }
 
-  const Approach& approach() const { return approach_; }
+  const TerminalChart& chart() const { return chart_; }
 
   /// Below this xi ln w is linear and the other functions are constant, to the last bit.
   virtual double limit() const = 0;
@@ -48,11 +48,11 @@ class SimilarityCurve {
   SimilarityCurve& operator=(const SimilarityCurve&) = delete;
 
  protected:
-  SimilarityCurve(double r, const Approach& approach) : r_(r), approach_(approach) {}
+  SimilarityCurve(double r, const TerminalChart& chart) : r_(r), chart_(chart) {}
 
  private:
   double r_;
-  Approach approach_;
+  TerminalChart chart_;
 };
 
 /// What rounding takes of a stop time P + m S at most, relative: eps (4 + ln(1 + r)/2), r = gamma mu^2/chi.

@@ -48,7 +48,7 @@ class SimilaritySolution {
 /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
 SimilaritySolution quadrature_solution(const Law& law, double r);
 
-/// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::largest_r; empty for all else.
+/// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::max_r; empty for all else.
 SimilaritySolution closed_solution(const Law& law, double r);
 
 }  // namespace contensou::reduction

@@ -19,7 +19,7 @@ namespace contensou::reduction {
 /// or curve that it was made from. Starts in a panel that misses one by more than 4 eps are computed one by one, from
 /// that closed form or curve; so are those of a system whose P/|u0| or S/v0 is beyond 2^100 or below 2^-100.
 ///
-/// Source    README (R18): m from pade_sliding_share (Pade) or the flow's curves (other laws).
+/// Source    README (R18): m from pade_sliding_coefficient (Pade) or the flow's curves (other laws).
 /// Accuracy  Pade 4 ulp for mu <= 3; other laws 4 eps relative, and what their curve misses by.
 /// Cost      built in 10 ms; then 1.5 ns a start in an array (AVX2), 200 ns a start computed one by one.
 /// Bits      the same for one start and for many, however they are cut into arrays and threads.

@@ -50,7 +50,7 @@ struct TerminalRatios {
 
   /// Where Phi/(k Psi) differs from r by less than this share of r it counts as r: two rays with no more between them
   /// are one, and one with no more between it and an axis is none.
-  static constexpr double told_apart = 512 * std::numeric_limits<double>::epsilon();
+  static constexpr double tolerance = 512 * std::numeric_limits<double>::epsilon();
 };
 
 /// Finds every k with Phi(k) = r k Psi(k): d ln k/ds vanishes there.

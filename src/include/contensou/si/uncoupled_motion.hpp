@@ -6,7 +6,7 @@
 namespace contensou::si {
 
 /// The textbook's ball, whose sliding and pivoting do not know of each other: the slip falls at 7 f g/2, the spin at
-/// its rate without sliding. It ends in the same rolling as WholeMotion, but elsewhere and at another time.
+/// its rate without sliding. It ends in the same rolling as BallMotion, but elsewhere and at another time.
 class UncoupledMotion {
  public:
   /// @param law  gives Psi(0), the moment of pure pivoting

@@ -1,4 +1,4 @@
-#include "contensou/reduction/pade_sliding_share.hpp"
+#include "contensou/reduction/pade_sliding_coefficient.hpp"
 
 #include <cmath>
 #include <limits>
@@ -47,14 +47,14 @@ double by_quadrature(double r, double k) {
 
 }  // namespace
 
-TEST_CASE("the sliding share of any r runs from 5/2 to 1", "[pade_sliding_share][limit]") {
+TEST_CASE("the sliding share of any r runs from 5/2 to 1", "[pade_sliding_coefficient][limit]") {
   for (double r : ratios) {
     CAPTURE(r);
-    CHECK(pade_sliding_share(r, 0) == 2.5);
-    CHECK(pade_sliding_share(r, infinity) == 1);
+    CHECK(pade_sliding_coefficient(r, 0) == 2.5);
+    CHECK(pade_sliding_coefficient(r, infinity) == 1);
     double before = 2.5;
     for (double ln_k = -45; ln_k < 60; ln_k += 0.25) {
-      const double here = pade_sliding_share(r, std::exp(ln_k));
+      const double here = pade_sliding_coefficient(r, std::exp(ln_k));
       CAPTURE(ln_k);
       CHECK(here <= before * (1 + 1e-15));
       CHECK(here >= 1);
@@ -63,17 +63,17 @@ TEST_CASE("the sliding share of any r runs from 5/2 to 1", "[pade_sliding_share]
   }
 }
 
-TEST_CASE("on the ray the sliding share is 5/r", "[pade_sliding_share][limit]") {
+TEST_CASE("on the ray the sliding share is 5/r", "[pade_sliding_coefficient][limit]") {
   for (double r : {2.001, 2.3, 2.5, 3.0, 3.5, 4.0, 4.9}) {
     const double k = 8 * (r - 2) / (3 * pi * (5 - r));
     CAPTURE(r);
-    CHECK(pade_sliding_share(r, k) == Approx(5 / r).epsilon(1e-15));
-    CHECK(pade_sliding_share(r, std::nextafter(k, 0)) == Approx(5 / r).epsilon(1e-15));
-    CHECK(pade_sliding_share(r, std::nextafter(k, 100)) == Approx(5 / r).epsilon(1e-15));
+    CHECK(pade_sliding_coefficient(r, k) == Approx(5 / r).epsilon(1e-15));
+    CHECK(pade_sliding_coefficient(r, std::nextafter(k, 0)) == Approx(5 / r).epsilon(1e-15));
+    CHECK(pade_sliding_coefficient(r, std::nextafter(k, 100)) == Approx(5 / r).epsilon(1e-15));
   }
 }
 
-TEST_CASE("the sliding share keeps the power y^Q where the series ends early", "[pade_sliding_share][table]") {
+TEST_CASE("the sliding share keeps the power y^Q where the series ends early", "[pade_sliding_coefficient][table]") {
   // 2F1 of (R28), and the mean of by_quadrature, both in 60 digits (mpmath).
   struct Row {
     double r, k;
@@ -88,28 +88,28 @@ TEST_CASE("the sliding share keeps the power y^Q where the series ends early", "
         Row{2.1, 8e8, 1.00000000151576012905900195L}, Row{2.4, 2e9, 1.00000000053051646601243186L},
         Row{3.1, 5e-11, 2.49999999950912619371672459603L},
         Row{3.3312764644666943, 8.777472076089674e-11, 2.49999999884029102629759985L}}) {
-    share.add(m, pade_sliding_share(r, k), fmt::format("r = {}, k = {}", r, k));
+    share.add(m, pade_sliding_coefficient(r, k), fmt::format("r = {}, k = {}", r, k));
   }
   CHECK_WITHIN_EPS(share, 1);
 }
 
-TEST_CASE("the sliding share of any r is the mean over the sliding that is left", "[pade_sliding_share][route]") {
+TEST_CASE("the sliding share of any r is the mean over the sliding that is left", "[pade_sliding_coefficient][route]") {
   WorstCase share("m");
   for (double r : ratios) {
     for (double k : {1e-3, 0.05, 0.3, 0.8, 1.5, 4.0, 30.0, 1e3}) {
-      share.add(by_quadrature(r, k), pade_sliding_share(r, k), fmt::format("r = {}, k = {}", r, k));
+      share.add(by_quadrature(r, k), pade_sliding_coefficient(r, k), fmt::format("r = {}, k = {}", r, k));
     }
   }
   CHECK_WITHIN_EPS(share, 100);
 }
 
-TEST_CASE("the sliding share solves its equation through r = 2 and r = 5", "[pade_sliding_share][invariant]") {
+TEST_CASE("the sliding share solves its equation through r = 2 and r = 5", "[pade_sliding_coefficient][invariant]") {
   // z (a + b z) dm/dz + (2 + 5 z) m = 5 (1 + z), the derivative a difference of four points in ln z.
   double worst = 0;
   for (double r = 0.05; r < 7; r += 0.05) {
     for (double ln_z = -8; ln_z < 8; ln_z += 0.37) {
       const double h = 0.004;
-      const auto m = [&](double x) { return pade_sliding_share(r, 8 / (3 * pi) * std::exp(x)); };
+      const auto m = [&](double x) { return pade_sliding_coefficient(r, 8 / (3 * pi) * std::exp(x)); };
       const double slope = (8 * (m(ln_z + h) - m(ln_z - h)) - (m(ln_z + 2 * h) - m(ln_z - 2 * h))) / (12 * h);
       const double z = std::exp(ln_z);
       const double residual = ((2 - r + (5 - r) * z) * slope + (2 + 5 * z) * m(ln_z)) / (5 * (1 + z)) - 1;
@@ -120,18 +120,18 @@ TEST_CASE("the sliding share solves its equation through r = 2 and r = 5", "[pad
   CHECK(worst < 2e-11);
 }
 
-TEST_CASE("the sliding share has no seam", "[pade_sliding_share][limit]") {
+TEST_CASE("the sliding share has no seam", "[pade_sliding_coefficient][limit]") {
   // Where one formula takes over from another: r = 0.72, 2, 5, and along k.
   WorstCase seam("m on the two sides");
   for (double r : {0.72, 2.0, 5.0}) {
     for (double k = 1e-6; k < 1e8; k *= 1.1) {
-      seam.add(pade_sliding_share(r, k), pade_sliding_share(std::nextafter(r, 10), k),
+      seam.add(pade_sliding_coefficient(r, k), pade_sliding_coefficient(std::nextafter(r, 10), k),
                fmt::format("r = {}, k = {}", r, k));
     }
   }
   for (double r : ratios) {
     for (double k = 1e-3; k < 1e3; k *= 1.001) {
-      seam.add(pade_sliding_share(r, k), pade_sliding_share(r, std::nextafter(k, 1e9)),
+      seam.add(pade_sliding_coefficient(r, k), pade_sliding_coefficient(r, std::nextafter(k, 1e9)),
                fmt::format("r = {}, k = {}", r, k));
     }
   }

@@ -1,4 +1,4 @@
-#include "contensou/reduction/pade_sliding_share.hpp"
+#include "contensou/reduction/pade_sliding_coefficient.hpp"
 
 #include <array>
 #include <numbers>
@@ -45,7 +45,7 @@ PadeRelaxation relaxation(double r, double z) {
 
 }  // namespace
 
-double pade_sliding_share(double r, double k) {
+double pade_sliding_coefficient(double r, double k) {
   const PadeRelaxation at = relaxation(r, 3 * std::numbers::pi / 8 * k);
   return r <= slow_r ? value(at, slow_connection(r)) : value(at);
 }

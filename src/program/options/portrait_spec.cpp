@@ -1,4 +1,4 @@
-#include "options/portrait_question.hpp"
+#include "options/portrait_spec.hpp"
 
 #include <string>
 
@@ -8,18 +8,18 @@
 
 namespace contensou::program {
 
-portraits::PhasePortrait PortraitQuestion::portrait() const {
+portraits::PhasePortrait PortraitSpec::portrait() const {
   portraits::PortraitRequest asked = request;
   asked.highlight = start;
   if (shot) asked.time_unit = 1 / si::seconds(*shot, 1);
   return portraits::phase_portrait(flow, asked);
 }
 
-portraits::Figure PortraitQuestion::figure(const portraits::PhasePortrait& portrait) const {
+portraits::Figure PortraitSpec::figure(const portraits::PhasePortrait& portrait) const {
   return portraits::draw(portrait, caption(portrait), style);
 }
 
-portraits::PortraitCaption PortraitQuestion::caption(const portraits::PhasePortrait& portrait) const {
+portraits::PortraitCaption PortraitSpec::caption(const portraits::PhasePortrait& portrait) const {
   portraits::PortraitCaption caption;
   if (!start) return caption;
   const double stop = portrait.highlight ? portrait.highlight->tau_left[0] : 0;

@@ -1,4 +1,4 @@
-#include "steppers/stop_limit.hpp"
+#include "steppers/asymptotic_tail.hpp"
 
 #include <cmath>
 #include <limits>
@@ -14,24 +14,24 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
-TEST_CASE("the limit holds only where one friction is all there is", "[stop_limit]") {
+TEST_CASE("the limit holds only where one friction is all there is", "[asymptotic_tail]") {
   for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.3);
-    CHECK_FALSE(StopLimit::at(system, {0, 0, 0, 0}));
-    CHECK_FALSE(StopLimit::at(system, {0, std::log(1e-16), 0, 0}));
-    CHECK(StopLimit::at(system, {0, std::log(1e-18), 0, 0}));
-    CHECK_FALSE(StopLimit::at(system, {std::log(1e-16), 0, 0, 0}));
-    CHECK(StopLimit::at(system, {std::log(1e-22), 0, 0, 0}));
+    CHECK_FALSE(AsymptoticTail::at(system, {0, 0, 0, 0}));
+    CHECK_FALSE(AsymptoticTail::at(system, {0, std::log(1e-16), 0, 0}));
+    CHECK(AsymptoticTail::at(system, {0, std::log(1e-18), 0, 0}));
+    CHECK_FALSE(AsymptoticTail::at(system, {std::log(1e-16), 0, 0, 0}));
+    CHECK(AsymptoticTail::at(system, {std::log(1e-22), 0, 0, 0}));
     // Next to nothing is left.
-    CHECK(StopLimit::at(system, {-50, -50, 1, 0}));
-    CHECK_FALSE(StopLimit::at(system, {-50, -50, 0, 0}));
+    CHECK(AsymptoticTail::at(system, {-50, -50, 1, 0}));
+    CHECK_FALSE(AsymptoticTail::at(system, {-50, -50, 0, 0}));
   }
 }
 
-TEST_CASE("in the limit the speeds fall with their powers of the time left", "[stop_limit][limit]") {
+TEST_CASE("in the limit the speeds fall with their powers of the time left", "[asymptotic_tail][limit]") {
   const ReducedSystem system(PadeLaw{}, 0.5);
   const double rate = system.r() * system.law().pivoting_moment();
-  const auto pivoting = StopLimit::at(system, {0, -60, 2, 7});
+  const auto pivoting = AsymptoticTail::at(system, {0, -60, 2, 7});
   REQUIRE(pivoting);
   CHECK(pivoting->stop() == Approx(2 + 1 / rate).epsilon(1e-15));
   const LogState half = pivoting->at_time(2 + 0.5 / rate);
@@ -40,7 +40,7 @@ TEST_CASE("in the limit the speeds fall with their powers of the time left", "[s
   CHECK(half.s == Approx(2 + 0.5 / rate).epsilon(1e-15));
   CHECK(half.age == Approx(7 + 1 / (128 * rate)).epsilon(1e-14));
 
-  const auto sliding = StopLimit::at(system, {-infinity, 0, 0, 0});
+  const auto sliding = AsymptoticTail::at(system, {-infinity, 0, 0, 0});
   REQUIRE(sliding);
   CHECK(sliding->stop() == 1);
   CHECK(sliding->at_time(0.75).ln_v == Approx(std::log(0.25)).epsilon(1e-15));

@@ -1,4 +1,4 @@
-#include "contensou/si/whole_motion.hpp"
+#include "contensou/si/ball_motion.hpp"
 
 #include <cmath>
 #include <limits>
@@ -25,7 +25,7 @@ TEST_CASE("the bowling ball of the textbook", "[table]") {
   shot.environment.gravity = 9.8;
   shot.start = Velocities{{8.10, 0}, {0, 0, 0}};
   for (const reduction::Law& law : reduction::named_laws()) {
-    const WholeMotion motion(shot, law);
+    const BallMotion motion(shot, law);
     const MotionPoint stop = motion.at_time(motion.stop_time());
     CHECK(motion.stop_time() == Approx(1.243).margin(5e-4));
     CHECK(stop.velocity.x() == Approx(5.786).margin(5e-4));
@@ -45,7 +45,7 @@ TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
       for (const MotionCase& motion_case : motion_cases) {
         INFO(law.name() << ", mu = " << mu << ", " << motion_case.name);
         const Shot shot = shot_of(motion_case, mu);
-        const WholeMotion reduced(shot, law);
+        const BallMotion reduced(shot, law);
         const double stop = reduced.stop_time();
         const double sliding = 2 * slip_at_start(shot) / (7 * 0.2 * 9.80665);
         Eigen::ArrayXd times(62);  // the whole motion and beyond, and where it slides
@@ -82,7 +82,7 @@ TEST_CASE("after the stop the ball rolls on a straight line", "[invariant]") {
   for (const MotionCase& motion_case : motion_cases) {
     INFO(motion_case.name);
     const Shot shot = shot_of(motion_case, 0.1);
-    const WholeMotion motion(shot, reduction::HertzLaw{});
+    const BallMotion motion(shot, reduction::HertzLaw{});
     const double stop = motion.stop_time();
     const FinalMotion rolling = final_motion(shot);
     const MotionPoint here = motion.at_time(stop);
@@ -98,7 +98,7 @@ TEST_CASE("after the stop the ball rolls on a straight line", "[invariant]") {
 
 TEST_CASE("a masse shot curves while it slips", "[limit]") {
   const Shot shot = shot_of(motion_cases[1], 0.1);
-  const WholeMotion motion(shot, reduction::PadeLaw{});
+  const BallMotion motion(shot, reduction::PadeLaw{});
   const auto direction = [&](double t) {
     const MotionPoint point = motion.at_time(t);
     return std::atan2(point.velocity.y(), point.velocity.x());
@@ -117,17 +117,17 @@ TEST_CASE("a masse shot curves while it slips", "[limit]") {
 TEST_CASE("where the slip has fallen to a share", "[route]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     const Shot shot = shot_of(motion_cases[2], 0.1);
-    const WholeMotion motion(shot, law);
+    const BallMotion motion(shot, law);
     for (double share : {0.9, 0.5, 1e-3}) {
       CHECK(motion.at_time(motion.slip_time(share)).slip == Approx(share * slip_at_start(shot)).epsilon(1e-9));
     }
     CHECK_THROWS_AS(motion.slip_time(0), std::domain_error);
   }
-  CHECK(WholeMotion(shot_of(motion_cases[5], 0.1), reduction::PadeLaw{}).slip_time(0.5) == 0);
+  CHECK(BallMotion(shot_of(motion_cases[5], 0.1), reduction::PadeLaw{}).slip_time(0.5) == 0);
 }
 
 TEST_CASE("a time before the start is refused", "[domain]") {
-  const WholeMotion motion(shot_of(motion_cases[0], 0.1), reduction::PadeLaw{});
+  const BallMotion motion(shot_of(motion_cases[0], 0.1), reduction::PadeLaw{});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (double t : {-1.0, nan}) {
     CHECK_THROWS_AS(motion.at_time(t), std::domain_error);

@@ -1,4 +1,4 @@
-#include "contensou/reduction/approach.hpp"
+#include "contensou/reduction/terminal_chart.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 using namespace contensou::reduction;
-using Side = Approach::Side;
+using Side = TerminalChart::Side;
 
 namespace {
 
@@ -15,9 +15,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("towards 0 xi is ln k, towards infinity -ln k", "[approach][limit]") {
-  const Approach zero = Approach::to_zero();
-  const Approach far(Side::below, infinity);
+TEST_CASE("towards 0 xi is ln k, towards infinity -ln k", "[chart][limit]") {
+  const TerminalChart zero = TerminalChart::to_zero();
+  const TerminalChart far(Side::below, infinity);
   for (double ln_k : {-1e20, -700.0, -0.3, 0.0, 2.5, 800.0}) {
     CHECK(zero.coordinate(ln_k) == ln_k);
     CHECK(zero.log_ratio(ln_k) == ln_k);
@@ -29,10 +29,10 @@ TEST_CASE("towards 0 xi is ln k, towards infinity -ln k", "[approach][limit]") {
   }
 }
 
-TEST_CASE("xi is the logarithm of the distance to k*", "[approach]") {
+TEST_CASE("xi is the logarithm of the distance to k*", "[chart]") {
   for (double k_star : {1e-9, 0.6, 1.0, 40.0}) {
-    const Approach above(Side::above, std::log(k_star));
-    const Approach below(Side::below, std::log(k_star));
+    const TerminalChart above(Side::above, std::log(k_star));
+    const TerminalChart below(Side::below, std::log(k_star));
     CHECK(above.log_terminal_ratio() == std::log(k_star));
     CHECK(below.log_terminal_ratio() == std::log(k_star));
     for (double times : {1.001, 1.5, 3.0, 1e6}) {
@@ -51,29 +51,30 @@ TEST_CASE("xi is the logarithm of the distance to k*", "[approach]") {
   }
 }
 
-TEST_CASE("the rate is the slope of ln k", "[approach][invariant]") {
-  for (const Approach& approach : {Approach(Side::above, 0.7), Approach(Side::below, 0.7), Approach::to_zero()}) {
+TEST_CASE("the rate is the slope of ln k", "[chart][invariant]") {
+  for (const TerminalChart& chart :
+       {TerminalChart(Side::above, 0.7), TerminalChart(Side::below, 0.7), TerminalChart::to_zero()}) {
     for (double xi : {-3.0, -0.2, 0.9, 6.0}) {
       const double h = 1e-5;
-      const double slope = (approach.log_ratio(xi + h) - approach.log_ratio(xi - h)) / (2 * h);
-      CHECK(approach.log_ratio_rate(xi) == Approx(slope).epsilon(1e-8));
+      const double slope = (chart.log_ratio(xi + h) - chart.log_ratio(xi - h)) / (2 * h);
+      CHECK(chart.log_ratio_rate(xi) == Approx(slope).epsilon(1e-8));
     }
   }
 }
 
-TEST_CASE("on the ray xi is as low as any", "[approach][limit]") {
+TEST_CASE("on the ray xi is as low as any", "[chart][limit]") {
   for (Side side : {Side::above, Side::below}) {
-    const Approach approach(side, 1.5);
-    const double nearest = approach.coordinate(1.5);
+    const TerminalChart chart(side, 1.5);
+    const double nearest = chart.coordinate(1.5);
     CHECK(std::isfinite(nearest));
-    CHECK(approach.log_ratio(nearest) == 1.5);
-    CHECK(approach.reaches(1.5));
-    CHECK(approach.coordinate(side == Side::above ? 1.4 : 1.6) == nearest);
+    CHECK(chart.log_ratio(nearest) == 1.5);
+    CHECK(chart.reaches(1.5));
+    CHECK(chart.coordinate(side == Side::above ? 1.4 : 1.6) == nearest);
   }
 }
 
-TEST_CASE("nothing is above infinity or below 0", "[approach][domain]") {
-  CHECK_THROWS_AS(Approach(Side::above, infinity), std::domain_error);
-  CHECK_THROWS_AS(Approach(Side::below, -infinity), std::domain_error);
-  CHECK_THROWS_AS(Approach(Side::above, std::nan("")), std::domain_error);
+TEST_CASE("nothing is above infinity or below 0", "[chart][domain]") {
+  CHECK_THROWS_AS(TerminalChart(Side::above, infinity), std::domain_error);
+  CHECK_THROWS_AS(TerminalChart(Side::below, -infinity), std::domain_error);
+  CHECK_THROWS_AS(TerminalChart(Side::above, std::nan("")), std::domain_error);
 }

@@ -1,4 +1,4 @@
-#include "steppers/stop_limit.hpp"
+#include "steppers/asymptotic_tail.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,19 +7,19 @@ namespace contensou::reduction {
 
 using std::numbers::pi;
 
-std::optional<StopLimit> StopLimit::at(const ReducedSystem& system, const LogState& state) {
+std::optional<AsymptoticTail> AsymptoticTail::at(const ReducedSystem& system, const LogState& state) {
   const double ln_k = state.ln_v - state.ln_w;
   const double pivoting_rate = system.r() * system.law().pivoting_moment();
   // Pure pivoting: v has become too small to be felt. Pure sliding: all pivoting would take no time.
-  if (ln_k < std::log(1e-17)) return StopLimit(system, state, true);
-  if (ln_k + std::log(pivoting_rate) > std::log(1e18)) return StopLimit(system, state, false);
+  if (ln_k < std::log(1e-17)) return AsymptoticTail(system, state, true);
+  if (ln_k + std::log(pivoting_rate) > std::log(1e18)) return AsymptoticTail(system, state, false);
   // Neither, but next to nothing is left (k tends to a finite ratio, or very slowly to 0).
   const double most = std::exp(state.ln_w) / pivoting_rate + std::exp(state.ln_v);
-  if (most < 1e-17 * state.s) return StopLimit(system, state, ln_k < 0);
+  if (most < 1e-17 * state.s) return AsymptoticTail(system, state, ln_k < 0);
   return std::nullopt;
 }
 
-StopLimit::StopLimit(const ReducedSystem& system, const LogState& from, bool pivoting) : from_(from) {
+AsymptoticTail::AsymptoticTail(const ReducedSystem& system, const LogState& from, bool pivoting) : from_(from) {
   const Law& law = system.law();
   const double pivoting_rate = system.r() * law.pivoting_moment();
   if (pivoting) {
@@ -38,7 +38,7 @@ StopLimit::StopLimit(const ReducedSystem& system, const LogState& from, bool piv
   }
 }
 
-LogState StopLimit::at_share(double share) const {
+LogState AsymptoticTail::at_share(double share) const {
   const double ln_share = std::log(share);
   return {from_.ln_w + ln_w_slope_ * ln_share, from_.ln_v + ln_v_slope_ * ln_share, from_.s + left_ * (1 - share),
           from_.age + age_scale_ * (1 / share - 1)};

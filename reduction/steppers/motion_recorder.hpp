@@ -3,17 +3,17 @@
 #include <vector>
 
 #include "contensou/reduction/motion.hpp"
-#include "steppers/stop_limit.hpp"
+#include "steppers/asymptotic_tail.hpp"
 
 namespace contensou::reduction {
 
 /// What both steppers say and in which unit: the start in logarithms, the instants still to be reported, the Motion
 /// that grows. No equation of motion lives here.
-class StepperReport {
+class MotionRecorder {
  public:
   /// @param caller  named in error messages
   /// @throws std::domain_error  if start is not a state, or times are negative, not finite or decreasing
-  StepperReport(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times);
+  MotionRecorder(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times);
 
   /// The start, speeds in the report's unit; -inf for a speed of 0. It is reported already where it was asked for.
   const LogState& start() const { return start_; }
@@ -30,7 +30,7 @@ class StepperReport {
   void add(const LogState& state);
 
   /// Reports what lies in the tail and the stop, and closes the motion.
-  Motion finish(const StopLimit& tail, long steps, long evaluations);
+  Motion finish(const AsymptoticTail& tail, long steps, long evaluations);
 
   /// The motion of a body that is at rest from the start.
   Motion finish_at_rest();

@@ -1,4 +1,4 @@
-#include "steppers/stepper_report.hpp"
+#include "steppers/motion_recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int tail_instants = 64;
 }  // namespace
 
-StepperReport::StepperReport(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times)
+MotionRecorder::MotionRecorder(const char* caller, const ReducedSystem& system, State start,
+                               const Eigen::ArrayXd& times)
     : caller_(caller),
       scaled_time_rate_(system.scaled_time_rate()),
       mu_(system.mu()),
@@ -46,12 +47,12 @@ StepperReport::StepperReport(const char* caller, const ReducedSystem& system, St
   while (points_.size() < times_.size() && times_[points_.size()] == 0) points_.push_back(at_start);
 }
 
-double StepperReport::next_time() const {
+double MotionRecorder::next_time() const {
   if (points_.size() >= times_.size()) return infinity;
   return std::ldexp(times_[points_.size()], -exponent_) * scaled_time_rate_;
 }
 
-void StepperReport::add(const LogState& state) {
+void MotionRecorder::add(const LogState& state) {
   const double unit = exponent_ * std::log(2.0);
   const double ln_v = state.ln_v + unit;
   const double ln_u = state.ln_w + unit - std::log(mu_);
@@ -66,7 +67,7 @@ void StepperReport::add(const LogState& state) {
   points_.push_back(point);
 }
 
-Motion StepperReport::close(double stop_time, long steps, long evaluations, Outcome outcome) {
+Motion MotionRecorder::close(double stop_time, long steps, long evaluations, Outcome outcome) {
   Motion motion;
   motion.stop_time = stop_time;
   motion.steps = steps;
@@ -82,7 +83,7 @@ Motion StepperReport::close(double stop_time, long steps, long evaluations, Outc
   return motion;
 }
 
-Motion StepperReport::finish(const StopLimit& tail, long steps, long evaluations) {
+Motion MotionRecorder::finish(const AsymptoticTail& tail, long steps, long evaluations) {
   while (next_time() < tail.stop()) add(tail.at_time(next_time()));
   if (every_step_) {
     for (int i = tail_instants - 1; i > 0; --i) {
@@ -94,12 +95,12 @@ Motion StepperReport::finish(const StopLimit& tail, long steps, long evaluations
   return close(stop_time, steps, evaluations, Outcome{});
 }
 
-Motion StepperReport::finish_at_rest() {
+Motion MotionRecorder::finish_at_rest() {
   points_.clear();
   return close(0, 0, 0, Outcome{});
 }
 
-Motion StepperReport::fail(Outcome::Kind kind, long steps, long evaluations) {
+Motion MotionRecorder::fail(Outcome::Kind kind, long steps, long evaluations) {
   const char* why = kind == Outcome::Kind::step_limit ? "the step limit was reached before the stop"
                                                       : "the step size fell to nothing or a value was not finite";
   const double reached = points_.empty() ? 0.0 : points_.back().tau;

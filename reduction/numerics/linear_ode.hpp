@@ -15,7 +15,7 @@ namespace contensou::reduction {
 ///
 /// While h/d is moderate, by the integrating factor. Where it is large the factor is no polynomial, but y is: then by
 /// collocation, one linear system for y' at the points; where the start is forgotten at once, for y without it.
-LegendreSeries relax(const LegendreSeries::Samples& drag, const LegendreSeries::Samples& rate,
-                     const LegendreSeries::Samples& source, double start);
+LegendreSeries solve_linear_ode(const LegendreSeries::Samples& drag, const LegendreSeries::Samples& rate,
+                                const LegendreSeries::Samples& source, double start);
 
 }  // namespace contensou::reduction

@@ -11,10 +11,10 @@ namespace contensou::si {
 /// After the stop the ball rolls on a straight line at constant velocity: the model has no rolling resistance.
 ///
 /// Accuracy  1e-12 of the scales of the motion against integrate_motion, for mu from 1e-3 to 1.
-class WholeMotion {
+class BallMotion {
  public:
   /// @throws std::domain_error  as require_shot
-  WholeMotion(const Shot& shot, const reduction::Law& law);
+  BallMotion(const Shot& shot, const reduction::Law& law);
 
   /// s from the start until the ball neither slides nor spins.
   double stop_time() const { return stop_; }

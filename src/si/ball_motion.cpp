@@ -1,4 +1,4 @@
-#include "contensou/si/whole_motion.hpp"
+#include "contensou/si/ball_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace contensou::si {
 
-WholeMotion::WholeMotion(const Shot& shot, const reduction::Law& law)
+BallMotion::BallMotion(const Shot& shot, const reduction::Law& law)
     : shot_(shot),
       orbit_(reduction::Flow(reduced_system(shot, law)).orbit(reduced_start(shot))),
       stop_(seconds(shot, orbit_.stop_time())),
@@ -20,24 +20,24 @@ WholeMotion::WholeMotion(const Shot& shot, const reduction::Law& law)
   if (!std::isfinite(stop_)) throw std::runtime_error("the stop time exceeds the largest double");
 }
 
-double WholeMotion::paper_time(double t) const { return t >= stop_ ? orbit_.stop_time() : t * scale_; }
+double BallMotion::paper_time(double t) const { return t >= stop_ ? orbit_.stop_time() : t * scale_; }
 
-MotionPoint WholeMotion::at_time(double t) const {
-  if (!(t >= 0)) throw std::domain_error(fmt::format("WholeMotion::at_time: t must be >= 0, in s; got {}", t));
+MotionPoint BallMotion::at_time(double t) const {
+  if (!(t >= 0)) throw std::domain_error(fmt::format("BallMotion::at_time: t must be >= 0, in s; got {}", t));
   const double tau = paper_time(t);
   const reduction::OrbitPoint point = orbit_.at_time(tau);
   return motion_by_slip(shot_, t, point.v, seconds(shot_, orbit_.slip_length(tau)), point.u / shot_.ball.radius);
 }
 
-MotionColumns WholeMotion::at_times(const Eigen::ArrayXd& times) const {
+MotionColumns BallMotion::at_times(const Eigen::ArrayXd& times) const {
   MotionColumns columns(times.size());
   for (Eigen::Index i = 0; i < times.size(); ++i) columns.set(i, at_time(times[i]));
   return columns;
 }
 
-double WholeMotion::slip_time(double share) const {
+double BallMotion::slip_time(double share) const {
   if (!(share > 0 && share <= 1)) {
-    throw std::domain_error(fmt::format("WholeMotion::slip_time: 0 < share <= 1 is required, got {}", share));
+    throw std::domain_error(fmt::format("BallMotion::slip_time: 0 < share <= 1 is required, got {}", share));
   }
   if (slip_at_start(shot_) == 0) return 0;
   const double start = orbit_.start_log_ratio();
@@ -53,10 +53,10 @@ double WholeMotion::slip_time(double share) const {
   return seconds(shot_, orbit_.at_log_ratio(low).tau);
 }
 
-double WholeMotion::slip_length() const { return seconds(shot_, orbit_.slip_length(orbit_.stop_time())); }
+double BallMotion::slip_length() const { return seconds(shot_, orbit_.slip_length(orbit_.stop_time())); }
 
 template <class Function>
-double WholeMotion::integral(Function function, double end) const {
+double BallMotion::integral(Function function, double end) const {
   using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
   constexpr unsigned depth = 12;
   constexpr double tolerance = 1e-10;
@@ -70,12 +70,12 @@ double WholeMotion::integral(Function function, double end) const {
   return sum;
 }
 
-double WholeMotion::spin_angle() const {
+double BallMotion::spin_angle() const {
   return integral([this](double t) { return orbit_.at_time(paper_time(t)).u / shot_.ball.radius; }, stop_);
 }
 
-double WholeMotion::path_length(double t) const {
-  if (!(t >= 0)) throw std::domain_error(fmt::format("WholeMotion::path_length: t must be >= 0, in s; got {}", t));
+double BallMotion::path_length(double t) const {
+  if (!(t >= 0)) throw std::domain_error(fmt::format("BallMotion::path_length: t must be >= 0, in s; got {}", t));
   return integral([this](double at) { return at_time(at).velocity.norm(); }, t);
 }
 

@@ -13,6 +13,6 @@ namespace contensou::reduction {
 ///
 /// Source    README (R27) to (R30).
 /// Accuracy  5 ulp for the r and k given while r <= 10 (a ball: mu <= 3.7), 7 ulp up to r = 1e4 (tests/certify).
-double pade_sliding_share(double r, double k);
+double pade_sliding_coefficient(double r, double k);
 
 }  // namespace contensou::reduction

@@ -20,10 +20,10 @@ struct LogState {
 ///
 /// k -> 0: w falls at the rate r Psi(0), v follows with the exponent of the linearised law. k -> infinity: v falls at
 /// the rate 1, w follows.
-class StopLimit {
+class AsymptoticTail {
  public:
   /// The limit that holds at this state to better than 1e-17 of the whole time, if one does.
-  static std::optional<StopLimit> at(const ReducedSystem& system, const LogState& state);
+  static std::optional<AsymptoticTail> at(const ReducedSystem& system, const LogState& state);
 
   /// Scaled time since the start at which the body stops.
   double stop() const { return from_.s + left_; }
@@ -35,7 +35,7 @@ class StopLimit {
   LogState at_share(double share) const;
 
  private:
-  StopLimit(const ReducedSystem& system, const LogState& from, bool pivoting);
+  AsymptoticTail(const ReducedSystem& system, const LogState& from, bool pivoting);
 
   LogState from_;
   double left_;

@@ -11,7 +11,7 @@ namespace contensou::program {
 
 /// Everything that a portrait is asked for by: the options of `portrait`, or the state of the page. Equal questions
 /// have equal answers, so that the page's command line draws what the page shows.
-struct PortraitQuestion {
+struct PortraitSpec {
   reduction::Flow flow;
   std::optional<reduction::State> start = {};  ///< of the highlighted orbit
   std::optional<si::Shot> shot = {};           ///< where mu and start came from, if it is a ball in SI units

@@ -12,21 +12,21 @@ namespace contensou::reduction {
 ///   from above:  xi = ln[(k - k*)/(1 - k/k_far)]          (k* = 0, k_far = infinity: ln k)
 ///   from below:  xi = ln[(1/k - 1/k*)/(1 - k_far/k)]      (k* = infinity, k_far = 0: -ln k)
 /// Next to k* and k_far a double k says little about its distance to them, and xi all of it.
-class Approach {
+class TerminalChart {
  public:
   enum class Side { above, below };
 
   /// From as far as there is on this side: infinity above, 0 below.
   /// @param ln_k_star  ln of the terminal ratio: -infinity is only reached from above, +infinity only from below
   /// @throws std::domain_error  if ln_k_star is not a number, or at infinity on the other side
-  Approach(Side side, double ln_k_star);
+  TerminalChart(Side side, double ln_k_star);
 
   /// From k_far, above k* or below it.
   /// @throws std::domain_error  if they are equal or not numbers
-  static Approach between(double ln_k_star, double ln_k_far);
+  static TerminalChart between(double ln_k_star, double ln_k_far);
 
   /// k -> 0 from infinity: xi is ln k.
-  static Approach to_zero();
+  static TerminalChart to_zero();
 
   Side side() const { return sign_ > 0 ? Side::above : Side::below; }
 
@@ -39,7 +39,7 @@ class Approach {
   /// Whether k is between k* and k_far, or one of them.
   bool reaches(double ln_k) const { return sign_ * ln_k >= end_ && sign_ * ln_k <= far_; }
 
-  /// xi of a k between them; k* itself, and what is nearer than a double tells, as lowest_nearness below it, and k_far
+  /// xi of a k between them; k* itself, and what is nearer than a double tells, as min_coordinate below it, and k_far
   /// as much above.
   double coordinate(double ln_k) const;
 
@@ -50,10 +50,10 @@ class Approach {
   double log_ratio_rate(double xi) const;
 
   /// Where exp(xi) is 0 beside any k*.
-  static constexpr double lowest_nearness = -745;
+  static constexpr double min_coordinate = -745;
 
  private:
-  Approach(double sign, double end, double far);
+  TerminalChart(double sign, double end, double far);
 
   double sign_;  ///< of d ln k/d xi
   double

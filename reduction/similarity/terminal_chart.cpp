@@ -1,4 +1,4 @@
-#include "contensou/reduction/approach.hpp"
+#include "contensou/reduction/terminal_chart.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,41 +17,41 @@ double log_one_minus_exp(double x) { return x < 1 ? std::log(-std::expm1(-x)) : 
 
 }  // namespace
 
-Approach::Approach(double sign, double end, double far) : sign_(sign), end_(end), far_(far) {
+TerminalChart::TerminalChart(double sign, double end, double far) : sign_(sign), end_(end), far_(far) {
   if (!(end < far)) {
-    throw std::domain_error(
-        fmt::format("Approach: there is nothing {} a terminal ratio with ln k* = {} on the way from one with ln k = {}",
-                    sign > 0 ? "above" : "below", sign * end, sign * far));
+    throw std::domain_error(fmt::format(
+        "TerminalChart: there is nothing {} a terminal ratio with ln k* = {} on the way from one with ln k = {}",
+        sign > 0 ? "above" : "below", sign * end, sign * far));
   }
 }
 
-Approach::Approach(Side side, double ln_k_star)
-    : Approach(side == Side::above ? 1 : -1, side == Side::above ? ln_k_star : -ln_k_star, infinity) {}
+TerminalChart::TerminalChart(Side side, double ln_k_star)
+    : TerminalChart(side == Side::above ? 1 : -1, side == Side::above ? ln_k_star : -ln_k_star, infinity) {}
 
-Approach Approach::between(double ln_k_star, double ln_k_far) {
+TerminalChart TerminalChart::between(double ln_k_star, double ln_k_far) {
   const double sign = ln_k_far < ln_k_star ? -1 : 1;
   return {sign, sign * ln_k_star, sign * ln_k_far};
 }
 
-Approach Approach::to_zero() { return {Side::above, -infinity}; }
+TerminalChart TerminalChart::to_zero() { return {Side::above, -infinity}; }
 
-double Approach::coordinate(double ln_k) const {
+double TerminalChart::coordinate(double ln_k) const {
   const double y = sign_ * ln_k;
-  if (!(y > end_)) return end_ == -infinity ? y : end_ + lowest_nearness;
-  if (!(y < far_)) return far_ == infinity ? y : far_ - lowest_nearness;
+  if (!(y > end_)) return end_ == -infinity ? y : end_ + min_coordinate;
+  if (!(y < far_)) return far_ == infinity ? y : far_ - min_coordinate;
   const double near_end = end_ == -infinity ? 0 : log_one_minus_exp(y - end_);
   const double near_far = far_ == infinity ? 0 : log_one_minus_exp(far_ - y);
   return y + near_end - near_far;
 }
 
-double Approach::log_ratio(double xi) const {
+double TerminalChart::log_ratio(double xi) const {
   const double from_end = std::log1p(std::exp(xi > end_ ? end_ - xi : xi - end_));
   if (xi > far_) return sign_ * (far_ + from_end - std::log1p(std::exp(far_ - xi)));
   const double from_far = far_ == infinity ? 0 : std::log1p(std::exp(xi - far_));
   return sign_ * (std::max(xi, end_) + from_end - from_far);
 }
 
-double Approach::log_ratio_rate(double xi) const {
+double TerminalChart::log_ratio_rate(double xi) const {
   // (1 - k*/k) (1 - k/k_far)/(1 - k*/k_far) from above.
   const double from_end = 1 / (1 + std::exp(end_ - xi));
   if (far_ == infinity) return sign_ * from_end;
