@@ -58,7 +58,7 @@ class Directions {
 
 std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& rectangle,
                                   const std::vector<double>& times) {
-  const auto& [low, high, logarithmic] = rectangle;
+  const State low = rectangle.low, high = rectangle.high;
   const Directions directions(flow, rectangle);
   const std::vector<double>& all = directions.all();
   std::vector<State> units;

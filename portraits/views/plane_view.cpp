@@ -56,7 +56,7 @@ Panel contact_panel(const Drawing& drawing) {
   const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
   // Where orbits are seeded: at the top, or around the middle.
   const double top = std::log(portrait.window.v / (portrait.system().mu() * U));
-  const auto [lowest, highest] = rays.empty() ? std::pair{2.0, 2.0} : std::pair{rays.front(), rays.back()};
+  const double lowest = rays.empty() ? 2 : rays.front(), highest = rays.empty() ? 2 : rays.back();
   if (pivoting) {
     const double depth = std::max(order * std::log(shrinks), 8.0);
     panel.title = fmt::format("orbits touch the axis {{/:Italic v}} = 0:  {{/:Italic k}} ∝ |{{/:Italic u}}|^{{{}}}",

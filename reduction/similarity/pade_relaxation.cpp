@@ -112,7 +112,7 @@ double by_series(const PadeRelaxation& at, Connection connection) {
   const double constant = connection(d);
   const double L = std::log(eta) + constant;
   // Where d L is not small, the power itself keeps a digit that the logarithm has lost, and q one that d has.
-  const auto power = [&] {
+  const auto power = [&, q = q] {
     return (nearest == 1 ? std::pow(eta, q) / eta : std::pow(eta, d)) * std::exp(d * constant);
   };
   const double W = std::abs(d * L) < 0.5 ? expm1_over(d, L) : (power() - 1) / d;
