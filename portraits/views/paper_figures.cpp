@@ -120,7 +120,9 @@ Figure patch_drawing() {
                 "Zh98, Fig. 1: every element slips across its radius vector " + italic("r") + " from " + italic("C"),
                 150, 140);
 
-  const auto polar = [](double r, double theta) { return Point{C.x + r * std::sin(theta), C.y + r * std::cos(theta)}; };
+  const auto polar = [&](double r, double theta) {
+    return Point{C.x + r * std::sin(theta), C.y + r * std::cos(theta)};
+  };
   // Hatched lightly, so that the patch is seen as a face.
   for (int i = -18; i <= 18; ++i) {
     const double x = i / 18.5;
