@@ -38,7 +38,8 @@ Place place(double u, double lv) {
   const double y = (distance < smaller ? distance : smaller) / (u + lv) + Panels::lowest;
   const auto bits = std::bit_cast<std::uint64_t>(y);
   const std::size_t sheet = (distance < smaller ? Panels::near_one : 0) + (lv > u ? Panels::above_one : 0);
-  return {sheet + (bits >> index_shift) % Panels::per_sheet, y - std::bit_cast<double>(bits & left_mask)};
+  const auto index = static_cast<std::size_t>((bits >> index_shift) % Panels::per_sheet);
+  return {sheet + index, y - std::bit_cast<double>(bits & left_mask)};
 }
 
 double one(const Panels& table, double u0, double v0) {
