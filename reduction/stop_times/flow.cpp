@@ -33,7 +33,7 @@ bool same_ratio(double a, double b) { return a == b || std::abs(a - b) < 1e-6; }
 
 /// A ln k between two ratios, either of which may be 0 or infinity.
 double between(double k, double other) {
-  const auto [low, high] = std::minmax(std::log(k), std::log(other));
+  const auto [low, high] = std::minmax({std::log(k), std::log(other)});
   if (std::isinf(low)) return std::isinf(high) ? 0 : high - 1;
   return std::isinf(high) ? low + 1 : low + (high - low) / 2;
 }
