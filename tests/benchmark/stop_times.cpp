@@ -251,8 +251,8 @@ int main() {
 
   // Orbits.
   std::vector<Orbit> orbits;
-  const ReducedSystem pool(PadeLaw{}, 0.1);
-  for (int i = 0; i < 40; ++i) orbits.emplace_back(pool, State{1, 0.1 * std::exp(0.2 * (i - 20))});
+  const Flow pool({PadeLaw{}, 0.1});
+  for (int i = 0; i < 40; ++i) orbits.push_back(pool.orbit({1, 0.1 * std::exp(0.2 * (i - 20))}));
   measure("inversion", [&] {
     for (const Orbit& orbit : orbits) benchmark::DoNotOptimize(orbit.at_time(0.3 * orbit.stop_time()));
   });
