@@ -23,9 +23,9 @@ const SimilaritySolution::Curve& SimilaritySolution::through(double ln_k) const 
   throw std::domain_error(fmt::format("SimilaritySolution: no curve through ln k = {}", ln_k));
 }
 
-SimilaritySolution quadrature_solution(const Law& law, double r) {
+SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios) {
   std::vector<SimilaritySolution::Curve> curves;
-  for (const TerminalRatio& end : terminal_ratios(law, r).ends) {
+  for (const TerminalRatio& end : ratios.ends) {
     for (double far : {end.from, end.to}) {
       if (far == end.k) continue;
       try {

@@ -15,10 +15,15 @@ namespace contensou::reduction {
 
 struct Flow::Solved {
   ReducedSystem system;
-  SimilaritySolution solution;
-  bool by_quadrature;
-  bool closed_time;  ///< stop times have a closed form of their own
   TerminalRatios terminal = terminal_ratios(system.law(), system.r());
+  SimilaritySolution solution = {};
+  bool by_quadrature = false;
+  bool closed_time = false;  ///< stop times have a closed form of their own
+
+  void solve_by_quadrature() {
+    solution = quadrature_solution(system.law(), system.r(), terminal);
+    by_quadrature = true;
+  }
 };
 
 struct Flow::Arrays {
@@ -60,21 +65,22 @@ void require_match(const ReducedSystem& system, const SimilaritySolution& soluti
 Flow::Flow(Solved solved)
     : solved_(std::make_shared<const Solved>(std::move(solved))), arrays_(std::make_shared<Arrays>()) {}
 
-Flow::Flow(ReducedSystem system)
+Flow::Flow(const ReducedSystem& system)
     : Flow([&] {
-        SimilaritySolution closed = closed_solution(system.law(), system.r());
-        const bool by_quadrature = !closed;
-        const bool closed_time = closed_stop_time(system, {0, 0}).has_value();
-        return Solved{system, by_quadrature ? quadrature_solution(system.law(), system.r()) : std::move(closed),
-                      by_quadrature, closed_time};
+        Solved solved{.system = system, .solution = closed_solution(system.law(), system.r())};
+        solved.closed_time = closed_stop_time(system, {0, 0}).has_value();
+        if (!solved.solution) solved.solve_by_quadrature();
+        return solved;
       }()) {}
 
-Flow Flow::by_quadrature(ReducedSystem system) {
-  return Flow(Solved{system, quadrature_solution(system.law(), system.r()), true, false});
+Flow Flow::by_quadrature(const ReducedSystem& system) {
+  Solved solved{.system = system};
+  solved.solve_by_quadrature();
+  return Flow(std::move(solved));
 }
 
-Flow::Flow(ReducedSystem system, SimilaritySolution solution)
-    : Flow(Solved{std::move(system), std::move(solution), false, false}) {
+Flow::Flow(const ReducedSystem& system, SimilaritySolution solution)
+    : Flow(Solved{.system = system, .solution = std::move(solution)}) {
   require_match(solved_->system, solved_->solution, solved_->terminal);
 }
 

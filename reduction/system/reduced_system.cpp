@@ -74,10 +74,10 @@ double ReducedSystem::pivoting_limit(double u) const {
 
 Bounds ReducedSystem::stop_time_bounds(State start) const {
   require_state("ReducedSystem::stop_time_bounds", start);
-  if (!law_.sliding_coefficient()) return {0, std::numeric_limits<double>::infinity()};
+  if (!law_.sliding_bounds()) return {0, std::numeric_limits<double>::infinity()};
   const double sliding = sliding_limit(start.v);
   const double pivoting = pivoting_limit(start.u);
-  const auto [least, most] = *law_.sliding_coefficient();
+  const auto [least, most] = *law_.sliding_bounds();
   const double least_sliding = least == 0 ? 0 : least * sliding;  // sliding may be infinite
   // Outwards by the rounding of these sums and of the stop time itself, so that it is never outside.
   const double rounding = (8 + std::log1p(r_)) * std::numeric_limits<double>::epsilon();

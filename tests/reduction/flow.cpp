@@ -60,16 +60,20 @@ TEST_CASE("copies of a flow share what is solved, and its table is released", "[
 // Before, Orbit took another system's solution in silence: 10.8252 instead of 10.8269.
 TEST_CASE("a solution of another system is refused", "[flow][domain]") {
   const ReducedSystem system(HertzLaw{}, 0.3);
-  CHECK_THROWS_WITH(Flow(system, quadrature_solution(HertzLaw{}, 0.1)), Contains("Flow: a solution for r = 0.1"));
+  CHECK_THROWS_WITH(Flow(system, quadrature_solution(HertzLaw{}, 0.1, terminal_ratios(HertzLaw{}, 0.1))),
+                    Contains("Flow: a solution for r = 0.1"));
   CHECK_THROWS_WITH(Flow(system, SimilaritySolution()), Contains("no curve"));
 
   // 2 < r < 5: two curves, to k* of the law; of another law they tend to another ratio.
   const ReducedSystem puck(HertzLaw{}, 1, {.chi = 1, .gamma = 2.5});
-  const SimilaritySolution right = quadrature_solution(HertzLaw{}, 2.5);
+  const SimilaritySolution right = quadrature_solution(HertzLaw{}, 2.5, terminal_ratios(HertzLaw{}, 2.5));
   CHECK(Flow(puck, right).stop_time({1, 1}).tau == Flow(puck).stop_time({1, 1}).tau);
   CHECK_THROWS_WITH(Flow(puck, right.curves().front()), Contains("no curve"));
-  CHECK_THROWS_WITH(Flow(puck, quadrature_solution(*find_law("uniform"), 2.5)), Contains("tends to"));
-  CHECK_THROWS_WITH(Flow({HertzLaw{}, 1, {.chi = 1, .gamma = 1.5}}, quadrature_solution(*find_law("ring"), 1.5)),
+  CHECK_THROWS_WITH(
+      Flow(puck, quadrature_solution(*find_law("uniform"), 2.5, terminal_ratios(*find_law("uniform"), 2.5))),
+      Contains("tends to"));
+  CHECK_THROWS_WITH(Flow({HertzLaw{}, 1, {.chi = 1, .gamma = 1.5}},
+                         quadrature_solution(*find_law("ring"), 1.5, terminal_ratios(*find_law("ring"), 1.5))),
                     Contains("where law exact"));
 }
 

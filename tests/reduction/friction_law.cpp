@@ -63,9 +63,9 @@ TEST_CASE("a law keeps what it offers", "[friction_law]") {
   CHECK(exact.name() == "exact");
   CHECK(exact.pivoting_moment() == HertzLaw{}({0, 1}).moment);
   CHECK(exact.force_slope() == Approx(1.1780972450961724).epsilon(1e-15));
-  REQUIRE(exact.sliding_coefficient());
-  CHECK(exact.sliding_coefficient()->least == 0);
-  CHECK(exact.sliding_coefficient()->most == 1);
+  REQUIRE(exact.sliding_bounds());
+  CHECK(exact.sliding_bounds()->least == 0);
+  CHECK(exact.sliding_bounds()->most == 1);
   CHECK(exact.moment_deficit({1e-9, 1}) == HertzLaw{}.moment_deficit({1e-9, 1}));
 
   const Law pade = PadeLaw{};
@@ -79,7 +79,7 @@ TEST_CASE("a law of one function has the defaults", "[friction_law]") {
   CHECK(law.name() == "user's law");
   CHECK(law.pivoting_moment() == law({0, 1}).moment);
   CHECK(law.force_slope() == 1 / 0.8);
-  CHECK_FALSE(law.sliding_coefficient());
+  CHECK_FALSE(law.sliding_bounds());
   CHECK(law.kinks() == std::vector<double>{1});
   CHECK(law.moment_deficit({1, 1}) == 1 - law({1, 1}).moment / law.pivoting_moment());
 

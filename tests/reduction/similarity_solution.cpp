@@ -37,7 +37,7 @@ TEST_CASE("the solution that is used is the closed one where there is one", "[si
 }
 
 TEST_CASE("each k has the curve of its side of the ray", "[similarity_solution]") {
-  const SimilaritySolution solution = quadrature_solution(HertzLaw{}, 2.5);
+  const SimilaritySolution solution = quadrature_solution(HertzLaw{}, 2.5, terminal_ratios(HertzLaw{}, 2.5));
   const double ln_k_star = std::log(std::sqrt((32 - std::sqrt(544.0)) / 30));
   CHECK(solution.through(ln_k_star + 0.1)->chart().side() == TerminalChart::Side::above);
   CHECK(solution.through(ln_k_star - 0.1)->chart().side() == TerminalChart::Side::below);
@@ -167,9 +167,9 @@ TEST_CASE("the Pade law has a closed form up to the r where it keeps its digits"
 // Phi/(k Psi) of this law has a minimum, 1.9909 at k = 0.144, below its 2 at k = 0: a ray that repels and one that attracts.
 TEST_CASE("a law with several rays has a curve on each side of each", "[similarity_solution]") {
   const Law law = *find_law("potential8");
-  CHECK(quadrature_solution(law, 1.99).curves().size() == 1);
-  CHECK(quadrature_solution(law, 2).curves().size() == 2);
-  const SimilaritySolution solution = quadrature_solution(law, 1.995);
+  CHECK(quadrature_solution(law, 1.99, terminal_ratios(law, 1.99)).curves().size() == 1);
+  CHECK(quadrature_solution(law, 2, terminal_ratios(law, 2)).curves().size() == 2);
+  const SimilaritySolution solution = quadrature_solution(law, 1.995, terminal_ratios(law, 1.995));
   REQUIRE(solution.curves().size() == 3);
   const auto end = [&](double k) { return std::exp(solution.through(std::log(k))->chart().log_terminal_ratio()); };
   CHECK(end(0.08) == 0);

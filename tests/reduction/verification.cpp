@@ -43,16 +43,16 @@ struct WrongDeficit : PadeLaw {
 };
 
 struct ShareTooLarge : PadeLaw {
-  static constexpr SlidingShare sliding_coefficient{2.4, 2.5};
+  static constexpr SlidingBounds sliding_bounds{2.4, 2.5};
 };
 
 struct ShareTooSmall : PadeLaw {
-  static constexpr SlidingShare sliding_coefficient{1, 1.01};
+  static constexpr SlidingBounds sliding_bounds{1, 1.01};
 };
 
 /// The bound of the Pade law, claimed for Coulomb friction.
 struct WrongSide : HertzLaw {
-  static constexpr SlidingShare sliding_coefficient{1, 2.5};
+  static constexpr SlidingBounds sliding_bounds{1, 2.5};
 };
 
 const State start{-1, 0.5};

@@ -28,15 +28,15 @@ class Flow {
  public:
   /// By the law's closed form where it has one, else by quadrature.
   /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios does not find
-  Flow(ReducedSystem system);  // NOLINT(google-explicit-constructor): a system determines its flow
+  Flow(const ReducedSystem& system);  // NOLINT(google-explicit-constructor): a system determines its flow
 
   /// By quadrature, whatever closed form the law has.
-  static Flow by_quadrature(ReducedSystem system);
+  static Flow by_quadrature(const ReducedSystem& system);
 
   /// With a solution of your own, in place of a closed form. Its curves are taken at their word: verify examines them.
   /// @throws std::domain_error  if the curves are of another r than system.r(), do not cover every k, or tend to another
   ///                            ratio than terminal() says
-  Flow(ReducedSystem system, SimilaritySolution solution);
+  Flow(const ReducedSystem& system, SimilaritySolution solution);
 
   const ReducedSystem& system() const;
 

@@ -24,7 +24,7 @@ namespace contensou::reduction {
 /// A law may state more; each of these is used when it is there:
 ///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
-///   - `static constexpr SlidingShare sliding_coefficient`, its two-sided bound of the stop time;
+///   - `static constexpr SlidingBounds sliding_bounds`, its two-sided bound of the stop time;
 ///   - `kinks()`, every k where Phi or Psi is not smooth (1 unless stated: where the rim of the patch is at rest). A kink
 ///     that is not named costs accuracy of the steppers, and of the curves only time.
 ///
@@ -37,7 +37,7 @@ concept FrictionLaw = std::copy_constructible<L> && requires(const L& law, Slip 
 
 /// Bounds of m in  tau* = P + m S  over all starts (README (R6)): P and S are the times of pure pivoting and pure
 /// sliding.
-struct SlidingShare {
+struct SlidingBounds {
   double least;
   double most;
 };
@@ -61,9 +61,9 @@ class Law {
                        })
       function->name = kept.name();
     if constexpr (requires {
-                    { L::sliding_coefficient } -> std::convertible_to<SlidingShare>;
+                    { L::sliding_bounds } -> std::convertible_to<SlidingBounds>;
                   }) {
-      function->sliding_coefficient = L::sliding_coefficient;
+      function->sliding_bounds = L::sliding_bounds;
     }
     if constexpr (requires {
                     { kept.kinks() } -> std::convertible_to<std::vector<double>>;
@@ -101,7 +101,7 @@ class Law {
   double force_slope() const { return function_->force_slope; }
 
   /// The law's own bounds of the stop time, if it states any.
-  const std::optional<SlidingShare>& sliding_coefficient() const { return function_->sliding_coefficient; }
+  const std::optional<SlidingBounds>& sliding_bounds() const { return function_->sliding_bounds; }
 
   /// The k where Phi or Psi may not be smooth.
   const std::vector<double>& kinks() const { return function_->kinks; }
@@ -115,7 +115,7 @@ class Law {
     void read_limits();
 
     std::string name = "user's law";
-    std::optional<SlidingShare> sliding_coefficient;
+    std::optional<SlidingBounds> sliding_bounds;
     std::vector<double> kinks{1};
     double pivoting_moment = std::numeric_limits<double>::quiet_NaN();
     double force_slope = std::numeric_limits<double>::quiet_NaN();

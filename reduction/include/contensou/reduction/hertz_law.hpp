@@ -14,7 +14,7 @@ namespace contensou::reduction {
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 struct HertzLaw {
   static constexpr std::string_view name = "exact";
-  static constexpr SlidingShare sliding_coefficient{0, 1};
+  static constexpr SlidingBounds sliding_bounds{0, 1};
 
   /// @throws std::domain_error  for a slip that no law can answer (require_slip)
   Resistance operator()(Slip slip) const;

@@ -16,7 +16,7 @@ namespace contensou::reduction {
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 struct PadeLaw {
   static constexpr std::string_view name = "pade";
-  static constexpr SlidingShare sliding_coefficient{1, 2.5};
+  static constexpr SlidingBounds sliding_bounds{1, 2.5};
 
   /// @throws std::domain_error  for a slip that no law can answer (require_slip)
   Resistance operator()(Slip slip) const;

@@ -18,7 +18,7 @@ namespace contensou::reduction {
 /// both its ends: Phi + Psi/Psi(0) >= 1 as for a patch, and the same bounds of the stop time.
 struct Potential8Law {
   static constexpr std::string_view name = "potential8";
-  static constexpr SlidingShare sliding_coefficient{0, 1};
+  static constexpr SlidingBounds sliding_bounds{0, 1};
 
   /// @throws std::domain_error  for a slip that no law can answer (require_slip)
   Resistance operator()(Slip slip) const;

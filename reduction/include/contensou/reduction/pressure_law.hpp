@@ -19,7 +19,7 @@ namespace contensou::reduction {
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 class PressureLaw {
  public:
-  static constexpr SlidingShare sliding_coefficient{0, 1};
+  static constexpr SlidingBounds sliding_bounds{0, 1};
   static constexpr double max_p = 25;
 
   /// @param p  -1 < p <= max_p

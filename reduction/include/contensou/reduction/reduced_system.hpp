@@ -65,7 +65,7 @@ class ReducedSystem {
   /// P = 3 pi |u|/(2 gamma mu Psi(0)): the stop time of a body that pivots and does not slide. Ball: 16 |u|/(5 mu).
   double pivoting_limit(double u) const;
 
-  /// Two-sided bound of the stop time from the law's own SlidingShare and max(S, P) (README (R6)); widened by
+  /// Two-sided bound of the stop time from the law's own SlidingBounds and max(S, P) (README (R6)); widened by
   /// (8 + ln(1 + r)) eps for rounding; [0, infinity] for a law that states none.
   Bounds stop_time_bounds(State start) const;
 

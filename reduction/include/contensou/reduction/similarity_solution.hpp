@@ -7,6 +7,7 @@
 
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/similarity_curve.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
 
 namespace contensou::reduction {
 
@@ -21,8 +22,8 @@ class SimilaritySolution {
   SimilaritySolution() = default;
 
   /// One curve for every k.
-  SimilaritySolution(Curve only)
-      : SimilaritySolution(std::vector{std::move(only)}) {}  // NOLINT(google-explicit-constructor)
+  SimilaritySolution(Curve only)  // NOLINT(google-explicit-constructor)
+      : SimilaritySolution(std::vector{std::move(only)}) {}
 
   template <std::derived_from<SimilarityCurve> C>
   SimilaritySolution(std::shared_ptr<C> only)  // NOLINT(google-explicit-constructor)
@@ -44,9 +45,10 @@ class SimilaritySolution {
 };
 
 /// By quadrature: for any law and r.
+/// @param ratios  terminal_ratios(law, r)
 /// @throws std::domain_error   unless r is positive and finite
 /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
-SimilaritySolution quadrature_solution(const Law& law, double r);
+SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios);
 
 /// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::max_r; empty for all else.
 SimilaritySolution closed_solution(const Law& law, double r);

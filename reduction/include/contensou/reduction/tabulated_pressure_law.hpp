@@ -19,7 +19,7 @@ namespace contensou::reduction {
 /// Cost      2 to 10 us a slip, whether the table has 10 rows or 10 000: rows far from rho = k count in groups.
 class TabulatedPressureLaw {
  public:
-  static constexpr SlidingShare sliding_coefficient{0, 1};
+  static constexpr SlidingBounds sliding_bounds{0, 1};
 
   /// @param name      for messages and tables
   /// @param rho       distance from the centre over eps: from 0 to 1, not decreasing; a step has two rows
