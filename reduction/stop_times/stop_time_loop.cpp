@@ -1,13 +1,10 @@
 #include "stop_times/stop_time_loop.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#include <immintrin.h>
-#endif
 
 namespace contensou::reduction {
 
@@ -60,79 +57,64 @@ double from_panels(const Panels& table, double u0, double v0) {
   return usable(tau, v0) ? tau : std::numeric_limits<double>::quiet_NaN();
 }
 
-void run_plain(const Panels& table, const double* u0, const double* v0, double* tau, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) {
-    const double found = one(table, u0[i], v0[i]);
-    tau[i] = usable(found, v0[i]) ? found : table.otherwise(u0[i], v0[i]);
-  }
-}
-
-#if defined(__x86_64__) && defined(__GNUC__)
-
 namespace {
 
-/// c[0] to c[3] + t4 (c[4] to c[7]) of a panel.
-[[gnu::target("avx2")]] inline __m256d halved(const Panels::Panel& panel, const double* t4) {
-  return _mm256_add_pd(_mm256_load_pd(panel.c), _mm256_mul_pd(_mm256_broadcast_sd(t4), _mm256_load_pd(panel.c + 4)));
-}
+constexpr std::size_t width = 4;
+using Numbers [[gnu::vector_size(width * sizeof(double))]] = double;
+using Bits [[gnu::vector_size(width * sizeof(double))]] = std::uint64_t;
 
-[[gnu::target("avx2")]] inline __m256i bits(__m256d x) { return _mm256_castpd_si256(x); }
+// As many, anywhere in an array.
+using StoredNumbers [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = double;
+using StoredBits [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = std::uint64_t;
+const StoredNumbers* at(const double* first) { return reinterpret_cast<const StoredNumbers*>(first); }
+StoredNumbers* at(double* first) { return reinterpret_cast<StoredNumbers*>(first); }
+StoredBits* at(std::uint64_t* first) { return reinterpret_cast<StoredBits*>(first); }
 
-}  // namespace
-
-/// Two steps for some vectors of starts at a time, because the way through a division and a polynomial is long and a
-/// processor looks ahead by a few vectors only.
-[[gnu::target("avx2")]] void run_avx2(const Panels& table, const double* u0, const double* v0, double* tau,
-                                      std::size_t size) {
-  constexpr std::size_t width = 4, vectors = 8, starts = width * vectors;
+/// One loop for every instruction set: a caller's set is that of what is inlined into it. Two steps for some vectors of
+/// starts at a time, because the way through a division and a polynomial is long and a processor looks ahead by a few
+/// vectors only.
+[[gnu::always_inline]] inline void run(const Panels& table, const double* u0, const double* v0, double* tau,
+                                       std::size_t size) {
+  constexpr std::size_t vectors = 8, starts = width * vectors;
   constexpr std::size_t ahead = 256;  // what is asked of memory now is used so many starts later
-  const __m256d lever = _mm256_set1_pd(table.lever), pivoting = _mm256_set1_pd(table.pivoting);
-  const __m256d lowest = _mm256_set1_pd(Panels::lowest), sign = _mm256_set1_pd(-0.0);
-  const __m256i within_sheet = _mm256_set1_epi64x(Panels::per_sheet - 1);
-  const __m256i near_one = _mm256_set1_epi64x(Panels::near_one), above_one = _mm256_set1_epi64x(Panels::above_one);
-  const __m256i left = _mm256_set1_epi64x(static_cast<long long>(left_mask));
-  const __m256i least = _mm256_set1_epi64x(static_cast<long long>(least_ordinary));
-  const __m256i excess = _mm256_set1_epi64x(static_cast<long long>(not_ordinary));
-  alignas(32) std::uint64_t index[starts];
-  alignas(32) double t4[starts], found[starts];
-  __m256d u[vectors], v[vectors], t[vectors];
+  constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
+  std::array<Numbers, vectors> u, v, t;
+  std::array<double, starts> t4, found;
+  std::array<std::uint64_t, starts> index;
   std::size_t begin = 0;
   for (; begin + starts <= size; begin += starts) {
-    for (std::size_t n = 0; n < vectors; ++n) {
-      u[n] = _mm256_andnot_pd(sign, _mm256_loadu_pd(u0 + begin + n * width));
-      v[n] = _mm256_loadu_pd(v0 + begin + n * width);
-      const __m256d lv = _mm256_mul_pd(lever, v[n]);
-      const __m256d smaller = _mm256_min_pd(lv, u[n]), distance = _mm256_andnot_pd(sign, _mm256_sub_pd(lv, u[n]));
-      const __m256d numerator = _mm256_min_pd(distance, smaller);
-      const __m256d y = _mm256_add_pd(_mm256_div_pd(numerator, _mm256_add_pd(u[n], lv)), lowest);
-      const __m256i sheet =
-          _mm256_add_epi64(_mm256_and_si256(bits(_mm256_cmp_pd(distance, smaller, _CMP_LT_OQ)), near_one),
-                           _mm256_and_si256(bits(_mm256_cmp_pd(lv, u[n], _CMP_GT_OQ)), above_one));
-      const __m256i of_sheet = _mm256_and_si256(_mm256_srli_epi64(bits(y), index_shift), within_sheet);
-      _mm256_store_si256(reinterpret_cast<__m256i*>(index + n * width), _mm256_add_epi64(sheet, of_sheet));
-      t[n] = _mm256_sub_pd(y, _mm256_castsi256_pd(_mm256_and_si256(bits(y), left)));
-      const __m256d t2 = _mm256_mul_pd(t[n], t[n]);
-      _mm256_store_pd(t4 + n * width, _mm256_mul_pd(t2, t2));
-    }
-    __m256i beyond = _mm256_setzero_si256();
-    __m256d signs = _mm256_setzero_pd();
     for (std::size_t n = 0, i = 0; n < vectors; ++n, i += width) {
-      const __m256d a = halved(table.panels[index[i]], t4 + i), b = halved(table.panels[index[i + 1]], t4 + i + 1);
-      const __m256d c = halved(table.panels[index[i + 2]], t4 + i + 2);
-      const __m256d d = halved(table.panels[index[i + 3]], t4 + i + 3);
-      const __m256d ab_even = _mm256_unpacklo_pd(a, b), ab_odd = _mm256_unpackhi_pd(a, b);
-      const __m256d cd_even = _mm256_unpacklo_pd(c, d), cd_odd = _mm256_unpackhi_pd(c, d);
-      __m256d m = _mm256_permute2f128_pd(ab_odd, cd_odd, 0x31);
-      m = _mm256_add_pd(_mm256_mul_pd(m, t[n]), _mm256_permute2f128_pd(ab_even, cd_even, 0x31));
-      m = _mm256_add_pd(_mm256_mul_pd(m, t[n]), _mm256_permute2f128_pd(ab_odd, cd_odd, 0x20));
-      m = _mm256_add_pd(_mm256_mul_pd(m, t[n]), _mm256_permute2f128_pd(ab_even, cd_even, 0x20));
-      const __m256d result = _mm256_add_pd(_mm256_mul_pd(pivoting, u[n]), _mm256_mul_pd(v[n], m));
-      beyond = _mm256_or_si256(beyond, _mm256_sub_epi64(bits(result), least));
-      signs = _mm256_or_pd(signs, v[n]);
-      _mm256_store_pd(found + i, result);
+      u[n] = Numbers(Bits(*at(&u0[begin + i])) & magnitude);
+      v[n] = *at(&v0[begin + i]);
+      const Numbers lv = table.lever * v[n];
+      const Numbers smaller = lv < u[n] ? lv : u[n], distance = Numbers(Bits(lv - u[n]) & magnitude);
+      const Numbers y = (distance < smaller ? distance : smaller) / (u[n] + lv) + Panels::lowest;
+      const Bits sheet = (Bits(distance < smaller) & Panels::near_one) + (Bits(lv > u[n]) & Panels::above_one);
+      *at(&index[i]) = sheet + ((Bits(y) >> index_shift) & (Panels::per_sheet - 1));
+      t[n] = y - Numbers(Bits(y) & left_mask);
+      *at(&t4[i]) = (t[n] * t[n]) * (t[n] * t[n]);
     }
-    if (_mm256_testz_si256(beyond, excess) != 0 && _mm256_movemask_pd(signs) == 0) {
-      for (std::size_t i = 0; i < starts; i += width) _mm256_storeu_pd(tau + begin + i, _mm256_load_pd(found + i));
+    Bits unusable{};
+    for (std::size_t n = 0, i = 0; n < vectors; ++n, i += width) {
+      Numbers row[width];  // c[0] to c[3] + t4 (c[4] to c[7]) of each start
+      for (std::size_t j = 0; j < width; ++j) {
+        const double* c = table.panels[index[i + j]].c;
+        row[j] = *at(&c[0]) + t4[i + j] * *at(&c[width]);
+      }
+      const Numbers even01 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
+      const Numbers even23 = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
+      const Numbers odd01 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
+      const Numbers odd23 = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
+      Numbers m = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+      m = m * t[n] + __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
+      m = m * t[n] + __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
+      m = m * t[n] + __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
+      const Numbers result = table.pivoting * u[n] + v[n] * m;
+      unusable |= ((Bits(result) - least_ordinary) & not_ordinary) | (Bits(v[n]) & ~magnitude);
+      *at(&found[i]) = result;
+    }
+    if ((unusable[0] | unusable[1] | unusable[2] | unusable[3]) == 0) {
+      for (std::size_t i = 0; i < starts; i += width) *at(&tau[begin + i]) = *at(&found[i]);
     } else {
       for (std::size_t i = 0; i < starts; ++i) {
         const double v_i = v0[begin + i];
@@ -140,12 +122,28 @@ namespace {
       }
     }
     for (std::size_t i = ahead; i < ahead + starts; i += 8) {
-      __builtin_prefetch(u0 + begin + i);
-      __builtin_prefetch(v0 + begin + i);
-      __builtin_prefetch(tau + begin + i, 1);
+      __builtin_prefetch(&u0[begin + i]);
+      __builtin_prefetch(&v0[begin + i]);
+      __builtin_prefetch(&tau[begin + i], 1);
     }
   }
-  run_plain(table, u0 + begin, v0 + begin, tau + begin, size - begin);
+  for (; begin < size; ++begin) {
+    const double result = one(table, u0[begin], v0[begin]);
+    tau[begin] = usable(result, v0[begin]) ? result : table.otherwise(u0[begin], v0[begin]);
+  }
+}
+
+}  // namespace
+
+void run_plain(const Panels& table, const double* u0, const double* v0, double* tau, std::size_t size) {
+  run(table, u0, v0, tau, size);
+}
+
+#ifdef __x86_64__
+
+[[gnu::target("avx2")]] void run_avx2(const Panels& table, const double* u0, const double* v0, double* tau,
+                                      std::size_t size) {
+  run(table, u0, v0, tau, size);
 }
 
 StopTimeLoop& run_fastest() { return __builtin_cpu_supports("avx2") ? run_avx2 : run_plain; }

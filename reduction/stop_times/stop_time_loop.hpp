@@ -36,10 +36,10 @@ struct StopTimePanels {
 };
 
 /// The stop times of starts (u0[i], v0[i]), i < size. No product and sum are fused, and each start is treated alike
-/// wherever it stands: both functions give the same bits.
+/// wherever it stands: all these functions give the same bits.
 using StopTimeLoop = void(const StopTimePanels&, const double* u0, const double* v0, double* tau, std::size_t size);
 StopTimeLoop run_plain;
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef __x86_64__
 StopTimeLoop run_avx2;
 #endif
 
