@@ -193,9 +193,9 @@ Rule rule_of(const Piece& piece) {
   Rule rule;
   for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
     for (double t : {-Gauss::abscissa()[i], Gauss::abscissa()[i]}) {
-      const double share = (1 + t) / 2;
-      const double radius = std::sqrt(piece.inner * piece.inner + share * piece.width());
-      const double pressure = (1 - share) * piece.inner_pressure + share * piece.outer_pressure;
+      const double fraction = (1 + t) / 2;
+      const double radius = std::sqrt(piece.inner * piece.inner + fraction * piece.width());
+      const double pressure = (1 - fraction) * piece.inner_pressure + fraction * piece.outer_pressure;
       rule.push_back(
           {std::clamp(radius, piece.inner, piece.outer), Gauss::weights()[i] / 2 * piece.width() * pressure});
     }
@@ -240,8 +240,8 @@ Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
   Rule rule;
   for (Eigen::Index i = 0; i < order; ++i) {
     const double radius = std::sqrt(middle * middle + half * solver.eigenvalues()[i]);
-    const double share = solver.eigenvectors()(0, i) * solver.eigenvectors()(0, i);
-    rule.push_back({std::clamp(radius, inner, outer), share * load});
+    const double fraction = solver.eigenvectors()(0, i) * solver.eigenvectors()(0, i);
+    rule.push_back({std::clamp(radius, inner, outer), fraction * load});
   }
   return rule;
 }
@@ -372,9 +372,9 @@ class TabulatedPressureLaw::Rings {
     Piece part = piece;
     for (int i = 1; i <= count; ++i) {
       part.outer = i == count ? piece.outer : piece.inner * std::pow(piece.outer / piece.inner, double(i) / count);
-      const double share = (part.outer - piece.inner) * (part.outer + piece.inner) / piece.width();
+      const double fraction = (part.outer - piece.inner) * (part.outer + piece.inner) / piece.width();
       part.outer_pressure =
-          i == count ? piece.outer_pressure : (1 - share) * piece.inner_pressure + share * piece.outer_pressure;
+          i == count ? piece.outer_pressure : (1 - fraction) * piece.inner_pressure + fraction * piece.outer_pressure;
       if (part.load() > faint) parts.push_back(part);
       part.inner = part.outer;
       part.inner_pressure = part.outer_pressure;

@@ -58,9 +58,9 @@ LegendreSeries LegendreSeries::antiderivative() const {
   integral.coefficients_[0] = coefficients_[0];
   integral.coefficients_[1] = coefficients_[0];
   for (int j = 1; j < order; ++j) {
-    const double share = coefficients_[j] / (2 * j + 1);
-    integral.coefficients_[j + 1] += share;
-    integral.coefficients_[j - 1] -= share;
+    const double term = coefficients_[j] / (2 * j + 1);
+    integral.coefficients_[j + 1] += term;
+    integral.coefficients_[j - 1] -= term;
   }
   return integral;
 }

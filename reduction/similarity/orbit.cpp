@@ -78,7 +78,7 @@ Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution&
   ln_k0_ = log_ratio(v0_, system.mu(), std::abs(u0_), v_, w_);
   curve_ = solution.through(ln_k0_);
   xi0_ = curve_->chart().coordinate(ln_k0_);
-  share0_ = curve_->sliding_coefficient(xi0_);
+  m0_ = curve_->sliding_coefficient(xi0_);
 }
 
 Orbit&& Orbit::begun() && {
@@ -108,7 +108,7 @@ Orbit::Progress Orbit::progress(double xi) const {
 }
 
 Orbit::Progress Orbit::progress(double xi, double left) const {
-  // Both speeds from k and  left = P w/w0 + S m v/v0.  With the ratio of their shares that is at most 1:
+  // Both speeds from k and  left = P w/w0 + S m v/v0.  With the ratio of their fractions that is at most 1:
   const double change = curve_->chart().log_ratio(xi) - ln_k0_;
   const double ratio = std::exp(-std::abs(change));
   const double sliding = v_ * curve_->sliding_coefficient(xi);
@@ -125,7 +125,7 @@ double Orbit::scaled_left(double xi) const {
 
 double Orbit::scaled_elapsed(double xi) const {
   const Progress now = progress(xi);
-  return -pivoting_ * std::expm1(now.ln_w) + v_ * (share0_ - now.v * curve_->sliding_coefficient(xi));
+  return -pivoting_ * std::expm1(now.ln_w) + v_ * (m0_ - now.v * curve_->sliding_coefficient(xi));
 }
 
 double Orbit::slip_left(double xi) const {
@@ -167,20 +167,20 @@ OrbitPoint Orbit::rest(double tau) const {
   return {tau, 0, 0, -infinity, u0_ == 0 && v0_ > 0 ? infinity : 0.0, infinity};
 }
 
-OrbitPoint Orbit::on_axis_at(double tau, double left_share) const {
+OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
   // One speed alone falls linearly. On either axis dtau = weight dbeta with the weight of the one speed squared.
-  if (left_share == 0) return rest(tau);
+  if (fraction_left == 0) return rest(tau);
   const double rate = system_.scaled_time_rate();
-  const double spent = (1 - left_share) / left_share;
+  const double spent = (1 - fraction_left) / fraction_left;
   if (u0_ == 0) {
-    const double v = v0_ * left_share;
+    const double v = v0_ * fraction_left;
     return {tau, 0, v, std::log(v), infinity, quotient(spent / (45 * pi * pi * rate), v0_)};
   }
   const double beta = quotient(spent / (128 * rate * pivoting_rate_), system_.mu() * std::abs(u0_));
-  return {tau, u0_ * left_share, 0, -infinity, 0, beta};
+  return {tau, u0_ * fraction_left, 0, -infinity, 0, beta};
 }
 
-double Orbit::age(double xi, const Progress& now) const {
+double Orbit::beta(double xi, const Progress& now) const {
   // Beside a ray k hardly changes: w falls linearly, and dtau/dbeta like w^2. At a law's kink x ln|x| the distance from
   // the ray is squared while w is halved: beyond sqrt(eps) of it xi would not do.
   constexpr double unchanged = 3e-7;
@@ -201,7 +201,7 @@ OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
           .v = v0_ * now.v,
           .ln_v = std::log(v0_) + now.ln_v,
           .k = std::exp(curve_->chart().log_ratio(xi)),
-          .beta = std::ldexp(std::max(0.0, age(xi, now)) / system_.scaled_time_rate(), -exponent_)};
+          .beta = std::ldexp(std::max(0.0, beta(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
 
 /// Beside an invariant ray the speeds fall while k hardly changes, and the time that is left tells more of them than

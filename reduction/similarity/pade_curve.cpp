@@ -62,7 +62,7 @@ PadeCurve::PadeCurve(double r)
       a_(r / (2 - r)),
       e_(r / (5 - r)),
       log_ratio_(std::log(B_ / A_)),
-      half_age_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)) {
+      half_beta_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)) {
   if (!(r > 0 && r <= max_r)) {
     throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", max_r, r));
   }
@@ -71,8 +71,8 @@ PadeCurve::PadeCurve(double r)
   for (int n = 2; n < terms; ++n) {
     coefficient *= (n - 1 - e_) / n;
     half_power *= 0.5;
-    age_terms_[n] = coefficient / (n - a_);
-    far_age_ += age_terms_[n] * half_power;
+    beta_terms_[n] = coefficient / (n - a_);
+    far_beta_ += beta_terms_[n] * half_power;
   }
 }
 
@@ -89,8 +89,8 @@ double PadeCurve::slip_length_coefficient(double ln_k) const {
   const double c = 2 + r();
   const double d = 5 - r();
   const double T = d * (3 * pi / 8 * std::exp(ln_k)) / c;
-  const double share = value({1 + 3 / c, 1, (2 - r()) / c, (5 + r()) / d, 6 * r() / (c * d), T});
-  return 8 / (3 * pi) * (1 - r() / (5 + r()) * share);
+  const double fraction = value({1 + 3 / c, 1, (2 - r()) / c, (5 + r()) / d, 6 * r() / (c * d), T});
+  return 8 / (3 * pi) * (1 - r() / (5 + r()) * fraction);
 }
 
 double PadeCurve::beta_coefficient(double ln_k) const {
@@ -107,10 +107,10 @@ double PadeCurve::beta_coefficient(double ln_k) const {
   const double s = 1 - a_;
   const double first = s * to_half < 1 ? at.x * expm1_over(s, to_half) : (x_to_a * std::exp2(-s) - at.x) / s;
   double rest = 0;
-  for (int n = terms_for(at.x) - 1; n >= 2; --n) rest = rest * at.x + age_terms_[n];
+  for (int n = terms_for(at.x) - 1; n >= 2; --n) rest = rest * at.x + beta_terms_[n];
   const double sum = expm1_over(-a_, to_half) - e_ * first - at.x * at.x * rest;
   const double unit = (1 + std::exp(ln_k)) / (3 * pi * A_);
-  return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * (far_age_ + half_age_));
+  return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * (far_beta_ + half_beta_));
 }
 
 double PadeCurve::time_rate(double ln_k) const {

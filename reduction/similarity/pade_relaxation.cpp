@@ -121,8 +121,8 @@ double by_series(const PadeRelaxation& at, Connection connection) {
   double e = 1;
   for (int j = 0; std::abs(D) + e * (1 + std::abs(W)) > 1e-18 * std::abs(sum); ++j) {
     sum += D - e * W;
-    const double share = 1 / ((1 - d + j) * (1 + j));
-    D = (D * (eta + (j - d) * y) * (1 + j) + e * (eta - y)) * share;
+    const double inverse = 1 / ((1 - d + j) * (1 + j));
+    D = (D * (eta + (j - d) * y) * (1 + j) + e * (eta - y)) * inverse;
     e *= (eta + j * y) / (1 + j);
   }
   return end + (begin - end) * (G + factor * sum);

@@ -44,7 +44,7 @@ struct Coefficients {
 class QuadratureCurve::Panels {
  public:
   Panels(const Law& law, const QuadratureCurve& curve)
-      : law_(law), r_(curve.r()), chart_(curve.chart()), beta_(law, r_, chart_, *curve.shares_) {
+      : law_(law), r_(curve.r()), chart_(curve.chart()), beta_(law, r_, chart_, *curve.regular_) {
     solve(sample());
   }
 
@@ -218,7 +218,7 @@ class QuadratureCurve::Panels {
 };
 
 QuadratureCurve::QuadratureCurve(const Law& law, double r, const TerminalChart& chart)
-    : SimilarityCurve(r, chart), law_(law), shares_(std::make_unique<RegularSolution>(law, r, chart)) {}
+    : SimilarityCurve(r, chart), law_(law), regular_(std::make_unique<RegularSolution>(law, r, chart)) {}
 
 QuadratureCurve::~QuadratureCurve() = default;
 
@@ -229,18 +229,18 @@ const QuadratureCurve::Panels& QuadratureCurve::panels() const {
 
 double QuadratureCurve::limit() const { return panels().limit(); }
 
-double QuadratureCurve::truncation() const { return shares_->truncation(); }
+double QuadratureCurve::truncation() const { return regular_->truncation(); }
 
 double QuadratureCurve::accuracy() const { return rounding_of_stop_time(r()) + truncation(); }
 
-long QuadratureCurve::evaluations() const { return shares_->evaluations(); }
+long QuadratureCurve::evaluations() const { return regular_->evaluations(); }
 
 double QuadratureCurve::sliding_coefficient(double xi) const {
-  return shares_->sliding_coefficient(chart().log_ratio(xi));
+  return regular_->sliding_coefficient(chart().log_ratio(xi));
 }
 
 double QuadratureCurve::slip_length_coefficient(double xi) const {
-  return shares_->slip_length_coefficient(chart().log_ratio(xi));
+  return regular_->slip_length_coefficient(chart().log_ratio(xi));
 }
 
 double QuadratureCurve::ln_w(double xi) const { return panels().ln_w(xi); }

@@ -104,19 +104,19 @@ void RegularSolution::march(const Law& law, double r, double left, double right,
   // What the series leave out, relative to a panel of full width. 1 - Psi/Psi(0) and 1 - Phi count relative to 1: a law
   // may have them to eps of 1 only, and neither the time left, P + m S, nor the slip, v (v/2 + n w), feels more.
   const auto tail = [](const Samples& samples) { return LegendreSeries::through(samples).tail(); };
-  const double share_size = std::max({1.0, std::abs(panel.sliding_coefficient(1)), 1 / force.maxCoeff()});
+  const double coefficient_size = std::max({1.0, std::abs(panel.sliding_coefficient(1)), 1 / force.maxCoeff()});
   const double excess_size = std::max(largest_k, std::abs(panel.slip_length_coefficient(1)));
-  const double of_share = std::max({tail(force) / force.maxCoeff(), tail(drag) / drag.maxCoeff(), tail(deficit),
-                                    panel.sliding_coefficient.tail() / share_size}) *
-                          (right - left);
+  const double of_coefficient = std::max({tail(force) / force.maxCoeff(), tail(drag) / drag.maxCoeff(), tail(deficit),
+                                          panel.sliding_coefficient.tail() / coefficient_size}) *
+                                (right - left);
   const double of_excess =
       std::max(tail(excess) / largest_k, panel.slip_length_coefficient.tail() / excess_size) * (right - left);
-  if (std::max(of_share, of_excess) > panel_tolerance && depth < max_depth && panels_.size() < max_panels) {
+  if (std::max(of_coefficient, of_excess) > panel_tolerance && depth < max_depth && panels_.size() < max_panels) {
     march(law, r, left, left + half, depth + 1);
     march(law, r, left + half, right, depth + 1);
     return;
   }
-  truncation_ = std::max(truncation_, of_share);
+  truncation_ = std::max(truncation_, of_coefficient);
   last_ = {panel.sliding_coefficient(1), panel.slip_length_coefficient(1)};
   panels_.push_back(std::move(panel));
 }

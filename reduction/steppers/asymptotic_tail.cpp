@@ -27,21 +27,21 @@ AsymptoticTail::AsymptoticTail(const ReducedSystem& system, const LogState& from
     left_ = w / pivoting_rate;
     ln_w_slope_ = 1;
     ln_v_slope_ = law.force_slope() / pivoting_rate;
-    age_scale_ = left_ / (128 * w * w);
+    beta_scale_ = left_ / (128 * w * w);
   } else {
     constexpr double fast = 0x1p100;
     const double v = std::exp(from.ln_v);
     left_ = v;
     ln_v_slope_ = 1;
     ln_w_slope_ = system.r() * fast * law({fast, 1}).moment;
-    age_scale_ = left_ / (45 * pi * pi * v * v);
+    beta_scale_ = left_ / (45 * pi * pi * v * v);
   }
 }
 
-LogState AsymptoticTail::at_share(double share) const {
-  const double ln_share = std::log(share);
-  return {from_.ln_w + ln_w_slope_ * ln_share, from_.ln_v + ln_v_slope_ * ln_share, from_.s + left_ * (1 - share),
-          from_.age + age_scale_ * (1 / share - 1)};
+LogState AsymptoticTail::at_fraction(double fraction) const {
+  const double ln_fraction = std::log(fraction);
+  return {from_.ln_w + ln_w_slope_ * ln_fraction, from_.ln_v + ln_v_slope_ * ln_fraction,
+          from_.s + left_ * (1 - fraction), from_.beta + beta_scale_ * (1 / fraction - 1)};
 }
 
 }  // namespace contensou::reduction

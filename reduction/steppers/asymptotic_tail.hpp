@@ -13,7 +13,7 @@ struct LogState {
   double ln_w;
   double ln_v;
   double s;
-  double age;  ///< integral of ds/((16 w + 15 pi v)(8 w + 3 pi v))
+  double beta;  ///< integral of ds/((16 w + 15 pi v)(8 w + 3 pi v))
 };
 
 /// The exact limit of the rest of a motion, from where one of the two frictions is all there is.
@@ -29,10 +29,10 @@ class AsymptoticTail {
   double stop() const { return from_.s + left_; }
 
   /// The state at a scaled time between from and stop().
-  LogState at_time(double s) const { return at_share((stop() - s) / left_); }
+  LogState at_time(double s) const { return at_fraction((stop() - s) / left_); }
 
-  /// The state when that share of the tail's time is left, 0 < share <= 1.
-  LogState at_share(double share) const;
+  /// The state when that fraction of the tail's time is left, 0 < fraction <= 1.
+  LogState at_fraction(double fraction) const;
 
  private:
   AsymptoticTail(const ReducedSystem& system, const LogState& from, bool pivoting);
@@ -41,7 +41,7 @@ class AsymptoticTail {
   double left_;
   double ln_v_slope_;  ///< d ln v per d ln (time left)
   double ln_w_slope_;
-  double age_scale_;  ///< age gained = age_scale_ (1/share left - 1)
+  double beta_scale_;  ///< beta gained = beta_scale_ (1/fraction left - 1)
 };
 
 }  // namespace contensou::reduction

@@ -22,13 +22,13 @@ namespace {
 using std::numbers::pi;
 namespace odeint = boost::numeric::odeint;
 
-using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + age/age_unit)
+using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + beta/beta_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
 /// Next to a kink a law may have a term x ln|x|, x = ln k less that of the kink, to which Fehlberg's estimate of the error is as good as blind
-/// (all its stages but those at the two ends of a step cancel): steps there change x by this share of itself, down to
+/// (all its stages but those at the two ends of a step cancel): steps there change x by this fraction of itself, down to
 /// what x^2 does not feel.
-constexpr double share_of_kink = 0.5;
+constexpr double fraction_of_distance = 0.5;
 constexpr double nearest_kink = 1e-8;
 
 /// Within this the step before ended on the kink.
@@ -36,7 +36,7 @@ constexpr double on_kink = 16 * std::numeric_limits<double>::epsilon();
 
 struct DirectEquations {
   const ReducedSystem& system;
-  double age_unit;
+  double beta_unit;
   long evaluations = 0;
 
   void operator()(const Values& x, Values& rate, double /*s*/) {
@@ -52,7 +52,7 @@ struct DirectEquations {
     rate[0] = -system.r() * (k > 1 ? k * moment / v : moment / w);
     rate[1] = -(k > 1 ? force / v : force / k / w);
     const double weight = (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);
-    rate[2] = std::exp(-x[2]) / (age_unit * weight);
+    rate[2] = std::exp(-x[2]) / (beta_unit * weight);
   }
 };
 
@@ -64,10 +64,10 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
-  // The age grows without bound towards the stop: its logarithm, shifted to start at 0, is of the size of the others.
+  // beta grows without bound towards the stop: its logarithm, shifted to start at 0, is of the size of the others.
   const double speed = 16 * std::exp(here.ln_w) + 15 * pi * std::exp(here.ln_v);
-  const double age_unit = 1 / speed;
-  DirectEquations equations{system, age_unit};
+  const double beta_unit = 1 / speed;
+  DirectEquations equations{system, beta_unit};
   auto stepper = odeint::make_controlled(stepping.tolerance, 0.0, Fehlberg());
 
   std::vector<double> kinks;  // in ln k
@@ -76,7 +76,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   Values x{here.ln_w, here.ln_v, 0};
   double s = 0;
   double step = 1e-3 * std::max(std::exp(here.ln_w), std::exp(here.ln_v)) / std::max(1.0, 0.01 * system.r());
-  const auto log_state = [&] { return LogState{x[0], x[1], s, age_unit * std::expm1(x[2])}; };
+  const auto log_state = [&] { return LogState{x[0], x[1], s, beta_unit * std::expm1(x[2])}; };
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {
     if (const auto tail = AsymptoticTail::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
@@ -88,7 +88,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
     double distance = std::numeric_limits<double>::infinity();
     for (double kink : kinks) distance = std::min(distance, std::abs(x[1] - x[0] - kink));
     distance = std::max(distance, nearest_kink);
-    const double limit = std::min(wanted - s, share_of_kink * distance / std::abs(rate[1] - rate[0]));
+    const double limit = std::min(wanted - s, fraction_of_distance * distance / std::abs(rate[1] - rate[0]));
     double trial = std::min(step, limit);
     const Values before = x;
     const double s_before = s;

@@ -61,7 +61,7 @@ void MotionRecorder::add(const LogState& state) {
                    std::exp(ln_v),
                    ln_v,
                    std::exp(state.ln_v - state.ln_w),
-                   std::ldexp(state.age / scaled_time_rate_, -exponent_)};
+                   std::ldexp(state.beta / scaled_time_rate_, -exponent_)};
   if (!every_step_) point.tau = times_[points_.size()];
   if (given_.u == 0) point.u = 0;
   points_.push_back(point);
@@ -87,7 +87,7 @@ Motion MotionRecorder::finish(const AsymptoticTail& tail, long steps, long evalu
   while (next_time() < tail.stop()) add(tail.at_time(next_time()));
   if (every_step_) {
     for (int i = tail_instants - 1; i > 0; --i) {
-      const LogState state = tail.at_share(static_cast<double>(i) / tail_instants);
+      const LogState state = tail.at_fraction(static_cast<double>(i) / tail_instants);
       if (state.s < tail.stop()) add(state);  // a tail shorter than rounding has no instants, and is no exact limit
     }
   }

@@ -67,7 +67,7 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {
     if (const auto tail = AsymptoticTail::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
-    if (fresh) stepper.initialize(x, here.age, step);
+    if (fresh) stepper.initialize(x, here.beta, step);
     fresh = false;
 
     std::pair<double, double> interval;

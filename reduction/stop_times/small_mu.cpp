@@ -26,7 +26,7 @@ using Samples = LegendreSeries::Samples;
 constexpr double min_ln_k = -40;
 constexpr double max_ln_k = 44;
 
-double share_rate(const Law& law, double k) {
+double coefficient_rate(const Law& law, double k) {
   const Slip slip = slip_of_ratio(k);
   return law.moment_deficit(slip) / law(slip).force;
 }
@@ -58,7 +58,7 @@ void for_each_panel(double low, double high, Visit visit) {
 }
 
 /// (R22); its limit r -> 0 is m0.
-double pade_share(double r, double ln_k) {
+double pade_coefficient(double r, double ln_k) {
   const double ln_z = ln_k + std::log(3 * pi * (5 - r) / (8 * (2 - r)));  // z = B k/A of (R8)
   const double z = std::exp(ln_z);
   if (z == 0) return 2.5;
@@ -69,14 +69,14 @@ double pade_share(double r, double ln_k) {
 
 }  // namespace
 
-ShareExpansion share_expansion(const Law& law, double ln_k) {
+CoefficientExpansion coefficient_expansion(const Law& law, double ln_k) {
   if (!std::isfinite(ln_k)) {
-    throw std::domain_error(fmt::format("share_expansion: ln k must be finite, got {}", ln_k));
+    throw std::domain_error(fmt::format("coefficient_expansion: ln k must be finite, got {}", ln_k));
   }
   const double top = std::min(ln_k, max_ln_k);
   // So little is left below that its rate may count as constant.
   const double k_low = std::exp(std::clamp(top, std::log(std::numeric_limits<double>::min()), min_ln_k));
-  double first = k_low * share_rate(law, k_low);
+  double first = k_low * coefficient_rate(law, k_low);
   double second = 0;
   if (top <= min_ln_k) return {first / k_low, 0};
 
@@ -101,13 +101,13 @@ ShareExpansion share_expansion(const Law& law, double ln_k) {
   return {first / k, second / k};
 }
 
-ShareEstimates share_estimates(const Law& law, double r, double ln_k) {
-  if (law.as<PadeLaw>() && std::isfinite(ln_k)) return {pade_share(0, ln_k), pade_share(r, ln_k)};
-  const ShareExpansion share = share_expansion(law, ln_k);
-  return {share.first, share.first + r * share.second};
+CoefficientEstimates coefficient_estimates(const Law& law, double r, double ln_k) {
+  if (law.as<PadeLaw>() && std::isfinite(ln_k)) return {pade_coefficient(0, ln_k), pade_coefficient(r, ln_k)};
+  const CoefficientExpansion m = coefficient_expansion(law, ln_k);
+  return {m.first, m.first + r * m.second};
 }
 
-std::optional<FarShare> far_share(const Law& law) {
+std::optional<FarCoefficient> far_coefficient(const Law& law) {
   constexpr double far = 0x1p20;
   if (std::abs(1 - law(slip_of_ratio(far)).force) * far > 1e-3) return std::nullopt;
   constexpr double fastest = 0x1p100;
@@ -115,7 +115,7 @@ std::optional<FarShare> far_share(const Law& law) {
 
   // From here on g - 1 + c/k is its last term, in 1/k^2; before, rounding is small enough.
   constexpr double ln_top = 11;
-  const auto rest = [&](double k) { return share_rate(law, k) - 1 + c / k; };
+  const auto rest = [&](double k) { return coefficient_rate(law, k) - 1 + c / k; };
   double integral = 0;
   for_each_panel(0, ln_top, [&](const Samples& y, double half) {
     Samples integrand;
@@ -124,7 +124,7 @@ std::optional<FarShare> far_share(const Law& law) {
   });
   const double top = std::exp(ln_top);
   integral += top * rest(top);
-  return FarShare{c, 1 - share_expansion(law, 0).first - integral};
+  return FarCoefficient{c, 1 - coefficient_expansion(law, 0).first - integral};
 }
 
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start) {
@@ -143,16 +143,16 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
   const double ln_k = on_axis ? 0 : std::log(start.v) - std::log(system.mu()) - std::log(std::abs(start.u));
 
   std::vector<StopEstimate> estimates;
-  const auto far = far_share(law);
+  const auto far = far_coefficient(law);
   if (far && (start.u == 0 || ln_k > 0)) {
     // S/k0 is the time in which sliding at the rim speed would end.
     const double rim = on_axis ? 0 : sliding * std::exp(-ln_k) * (far->logarithm * ln_k + far->constant);
     estimates.push_back({"log", "E1 for k0 >> 1, P + S (1 - (c ln k0 + d)/k0)", pivoting + sliding - rim});
   }
-  const ShareEstimates share = on_axis ? ShareEstimates{} : share_estimates(law, system.r(), ln_k);
-  const auto with_share = [&](double m) { return start.v == 0 ? pivoting : pivoting + m * sliding; };
-  estimates.push_back({"E1", "relative error O(mu^4 ln^2 mu)", start.u == 0 ? sliding : with_share(share.first)});
-  estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)", start.u == 0 ? sliding : with_share(share.second)});
+  const CoefficientEstimates m = on_axis ? CoefficientEstimates{} : coefficient_estimates(law, system.r(), ln_k);
+  const auto with_coefficient = [&](double value) { return start.v == 0 ? pivoting : pivoting + value * sliding; };
+  estimates.push_back({"E1", "relative error O(mu^4 ln^2 mu)", start.u == 0 ? sliding : with_coefficient(m.first)});
+  estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)", start.u == 0 ? sliding : with_coefficient(m.second)});
   return estimates;
 }
 

@@ -112,15 +112,15 @@ constexpr std::size_t grain = 64;
 
 void run_shared(const Panels& panels, std::span<const double> u0, std::span<const double> v0, std::span<double> tau,
                 unsigned threads) {
-  const std::size_t share = (tau.size() / threads / grain + 1) * grain;
+  const std::size_t part_size = (tau.size() / threads / grain + 1) * grain;
   const auto part = [&](std::size_t begin) {
-    run_fastest()(panels, &u0[begin], &v0[begin], &tau[begin], std::min(share, tau.size() - begin));
+    run_fastest()(panels, &u0[begin], &v0[begin], &tau[begin], std::min(part_size, tau.size() - begin));
   };
 #ifdef __cpp_lib_jthread
   std::vector<std::jthread> others;
-  for (std::size_t begin = share; begin < tau.size(); begin += share) others.emplace_back(part, begin);
+  for (std::size_t begin = part_size; begin < tau.size(); begin += part_size) others.emplace_back(part, begin);
 #else
-  for (std::size_t begin = share; begin < tau.size(); begin += share) part(begin);
+  for (std::size_t begin = part_size; begin < tau.size(); begin += part_size) part(begin);
 #endif
   if (!tau.empty()) part(0);
 }

@@ -38,7 +38,7 @@ TEST_CASE("in the limit the speeds fall with their powers of the time left", "[a
   CHECK(half.ln_w == Approx(std::log(0.5)).epsilon(1e-14));
   CHECK(half.ln_v == Approx(-60 + 14 / (5 * 0.25) * std::log(0.5)).epsilon(1e-14));  // theory: 14/(5 mu^2)
   CHECK(half.s == Approx(2 + 0.5 / rate).epsilon(1e-15));
-  CHECK(half.age == Approx(7 + 1 / (128 * rate)).epsilon(1e-14));
+  CHECK(half.beta == Approx(7 + 1 / (128 * rate)).epsilon(1e-14));
 
   const auto sliding = AsymptoticTail::at(system, {-infinity, 0, 0, 0});
   REQUIRE(sliding);

@@ -129,7 +129,7 @@ TEST_CASE("for small mu the closed form follows E1 and E2 with their orders", "[
   CHECK(third_term(0.1, 10) - 24.0 / 350 * std::log1p(150 * pi / 16) == Approx(-4.6e-4).epsilon(0.02));
 }
 
-TEST_CASE("the sliding share runs from 5/2 to 1", "[pade_curve][limit]") {
+TEST_CASE("the sliding coefficient runs from 5/2 to 1", "[pade_curve][limit]") {
   for (double r : {1e-20, 1e-6, 0.1, 5.0 / 7, 1.0}) {
     const PadeCurve curve(r);
     CAPTURE(r);
@@ -156,7 +156,7 @@ TEST_CASE("the logarithm of the rim speed has slope a at 0 and e at infinity", "
   }
 }
 
-TEST_CASE("the two series of the regularised age meet at x = 1/2", "[pade_curve][limit]") {
+TEST_CASE("the two series of the regularised time meet at x = 1/2", "[pade_curve][limit]") {
   WorstCase age("b");
   for (double r : {1e-20, 1e-10, 1e-5, 1e-2, 0.2, 0.5, 5.0 / 7, 1.0}) {
     const PadeCurve curve(r);
@@ -166,7 +166,7 @@ TEST_CASE("the two series of the regularised age meet at x = 1/2", "[pade_curve]
   CHECK_WITHIN_EPS(age, 24);
 }
 
-TEST_CASE("the regularised age is the integral of dtau over the weight", "[pade_curve][route]") {
+TEST_CASE("the regularised time is the integral of dtau over the weight", "[pade_curve][route]") {
   boost::math::quadrature::exp_sinh<double> rule;
   WorstCase age("b");
   for (double r : {1e-8, 1e-3, 0.1, 5.0 / 7, 1.0}) {

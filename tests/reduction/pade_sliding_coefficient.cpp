@@ -47,7 +47,7 @@ double by_quadrature(double r, double k) {
 
 }  // namespace
 
-TEST_CASE("the sliding share of any r runs from 5/2 to 1", "[pade_sliding_coefficient][limit]") {
+TEST_CASE("the sliding coefficient of any r runs from 5/2 to 1", "[pade_sliding_coefficient][limit]") {
   for (double r : ratios) {
     CAPTURE(r);
     CHECK(pade_sliding_coefficient(r, 0) == 2.5);
@@ -63,7 +63,7 @@ TEST_CASE("the sliding share of any r runs from 5/2 to 1", "[pade_sliding_coeffi
   }
 }
 
-TEST_CASE("on the ray the sliding share is 5/r", "[pade_sliding_coefficient][limit]") {
+TEST_CASE("on the ray the sliding coefficient is 5/r", "[pade_sliding_coefficient][limit]") {
   for (double r : {2.001, 2.3, 2.5, 3.0, 3.5, 4.0, 4.9}) {
     const double k = 8 * (r - 2) / (3 * pi * (5 - r));
     CAPTURE(r);
@@ -73,7 +73,8 @@ TEST_CASE("on the ray the sliding share is 5/r", "[pade_sliding_coefficient][lim
   }
 }
 
-TEST_CASE("the sliding share keeps the power y^Q where the series ends early", "[pade_sliding_coefficient][table]") {
+TEST_CASE("the sliding coefficient keeps the power y^Q where the series ends early",
+          "[pade_sliding_coefficient][table]") {
   // 2F1 of (R28), and the mean of by_quadrature, both in 60 digits (mpmath).
   struct Row {
     double r, k;
@@ -93,7 +94,8 @@ TEST_CASE("the sliding share keeps the power y^Q where the series ends early", "
   CHECK_WITHIN_EPS(share, 1);
 }
 
-TEST_CASE("the sliding share of any r is the mean over the sliding that is left", "[pade_sliding_coefficient][route]") {
+TEST_CASE("the sliding coefficient of any r is the mean over the sliding that is left",
+          "[pade_sliding_coefficient][route]") {
   WorstCase share("m");
   for (double r : ratios) {
     for (double k : {1e-3, 0.05, 0.3, 0.8, 1.5, 4.0, 30.0, 1e3}) {
@@ -103,7 +105,8 @@ TEST_CASE("the sliding share of any r is the mean over the sliding that is left"
   CHECK_WITHIN_EPS(share, 100);
 }
 
-TEST_CASE("the sliding share solves its equation through r = 2 and r = 5", "[pade_sliding_coefficient][invariant]") {
+TEST_CASE("the sliding coefficient solves its equation through r = 2 and r = 5",
+          "[pade_sliding_coefficient][invariant]") {
   // z (a + b z) dm/dz + (2 + 5 z) m = 5 (1 + z), the derivative a difference of four points in ln z.
   double worst = 0;
   for (double r = 0.05; r < 7; r += 0.05) {
@@ -120,7 +123,7 @@ TEST_CASE("the sliding share solves its equation through r = 2 and r = 5", "[pad
   CHECK(worst < 2e-11);
 }
 
-TEST_CASE("the sliding share has no seam", "[pade_sliding_coefficient][limit]") {
+TEST_CASE("the sliding coefficient has no seam", "[pade_sliding_coefficient][limit]") {
   // Where one formula takes over from another: r = 0.72, 2, 5, and along k.
   WorstCase seam("m on the two sides");
   for (double r : {0.72, 2.0, 5.0}) {

@@ -101,8 +101,8 @@ TEST_CASE("an expansion that is wrong in one term loses its order", "[small_mu]"
     };
     return std::log2(error(mu) / error(mu / 2));
   };
-  const auto first = [] { return share_estimates(PadeLaw{}, 0, 0).first; };
-  const auto second = [](double r) { return share_estimates(PadeLaw{}, r, 0).second; };
+  const auto first = [] { return coefficient_estimates(PadeLaw{}, 0, 0).first; };
+  const auto second = [](double r) { return coefficient_estimates(PadeLaw{}, r, 0).second; };
   CHECK(order_of([&](double) { return first(); }, 0.025) == Approx(4).margin(0.04));
   CHECK(order_of(second, 0.05) == Approx(6).margin(0.15));
   // The slip that is easiest to make: the r in A and B forgotten in the second order.
@@ -127,12 +127,12 @@ TEST_CASE("E1 and E2 of the Pade ball are those of the textbook formula", "[smal
 TEST_CASE("the general expansion is that of the Pade law", "[small_mu][route]") {
   for (double k : {1e-20, 1e-6, 0.02, 0.9, 1.0, 4.0, 1e3, 1e9, 1e25}) {
     const double ln_k = std::log(k);
-    const ShareExpansion general = share_expansion(PadeLaw{}, ln_k);
+    const CoefficientExpansion general = coefficient_expansion(PadeLaw{}, ln_k);
     CAPTURE(k);
-    CHECK(general.first == Approx(share_estimates(PadeLaw{}, 0, ln_k).first).epsilon(1e-13));
+    CHECK(general.first == Approx(coefficient_estimates(PadeLaw{}, 0, ln_k).first).epsilon(1e-13));
     // The two differ by their third order.
     const auto difference = [&](double r) {
-      return share_estimates(PadeLaw{}, r, ln_k).second - general.first - r * general.second;
+      return coefficient_estimates(PadeLaw{}, r, ln_k).second - general.first - r * general.second;
     };
     CHECK(std::abs(difference(1e-3)) < 2e-7);
     if (k > 0.01 && k < 1e4) CHECK(difference(2e-2) / difference(1e-2) == Approx(4).epsilon(0.05));
@@ -145,31 +145,31 @@ TEST_CASE("the first order of the exact law is elementary inside k = 1", "[small
   for (double k : {1e-6, 1e-3, 0.1, 0.5, 0.99, 1.0}) {
     const double closed = 16 / (3 * pi) * (3 * k * k / 8 + std::log1p(-k * k / 4) / 2) / k;
     CAPTURE(k);
-    CHECK(share_expansion(HertzLaw{}, std::log(k)).first == Approx(closed).epsilon(1e-13));
+    CHECK(coefficient_expansion(HertzLaw{}, std::log(k)).first == Approx(closed).epsilon(1e-13));
   }
 }
 
 TEST_CASE("the logarithm of the exact law, and the wrong sign of that of the Pade law", "[small_mu][limit]") {
-  const auto far = far_share(HertzLaw{});
+  const auto far = far_coefficient(HertzLaw{});
   REQUIRE(far);
   CHECK(far->logarithm == Approx(16 / (15 * pi)).epsilon(1e-13));
   CHECK(far->constant == Approx(0.533332074046791).margin(1e-9));
-  CHECK_FALSE(far_share(PadeLaw{}));
+  CHECK_FALSE(far_coefficient(PadeLaw{}));
 
   // d (k m0 - k)/d ln k, per decade: -16/(15 pi) against 8/(5 pi).
   const auto logarithm = [](const Law& law) {
-    const auto excess = [&](double k) { return k * share_expansion(law, std::log(k)).first - k; };
+    const auto excess = [&](double k) { return k * coefficient_expansion(law, std::log(k)).first - k; };
     return (excess(1e5) - excess(1e4)) / std::log(10.0);
   };
   CHECK(logarithm(HertzLaw{}) == Approx(-16 / (15 * pi)).epsilon(1e-3));
   CHECK(logarithm(PadeLaw{}) == Approx(8 / (5 * pi)).epsilon(1e-3));
 
   for (const Law& law : named_laws()) {
-    const auto tail = far_share(law);
+    const auto tail = far_coefficient(law);
     if (!tail) continue;
     // What is left falls like 1/k.
     const auto rest = [&](double k) {
-      return k * share_expansion(law, std::log(k)).first - k + tail->logarithm * std::log(k) + tail->constant;
+      return k * coefficient_expansion(law, std::log(k)).first - k + tail->logarithm * std::log(k) + tail->constant;
     };
     CAPTURE(law.name());
     CHECK(std::abs(rest(1e3)) < 1e-3);
@@ -216,5 +216,5 @@ TEST_CASE("other bodies have the same estimates", "[small_mu][limit]") {
 TEST_CASE("what is not small has no estimate", "[small_mu][domain]") {
   CHECK_THROWS_WITH(small_mu_estimates({HertzLaw{}, 1, {1, 2}}, {1, 1}), Catch::Matchers::Contains("r << 2"));
   CHECK_THROWS_AS(small_mu_estimates({PadeLaw{}, 0.1}, {1, -1}), std::domain_error);
-  CHECK_THROWS_AS(share_expansion(PadeLaw{}, infinity), std::domain_error);
+  CHECK_THROWS_AS(coefficient_expansion(PadeLaw{}, infinity), std::domain_error);
 }

@@ -85,20 +85,20 @@ class Orbit {
 
   void require_coordinate(const char* function, double xi) const;
   OrbitPoint rest(double tau) const;
-  OrbitPoint on_axis_at(double tau, double left_share) const;
+  OrbitPoint on_axis_at(double tau, double fraction_left) const;
 
-  /// What is left of the speeds of the start: w and v as shares, and their logarithms.
+  /// What is left of the speeds of the start: w and v as fractions, and their logarithms.
   struct Progress {
     double ln_w, ln_v;
     double w, v;
   };
   Progress progress(double xi) const;
   Progress progress(double xi, double left) const;
-  double age(double xi, const Progress& now) const;
+  double beta(double xi, const Progress& now) const;
   OrbitPoint point(double tau, double xi, const Progress& now) const;
   OrbitPoint point_with_left(double tau, double xi, double left) const;
 
-  double whole() const { return pivoting_ + v_ * share0_; }  ///< the stop time, scaled
+  double whole() const { return pivoting_ + v_ * m0_; }  ///< the stop time, scaled
   double slip_left(double xi) const;
   double scaled_elapsed(double xi) const;
   double scaled_left(double xi) const;
@@ -118,7 +118,7 @@ class Orbit {
   double ln_k0_;
   double xi0_ = 0;
   double ln_w0_ = 0;
-  double share0_ = 1;     ///< m(k0)
+  double m0_ = 1;         ///< m(k0)
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };
 

@@ -9,7 +9,7 @@ namespace contensou::reduction {
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
 /// Source    README (R8) orbit, (R9) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time, (R14) slip.
-/// Accuracy  sliding_coefficient, slip_length_coefficient and beta_coefficient about 5 eps relative, ln_w eps (|ln_rim| + r) absolute.
+/// Accuracy  sliding_coefficient, slip_length_coefficient and beta_coefficient about 5 eps relative, ln_w eps (|ln w| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
   /// Largest r of the closed form: (R11) loses digits as r -> 2. A ball has r <= 5/7.
@@ -38,11 +38,11 @@ class PadeCurve final : public SimilarityCurve {
  private:
   double A_, B_, a_, e_;
   double log_ratio_;  ///< ln(B/A)
-  double half_age_;   ///< the integral of (R11) over (1/2, 1)
+  double half_beta_;  ///< the integral of (R11) over (1/2, 1)
 
-  /// (R11): terms 2, 3, .. of the integral from x to 1/2 are x^a far_age_ less the sum of age_terms_[n] x^n.
-  std::array<double, terms> age_terms_{};
-  double far_age_ = 0;
+  /// (R11): terms 2, 3, .. of the integral from x to 1/2 are x^a far_beta_ less the sum of beta_terms_[n] x^n.
+  std::array<double, terms> beta_terms_{};
+  double far_beta_ = 0;
 };
 
 }  // namespace contensou::reduction

@@ -53,7 +53,7 @@ class QuadratureCurve final : public SimilarityCurve {
   const Panels& panels() const;
 
   Law law_;
-  std::unique_ptr<const RegularSolution> shares_;
+  std::unique_ptr<const RegularSolution> regular_;
   mutable std::once_flag made_;
   mutable std::unique_ptr<const Panels> panels_;
 };

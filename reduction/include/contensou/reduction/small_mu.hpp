@@ -8,8 +8,8 @@
 
 namespace contensou::reduction {
 
-/// m(k; r) = first + r second + O(r^2 ln^3): the sliding share of README (R4) for small r = gamma mu^2/chi.
-struct ShareExpansion {
+/// m(k; r) = first + r second + O(r^2 ln^3): the sliding coefficient of README (R4) for small r = gamma mu^2/chi.
+struct CoefficientExpansion {
   double first;
   double second;
 };
@@ -21,24 +21,24 @@ struct ShareExpansion {
 ///
 /// Accuracy  first 1e-13 relative, second 1e-12 of the largest |second| over all k (2e-3 to 0.3, by law), for a law
 ///           whose only kink is at k = 1. Cost: up to 3000 calls of the law.
-ShareExpansion share_expansion(const Law& law, double ln_k);
+CoefficientExpansion coefficient_expansion(const Law& law, double ln_k);
 
 /// m(k; r) up to its term in r^0 and in r^1: what E1 and E2 are made of.
-struct ShareEstimates {
+struct CoefficientEstimates {
   double first;
   double second;
 };
 
 /// For PadeLaw, found by its type, the closed form (R22), whose factors keep their r; for any other law, from
-/// share_expansion.
+/// coefficient_expansion.
 ///
 /// @param r     gamma mu^2/chi, 0 <= r < Phi'(0)/Psi(0); not checked
 /// @param ln_k  any finite number
 /// @throws std::domain_error  if ln_k is not finite
-ShareEstimates share_estimates(const Law& law, double r, double ln_k);
+CoefficientEstimates coefficient_estimates(const Law& law, double r, double ln_k);
 
 /// k first(k) = k - logarithm ln k - constant + O(1/k) as k -> infinity (README (R23)).
-struct FarShare {
+struct FarCoefficient {
   double logarithm;
   double constant;
 };
@@ -47,7 +47,7 @@ struct FarShare {
 /// other sign.
 ///
 /// Accuracy  logarithm 1e-13, constant 1e-9.
-std::optional<FarShare> far_share(const Law& law);
+std::optional<FarCoefficient> far_coefficient(const Law& law);
 
 /// One estimate of a stop time.
 struct StopEstimate {
@@ -58,7 +58,7 @@ struct StopEstimate {
 
 /// The estimates of the stop time that this law has for a small mu, the roughest first:
 ///
-///   log  P + S less the logarithm of the far share; for k0 > 1, and a law that has a FarShare
+///   log  P + S less the logarithm of the far coefficient; for k0 > 1, and a law that has a FarCoefficient
 ///   E1   P + m(k0; 0) S; relative error O(mu^4 ln^2), uniformly in k0
 ///   E2   the next term; O(mu^6 ln^3)
 ///
