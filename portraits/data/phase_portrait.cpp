@@ -188,8 +188,12 @@ class OrbitTracer {
   }
 
   double on_window(const Instant& a, const Instant& b) const {
-    const double u = std::abs(a.u - b.u) / window_.u / 0.02;
-    const double v = std::abs(a.v - b.v) / window_.v / 0.02;
+    // Far outside, orbits are seen by ratio only.
+    const auto change = [](double x, double y) {
+      return std::abs(std::clamp(x, -2.0, 2.0) - std::clamp(y, -2.0, 2.0));
+    };
+    const double u = change(a.u / window_.u, b.u / window_.u) / 0.02;
+    const double v = change(a.v / window_.v, b.v / window_.v) / 0.02;
     // By ratio next to the axes, where the curve may turn sharply.
     const auto fold = [](double x, double y) { return std::abs(std::log(std::max(x, 1e-3) / std::max(y, 1e-3))); };
     const double folds = std::max(fold(std::abs(a.u) / window_.u, std::abs(b.u) / window_.u) / 0.15,

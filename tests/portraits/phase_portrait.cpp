@@ -226,6 +226,22 @@ TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[in
   }
 }
 
+TEST_CASE("An orbit from far outside the window is bounded, and smooth inside it", "[invariant]") {
+  for (const State start : {State{1e6, 1}, State{1, 1e9}}) {
+    const PhasePortrait portrait = phase_portrait({{reduction::HertzLaw{}, 0.3}},
+                                                  {.window = Window{1, 5}, .highlight = start, .orbits_per_side = 0});
+    const PortraitOrbit& orbit = portrait.highlight.value();
+    CHECK(orbit.u.size() < 2000);
+    double longest = 0;
+    for (Eigen::Index i = 1; i < orbit.u.size(); ++i) {
+      if (orbit.u[i - 1] > 1 || orbit.v[i - 1] > 5) continue;
+      longest = std::max(longest, paper_distance(portrait, orbit, i, i - 1));
+    }
+    CHECK(longest > 0);
+    CHECK(longest < 0.05);
+  }
+}
+
 TEST_CASE("What cannot be drawn is rejected", "[domain]") {
   std::vector<PortraitRequest> bad{{.orbits_per_side = -1}, {.isochrones = -1}, {.highlight = State{1, -1}}};
   for (const Window window :
