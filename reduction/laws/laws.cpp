@@ -39,13 +39,13 @@ Law law_of_the_family(std::string_view exponent) {
 }  // namespace
 
 const std::vector<Law>& paper_laws() {
-  static const std::vector<Law> laws{PadeLaw{}, HertzLaw{}};
+  static const std::vector<Law> laws{HertzLaw{}, PadeLaw{}};
   return laws;
 }
 
 const std::vector<Law>& named_laws() {
-  static const std::vector<Law> laws{PadeLaw{},           HertzLaw{},     PressureLaw::uniform(), PressureLaw::punch(),
-                                     PressureLaw::ring(), Potential8Law{}};
+  static const std::vector<Law> laws{HertzLaw{},           PadeLaw{},           PressureLaw::uniform(),
+                                     PressureLaw::punch(), PressureLaw::ring(), Potential8Law{}};
   return laws;
 }
 

@@ -27,13 +27,13 @@ struct RouteText {
 
 constexpr std::array route_texts{
     RouteText{Route::closed, "closed",
-              "closed form, relative error below 1e-15 for mu <= 1; only where the law has one"},
+              "closed form, numerical error below 1e-15 for mu <= 1; only where the law has one"},
     RouteText{Route::quadrature, "quadrature",
-              "quadrature of the separated equation, relative error below 3e-15 for a smooth law; any law and body"},
+              "quadrature of the separated equation, numerical error below 3e-15 for a smooth law"},
     RouteText{Route::regularised, "regularised",
-              "(2.7) in ln u, ln v stepped in beta with (2.8), relative error below 1e-10; any law and body"},
+              "(2.7) in ln u, ln v stepped in beta with (2.8), numerical error below 1e-10; any law and body"},
     RouteText{Route::direct, "direct",
-              "(2.6) in ln u, ln v stepped in tau, relative error below 1e-10; any law and body"},
+              "(2.6) in ln u, ln v stepped in tau, numerical error below 1e-10; any law and body"},
 };
 
 const RouteText& text(Route route) { return *std::ranges::find(route_texts, route, &RouteText::route); }

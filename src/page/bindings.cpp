@@ -23,6 +23,7 @@
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
@@ -255,8 +256,8 @@ program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr)
   }
   const auto flow = [&]() -> Flow {
     if (known) return *known;
-    return ReducedSystem(law_of(asked["law"].as<std::string>()),
-                         shot ? si::patch_ratio(*shot) : asked["mu"].as<double>(),
+    const Law law = law_of(asked["law"].as<std::string>());
+    return ReducedSystem(law, shot ? si::patch_ratio(*shot, law) : asked["mu"].as<double>(),
                          {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()});
   };
   program::PortraitSpec question{.flow = flow(), .shot = shot};
@@ -325,7 +326,7 @@ val catalogue() {
     ball.set("friction", entry.shot.contact.friction);
     ball.set("gravity", entry.shot.environment.gravity);
     ball.set("patchBy", std::string(by_spin ? "spin_deceleration" : "patch_radius"));
-    ball.set("patch", by_spin ? by_spin->value : si::patch_radius_of(entry.shot));
+    ball.set("patch", by_spin ? by_spin->value : si::patch_radius_of(entry.shot, reduction::HertzLaw{}));
     ball.set("slip", si::slip_at_start(entry.shot));
     ball.set("spin", si::spin_at_start(entry.shot));
     ball.set("sources", entry.sources);
@@ -335,12 +336,12 @@ val catalogue() {
 }
 
 /// What the plane needs to know of a ball.
-val contact(const val& fields) {
+val contact(const std::string& law, const val& fields) {
   return answer([&] {
     const si::Shot shot = shot_of(fields);
     val result = val::object();
-    result.set("mu", si::patch_ratio(shot));
-    result.set("patchRadius", si::patch_radius_of(shot));
+    result.set("mu", si::patch_ratio(shot, law_of(law)));
+    result.set("patchRadius", si::patch_radius_of(shot, law_of(law)));
     result.set("secondsPerTau", si::seconds(shot, 1));
     return result;
   });
@@ -352,10 +353,9 @@ val roll(const std::string& law, const val& fields) {
   return answer([&] {
     const si::Shot shot = shot_of(fields);
     const si::BallMotion motion(shot, law_of(law));
-    constexpr double rolling_share = 1e-3;
     constexpr int instants = 240;
     const si::UncoupledMotion textbook(shot, law_of(law));
-    const double rolls = motion.slip_time(rolling_share);
+    const double rolls = motion.slip_time(si::rolling_slip);
     const double end = rolls > 0 ? 1.6 * rolls : motion.stop_time();
     const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(instants + 1, 0, end);
     const auto columns = motion.at_times(times);
@@ -367,7 +367,7 @@ val roll(const std::string& law, const val& fields) {
     result.set("y", column(columns.y));
     result.set("textbookX", column(textbook_columns.x));
     result.set("textbookY", column(textbook_columns.y));
-    result.set("textbookRollsAfter", textbook.slip_end());
+    result.set("textbookRollsAfter", textbook.slip_time(si::rolling_slip));
     result.set("rollsAfter", rolls);
     result.set("stop", motion.stop_time());
     result.set("slipLength", motion.slip_length());

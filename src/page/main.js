@@ -74,7 +74,7 @@ class Page {
     const { plane } = this.library;
     this.contact = null;
     if (state.ball) {
-      this.contact = this.library.contact({ ...state.ball, velocityX: 0, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: 0 });
+      this.contact = this.library.contact(state.law, { ...state.ball, velocityX: 0, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: 0 });
       state.mu = this.contact.mu;
     }
     const { chi, gamma } = bodyOf(state);

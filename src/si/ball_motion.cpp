@@ -35,22 +35,16 @@ MotionColumns BallMotion::at_times(const Eigen::ArrayXd& times) const {
   return columns;
 }
 
-double BallMotion::slip_time(double share) const {
-  if (!(share > 0 && share <= 1)) {
-    throw std::domain_error(fmt::format("BallMotion::slip_time: 0 < share <= 1 is required, got {}", share));
+double BallMotion::slip_time(double speed) const {
+  if (!(speed >= 0))
+    throw std::domain_error(fmt::format("BallMotion::slip_time: speed >= 0 is required, got {}", speed));
+  if (slip_at_start(shot_) <= speed) return 0;
+  double low = 0;
+  double high = orbit_.stop_time();
+  for (double middle = high / 2; middle > low && middle < high; middle = low + (high - low) / 2) {
+    (orbit_.at_time(middle).ln_v > std::log(speed) ? low : high) = middle;
   }
-  if (slip_at_start(shot_) == 0) return 0;
-  const double start = orbit_.start_log_ratio();
-  if (std::isinf(start)) return (1 - share) * stop_;  // no spin: the slip falls evenly
-  // ln v falls at least as fast as ln k (README of reduction, (R2)).
-  const double wanted = std::log(slip_at_start(shot_)) + std::log(share);
-  double low = start + std::log(share) - 1e-9;
-  double high = start;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = low + (high - low) / 2;
-    (orbit_.at_log_ratio(middle).ln_v > wanted ? high : low) = middle;
-  }
-  return seconds(shot_, orbit_.at_log_ratio(low).tau);
+  return seconds(shot_, high);
 }
 
 double BallMotion::slip_length() const { return seconds(shot_, orbit_.slip_length(orbit_.stop_time())); }
@@ -61,7 +55,9 @@ double BallMotion::integral(Function function, double end) const {
   constexpr unsigned depth = 12;
   constexpr double tolerance = 1e-10;
   std::vector<double> edges{0, end};
-  for (double share : {0.5, 0.1, 0.01, 1e-4, 1e-8}) edges.push_back(std::min(slip_time(share), end));
+  for (double share : {0.5, 0.1, 0.01, 1e-4, 1e-8}) {
+    edges.push_back(std::min(slip_time(share * slip_at_start(shot_)), end));
+  }
   std::ranges::sort(edges);
   double sum = 0;
   for (std::size_t i = 1; i < edges.size(); ++i) {

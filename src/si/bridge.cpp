@@ -4,7 +4,9 @@
 
 namespace contensou::si {
 
-double patch_ratio(const Shot& shot) { return patch_radius_of(shot) / shot.ball.radius; }
+double patch_ratio(const Shot& shot, const reduction::Law& law) {
+  return patch_radius_of(shot, law) / shot.ball.radius;
+}
 
 reduction::State reduced_start(const Shot& shot) {
   return {.u = shot.ball.radius * spin_at_start(shot), .v = slip_at_start(shot)};
@@ -12,7 +14,7 @@ reduction::State reduced_start(const Shot& shot) {
 
 reduction::ReducedSystem reduced_system(const Shot& shot, const reduction::Law& law) {
   require_shot(shot);
-  return {law, patch_ratio(shot)};
+  return {law, patch_ratio(shot, law)};
 }
 
 double seconds(const Shot& shot, double tau) {

@@ -1,11 +1,8 @@
 #include "contensou/si/hertz_contact.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace contensou::si {
-
-using std::numbers::pi;
 
 double effective_modulus(const HertzModuli& moduli) {
   const auto compliance = [&](std::size_t body) {
@@ -19,8 +16,9 @@ double hertz_patch_radius(double load, double radius, const HertzModuli& moduli)
   return std::cbrt(0.75 * load * radius / effective_modulus(moduli));
 }
 
-double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity) {
-  return 32 * radius * radius * deceleration / (15 * pi * friction * gravity);
+double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,
+                                    double pivoting_moment) {
+  return 2 * radius * radius * deceleration / (5 * friction * gravity * pivoting_moment);
 }
 
 }  // namespace contensou::si

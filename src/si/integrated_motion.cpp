@@ -215,7 +215,7 @@ IntegratedMotion integrate_motion(const Shot& shot, const reduction::Law& law, c
                   .m = shot.ball.mass,
                   .J = 0.4 * shot.ball.mass * R * R,
                   .normal_friction = shot.contact.friction * shot.ball.mass * shot.environment.gravity,
-                  .eps = patch_radius_of(shot),
+                  .eps = patch_radius_of(shot, law),
                   .turn = std::copysign(1.0, spin),
                   .speed_scale = std::max({start.velocity.norm(), R * start.angular_velocity.norm()}),
                   .time_scale = 1,

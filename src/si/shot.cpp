@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/quantity.hpp"
 
 namespace contensou::si {
@@ -23,13 +24,24 @@ std::vector<GivenQuantity> given_by(const Start& start) {
   return {{&velocity, {centre.begin(), centre.end()}}, {&angular_velocity, {body.begin(), body.end()}}};
 }
 
-double patch_radius_of(const Shot& shot) {
+double patch_radius_of(const Shot& shot, const reduction::Law& law) {
   const auto& [ball, contact, start, environment] = shot;
-  if (const auto* given = std::get_if<PatchRadius>(&contact.patch)) return given->value;
-  if (const auto* measured = std::get_if<SpinDeceleration>(&contact.patch)) {
-    return patch_radius_of_deceleration(ball.radius, measured->value, contact.friction, environment.gravity);
+  double patch = 0;
+  std::string origin = "given";
+  if (const auto* given = std::get_if<PatchRadius>(&contact.patch)) {
+    patch = given->value;
+  } else if (const auto* measured = std::get_if<SpinDeceleration>(&contact.patch)) {
+    patch = patch_radius_of_deceleration(ball.radius, measured->value, contact.friction, environment.gravity,
+                                         law.pivoting_moment());
+    origin = fmt::format("from a spin deceleration of {} rad/s^2, under law {}", measured->value, law.name());
+  } else {
+    patch = hertz_patch_radius(ball.mass * environment.gravity, ball.radius, std::get<HertzModuli>(contact.patch));
+    origin = "from Hertz's formula";
   }
-  return hertz_patch_radius(ball.mass * environment.gravity, ball.radius, std::get<HertzModuli>(contact.patch));
+  if (patch > 0 && patch <= ball.radius) return patch;
+  throw std::domain_error(
+      fmt::format("the patch radius must be above 0 and at most the ball's radius {} m, got {} m ({})", ball.radius,
+                  patch, origin));
 }
 
 Velocities velocities_of(const Start& start) {
@@ -61,17 +73,7 @@ void require_shot(const Shot& shot) {
   }
   require(gravity, shot.environment.gravity);
 
-  const double patch = patch_radius_of(shot);
-  if (!(patch > 0 && patch <= shot.ball.radius)) {
-    const auto* measured = std::get_if<SpinDeceleration>(&shot.contact.patch);
-    const bool by_hertz = std::holds_alternative<HertzModuli>(shot.contact.patch);
-    const std::string origin = measured != nullptr
-                                   ? fmt::format("from a spin deceleration of {} rad/s^2", measured->value)
-                                   : (by_hertz ? "from Hertz's formula" : "given");
-    throw std::domain_error(
-        fmt::format("the patch radius must be above 0 and at most the ball's radius {} m, got {} m ({})",
-                    shot.ball.radius, patch, origin));
-  }
+  if (!std::holds_alternative<SpinDeceleration>(shot.contact.patch)) patch_radius_of(shot, reduction::HertzLaw{});
   if (!std::isfinite(shot.ball.radius * spin_at_start(shot))) {
     throw std::domain_error(
         fmt::format("radius times spin must be finite, got {} m * {} rad/s", shot.ball.radius, spin_at_start(shot)));

@@ -16,6 +16,11 @@ UncoupledMotion::UncoupledMotion(const Shot& shot, const reduction::Law& law) : 
   spin_end_ = seconds(shot, system.pivoting_limit(start.u));
 }
 
+double UncoupledMotion::slip_time(double speed) const {
+  const double v0 = slip_at_start(shot_);
+  return v0 > speed ? slip_end_ * (1 - speed / v0) : 0;
+}
+
 double UncoupledMotion::path_length(double t) const {
   using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
   constexpr unsigned depth = 12;

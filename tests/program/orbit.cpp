@@ -10,7 +10,7 @@
 using namespace contensou::reduction;
 
 TEST_CASE("orbit gives 200 rows from the start to the stop", "[cli]") {
-  const Run run = run_program("orbit --mu 0.3 --u0 -1 --v0 1");
+  const Run run = run_program("orbit --law pade --mu 0.3 --u0 -1 --v0 1");
   CHECK(run.status == 0);
   const auto rows = rows_of(run.out);
   REQUIRE(rows.size() == 201);
@@ -29,7 +29,8 @@ TEST_CASE("orbit gives 200 rows from the start to the stop", "[cli]") {
 
 TEST_CASE("--at keeps its order, and rests past the stop", "[cli]") {
   for (const std::string route : {"closed", "quadrature", "regularised", "direct"}) {
-    const auto rows = rows_of(run_program("orbit --mu 0.3 --u0 1 --v0 1 --at 3,0,99,1.5 --route " + route).out);
+    const auto rows =
+        rows_of(run_program("orbit --law pade --mu 0.3 --u0 1 --v0 1 --at 3,0,99,1.5 --route " + route).out);
     INFO(route);
     REQUIRE(rows.size() == 5);
     const Orbit orbit = Flow({PadeLaw{}, 0.3}).orbit({1, 1});
@@ -46,7 +47,7 @@ TEST_CASE("--at keeps its order, and rests past the stop", "[cli]") {
 
 TEST_CASE("every route samples up to the stop", "[route]") {
   for (const std::string route : {"closed", "quadrature", "regularised", "direct"}) {
-    const auto rows = rows_of(run_program("orbit --mu 0.1 --u0 1 --v0 1 --samples 3 --route " + route).out);
+    const auto rows = rows_of(run_program("orbit --law pade --mu 0.1 --u0 1 --v0 1 --samples 3 --route " + route).out);
     INFO(route);
     REQUIRE(rows.size() == 4);
     CHECK(rows[1][1] == "1");
@@ -65,7 +66,7 @@ TEST_CASE("a ball has seconds in its last column", "[cli]") {
 }
 
 TEST_CASE("orbit as JSON says infinity as a string", "[cli]") {
-  const auto orbit = json_of("orbit --mu 0.3 --u0 1 --v0 1 --samples 3 --format json");
+  const auto orbit = json_of("orbit --law pade --mu 0.3 --u0 1 --v0 1 --samples 3 --format json");
   CHECK(orbit.at("schema") == 1);
   CHECK(orbit.at("tau").size() == 3);
   CHECK(orbit.at("ln_v").at(2) == "-inf");
@@ -76,7 +77,7 @@ TEST_CASE("orbit as JSON says infinity as a string", "[cli]") {
 TEST_CASE("motions along the axes and at rest", "[limit]") {
   for (const std::string start : {"--u0 0 --v0 1", "--u0 1 --v0 0", "--u0 0 --v0 0"}) {
     for (const std::string route : {"closed", "regularised", "direct"}) {
-      const Run run = run_program("orbit --mu 0.3 --samples 5 " + start + " --route " + route);
+      const Run run = run_program("orbit --law pade --mu 0.3 --samples 5 " + start + " --route " + route);
       INFO(start << " " << route << "\n" << run.err);
       CHECK(run.status == 0);
       CHECK(rows_of(run.out).size() == 6);

@@ -9,7 +9,7 @@
 using Catch::Matchers::Contains;
 
 TEST_CASE("portrait --facts prints the singular points of the paper's plane", "[cli]") {
-  const auto facts = json_of("portrait --mu 0.3 --facts --format json");
+  const auto facts = json_of("portrait --law pade --mu 0.3 --facts --format json");
   CHECK(facts["schema"] == 1);
   CHECK(facts["law"] == "pade");
   CHECK(facts["limit"] == "zero");

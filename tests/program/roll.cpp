@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include "contensou/si/catalogue.hpp"
@@ -71,7 +72,7 @@ TEST_CASE("the bowling ball of the textbook, from the command line", "[table]") 
   CHECK(columns.at("x")[0] == Approx(8.63).margin(5e-3));
   CHECK(columns.at("vx")[0] == Approx(5.786).margin(5e-4));
   CHECK(columns.at("slip")[0] == 0);
-  CHECK_THAT(run_program(bowling + " --format text").out,
+  CHECK_THAT(run_program(bowling + " --format text --rolling-below 0").out,
              Contains("rolls after") && Contains("1.2429") && Contains("(8.6293, 0)") && Contains("5.78571"));
 }
 
@@ -135,6 +136,48 @@ TEST_CASE("roll as JSON, asked for or by the file's ending", "[cli]") {
   const TemporaryDirectory scratch;
   CHECK(run_program(masse + " --samples 3 --law exact -o " + scratch.file("roll.json")).status == 0);
   CHECK(nlohmann::json::parse(read_file(scratch.file("roll.json"))) == roll);
+}
+
+TEST_CASE("roll has its events in JSON and as comments of CSV", "[cli]") {
+  const auto roll = json_of(masse + " --samples 2 --format json");
+  const auto& rolls = roll.at("rolls_after");
+  CHECK(rolls.at("threshold") == 1e-3);
+  const auto there = columns_of(fmt::format("{} --at {}", masse, rolls.at("t").get<double>()));
+  CHECK(there.at("slip")[0] == Approx(1e-3).epsilon(1e-9));
+  CHECK(there.at("x")[0] == rolls.at("x").get<double>());
+  CHECK(there.at("y")[0] == rolls.at("y").get<double>());
+  CHECK(roll.at("spin_ends").at("t") == roll.at("t_stop"));
+  const auto& energy = roll.at("energy_balance");
+  CHECK(energy.at("start").get<double>() == roll.at("energy").at(0).get<double>());
+  CHECK(energy.at("kept").get<double>() == Approx(roll.at("energy").at(1).get<double>()).epsilon(1e-14));
+  CHECK(energy.at("start").get<double>() - energy.at("lost_sliding").get<double>() -
+            energy.at("lost_spinning").get<double>() ==
+        Approx(energy.at("kept").get<double>()).epsilon(1e-14));
+  CHECK(roll.at("slip_length").get<double>() == Approx(0.0970456).epsilon(1e-5));
+  CHECK(roll.at("turns").get<double>() < 0);
+  CHECK(roll.at("textbook").at("spin_ends").at("t").get<double>() == Approx(5).epsilon(1e-14));
+  const std::string csv = run_program(masse + " --samples 2").out;
+  CHECK_THAT(csv, StartsWith("# law: \"exact\"\n"));
+  CHECK_THAT(csv, Contains(fmt::format("\n# t_stop: {}\n", roll.at("t_stop").get<double>())) &&
+                      Contains("\n# rolls_after: {\"t\": ") && Contains("\nt,x,y,vx,vy,wx,wy,wz,slip,energy\n"));
+}
+
+TEST_CASE("a spinning ball never rolls before the textbook's, whatever counts as rolling", "[invariant]") {
+  for (const std::string law : {"exact", "pade"}) {
+    for (const auto& entry : contensou::si::catalogue()) {
+      for (const char* below : {"1e-6", "1e-3", "0.1", "100"}) {
+        const auto roll = json_of(fmt::format("roll --samples 2 --format json --ball {} --law {} --rolling-below {}",
+                                              entry.name, law, below));
+        CAPTURE(entry.name, law, below);
+        CHECK(roll.at("rolls_after").at("t").get<double>() >=
+              roll.at("textbook").at("rolls_after").at("t").get<double>());
+        if (std::string(below) == "100") CHECK(roll.at("rolls_after").at("t") == 0);
+      }
+    }
+  }
+  // All of the slip ends with the spin only.
+  const auto all = json_of("roll --ball pool --samples 2 --format json --rolling-below 0");
+  CHECK(all.at("rolls_after").at("t") == all.at("t_stop"));
 }
 
 TEST_CASE("the summary has both models and the energy", "[cli]") {
@@ -202,6 +245,8 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
       {"roll --ball pool --until -1", "--until -1: "},
       {"roll --ball pool --until inf", "'inf' is not a finite number"},
       {"roll --ball pool --samples 3 -o roll.svg", "leave them out"},
+      {"roll --ball pool --rolling-below -1", "--rolling-below -1: a speed of slip is >= 0"},
+      {"roll --ball pool --rolling-below nan", "'nan' is not a finite number"},
   };
   for (const auto& [arguments, words] : mistakes) check_rejected(arguments, words);
 

@@ -24,7 +24,7 @@ std::string shortest(double value) { return fmt::format("{}", value); }
 }  // namespace
 
 TEST_CASE("a batch keeps columns and rows and adds tau_stop", "[cli]") {
-  const Run run = run_program("stop --batch -", "v0,note,mu,u0\n1,b,0.1,1\n 0.5 ,a,0.2,-3\n0,c,1,0\n");
+  const Run run = run_program("stop --law pade --batch -", "v0,note,mu,u0\n1,b,0.1,1\n 0.5 ,a,0.2,-3\n0,c,1,0\n");
   CHECK(run.status == 0);
   CHECK(run.err.empty());
   CHECK(run.out == "v0,note,mu,u0,tau_stop\n1,b,0.1,1," + shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau) +
@@ -45,15 +45,15 @@ TEST_CASE("a batch by another law and every route", "[route]") {
 }
 
 TEST_CASE("quoted fields pass through", "[cli]") {
-  const Run run =
-      run_program("stop --batch -", "note,mu,u0,v0\n\"a,\"\"b\"\"\nc\",1,0,0\n\"#d\",1,0,0\n\"plain\",1,0,0\n");
+  const Run run = run_program("stop --law pade --batch -",
+                              "note,mu,u0,v0\n\"a,\"\"b\"\"\nc\",1,0,0\n\"#d\",1,0,0\n\"plain\",1,0,0\n");
   CHECK(run.status == 0);
   CHECK(run.out == "note,mu,u0,v0,tau_stop\n\"a,\"\"b\"\"\nc\",1,0,0,0\n\"#d\",1,0,0,0\n\"plain\",1,0,0,0\n");
 }
 
 TEST_CASE("line ends of Windows, comments, blank lines and a byte order mark", "[cli]") {
-  const Run run =
-      run_program("stop --batch -", "\xEF\xBB\xBF# made by hand\r\nmu,u0,v0\r\n\r\n1,0,0\r\n# more\r\n0.5,0,0");
+  const Run run = run_program("stop --law pade --batch -",
+                              "\xEF\xBB\xBF# made by hand\r\nmu,u0,v0\r\n\r\n1,0,0\r\n# more\r\n0.5,0,0");
   CHECK(run.status == 0);
   CHECK(run.out == "mu,u0,v0,tau_stop\n1,0,0,0\n0.5,0,0,0\n");
 }
@@ -61,8 +61,8 @@ TEST_CASE("line ends of Windows, comments, blank lines and a byte order mark", "
 TEST_CASE("no row is lost whatever ends the lines", "[cli]") {
   const std::string header = "mu,u0,v0,tau_stop\n";
   const std::string row = "0.1,1,1," + shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau) + "\n";
-  CHECK(run_program("stop --batch -", "mu,u0,v0\r0.1,1,1\r0.1,1,1\r").out == header + row + row);
-  CHECK(run_program("stop --batch -", "mu,u0,v0\r0.1,1,1\n0.1,1,1\n").out == header + row + row);
+  CHECK(run_program("stop --law pade --batch -", "mu,u0,v0\r0.1,1,1\r0.1,1,1\r").out == header + row + row);
+  CHECK(run_program("stop --law pade --batch -", "mu,u0,v0\r0.1,1,1\n0.1,1,1\n").out == header + row + row);
   CHECK(run_program("law --batch -", "k\rinf\r\rinf").out == "k,phi,psi\ninf,1,0\ninf,1,0\n");
   // Longer than any block in which a file is read.
   constexpr int rows = 5000;
@@ -73,16 +73,16 @@ TEST_CASE("no row is lost whatever ends the lines", "[cli]") {
       table += "0.1,1,1" + ends[static_cast<std::size_t>(i) % ends.size()];
       expected += row;
     }
-    const Run run = run_program("stop --batch -", table);
+    const Run run = run_program("stop --law pade --batch -", table);
     CHECK(run.status == 0);
     CHECK(run.out == expected);
-    const Run bad = run_program("stop --batch -", table + "0.1,x,1" + ends[0]);
+    const Run bad = run_program("stop --law pade --batch -", table + "0.1,x,1" + ends[0]);
     CHECK_THAT(bad.err, StartsWith(fmt::format("<stdin>:{}: u0: 'x' is not a number", rows + 2)));
   }
 }
 
 TEST_CASE("a tau_stop that overflows is inf, and said to be", "[limit]") {
-  const Run run = run_program("stop --batch -", "mu,u0,v0\n1,0,0\n1e-100,1e300,1\n1,0,0\n1e-100,1e300,2\n");
+  const Run run = run_program("stop --law pade --batch -", "mu,u0,v0\n1,0,0\n1e-100,1e300,1\n1,0,0\n1e-100,1e300,2\n");
   CHECK(run.status == 0);
   CHECK_THAT(run.out, Contains("\n1e-100,1e300,1,inf\n") && Contains("\n1e-100,1e300,2,inf\n"));
   CHECK(run.err == "<stdin>:3: tau_stop exceeds the largest double and is written as inf (2 rows in all)\n");
@@ -94,7 +94,7 @@ TEST_CASE("a filter: rows leave while the input pauses, and up to the first bad 
     // Each row is sent when the row before has been answered. A program that waits for more never gets it.
     const std::string script = fmt::format(
         "set -e; cd '{}'; rm -f in out; mkfifo in out\n"
-        "'{}' stop --batch - --threads {} <in >out 2>err & exec 3>in 4<out\n"
+        "'{}' stop --law pade --batch - --threads {} <in >out 2>err & exec 3>in 4<out\n"
         "printf 'mu,u0,v0\\n1,0,0\\n' >&3; read -r header <&4; read -r first <&4\n"
         "for i in 1 2 3 4 5 6 7 8 9; do printf \"0.$i,0,0\\n\" >&3; read -r row <&4; test $row = 0.$i,0,0,0; done\n"
         "printf '1,0,0\\n1,0' >&3; read -r last <&4; printf ',x\\n' >&3\n"
@@ -126,7 +126,7 @@ TEST_CASE("a table of another kind is named, with a way out", "[cli]") {
       {"mu,u0,v0\n\"0,1\",1,1\n", "<stdin>:2: mu: '0,1' is not a number; write it like 0.1, -5 or 1e-3: decimals"},
   };
   for (const auto& [input, words] : others) {
-    for (const std::string verb : {"stop --batch -", "law --batch -", "orbit --ball pool --at -"}) {
+    for (const std::string verb : {"stop --law pade --batch -", "law --batch -", "orbit --ball pool --at -"}) {
       check_rejected(verb, verb.starts_with("stop") ? words : "", input);
     }
   }
@@ -134,7 +134,7 @@ TEST_CASE("a table of another kind is named, with a way out", "[cli]") {
   const TemporaryDirectory scratch;
   write_file(scratch.file("excel.csv"), "\xEF\xBB\xBFmu;u0;v0\r\n0,5;0;0\r\n");
   const std::string converted = "sed 's/,/./g; s/;/,/g' " + scratch.file("excel.csv") + " | '" + CONTENSOU_PROGRAM +
-                                "' stop --batch - -o " + scratch.file("out.csv");
+                                "' stop --law pade --batch - -o " + scratch.file("out.csv");
   CHECK(std::system(converted.c_str()) == 0);
   CHECK(read_file(scratch.file("out.csv")) == "mu,u0,v0,tau_stop\n0.5,0,0,0\n");
 }
@@ -143,7 +143,7 @@ TEST_CASE("a header of many or long names is not shown whole", "[cli]") {
   std::string names;
   for (int i = 0; i < 100000; ++i) names += "x,";
   for (const std::string& header : {names, std::string(100000, 'x')}) {
-    const Run run = run_program("stop --batch -", header + "\n");
+    const Run run = run_program("stop --law pade --batch -", header + "\n");
     CHECK(run.status == 2);
     CHECK_THAT(run.err, Contains("no column is called 'mu'"));
     CHECK(run.err.size() < 300);
@@ -158,7 +158,7 @@ TEST_CASE("rows with a mu each, by the plain function", "[route]") {
     csv += fmt::format("{},-1,{}\n", mu, i);
     expected.push_back(shortest(stop_time({PadeLaw{}, mu}, {-1, static_cast<double>(i)}, Route::closed).tau));
   }
-  const auto rows = rows_of(run_program("stop --batch -", csv).out);
+  const auto rows = rows_of(run_program("stop --law pade --batch -", csv).out);
   REQUIRE(rows.size() == 1001);
   for (std::size_t i = 1; i <= 1000; ++i) CHECK(rows[i][3] == expected[i - 1]);
 }
@@ -208,7 +208,7 @@ TEST_CASE("a bad table is refused with its line", "[cli]") {
       {"mu,u0,v0\n0.1," + std::string(1000, 'x') + ",1\n", "<stdin>:2: ", "x...' is not a number"},
   };
   for (const auto& [input, place, word, out] : faults) {
-    const Run run = run_program("stop --batch -", input);
+    const Run run = run_program("stop --law pade --batch -", input);
     INFO(input);
     CHECK(run.status == 2);
     CHECK(run.out == out);
@@ -220,8 +220,8 @@ TEST_CASE("a bad table is refused with its line", "[cli]") {
 }
 
 TEST_CASE("--keep-going leaves out what it cannot compute", "[cli]") {
-  const Run run =
-      run_program("stop --keep-going --batch -", "mu,u0,v0,id\n1,0,0,a\n0.1,x,1,b\n0.1,1\n5,1,1,d\n1,0,0,e\n");
+  const Run run = run_program("stop --law pade --keep-going --batch -",
+                              "mu,u0,v0,id\n1,0,0,a\n0.1,x,1,b\n0.1,1\n5,1,1,d\n1,0,0,e\n");
   CHECK(run.status == 2);
   CHECK(run.out == "mu,u0,v0,id,tau_stop\n1,0,0,a,0\n0.1,x,1,b,\n0.1,1,,,\n5,1,1,d,\n1,0,0,e,0\n");
   for (const char* place : {"<stdin>:3: ", "<stdin>:4: ", "<stdin>:5: "}) CHECK_THAT(run.err, Contains(place));
@@ -230,10 +230,11 @@ TEST_CASE("--keep-going leaves out what it cannot compute", "[cli]") {
 TEST_CASE("a batch excludes what makes no sense with it", "[cli]") {
   for (const std::string other : {"--mu 0.1", "--ball pool", "--slip 1", "--format json", "--format text",
                                   "--digits banana", "--digits 18", "--digits 5"}) {
-    check_rejected("stop --batch - " + other, "", "mu,u0,v0\n1,0,0\n");
+    check_rejected("stop --law pade --batch - " + other, "", "mu,u0,v0\n1,0,0\n");
   }
   CHECK(run_program("stop --keep-going --ball pool").status == 2);
-  check_rejected("stop --keep-going --batch - --route quick", "--route quick: no such route", "mu,u0,v0\n1,0,0\n");
+  check_rejected("stop --law pade --keep-going --batch - --route quick", "--route quick: no such route",
+                 "mu,u0,v0\n1,0,0\n");
   const Run missing = run_program("stop --batch - --law exact --route closed", "mu,u0,v0\n1,0,0\n");
   CHECK(missing.status == 2);
   CHECK_THAT(missing.err, StartsWith("<stdin>:2: ") && Contains("--route closed: law exact"));
@@ -263,7 +264,7 @@ struct RandomTable {
 
 TEST_CASE("a long batch has the bits of single calls, however many threads there are", "[route]") {
   const RandomTable table(100000);
-  const Run one = run_program("stop --batch - --threads 1", table.csv);
+  const Run one = run_program("stop --law pade --batch - --threads 1", table.csv);
   REQUIRE(one.status == 0);
   const auto rows = rows_of(one.out);
   REQUIRE(rows.size() == table.mu.size() + 1);
@@ -274,7 +275,7 @@ TEST_CASE("a long batch has the bits of single calls, however many threads there
   }
   CHECK(different == 0);
   for (const std::string threads : {"2", "3", "16"}) {
-    CHECK(run_program("stop --batch - --threads " + threads, table.csv).out == one.out);
+    CHECK(run_program("stop --law pade --batch - --threads " + threads, table.csv).out == one.out);
   }
   const std::string few = RandomTable(20000).csv;
   CHECK(run_program("stop --law exact --batch - --threads 7", few).out ==
@@ -283,15 +284,15 @@ TEST_CASE("a long batch has the bits of single calls, however many threads there
 
 TEST_CASE("the first bad row of a long batch is the one that is named", "[cli]") {
   std::string csv = RandomTable(60000).csv;
-  const std::string good = run_program("stop --batch -", csv).out;
+  const std::string good = run_program("stop --law pade --batch -", csv).out;
   csv += "9,bad,1,1\n" + RandomTable(30000).csv.substr(14) + "8,worse,1,1\n";
   for (const std::string threads : {"1", "8"}) {
-    const Run run = run_program("stop --batch - --threads " + threads, csv);
+    const Run run = run_program("stop --law pade --batch - --threads " + threads, csv);
     CHECK(run.status == 2);
     CHECK(std::ranges::count(run.out, '\n') == 60001);
     CHECK(run.out == good.substr(0, run.out.size()));
     CHECK_THAT(run.err, StartsWith("<stdin>:60002: mu: 0 < mu <= 1 is required, got 9"));
-    const Run kept = run_program("stop --keep-going --batch - --threads " + threads, csv);
+    const Run kept = run_program("stop --law pade --keep-going --batch - --threads " + threads, csv);
     CHECK(kept.status == 2);
     CHECK(kept.out.starts_with(run.out));
     CHECK_THAT(kept.out, Contains("\n9,bad,1,1,\n") && Contains("\n8,worse,1,1,\n"));
@@ -307,13 +308,13 @@ TEST_CASE("records in quotes may lie across the blocks in which a long file is r
     csv += note + "\",0.5,1,1\n# it\"s a comment\n";
     expected += note + "\",0.5,1,1," + tau + "\n";
   }
-  const Run run = run_program("stop --batch -", csv);
+  const Run run = run_program("stop --law pade --batch -", csv);
   CHECK(run.err.empty());
   CHECK(run.out == expected);
 }
 
 TEST_CASE("a record without an end is refused before it fills the memory", "[limit]") {
-  const Run open = run_program("stop --batch -", "mu,u0,v0\n0.1,1,1\n0.1,1,\"" + std::string(70 << 20, '1'));
+  const Run open = run_program("stop --law pade --batch -", "mu,u0,v0\n0.1,1,1\n0.1,1,\"" + std::string(70 << 20, '1'));
   CHECK(open.status == 2);
   CHECK_THAT(open.err, StartsWith("<stdin>:3: ") && Contains("longer than 64 MiB"));
   CHECK(std::ranges::count(open.out, '\n') == 2);
@@ -325,7 +326,7 @@ TEST_CASE("a batch of any length takes constant memory", "[limit]") {
   const TemporaryDirectory scratch;
   const std::string row = "0.1,1,1," + std::string(1000, 'x');
   const std::string command = fmt::format(
-      "(echo mu,u0,v0,note; yes {} | head -n 200000) | (ulimit -v 120000; exec '{}' stop --batch - "
+      "(echo mu,u0,v0,note; yes {} | head -n 200000) | (ulimit -v 120000; exec '{}' stop --law pade --batch - "
       "--threads 1 -o '{}')",
       row, CONTENSOU_PROGRAM, scratch.file("out.csv"));
   CHECK(std::system(command.c_str()) == 0);
@@ -337,7 +338,7 @@ TEST_CASE("a batch of any length takes constant memory", "[limit]") {
 
 TEST_CASE("--threads is a whole number, and for many starts", "[cli]") {
   for (const std::string threads : {"0", "-1", "1.5", "two", "1025"}) {
-    check_rejected("stop --batch - --threads " + threads,
+    check_rejected("stop --law pade --batch - --threads " + threads,
                    "--threads: '" + threads + "' is not a whole number from 1 to 1024", "mu,u0,v0\n1,0,0\n");
   }
   check_rejected("stop --ball pool --threads 2", "--threads is for many starts");
@@ -349,12 +350,13 @@ TEST_CASE("a batch is written to a file whole or not at all", "[cli]") {
   // Also into the file that it reads.
   CHECK(run_program("stop --batch " + scratch.file("table.csv") + " -o " + scratch.file("table.csv")).status == 0);
   CHECK(read_file(scratch.file("table.csv")) == "mu,u0,v0,tau_stop\n1,0,0,0\n");
-  CHECK(run_program("stop --batch - -o " + scratch.file("table.csv"), "mu,u0,v0\n1,0,0\n7,0,0\n").status == 2);
+  CHECK(run_program("stop --law pade --batch - -o " + scratch.file("table.csv"), "mu,u0,v0\n1,0,0\n7,0,0\n").status ==
+        2);
   CHECK(read_file(scratch.file("table.csv")) == "mu,u0,v0,tau_stop\n1,0,0,0\n");
   CHECK(scratch.names() == std::vector<std::string>{"table.csv"});
-  const Run full = run_program("stop --batch - -o /dev/full", "mu,u0,v0\n1,0,0\n");
+  const Run full = run_program("stop --law pade --batch - -o /dev/full", "mu,u0,v0\n1,0,0\n");
   CHECK(full.status == 4);
   CHECK_THAT(full.err, Contains("cannot write /dev/full: No space left"));
-  CHECK(run_program("stop --batch - -o " + scratch.file("no/such"), "mu,u0,v0\n1,0,0\n").status == 4);
+  CHECK(run_program("stop --law pade --batch - -o " + scratch.file("no/such"), "mu,u0,v0\n1,0,0\n").status == 4);
   CHECK(run_program("stop --batch " + scratch.path().string()).status == 4);
 }

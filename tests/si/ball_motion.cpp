@@ -34,7 +34,7 @@ TEST_CASE("the bowling ball of the textbook", "[table]") {
     CHECK(motion.path_length(motion.stop_time()) == Approx(stop.position.x()).epsilon(1e-9));
     CHECK(motion.slip_length() == Approx(8.1 * 8.1 / (7 * 0.19 * 9.8)).epsilon(1e-13));
     CHECK(motion.spin_angle() == 0);
-    CHECK(motion.slip_time(0.25) == Approx(0.75 * motion.stop_time()).epsilon(1e-12));
+    CHECK(motion.slip_time(0.25 * 8.1) == Approx(0.75 * motion.stop_time()).epsilon(1e-12));
   }
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("a masse shot curves while it slips", "[limit]") {
     return std::atan2(point.velocity.y(), point.velocity.x());
   };
   CHECK(direction(0) == 0);
-  const double slips = motion.slip_time(0.01);
+  const double slips = motion.slip_time(0.01 * slip_at_start(shot));
   double before = 0;
   for (int i = 1; i <= 10; ++i) {
     const double now = direction(slips * i / 10);
@@ -114,14 +114,17 @@ TEST_CASE("a masse shot curves while it slips", "[limit]") {
   CHECK(direction(motion.slip_time(1e-9)) == Approx(direction(2 * motion.stop_time())).epsilon(1e-9));
 }
 
-TEST_CASE("where the slip has fallen to a share", "[route]") {
+TEST_CASE("when the slip has fallen to a speed", "[route]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     const Shot shot = shot_of(motion_cases[2], 0.1);
     const BallMotion motion(shot, law);
     for (double share : {0.9, 0.5, 1e-3}) {
-      CHECK(motion.at_time(motion.slip_time(share)).slip == Approx(share * slip_at_start(shot)).epsilon(1e-9));
+      CHECK(motion.at_time(motion.slip_time(share * slip_at_start(shot))).slip ==
+            Approx(share * slip_at_start(shot)).epsilon(1e-9));
     }
-    CHECK_THROWS_AS(motion.slip_time(0), std::domain_error);
+    CHECK(motion.slip_time(0) == motion.stop_time());
+    CHECK(motion.slip_time(slip_at_start(shot)) == 0);
+    CHECK_THROWS_AS(motion.slip_time(-1), std::domain_error);
   }
   CHECK(BallMotion(shot_of(motion_cases[5], 0.1), reduction::PadeLaw{}).slip_time(0.5) == 0);
 }

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/bridge.hpp"
 
 using namespace contensou::si;
@@ -22,12 +23,13 @@ TEST_CASE("patches of the built-in balls", "[table]") {
                               {"rubber", 1.71e-3, 0.0685},
                               {"gel", 7.24e-3, 0.241}};
   REQUIRE(catalogue().size() == rows.size());
+  const contensou::reduction::HertzLaw law;
   for (const auto& [name, patch, mu] : rows) {
     INFO(name);
     REQUIRE(find_ball(name) != nullptr);
     const Shot& shot = find_ball(name)->shot;
-    CHECK(patch_radius_of(shot) == Approx(patch).epsilon(2e-3));
-    CHECK(patch_ratio(shot) == Approx(mu).epsilon(6e-3));
+    CHECK(patch_radius_of(shot, law) == Approx(patch).epsilon(2e-3));
+    CHECK(patch_ratio(shot, law) == Approx(mu).epsilon(6e-3));
     CHECK_NOTHROW(require_shot(shot));
     CHECK_FALSE(find_ball(name)->sources.empty());
   }

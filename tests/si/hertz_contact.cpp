@@ -26,7 +26,7 @@ TEST_CASE("the Hertz radius grows with the cube root of load and radius", "[symm
 
 TEST_CASE("the patch of a spin deceleration makes the ball slow down at that rate", "[route]") {
   const double R = 0.03, f = 0.2, g = 9.8, alpha = 7;
-  const double patch = patch_radius_of_deceleration(R, alpha, f, g);
   const double moment_at_rest = 3 * std::numbers::pi / 16;
+  const double patch = patch_radius_of_deceleration(R, alpha, f, g, moment_at_rest);
   CHECK(2.5 * patch * f * g * moment_at_rest / (R * R) == Approx(alpha).epsilon(1e-14));
 }

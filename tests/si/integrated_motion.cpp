@@ -63,7 +63,7 @@ TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under an
       const double stop = integrate_motion(shot, law, {}).stop_time;
       // The power of each friction, (f N) Phi v and (f N eps) Psi |omega_z|, summed along the integration.
       const double load = shot.contact.friction * shot.ball.mass * shot.environment.gravity;
-      const double eps = patch_radius_of(shot);
+      const double eps = patch_radius_of(shot, law);
       // Simpson's rule in s, t = stop s^4: the start, where the ball slides, in detail.
       constexpr Eigen::Index panels = 4000;
       const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(panels + 1, 0, 1);

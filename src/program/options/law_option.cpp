@@ -29,17 +29,19 @@ std::vector<std::string> law_forms() {
 }  // namespace
 
 void LawOption::add(CLI::App& app) {
-  law_.add(app, "--law", "LAW",
-           fmt::format("friction law: {} (default {}); P > -1: pressure (1 - rho^2)^P; FILE.csv: columns rho,pressure",
-                       fmt::join(law_forms(), ", "), law_names().front()));
+  law_.add(
+      app, "--law", "LAW",
+      fmt::format("friction law: {}. exact (default): Hertz's pressure; a --body disc: uniform, ring: ring. pade: the "
+                  "paper's approximation, {}. P > -1: pressure (1 - rho^2)^P; FILE.csv: columns rho,pressure",
+                  fmt::join(law_forms(), ", "), cost_of_pade));
 }
 
 void LawOption::add(CLI::App& app, const std::string& name, const std::string& value_name, const std::string& help) {
   law_.add(app, name, value_name, help);
 }
 
-reduction::Law LawOption::read() const {
-  if (!law_.given()) return reduction::named_laws().front();
+reduction::Law LawOption::read(const Body& body) const {
+  if (!law_.given()) return *reduction::find_law(body.law);
   try {
     if (auto law = reduction::find_law(law_.text())) return *law;
   } catch (const std::domain_error& error) {

@@ -4,8 +4,13 @@
 
 #include "contensou/reduction/friction_law.hpp"
 #include "options/argument.hpp"
+#include "options/start_options.hpp"
 
 namespace contensou::program {
+
+/// What the Pade law of the paper costs: pool, steel and bowling ball of `balls`, by their length of slip.
+inline constexpr const char* cost_of_pade =
+    "in which the extra slip of a spinning ball is too long: pool 5, steel 129, bowling 470 times";
 
 /// --law.
 class LawOption {
@@ -18,10 +23,10 @@ class LawOption {
   const Argument& argument() const { return law_; }
 
   /// The law of that name, of that exponent (pressure:P), or of the table in that file (with a / or ending in .csv);
-  /// the first of named_laws() if none was given.
+  /// that of the body's own pressure if none was given.
   /// @throws BadInput           for an unknown name or an exponent out of range; BadLine for a bad line of the file
   /// @throws std::system_error  if the file cannot be read
-  reduction::Law read() const;
+  reduction::Law read(const Body& body = {}) const;
 
  private:
   Argument law_;

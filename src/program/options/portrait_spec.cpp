@@ -25,12 +25,13 @@ portraits::PortraitCaption PortraitSpec::caption(const portraits::PhasePortrait&
   const double stop = portrait.highlight ? portrait.highlight->tau_left[0] : 0;
   caption.highlight = "this motion";
   if (!shot) {
-    caption.subtitle = fmt::format("u_0 = {:g}, v_0 = {:g}: it stops after τ* = {:.4g}", start->u, start->v, stop);
+    caption.subtitle =
+        fmt::format("u_0 = {:g}, v_0 = {:g}: slip and spin end after τ* = {:.4g}", start->u, start->v, stop);
     return caption;
   }
   caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot->ball.name),
                               flow.system().mu(), portraits::law_names(portrait));
-  caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: it stops after {:.3g} s", si::slip_at_start(*shot),
+  caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: they end after {:.3g} s", si::slip_at_start(*shot),
                                  si::spin_at_start(*shot), si::seconds(*shot, stop));
   caption.speed_unit = "m/s";
   caption.time_symbol = "{/:Italic t}*";

@@ -17,8 +17,8 @@ Body parse_body(const std::string& typed) {
   static const Choices<Body> bodies{
       {"ball", {}},
       {"hollow-ball", {.inertia = {.chi = 2.5, .gamma = 1.5}}},
-      {"disc", {{.chi = 1, .gamma = 2}, 1.0, false}},
-      {"ring", {{.chi = 1, .gamma = 1}, 1.0, false}},
+      {"disc", {{.chi = 1, .gamma = 2}, 1.0, false, "uniform"}},
+      {"ring", {{.chi = 1, .gamma = 1}, 1.0, false, "ring"}},
   };
   if (typed.find(',') == std::string::npos) {
     try {
@@ -59,13 +59,13 @@ void BodyOptions::add_body(CLI::App& app) {
       parse_body);
 }
 
-GivenBody BodyOptions::read(const std::string& ways) const {
+reduction::ReducedSystem BodyOptions::read(const reduction::Law& law, const std::string& ways) const {
   if (!mu_.given() && !body().patch_ratio) {
     throw BadInput(fmt::format("--mu missing: give {}, or a --body that lies flat, disc or ring", ways));
   }
   const double mu = mu_.given() ? *mu_ : *body().patch_ratio;
   if (const std::string complaint = body().complaint(mu); !complaint.empty()) mu_.reject(complaint);
-  return {mu, body().inertia};
+  return {law, mu, body().inertia};
 }
 
 const si::CatalogueEntry& require_ball(const std::string& name) {
@@ -129,11 +129,11 @@ void StartOptions::require_one_kind() const {
   }
 }
 
-GivenStart StartOptions::read() const {
+GivenStart StartOptions::read(const reduction::Law& law) const {
   require_one_kind();
   if (ball_.given()) {
-    const si::Shot shot = read_ball();
-    return {{si::patch_ratio(shot), reduction::homogeneous_ball}, si::reduced_start(shot), shot};
+    const si::Shot shot = read_ball(law);
+    return {si::reduced_system(shot, law), si::reduced_start(shot), shot};
   }
   std::vector<std::string> missing;
   if (!body_.mu().given() && !body().patch_ratio) missing.push_back(body_.mu().name());
@@ -144,13 +144,13 @@ GivenStart StartOptions::read() const {
     throw BadInput(
         fmt::format("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", ")));
   }
-  return {body_.read(), {.u = *u0_, .v = *v0_}, std::nullopt};
+  return {body_.read(law), {.u = *u0_, .v = *v0_}, std::nullopt};
 }
 
-GivenBody StartOptions::read_body() const {
+reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) const {
   require_one_kind();
-  if (ball_.given()) return {si::patch_ratio(read_ball()), reduction::homogeneous_ball};
-  return body_.read("--mu M, --ball NAME|FILE.toml");
+  if (ball_.given()) return si::reduced_system(read_ball(law), law);
+  return body_.read(law, "--mu M, --ball NAME|FILE.toml");
 }
 
 bool StartOptions::overrides_start() const {
@@ -160,7 +160,7 @@ bool StartOptions::overrides_start() const {
   return false;
 }
 
-si::Shot StartOptions::read_ball(const si::StartOverride& start) const {
+si::Shot StartOptions::read_ball(const reduction::Law& law, const si::StartOverride& start) const {
   if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
   si::Overrides overrides;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -170,7 +170,9 @@ si::Shot StartOptions::read_ball(const si::StartOverride& start) const {
     throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
   }
   try {
-    return read_shot(overrides, start);
+    const si::Shot shot = read_shot(overrides, start);
+    si::patch_radius_of(shot, law);  // is one that it can have
+    return shot;
   } catch (const si::RunFileError&) {
     throw;
   } catch (const NotAllowed& error) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/catalogue.hpp"
@@ -17,17 +18,10 @@ struct Body {
   reduction::Inertia inertia = reduction::homogeneous_ball;
   std::optional<double> patch_ratio{};  ///< where the body itself decides it: a flat puck rests on its whole face
   bool rolls_on_a_small_patch = true;   ///< mu <= 1
+  std::string_view law = "exact";       ///< of the pressure that it brings
 
   /// What is wrong with a mu for this body; empty if nothing is.
   std::string complaint(double mu) const;
-};
-
-/// What slides and pivots, in the paper's variables.
-struct GivenBody {
-  double mu;
-  reduction::Inertia inertia;
-
-  reduction::ReducedSystem system(const reduction::Law& law) const { return {law, mu, inertia}; }
 };
 
 /// --mu and --body.
@@ -42,10 +36,10 @@ class BodyOptions {
   /// The body; a homogeneous ball if none was given.
   Body body() const { return body_.value_or({}); }
 
-  /// The body with its mu: that of --mu, or the one that the body itself decides.
+  /// The body under a law, with its mu: that of --mu, or the one that the body itself decides.
   /// @param ways  to a mu, for a message
   /// @throws BadInput  if there is none, or one that the body cannot have
-  GivenBody read(const std::string& ways = "--mu M") const;
+  reduction::ReducedSystem read(const reduction::Law& law, const std::string& ways = "--mu M") const;
 
  private:
   ArgumentOf<double> mu_;
@@ -58,11 +52,12 @@ const si::CatalogueEntry& require_ball(const std::string& name);
 
 /// The start that the command line gives.
 struct GivenStart {
-  GivenBody body;
+  reduction::ReducedSystem system;
   reduction::State state;
   std::optional<si::Shot> shot;  ///< where it came from, if it is a ball in SI units
 
   bool at_rest() const { return state.u == 0 && state.v == 0; }
+  bool slides_and_spins() const { return state.u != 0 && state.v != 0; }
 };
 
 /// --mu, --u0, --v0 and --body, or --ball with its overrides.
@@ -80,10 +75,11 @@ class StartOptions {
   /// Whether there is no motion in them: neither --u0 nor --v0 nor --ball.
   bool without_motion() const { return !u0_.given() && !v0_.given() && !ball_.given(); }
 
+  /// @param law  of the system; a measured spin deceleration holds under it
   /// @throws BadInput           if options are missing, exclude each other or have values that no ball can have
   /// @throws si::RunFileError   for a mistake in a run file
   /// @throws std::system_error  for a run file that cannot be read
-  GivenStart read() const;
+  GivenStart read(const reduction::Law& law) const;
 
   /// Whether --slip or --spin was given.
   bool overrides_start() const;
@@ -91,10 +87,10 @@ class StartOptions {
   /// The ball of --ball. Throws as read.
   ///
   /// @param start  velocities that take the place of those of [start]
-  si::Shot read_ball(const si::StartOverride& start = {}) const;
+  si::Shot read_ball(const reduction::Law& law, const si::StartOverride& start = {}) const;
 
   /// What moves, without how: --mu, a --body with a mu of its own, or --ball is enough. Throws as read.
-  GivenBody read_body() const;
+  reduction::ReducedSystem read_body(const reduction::Law& law) const;
 
   /// --body, by itself.
   const ArgumentOf<Body>& body_argument() const { return body_.argument(); }

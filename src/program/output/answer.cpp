@@ -65,6 +65,16 @@ std::string as_csv(const std::vector<Json>& rows) {
   return text;
 }
 
+std::string remarks(const Json& members) {
+  std::string text;
+  for (const auto& [name, value] : members.items()) {
+    text += fmt::format("# {}: ", name);
+    portraits::append_json(text, value);
+    text += '\n';
+  }
+  return text;
+}
+
 std::string as_json(const Answer& answer) {
   Json document{{"schema", 1}};
   document.update(answer.members);
@@ -85,7 +95,8 @@ std::vector<std::string> answer_formats(const std::string& standard) {
 
 std::string render(const Answer& answer, const std::string& format, Digits digits) {
   if (format == "json") return as_json(answer);
-  if (format == "csv") return answer.columns.empty() ? as_csv(answer.rows) : as_csv(answer.columns);
+  if (format == "csv" && answer.columns.empty()) return as_csv(answer.rows);
+  if (format == "csv") return remarks(answer.remarks) + as_csv(answer.columns);
   return answer.text ? answer.text(digits) : as_text(answer.columns, digits);
 }
 

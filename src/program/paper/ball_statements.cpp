@@ -33,7 +33,7 @@ std::vector<Statement> ball_statements() {
   si::Shot shot = si::find_ball("pool")->shot;
   shot.start = si::Velocities{.velocity = {1, 0.3}, .angular_velocity = {20, -15, -60}};
   const reduction::PadeLaw law;
-  const double R = shot.ball.radius, m = shot.ball.mass, eps = si::patch_radius_of(shot);
+  const double R = shot.ball.radius, m = shot.ball.mass, eps = si::patch_radius_of(shot, law);
   const double fN = shot.contact.friction * m * shot.environment.gravity;
   const auto [V, omega] = si::velocities_of(shot.start);
 

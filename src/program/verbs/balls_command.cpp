@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/run_file.hpp"
@@ -24,8 +25,8 @@ Json row_of(const CatalogueEntry& entry) {
           {"radius", ball.radius},
           {"mass", ball.mass},
           {"friction", contact.friction},
-          {"patch_radius", si::patch_radius_of(entry.shot)},
-          {"mu", si::patch_ratio(entry.shot)},
+          {"patch_radius", si::patch_radius_of(entry.shot, reduction::HertzLaw{})},
+          {"mu", si::patch_ratio(entry.shot, reduction::HertzLaw{})},
           {"slip", si::slip_at_start(entry.shot)},
           {"spin", si::spin_at_start(entry.shot)},
           {"gravity", environment.gravity},

@@ -109,13 +109,11 @@ class CheckCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     const bool of_one_start = start_.given() || start_.body_argument().given();
-    const std::optional<GivenStart> start = of_one_start ? std::optional(start_.read()) : std::nullopt;
-    if (start && start->at_rest()) {
-      throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
-    }
+    const Body body = start_.body();
+    const bool one_law = law_.given() || body.law != Body{}.law;
     std::vector<Row> rows;
-    for (const Law& law : law_.given() ? std::vector{law_.read()} : reduction::paper_laws()) {
-      for (Check& check : start ? verify(start->body.system(law), start->state) : built_in_checks(law)) {
+    for (const Law& law : one_law ? std::vector{law_.read(body)} : reduction::paper_laws()) {
+      for (Check& check : of_one_start ? checks_of_start(law) : built_in_checks(law)) {
         rows.push_back({law.name(), std::move(check)});
       }
     }
@@ -136,6 +134,12 @@ class CheckCommand final : public Verb {
   }
 
  private:
+  std::vector<Check> checks_of_start(const Law& law) const {
+    const GivenStart start = start_.read(law);
+    if (!start.at_rest()) return verify(start.system, start.state);
+    throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
+  }
+
   StartOptions start_;
   LawOption law_;
   OutputOptions output_{{{"a table of checks", answer_formats("text")}}};

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/paper_figures.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "input/csv.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -46,7 +45,7 @@ class LawCommand final : public Verb {
  private:
   /// Both laws of the paper, and the one asked for if it is neither.
   static std::vector<reduction::Law> shown(const reduction::Law& law) {
-    std::vector<reduction::Law> laws{reduction::HertzLaw{}, reduction::PadeLaw{}};
+    std::vector<reduction::Law> laws = reduction::paper_laws();
     if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) laws.push_back(law);
     return laws;
   }

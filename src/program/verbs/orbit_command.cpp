@@ -22,8 +22,8 @@ class OrbitCommand final : public Verb {
 
   ExitStatus run() override {
     const Output output = output_.read();
-    const GivenStart start = start_.read();
-    const reduction::ReducedSystem system = start.body.system(law_.read());
+    const GivenStart start = start_.read(law_.read(start_.body()));
+    const reduction::ReducedSystem& system = start.system;
     const reduction::Route route = route_.read(system);
     const auto* at = instants_.at();
     const reduction::OrbitColumns motion = at != nullptr
@@ -31,7 +31,7 @@ class OrbitCommand final : public Verb {
                                                : motion_samples(system, start.state, route, instants_.samples());
     Answer answer{.members = {{"law", system.law().name()},
                               {"route", name(route)},
-                              {"mu", start.body.mu},
+                              {"mu", system.mu()},
                               {"u0", start.state.u},
                               {"v0", start.state.v}},
                   .columns = {{"tau", motion.tau},

@@ -62,8 +62,8 @@ struct NamedFigure {
 std::vector<NamedFigure> figures() {
   const reduction::ReducedSystem system(reduction::PadeLaw{}, drawn_patch_ratio);
   portraits::PortraitCaption caption;
-  caption.title =
-      fmt::format("Integral curves of d{{/:Italic v}}/d{{/:Italic u}},  {{/:Italic μ}} = {}", drawn_patch_ratio);
+  caption.title = fmt::format("Integral curves of d{{/:Italic v}}/d{{/:Italic u}},  {{/:Italic μ}} = {},  law: {}",
+                              drawn_patch_ratio, system.law().name());
   caption.subtitle =
       "Zh98, Fig. 4: all of them run into the origin, tangent to the {/:Italic u}-axis; {/:Italic u} = 0 stands alone";
   return {{"fig1", portraits::patch_drawing()},
@@ -136,9 +136,11 @@ std::string as_text(const std::vector<Row>& rows, const Digits& digits) {
   const auto count = [&](Verdict verdict) {
     return std::ranges::count_if(rows, [&](const Row& row) { return row.found.verdict == verdict; });
   };
-  return text + fmt::format("\n{} statements: {} hold, {} are slips, {} are false; {} not as recorded\n", rows.size(),
-                            count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
-                            std::ranges::count(rows, false, &Row::as_recorded));
+  return text + fmt::format(
+                    "\nThe plane's statements and Fig. 4 are of the Pade law, as in the paper.\n"
+                    "{} statements: {} hold, {} are slips, {} are false; {} not as recorded\n",
+                    rows.size(), count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
+                    std::ranges::count(rows, false, &Row::as_recorded));
 }
 
 class PaperCommand final : public Verb {

@@ -90,8 +90,9 @@ class PortraitCommand final : public Verb {
 
   ExitStatus run() override {
     const bool has_start = !start_.without_motion();
-    const GivenStart start = has_start ? start_.read() : GivenStart{start_.read_body(), {}, {}};
-    const reduction::ReducedSystem system = start.body.system(law_.read());
+    const reduction::Law law = law_.read(start_.body());
+    const GivenStart start = has_start ? start_.read(law) : GivenStart{start_.read_body(law), {}, {}};
+    const reduction::ReducedSystem& system = start.system;
     if (facts_) return print_facts(system);
     const Output output = output_.read();
     const reduction::Route route = route_.read(system);

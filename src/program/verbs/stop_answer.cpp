@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/motion.hpp"
+#include "options/law_option.hpp"
 
 namespace contensou::program {
 
@@ -25,7 +27,6 @@ struct OtherLaw {
 
 struct StopReport {
   GivenStart start;
-  reduction::ReducedSystem system;
   reduction::StopTime stop;
   double sliding_only;                             ///< tau of a body that did not pivot
   double pivoting_only;                            ///< tau of a body that did not slide
@@ -34,12 +35,14 @@ struct StopReport {
 };
 
 /// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say nothing,
-/// nor of a ball at rest.
-std::optional<OtherLaw> other_law(const GivenStart& start, const reduction::Law& law) {
-  const bool is_pade = law.as<reduction::PadeLaw>() != nullptr;
-  if (start.at_rest() || (!is_pade && !law.as<reduction::HertzLaw>())) return std::nullopt;
-  const reduction::Law& other = reduction::paper_laws()[is_pade ? 1 : 0];
-  return OtherLaw{other.name(), reduction::Flow(start.body.system(other)).stop_time(start.state).tau};
+/// nor where only one speed is: there they are one law.
+std::optional<OtherLaw> other_law(const GivenStart& start) {
+  const auto& [system, state, shot] = start;
+  const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
+  if (!start.slides_and_spins() || (!is_pade && !system.law().as<reduction::HertzLaw>())) return std::nullopt;
+  const reduction::Law& other = reduction::paper_laws()[is_pade ? 0 : 1];
+  const reduction::Flow flow({other, system.mu(), system.inertia()});
+  return OtherLaw{other.name(), flow.stop_time(state).tau};
 }
 
 /// What an estimate is too long by; 0 where both are infinite.
@@ -48,13 +51,13 @@ double error_of(const reduction::StopEstimate& estimate, const reduction::StopTi
 }
 
 Json members_of(const StopReport& report) {
-  const auto& [body, state, shot] = report.start;
+  const auto& [system, state, shot] = report.start;
   const double tau = report.stop.tau;
   Json members{
-      {"law", report.system.law().name()},
+      {"law", system.law().name()},
       {"route", name(report.stop.route)},
-      {"mu", body.mu},
-      {"body", {{"chi", body.inertia.chi}, {"gamma", body.inertia.gamma}}},
+      {"mu", system.mu()},
+      {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
       {"u0", state.u},
       {"v0", state.v},
       {"tau_stop", tau},
@@ -123,37 +126,66 @@ class Text {
 
  private:
   std::string heading() const {
-    const auto& [body, state, shot] = report_.start;
+    const auto& [system, state, shot] = report_.start;
     if (!shot) {
-      return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}", number_(body.mu),
+      return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}", number_(system.mu()),
                          number_(state.u), number_(state.v), is_ball() ? "" : body_line());
     }
     return fmt::format(
         "{}: radius {} m, mass {} kg, friction {}, patch radius {} m\n"
         "slip {} m/s, spin {} rad/s: mu = {}, u0 = {} m/s, v0 = {} m/s\n",
         shot->ball.name, number_(shot->ball.radius), number_(shot->ball.mass), number_(shot->contact.friction),
-        number_(si::patch_radius_of(*shot)), number_(si::slip_at_start(*shot)), number_(si::spin_at_start(*shot)),
-        number_(body.mu), number_(state.u), number_(state.v));
+        number_(si::patch_radius_of(*shot, system.law())), number_(si::slip_at_start(*shot)),
+        number_(si::spin_at_start(*shot)), number_(system.mu()), number_(state.u), number_(state.v));
   }
 
   bool is_ball() const {
-    const auto [chi, gamma] = report_.system.inertia();
+    const auto [chi, gamma] = system_.inertia();
     return chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
   }
 
   std::string body_line() const {
-    const auto [chi, gamma] = report_.system.inertia();
+    const auto [chi, gamma] = system_.inertia();
     return fmt::format("body with chi = {}, gamma = {}: r = gamma mu^2/chi = {}\n", number_(chi), number_(gamma),
-                       number_(report_.system.r()));
+                       number_(system_.r()));
   }
 
-  /// A line of the table of times.
-  std::string line(const std::string& label, double tau, const std::string& note = "") const {
-    std::string text = fmt::format("{:<14}{:>{}}", label, number_(tau), number_.width());
-    if (const auto& shot = report_.start.shot) {
-      text += fmt::format("{:>{}}", number_(si::seconds(*shot, tau)), number_.width());
-    }
-    return text + (note.empty() ? "" : "    " + note) + "\n";
+  /// A line of the table of times: of a ball, seconds first.
+  template <class Cell>
+  std::string line(const std::string& label, const Cell& seconds, const Cell& tau, const std::string& note = "") const {
+    const auto cell = [&](const Cell& value) {
+      if constexpr (std::is_same_v<Cell, double>)
+        return number_(value);
+      else
+        return value;
+    };
+    std::string text = fmt::format("{:<18}", label);
+    if (report_.start.shot) text += fmt::format("{:>{}}", cell(seconds), number_.width());
+    return text + fmt::format("{:>{}}", cell(tau), number_.width()) + (note.empty() ? "" : "    " + note) + "\n";
+  }
+
+  std::string times() const {
+    const auto& shot = report_.start.shot;
+    const auto row = [&](const std::string& label, double tau, const std::string& note = "") {
+      return line(label, shot ? si::seconds(*shot, tau) : tau, tau, note);
+    };
+    const double tau = report_.stop.tau;
+    std::string text =
+        line<std::string>("", "t* (s)", shot ? "tau* (m/s)" : "tau*") +
+        row("slip and spin end", tau,
+            std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
+                            : fmt::format("numerical error below {:.0e} of it", rounded_up(report_.stop.accuracy)));
+    if (!report_.start.slides_and_spins()) return text;
+    text += row("at least", report_.stop.bounds.lower) + row("at most", report_.stop.bounds.upper) +
+            row("sliding only", report_.sliding_only, "limit u0 = 0") +
+            row("spinning only", report_.pivoting_only, "limit v0 = 0");
+    if (!report_.other) return text;
+    const double other = report_.other->tau;
+    const double percent = 100 * (other / tau - 1);
+    const bool comparable = tau > 0 && std::isfinite(tau) && std::isfinite(other);
+    return text +
+           row("law " + report_.other->law, other,
+               comparable ? fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer") : "");
   }
 
   /// To one digit.
@@ -162,52 +194,33 @@ class Text {
     return place * std::ceil(x / place - 1e-9);
   }
 
-  std::string times() const {
-    const double tau = report_.stop.tau;
-    const bool in_seconds = report_.start.shot.has_value();
-    std::string text = fmt::format("{:<14}{:>{}}", "", in_seconds ? "tau* (m/s)" : "tau*", number_.width());
-    if (in_seconds) text += fmt::format("{:>{}}", "t* (s)", number_.width());
-    text += "\n" +
-            line("stop time", tau,
-                 std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
-                                 : fmt::format("relative error below {:.0e}", rounded_up(report_.stop.accuracy))) +
-            line("at least", report_.stop.bounds.lower) + line("at most", report_.stop.bounds.upper) +
-            line("sliding only", report_.sliding_only, "limit u0 = 0") +
-            line("pivoting only", report_.pivoting_only, "limit v0 = 0");
-    if (!report_.other) return text;
-    const double other = report_.other->tau;
-    const double percent = 100 * (other / tau - 1);
-    const bool comparable = tau > 0 && std::isfinite(tau) && std::isfinite(other);
-    return text +
-           line("law " + report_.other->law, other,
-                comparable ? fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer") : "");
-  }
-
   std::string estimates() const {
     if (report_.estimates.empty()) return "";
-    const double r = report_.system.r();
-    const reduction::Law& law = report_.system.law();
-    const double limit = law.force_slope() / law.pivoting_moment();
+    const double r = system_.r();
+    const double limit = system_.law().force_slope() / system_.law().pivoting_moment();
     const int width = number_.width();
-    std::string text = fmt::format("for small mu  {:>{}}{:>{}}    r = gamma mu^2/chi = {}{}\n", "tau*", width, "error",
-                                   width, number_(r), r > 0.1 * limit ? ": not small, trust none of these" : "");
+    std::string text =
+        fmt::format("{:<18}{:>{}}{:>{}}    r = gamma mu^2/chi = {}{}\n", "for small mu", "tau*", width, "error", width,
+                    number_(r), r > 0.1 * limit ? ": not small, trust none of these" : "");
     for (const reduction::StopEstimate& estimate : report_.estimates) {
-      text += fmt::format("{:<14}{:>{}}{:>{}.2g}    {}\n", estimate.name, number_(estimate.tau), width,
+      text += fmt::format("{:<18}{:>{}}{:>{}.2g}    {}\n", estimate.name, number_(estimate.tau), width,
                           error_of(estimate, report_.stop), width, estimate.formula);
     }
     return text + "\n";
   }
 
   std::string methods() const {
+    const reduction::Law& law = system_.law();
     return fmt::format(
-        "tau*   the paper's time, (3 pi/2) f g t: it has the unit of a speed\nlaw    {}\nroute  {}: {}\n",
-        report_.system.law().name(), name(report_.stop.route), description(report_.stop.route));
+        "tau*   the paper's time, (3 pi/2) f g t: it has the unit of a speed\nlaw    {}{}\nroute  {}: {}\n", law.name(),
+        law.as<reduction::PadeLaw>() ? fmt::format(": the paper's approximation,\n       {}", cost_of_pade) : "",
+        name(report_.stop.route), description(report_.stop.route));
   }
 
   std::string ending() const {
-    const auto& [body, state, shot] = report_.start;
+    const auto& [system, state, shot] = report_.start;
     if (!shot) {
-      const double chi = report_.system.inertia().chi;
+      const double chi = system.inertia().chi;
       if (chi == 1) return "then   it lies still\n";
       return fmt::format("then   it rolls; the centre's velocity has changed by {} = {} along the slip\n",
                          is_ball() ? "-2 v0/7" : "-v0/chi", number_(0 - state.v / chi));
@@ -220,21 +233,21 @@ class Text {
   }
 
   const StopReport& report_;
+  const reduction::ReducedSystem& system_ = report_.start.system;
   const Digits& number_;
 };
 
 }  // namespace
 
-Answer stop_answer(const GivenStart& start, const reduction::ReducedSystem& system, reduction::Route route,
-                   bool estimate) {
+Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate) {
   using Estimates = std::vector<reduction::StopEstimate>;
+  const auto& [system, state, shot] = start;
   const StopReport report{start,
-                          system,
-                          reduction::stop_time(system, start.state, route),
-                          system.sliding_limit(start.state.v),
-                          system.pivoting_limit(start.state.u),
-                          other_law(start, system.law()),
-                          estimate ? reduction::small_mu_estimates(system, start.state) : Estimates{}};
+                          reduction::stop_time(system, state, route),
+                          system.sliding_limit(state.v),
+                          system.pivoting_limit(state.u),
+                          other_law(start),
+                          estimate ? reduction::small_mu_estimates(system, state) : Estimates{}};
   const Json members = members_of(report);
   return {.members = members, .rows = {row_of(members)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();

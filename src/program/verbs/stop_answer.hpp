@@ -7,9 +7,7 @@
 namespace contensou::program {
 
 /// Everything that `stop` says about one start.
-/// @param system    of the start
 /// @param estimate  also the estimates for small mu
-Answer stop_answer(const GivenStart& start, const reduction::ReducedSystem& system, reduction::Route route,
-                   bool estimate);
+Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate);
 
 }  // namespace contensou::program

@@ -29,9 +29,8 @@ class StopCommand final : public Verb {
     if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
-    const GivenStart start = start_.read();
-    const reduction::ReducedSystem system = start.body.system(law_.read());
-    output.write(stop_answer(start, system, route_.read(system), estimate_));
+    const GivenStart start = start_.read(law_.read(start_.body()));
+    output.write(stop_answer(start, route_.read(start.system), estimate_));
     return ExitStatus::done;
   }
 
@@ -42,8 +41,8 @@ class StopCommand final : public Verb {
     }
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     const Output out = output_.read(1);
-    const BatchRequest request{law_.read(), start_.body(),   route_,
-                               keep_going_, bulk_.threads(), bulk_.progress(out.path)};
+    const BatchRequest request{law_.read(start_.body()), start_.body(),           route_, keep_going_,
+                               bulk_.threads(),          bulk_.progress(out.path)};
     OutputFile output(out.path);  // before the input, which may be long in coming
     CsvReader table(batch_.text());
     const ExitStatus status = stop_batch(table, output, request);

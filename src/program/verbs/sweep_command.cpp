@@ -260,7 +260,7 @@ class SweepCommand final : public Verb {
     const Body body = body_.body();
     const SweepGrid grid = read_grid(body);
     const Output out = output_.read();
-    const reduction::Law law = law_.read();
+    const reduction::Law law = law_.read(body);
     if (out.picture()) {
       bulk_.refuse("npy and csv: a picture is of few starts, leave it out");
       out.write(portraits::draw(make_map(reduction::ReducedSystem(law, grid.mu.least, body.inertia), grid)));

@@ -18,7 +18,7 @@ class TerminalCommand final : public Verb {
   }
 
   ExitStatus run() override {
-    const Answer answer = terminal_answer(body_.read().system(law_.read()));
+    const Answer answer = terminal_answer(body_.read(law_.read(body_.body())));
     output_.read().write(answer);
     return ExitStatus::done;
   }

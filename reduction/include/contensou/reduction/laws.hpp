@@ -8,7 +8,7 @@
 
 namespace contensou::reduction {
 
-/// The two laws of the paper: its Pade pair, and the exact law that the pair approximates.
+/// The two laws of the paper: the exact one of Hertz's pressure, and the Pade pair that approximates it.
 const std::vector<Law>& paper_laws();
 
 /// Every law that has a name, in the order in which it is shown: those of the paper first.

@@ -19,6 +19,9 @@ class BallMotion {
   /// s from the start until the ball neither slides nor spins.
   double stop_time() const { return stop_; }
 
+  /// s until it no longer spins: with spin at the start, slip lasts as long; 0 without.
+  double spin_end() const { return spin_at_start(shot_) == 0 ? 0 : stop_; }
+
   /// @param t  s, >= 0
   /// @throws std::domain_error  if t is negative or not a number
   MotionPoint at_time(double t) const;
@@ -26,8 +29,9 @@ class BallMotion {
   /// at_time for each entry, in the order given.
   MotionColumns at_times(const Eigen::ArrayXd& times) const;
 
-  /// s until the slip has fallen to that share of its initial value, 0 < share <= 1. 0 for a ball that does not slide.
-  double slip_time(double share) const;
+  /// s until the slip has fallen to that speed in m/s, >= 0; 0 for a ball that starts no faster.
+  /// @throws std::domain_error  if the speed is negative or not a number
+  double slip_time(double speed) const;
 
   /// m that the contact point slides on the ball, that is the integral of slip over time, until the stop.
   double slip_length() const;

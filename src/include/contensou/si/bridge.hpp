@@ -7,14 +7,14 @@ namespace contensou::si {
 
 /// The bridge between SI and the paper's variables; speeds and tau are in m/s.
 
-/// mu = eps/R.
-double patch_ratio(const Shot& shot);
+/// mu = eps/R. Throws as patch_radius_of.
+double patch_ratio(const Shot& shot, const reduction::Law& law);
 
 /// u = R omega_z, v = slip.
 reduction::State reduced_start(const Shot& shot);
 
 /// The reduced system of a homogeneous ball.
-/// @throws std::domain_error  as require_shot
+/// @throws std::domain_error  as require_shot and patch_radius_of
 reduction::ReducedSystem reduced_system(const Shot& shot, const reduction::Law& law);
 
 /// Seconds that a tau of m/s lasts: t = 2 tau/(3 pi f g).

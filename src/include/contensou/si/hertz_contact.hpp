@@ -19,16 +19,17 @@ double effective_modulus(const HertzModuli& moduli);
 /// @param radius  R, m
 double hertz_patch_radius(double load, double radius, const HertzModuli& moduli);
 
-/// Radius (m) of the Hertz patch of a ball whose spin about the vertical, without sliding, falls at a measured rate:
-///   eps = 32 R^2 alpha/(15 pi f g).
+/// Radius (m) of the patch of a ball whose spin about the vertical, without sliding, falls at a measured rate:
+///   eps = 2 R^2 alpha/(5 f g Psi(0)).
 ///
-/// From J domega_z/dt = -f N eps Psi(0) with J = (2/5) m R^2, N = m g and Psi(0) = 3 pi/16, which the exact and the
-/// Pade law share: domega_z/dt = -(5/2) eps f g Psi(0)/R^2.
+/// From J domega_z/dt = -f N eps Psi(0) with J = (2/5) m R^2 and N = m g.
 ///
-/// @param radius        R, m
-/// @param deceleration  alpha, rad/s^2
-/// @param friction      f
-/// @param gravity       g, m/s^2
-double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity);
+/// @param radius           R, m
+/// @param deceleration     alpha, rad/s^2
+/// @param friction         f
+/// @param gravity          g, m/s^2
+/// @param pivoting_moment  Psi(0) of the law: 3 pi/16 of the exact and the Pade law, 2/3 of uniform pressure
+double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,
+                                    double pivoting_moment);
 
 }  // namespace contensou::si

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "contensou/reduction/friction_law.hpp"
 #include "contensou/si/hertz_contact.hpp"
 
 namespace contensou::si {
@@ -76,7 +77,9 @@ std::vector<GivenQuantity> given_by(const PatchSource& patch);
 std::vector<GivenQuantity> given_by(const Start& start);
 
 /// Radius of the contact patch in m, from whatever the contact gives it by.
-double patch_radius_of(const Shot& shot);
+/// @param law  a measured spin deceleration holds under it
+/// @throws std::domain_error  unless it is in (0, R]
+double patch_radius_of(const Shot& shot, const reduction::Law& law);
 
 /// A start as velocities of the centre and of the ball.
 Velocities velocities_of(const Start& start);
@@ -92,8 +95,8 @@ double slip_at_start(const Shot& shot);
 double spin_at_start(const Shot& shot);
 
 /// Rejects what no ball can be or do.
-/// @throws std::domain_error  if a value is outside its Quantity's range, if the patch radius is not in (0, R], or if
-///                            R omega_z or the slip overflows
+/// @throws std::domain_error  if a value is outside its Quantity's range, or if R omega_z or the slip overflows; as
+///                            patch_radius_of, where no law decides the patch
 void require_shot(const Shot& shot);
 
 }  // namespace contensou::si

@@ -13,8 +13,8 @@ class UncoupledMotion {
   /// @throws std::domain_error  as require_shot
   UncoupledMotion(const Shot& shot, const reduction::Law& law);
 
-  /// s until the ball rolls: 2 v0/(7 f g).
-  double slip_end() const { return slip_end_; }
+  /// s until the slip has fallen to that speed in m/s, >= 0; 0 for a ball that starts no faster. To 0: 2 v0/(7 f g).
+  double slip_time(double speed) const;
 
   /// s until the spin has ended: 2 R |omega_z|/(5 mu Psi(0) f g).
   double spin_end() const { return spin_end_; }
@@ -25,7 +25,7 @@ class UncoupledMotion {
   /// rad that the ball turns about the vertical.
   double spin_angle() const { return spin_at_start(shot_) * spin_end_ / 2; }
 
-  /// m along the path of the centre until that time in s, at most slip_end(), to 1e-9.
+  /// m along the path of the centre until that time in s, at most slip_time(0), to 1e-9.
   double path_length(double t) const;
 
   /// @param t  s, >= 0
