@@ -136,7 +136,7 @@ const char* alignment(Label::Align align) {
 }
 
 /// From light to dark and from yellow to blue: in order also in grey, and for eyes that see red and green alike.
-constexpr const char* palette =
+constexpr const char* palette_script =
     "set palette defined (0 '#fffbe0', 0.18 '#f3e6a1', 0.36 '#b9d8a6', 0.54 '#76bcb4', 0.72 '#4495b8', 0.87 '#3468a4', "
     "1 '#2f4788')\n";
 
@@ -233,7 +233,7 @@ class Script {
     constexpr double gap_mm = 3, bar_mm = 4;
     const auto& [name, low, high, logarithmic, ticks] = colours.scale;
     const double left = box.left + box.width + gap_mm;
-    put("{}", palette);
+    put("{}", palette_script);
     axis("cb", {"", low, high > low ? high : low + 1, logarithmic, ticks}, true);
     put("set colorbox vertical user origin {} size {} noborder\n", at(left, box.bottom), at(bar_mm, box.height));
     label(name, at(left + bar_mm / 2, box.bottom + box.height + gap_mm), "center", "");

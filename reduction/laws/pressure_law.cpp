@@ -15,7 +15,7 @@ namespace contensou::reduction {
 namespace {
 
 /// C = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)) = Psi(0).
-long double pivoting_moment(long double p) {
+long double pivoting_moment_of(long double p) {
   return std::sqrt(std::numbers::pi_v<long double>) / 2 * boost::math::tgamma_delta_ratio(p + 2, 0.5L);
 }
 
@@ -39,8 +39,8 @@ struct PressureLaw::Series {
         inner_moment(0.5L, -p - 1.5L, 1),
         outer_force(-0.5L, 0.5L, p + 2),
         outer_moment(0.5L, 0.5L, p + 3),
-        force_slope(static_cast<double>(reduction::pivoting_moment(p) * (p + 1.5L))),
-        pivoting_moment(static_cast<double>(reduction::pivoting_moment(p))),
+        force_slope(static_cast<double>(pivoting_moment_of(p) * (p + 1.5L))),
+        pivoting_moment(static_cast<double>(pivoting_moment_of(p))),
         outer_scale(static_cast<double>(1 / (2 * (p + 2)))) {}
 
   GaussFunction inner_force;

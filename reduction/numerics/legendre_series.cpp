@@ -8,20 +8,19 @@ namespace contensou::reduction {
 
 namespace {
 
-constexpr int order = LegendreSeries::order;
-using Rule = boost::math::quadrature::gauss<long double, order>;
-using Matrix = Eigen::Matrix<double, order, order>;
+using GaussRule = boost::math::quadrature::gauss<long double, LegendreSeries::order>;
 
 /// Points, the matrix samples -> coefficients (discrete orthogonality of the Gauss rule), and its inverse. Made in long
 /// double: errors of the matrix add up at the ends of the interval, where all P_j are 1.
 struct Transform {
+  static constexpr int order = LegendreSeries::order;
   LegendreSeries::Samples points;
-  Matrix analysis;
+  Eigen::Matrix<double, order, order> analysis;
   Eigen::Matrix<double, order, order + 1> synthesis;
 
   Transform() {
-    const auto& half_points = Rule::abscissa();
-    const auto& half_weights = Rule::weights();
+    const auto& half_points = GaussRule::abscissa();
+    const auto& half_weights = GaussRule::weights();
     for (int i = 0; i < order; ++i) {
       const auto half = static_cast<std::size_t>(i < order / 2 ? order / 2 - 1 - i : i - order / 2);
       const long double point = i < order / 2 ? -half_points[half] : half_points[half];

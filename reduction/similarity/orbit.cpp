@@ -15,12 +15,13 @@
 
 #include <fmt/format.h>
 
+#include "numerics/infinity.hpp"
+
 namespace contensou::reduction {
 
 namespace {
 
 using std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// ln k from speeds that may differ by more than a double holds, w = mu |u|.
 double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled) {

@@ -12,15 +12,13 @@
 
 #include "contensou/reduction/pade_sliding_coefficient.hpp"
 #include "similarity/pade_relaxation.hpp"
+#include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {
 
 namespace {
 
 using std::numbers::pi;
-
-/// Below, x is 0 to the last bit beside 1.
-constexpr double min_ln_k = -40;
 
 constexpr int terms = PadeCurve::terms;
 
@@ -36,9 +34,6 @@ double gauss_series(double beta, double gamma, double x) {
   for (int n = terms_for(x) - 1; n >= 0; --n) sum = 1 + sum * x * ((beta + n) / (gamma + n));
   return sum;
 }
-
-/// (exp(s t) - 1)/s, also at s = 0.
-double expm1_over(double s, double t) { return s == 0 ? t : std::expm1(s * t) / s; }
 
 struct Fractions {
   double x, y;

@@ -53,9 +53,6 @@ double by_fraction(const PadeRelaxation& at) {
                         : at.end + (at.begin - at.end) * (first / (first + second));
 }
 
-/// (expm1(d t))/d, also at d = 0.
-double expm1_over(double d, double t) { return std::abs(d * t) < 1e-17 ? t : std::expm1(d * t) / d; }
-
 /// lnGamma(1 - d)/d for d < 1.
 double log_gamma_slope(double d) { return d == 0 ? std::numbers::egamma : std::log1p(boost::math::tgamma1pm1(-d)) / d; }
 
@@ -135,6 +132,8 @@ double value_by(const PadeRelaxation& at, Connection connection) {
 }
 
 }  // namespace
+
+double expm1_over(double d, double t) { return std::abs(d * t) < 1e-17 ? t : std::expm1(d * t) / d; }
 
 double value(const PadeRelaxation& at) {
   return value_by(at, [&](double d) { return log_gamma_quotient(at.p, d) + log_gamma_slope(d); });

@@ -24,4 +24,7 @@ double value(const PadeRelaxation& at);
 /// @param connection  [lnGamma(P) + lnGamma(1 - d) - lnGamma(P - d)]/d - ln P,  d = q - 1; needs q <= 3/2
 double value(const PadeRelaxation& at, double connection);
 
+/// expm1(d t)/d, also at d = 0.
+double expm1_over(double d, double t);
+
 }  // namespace contensou::reduction

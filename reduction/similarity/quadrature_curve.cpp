@@ -17,22 +17,14 @@ namespace {
 
 using Samples = LegendreSeries::Samples;
 
-/// Beyond these, one term of each expansion is exact to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
-constexpr double min_ln_k = -40;
-constexpr double max_ln_k = 44;
-
 /// So near a ray, relative to k*, a double k is k* itself.
 constexpr double nearest = -37;
 
 /// Phi - r k Psi relative to its larger term: below this it is rounding.
 constexpr double resolution = 128 * std::numeric_limits<double>::epsilon();
 
-constexpr double panel_tolerance = 1e-15;
-constexpr int max_depth = 40;
-constexpr std::size_t max_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
-
 /// The coefficients of the equations at one xi.
-struct Coefficients {
+struct CurveCoefficients {
   double ln_w_slope;    ///< (ln w)'
   double time;          ///< c
   double cancellation;  ///< the larger term of D over D
@@ -141,7 +133,7 @@ class QuadratureCurve::Panels {
   }
 
   /// @return  false where D is all rounding
-  bool coefficients(double xi, Coefficients& at) const {
+  bool coefficients(double xi, CurveCoefficients& at) const {
     const auto [k, rate, force, drag, larger, difference] = drag_at(xi);
     if (!frozen_ && !(difference > resolution * larger)) return false;
     // Where D has no digit from end to end, k changes as slowly as D tells.
@@ -165,7 +157,7 @@ class QuadratureCurve::Panels {
     Samples time;
     double cancellation = 1;
     for (int i = 0; i < LegendreSeries::order; ++i) {
-      Coefficients at{};
+      CurveCoefficients at{};
       if (!coefficients(panel.xi(LegendreSeries::points()[i]), at)) return false;
       panel.ln_w_slope[i] = at.ln_w_slope;
       time[i] = at.time;

@@ -20,17 +20,10 @@ namespace {
 using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
 
-/// Beyond these, one term of each expansion is exact to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
-constexpr double min_ln_k = -40;
-constexpr double max_ln_k = 44;
 constexpr double highest_exponent = 700;  ///< of a double
 
 /// Phi - r k Psi relative to its larger term: beyond this its sign is no rounding.
 constexpr double certainty = 1e-9;
-
-constexpr double panel_tolerance = 1e-15;
-constexpr int max_depth = 40;
-constexpr std::size_t max_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
 
 /// The law at one k.
 struct Coefficients {

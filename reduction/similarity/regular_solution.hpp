@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,15 @@
 #include "numerics/legendre_series.hpp"
 
 namespace contensou::reduction {
+
+/// Beyond these, one term of each expansion is exact to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
+inline constexpr double min_ln_k = -40;
+inline constexpr double max_ln_k = 44;
+
+/// When a panel is no longer halved, here and in QuadratureCurve.
+inline constexpr double panel_tolerance = 1e-15;
+inline constexpr int max_depth = 40;
+inline constexpr std::size_t max_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
 
 /// m of README (R4) and n of (R13) as functions of ln k between two neighbours of 0, the invariant rays and infinity.
 ///

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "numerics/infinity.hpp"
+
 namespace contensou::reduction {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// ln(1 - exp(-x)), x > 0.
 double log_one_minus_exp(double x) { return x < 1 ? std::log(-std::expm1(-x)) : std::log1p(-std::exp(-x)); }

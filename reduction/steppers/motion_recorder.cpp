@@ -8,13 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "numerics/infinity.hpp"
+
 namespace contensou::reduction {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Reported steps of a tail that is closed in one.
 constexpr int tail_instants = 64;
+
 }  // namespace
 
 MotionRecorder::MotionRecorder(const char* caller, const ReducedSystem& system, State start,

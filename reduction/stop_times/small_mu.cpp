@@ -14,6 +14,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "numerics/dilogarithm.hpp"
 #include "numerics/legendre_series.hpp"
+#include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {
 
@@ -21,10 +22,6 @@ namespace {
 
 using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
-
-/// Beyond these, m is its limit to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
-constexpr double min_ln_k = -40;
-constexpr double max_ln_k = 44;
 
 double coefficient_rate(const Law& law, double k) {
   const Slip slip = slip_of_ratio(k);

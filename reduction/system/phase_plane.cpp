@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
+
+#include "numerics/infinity.hpp"
 
 namespace contensou::reduction {
 
 using std::numbers::pi;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// dD/dk at a zero k of D = Phi - r k Psi, k neither 0 nor infinity. A law gives no slope of its own: differences in
 /// ln k.

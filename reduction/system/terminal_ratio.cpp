@@ -13,16 +13,16 @@
 #include <boost/math/tools/roots.hpp>
 
 #include "contensou/reduction/pade_law.hpp"
+#include "numerics/infinity.hpp"
 
 namespace contensou::reduction {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// An E below this has no sign: a law is good to some eps, and k takes as good as for ever to pass there.
-constexpr double tolerance = TerminalRatios::tolerance;
+constexpr double without_sign = TerminalRatios::tolerance;
 
 /// Beyond these ln k the law is its limit.
 constexpr double farthest = 60;
@@ -30,7 +30,7 @@ constexpr double farthest = 60;
 struct Sample {
   double ln_k;
   double excess;
-  int sign() const { return excess > tolerance ? 1 : excess < -tolerance ? -1 : 0; }
+  int sign() const { return excess > without_sign ? 1 : excess < -without_sign ? -1 : 0; }
 };
 
 class Search {
@@ -67,10 +67,10 @@ class Search {
       if (sign == 0 || before.sign() != sign || after.sign() != sign) continue;
       const double fall = sign * (before.excess - here.excess);
       const double rise = sign * (after.excess - here.excess);
-      if (fall < 0 || rise < 0 || std::max(fall, rise) < tolerance) continue;
+      if (fall < 0 || rise < 0 || std::max(fall, rise) < without_sign) continue;
       const auto [at, least] = boost::math::tools::brent_find_minima(
           [&](double x) { return sign * excess(x); }, before.ln_k, after.ln_k, std::numeric_limits<double>::digits / 2);
-      if (least < tolerance) extrema.push_back({at, sign * least});
+      if (least < without_sign) extrema.push_back({at, sign * least});
     }
     samples_.insert(samples_.end(), extrema.begin(), extrema.end());
     std::ranges::sort(samples_, {}, &Sample::ln_k);
@@ -88,7 +88,7 @@ class Search {
         signs.back() = here.sign();
       } else if (last->sign() != here.sign()) {
         add(root(*last, here), last->sign(), here.sign());
-      } else if (zero && last->sign() * zero->excess < tolerance / 2) {
+      } else if (zero && last->sign() * zero->excess < without_sign / 2) {
         add(zero->ln_k, last->sign(), here.sign());
       }
       last = &here;
@@ -151,8 +151,8 @@ TerminalRatios terminal_ratios(const Law& law, double r) {
   const double high = 1 / (fast * law({fast, 1}).moment);
   if (law.as<PadeLaw>()) {
     // A + B k = 0, (R8).
-    if (r <= 2 * (1 + tolerance)) return {low, high, {}, ends_of({}, {1})};
-    if (r >= 5 * (1 - tolerance)) return {low, high, {}, ends_of({}, {-1})};
+    if (r <= 2 * (1 + without_sign)) return {low, high, {}, ends_of({}, {1})};
+    if (r >= 5 * (1 - without_sign)) return {low, high, {}, ends_of({}, {-1})};
     const std::vector<InvariantRay> ray{{8 * (r - 2) / (3 * std::numbers::pi * (5 - r)), true, true, 2 * eps}};
     return {low, high, ray, ends_of(ray, {-1, 1})};
   }

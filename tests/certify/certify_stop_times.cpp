@@ -29,11 +29,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int points = 5'000;
-#else
-constexpr int points = 100'000;
-#endif
+constexpr int points = CONTENSOU_FULL_TESTS ? 100'000 : 10'000;
 
 /// What the library promises of the closed route.
 constexpr double promised_ulp = 4;

@@ -25,7 +25,7 @@ using reduction::State;
 namespace {
 
 const std::vector<reduction::Law> laws{reduction::PadeLaw{}, reduction::HertzLaw{}};
-const std::vector<double> patch_ratios{1e-6, 1e-3, 0.0035, 0.099, 0.3, 1.0};
+const std::vector<double> portrait_ratios{1e-6, 1e-3, 0.0035, 0.099, 0.3, 1.0};
 
 double paper_distance(const PhasePortrait& portrait, const PortraitOrbit& orbit, Eigen::Index i, Eigen::Index j) {
   return std::hypot((orbit.u[i] - orbit.u[j]) / portrait.window.u, (orbit.v[i] - orbit.v[j]) / portrait.window.v);
@@ -34,7 +34,7 @@ double paper_distance(const PhasePortrait& portrait, const PortraitOrbit& orbit,
 template <class Check>
 void for_each_portrait(Check check) {
   for (const reduction::Law& law : laws) {
-    for (double mu : patch_ratios) {
+    for (double mu : portrait_ratios) {
       CAPTURE(law.name(), mu);
       const ReducedSystem system(law, mu);
       check(system, phase_portrait(system, {}));

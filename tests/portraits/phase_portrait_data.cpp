@@ -14,7 +14,7 @@ using namespace contensou;
 
 namespace {
 
-portraits::PhasePortrait sample() {
+portraits::PhasePortrait saved_portrait() {
   return portraits::phase_portrait(
       {{reduction::PadeLaw{}, 0.3}},
       {.highlight = reduction::State{-1, 2}, .through = {{0.5, 1}, {0.25, 1}}, .comparison = reduction::HertzLaw{}});
@@ -25,7 +25,7 @@ std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(),
 }  // namespace
 
 TEST_CASE("JSON has the documented fields, and its numbers read back to the same doubles", "[table]") {
-  const auto portrait = sample();
+  const auto portrait = saved_portrait();
   const auto json = nlohmann::json::parse(portraits::to_json(portrait));
   CHECK(json["schema"] == 1);
   CHECK(json["law"] == "pade");
@@ -49,7 +49,7 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
 }
 
 TEST_CASE("CSV has one row for each point", "[table]") {
-  const auto portrait = sample();
+  const auto portrait = saved_portrait();
   std::istringstream csv(portraits::to_csv(portrait));
   std::string line;
   std::getline(csv, line);

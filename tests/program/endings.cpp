@@ -10,14 +10,14 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-struct Writer {
+struct Output {
   std::string command;
   std::string noun;
   std::vector<std::string> endings;
 };
 
 /// Every verb, in every way of writing something else.
-const std::vector<Writer> writers{
+const std::vector<Output> outputs{
     {"stop --ball pool", "a stop time", {"txt", "csv", "json"}},
     {"stop --batch -", "a table of stop times", {"csv"}},
     {"orbit --ball pool --samples 3", "an orbit", {"csv", "txt", "json"}},
@@ -39,7 +39,7 @@ constexpr const char* start_table = "mu,u0,v0\n0.1,1,1\n";
 
 TEST_CASE("the ending decides the format, on every verb", "[cli]") {
   const TemporaryDirectory scratch;
-  for (const auto& [command, noun, endings] : writers) {
+  for (const auto& [command, noun, endings] : outputs) {
     for (const std::string& ending : endings) {
       const std::string file = scratch.file("result." + ending);
       const std::string format = ending == "txt" ? "text" : ending;
@@ -73,7 +73,7 @@ TEST_CASE("law and roll draw where the ending is a picture's", "[cli]") {
 
 TEST_CASE("an ending that a verb does not write is bad input", "[cli]") {
   const TemporaryDirectory scratch;
-  for (const auto& [command, noun, endings] : writers) {
+  for (const auto& [command, noun, endings] : outputs) {
     for (const std::string wrong : {"jpg", "JSON", "text", "npy", "toml", "html", "PNG"}) {
       if (std::ranges::find(endings, wrong) != endings.end()) continue;
       const std::string file = scratch.file("result." + wrong);
@@ -94,7 +94,7 @@ TEST_CASE("an ending that a verb does not write is bad input", "[cli]") {
 TEST_CASE("without an ending, what standard output would get", "[cli]") {
   const TemporaryDirectory scratch;
   const std::string file = scratch.file("result");
-  for (const auto& [command, noun, endings] : writers) {
+  for (const auto& [command, noun, endings] : outputs) {
     const Run run = run_program(command + " -o " + file, start_table);
     INFO(command << "\n" << run.err);
     if (noun == "a sweep" || noun == "a portrait") {

@@ -1,18 +1,16 @@
 #include "steppers/asymptotic_tail.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 
 using namespace contensou::reduction;
 
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-}
+namespace {}
 
 TEST_CASE("the limit holds only where one friction is all there is", "[asymptotic_tail]") {
   for (const Law& law : paper_laws()) {

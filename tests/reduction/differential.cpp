@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -20,8 +21,6 @@
 using namespace contensou::reduction;
 
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 class Questions {
  public:
@@ -115,7 +114,7 @@ struct Door {
 
 TEST_CASE("every door has one answer, within the accuracy that it states", "[differential][route]") {
   Questions questions(20'261'122);
-  constexpr int systems = 500, starts = 40;
+  constexpr int systems = CONTENSOU_FULL_TESTS ? 500 : 100, starts = 40;
   int asked = 0;
   for (int i = 0; i < systems; ++i) {
     const ReducedSystem system = questions.system();
@@ -174,5 +173,5 @@ TEST_CASE("every door has one answer, within the accuracy that it states", "[dif
       }
     }
   }
-  CHECK(asked == 20'000);
+  CHECK(asked == systems * starts);
 }

@@ -18,7 +18,7 @@ TEST_CASE("(2.6) in tau: every step is reported when no instants are", "[direct_
 TEST_CASE("(2.6) in tau: the axes and rest", "[direct_motion][limit]") { check_axes_and_rest(integrate_directly); }
 
 TEST_CASE("(2.6) in tau: the unit of speed does not matter", "[direct_motion][symmetry]") {
-  contensou::tests::check_scaling(integrate_directly);
+  contensou::tests::check_motion_scaling(integrate_directly);
 }
 
 TEST_CASE("(2.6) in tau: a run that does not reach the stop says why", "[direct_motion][domain]") {

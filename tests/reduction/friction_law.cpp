@@ -1,7 +1,6 @@
 #include "contensou/reduction/friction_law.hpp"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
@@ -25,8 +25,6 @@ using namespace contensou::tests;
 using Catch::Matchers::Contains;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Named {
   static constexpr std::string_view name = "mine";

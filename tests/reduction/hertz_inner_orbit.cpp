@@ -1,11 +1,11 @@
 #include "contensou/reduction/hertz_inner_orbit.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/quadrature_curve.hpp"
 #include "reference_table.hpp"
@@ -70,7 +70,6 @@ TEST_CASE("the elementary orbit has the slope of the separated equation", "[hert
 }
 
 TEST_CASE("the elementary orbit ends at k = 1 and at r = 2", "[hertz_inner_orbit][domain]") {
-  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   for (double bad : {0.0, -0.5, std::nextafter(1.0, 2.0), not_a_number})
     CHECK_THROWS_AS(hertz_inner_ln_w(0.5, bad), std::domain_error);
   for (double bad : {0.0, -0.5, 2.0, not_a_number}) CHECK_THROWS_AS(hertz_inner_ln_w(bad, 0.5), std::domain_error);

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/quadrature_curve.hpp"
@@ -53,7 +54,6 @@ WorstCase over(const std::vector<Stop>& stops, Route route) {
 }  // namespace
 
 TEST_CASE("stop times of uniform disc and ring", "[law_motions][table]") {
-  constexpr double eps = std::numeric_limits<double>::epsilon();
   CHECK_WITHIN_EPS(over(known(), Route::quadrature), 16);
   for (Route route : {Route::regularised, Route::direct}) {
     CHECK_WITHIN_EPS(over(known(), route), 3e-11 / eps);

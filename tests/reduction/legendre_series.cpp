@@ -7,21 +7,19 @@
 using namespace contensou::reduction;
 using Samples = LegendreSeries::Samples;
 
-namespace {
-constexpr int order = LegendreSeries::order;
-}
+namespace {}
 
 TEST_CASE("Gauss points are the roots of the Legendre polynomial, in order", "[legendre_series]") {
   const Samples& points = LegendreSeries::points();
-  for (int i = 0; i < order; ++i) {
-    CHECK(std::abs(std::legendre(order, points[i])) < 1e-13);
-    CHECK(points[i] == -points[order - 1 - i]);
+  for (int i = 0; i < LegendreSeries::order; ++i) {
+    CHECK(std::abs(std::legendre(LegendreSeries::order, points[i])) < 1e-13);
+    CHECK(points[i] == -points[LegendreSeries::order - 1 - i]);
     if (i > 0) CHECK(points[i] > points[i - 1]);
   }
 }
 
 TEST_CASE("a series through samples is exact up to its degree", "[legendre_series]") {
-  for (int degree = 0; degree < order; ++degree) {
+  for (int degree = 0; degree < LegendreSeries::order; ++degree) {
     CAPTURE(degree);
     const LegendreSeries series = LegendreSeries::through(LegendreSeries::points().pow(degree));
     for (double t : {-1.0, -0.83, -0.1, 0.0, 0.4, 0.97, 1.0}) {
@@ -32,7 +30,7 @@ TEST_CASE("a series through samples is exact up to its degree", "[legendre_serie
 }
 
 TEST_CASE("the antiderivative vanishes at -1 and is exact one degree below", "[legendre_series]") {
-  for (int degree = 0; degree + 1 < order; ++degree) {
+  for (int degree = 0; degree + 1 < LegendreSeries::order; ++degree) {
     CAPTURE(degree);
     const LegendreSeries integral = LegendreSeries::through(LegendreSeries::points().pow(degree)).antiderivative();
     CHECK(std::abs(integral(-1)) < 1e-14);

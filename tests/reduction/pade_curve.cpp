@@ -1,7 +1,6 @@
 #include "contensou/reduction/pade_curve.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -9,6 +8,7 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "worst_case.hpp"
 
@@ -18,7 +18,6 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double patch_ratios[] = {1e-6, 1e-4, 0.01, 0.05, 0.1, 0.3, 0.7, 1.0};
 constexpr double starts[] = {1e-6, 1e-2, 0.3, 1.0, 4.0, 50.0, 1e4, 1e6};
 

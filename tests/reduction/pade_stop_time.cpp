@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "reference_table.hpp"
@@ -18,7 +19,6 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "contensou/reduction/quadrature_curve.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_curve.hpp"
 #include "contensou/reduction/pade_law.hpp"
@@ -16,9 +16,6 @@ using namespace contensou::reduction;
 using namespace contensou::tests;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A law with more noise than the quadrature could ever resolve: deterministic, about 1e-9.
 struct NoisyLaw {

@@ -1,12 +1,12 @@
 #include "contensou/reduction/reduced_system.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
@@ -19,10 +19,7 @@ using namespace contensou::tests;
 using Catch::Matchers::Contains;
 using std::numbers::pi;
 
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("the field is the law times the body's ratios", "[reduced_system]") {
   const Inertia body{1.5, 4};

@@ -20,7 +20,7 @@ TEST_CASE("(2.7) in beta: the axes and rest", "[regularised_motion][limit]") {
 }
 
 TEST_CASE("(2.7) in beta: the unit of speed does not matter", "[regularised_motion][symmetry]") {
-  contensou::tests::check_scaling(integrate_regularised);
+  contensou::tests::check_motion_scaling(integrate_regularised);
 }
 
 TEST_CASE("(2.7) in beta: a run that does not reach the stop says why", "[regularised_motion][domain]") {

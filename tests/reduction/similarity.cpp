@@ -1,12 +1,12 @@
 #include "contensou/reduction/similarity.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "worst_case.hpp"
@@ -15,10 +15,7 @@ using namespace contensou::reduction;
 using namespace contensou::tests;
 using std::numbers::pi;
 
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("canonical coordinates there and back", "[similarity][invariant]") {
   WorstCase back("(u, v) -> (q, p) -> (u, v)");

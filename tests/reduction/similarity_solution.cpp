@@ -1,11 +1,11 @@
 #include "contensou/reduction/similarity_solution.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
@@ -97,7 +97,6 @@ TEST_CASE("similarity and (2.7) in beta give one motion, in every regime", "[sim
       }
     }
   }
-  constexpr double eps = std::numeric_limits<double>::epsilon();
   CHECK_WITHIN_EPS(stops, 3e-11 / eps);
   CHECK_WITHIN_EPS(u, 1e-9 / eps);
   CHECK_WITHIN_EPS(v, 1e-9 / eps);
@@ -199,7 +198,6 @@ TEST_CASE("beside a ray that repels the steppers agree", "[similarity_solution][
       }
     }
   }
-  constexpr double eps = std::numeric_limits<double>::epsilon();
   CHECK_WITHIN_EPS(stops, 3e-11 / eps);
   CHECK_WITHIN_EPS(u, 1e-9 / eps);
   CHECK_WITHIN_EPS(v, 1e-9 / eps);

@@ -6,13 +6,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
+
 using namespace contensou::reduction;
 using Catch::Matchers::Contains;
 
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("the slip of a ratio has 1 for the larger speed", "[slip][limit]") {
   for (double k : {0.0, 5e-324, 1e-300, 0.25, 1.0}) {

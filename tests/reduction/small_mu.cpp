@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -22,8 +22,6 @@ using namespace contensou::tests;
 using std::numbers::pi;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::map<std::string, double> estimates(const ReducedSystem& system, State start) {
   std::map<std::string, double> all;
@@ -43,7 +41,7 @@ double worst_error(const Law& law, const std::string& name, double mu, const std
 }
 
 /// d ln(error)/d ln(mu), from mu and mu/2.
-double order(const Law& law, const std::string& name, double mu, const std::vector<double>& ratios) {
+double observed_order(const Law& law, const std::string& name, double mu, const std::vector<double>& ratios) {
   return std::log2(worst_error(law, name, mu, ratios) / worst_error(law, name, mu / 2, ratios));
 }
 
@@ -60,8 +58,8 @@ TEST_CASE("E1 and E2 are of the orders 4 and 6 in mu at any one k0", "[small_mu]
     for (double k0 : {0.1, 1.0, 10.0}) {
       CAPTURE(law.name(), k0);
       // From mu = 0.05 on: before, the next order is seen; at 0.0125 E2 is as good as the stop time.
-      CHECK(order(law, "E1", 0.025, {k0}) == Approx(4).margin(0.04));
-      CHECK(order(law, "E2", 0.05, {k0}) == Approx(6).margin(0.15));
+      CHECK(observed_order(law, "E1", 0.025, {k0}) == Approx(4).margin(0.04));
+      CHECK(observed_order(law, "E2", 0.05, {k0}) == Approx(6).margin(0.15));
     }
   }
 }

@@ -134,7 +134,7 @@ void check_axes_and_rest(Integrate integrate) {
 
 /// tau, u, v carry the unit of speed; beta its inverse.
 template <class Integrate>
-void check_scaling(Integrate integrate) {
+void check_motion_scaling(Integrate integrate) {
   using namespace reduction;
   for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.2);

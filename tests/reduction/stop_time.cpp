@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
@@ -24,10 +25,6 @@ using namespace contensou::tests;
 using std::numbers::pi;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 WorstCase over_table(const std::string& table, const Law& law, Route route) {
   WorstCase stop(table + " " + std::string(name(route)));

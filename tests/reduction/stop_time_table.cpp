@@ -13,6 +13,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -30,10 +31,6 @@ using namespace contensou::tests;
 using Catch::Matchers::Contains;
 
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Starts {
   std::vector<double> u0, v0;

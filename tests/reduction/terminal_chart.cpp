@@ -1,19 +1,14 @@
 #include "contensou/reduction/terminal_chart.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
+
 using namespace contensou::reduction;
 using Side = TerminalChart::Side;
-
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 TEST_CASE("towards 0 xi is ln k, towards infinity -ln k", "[chart][limit]") {
   const TerminalChart zero = TerminalChart::to_zero();

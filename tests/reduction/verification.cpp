@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "constants.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -26,7 +26,6 @@ using namespace contensou::tests;
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 using Names = std::set<std::string>;
 
 /// Friction that depends on the speeds themselves, and not on their ratio alone.

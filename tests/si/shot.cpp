@@ -17,7 +17,7 @@ using contensou::reduction::PressureLaw;
 
 namespace {
 
-Shot good() {
+Shot good_shot() {
   return {.ball = {.name = "ball", .mass = 0.17, .radius = 0.03},
           .contact = {.friction = 0.2, .patch = PatchRadius{0.003}},
           .start = SlipAndSpin{.slip = 1, .spin = -100}};
@@ -26,7 +26,7 @@ Shot good() {
 }  // namespace
 
 TEST_CASE("a shot is checked value by value", "[limit]") {
-  CHECK_NOTHROW(require_shot(good()));
+  CHECK_NOTHROW(require_shot(good_shot()));
   struct Fault {
     std::function<void(Shot&, double)> set;
     std::string name;
@@ -56,7 +56,7 @@ TEST_CASE("a shot is checked value by value", "[limit]") {
   };
   for (const Fault& fault : faults) {
     for (double value : fault.values) {
-      Shot shot = good();
+      Shot shot = good_shot();
       fault.set(shot, value);
       INFO(fault.name << " = " << value);
       CHECK_THROWS_WITH(require_shot(shot), Contains(fault.name + " must be") && Contains("got"));
@@ -67,7 +67,7 @@ TEST_CASE("a shot is checked value by value", "[limit]") {
 TEST_CASE("any velocities, if they are numbers", "[limit]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  Shot shot = good();
+  Shot shot = good_shot();
   shot.start = Velocities{{-1, 2}, {3, -4, 5}};
   CHECK_NOTHROW(require_shot(shot));
   // (2.1): (vx - R omega_y, vy + R omega_x)
@@ -86,7 +86,7 @@ TEST_CASE("any velocities, if they are numbers", "[limit]") {
 }
 
 TEST_CASE("the patch is no larger than the ball", "[limit]") {
-  Shot shot = good();
+  Shot shot = good_shot();
   shot.contact.patch = PatchRadius{0.03};
   CHECK_NOTHROW(require_shot(shot));
   shot.contact.patch = PatchRadius{0.031};
@@ -97,14 +97,14 @@ TEST_CASE("the patch is no larger than the ball", "[limit]") {
 }
 
 TEST_CASE("a spin whose rim speed overflows is rejected", "[limit]") {
-  Shot shot = good();
+  Shot shot = good_shot();
   shot.ball.radius = 100;
   shot.start = SlipAndSpin{.slip = 1, .spin = 1e307};
   CHECK_THROWS_WITH(require_shot(shot), Contains("radius times spin"));
 }
 
 TEST_CASE("the patch follows the ball", "[symmetry]") {
-  Shot shot = good();
+  Shot shot = good_shot();
   shot.contact.patch = SpinDeceleration{10};
   const double patch = patch_radius_of(shot, HertzLaw{});
   shot.ball.radius *= 2;

@@ -17,9 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using zh98::pi;
 
-constexpr double arithmetic = 1e-13;
-constexpr double stepping = 1e-9;
-
 double cross(Vector2d a, Vector2d b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Moment of inertia of a homogeneous ball over m R^2: 2/3 r^2, with 3 r^2 dr of unit mass and radius.

@@ -17,8 +17,6 @@ namespace {
 using namespace reduction;
 using namespace zh98;
 
-constexpr double arithmetic = 1e-13;
-constexpr double stepping = 1e-9;
 constexpr double limit = 1e-6;  ///< a limit read off at a small distance from it
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double a = 2;  ///< the factor of the similarity

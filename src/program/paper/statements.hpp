@@ -27,6 +27,9 @@ struct Finding {
 /// In place of what is allowed: the printed number is a lower bound.
 constexpr double lower_bound = -1;
 
+/// What is allowed between two ways of plain arithmetic, and where one of them steps through an equation.
+constexpr double arithmetic = 1e-13, stepping = 1e-9;
+
 /// A statement of Zh98 as two numbers that have to agree, or two functions of k.
 struct Statement {
   struct Number : std::function<double(double)> {

@@ -35,7 +35,7 @@ constexpr double stated_patch_ratio = 0.3;
 constexpr double drawn_patch_ratio = 1;
 
 /// A statement and what was found, for people.
-struct Row {
+struct StatementRow {
   Statement statement;
   Finding found = statement.examine();
   std::string correction = fmt::format(fmt::runtime(statement.correction), fmt::arg("computed", found.computed),
@@ -46,8 +46,8 @@ struct Row {
 };
 
 /// All statements in the order of the paper.
-std::vector<Row> recompute() {
-  std::vector<Row> rows;
+std::vector<StatementRow> recompute() {
+  std::vector<StatementRow> rows;
   for (const auto& section : {patch_statements(), ball_statements(), plane_statements(stated_patch_ratio)}) {
     for (const Statement& statement : section) rows.push_back({.statement = statement});
   }
@@ -116,12 +116,12 @@ void write_files(const Argument& out, const std::vector<File>& files) {
   }
 }
 
-std::string as_text(const std::vector<Row>& rows, const Digits& digits) {
+std::string as_text(const std::vector<StatementRow>& rows, const Digits& digits) {
   const int width = digits.width();
   std::string text =
       fmt::format("{:<7}{:<67}{:>{}}{:>{}}  verdict\n", "Zh98", "says", "printed", width, "computed", width);
   std::string_view equation = "none";
-  for (const Row& row : rows) {
+  for (const StatementRow& row : rows) {
     const auto& [printed, computed, corrected, verdict] = row.found;
     const std::string bound = (row.statement.allowed == lower_bound ? ">= " : "") + digits(printed);
     text +=
@@ -134,13 +134,13 @@ std::string as_text(const std::vector<Row>& rows, const Digits& digits) {
     text += corrected ? fmt::format("{:<74}{:>{}}\n", arrow, digits(*corrected), width) : arrow + "\n";
   }
   const auto count = [&](Verdict verdict) {
-    return std::ranges::count_if(rows, [&](const Row& row) { return row.found.verdict == verdict; });
+    return std::ranges::count_if(rows, [&](const StatementRow& row) { return row.found.verdict == verdict; });
   };
   return text + fmt::format(
                     "\nThe plane's statements and Fig. 4 are of the Pade law, as in the paper.\n"
                     "{} statements: {} hold, {} are slips, {} are false; {} not as recorded\n",
                     rows.size(), count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
-                    std::ranges::count(rows, false, &Row::as_recorded));
+                    std::ranges::count(rows, false, &StatementRow::as_recorded));
 }
 
 class PaperCommand final : public Verb {
@@ -153,7 +153,7 @@ class PaperCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     if (out_.given() && out_.text().empty()) out_.reject("a folder's name is needed");
-    const std::vector<Row> rows = recompute();
+    const std::vector<StatementRow> rows = recompute();
     if (out_.given()) write_files(out_, draw_figures(out_.text()));
     Answer answer;
     for (const auto& [statement, found, correction, where] : rows) {
@@ -169,7 +169,7 @@ class PaperCommand final : public Verb {
     answer.members["claims"] = answer.rows;
     answer.text = [&](const Digits& digits) { return as_text(rows, digits); };
     output.write(answer);
-    return std::ranges::all_of(rows, &Row::as_recorded) ? ExitStatus::done : ExitStatus::check_failed;
+    return std::ranges::all_of(rows, &StatementRow::as_recorded) ? ExitStatus::done : ExitStatus::check_failed;
   }
 
  private:

@@ -102,7 +102,7 @@ std::string heading(const SweepRequest& request) {
 }
 
 /// A stretch of starts, all of one mu.
-struct Piece {
+struct SweepPiece {
   long begin = 0;  ///< number of the first start
   double mu = 0;
   std::vector<double> taus;
@@ -121,14 +121,14 @@ class Sweep {
   }
 
   void run() {
-    work_in_order<Piece>(
-        request_.threads, [] { return true; }, [this](Piece& piece) { return take(piece); },
-        [this](Piece& piece) { work(piece); }, [this](const Piece& piece) { hand_on(piece); });
+    work_in_order<SweepPiece>(
+        request_.threads, [] { return true; }, [this](SweepPiece& piece) { return take(piece); },
+        [this](SweepPiece& piece) { work(piece); }, [this](const SweepPiece& piece) { hand_on(piece); });
     progress_.finish(grid_.points());
   }
 
  private:
-  bool take(Piece& piece) {
+  bool take(SweepPiece& piece) {
     if (next_ == starts_of_mu_ * grid_.mu.count) return false;
     const long count = std::min(points_at_once, starts_of_mu_ - next_ % starts_of_mu_);
     piece.begin = next_;
@@ -138,7 +138,7 @@ class Sweep {
     return true;
   }
 
-  void work(Piece& piece) {
+  void work(SweepPiece& piece) {
     const auto stop_times = stop_times_.at(piece.mu);
     const long columns = grid_.u0.count;
     for (std::size_t done = 0; done < piece.taus.size();) {
@@ -169,7 +169,7 @@ class Sweep {
     }
   }
 
-  void hand_on(const Piece& piece) {
+  void hand_on(const SweepPiece& piece) {
     output_.write(std::exchange(heading_, {}));
     output_.write(
         request_.format == SweepFormat::csv
