@@ -25,9 +25,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Below this patch ratio the plane (u, v) alone shows a comb of verticals.
-constexpr double pair_below = 0.1;
-
 /// @param shown  states that the window must contain
 Window default_window(const ReducedSystem& system, View view, const std::vector<State>& shown) {
   State far{0, 0};
@@ -40,8 +37,18 @@ Window default_window(const ReducedSystem& system, View view, const std::vector<
   }
   if (far.u != 0 && far.v != 0) return {margin * far.u, margin * far.v};
   if (far.u != 0 || far.v != 0) return {margin * std::max(far.u, far.v), margin * std::max(far.u, far.v)};
-  // Sliding and pivoting take the same time along the two borders: neither is squeezed against an axis.
-  return {1, round_down(system.pivoting_limit(1) / system.sliding_limit(1))};
+  // Sliding and pivoting take the same time along the two borders: neither is squeezed against an axis. But beyond a k
+  // that is large nothing happens: balls slide as if they did not spin.
+  constexpr double large = 20;
+  return {1, round_down(std::min(system.pivoting_limit(1) / system.sliding_limit(1), large * system.mu()))};
+}
+
+SpeedScale scale_of(const reduction::PhasePlane& plane, View view, Window window, bool linear) {
+  constexpr double comb = 12;
+  const auto& [direction, k, order] = plane.tangents.front();
+  const bool bends = (view == View::uv || view == View::patch || view == View::pair) && plane.terminal.rays.empty() &&
+                     direction == reduction::InvariantDirection::pivoting && 1 + order > comb;
+  return {window.v, bends && !linear ? 1 / (1 + order) : 1};
 }
 
 using Instant = PortraitOrbit::Instant;
@@ -110,17 +117,55 @@ PortraitOrbit columns(const Track& track) {
 
 class OrbitTracer {
  public:
-  OrbitTracer(const Flow& flow, Window window, bool stepped) : flow_(flow), window_(window), is_stepped_(stepped) {}
+  OrbitTracer(const Flow& flow, Window window, const SpeedScale& scale, bool stepped)
+      : flow_(flow), window_(window), scale_(scale), is_stepped_(stepped) {}
 
   PortraitOrbit orbit(State start) const { return columns(is_stepped_ ? stepped(start) : exact(start)); }
 
   /// The orbit through a point, from where it enters the window.
   PortraitOrbit orbit_through(State point) const { return orbit(entry(point)); }
 
-  /// Starts along the right half of the border, at equal distances across the flow as it is seen on paper.
-  std::vector<State> seeds(int count) const {
+  /// Orbits of both signs of u from so many starts along the right half of the border, at equal distances across the
+  /// flow as it is seen on paper.
+  std::vector<PortraitOrbit> orbits(int count) const {
+    std::vector<PortraitOrbit> result;
+    std::optional<PortraitOrbit> curve;
+    for (const Seed& seed : seeds(count)) {
+      if (scale_.linear()) {
+        result.push_back(orbit({seed.u, speed(seed)}));
+      } else {
+        // A copy of the one that all are copies of: its v may be too small for a double.
+        constexpr double above = 9;
+        if (!curve) curve = contensou::portraits::orbit_through(flow_, 0, ln_w(0), above);
+        result.push_back(copied(*curve, seed));
+      }
+      result.push_back(mirrored(result.back()));
+    }
+    return result;
+  }
+
+ private:
+  /// A state by logarithms, which do not underflow.
+  struct Seed {
+    double u, ln_v;
+  };
+
+  /// On the upper border to the last digit.
+  double speed(const Seed& at) const {
+    return at.ln_v == std::log(window_.v) ? window_.v : std::min(std::exp(at.ln_v), window_.v);
+  }
+
+  double ln_k(const Seed& at) const { return at.ln_v - std::log(system_.mu() * at.u); }
+
+  /// Of the similarity curve there: of all its copies the one that the tables are of.
+  double ln_w(double ln_k) const {
+    const reduction::SimilarityCurve& curve = *flow_.solution().through(ln_k);
+    return curve.ln_w(curve.chart().coordinate(ln_k));
+  }
+
+  std::vector<Seed> seeds(int count) const {
     struct Step {
-      State at;
+      Seed at;
       double across;
     };
     std::vector<Step> border;
@@ -128,18 +173,20 @@ class OrbitTracer {
     double across = 0;
     const auto walk = [&](auto place, bool along_top) {
       for (int i = 0; i < steps; ++i) {
-        const State at = place((i + 0.5) / steps);
-        const auto rate = system_.field(at);
-        const double du = rate.u / window_.u;
-        const double dv = rate.v / window_.v;
+        const Seed at = place((i + 0.5) / steps);
+        // Rates over their speeds depend on k alone, and below this one no more.
+        const double k = std::exp(std::max(ln_k(at), -20.0));
+        const auto rate = system_.field({1 / system_.mu(), k});
+        const double du = rate.u * system_.mu() * at.u / window_.u;
+        const double dv = rate.v / k * scale_.slope(at.ln_v);
         across += std::abs(along_top ? dv : du) / std::hypot(du, dv) / steps;
         border.push_back({at, across});
       }
     };
-    walk([&](double share) { return State{share * window_.u, window_.v}; }, true);
-    walk([&](double share) { return State{window_.u, (1 - share) * window_.v}; }, false);
+    walk([&](double share) { return Seed{share * window_.u, std::log(window_.v)}; }, true);
+    walk([&](double share) { return Seed{window_.u, scale_.ln_v(1 - share)}; }, false);
 
-    std::vector<State> result;
+    std::vector<Seed> result;
     for (int i = 0; i < count; ++i) {
       const double wanted = across * (i + 0.5) / count;
       result.push_back(std::ranges::lower_bound(border, wanted, {}, &Step::across)->at);
@@ -147,9 +194,7 @@ class OrbitTracer {
     if (count == 0) return result;
     for (const auto& curve : flow_.solution().curves()) {
       // A sector between two rays that is too narrow for any of these has one in its middle.
-      const auto inside = [&](State at) {
-        return flow_.solution().through(std::log(at.v / (system_.mu() * at.u))) == curve;
-      };
+      const auto inside = [&](const Seed& at) { return flow_.solution().through(ln_k(at)) == curve; };
       if (std::ranges::any_of(result, inside)) continue;
       const auto first = std::ranges::find_if(border, inside, &Step::at);
       result.push_back(first[std::ranges::count_if(border, inside, &Step::at) / 2].at);
@@ -157,7 +202,29 @@ class OrbitTracer {
     return result;
   }
 
- private:
+  /// The orbit from a start, by rows of another of the same curve.
+  PortraitOrbit copied(const PortraitOrbit& curve, const Seed& start) const {
+    const double ln_k_start = ln_k(start);
+    const double factor = system_.mu() * start.u * std::exp(-ln_w(ln_k_start));
+    const double v = speed(start);
+    Track track{{start.u, v, start.ln_v, ln_k_start, flow_.orbit({start.u, v}).stop_time()}};
+    for (Eigen::Index row = 0; row < curve.rows(); ++row) {
+      if (!(curve.ln_k[row] < ln_k_start)) continue;
+      const Instant here = curve.at(row, factor), &last = track.back();
+      const double u = std::abs(here.u - last.u) / window_.u;
+      const double height = std::abs(scale_.height(here.ln_v) - scale_.height(last.ln_v));
+      constexpr double near = 0.006;
+      if (std::max({u, height, turn(here, last) / 20}) > near) track.push_back(here);
+    }
+    track.push_back(curve.at(curve.rows() - 1, factor));
+    return columns(track);
+  }
+
+  static PortraitOrbit mirrored(PortraitOrbit orbit) {
+    orbit.u = -orbit.u + 0.0;
+    return orbit;
+  }
+
   double ln_k_stop(State start) const {
     return std::log(flow_.terminal().end_of(start.u == 0 ? infinity : start.v / (system_.mu() * std::abs(start.u))).k);
   }
@@ -230,20 +297,16 @@ class OrbitTracer {
   const Flow& flow_;
   const ReducedSystem& system_ = flow_.system();
   Window window_;
+  SpeedScale scale_;
   bool is_stepped_;
 };
 
-PortraitOrbit mirrored(PortraitOrbit orbit) {
-  orbit.u = -orbit.u + 0.0;
-  return orbit;
-}
-
 void require(const PortraitRequest& request) {
-  if (request.orbits_per_side.value_or(0) < 0 || request.isochrones < 0) {
+  if (request.orbits_per_side.value_or(0) < 0 || request.isochrones.value_or(0) < 0) {
     throw std::domain_error(
         fmt::format("phase_portrait: numbers of orbits and isochrones must be "
                     ">= 0, got {} and {}",
-                    request.orbits_per_side.value_or(0), request.isochrones));
+                    request.orbits_per_side.value_or(0), request.isochrones.value_or(0)));
   }
   if (request.highlight) reduction::require_state("phase_portrait", *request.highlight);
   for (const State& point : request.through) {
@@ -277,15 +340,14 @@ void require(Window window, const PortraitRequest& request) {
 
 PhasePortrait portrait_in(const Flow& flow, View view, Window window, const PortraitRequest& request,
                           const std::vector<double>& times) {
-  const OrbitTracer tracer(flow, window, request.stepped);
-  PhasePortrait portrait{flow, reduction::phase_plane(flow.system()), view, window, {}, {}, {}, {}, {}};
+  const reduction::PhasePlane plane = reduction::phase_plane(flow.system());
+  const SpeedScale scale = scale_of(plane, view, window, request.linear || request.stepped);
+  const OrbitTracer tracer(flow, window, scale, request.stepped);
+  PhasePortrait portrait{flow, plane, view, window, scale, {}, {}, {}, {}, {}};
   if (!request.drawn_only || view == View::uv || view == View::patch || view == View::pair) {
     portrait.isochrones = isochrones(flow, {{-window.u, 0}, {window.u, window.v}}, times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
-    for (const State& seed : tracer.seeds(request.orbits_per_side.value_or(with_room_for_labels))) {
-      portrait.orbits.push_back(tracer.orbit(seed));
-      portrait.orbits.push_back(mirrored(portrait.orbits.back()));
-    }
+    portrait.orbits = tracer.orbits(request.orbits_per_side.value_or(with_room_for_labels));
   }
   if (request.highlight && (request.highlight->u != 0 || request.highlight->v != 0)) {
     portrait.highlight = tracer.orbit(*request.highlight);
@@ -296,9 +358,10 @@ PhasePortrait portrait_in(const Flow& flow, View view, Window window, const Port
 
 /// Stop times of isochrones: multiples of a round time, up to the corner of the window, which is the last to stop.
 std::vector<double> round_times(const Flow& flow, Window window, const PortraitRequest& request) {
-  if (request.isochrones == 0) return {};
+  const int about = request.isochrones.value_or(7);
+  if (about == 0) return {};
   const double longest = flow.orbit({window.u, window.v}).stop_time();
-  const double step = round_step(longest / request.time_unit, request.isochrones) * request.time_unit;
+  const double step = round_step(longest / request.time_unit, about) * request.time_unit;
   return multiples(0, 0.95 * longest, step);
 }
 
@@ -339,7 +402,7 @@ PhasePortrait phase_portrait(const Flow& flow, const PortraitRequest& request) {
   const ReducedSystem& system = flow.system();
   std::vector<State> shown = request.through;
   if (request.highlight) shown.push_back(*request.highlight);
-  const View view = request.view.value_or(system.mu() < pair_below ? View::pair : View::uv);
+  const View view = request.view.value_or(View::uv);
   const Window window = request.window.value_or(default_window(system, view, shown));
   require(window, request);
   const std::vector<double> times = round_times(flow, window, request);
@@ -347,6 +410,7 @@ PhasePortrait phase_portrait(const Flow& flow, const PortraitRequest& request) {
   if (request.comparison) {
     const ReducedSystem other(*request.comparison, system.mu(), system.inertia());
     portrait.comparisons.push_back(portrait_in(other, view, window, request, times));
+    portrait.comparisons.back().scale = portrait.scale;
   }
   return portrait;
 }

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
 Json json_of(const PortraitOrbit& orbit) {
-  return {{"u", list(orbit.u)}, {"v", list(orbit.v)}, {"tau_left", list(orbit.tau_left)}};
+  return {{"u", list(orbit.u)}, {"v", list(orbit.v)}, {"ln_v", list(orbit.ln_v)}, {"tau_left", list(orbit.tau_left)}};
 }
 
 Json json_of(const Isochrone& isochrone) {

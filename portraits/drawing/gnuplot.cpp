@@ -50,22 +50,16 @@ constexpr std::array formats{
     Format{"tex", PictureFormat::tex, "", ""},
 };
 
-/// The size of letters on paper, and the width of a line of width 1, mm.
-constexpr double letter_mm = 2.7;
-constexpr double line_mm = 0.2;
-/// The length of an arrow's head, mm.
-constexpr double head_mm = 2.0;
-
 /// Seconds that gnuplot may take.
 constexpr unsigned time_limit = 60;
 /// Its status where it cannot be run, as a shell's.
 constexpr int not_run = 127;
 
-std::string terminal(const Figure& figure, PictureFormat format) {
+/// @param letter  the size of letters, mm
+std::string terminal(const Figure& figure, double letter, PictureFormat format) {
   const double width = figure.width_mm;
   const double height = figure.height_mm;
-  const double letter = letter_mm * figure.theme.letters;
-  const double line = line_mm * figure.theme.line;
+  const double line = line_width * letter * figure.theme.line;
   // gnuplot's cairo terminals count a point as 1/96 inch in letters and as half a point in lines.
   constexpr double letters_per_mm = 72 / 25.4 * 0.75;
   constexpr double lines_per_mm = 72 / 25.4 / 0.5;
@@ -77,7 +71,7 @@ std::string terminal(const Figure& figure, PictureFormat format) {
                          format == PictureFormat::pdf ? "pdf" : "eps", width / 10, height / 10, common,
                          letter * letters_per_mm, line * lines_per_mm);
     case PictureFormat::png: {
-      constexpr double pixels_per_mm = 200 / 25.4;
+      const double pixels_per_mm = figure.dpi / 25.4;
       return fmt::format("set terminal pngcairo size {:.0f},{:.0f} {} font 'sans,{:.4g}' fontscale 1 linewidth {:.4g}",
                          width * pixels_per_mm, height * pixels_per_mm, common, letter * pixels_per_mm * 0.75,
                          line * pixels_per_mm);
@@ -97,7 +91,8 @@ std::string terminal(const Figure& figure, PictureFormat format) {
 /// characters would end the line. Bytes that are not UTF-8 become U+FFFD, as nlohmann's writer does it.
 std::string quoted(const std::string& text) {
   using nlohmann::json;
-  const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
+  const std::string valid =
+      json::parse(json(with_minus_signs(text)).dump(-1, ' ', false, json::error_handler_t::replace));
   std::string result = "'";
   for (char c : valid) {
     if (c == '\'') result += '\'';
@@ -112,7 +107,11 @@ constexpr const char* next_plot = ", \\\n     ";
 std::string colour(Colour colour) { return fmt::format("rgb '#{:06x}'", colour.rgb); }
 
 std::string line_style(const Stroke& stroke) {
-  return fmt::format("lc {} lw {}{}", colour(stroke.colour), stroke.width, stroke.dashed ? " dt (4,8)" : " dt 1");
+  return fmt::format("lc {} lw {}{}", colour(stroke.colour), stroke.width,
+                     stroke.dashed && stroke.dotted ? " dt (12,5,2,5)"
+                     : stroke.dashed                ? " dt (6,7)"
+                     : stroke.dotted                ? " dt (1,5)"
+                                                    : " dt 1");
 }
 
 /// gnuplot's numbers of a shape, and of the shape that is first painted out with the ground; 0: none.
@@ -134,11 +133,6 @@ const char* alignment(Label::Align align) {
   if (align == Label::Align::left) return "left";
   return align == Label::Align::right ? "right" : "center";
 }
-
-/// From light to dark and from yellow to blue: in order also in grey, and for eyes that see red and green alike.
-constexpr const char* palette_script =
-    "set palette defined (0 '#fffbe0', 0.18 '#f3e6a1', 0.36 '#b9d8a6', 0.54 '#76bcb4', 0.72 '#4495b8', 0.87 '#3468a4', "
-    "1 '#2f4788')\n";
 
 using Row = std::pair<double, double>;
 
@@ -184,12 +178,11 @@ class Script {
  public:
   Script(const Figure& figure, PictureFormat format) : figure_(figure), layout_(lay_out(figure)) {
     put("# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n");
-    put("set encoding utf8\n{}\n", terminal(figure, format));
+    put("set encoding utf8\n{}\n", terminal(figure, layout_.letter, format));
     put("set style textbox opaque noborder fillcolor {} margins 0.2,0.1\n", colour(figure.theme.ground));
-    put("set xtics textcolor {0}\nset ytics textcolor {0}\nset xlabel textcolor {0}\nset ylabel textcolor {0}\n", ink_);
-    put("set multiplot\n");
-    heading();
-    for (std::size_t i = 0; i < figure.panels.size(); ++i) panel(figure.panels[i], layout_.panels[i], layout_.names[i]);
+    put("set xtics textcolor {0}\nset ytics textcolor {0}\nset cbtics textcolor {0}\nset multiplot\n", ink_);
+    page();
+    for (std::size_t i = 0; i < figure.panels.size(); ++i) panel(figure.panels[i], layout_.panels[i]);
     put("unset multiplot\n");
   }
 
@@ -206,60 +199,55 @@ class Script {
     return fmt::format("screen {:.8g},{:.8g}", x / figure_.width_mm, y / figure_.height_mm);
   }
 
-  void label(const std::string& text, const std::string& at, const char* align, const std::string& style) {
-    put("set label {} at {} {}{}\n", quoted(text), at, align, style);
-  }
-
-  void axis(const char* which, const Axis& axis, bool shown) {
-    put("set {0}label {1}\nset {0}range [{2:.8g}:{3:.8g}]\n{4} logscale {0}\n", which, quoted(shown ? axis.name : ""),
-        axis.low, axis.high, axis.logarithmic ? "set" : "unset");
-    if (!shown) {
+  void axis(const char* which, const Axis& axis, const std::vector<Axis::Tick>& ticks) {
+    put("set {0}range [{1:.8g}:{2:.8g}]\n{3} logscale {0}\n", which, axis.low, axis.high,
+        axis.logarithmic ? "set" : "unset");
+    std::vector<std::string> places;
+    for (const auto& [at, text] : ticks) places.push_back(fmt::format("{} {:.8g}", quoted("{/*0.9 " + text + "}"), at));
+    if (ticks.empty())
       put("unset {}tics\n", which);
-      return;
-    }
-    put("set {0}tics autofreq nomirror out scale 0.6\nset format {0} '{1}'\n", which,
-        axis.logarithmic ? "10^{%T}" : "%g");
-    if (axis.ticks.empty()) return;
-    std::vector<std::string> ticks;
-    for (const auto& [at, text] : axis.ticks) ticks.push_back(fmt::format("{} {:.8g}", quoted(text), at));
-    put("set {}tics ({})\n", which, fmt::join(ticks, ", "));
+    else
+      put("set {0}tics nomirror out scale 0.6 ({1})\n", which, fmt::join(places, ", "));
   }
 
   /// The next plot of a command, of data that follow it.
   void plot(const std::string& style) { put("{}'-' {} notitle", std::exchange(separator_, next_plot), style); }
 
   /// A colour map, on linear axes of its own, and its scale.
-  void colour_map(const ColourMap& colours, const Box& box) {
-    constexpr double gap_mm = 3, bar_mm = 4;
-    const auto& [name, low, high, logarithmic, ticks] = colours.scale;
-    const double left = box.left + box.width + gap_mm;
-    put("{}", palette_script);
-    axis("cb", {"", low, high > low ? high : low + 1, logarithmic, ticks}, true);
-    put("set colorbox vertical user origin {} size {} noborder\n", at(left, box.bottom), at(bar_mm, box.height));
-    label(name, at(left + bar_mm / 2, box.bottom + box.height + gap_mm), "center", "");
+  void colour_map(const ColourMap& colours, const PanelPlace& place) {
+    const auto& [left, bottom, width, height] = place.colour_scale;
+    std::vector<std::string> steps;
+    for (std::size_t i = 0; i < colours.palette.size(); ++i) {
+      steps.push_back(fmt::format("{} '#{:06x}'", i, colours.palette[i].rgb));
+    }
+    put("set palette defined ({})\n", fmt::join(steps, ", "));
+    Axis scale = colours.scale;
+    if (!(scale.high > scale.low)) scale.high = scale.low + 1;
+    axis("cb", scale, place.scale);
+    put("set colorbox vertical user origin {} size {} noborder\n", at(left, bottom), at(width, height));
     put("set x2range [0:{}]\nset y2range [0:{}]\n", colours.columns, colours.values.size() / colours.columns);
     plot("matrix using ($1+0.5):($2+0.5):3 axes x2y2 with image");
   }
 
-  void panel(const Panel& panel, const Box& box, double name) {
+  void panel(const Panel& panel, const PanelPlace& place) {
+    const Box& box = place.box;
     put("set lmargin at screen {:.8g}\nset rmargin at screen {:.8g}\n", box.left / figure_.width_mm,
         (box.left + box.width) / figure_.width_mm);
     put("set bmargin at screen {:.8g}\nset tmargin at screen {:.8g}\n", box.bottom / figure_.height_mm,
         (box.bottom + box.height) / figure_.height_mm);
     put("set border {} lw 0.8 lc {}\n", panel.bare ? 0 : 3, ink_);
-    axis("x", panel.x, !panel.bare);
-    axis("y", panel.y, !panel.bare);
+    axis("x", panel.x, place.x);
+    axis("y", panel.y, place.y);
     put("unset label\n");
-    label(panel.title, at(box.left + box.width / 2, name), "center", " tc " + ink_);
     for (const auto& [point, text, label_colour, align] : panel.labels) {
-      label("{/*0.85 " + text + "}", fmt::format("{:.8g},{:.8g}", point.x, point.y), alignment(align),
-            " front boxed tc " + colour(label_colour));
+      put("set label {} at {:.8g},{:.8g} {} front boxed tc {}\n", quoted("{/*0.85 " + text + "}"), point.x, point.y,
+          alignment(align), colour(label_colour));
     }
 
     separator_ = "plot ";
     Data data;
     if (panel.colours) {
-      colour_map(*panel.colours, box);
+      colour_map(*panel.colours, place);
       data.add(*panel.colours);
     }
     for (const Region& region : panel.regions) {
@@ -281,52 +269,51 @@ class Script {
       }
       if (vectors.empty()) continue;
       plot(fmt::format("with vectors head filled size screen {:.4g},18,75 fixed lc {} lw 0.5",
-                       head_mm * figure_.theme.letters / figure_.width_mm, colour(layer.colour)));
+                       head_length * layout_.letter / figure_.width_mm, colour(layer.colour)));
       data.add(vectors);
     }
     for (const Marks& layer : panel.marks) {
-      if (layer.points.empty()) continue;
-      if (const int ground = point_type(layer.shape).ground) {
-        plot(fmt::format("with points pt {} ps {} lc {}", ground, layer.size, colour(figure_.theme.ground)));
-        data.add(rows(layer.points));
-      }
-      plot(mark_style(layer));
-      data.add(rows(layer.points));
+      if (!layer.points.empty()) marks(layer, rows(layer.points), data);
     }
     if (separator_ != next_plot) put("{}NaN notitle", separator_);
     put("\n{}", data.text());
   }
 
-  void colour_bar(const ColourBar& bar, const Box& box) {
-    for (std::size_t i = 0; i < bar.colours.size(); ++i) {
-      const auto& [left, bottom, width, height] = layout_.colours[i];
-      put("set object rectangle from {} to {} fc {} fs solid noborder\n", at(left, bottom),
-          at(left + width, bottom + height), colour(bar.colours[i]));
+  void marks(const Marks& layer, const std::vector<Row>& places, Data& data) {
+    if (const int ground = point_type(layer.shape).ground) {
+      plot(fmt::format("with points pt {} ps {} lc {}", ground, layer.size, colour(figure_.theme.ground)));
+      data.add(places);
     }
-    for (const auto& [share, text] : bar.ticks) {
-      label("{/*0.85 " + text + "}", at(box.left + box.width + 0.5 * layout_.letter, box.bottom + share * box.height),
-            "left", " tc " + ink_);
-    }
-    label(bar.name, at(box.left, box.bottom + box.height + 1.3 * layout_.letter), "left", " tc " + ink_);
+    plot(mark_style(layer));
+    data.add(places);
   }
 
-  /// Title, subtitle, colour bar and legend, in a plot of its own that covers the page and shows nothing else.
-  void heading() {
-    put("set lmargin at screen 0.02\nset rmargin at screen 0.98\nset tmargin at screen 0.98\nset bmargin at screen "
-        "0.02\nunset border\nunset tics\n");
-    const double middle = figure_.width_mm / 2;
-    put("set key at {} center center horizontal Left reverse samplen 2.2 width 1 tc {}\n", at(middle, layout_.legend),
-        ink_);
-    label("{/*1.2 " + figure_.title + "}", at(middle, layout_.title), "center", " tc " + ink_);
-    label(figure_.subtitle, at(middle, layout_.subtitle), "center", " tc " + colour(figure_.theme.faint));
-    if (figure_.colour_bar) colour_bar(*figure_.colour_bar, layout_.colour_bar);
-    separator_ = "plot [0:1] [0:1] ";
-    for (const auto& [text, lines, marks] : legend_entries(figure_)) {
-      put("{}NaN {} title {}", std::exchange(separator_, next_plot),
-          lines ? "with lines " + line_style(lines->stroke) : mark_style(*marks), quoted(text));
+  /// Texts, the colour bar and samples of the legend, in a plot of its own that covers the page, in millimetres.
+  void page() {
+    put("set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n"
+        "unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n",
+        figure_.width_mm, figure_.height_mm);
+    for (const PlacedText& text : layout_.texts) {
+      put("set label {} at {} {}{} tc {}\n", quoted(fmt::format("{{/*{:.3g} {}}}", text.size, text.text)),
+          at(text.at.x, text.at.y), alignment(text.align), text.turned ? " rotate by 90" : "",
+          text.faint ? colour(figure_.theme.faint) : ink_);
+    }
+    for (std::size_t i = 0; i < layout_.colours.size(); ++i) {
+      const auto& [left, bottom, width, height] = layout_.colours[i];
+      put("set object rectangle from {} to {} fc {} fs solid noborder\n", at(left, bottom),
+          at(left + width, bottom + height), colour(figure_.colour_bar->colours[i]));
+    }
+    separator_ = "plot ";
+    Data data;
+    for (const auto& [entry, from, width] : layout_.legend) {
+      if (entry.lines) {
+        plot("with lines " + line_style(entry.lines->stroke));
+        data.add(std::vector<Row>{{from.x, from.y}, {from.x + width, from.y}});
+      }
+      if (entry.marks) marks(*entry.marks, {{from.x + width / 2, from.y}}, data);
     }
     if (separator_ != next_plot) put("{}NaN notitle", separator_);
-    put("\nunset key\nunset object\n");
+    put("\n{}unset object\n", data.text());
   }
 
   const Figure& figure_;

@@ -4,7 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include "data/round_numbers.hpp"
 
 namespace contensou::portraits {
 
@@ -45,6 +50,8 @@ double off_chord(Point a, Point b, Point p) {
 }
 
 }  // namespace
+
+double letter_mm(double width_mm) { return std::clamp(2.0 + 0.0041 * width_mm, 2.2, 2.7); }
 
 Point between(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
 
@@ -155,65 +162,292 @@ std::optional<Arrow> short_arrow(const Panel& panel, const Box& box, const Arrow
 
 std::vector<LegendEntry> legend_entries(const Figure& figure) {
   std::vector<LegendEntry> entries;
-  const auto add = [&](const std::string& text, const Lines* lines, const Marks* marks) {
-    if (text.empty() || std::ranges::find(entries, text, &LegendEntry::text) != entries.end()) return;
-    entries.push_back({text, lines, marks});
+  const auto entry = [&](const std::string& text) -> LegendEntry& {
+    const auto found = std::ranges::find(entries, text, &LegendEntry::text);
+    return found != entries.end() ? *found : entries.emplace_back(LegendEntry{text, nullptr, nullptr});
   };
   for (const Panel& panel : figure.panels) {
-    for (const Lines& lines : panel.lines) add(lines.legend, &lines, nullptr);
-    for (const Marks& marks : panel.marks) add(marks.legend, nullptr, &marks);
+    for (const Lines& lines : panel.lines) {
+      if (!lines.legend.empty() && !entry(lines.legend).lines) entry(lines.legend).lines = &lines;
+    }
+    for (const Marks& marks : panel.marks) {
+      if (!marks.legend.empty() && !entry(marks.legend).marks) entry(marks.legend).marks = &marks;
+    }
   }
   return entries;
 }
 
-Layout lay_out(const Figure& figure) {
-  constexpr double letter_mm = 2.9;
-  Layout layout{};
-  const double em = layout.letter = letter_mm * figure.theme.letters;
-  double top = figure.height_mm - 1.2 * em;
-  const auto line = [&](const std::string& text, double height) {
-    const double middle = top - height / 2;
-    if (!text.empty()) top -= height;
-    return middle;
-  };
-  layout.title = line(figure.title, 2.1 * em);
-  layout.subtitle = line(figure.subtitle, 1.8 * em);
-  const bool names = std::ranges::any_of(figure.panels, [](const Panel& panel) { return !panel.title.empty(); });
-  top -= (names ? 2.2 : 0.6) * em;
+int panel_columns(double width_mm, int panels) {
+  constexpr double narrowest = 50;
+  int columns = panels;
+  while (columns > 1 && (panels % columns != 0 || width_mm / columns < narrowest)) --columns;
+  return columns;
+}
 
-  const bool legend = !legend_entries(figure).empty();
-  const bool axes = !std::ranges::all_of(figure.panels, &Panel::bare);
-  layout.legend = 1.5 * em;
-  const double bottom = (legend ? 3.6 : 1) * em + (axes ? 3.9 : 0.5) * em;
+PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked) {
+  const double width = asked.width_mm.value_or(usual.width_mm);
+  if (asked.height_mm || !asked.width_mm) return {width, asked.height_mm.value_or(usual.height_mm)};
+  constexpr double around = 25, highest = 0.62;
+  const int columns = panel_columns(width, panels);
+  const double shape = std::min(highest, (usual.height_mm - around) / (usual.width_mm / panels));
+  return {width, shape * width / columns * (panels / columns) + around * letter_mm(width) / letter_mm(170)};
+}
 
-  const double bar_room = figure.colour_bar ? 8 * em : 0;
-  const double strip = (figure.width_mm - bar_room) / static_cast<double>(figure.panels.size());
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    const Panel& panel = figure.panels[i];
-    const double before = (!panel.bare ? 6.2 : 1.5) * em;
-    const double after = (panel.colours ? 8 : 1.5) * em;
-    Box box{strip * static_cast<double>(i) + before, bottom, strip - before - after, top - bottom};
+Point panel_size(const PaperSize& figure, int panels) {
+  const double letter = letter_mm(figure.width_mm);
+  const int columns = panel_columns(figure.width_mm, panels), rows = panels / columns;
+  return {std::max(figure.width_mm / columns - 9 * letter, 10.0),
+          std::max((figure.height_mm - 7 * letter) / rows - 6 * letter, 10.0)};
+}
+
+namespace {
+
+/// A text in lines of at most that many sizes of letters, broken at spaces outside braces.
+std::vector<std::string> broken(const std::string& text, double width) {
+  std::vector<std::string> lines, words{""};
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    depth += text[i] == '{' ? 1 : text[i] == '}' ? -1 : 0;
+    if (text[i] == '\\' && i + 1 < text.size()) words.back() += text[i++];
+    if (depth > 0 || text[i] != ' ') words.back() += text[i];
+    // A run of spaces is no place to break twice.
+    if (depth <= 0 && text[i] == ' ' && i + 1 < text.size() && text[i + 1] == ' ')
+      words.back() += ' ';
+    else if (depth <= 0 && text[i] == ' ')
+      words.emplace_back();
+  }
+  for (const std::string& word : words) {
+    const std::string longer = lines.empty() ? word : lines.back() + ' ' + word;
+    if (!lines.empty() && text_width(longer) <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+  }
+  return text.empty() ? std::vector<std::string>{} : lines;
+}
+
+/// Sizes of letters, in which lengths below are given: of a line of text, and of a number beside a tick.
+constexpr double line_height = 1.45, tick_size = 0.9;
+
+/// The ticks of an axis of that length, as many as leave room between their texts.
+std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
+  const auto room = [&](const std::string& text) { return upright ? 1.5 : tick_size * text_width(text) + 1.2; };
+  std::vector<Axis::Tick> all = axis.ticks;
+  if (all.empty() && axis.logarithmic) {
+    constexpr double few_decades = 2.5, same = 1e-9;
+    const bool powers = axis.high / axis.low >= std::pow(10, few_decades);
+    for (double at : round_ratios(axis.low * (1 - same), axis.high * (1 + same), few_decades)) {
+      all.push_back({at, powers ? fmt::format("10^{{{:.0f}}}", std::log10(at)) : number(at)});
+    }
+  } else if (all.empty()) {
+    const double range = axis.high - axis.low;
+    const double end = std::max(std::abs(axis.low), std::abs(axis.high));
+    for (double pieces = std::max(2.0, length / (upright ? 3 : 5));; pieces *= 0.75) {
+      all.clear();
+      const double step = round_step(range, pieces);
+      for (double at : multiples(axis.low - 1e-6 * step, axis.high + 1e-6 * step, step)) {
+        all.push_back({at, number(std::abs(at) < 1e-9 * end ? 0 : at)});
+      }
+      double widest = 0;
+      for (const Axis::Tick& tick : all) widest = std::max(widest, room(tick.text));
+      if (all.size() <= 2 || widest <= length * step / range) return all;
+    }
+  }
+  // Those that keep off the ones before.
+  std::vector<Axis::Tick> kept;
+  double free = -1e300;
+  for (const Axis::Tick& tick : all) {
+    const double at = length * share(axis, tick.at), half = room(tick.text) / 2;
+    if (at - half < free) continue;
+    free = at + half;
+    kept.push_back(tick);
+  }
+  return kept;
+}
+
+double widest(const std::vector<Axis::Tick>& ticks) {
+  double width = 0;
+  for (const Axis::Tick& tick : ticks) width = std::max(width, tick_size * text_width(tick.text));
+  return width;
+}
+
+/// Places the parts of a figure, with lengths in sizes of letters.
+class Compositor {
+ public:
+  explicit Compositor(const Figure& figure)
+      : figure_(figure),
+        em_(letter_mm(figure.width_mm) * figure.theme.letters),
+        width_(figure.width_mm / em_),
+        top_(figure.height_mm / em_ - 0.7) {
+    layout_.letter = em_;
+    heading(figure.title, 1.2, false);
+    heading(figure.subtitle, 1, true);
+    legend();
+    const double bar = figure.colour_bar ? bar_room(*figure.colour_bar) : 0;
+    panels(width_ - bar);
+    if (figure.colour_bar) colour_bar(*figure.colour_bar, bar);
+  }
+
+  Layout layout() && { return std::move(layout_); }
+
+ private:
+  Box mm(double left, double bottom, double width, double height) const {
+    return {left * em_, bottom * em_, width * em_, height * em_};
+  }
+
+  void text(const std::string& text, double x, double y, double size = 1, Label::Align align = Label::Align::centre,
+            bool faint = false, bool turned = false) {
+    if (!text.empty()) layout_.texts.push_back({text, {x * em_, y * em_}, size, align, faint, turned});
+  }
+
+  void heading(const std::string& all, double size, bool faint) {
+    for (const std::string& line : broken(all, (width_ - 1.5) / size)) {
+      text(line, width_ / 2, top_ - 0.5 * line_height * size, size, Label::Align::centre, faint);
+      top_ -= line_height * size;
+    }
+  }
+
+  void legend() {
+    constexpr double sample = 2.4, gap = 0.5, between = 1.6;
+    struct Row {
+      std::vector<LegendEntry> entries;
+      double width = -between;
+    };
+    const auto length = [&](const LegendEntry& entry) { return sample + gap + text_width(entry.text) + between; };
+    std::vector<Row> rows;
+    for (const LegendEntry& entry : legend_entries(figure_)) {
+      if (rows.empty() || rows.back().width + length(entry) > width_ - 1.5) rows.emplace_back();
+      rows.back().width += length(entry);
+      rows.back().entries.push_back(entry);
+    }
+    bottom_ = 0.5 + line_height * static_cast<double>(rows.size()) + (rows.empty() ? 0 : 0.3);
+    double y = bottom_ - 0.3 + line_height / 2;
+    for (const Row& row : rows) {
+      double x = (width_ - row.width) / 2;
+      y -= line_height;
+      for (const LegendEntry& entry : row.entries) {
+        layout_.legend.push_back({entry, {x * em_, y * em_}, sample * em_});
+        text(entry.text, x + sample + gap, y, 1, Label::Align::left);
+        x += length(entry);
+      }
+    }
+  }
+
+  void panels(double width) {
+    const int count = static_cast<int>(figure_.panels.size());
+    const int columns = panel_columns(width * em_, count), rows = count / columns;
+    const double strip = width / columns;
+    // Heights first: ticks of y-axes follow from them, and margins from those.
+    double above = 0.5, below = 0.5;
+    for (const Panel& panel : figure_.panels) {
+      above = std::max(above, 0.7 + line_height * static_cast<double>(broken(panel.title, strip - 1).size()));
+      if (!panel.bare) below = std::max(below, panel.x.name.empty() ? 2.4 : 3.8);
+    }
+    const double height = (top_ - bottom_) / rows - above - below;
+    layout_.panels.resize(figure_.panels.size());
+    for (int column = 0; column < columns; ++column) {
+      double before = 1, after = 1;
+      for (int i = column; i < count; i += columns) {
+        const Panel& panel = figure_.panels[i];
+        PanelPlace& place = layout_.panels[i];
+        if (panel.bare) continue;
+        place.y = ticks(panel.y, height, true);
+        const double names = line_height * static_cast<double>(broken(panel.y.name, height + 2).size());
+        before = std::max(before, 0.4 + names + widest(place.y) + 1.3);
+        const std::vector<Axis::Tick> under = ticks(panel.x, strip - before, false);
+        if (!under.empty() && panel.x.high > panel.x.low) {
+          const Axis::Tick& last = under.back();
+          const double beyond =
+              tick_size * text_width(last.text) / 2 - (1 - share(panel.x, last.at)) * (strip - before);
+          after = std::max(after, beyond + 0.5);
+        }
+        if (panel.colours) {
+          place.scale = ticks(panel.colours->scale, height, true);
+          after = std::max(after, 3.4 + widest(place.scale));
+        }
+      }
+      for (int i = column; i < count; i += columns) {
+        const double row_top = top_ - (top_ - bottom_) * (i / columns) / rows - above;
+        panel(i, {strip * column + before, row_top - height, strip - before - after, height}, strip * column, strip);
+      }
+    }
+  }
+
+  /// @param box   in which it lies
+  /// @param left  of the strip that is its own
+  void panel(int i, Box box, double left, double strip) {
+    const Panel& panel = figure_.panels[i];
+    PanelPlace& place = layout_.panels[i];
+    constexpr double least_width = 9, least_height = 5;
+    if (!(box.width >= least_width && box.height >= least_height)) {
+      throw std::domain_error(
+          fmt::format("a figure of {:.4g} x {:.4g} mm leaves {:.3g} x {:.3g} mm for a panel, which needs {:.3g} x "
+                      "{:.3g} mm: make it "
+                      "larger, or leave out its title",
+                      figure_.width_mm, figure_.height_mm, std::max(0.0, box.width * em_),
+                      std::max(0.0, box.height * em_), least_width * em_, least_height * em_));
+    }
     if (panel.to_scale) {
       const double unit = std::min(box.width / (panel.x.high - panel.x.low), box.height / (panel.y.high - panel.y.low));
       const double width = unit * (panel.x.high - panel.x.low), height = unit * (panel.y.high - panel.y.low);
       box = {box.left + (box.width - width) / 2, box.bottom + (box.height - height) / 2, width, height};
     }
-    layout.panels.push_back(box);
-    layout.names.push_back(box.bottom + box.height + 1.1 * em);
+    place.box = mm(box.left, box.bottom, box.width, box.height);
+    const double middle = box.left + box.width / 2;
+    const std::vector<std::string> title = broken(panel.title, strip - 1);
+    double y = box.bottom + box.height + 0.5 + line_height * (static_cast<double>(title.size()) - 0.5);
+    for (const std::string& line : title) {
+      // Inside its strip.
+      const double half = text_width(line) / 2;
+      text(line, std::clamp(middle, left + half, std::max(left + half, left + strip - half)), y);
+      y -= line_height;
+    }
+    if (panel.bare) return;
+    place.x = ticks(panel.x, box.width, false);
+    text(panel.x.name, middle, box.bottom - 3);
+    const std::vector<std::string> name = broken(panel.y.name, box.height + 2);
+    double x = box.left - 1.3 - widest(place.y) - line_height * (static_cast<double>(name.size()) - 0.5);
+    for (const std::string& line : name) {
+      text(line, x, box.bottom + box.height / 2, 1, Label::Align::centre, false, true);
+      x += line_height;
+    }
+    if (!panel.colours) return;
+    place.colour_scale = mm(box.left + box.width + 0.9, box.bottom, 1.2, box.height);
+    text(panel.colours->scale.name, box.left + box.width + 1.5, box.bottom + box.height + 1);
   }
-  if (figure.colour_bar) {
-    const double height = 0.72 * (top - bottom);
-    const Box bar =
-        layout.colour_bar = {figure.width_mm - bar_room + 1.2 * em, bottom + 0.08 * (top - bottom), 1.1 * em, height};
-    const std::size_t count = figure.colour_bar->colours.size();
-    const double step = height / static_cast<double>(count);
-    constexpr double overlap = 0.1;  // so that there is no seam between them
-    for (std::size_t i = 0; i < count; ++i) {
-      const double from = step * static_cast<double>(i);
-      layout.colours.push_back({bar.left, bar.bottom + from, bar.width, std::min(step + overlap, height - from)});
+
+  double bar_room(const ColourBar& bar) const { return std::max(4.2, 3.3 + widest(bar.ticks)); }
+
+  void colour_bar(const ColourBar& bar, double room) {
+    const double bottom = layout_.panels.back().box.bottom / em_;
+    const Box& first = layout_.panels.front().box;
+    const double total = (first.bottom + first.height) / em_ - bottom;
+    const double left = width_ - room + 0.8;
+    const std::vector<std::string> name = broken(bar.name, room - 0.8);
+    const double height = std::min(0.75 * total, total - line_height * static_cast<double>(name.size()) - 0.6);
+    double y = bottom + height + 0.6 + line_height * (static_cast<double>(name.size()) - 0.5);
+    for (const std::string& line : name) {
+      text(line, left, y, 1, Label::Align::left);
+      y -= line_height;
+    }
+    const auto count = static_cast<double>(bar.colours.size());
+    constexpr double overlap = 0.04;  // so that there is no seam between them
+    for (double i = 0; i < count; ++i) {
+      const double from = height * i / count;
+      layout_.colours.push_back(mm(left, bottom + from, 1, std::min(height / count + overlap, height - from)));
+    }
+    for (const Axis::Tick& tick : ticks({"", 0, 1, false, bar.ticks}, height, true)) {
+      text(tick.text, left + 1.4, bottom + tick.at * height, tick_size, Label::Align::left);
     }
   }
-  return layout;
-}
+
+  const Figure& figure_;
+  double em_, width_, top_, bottom_ = 0;
+  Layout layout_{};
+};
+
+}  // namespace
+
+Layout lay_out(const Figure& figure) { return Compositor(figure).layout(); }
 
 }  // namespace contensou::portraits

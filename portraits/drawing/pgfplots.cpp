@@ -19,18 +19,59 @@ namespace contensou::portraits {
 
 namespace {
 
-constexpr double line_pt = 0.57;  // of a line of width 1
-constexpr double letter_pt = 7.7;
+constexpr double points_per_mm = 72.27 / 25.4;
 
 /// Signs beyond Latin letters, as mathematics.
 constexpr std::array signs{
-    std::pair{"α", "\\alpha"},  std::pair{"β", "\\beta"},    std::pair{"γ", "\\gamma"},  std::pair{"θ", "\\theta"},
-    std::pair{"μ", "\\mu"},     std::pair{"π", "\\pi"},      std::pair{"ρ", "\\rho"},    std::pair{"τ", "\\tau"},
-    std::pair{"χ", "\\chi"},    std::pair{"ω", "\\omega"},   std::pair{"Φ", "\\Phi"},    std::pair{"Ψ", "\\Psi"},
-    std::pair{"·", "\\cdot{}"}, std::pair{"×", "\\times"},   std::pair{"∝", "\\propto"}, std::pair{"∞", "\\infty"},
-    std::pair{"≤", "\\le"},     std::pair{"≥", "\\ge"},      std::pair{"→", "\\to"},     std::pair{"−", "-"},
-    std::pair{"±", "\\pm"},     std::pair{"°", "{}^\\circ"}, std::pair{"…", "\\ldots"},  std::pair{"′", "'"},
-    std::pair{"|", "|"},        std::pair{"<", "<"},         std::pair{">", ">"},
+    std::pair{"α", "\\alpha"},
+    std::pair{"β", "\\beta"},
+    std::pair{"γ", "\\gamma"},
+    std::pair{"δ", "\\delta"},
+    std::pair{"ε", "\\varepsilon"},
+    std::pair{"ζ", "\\zeta"},
+    std::pair{"η", "\\eta"},
+    std::pair{"θ", "\\theta"},
+    std::pair{"ι", "\\iota"},
+    std::pair{"κ", "\\kappa"},
+    std::pair{"λ", "\\lambda"},
+    std::pair{"μ", "\\mu"},
+    std::pair{"ν", "\\nu"},
+    std::pair{"ξ", "\\xi"},
+    std::pair{"π", "\\pi"},
+    std::pair{"ρ", "\\rho"},
+    std::pair{"σ", "\\sigma"},
+    std::pair{"ς", "\\varsigma"},
+    std::pair{"τ", "\\tau"},
+    std::pair{"υ", "\\upsilon"},
+    std::pair{"φ", "\\varphi"},
+    std::pair{"χ", "\\chi"},
+    std::pair{"ψ", "\\psi"},
+    std::pair{"ω", "\\omega"},
+    std::pair{"Γ", "\\Gamma"},
+    std::pair{"Δ", "\\Delta"},
+    std::pair{"Θ", "\\Theta"},
+    std::pair{"Λ", "\\Lambda"},
+    std::pair{"Ξ", "\\Xi"},
+    std::pair{"Π", "\\Pi"},
+    std::pair{"Σ", "\\Sigma"},
+    std::pair{"Φ", "\\Phi"},
+    std::pair{"Ψ", "\\Psi"},
+    std::pair{"Ω", "\\Omega"},
+    std::pair{"·", "\\cdot{}"},
+    std::pair{"×", "\\times"},
+    std::pair{"∝", "\\propto"},
+    std::pair{"∞", "\\infty"},
+    std::pair{"≤", "\\le"},
+    std::pair{"≥", "\\ge"},
+    std::pair{"→", "\\to"},
+    std::pair{"−", "-"},
+    std::pair{"±", "\\pm"},
+    std::pair{"°", "{}^\\circ"},
+    std::pair{"…", "\\ldots"},
+    std::pair{"′", "'"},
+    std::pair{"|", "|"},
+    std::pair{"<", "<"},
+    std::pair{">", ">"},
 };
 
 /// Reads a figure's text (figure.hpp) and writes TeX.
@@ -75,13 +116,18 @@ class Reader {
     for (const auto& [sign, tex] : signs) {
       if (!text_.substr(at_).starts_with(sign)) continue;
       at_ += std::string_view(sign).size();
-      return mathematics ? fmt::format("{} ", tex) : fmt::format("\\ensuremath{{{}}}", tex);
+      return mathematics ? fmt::format("{}{}", tex, *tex == '\\' ? " " : "") : fmt::format("\\ensuremath{{{}}}", tex);
     }
     const auto first = static_cast<unsigned char>(text_[at_]);
     const std::size_t size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
     const std::string one(text_.substr(at_, size));
     at_ += size;
-    if (first >= 0x80) return first >= 0xC3 && first <= 0xC5 && one.size() == 2 ? one : "?";  // Latin with accents
+    if (first >= 0xC3 && first <= 0xC5 && one.size() == 2) return one;  // Latin with accents
+    if (first >= 0x80) {
+      throw std::domain_error(fmt::format(
+          "pgfplots: LaTeX has no letter for '{}': leave it out of the title, or write svg or pdf, which have all",
+          one));
+    }
     if (first < ' ') return " ";
     if (one == "*" && mathematics) return "{*}";
     if (one == "\\") return mathematics ? "\\backslash " : "\\textbackslash{}";
@@ -100,18 +146,33 @@ class Writer {
   explicit Writer(const Figure& figure) : figure_(figure), layout_(lay_out(figure)) {}
 
   std::string document() {
-    const double letter = letter_pt * figure_.theme.letters;
+    const double letter = layout_.letter * points_per_mm;
     put("\\begin{{document}}%\n"
         "\\begin{{tikzpicture}}[x=1mm,y=1mm,text={},font=\\fontsize{{{:.3g}}}{{{:.3g}}}\\selectfont]\n",
         name(figure_.theme.ink), letter, 1.2 * letter);
     put("\\fill[{}] (0,0) rectangle ({:.6g},{:.6g});\n", name(figure_.theme.ground), figure_.width_mm,
         figure_.height_mm);
-    node(figure_.width_mm / 2, layout_.title, figure_.title,
-         fmt::format("font=\\fontsize{{{:.3g}}}{{{:.3g}}}\\selectfont", 1.2 * letter, 1.44 * letter));
-    node(figure_.width_mm / 2, layout_.subtitle, figure_.subtitle, "text=" + name(figure_.theme.faint));
+    for (const PlacedText& text : layout_.texts) {
+      put("\\node[inner sep=0pt,scale={:.3g},text={}{}{}] at ({:.6g},{:.6g}) {{{}}};\n", text.size,
+          name(text.faint ? figure_.theme.faint : figure_.theme.ink), text.turned ? ",rotate=90" : "",
+          text.align == Label::Align::left ? ",anchor=west" : "", text.at.x, text.at.y, tex_text(text.text));
+    }
     for (std::size_t i = 0; i < figure_.panels.size(); ++i) panel(i);
-    colour_bar();
-    legend();
+    for (std::size_t i = 0; i < layout_.colours.size(); ++i) {
+      const auto& [left, bottom, width, height] = layout_.colours[i];
+      put("\\fill[{}] ({:.6g},{:.6g}) rectangle ({:.6g},{:.6g});\n", name(figure_.colour_bar->colours[i]), left, bottom,
+          left + width, bottom + height);
+    }
+    for (const auto& [entry, from, width] : layout_.legend) {
+      if (entry.lines) {
+        put("\\draw[{}] ({:.6g},{:.6g})--({:.6g},{:.6g});\n", line_style(entry.lines->stroke), from.x, from.y,
+            from.x + width, from.y);
+      }
+      if (entry.marks) {
+        put("\\draw plot[only marks,{}] coordinates {{({:.6g},{:.6g})}};\n", mark_style(*entry.marks),
+            from.x + width / 2, from.y);
+      }
+    }
     put("\\end{{tikzpicture}}%\n\\end{{document}}\n");
 
     const std::string body = std::exchange(tex_, "");
@@ -139,14 +200,13 @@ class Writer {
     return fmt::format("c{:06X}", colour.rgb);
   }
 
-  void node(double x, double y, const std::string& text, const std::string& style) {
-    if (!text.empty()) put("\\node[{}] at ({:.6g},{:.6g}) {{{}}};\n", style, x, y, tex_text(text));
-  }
-
   std::string line_style(const Stroke& stroke) {
     return fmt::format("draw={},line width={:.3g}pt,line cap=round,line join=round{}", name(stroke.colour),
-                       stroke.width * line_pt * figure_.theme.line,
-                       stroke.dashed ? ",dash pattern=on 2.2pt off 2.4pt" : "");
+                       stroke.width * line_width * layout_.letter * points_per_mm * figure_.theme.line,
+                       stroke.dashed && stroke.dotted ? ",dash pattern=on 4pt off 2pt on 0.6pt off 2pt"
+                       : stroke.dashed                ? ",dash pattern=on 2.2pt off 2.4pt"
+                       : stroke.dotted                ? ",dash pattern=on 0.6pt off 1.8pt"
+                                                      : "");
   }
 
   std::string mark_style(const Marks& marks) {
@@ -157,25 +217,20 @@ class Writer {
                        name(open ? figure_.theme.ground : marks.colour));
   }
 
-  void axis_options(const char* which, const Axis& axis) {
-    put("  {0}min={1:.8g},{0}max={2:.8g}", which, axis.low, axis.high);
-    if (axis.logarithmic) put(",{}mode=log", which);
-    put(",{}label={{{}}}", which, tex_text(axis.name));
-    if (!axis.ticks.empty()) {
-      std::vector<std::string> places, texts;
-      for (const Axis::Tick& tick : axis.ticks) {
-        places.push_back(fmt::format("{:.8g}", tick.at));
-        texts.push_back("{" + tex_text(tick.text) + "}");
-      }
-      put(",{0}tick={{{1}}},{0}ticklabels={{{2}}}", which, fmt::join(places, ","), fmt::join(texts, ","));
+  void axis_options(const char* which, const Axis& axis, const std::vector<Axis::Tick>& ticks) {
+    std::vector<std::string> places, texts;
+    for (const Axis::Tick& tick : ticks) {
+      places.push_back(fmt::format("{:.8g}", tick.at));
+      texts.push_back("{" + tex_text(tick.text) + "}");
     }
-    put(",\n");
+    put("  {0}min={1:.8g},{0}max={2:.8g},{3}{0}tick={{{4}}},{0}ticklabels={{{5}}},\n", which, axis.low, axis.high,
+        axis.logarithmic ? fmt::format("{}mode=log,", which) : "", fmt::join(places, ","), fmt::join(texts, ","));
   }
 
   /// pgfplots draws the axes; what is in them is placed here, in millimetres, which is faster by far.
   void panel(std::size_t i) {
     const Panel& panel = figure_.panels[i];
-    const Box& box = layout_.panels[i];
+    const Box& box = layout_.panels[i].box;
     const auto at = [&](Point point) {
       const Point place = on_paper(panel, point);
       return fmt::format("({:.2f},{:.2f})", box.left + place.x * box.width, box.bottom + place.y * box.height);
@@ -185,15 +240,15 @@ class Writer {
       for (const Point& point : line) places.push_back(at(point));
       return fmt::format("{}", fmt::join(places, "--"));
     };
-    node(box.left + box.width / 2, layout_.names[i], panel.title, "");
     for (const Region& region : panel.regions) put("\\fill[{}] {};\n", name(region.colour), path(region.border));
     if (!panel.bare) {
       put("\\begin{{axis}}[at={{({:.6g}mm,{:.6g}mm)}},anchor=south west,scale only "
           "axis,width={:.6g}mm,height={:.6g}mm,\n",
           box.left, box.bottom, box.width, box.height);
-      axis_options("x", panel.x);
-      axis_options("y", panel.y);
-      put("  axis lines=left,axis line style={{-}},tick align=outside]\n\\end{{axis}}\n");
+      axis_options("x", panel.x, layout_.panels[i].x);
+      axis_options("y", panel.y, layout_.panels[i].y);
+      put("  axis lines=left,axis line style={{-}},tick align=outside,tick label "
+          "style={{scale=0.9}}]\n\\end{{axis}}\n");
     }
     for (const Lines& layer : panel.lines) {
       std::string paths;
@@ -205,10 +260,11 @@ class Writer {
         const std::optional<Arrow> head = short_arrow(panel, box, arrow);
         if (!head) continue;
         const Point tail = on_paper(panel, head->at), tip = on_paper(panel, arrow.at);
-        put("\\draw[-{{Stealth[length=2mm,width=1.3mm]}},draw={0},fill={0},line width=0.3pt] "
+        put("\\draw[-{{Stealth[length={5:.3g}mm,width={6:.3g}mm]}},draw={0},fill={0},line width=0.3pt] "
             "({1:.4f},{2:.4f})--({3:.4f},{4:.4f});\n",
             name(layer.colour), box.left + tail.x * box.width, box.bottom + tail.y * box.height,
-            box.left + tip.x * box.width, box.bottom + tip.y * box.height);
+            box.left + tip.x * box.width, box.bottom + tip.y * box.height, head_length * layout_.letter,
+            0.48 * layout_.letter);
       }
     }
     for (const Marks& layer : panel.marks) {
@@ -225,34 +281,6 @@ class Writer {
     }
   }
 
-  void colour_bar() {
-    if (!figure_.colour_bar) return;
-    const ColourBar& bar = *figure_.colour_bar;
-    const Box& box = layout_.colour_bar;
-    for (std::size_t i = 0; i < bar.colours.size(); ++i) {
-      const auto& [left, bottom, width, height] = layout_.colours[i];
-      put("\\fill[{}] ({:.6g},{:.6g}) rectangle ({:.6g},{:.6g});\n", name(bar.colours[i]), left, bottom, left + width,
-          bottom + height);
-    }
-    for (const Axis::Tick& tick : bar.ticks) {
-      node(box.left + box.width, box.bottom + tick.at * box.height, tick.text, "anchor=west,scale=0.85");
-    }
-    node(box.left - 1, box.bottom + box.height + 1.3 * layout_.letter, bar.name, "anchor=west");
-  }
-
-  void legend() {
-    std::vector<std::string> entries;
-    for (const auto& [text, lines, marks] : legend_entries(figure_)) {
-      const std::string sample =
-          lines ? fmt::format("\\draw[{}] (0,0)--(7mm,0);", line_style(lines->stroke))
-                : fmt::format("\\draw plot[only marks,{}] coordinates {{(0,0)}};", mark_style(*marks));
-      entries.push_back(fmt::format("\\mbox{{\\tikz[baseline=-0.6ex]{}\\ {}}}", sample, tex_text(text)));
-    }
-    if (entries.empty()) return;
-    put("\\node[align=center,text width={:.6g}mm] at ({:.6g},{:.6g}) {{{}}};\n", figure_.width_mm - 8,
-        figure_.width_mm / 2, layout_.legend, fmt::join(entries, "\\hspace{5mm}"));
-  }
-
   const Figure& figure_;
   Layout layout_;
   std::set<unsigned> used_;  ///< colours
@@ -262,7 +290,8 @@ class Writer {
 }  // namespace
 
 std::string tex_text(std::string_view text) {
-  Reader reader(text);
+  const std::string with_signs = with_minus_signs(text);
+  Reader reader(with_signs);
   return reader.read(false);
 }
 

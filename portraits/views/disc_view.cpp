@@ -109,10 +109,10 @@ Panel polar_panel(const Drawing& drawing, double hole) {
     const double theta = at.ln_k > 0 ? pi / 2 - std::atan(std::exp(-at.ln_k)) : std::atan(std::exp(at.ln_k));
     return map.at(rho, theta, std::copysign(1, at.u));
   });
-  layers.set_arrows(0.4, 0.02);
+  layers.set_arrows(0.4, 1);
   const auto copies = [&](const PortraitOrbit& curve) {
     // Across k = 1 at even steps of the radius.
-    constexpr int count = 10;
+    const int count = drawing.crowd(10);
     const Instant at = at_log_ratio(curve, 0);
     const double rho = std::hypot(mu * at.u, at.v);
     std::vector<PortraitPanel::Copy> result;
@@ -130,7 +130,7 @@ Panel polar_panel(const Drawing& drawing, double hole) {
   };
   layers.add_copies(copies, state, true);
   const auto half_line = [&](double theta, double sign) {
-    return Polyline{map.at(0, theta, sign), map.at(std::numeric_limits<double>::infinity(), theta, sign)};
+    return Polyline{map.at(std::numeric_limits<double>::infinity(), theta, sign), map.at(0, theta, sign)};
   };
   layers.add_invariant({half_line(0, 1), half_line(0, -1), half_line(pi / 2, 1)}, [&](double ln_k) {
     const double theta = std::atan(std::exp(ln_k));
@@ -160,43 +160,13 @@ Panel polar_panel(const Drawing& drawing, double hole) {
 std::vector<Panel> disc_view(const Drawing& drawing) { return {polar_panel(drawing, 0)}; }
 
 std::vector<Panel> blowup_view(const Drawing& drawing) {
-  const PhasePortrait& portrait = drawing.portrait;
   constexpr double hole = 0.35;
   Panel polar = polar_panel(drawing, hole);
   polar.title = "inner half-circle: the origin; outer: infinity";
 
-  // The chart v = q u, with k = q/mu.
-  const double U = portrait.window.u;
-  const std::vector<double> rays = ray_log_ratios(portrait);
-  const double top = rays.empty() ? 3 : 2.5 * std::exp(rays.back());
-  Panel chart;
-  chart.title = "the chart {/:Italic u}, {/:Italic k = v}/({/:Italic μu}); {/:Italic u} = 0 is the origin";
-  chart.x = {drawing.speed("{/:Italic u}"), 0, U, false, {}};
-  chart.y = {"{/:Italic k}", 0, top, false, {}};
-  PortraitPanel layers(drawing, std::move(chart), [top](const Instant& at) {
-    return Point{at.u, std::min(std::exp(at.ln_k), 100 * top)};
-  });
-  const double mu = portrait.system().mu();
-  const bool falls = portrait.plane.terminal.ends.front().k == 0;
-  const auto copies = [&](const PortraitOrbit& curve) {
-    constexpr int count = 12;
-    const double u = at_log_ratio(curve, std::log(falls ? top : top / 3)).u;
-    std::vector<PortraitPanel::Copy> result;
-    for (int i = 0; i < count; ++i) result.push_back({curve, (i + 0.5) / count * U / u});
-    return result;
-  };
-  layers.add_copies(
-      copies,
-      [&](Point at) {
-        return LogState{std::log(at.y), std::log(mu * at.x * at.y)};
-      },
-      false);
-  layers.add_invariant({{{0, 0}, {U, 0}}, {{0, 0}, {0, top}}}, [&](double ln_k) {
-    const double k = std::exp(ln_k);
-    return std::vector<Polyline>{{{0, k}, {U, k}}};
-  });
-  layers.add_highlights();
-  return {std::move(polar), std::move(layers).finished()};
+  Panel chart = contact_panel(drawing, true);
+  chart.title = "the chart {/:Italic u}, ln {/:Italic k}; {/:Italic u} = 0 is the origin";
+  return {std::move(polar), std::move(chart)};
 }
 
 }  // namespace contensou::portraits

@@ -1,14 +1,18 @@
 #include "contensou/portraits/paper_figures.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "views/portrait_panel.hpp"
 
 namespace contensou::portraits {
 
@@ -80,21 +84,13 @@ class Sketch {
 
 std::string italic(const std::string& text) { return "{/:Italic " + text + "}"; }
 
-/// How the curves of one law look: the exact law heavy, its approximation dashed, further laws light.
-struct Look {
-  Colour force;
-  Colour moment;
-  double width;
-  bool dashed;
-};
+constexpr Colour moment_colour{0xb3003b};
 
-constexpr Look exact_look{{0x0b4f8a}, {0xb3003b}, 2.4, false};
-constexpr Look pade_look{{0x0b4f8a}, {0xb3003b}, 1.6, true};
-constexpr Look other_look{{0x4aa3df}, {0xf0709a}, 1.6, false};
-
-const Look& look_of(const reduction::Law& law) {
-  if (law.as<reduction::HertzLaw>()) return exact_look;
-  return law.as<reduction::PadeLaw>() ? pade_look : other_look;
+/// The look of a law's curves, also in grey: the exact law solid and heavy, its approximation dashed, others otherwise.
+Stroke stroke_of(const reduction::Law& law, Colour colour) {
+  if (law.as<reduction::HertzLaw>()) return {colour, 2.4};
+  if (law.as<reduction::PadeLaw>()) return {colour, 1.6, true};
+  return {colour, 1.6, law.name() != "uniform", true};
 }
 
 constexpr double max_k = 4;
@@ -266,33 +262,65 @@ Figure ball_drawing() {
   return sketch.framed({0, 1.02}, 4.86, 3.3);
 }
 
-Figure law_figure(const std::vector<reduction::Law>& laws) {
+Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size) {
   Panel panel;
   panel.x = {"{/:Italic k = v}/({/:Italic ε}|{/:Italic ω_z}|)", 0, max_k, false, {}};
   panel.y = {"{/:Italic Φ = F}/({/:Italic N f}),   {/:Italic Ψ = M}/({/:Italic N f ε})", 0, 1.05, false, {}};
   panel.lines.push_back({{{{0, 1}, {max_k, 1}}, {{1, 0}, {1, 1.05}}}, {guide, 0.8, true}, ""});
   for (const reduction::Law& law : laws) {
-    const Look& look = look_of(law);
-    panel.lines.push_back({{curve(law, &reduction::Resistance::force)},
-                           {look.force, look.width, look.dashed},
-                           fmt::format("{{/:Italic Φ}}, {}", literal(law.name(), 20))});
-    panel.lines.push_back({{curve(law, &reduction::Resistance::moment)},
-                           {look.moment, look.width, look.dashed},
-                           fmt::format("{{/:Italic Ψ}}, {}", literal(law.name(), 20))});
+    const std::string name = literal(law.name(), 20);
+    const std::string force = "{/:Italic Φ}, " + name, moment = "{/:Italic Ψ}, " + name;
+    panel.lines.push_back({{curve(law, &reduction::Resistance::force)}, stroke_of(law, velocity_colour), force});
+    panel.lines.push_back({{curve(law, &reduction::Resistance::moment)}, stroke_of(law, moment_colour), moment});
+    // Moments are told from forces by circles.
+    const Polyline& line = panel.lines.back().lines.front();
+    Marks circles{{}, moment_colour, 0.7, Marks::Shape::circle, moment};
+    for (std::size_t i = line.size() / 16; i < line.size(); i += line.size() / 8) circles.points.push_back(line[i]);
+    panel.marks.push_back(std::move(circles));
   }
   Figure figure;
   figure.title = "Combined dry friction of a circular patch";
-  figure.subtitle = "Zh98, Fig. 2: the exact law (1.3), (1.5) and its Padé approximation (1.4), (1.6)";
   if (laws.size() <= 2) {
+    figure.subtitle = "Zh98, Fig. 2: the exact law (1.3), (1.5) and its Padé approximation (1.4), (1.6)";
     panel.labels = {
-        {{2.9, 0.9}, "force  {/:Italic Φ}", exact_look.force, Label::Align::centre},
-        {{2.5, 0.2}, "moment  {/:Italic Ψ}", exact_look.moment, Label::Align::centre},
-        {{0.03, 0.63}, "3π/16", exact_look.moment, Label::Align::left},
+        {{0.5, 0.82}, "force  {/:Italic Φ}", velocity_colour, Label::Align::centre},
+        {{2.5, 0.2}, "moment  {/:Italic Ψ}", moment_colour, Label::Align::centre},
+        {{0.07, 0.64}, "3π/16", moment_colour, Label::Align::left},
         {{1.04, 0.32}, "the centre of rotation leaves the patch", guide, Label::Align::left},
     };
+  } else {
+    figure.subtitle = "force and moment against the ratio of slip to spin";
   }
-  figure.width_mm = 170;
-  figure.height_mm = 115;
+  const auto [width, height] = fitted({170, 115}, 1, size);
+  figure.width_mm = width;
+  figure.height_mm = height;
+  figure.panels = {panel};
+  return figure;
+}
+
+Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const AskedSize& size) {
+  Panel panel;
+  panel.x = {"moment {/:Italic Ψ}/{/:Italic Ψ}(0) = {/:Italic M}/{/:Italic M}_{max}", 0, 1.04, false, {}};
+  panel.y = {"force {/:Italic Φ} = {/:Italic F}/({/:Italic N f})", 0, 1.04, false, {}};
+  panel.to_scale = true;
+  panel.lines.push_back({{arc({0, 0}, 1, 1, 0, pi / 2)}, {guide, 1, true}, "ellipse"});
+  constexpr int pieces = 400;
+  for (const reduction::Law& law : laws) {
+    Polyline line;
+    for (int i = 0; i <= pieces; ++i) {
+      const auto [force, moment] = law(reduction::slip_of_ratio(std::tan(pi / 2 * i / pieces)));
+      line.push_back({moment / law.pivoting_moment(), force});
+    }
+    line.push_back({0, 1});
+    const double share = 0.8 * static_cast<double>(panel.lines.size() - 1) / static_cast<double>(laws.size());
+    panel.lines.push_back({{std::move(line)}, stroke_of(law, viridis(share)), literal(law.name(), 20)});
+  }
+  Figure figure;
+  figure.title = "The limit surface of a circular patch";
+  figure.subtitle = "force and moment at which a patch slips, laws of pressure beside each other";
+  const auto [width, height] = fitted({130, 130}, 1, size);
+  figure.width_mm = width;
+  figure.height_mm = size.height_mm ? height : std::max(height, 1.05 * width);
   figure.panels = {panel};
   return figure;
 }

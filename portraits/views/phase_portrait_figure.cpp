@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/portraits/layout.hpp"
 #include "data/round_numbers.hpp"
 #include "views/portrait_views.hpp"
 
@@ -49,8 +50,9 @@ std::string law_names(const PhasePortrait& portrait) {
 
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, const PortraitStyle& style) {
   const ViewLayout& layout = layout_of(portrait.view);
-  const double width = style.width_mm.value_or(layout.width_mm), height = style.height_mm.value_or(layout.height_mm);
-  Drawing drawing{portrait, caption, style, palette(style.screen), {}, {width / layout.columns - 30, height - 40}};
+  const PaperSize size = fitted({layout.width_mm, layout.height_mm}, layout.panels_across, style.size);
+  Drawing drawing{portrait, caption, style, palette(style.screen), {}, panel_size(size, layout.panels_across), 0};
+  drawing.letter = letter_mm(size.width_mm) * drawing.palette.theme.letters;
   if (layout.times == nullptr) {
     drawing.bands = linear_bands(portrait, drawing.palette);
   } else {
@@ -59,9 +61,11 @@ Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, const
   }
   Figure figure;
   figure.title = caption.title.empty() ? title(portrait) : caption.title;
-  figure.subtitle = caption.subtitle.empty() ? std::string(layout.shows) : caption.subtitle;
-  figure.width_mm = width;
-  figure.height_mm = height;
+  figure.subtitle = !caption.subtitle.empty() ? caption.subtitle
+                    : portrait.scale.linear() ? std::string(layout.shows)
+                                              : fmt::format("{}{})", bent_shows, number(portrait.scale.exponent, 3));
+  figure.width_mm = size.width_mm;
+  figure.height_mm = size.height_mm;
   figure.theme = drawing.palette.theme;
   figure.panels = layout.panels(drawing);
   if (drawing.coloured() && portrait.view != View::time) figure.colour_bar = colour_bar(drawing.bands, caption);

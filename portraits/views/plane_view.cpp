@@ -13,22 +13,50 @@ namespace {
 
 using Copies = std::vector<PortraitPanel::Copy>;
 
+/// Ticks of v: round speeds while it slides, below that powers of ten.
+std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
+  std::vector<Axis::Tick> ticks{{0, "0"}};
+  constexpr double lowest = 0.12;  // of the linear part
+  for (double h : {0.1, 0.2, 0.3, 0.4}) {
+    const double decades = scale.ln_v(h) / std::log(10.0);
+    const double step = std::pow(10, std::max(0.0, std::floor(std::log10(-decades)) - 1));
+    const double power = step * std::round(decades / step);
+    const double at = scale.height(power * std::log(10.0));
+    if (std::exp(power * std::log(10.0)) < 0.7 * lowest * scale.top)
+      ticks.push_back({at, fmt::format("10^{{{}}}", power)});
+  }
+  for (double v : multiples(lowest * scale.top, scale.top * (1 + 1e-9), round_step(scale.top, 6))) {
+    ticks.push_back({scale.height(std::log(v)), number(v, 3)});
+  }
+  return ticks;
+}
+
 /// The half-plane with the sides of the window in units of u and v.
 Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   Panel panel;
   const auto [U, V] = drawing.portrait.window;
-  panel.x = {drawing.speed(name), -unit * U, unit * U, false, {}};
-  panel.y = {drawing.speed("{/:Italic v}"), 0, V, false, {}};
-  PortraitPanel layers(drawing, std::move(panel), [unit](const Instant& at) { return Point{unit * at.u, at.v}; });
+  const SpeedScale scale = drawing.portrait.scale;
+  const double x = unit * U, top = scale.linear() ? V : 1;
+  panel.x = {drawing.speed(name), -x, x, false, {}};
+  panel.y = {drawing.speed("{/:Italic v}"), 0, top, false, {}};
+  if (!scale.linear()) {
+    panel.y.ticks = speed_ticks(scale);
+    panel.regions.push_back({{{-x, 0}, {x, 0}, {x, 0.5}, {-x, 0.5}}, drawing.palette.region});
+  }
+  PortraitPanel layers(drawing, std::move(panel), [unit, scale](const Instant& at) {
+    return Point{unit * at.u, scale.linear() ? at.v : scale.height(at.ln_v)};
+  });
   layers.add_orbits();
   layers.add_isochrones();
-  layers.add_field([unit](Point at) { return reduction::State{at.x / unit, at.y}; });
-  const double x = unit * U;
-  layers.add_invariant({{{-x, 0}, {x, 0}}, {{0, V}, {0, 0}}}, [&](double ln_k) {
+  layers.add_field([unit, scale](Point at) {
+    return reduction::State{at.x / unit, scale.linear() ? at.y : std::exp(scale.ln_v(at.y))};
+  });
+  layers.add_invariant({{{-x, 0}, {0, 0}}, {{x, 0}, {0, 0}}, {{0, top}, {0, 0}}}, [&](double ln_k) {
     const double slope = std::exp(ln_k) * drawing.portrait.system().mu() / unit;  // v over x
-    return std::vector<Polyline>{{{0, 0}, {x, slope * x}}, {{0, 0}, {-x, slope * x}}};
+    return std::vector<Polyline>{{{x, slope * x}, {0, 0}}, {{-x, slope * x}, {0, 0}}};
   });
   layers.add_highlights();
+  layers.panel().marks.push_back({{{0, 0}}, drawing.palette.invariant, 1.2, Marks::Shape::dot, "the stop"});
   return std::move(layers).finished();
 }
 
@@ -40,18 +68,19 @@ void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double 
   }
 }
 
-/// How orbits near the origin: (u, ln k), where even a contact of order 10^5 with an axis has a shape.
-Panel contact_panel(const Drawing& drawing) {
+}  // namespace
+
+Panel contact_panel(const Drawing& drawing, bool right_half) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
   const double U = portrait.window.u;
   const auto& [direction, k_star, order] = portrait.plane.tangents.front();
   const std::vector<double> rays = ray_log_ratios(portrait);
   constexpr double shrinks = 20;  // u falls to this share
-  constexpr int per_side = 12;
+  const int per_side = drawing.crowd(12);
   constexpr double reach = 3;
   Panel panel;
-  panel.x = {drawing.speed("{/:Italic u} = {/:Italic R ω_z}"), -U, U, false, {}};
+  panel.x = {drawing.speed("{/:Italic u} = {/:Italic R ω_z}"), right_half ? 0 : -U, U, false, {}};
   panel.y = {"ln {/:Italic k},   {/:Italic k = v}/({/:Italic μ}|{/:Italic u}|)", 0, 0, false, {}};
   const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
   // Where orbits are seeded: at the top, or around the middle.
@@ -90,20 +119,20 @@ Panel contact_panel(const Drawing& drawing) {
   PortraitPanel layers(drawing, std::move(panel), [low](const Instant& at) {
     return Point{at.u, std::clamp(at.ln_k, low, 1e300)};
   });
-  layers.set_arrows(0.3, 0.06);
+  layers.set_arrows(0.3, 2.5);
   const double ln_mu = std::log(portrait.system().mu());
   layers.add_copies(
       copies,
       [=](Point at) {
         return LogState{at.y, at.y + ln_mu + std::log(std::abs(at.x))};
       },
-      true);
+      !right_half);
   layers.add_highlights();
-  layers.add_invariant({}, [U](double ln_k) { return std::vector<Polyline>{{{-U, ln_k}, {U, ln_k}}}; });
+  layers.add_invariant({}, [U](double ln_k) {
+    return std::vector<Polyline>{{{-U, ln_k}, {0, ln_k}}, {{U, ln_k}, {0, ln_k}}};
+  });
   return std::move(layers).finished();
 }
-
-}  // namespace
 
 std::vector<Panel> plane_view(const Drawing& drawing) {
   return {half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}")};
@@ -114,8 +143,8 @@ std::vector<Panel> patch_view(const Drawing& drawing) {
 }
 
 std::vector<Panel> pair_view(const Drawing& drawing) {
-  std::vector<Panel> panels{half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}"), contact_panel(drawing)};
-  panels.front().title = "the plane of Zh98, Fig. 4";
+  std::vector<Panel> panels{half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}"), contact_panel(drawing, false)};
+  panels.front().title = drawing.portrait.scale.linear() ? "the plane of Zh98, Fig. 4" : "the plane, {/:Italic v} bent";
   return panels;
 }
 
@@ -147,7 +176,7 @@ std::vector<Panel> log_view(const Drawing& drawing) {
   });
   const auto copies = [&](const PortraitOrbit& curve) {
     // Translates along the diagonal, evenly across the panel.
-    constexpr int count = 14;
+    const int count = drawing.crowd(14);
     const double w = ln_mu + std::log(at_log_ratio(curve, 0).u);
     const double first = spins_last ? panel.x.low : panel.x.low - 6;
     const double last = spins_last ? panel.x.high + shrinks : panel.x.high + 6;
@@ -169,7 +198,7 @@ std::vector<Panel> log_view(const Drawing& drawing) {
                                     {drawing.palette.isochrone, 1.1, true},
                                     "{/:Italic k} = 1"});
   layers.add_invariant({}, [&](double ln_k) {
-    return std::vector<Polyline>{{{panel.y.low - ln_k, panel.y.low}, {panel.y.high - ln_k, panel.y.high}}};
+    return std::vector<Polyline>{{{panel.y.high - ln_k, panel.y.high}, {panel.y.low - ln_k, panel.y.low}}};
   });
   layers.add_highlights();
   return {std::move(layers).finished()};

@@ -18,21 +18,8 @@ namespace contensou::portraits {
 
 namespace {
 
-/// Viridis: from dark to light in steps that eyes of any kind see as equal.
-constexpr std::array<unsigned, 9> viridis{0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
-                                          0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
-
-Colour viridis_at(double share) {
-  const double place = share * (viridis.size() - 1);
-  const auto index = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
-  const double part = place - static_cast<double>(index);
-  unsigned rgb = 0;
-  for (int shift : {16, 8, 0}) {
-    const double low = (viridis[index] >> shift) & 0xFF, high = (viridis[index + 1] >> shift) & 0xFF;
-    rgb |= static_cast<unsigned>(std::lround(low + part * (high - low))) << shift;
-  }
-  return {rgb};
-}
+constexpr std::array<unsigned, 9> viridis_steps{0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
+                                                0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
 
 std::vector<Colour> spread(const std::vector<Colour>& colours, std::size_t count) {
   std::vector<Colour> result;
@@ -90,13 +77,25 @@ class LabelPlace {
 
 }  // namespace
 
+Colour viridis(double share, double white) {
+  const double place = share * (viridis_steps.size() - 1);
+  const auto index = std::min(static_cast<std::size_t>(place), viridis_steps.size() - 2);
+  const double part = place - static_cast<double>(index);
+  unsigned rgb = 0;
+  for (int shift : {16, 8, 0}) {
+    const double low = (viridis_steps[index] >> shift) & 0xFF, high = (viridis_steps[index + 1] >> shift) & 0xFF;
+    rgb |= static_cast<unsigned>(std::lround(white * 255 + (1 - white) * (low + part * (high - low)))) << shift;
+  }
+  return {rgb};
+}
+
 Palette palette(bool screen) {
   std::vector<Colour> times;
   constexpr int steps = 64;
   // Near the stop: on paper the darkest, on a dark screen the lightest.
   for (int i = 0; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
-    times.push_back(viridis_at(screen ? 1 - 0.65 * share : 0.8 * share));
+    times.push_back(viridis(screen ? 1 - 0.65 * share : 0.8 * share));
   }
   if (screen) {
     return {{{0x10141c}, {0xe3e8f0}, {0x9aa5b8}, 1.25, 1.15},
@@ -339,7 +338,10 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
   const auto add = [&](const Arrow& arrow, double left) {
     const Point at = on_paper(panel_, arrow.at);
     if (!std::isfinite(at.x) || !std::isfinite(at.y) || !inside(at, 0.03)) return;
-    const auto crowds = [&](Point other) { return std::hypot(other.x - at.x, other.y - at.y) < keep_off_; };
+    const auto crowds = [&](Point other) {
+      return std::hypot((other.x - at.x) * drawing_.panel_mm.x, (other.y - at.y) * drawing_.panel_mm.y) <
+             keep_off_ * drawing_.letter;
+    };
     if (std::ranges::any_of(heads_, crowds)) return;
     heads_.push_back(at);
     result.push_back({arrow, left});
@@ -355,7 +357,13 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
     }
   }
   const std::vector<Polyline> parts = clipped(panel_, line);
-  if (!result.empty() || parts.empty()) return result;
+  if (parts.empty()) return result;
+  if (!drawing_.portrait.scale.linear() && drawing_.style.arrows == Style::time) {
+    // Where it slides hardly any time passes: one there, too.
+    const Arrow arrow = arrow_along(panel_, parts.front(), 0.2);
+    if (on_paper(panel_, arrow.at).y > 0.6) add(arrow, copy.factor * copy.orbit.tau_left[0]);
+  }
+  if (!result.empty()) return result;
   for (double share : {arrow_share_, arrow_share_ + 0.1, arrow_share_ - 0.1}) {
     const Arrow arrow = arrow_along(panel_, parts.front(), share);
     const auto nearest =
@@ -420,9 +428,8 @@ void PortraitPanel::add_isochrones() {
   for (auto piece = isochrones.begin(); piece != isochrones.end();) {
     const double time = piece->tau_stop;
     const std::string text = number(time / drawing_.caption.time_unit);
-    const double letters = drawing_.palette.theme.letters;
-    LabelPlace place(letters * (0.75 * static_cast<double>(shown_length(text)) + 0.4) / drawing_.panel_mm.x,
-                     letters * 1.9 / drawing_.panel_mm.y);
+    LabelPlace place(drawing_.letter * (0.45 * text_width(text) + 0.15) / drawing_.panel_mm.x,
+                     drawing_.letter * 0.7 / drawing_.panel_mm.y);
     for (; piece != isochrones.end() && piece->tau_stop == time; ++piece) {
       const Polyline line = line_of(*piece);
       for (const Point& at : on_paper_along(line, 0.004)) {
@@ -446,8 +453,18 @@ void PortraitPanel::add_isochrones() {
 void PortraitPanel::add_invariant(std::vector<Polyline> axes,
                                   const std::function<std::vector<Polyline>(double ln_k)>& ray) {
   if (!drawing_.style.invariant) return;
+  const auto add_arrows = [this](const Lines& lines) {
+    Arrows arrows{{}, lines.stroke.colour};
+    for (const Polyline& line : lines.lines) {
+      for (const Polyline& part : clipped(panel_, line)) {
+        for (double share : {0.3, 0.7}) arrows.arrows.push_back(arrow_along(panel_, part, share));
+      }
+    }
+    panel_.arrows.push_back(std::move(arrows));
+  };
   if (!axes.empty()) {
     panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 2.2, false}, "invariant axes"});
+    if (drawing_.style.arrows != PortraitStyle::Arrows::none) add_arrows(panel_.lines.back());
   }
   Lines attracting{{}, {drawing_.palette.comparison, 2.2, false}, "invariant ray {/:Italic k} = {/:Italic k}*"};
   Lines repelling{{}, {drawing_.palette.comparison, 2.2, true}, "invariant ray that orbits leave"};
@@ -456,7 +473,9 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
     std::ranges::move(ray(std::log(of.k)), std::back_inserter(lines.lines));
   }
   for (Lines& lines : {std::ref(attracting), std::ref(repelling)}) {
-    if (!lines.lines.empty()) panel_.lines.push_back(std::move(lines));
+    if (lines.lines.empty()) continue;
+    if (drawing_.style.arrows != PortraitStyle::Arrows::none) add_arrows(lines);
+    panel_.lines.push_back(std::move(lines));
   }
 }
 
@@ -494,7 +513,8 @@ void PortraitPanel::add_field(const std::function<reduction::State(Point)>& stat
   }
   Lines lines{{},
               {drawing_.palette.field, 1, false},
-              drawing_.style.field == Field::regularised ? "direction of (2.7)" : "direction of (2.6)"};
+              drawing_.style.field == Field::regularised ? "direction of the regularised motion (2.7)"
+                                                         : "direction of the motion (2.6)"};
   for (const Needle& needle : needles) {
     const double share = max_size > min_size ? std::log(needle.size / min_size) / std::log(max_size / min_size) : 1;
     const double cell = 1 / std::max(std::abs(needle.direction.x) * columns, std::abs(needle.direction.y) * rows);

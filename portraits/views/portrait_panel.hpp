@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <string>
@@ -19,6 +20,11 @@ struct Palette {
 };
 
 Palette palette(bool screen);
+
+/// Viridis, from dark to light in steps that eyes of any kind see as equal.
+/// @param share  of the way, 0 to 1
+/// @param white  share of white that is mixed in
+Colour viridis(double share, double white = 0);
 
 /// Times left cut into bands, each of one colour.
 struct TimeBands {
@@ -46,7 +52,12 @@ struct Drawing {
   Palette palette;
   TimeBands bands;
   Point panel_mm;  ///< the size of a panel on paper, about
+  double letter;   ///< the size of letters, mm
 
+  /// So many lines as fill a panel of this width as well as that count a wide one.
+  int crowd(int count) const {
+    return std::max(count / 2, std::min(count, static_cast<int>(count * panel_mm.x / 100)));
+  }
   bool coloured() const { return style.colour_by_time && portrait.comparisons.empty(); }
   std::string speed(const std::string& name) const;  ///< with its unit
 };
@@ -75,8 +86,8 @@ class PortraitPanel {
   PortraitPanel(const Drawing& drawing, Panel axes, Place place)
       : drawing_(drawing), panel_(std::move(axes)), place_(std::move(place)) {}
 
-  /// Where the arrow of an orbit that has none at equal times is: at that share of its length on paper, and how far
-  /// heads are apart at least.
+  /// Where the arrow of an orbit that has none at equal times is: at that share of its length on paper; and how far
+  /// heads are apart at least, in sizes of letters.
   void set_arrows(double share, double keep_off) {
     arrow_share_ = share;
     keep_off_ = keep_off;
@@ -103,7 +114,8 @@ class PortraitPanel {
   void add_highlights();
   /// Isochrones, labelled where orbits leave room; those of the other law without labels.
   void add_isochrones();
-  /// @param ray  the line of an invariant ray, by its ln k
+  /// @param axes  and
+  /// @param ray   the lines of an invariant ray, by its ln k: orbits, in the way of the motion
   void add_invariant(std::vector<Polyline> axes, const std::function<std::vector<Polyline>(double ln_k)>& ray);
   /// @param state  the state at a point of the panel; u = v = 0 where there is none
   void add_field(const std::function<reduction::State(Point)>& state);
@@ -132,7 +144,7 @@ class PortraitPanel {
   Panel panel_;
   Place place_;
   double arrow_share_ = 0.3;
-  double keep_off_ = 0.04;
+  double keep_off_ = 2;
   std::deque<PortraitOrbit> traced_;  ///< that copies refer to
   std::vector<Polyline> orbits_;      ///< that labels keep off
   std::vector<Point> heads_;          ///< on paper

@@ -20,12 +20,15 @@ std::vector<Panel> disc_view(const Drawing& drawing);
 std::vector<Panel> time_view(const Drawing& drawing);
 std::vector<Panel> pair_view(const Drawing& drawing);
 
+/// How orbits near the origin: (u, ln k), where even a contact of order 10^5 with an axis has a shape.
+Panel contact_panel(const Drawing& drawing, bool right_half);
+
 /// A view as users name it and as it is laid out on a page.
 struct ViewLayout {
   View view;
   std::string_view name;
   std::vector<Panel> (*panels)(const Drawing&);
-  int columns;  ///< panels side by side
+  int panels_across;
   double width_mm;
   double height_mm;
   /// The shortest and the longest time left that colours tell apart, in bands of equal ratio, where the plane is seen
@@ -45,8 +48,11 @@ inline std::pair<double, double> far_times(const PhasePortrait& portrait) {
   return {0.03 * tau, 20 * tau};
 }
 
-constexpr std::string_view plane_shows =
-    "every orbit runs from the border to the stop at the origin; both axes are invariant";
+constexpr std::string_view plane_shows = "every orbit runs from the border to the stop; the axes are orbits, too";
+/// Where v has a SpeedScale.
+constexpr std::string_view bent_shows =
+    "slip dies first, at nearly constant spin; then the spin runs down to the stop (shaded: {/:Italic v} on the scale "
+    "{/:Italic v^{s}}, {/:Italic s} = ";
 
 /// All views, in the order in which they are listed.
 inline constexpr std::array view_layouts{

@@ -16,14 +16,12 @@ namespace {
 
 constexpr Colour path_colour{0x222222};
 constexpr Colour textbook_colour{0x8a8a8a};
-constexpr Colour slip_colour{0xb3003b};
-constexpr Colour rim_colour{0x0b4f8a};
-constexpr Colour speed_colour{0xc8761a};
+/// Told apart in grey, too: by lightness and by their marks.
+constexpr Colour slip_colour{0x8c0f35};
+constexpr Colour rim_colour{0x2f7fc1};
+constexpr Colour speed_colour{0xe0a030};
 
-constexpr double width_mm = 290;
-constexpr double height_mm = 125;
-/// Width over height of a panel on paper, beside what layout.cpp leaves for its names and ticks.
-constexpr double panel_shape = (width_mm / 2 - 22.3) / (height_mm - 42.7);
+constexpr PaperSize usual{290, 125};
 
 /// A path that bends less than this share of its length is straight to the eye.
 constexpr double straight = 0.01;
@@ -93,8 +91,10 @@ Panel paths(const RollPicture& picture) {
 }
 
 /// The path from above, to scale unless it is flat.
-Panel path_panel(const RollPicture& picture) {
+Panel path_panel(const RollPicture& picture, const PaperSize& size) {
   Panel panel = paths(picture);
+  const Point paper = panel_size(size, 2);
+  const double panel_shape = paper.x / paper.y;
   const double scale = std::max((panel.x.high - panel.x.low) / panel_shape, panel.y.high - panel.y.low);
   // Most of the panel is used, across too.
   const auto stretch = [scale](Axis& axis, const char* letter, double shape) {
@@ -132,20 +132,34 @@ Panel speed_panel(const RollPicture& picture) {
   panel.title = "speeds; dashed: textbook, sliding and spinning uncoupled";
   panel.x = {"{/:Italic t}, s", logarithmic ? rolls / 30 : 0, last, logarithmic, {}};
   double top = 0;
-  const auto add = [&](Eigen::ArrayXd RollCurve::*column, Colour colour, const char* legend) {
+  const auto add = [&](Eigen::ArrayXd RollCurve::*column, Colour colour, Marks::Shape shape, const char* legend) {
+    Marks marks{{}, colour, 0.8, shape, legend};
     for (const RollCurve* curve : {&picture.textbook, &picture.ball}) {
       const bool dashed = curve == &picture.textbook;
       Polyline line;
       for (Eigen::Index i = 0; i < curve->t.size(); ++i) {
-        if (curve->t[i] >= panel.x.low && curve->t[i] <= last) line.push_back({curve->t[i], (curve->*column)[i]});
+        if (curve->t[i] < panel.x.low || curve->t[i] > last) continue;
+        line.push_back({curve->t[i], (curve->*column)[i]});
       }
       top = std::max(top, (curve->*column).maxCoeff());
+      if (!dashed) {
+        // At even steps on paper, before each of which the curve still is.
+        constexpr int count = 8;
+        for (double i = 0.5 + 0.15 * static_cast<int>(shape); i < count; ++i) {
+          const double t = from_paper(panel, {i / count, 0}).x;
+          const auto after = std::ranges::lower_bound(line, t, {}, &Point::x);
+          if (after == line.begin() || after == line.end()) continue;
+          const Point before = *(after - 1);
+          marks.points.push_back({t, before.y + (t - before.x) / (after->x - before.x) * (after->y - before.y)});
+        }
+      }
       panel.lines.push_back({{std::move(line)}, {colour, dashed ? 1.6 : 2.4, dashed}, dashed ? "" : legend});
     }
+    panel.marks.push_back(std::move(marks));
   };
-  add(&RollCurve::slip, slip_colour, "slip {/:Italic v}");
-  add(&RollCurve::rim, rim_colour, "spin {/:Italic R}|{/:Italic ω_z}|");
-  add(&RollCurve::speed, speed_colour, "speed of the centre");
+  add(&RollCurve::slip, slip_colour, Marks::Shape::dot, "slip {/:Italic v}");
+  add(&RollCurve::rim, rim_colour, Marks::Shape::circle, "spin {/:Italic R}|{/:Italic ω_z}|");
+  add(&RollCurve::speed, speed_colour, Marks::Shape::square, "speed of the centre");
   panel.y = {"m/s", 0, top > 0 ? 1.08 * top : 1, false, {}};
   return panel;
 }
@@ -174,15 +188,15 @@ Figure roll_figure(const RollPicture& picture) {
   Figure figure;
   figure.title = picture.title;
   figure.subtitle = picture.subtitle;
-  figure.width_mm = width_mm;
-  figure.height_mm = height_mm;
-  if (reach == 0) {  // it spins in place
-    figure.width_mm = width_mm / 2 + 25;
-    figure.panels = {speed_panel(picture)};
-  } else {
-    figure.panels = {bend <= straight * reach ? distance_panel(picture, far) : path_panel(picture),
-                     speed_panel(picture)};
+  const bool stays = reach == 0;  // it spins in place
+  const PaperSize size =
+      fitted(stays ? PaperSize{usual.width_mm / 2 + 25, usual.height_mm} : usual, stays ? 1 : 2, picture.size);
+  figure.width_mm = size.width_mm;
+  figure.height_mm = size.height_mm;
+  if (!stays) {
+    figure.panels.push_back(bend <= straight * reach ? distance_panel(picture, far) : path_panel(picture, size));
   }
+  figure.panels.push_back(speed_panel(picture));
   return figure;
 }
 

@@ -35,7 +35,7 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
       rise = std::max(rise, curve.ln_v[i] - at.ln_v);
       fall = std::max(fall, at.ln_v - curve.ln_v[i]);
     }
-    const double apart = std::max(step, (2 * half_height + rise + fall) / max_count);
+    const double apart = std::max(step, (2 * half_height + rise + fall) / drawing.crowd(max_count));
     const int first = -static_cast<int>(std::ceil((half_height + rise) / apart));
     const int last = static_cast<int>(std::ceil((half_height + fall) / apart));
     std::vector<PortraitPanel::Copy> result;
@@ -51,7 +51,7 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
   const Axis& y = layers.panel().y;
   layers.add_invariant({}, [&](double ln_k) {
     const double x = abscissa(ln_k);
-    return std::vector<Polyline>{{{x, y.low}, {x, y.high}}};
+    return std::vector<Polyline>{{{x, y.high}, {x, y.low}}};
   });
   layers.add_highlights();
   // What the symmetry does.

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
-#include "data/round_numbers.hpp"
+#include "views/portrait_panel.hpp"
 
 namespace contensou::portraits {
 
@@ -16,19 +16,8 @@ namespace {
 constexpr Colour isochrone_colour{0x1a1a1a};
 constexpr Colour ray_colour{0xb3003b};
 
-Axis axis(const std::string& name, double low, double high, bool logarithmic) {
-  Axis axis{name, low, high, logarithmic, {}};
-  if (!logarithmic) return axis;
-  constexpr double few_decades = 2.5, same = 1e-9;
-  const bool powers = high / low >= std::pow(10, few_decades);
-  for (double at : round_ratios(low * (1 - same), high * (1 + same), few_decades)) {
-    axis.ticks.push_back({at, powers ? fmt::format("10^{{{:.0f}}}", std::log10(at)) : fmt::format("{:g}", at)});
-  }
-  return axis;
-}
-
 Axis axis(const std::string& name, const Eigen::ArrayXd& values, bool logarithmic) {
-  return axis(name, values[0], values[values.size() - 1], logarithmic);
+  return {name, values[0], values[values.size() - 1], logarithmic, {}};
 }
 
 /// A value between those of a map, at a share of the way along either axis.
@@ -50,7 +39,10 @@ ColourMap colours(const StopTimeMap& map) {
   const Eigen::ArrayXXd values = logarithmic ? Eigen::ArrayXXd(map.tau.log()) : map.tau;
   ColourMap image;
   image.columns = columns;
-  image.scale = axis("{/:Italic τ}*", map.tau.minCoeff(), map.tau.maxCoeff(), logarithmic);
+  image.scale = {"{/:Italic τ}*", map.tau.minCoeff(), map.tau.maxCoeff(), logarithmic, {}};
+  // As a portrait's: dark next to the stop; paler, so that lines are seen on it.
+  constexpr int steps = 16;
+  for (int i = 0; i <= steps; ++i) image.palette.push_back(viridis(static_cast<double>(i) / steps, 0.35));
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
       const double value = between(values, (i + 0.5) / rows, (j + 0.5) / columns);

@@ -34,9 +34,13 @@ Course course(const PortraitOrbit& orbit) {
 std::vector<Panel> time_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
   const reduction::ReducedSystem& system = portrait.system();
-  // Sliding alone takes this many times as long as pivoting alone, which takes as long at this k.
-  constexpr double time_ratios[] = {0.1, 0.3, 1, 3, 10};
+  // About where sliding alone takes as long as pivoting alone, half-decades to both sides: 1, 3, 10, ...
   const double same_time = 1 / (system.r() * system.law().pivoting_moment());
+  const double middle = std::round(2 * std::log10(same_time));
+  std::vector<double> k_start;
+  for (double half = middle - 2; half <= middle + 2; ++half) {
+    k_start.push_back((std::fmod(half, 2) == 0 ? 1 : 3) * std::pow(10, std::floor(half / 2)));
+  }
   Panel u, v, k;
   const std::string time = "{/:Italic τ}/{/:Italic τ}*";
   u.title = "spinning  {/:Italic u}/{/:Italic u}_0";
@@ -45,7 +49,7 @@ std::vector<Panel> time_view(const Drawing& drawing) {
   for (Panel* panel : {&u, &v}) panel->y = {"", 0, 1.04, false, {}};
   for (Panel* panel : {&u, &v, &k}) panel->x = {time, 0, 1, false, {}};
   const std::vector<double> rays = ray_log_ratios(portrait);
-  const double highest = std::log(time_ratios[4] * same_time);
+  const double highest = std::log(k_start.back());
   k.y = {"", 0, 0, false, {}};
   if (!rays.empty()) {
     k.y.low = rays.front() - 3;
@@ -65,10 +69,10 @@ std::vector<Panel> time_view(const Drawing& drawing) {
   };
   const auto add_courses = [&](const PhasePortrait& of, bool compared) {
     const std::vector<Colour>& times = drawing.palette.times;
-    for (std::size_t i = 0; i < std::size(time_ratios); ++i) {
-      const double ln_k = std::log(time_ratios[i] * same_time);
+    for (std::size_t i = 0; i < k_start.size(); ++i) {
+      const double ln_k = std::log(k_start[i]);
       const Stroke stroke = compared ? Stroke{drawing.palette.comparison, 1.3, true}
-                                     : Stroke{times[i * (times.size() - 1) / (std::size(time_ratios) - 1)], 1.8, false};
+                                     : Stroke{times[i * (times.size() - 1) / (k_start.size() - 1)], 1.8, false};
       const std::string legend =
           compared ? law_legend(of) : fmt::format("{{/:Italic k}}_0 = {}", number(std::exp(ln_k), 3));
       add(course(orbit_through(of.flow, ln_k, 0, 0)), stroke, legend);

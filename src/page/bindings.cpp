@@ -295,6 +295,7 @@ val portrait(const val& asked, const Plane& plane) {
     result.set("figure", figure_value(question.figure(portrait)));
     result.set("windowU", portrait.window.u);
     result.set("windowV", portrait.window.v);
+    result.set("exponent", portrait.scale.exponent);
     result.set("through", through);
     result.set("highlight", portrait.highlight ? orbit_value(*portrait.highlight) : val::null());
     return result;

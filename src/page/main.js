@@ -86,7 +86,7 @@ class Page {
       this.portrait = this.library.portrait(this.request);
       this.portraitKey = asked;
     }
-    this.context = { mu: state.mu, window: [this.portrait.windowU, this.portrait.windowV] };
+    this.context = { mu: state.mu, window: [this.portrait.windowU, this.portrait.windowV], exponent: this.portrait.exponent };
     this.unitIsochrone = state.isochrone ? plane.isochrone() : null;
     this.motions = state.orbits.map(({ u, v }) => plane.motion(u, v));
   }

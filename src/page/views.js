@@ -7,9 +7,31 @@
 
 const quarter = Math.PI / 2;
 
+/** The height of v on its axis and back (portraits/speed_scale.hpp): linear where the exponent is 1. */
+function height({ v, lnV }, { window: [, V], exponent }) {
+  if (exponent === 1) return v;
+  const lnX = lnV - Math.log(V);
+  return (Math.exp(lnX) + Math.exp(exponent * lnX)) / 2;
+}
+function speedAt(y, { window: [, V], exponent }) {
+  if (exponent === 1) return y;
+  let [low, high] = [Math.log(y) - 1, Math.log(2 * y)];
+  for (let i = 0; i < 60; ++i) {
+    const middle = (low + high) / 2;
+    if ((Math.exp(middle / exponent) + Math.exp(middle)) / 2 < y) low = middle;
+    else high = middle;
+  }
+  return V * Math.exp((low + high) / 2 / exponent);
+}
+
 const speeds = {
-  place: ({ u, v }) => [u, v],
-  state: (x, y) => ({ u: x, v: y }),
+  place: (state, context) => [state.u, height(state, context)],
+  state: (x, y, context) => ({ u: x, v: speedAt(y, context) }),
+};
+
+const contact = {
+  place: ({ u, lnK }) => [u, lnK],
+  state: (x, y, { mu }) => (x === 0 ? null : { u: x, v: mu * Math.abs(x) * Math.exp(y) }),
 };
 
 /** The half-plane of the patch in polar coordinates, its radius made finite; the origin is a circle of radius `hole`. */
@@ -42,7 +64,7 @@ export const views = [
   {
     name: "uv",
     title: "plane",
-    hint: "The paper's plane: sliding v against pivoting u = R ω, ω the spin about the vertical. Every orbit runs into the origin.",
+    hint: "The paper's plane: sliding v against pivoting u = R ω, ω the spin about the vertical. Every orbit runs into the origin. Where μ is small, v below the shading is on the scale of a power, on which orbits are straight.",
     layered: true,
     panels: [speeds],
   },
@@ -52,8 +74,8 @@ export const views = [
     hint: "Both speeds as the rim of the patch has them: the slope of a ray is k = v/(μ|u|).",
     layered: true,
     panels: [{
-      place: ({ u, v }, { mu }) => [mu * u, v],
-      state: (x, y, { mu }) => ({ u: x / mu, v: y }),
+      place: (state, context) => [context.mu * state.u, height(state, context)],
+      state: (x, y, context) => ({ u: x / context.mu, v: speedAt(y, context) }),
     }],
   },
   {
@@ -83,11 +105,8 @@ export const views = [
   {
     name: "blowup",
     title: "blow-up",
-    hint: "The origin blown up, so that it is seen by direction: to the inner half-circle, and to the line u = 0 of the chart (u, k).",
-    panels: [polar(0.35), {
-      place: ({ u, lnK }) => [u, Math.exp(lnK)],
-      state: (x, y, { mu }) => (x > 0 ? { u: x, v: mu * x * y } : null),
-    }],
+    hint: "The origin blown up, so that it is seen by direction: to the inner half-circle, and to the line u = 0 of the chart (u, ln k).",
+    panels: [polar(0.35), contact],
   },
   {
     name: "disc",
@@ -104,12 +123,9 @@ export const views = [
   {
     name: "pair",
     title: "pair",
-    hint: "The plane, and beside it ln k against u: how orbits enter the origin, also where μ is so small that the plane is a comb of verticals.",
+    hint: "The plane, and beside it ln k against u: how orbits enter the origin.",
     layered: true,
-    panels: [speeds, {
-      place: ({ u, lnK }) => [u, lnK],
-      state: (x, y, { mu }) => (x === 0 ? null : { u: x, v: mu * Math.abs(x) * Math.exp(y) }),
-    }],
+    panels: [speeds, contact],
   },
 ];
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -81,41 +82,106 @@ TEST_CASE("Arrows lie on their line and point along it, also on logarithmic axes
   CHECK_FALSE(short_arrow(panel, box, {{0, 10}, {0, 0}}));
 }
 
-TEST_CASE("Nothing on the page overlaps or leaves it", "[invariant]") {
-  for (double width : {80.0, 190.0, 400.0}) {
+namespace {
+
+Box around(const PlacedText& text, double letter) {
+  double width = letter * text.size * text_width(text.text), height = letter * text.size;
+  if (text.turned) std::swap(width, height);
+  const double left = text.at.x - (text.align == Label::Align::left ? 0 : width / 2);
+  return {left, text.at.y - height / 2, width, height};
+}
+
+bool overlap(const Box& a, const Box& b) {
+  return a.left < b.left + b.width && b.left < a.left + a.width && a.bottom < b.bottom + b.height &&
+         b.bottom < a.bottom + a.height;
+}
+
+/// All that a figure of that width has beside its panels.
+std::vector<Box> parts(const Figure& figure, const Layout& layout) {
+  std::vector<Box> all;
+  for (const PlacedText& text : layout.texts) all.push_back(around(text, layout.letter));
+  for (std::size_t i = 0; i < layout.panels.size(); ++i) {
+    const auto& [box, x, y, scale, colour_scale] = layout.panels[i];
+    const double em = layout.letter;
+    all.push_back(box);
+    if (figure.panels[i].bare) continue;
+    for (const Axis::Tick& tick : y) {
+      const double width = 0.9 * em * text_width(tick.text);
+      const double at = box.bottom + on_paper(figure.panels[i], {0, tick.at}).y * box.height;
+      all.push_back({box.left - 0.9 * em - width, at - 0.5 * em, width, em});
+    }
+    for (const Axis::Tick& tick : x) {
+      const double width = 0.9 * em * text_width(tick.text);
+      const double at = box.left + on_paper(figure.panels[i], {tick.at, 10}).x * box.width;
+      all.push_back({at - width / 2, box.bottom - 1.9 * em, width, em});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("Nothing on the page overlaps or leaves it, in a column or on a page", "[invariant]") {
+  for (double width : {60.0, 85.0, 170.0, 300.0}) {
     for (std::size_t count : {1, 2, 3}) {
       for (bool bar : {false, true}) {
         Figure figure;
-        figure.title = "title";
-        figure.subtitle = "subtitle";
-        figure.width_mm = width * static_cast<double>(count);
+        figure.title = "a title that is as long as those of portraits are";
+        figure.subtitle = "a subtitle that has no room in one line of a column, but in two";
         figure.panels.assign(count, square());
-        figure.panels[0].title = "name";
-        figure.panels[0].lines.push_back({{}, {}, "legend"});
-        if (bar) figure.colour_bar = ColourBar{"time", {Colour{1}, Colour{2}}, {}};
+        figure.panels[0].title = "the name of a panel that is far from short";
+        figure.panels[0].y = {"{/:Italic Φ = F}/({/:Italic N f}),   {/:Italic Ψ}", -1234567, 0, false, {}};
+        for (const char* entry : {"first", "the second of the legend", "third of it"}) {
+          figure.panels[0].lines.push_back({{}, {}, entry});
+        }
+        if (bar)
+          figure.colour_bar = ColourBar{"time left, s", {Colour{1}, Colour{2}}, {{0, "0"}, {0.02, "1"}, {1, "10"}}};
+        const PaperSize size = fitted({190, 125}, static_cast<int>(count), {.width_mm = width});
+        figure.width_mm = size.width_mm;
+        figure.height_mm = size.height_mm + 15;
+        CAPTURE(width, count, bar);
         const Layout layout = lay_out(figure);
-        CHECK(layout.title < figure.height_mm);
-        CHECK(layout.subtitle < layout.title - layout.letter);
-        double right = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-          const Box& box = layout.panels[i];
-          CHECK(box.left > right + layout.letter);
-          CHECK(box.width > 0.4 * width);
-          CHECK(box.bottom > layout.legend + 3 * layout.letter);
-          CHECK(layout.names[i] < layout.subtitle - layout.letter);
-          CHECK(layout.names[i] > box.bottom + box.height);
-          right = box.left + box.width;
+        CHECK(layout.letter * 72 / 25.4 >= 6.2);
+        CHECK(layout.legend.size() == 3);
+        const std::vector<Box> all = parts(figure, layout);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          CHECK(all[i].left >= 0);
+          CHECK(all[i].bottom >= 0);
+          CHECK(all[i].left + all[i].width <= figure.width_mm);
+          CHECK(all[i].bottom + all[i].height <= figure.height_mm);
+          for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(overlap(all[i], all[j]));
         }
-        CHECK(right < figure.width_mm);
-        if (bar) {
-          CHECK(layout.colour_bar.left > right);
-          CHECK(layout.colour_bar.left + layout.colour_bar.width + 3 * layout.letter < figure.width_mm);
-        } else {
-          CHECK(layout.colour_bar.width == 0);
-        }
+        CHECK(layout.colours.size() == (bar ? 2 : 0));
       }
     }
   }
+}
+
+TEST_CASE("A figure without room for its panels is refused, with a way out", "[domain]") {
+  Figure figure;
+  figure.title = "title";
+  figure.panels.assign(2, square());
+  figure.width_mm = 85;
+  figure.height_mm = 40;
+  CHECK_THROWS_WITH(lay_out(figure), Catch::Contains("85 x 40 mm") && Catch::Contains("make it larger"));
+  figure.height_mm = 90;
+  CHECK_NOTHROW(lay_out(figure));
+}
+
+TEST_CASE("Ticks are round, in the axis, and as many as have room", "[table]") {
+  Figure figure;
+  figure.panels.push_back(square());
+  figure.panels[0].x = {"", -1, 1, false, {}};
+  std::size_t before = 2;
+  for (double width : {60.0, 120.0, 400.0}) {
+    figure.width_mm = width;
+    const auto ticks = lay_out(figure).panels[0].x;
+    CHECK(ticks.size() > before);
+    before = ticks.size();
+    CHECK(ticks.front().at == Approx(-1));
+    CHECK(ticks.back().text == "1");
+  }
+  CHECK(lay_out(figure).panels[0].y.front().at == Approx(1));
 }
 
 TEST_CASE("A panel to scale has units of one length", "[invariant]") {
@@ -123,6 +189,6 @@ TEST_CASE("A panel to scale has units of one length", "[invariant]") {
   figure.panels.push_back(square());
   figure.panels[0].y = {"", 0, 1, false, {}};
   figure.panels[0].to_scale = true;
-  const Box box = lay_out(figure).panels[0];
+  const Box box = lay_out(figure).panels[0].box;
   CHECK(box.width / box.height == Approx(2));
 }

@@ -1,14 +1,18 @@
 #include "contensou/portraits/paper_figures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 
 #include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "figures.hpp"
 
@@ -36,7 +40,7 @@ void check_framed(const Figure& figure) {
 /// A circle of radius 1 is one on paper, too: as wide as high in millimetres.
 void check_scale(const Figure& figure) {
   const Panel& panel = figure.panels.front();
-  const Box box = lay_out(figure).panels.front();
+  const Box box = lay_out(figure).panels.front().box;
   CHECK(box.width / (panel.x.high - panel.x.low) == Approx(box.height / (panel.y.high - panel.y.low)).epsilon(1e-12));
 }
 
@@ -90,4 +94,32 @@ TEST_CASE("Fig. 2 draws force and moment of each law from the law itself", "[tab
   const auto& force = lines[1].lines[0];
   CHECK(force[1].y / force[1].x == Approx(3 * std::numbers::pi / 8).epsilon(1e-4));
   CHECK(lines[2].lines[0].front().y == Approx(3 * std::numbers::pi / 16).epsilon(1e-15));
+}
+
+TEST_CASE("A limit surface goes from the largest moment to the largest force, inside the square", "[invariant]") {
+  const Figure figure = limit_surface_figure({reduction::HertzLaw{}, reduction::PadeLaw{}});
+  const Panel& panel = figure.panels.front();
+  CHECK(panel.to_scale);
+  REQUIRE(panel.lines.size() == 3);  // with the ellipse
+  for (const Lines& layer : panel.lines) {
+    const Polyline& line = layer.lines.front();
+    CHECK(line.front().x == Approx(1));
+    CHECK(line.front().y == Approx(0).margin(1e-12));
+    CHECK(line.back().x == Approx(0).margin(1e-12));
+    CHECK(line.back().y == Approx(1));
+    for (const Point& point : line) CHECK(std::hypot(point.x, point.y) < 1.1);
+  }
+}
+
+TEST_CASE("Every curve of the laws is told from the others without colours", "[invariant]") {
+  const Panel panel = law_figure({reduction::HertzLaw{}, reduction::PadeLaw{}, *reduction::find_law("ring")}).panels[0];
+  REQUIRE(panel.lines.size() == 7);
+  REQUIRE(panel.marks.size() == 3);
+  std::set<std::tuple<bool, bool, bool>> looks;
+  for (std::size_t i = 1; i < panel.lines.size(); ++i) {
+    const Lines& lines = panel.lines[i];
+    looks.insert({lines.stroke.dashed, lines.stroke.dotted,
+                  std::ranges::find(panel.marks, lines.legend, &Marks::legend) != panel.marks.end()});
+  }
+  CHECK(looks.size() == 6);
 }

@@ -36,11 +36,12 @@ TEST_CASE("A figure's text is TeX's text", "[table]") {
       {"50 % & #1 $ a\\_b \\{c\\}", "50 \\% \\& \\#1 \\$ a\\_b \\{c\\}"},
       {"\\\\input~", "\\textbackslash{}input\\textasciitilde{}"},
       {"Poincaré → ∞", "Poincaré \\ensuremath{\\to} \\ensuremath{\\infty}"},
-      {"球", "?"},
+      {"ε = -2", "\\ensuremath{\\varepsilon} = \\ensuremath{-}2"},
       {"{/:Italic", "\\ensuremath{}"},
       {"", ""},
   };
   for (const auto& [text, tex] : cases) CHECK(tex_text(text) == tex);
+  for (const char* letter : {"球", "шар"}) CHECK_THROWS_WITH(tex_text(letter), Catch::Contains("no letter for"));
 }
 
 TEST_CASE("A document has as many closing braces as opening ones, and only finite numbers", "[invariant]") {
@@ -58,7 +59,7 @@ TEST_CASE("A document has as many closing braces as opening ones, and only finit
 TEST_CASE("TeX draws no field of colours", "[domain]") {
   portraits::Figure map;
   map.panels.resize(1);
-  map.panels[0].colours = portraits::ColourMap{.values = {1, 2}, .columns = 2};
+  map.panels[0].colours = portraits::ColourMap{.values = {1, 2}, .columns = 2, .palette = {}};
   CHECK_THROWS_AS(portraits::pgfplots(map), std::domain_error);
 }
 

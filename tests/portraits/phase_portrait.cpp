@@ -28,7 +28,9 @@ const std::vector<reduction::Law> laws{reduction::PadeLaw{}, reduction::HertzLaw
 const std::vector<double> portrait_ratios{1e-6, 1e-3, 0.0035, 0.099, 0.3, 1.0};
 
 double paper_distance(const PhasePortrait& portrait, const PortraitOrbit& orbit, Eigen::Index i, Eigen::Index j) {
-  return std::hypot((orbit.u[i] - orbit.u[j]) / portrait.window.u, (orbit.v[i] - orbit.v[j]) / portrait.window.v);
+  const portraits::SpeedScale& scale = portrait.scale;
+  return std::hypot((orbit.u[i] - orbit.u[j]) / portrait.window.u,
+                    scale.height(orbit.ln_v[i]) - scale.height(orbit.ln_v[j]));
 }
 
 template <class Check>
@@ -37,7 +39,10 @@ void for_each_portrait(Check check) {
     for (double mu : portrait_ratios) {
       CAPTURE(law.name(), mu);
       const ReducedSystem system(law, mu);
-      check(system, phase_portrait(system, {}));
+      for (bool linear : {false, true}) {
+        CAPTURE(linear);
+        check(system, phase_portrait(system, {.linear = linear}));
+      }
     }
   }
 }
@@ -46,7 +51,7 @@ void for_each_portrait(Check check) {
 
 TEST_CASE("Every orbit runs unbroken from the border of the window to the origin", "[invariant]") {
   for_each_portrait([](const ReducedSystem&, const PhasePortrait& portrait) {
-    REQUIRE(portrait.orbits.size() == (portrait.view == portraits::View::pair ? 18 : 24));
+    REQUIRE(portrait.orbits.size() == 24);
     for (const PortraitOrbit& orbit : portrait.orbits) {
       const Eigen::Index last = orbit.u.size() - 1;
       const bool on_top = orbit.v[0] == portrait.window.v && std::abs(orbit.u[0]) <= portrait.window.u;
@@ -62,7 +67,7 @@ TEST_CASE("Every orbit runs unbroken from the border of the window to the origin
         CHECK(std::abs(orbit.u[i]) <= std::abs(orbit.u[i - 1]));
         CHECK(orbit.v[i] <= orbit.v[i - 1]);
       }
-      CHECK(longest < 0.05);
+      CHECK(longest < (portrait.scale.linear() ? 0.05 : 0.1));  // rays are straight
     }
   });
 }
@@ -79,6 +84,7 @@ TEST_CASE("Orbits of both signs of u mirror each other", "[symmetry]") {
 
 TEST_CASE("The border is filled evenly: neighbours are equally far apart across the flow", "[invariant]") {
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
+    if (!portrait.scale.linear()) return;
     const double U = portrait.window.u, V = portrait.window.v;
     // Distance across the flow from the left end of the right half of the border, integrated anew by midpoints.
     const auto across = [&](const PortraitOrbit& orbit) {
@@ -154,7 +160,8 @@ TEST_CASE("The similarity solution and (2.7) in beta draw the same curves", "[ro
     for (double mu : {0.0035, 0.099, 0.3, 1.0}) {
       CAPTURE(law.name(), mu);
       const ReducedSystem system(law, mu);
-      const PhasePortrait similar = phase_portrait(system, {}), stepped = phase_portrait(system, {.stepped = true});
+      const PhasePortrait similar = phase_portrait(system, {.linear = true}),
+                          stepped = phase_portrait(system, {.stepped = true});
       REQUIRE(stepped.orbits.size() == similar.orbits.size());
       for (std::size_t i = 0; i < stepped.orbits.size(); i += 2) {
         const PortraitOrbit& orbit = stepped.orbits[i];
@@ -172,12 +179,19 @@ TEST_CASE("The similarity solution and (2.7) in beta draw the same curves", "[ro
   }
 }
 
-TEST_CASE("The view follows mu: below 0.1 the plane alone shows a comb", "[table]") {
-  const auto view = [](double mu) { return phase_portrait({{reduction::PadeLaw{}, mu}}, {}).view; };
-  CHECK(view(0.3) == portraits::View::uv);
-  CHECK(view(0.1) == portraits::View::uv);
-  CHECK(view(0.099) == portraits::View::pair);
-  CHECK(view(1e-6) == portraits::View::pair);
+TEST_CASE("The axis of v follows mu: below 0.48 a linear one shows a comb", "[table]") {
+  const auto linear = [](double mu, PortraitRequest request = {}) {
+    const PhasePortrait portrait = phase_portrait({{reduction::PadeLaw{}, mu}}, request);
+    CHECK(portrait.view == request.view.value_or(portraits::View::uv));
+    return portrait.scale.linear();
+  };
+  CHECK(linear(0.49));
+  for (double mu : {0.48, 0.099, 1e-6}) {
+    CHECK_FALSE(linear(mu));
+    CHECK_FALSE(linear(mu, {.view = portraits::View::patch}));
+    CHECK(linear(mu, {.view = portraits::View::disc}));
+    CHECK(linear(mu, {.linear = true}));
+  }
 }
 
 TEST_CASE("The order of contact with the axis v = 0 is that of the printed exponent", "[table]") {
@@ -209,7 +223,7 @@ TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[in
   for (const Window window : {Window{1e5, 1e-5}, Window{1, 1e-12}, Window{1e-5, 1e5}, Window{1, 1}}) {
     for (double mu : {0.01, 0.3, 1.0}) {
       CAPTURE(mu, window.u, window.v);
-      const PhasePortrait portrait = phase_portrait({{reduction::HertzLaw{}, mu}}, {.window = window});
+      const PhasePortrait portrait = phase_portrait({{reduction::HertzLaw{}, mu}}, {.window = window, .linear = true});
       double sharpest = 0;
       for (const PortraitOrbit& orbit : portrait.orbits) {
         for (Eigen::Index i = 1; i + 1 < orbit.u.size(); ++i) {

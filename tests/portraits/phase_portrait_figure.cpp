@@ -56,15 +56,29 @@ double length(const Panel& panel, const std::vector<portraits::Polyline>& lines)
   return sum;
 }
 
-/// The stop time of a point of the plane (u, v), by the quadrature.
+/// The stop time of a point of a portrait's plane, by the quadrature.
 class Clock {
  public:
-  explicit Clock(const reduction::ReducedSystem& system) : flow_(reduction::Flow::by_quadrature(system)) {}
-  double operator()(portraits::Point at) const { return flow_.orbit({at.x, at.y}).stop_time(); }
+  explicit Clock(const portraits::PhasePortrait& portrait)
+      : flow_(reduction::Flow::by_quadrature(portrait.system())), scale_(portrait.scale) {}
+  double operator()(portraits::Point at) const {
+    const double v = scale_.linear() ? at.y : at.y == 0 ? 0 : std::exp(scale_.ln_v(at.y));
+    return flow_.orbit({at.x, v}).stop_time();
+  }
 
  private:
   reduction::Flow flow_;
+  portraits::SpeedScale scale_;
 };
+
+/// Heads of arrows on orbits: those on the axes have the axes' colour.
+std::vector<portraits::Arrow> heads_on_orbits(const Panel& panel) {
+  std::vector<portraits::Arrow> heads;
+  for (const auto& layer : panel.arrows) {
+    if (layer.colour.rgb != 0x222222) heads.insert(heads.end(), layer.arrows.begin(), layer.arrows.end());
+  }
+  return heads;
+}
 
 const std::vector<double> patch_ratios{1.0, 0.3, 0.01, 0.001};
 
@@ -129,9 +143,10 @@ TEST_CASE("The plane shows orbits, isochrones and both invariant axes, each in t
     CHECK(layer(panel, "orbits").lines.size() == portrait.orbits.size());
     CHECK(layer(panel, "time left").lines.size() >= 4);
     const auto& axes = layer(panel, "invariant axes").lines;
-    REQUIRE(axes.size() == 2);
-    CHECK(std::ranges::all_of(axes[0], [](portraits::Point point) { return point.y == 0; }));
-    CHECK(std::ranges::all_of(axes[1], [](portraits::Point point) { return point.x == 0; }));
+    REQUIRE(axes.size() == 3);  // half-lines, each with arrows to the stop, which is marked
+    for (const auto& axis : axes) CHECK(std::ranges::all_of(axis, [](auto point) { return point.x * point.y == 0; }));
+    CHECK(panel.arrows.back().arrows.size() == 6);
+    CHECK(panel.marks.back().legend == "the stop");
   }
 }
 
@@ -160,7 +175,7 @@ TEST_CASE("A piece has the colour of the time left on it", "[route]") {
   const Figure figure = draw(portrait);
   const Panel& panel = figure.panels.front();
   const double step = portrait.isochrones.front().tau_stop / 3;
-  const Clock clock(portrait.system());
+  const Clock clock(portrait);
   for (const auto& layer : panel.lines) {
     if (!layer.legend.empty()) continue;
     const auto band = std::ranges::find(figure.colour_bar->colours, layer.stroke.colour.rgb, &portraits::Colour::rgb) -
@@ -193,19 +208,15 @@ TEST_CASE("Arrows point the way of the motion, and lie where equal times are lef
       CHECK(count > 20);
     }
     const double step = portrait.isochrones.front().tau_stop;
-    const Clock clock(portrait.system());
-    for (const auto& arrows : figure.panels.front().arrows) {
-      for (const auto& arrow : arrows.arrows) {
-        const double tau = clock(arrow.at);
-        CHECK(std::abs(tau / step - std::floor(tau / step) - 0.5) < 0.05);
-      }
+    const Clock clock(portrait);
+    for (const auto& arrow : heads_on_orbits(figure.panels.front())) {
+      if (arrow.at.y > 0.6) continue;  // while it slides hardly any time passes
+      const double tau = clock(arrow.at);
+      CHECK(std::abs(tau / step - std::floor(tau / step) - 0.5) < 0.05);
     }
   }
   const auto heads = [](PortraitStyle::Arrows arrows) {
-    const Panel panel = draw(portrait_of(0.3), {}, {.arrows = arrows}).panels[0];
-    std::size_t count = 0;
-    for (const auto& layer : panel.arrows) count += layer.arrows.size();
-    return count;
+    return heads_on_orbits(draw(portrait_of(0.3), {}, {.arrows = arrows}).panels[0]).size();
   };
   CHECK(heads(PortraitStyle::Arrows::none) == 0);
   CHECK(heads(PortraitStyle::Arrows::one) <= 24);
@@ -241,7 +252,7 @@ TEST_CASE("What is drawn as an isochrone has the stop time that its label says",
   for (double mu : {0.3, 0.01}) {
     const auto portrait = portrait_of(mu);
     const Panel panel = draw(portrait).panels.front();
-    const Clock clock(portrait.system());
+    const Clock clock(portrait);
     for (const auto& line : layer(panel, "time left").lines) {
       const double step = portrait.isochrones.front().tau_stop;
       for (const auto& point : line) {
@@ -256,11 +267,63 @@ TEST_CASE("What is drawn as an isochrone has the stop time that its label says",
   }
 }
 
-TEST_CASE("Small mu gets a second panel in ln k, filled to its corners", "[invariant]") {
-  CHECK(figure_of(0.3).panels.size() == 1);
+TEST_CASE("At small mu every orbit runs straight into the stop, whatever mu is, and the plane is filled to its corners",
+          "[invariant]") {
+  for (double mu : {0.45, 0.3, 0.099, 0.01, 0.0035}) {
+    CAPTURE(mu);
+    const auto portrait = portrait_of(mu);
+    CHECK(portrait.scale.exponent == Approx(5 * mu * mu / 14).epsilon(1e-12));
+    CHECK(portrait.window.v <= 20 * mu);
+    const Panel panel = draw(portrait, {}, plain).panels.front();
+    double lowest = 1;
+    for (const auto& line : layer(panel, "orbits").lines) {
+      if (line.front().y < 1) lowest = std::min(lowest, line.front().y);
+      const auto& near = line[line.size() - 2];
+      for (const auto& point : line) {
+        if (point.y < 0.2 && point.y > 1e-9) CHECK(point.x / point.y == Approx(near.x / near.y).epsilon(1e-3));
+      }
+    }
+    CHECK(lowest < 0.12);
+  }
+  CHECK(portrait_of(0.5).scale.linear());
+  CHECK(portrait_of(0.3, {.linear = true}).scale.linear());
+  CHECK(portraits::phase_portrait({{*reduction::find_law("uniform"), 1, {.chi = 1, .gamma = 2}}}, {}).scale.linear());
+}
+
+TEST_CASE("Arrows on invariant rays point to the stop in every view", "[invariant]") {
+  const reduction::Flow flow({*reduction::find_law("uniform"), 1, {.chi = 1, .gamma = 2}});
+  for (View view : {View::uv, View::log, View::similarity, View::blowup, View::disc, View::pair}) {
+    std::size_t count = 0;
+    for (const Panel& panel : draw(portraits::phase_portrait(flow, {.view = view})).panels) {
+      for (const auto& layer : panel.arrows) {
+        if (layer.colour.rgb != 0xc8621a) continue;
+        for (const auto& [at, direction] : layer.arrows) {
+          ++count;
+          CAPTURE(portraits::name(view), at.x, at.y);
+          CHECK((direction.y < 0 || (direction.y == 0 && direction.x * at.x < 0)));
+        }
+      }
+    }
+    CHECK(count >= 2);
+  }
+}
+
+TEST_CASE("Heights of a speed scale and speeds lead back to each other", "[invariant]") {
+  for (double exponent : {1.0, 0.1, 1e-4}) {
+    const portraits::SpeedScale scale{2, exponent};
+    CHECK(scale.height(std::log(2.0)) == 1);
+    for (double h : {0.01, 0.3, 0.5, 0.7, 1.0}) {
+      CHECK(scale.height(scale.ln_v(h)) == Approx(h).epsilon(1e-9));
+      const double at = scale.ln_v(h), step = 1e-6;
+      CHECK((scale.height(at + step) - scale.height(at - step)) / (2 * step) == Approx(scale.slope(at)).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("The panel in ln k is filled to its corners", "[invariant]") {
   for (double mu : {0.099, 0.0035, 1e-6}) {
     CAPTURE(mu);
-    const Figure figure = draw(portrait_of(mu), {}, plain);
+    const Figure figure = draw(portrait_of(mu, {.view = View::pair}), {}, plain);
     REQUIRE(figure.panels.size() == 2);
     const Panel& panel = figure.panels[1];
     double lowest_start = panel.y.high;
@@ -328,7 +391,7 @@ TEST_CASE("Every sector between two invariant half-lines has its orbits in every
       {View::patch, {speeds}},
       {View::log, {[](portraits::Point p) { return p.y - p.x; }}},
       {View::similarity, {[](portraits::Point p) { return std::log(p.x); }, [](portraits::Point p) { return p.x; }}},
-      {View::blowup, {speeds, [](portraits::Point p) { return std::log(p.y); }}},
+      {View::blowup, {speeds, up}},
       {View::disc, {speeds}},
       {View::pair, {speeds, up}}};
   const reduction::Law uniform = *reduction::find_law("uniform"), octic = *reduction::find_law("potential8");
@@ -503,7 +566,7 @@ TEST_CASE("Two laws in one figure: each its look, and no colours of time", "[tab
 TEST_CASE("A highlighted orbit is marked at its start, and points asked for have their orbit", "[table]") {
   for (double sign : {1.0, -1.0}) {
     const Panel panel = figure_of(0.3, {.highlight = State{sign, 2}}).panels.front();
-    REQUIRE(panel.marks.size() == 1);
+    REQUIRE(panel.marks.size() == 2);  // and the stop
     CHECK(panel.marks[0].points[0].x == sign);
   }
   CHECK(layer(figure_of(0.3, {.through = {{0.5, 1}, {-0.5, 2}}}).panels[0], "through").lines.size() == 2);
@@ -539,8 +602,7 @@ TEST_CASE("Times keep off the orbits that were asked for", "[invariant]") {
 }
 
 TEST_CASE("Size, axes and the screen style are as asked", "[table]") {
-  const Figure figure =
-      draw(portrait_of(0.3), {}, {.invariant = false, .screen = true, .width_mm = 100, .height_mm = 80});
+  const Figure figure = draw(portrait_of(0.3), {}, {.invariant = false, .screen = true, .size = {100, 80}});
   CHECK(figure.width_mm == 100);
   CHECK(figure.height_mm == 80);
   CHECK(figure.theme.ground.rgb < 0x303030);

@@ -48,6 +48,14 @@ TEST_CASE("the path with the point from which it rolls, beside the speeds", "[ta
   CHECK_FALSE(speeds.x.logarithmic);
   CHECK(speeds.x.high == 2.2);
   CHECK(std::ranges::count_if(speeds.lines, [](const Lines& layer) { return layer.stroke.dashed; }) == 3);
+  // In grey, too, each of the three is told by its marks, which lie on it.
+  REQUIRE(speeds.marks.size() == 3);
+  for (int i = 0; i < 3; ++i) {
+    CHECK(speeds.marks[i].shape == static_cast<Marks::Shape>(i));
+    CHECK(speeds.marks[i].points.size() >= 7);
+    CHECK(speeds.marks[i].legend == layer(speeds, speeds.marks[i].legend).legend);
+  }
+  for (const Point& point : speeds.marks[0].points) CHECK(point.y == Approx(1 - std::min(point.x, 1.0)).margin(1e-3));
   for (const Lines& layer : speeds.lines) {
     for (const Point& point : layer.lines[0]) CHECK(inside(speeds, point));
   }
@@ -84,7 +92,7 @@ TEST_CASE("a long spin is drawn on a logarithmic time axis", "[limit]") {
 TEST_CASE("the legend lists the entries of every panel once", "[table]") {
   const std::string script = gnuplot_script(roll_figure({"", "", curve(0.5, 2.2), curve(0.6, 2.2)}));
   for (const std::string entry : {"this ball", "textbook", "speed of the centre"}) {
-    const std::string title = "title '" + entry + "'";
+    const std::string title = "'{/*1 " + entry + "}' at screen";
     const std::size_t at = script.find(title);
     CHECK(at != std::string::npos);
     CHECK(script.find(title, at + 1) == std::string::npos);

@@ -5,10 +5,12 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
 #include "contensou/portraits/gnuplot.hpp"
+#include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/stop_time_table.hpp"
@@ -165,12 +167,15 @@ TEST_CASE("The ray k = 1 is drawn where it crosses the map, and only there", "[l
 
 TEST_CASE("Axes have ticks whatever they span", "[limit]") {
   for (const double span : {0.01, 0.1, 0.5, 1.0, 2.0, 4.0, 30.0}) {
-    const Panel panel = figure_of(0.3, {decades(3, 0, span), decades(3, 0, span), true}).panels.at(0);
+    const Figure figure = figure_of(0.3, {decades(3, 0, span), decades(3, 0, span), true});
+    const Panel& panel = figure.panels.at(0);
+    const PanelPlace place = lay_out(figure).panels.at(0);
     INFO(span);
-    for (const Axis& axis : {panel.x, panel.y, panel.colours->scale}) {
-      CHECK(axis.ticks.size() >= 2);
-      CHECK(axis.ticks.size() <= 13);
-      for (const Axis::Tick& tick : axis.ticks) {
+    for (const auto& [axis, ticks] :
+         {std::pair{panel.x, place.x}, std::pair{panel.y, place.y}, std::pair{panel.colours->scale, place.scale}}) {
+      CHECK(ticks.size() >= 2);
+      CHECK(ticks.size() <= 13);
+      for (const Axis::Tick& tick : ticks) {
         CHECK((tick.at >= axis.low * 0.999 && tick.at <= axis.high * 1.001));
       }
     }

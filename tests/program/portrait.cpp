@@ -98,13 +98,19 @@ TEST_CASE("portrait shows what its switches say", "[cli]") {
     CHECK(run.err.empty());
     return run.out;
   };
-  CHECK_THAT(script("--field"), Contains("direction of (2.6)"));
-  CHECK_THAT(script("--field regularised"), Contains("direction of (2.7)"));
+  CHECK_THAT(script("--field"), Contains("direction of the motion (2.6)"));
+  CHECK_THAT(script("--field regularised"), Contains("direction of the regularised motion (2.7)"));
   CHECK_THAT(script("--axes off"), !Contains("invariant axes"));
   CHECK_THAT(script("--arrows none"), !Contains("with vectors"));
-  CHECK_THAT(script("--colour none"), Contains("'orbits'"));
+  CHECK_THAT(script("--colour none"), Contains("'{/*1 orbits}'"));
   CHECK_THAT(script("--style screen"), Contains("background '#10141c'"));
   CHECK_THAT(script("--size 100x80"), Contains("size 500,400"));
+  CHECK_THAT(script("--size single"), Contains("size 425,"));
+  CHECK_THAT(script("--size double"), Contains("size 850,"));
+  CHECK_THAT(script("--title none"), !Contains("Sliding and spinning"));
+  CHECK_THAT(script("--title a_b"), Contains("{/*1.2 a\\_b}") && !Contains("slip dies first"));
+  CHECK_THAT(script(""), Contains("slip dies first"));
+  CHECK_THAT(script("--scale linear"), !Contains("slip dies first"));
   // The same bytes for the same input.
   CHECK(script("--view disc") == script("--view disc"));
   // A ball's units.
@@ -131,7 +137,7 @@ TEST_CASE("portrait says what is wrong with a switch, and draws nothing", "[cli]
   rejected("--axes yes", "--axes yes: one of on, off");
   rejected("--colour red", "--colour red: one of time, none");
   rejected("--style dark", "--style dark: one of print, screen");
-  rejected("--size 100", "--size 100: width and height in mm");
+  rejected("--size 100", "--size 100: single, double, or width and height in mm");
   rejected("--size 100xinf", "--size 100xinf: ");
   rejected("--size 10x100", "must be 40 to 2000 mm");
   rejected("--against exakt", "--against exakt: no such law");

@@ -11,6 +11,11 @@ namespace contensou::program {
 portraits::PhasePortrait PortraitSpec::portrait() const {
   portraits::PortraitRequest asked = request;
   asked.highlight = start;
+  constexpr double narrow_mm = 120;
+  if (style.size.width_mm.value_or(narrow_mm) < narrow_mm) {
+    asked.orbits_per_side = asked.orbits_per_side.value_or(8);
+    asked.isochrones = asked.isochrones.value_or(4);
+  }
   if (shot) asked.time_unit = 1 / si::seconds(*shot, 1);
   return portraits::phase_portrait(flow, asked);
 }

@@ -6,6 +6,7 @@
 #include "contensou/portraits/paper_figures.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "input/csv.hpp"
+#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "verb.hpp"
@@ -20,6 +21,8 @@ class LawCommand final : public Verb {
     law_.add(app);
     CLI::Option* k = k_.add(app, "--k", "K1,K2,...", "ratios k = v/(mu |u|), 0 to inf", parse_ratios);
     batch_.add(app, "--batch", "FILE", "instead: a CSV with a column k; - is standard input")->excludes(k);
+    app.add_flag("--surface", surface_, "draw the limit surface instead: force against moment, laws beside each other");
+    figure_.add(app);
     output_.add(app);
   }
 
@@ -28,7 +31,11 @@ class LawCommand final : public Verb {
     const reduction::Law law = law_.read();
     if (output.picture()) {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
-      output.write(portraits::law_figure(shown(law)));
+      std::vector<reduction::Law> laws = reduction::paper_laws();
+      if (surface_) laws.insert(laws.end(), {*reduction::find_law("uniform"), *reduction::find_law("ring")});
+      if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) laws.push_back(law);
+      const auto draw = surface_ ? portraits::limit_surface_figure : portraits::law_figure;
+      output.write(figure_.apply(draw(laws, figure_.size()), output.format));
       return ExitStatus::done;
     }
     if (!k_.given() && !batch_.given()) {
@@ -43,13 +50,6 @@ class LawCommand final : public Verb {
   }
 
  private:
-  /// Both laws of the paper, and the one asked for if it is neither.
-  static std::vector<reduction::Law> shown(const reduction::Law& law) {
-    std::vector<reduction::Law> laws = reduction::paper_laws();
-    if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) laws.push_back(law);
-    return laws;
-  }
-
   static std::vector<double> parse_ratios(const std::string& typed) {
     std::vector<double> ratios = parse_numbers(typed, Infinity::allowed);
     for (double k : ratios) {
@@ -73,6 +73,8 @@ class LawCommand final : public Verb {
   LawOption law_;
   ArgumentOf<std::vector<double>> k_;
   Argument batch_;
+  FigureOptions figure_;
+  bool surface_ = false;
   OutputOptions output_{{{"a law", with_pictures(answer_formats("csv"))}}};
 };
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/portrait_spec.hpp"
@@ -24,11 +25,6 @@ using portraits::View;
 using portraits::Window;
 using reduction::State;
 
-/// Of a figure, in mm.
-struct Size {
-  double width, height;
-};
-
 Window parse_window(const std::string& typed) {
   const std::vector<double> sides = numbers(typed, 2, "U,V");
   if (!(sides[0] > 0 && sides[1] > 0)) throw NotAllowed("both sides of the window must be positive");
@@ -41,26 +37,6 @@ State parse_point(const std::string& typed) {
     throw NotAllowed("U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
   }
   return {pair[0], pair[1]};
-}
-
-constexpr double min_side = 40;
-constexpr double max_side = 2000;
-
-Size parse_size(const std::string& typed) {
-  constexpr const char* wanted = "width and height in mm are needed, as in 180x120";
-  const std::size_t cross = typed.find('x');
-  if (cross == std::string::npos) throw NotAllowed(wanted);
-  Size size{};
-  try {
-    size = {parse_number(typed.substr(0, cross)), parse_number(typed.substr(cross + 1))};
-  } catch (const BadInput& error) {
-    throw NotAllowed(fmt::format("{}; {}", error.what(), wanted));
-  }
-  for (double side : {size.width, size.height}) {
-    if (side >= min_side && side <= max_side) continue;
-    throw NotAllowed(fmt::format("width and height must be {} to {} mm", min_side, max_side));
-  }
-  return size;
 }
 
 /// Takes the value of an option into a variable.
@@ -81,6 +57,7 @@ class PortraitCommand final : public Verb {
     law_.add(app);
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
     add_looks(app);
+    figure_.add(app);
     app.add_flag(
         "--facts", facts_,
         "print the plane's facts instead: regime, singular points at the origin and at infinity with eigenvalues and "
@@ -111,11 +88,12 @@ class PortraitCommand final : public Verb {
         .shot = start.shot,
         .request = request_,
         .style = style_};
+    question.style.size = figure_.size();
     question.request.stepped = route == reduction::Route::regularised;
     if (against_.given()) question.request.comparison = against_.read();
     const portraits::PhasePortrait portrait = question.portrait();
     if (output.picture()) {
-      output.write(question.figure(portrait));
+      output.write(figure_.apply(question.figure(portrait), output.format));
     } else {
       output.write(output.format == "csv" ? portraits::to_csv(portrait) : portraits::to_json(portrait));
     }
@@ -139,8 +117,13 @@ class PortraitCommand final : public Verb {
       names.push_back(name(view));
       views.emplace_back(name(view), view);
     }
-    add("--view", "VIEW", fmt::format("the axes: {} (default uv; pair for mu < 0.1)", fmt::join(names, ", ")),
+    add("--view", "VIEW", fmt::format("the axes: {} (default uv)", fmt::join(names, ", ")),
         into(request_.view, one_of(views, "view")));
+    add("--scale", "SCALE",
+        "of v in uv, patch and pair: bent (default where orbits touch v = 0 so closely that the plane is a comb, for "
+        "the "
+        "ball mu < 0.48): below the shading like v^s, where every orbit runs straight into the stop; or linear",
+        into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     add("--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)",
         into(request_.window, parse_window));
     window_ = &looks_.back();
@@ -171,12 +154,6 @@ class PortraitCommand final : public Verb {
     against_.add(app, "--against", "LAW", "the same for another law, dashed, in the same figure");
     add("--style", "STYLE", "print (default), or screen: light on dark, for a projector",
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
-    add("--size", "WxH", fmt::format("size of the figure in mm, each {} to {} (default: by view)", min_side, max_side),
-        [this](const std::string& typed) {
-          const auto [width, height] = parse_size(typed);
-          style_.width_mm = width;
-          style_.height_mm = height;
-        });
   }
 
   ExitStatus print_facts(const reduction::ReducedSystem& system) const {
@@ -198,6 +175,7 @@ class PortraitCommand final : public Verb {
   const Argument* window_ = nullptr;  ///< of looks_
   portraits::PortraitRequest request_;
   Style style_;
+  FigureOptions figure_;
   bool facts_ = false;
   OutputOptions output_{{{"a portrait", with_pictures({}, {"csv", "json"}), "portrait.svg"},
                          {"a table of facts", answer_formats("text")}}};

@@ -10,6 +10,7 @@
 #include "contensou/si/bridge.hpp"
 #include "contensou/si/integrated_motion.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
+#include "options/figure_options.hpp"
 #include "options/instants_option.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -254,6 +255,7 @@ class RollCommand final : public Verb {
                          if (speed < 0) throw NotAllowed("a speed of slip is >= 0, in m/s");
                          return speed;
                        });
+    figure_.add(app);
     output_.add(app);
   }
 
@@ -264,7 +266,9 @@ class RollCommand final : public Verb {
     const double end = until_.value_or(roll.standard_end());
     if (output.picture()) {
       if (instants_.given()) throw BadInput("a picture needs no --at or --samples: leave them out");
-      output.write(portraits::roll_figure(picture_of(roll, end)));
+      portraits::RollPicture picture = picture_of(roll, end);
+      picture.size = figure_.size();
+      output.write(figure_.apply(portraits::roll_figure(picture), output.format));
     } else if (output.format == "text" && !instants_.given() && !until_.given()) {
       output.write(report_on(roll, output.digits));
     } else {
@@ -290,6 +294,7 @@ class RollCommand final : public Verb {
   ArgumentOf<bool> integrated_;
   InstantsOption instants_;
   ArgumentOf<double> until_, rolling_below_;
+  FigureOptions figure_;
   OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"))}}};
 };
 

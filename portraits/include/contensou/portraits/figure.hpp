@@ -26,6 +26,7 @@ struct Stroke {
   Colour colour;
   double width = 1;
   bool dashed = false;
+  bool dotted = false;  ///< dots; with dashed, both in turn
 };
 
 /// Polylines of one look; one entry of the legend.
@@ -87,7 +88,8 @@ struct Axis {
 struct ColourMap {
   std::vector<double> values;  ///< rows from the bottom up, each from left to right
   std::size_t columns = 1;
-  Axis scale{};  ///< of the numbers, shown beside the panel
+  Axis scale{};                 ///< of the numbers, shown beside the panel
+  std::vector<Colour> palette;  ///< two or more, from low to high
 };
 
 /// One system of axes and what is drawn in it, in the order given: colours, regions, lines, arrows, marks, labels. Only
@@ -129,13 +131,27 @@ struct Figure {
   std::string subtitle;
   double width_mm = 180;
   double height_mm = 120;
+  double dpi = 300;  ///< of a PNG
   std::vector<Panel> panels;
   std::optional<ColourBar> colour_bar = {};
   Theme theme = {};
 };
 
-/// The number of characters of a text as it is shown, without its markup.
-std::size_t shown_length(std::string_view text);
+/// The size of a figure on paper.
+struct PaperSize {
+  double width_mm, height_mm;
+};
+
+/// A size that is asked for; what is left out is chosen.
+struct AskedSize {
+  std::optional<double> width_mm = {}, height_mm = {};
+};
+
+/// About how wide a text is as it is shown, in sizes of letters.
+double text_width(std::string_view text);
+
+/// The text with a minus sign for each hyphen that is one: before a digit, and not within a word.
+std::string with_minus_signs(std::string_view text);
 
 /// A text of somebody else's, such as a name, as a figure's text that shows just these characters; cut with an ellipsis
 /// after the given number of them.

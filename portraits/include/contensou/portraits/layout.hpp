@@ -44,7 +44,7 @@ struct Box {
 /// An arrow as short as its head, that ends where the arrow is: `at` is its beginning. Nothing if it has no direction.
 std::optional<Arrow> short_arrow(const Panel& panel, const Box& box, const Arrow& arrow);
 
-/// What the legend lists: a text with the line or the marks that it names, whichever is not null.
+/// What the legend lists: a text with the line and the marks that it names, or one of them.
 struct LegendEntry {
   std::string text;
   const Lines* lines;
@@ -54,17 +54,57 @@ struct LegendEntry {
 /// The entries of all panels, each text once.
 std::vector<LegendEntry> legend_entries(const Figure& figure);
 
-/// Where everything goes.
-struct Layout {
-  double letter;              ///< the size of letters, mm
-  double title, subtitle;     ///< heights of the middle of these lines
-  double legend;              ///< of the legend
-  std::vector<Box> panels;    ///< between the axes
-  std::vector<double> names;  ///< height of each panel's title
-  Box colour_bar;             ///< without its ticks; width 0 if there is none
-  std::vector<Box> colours;   ///< of the colour bar, from the bottom up
+/// A text on the page by its middle, or by the middle of its left end.
+struct PlacedText {
+  std::string text;
+  Point at;         ///< mm
+  double size = 1;  ///< in sizes of letters
+  Label::Align align = Label::Align::centre;
+  bool faint = false, turned = false;
 };
 
+/// A panel on the page.
+struct PanelPlace {
+  Box box;                              ///< between the axes
+  std::vector<Axis::Tick> x, y, scale;  ///< of its axes and of its ColourMap
+  Box colour_scale;                     ///< of its ColourMap
+};
+
+/// A sample of a line or a mark in the legend: from its left end.
+struct LegendPlace {
+  LegendEntry entry;
+  Point from;
+  double width;
+};
+
+/// Where everything goes, mm. Letters have the size that a journal wants: 6.5 pt in a column of 85 mm, 7.7 pt from
+/// 170 mm on. Panels stand side by side where each has 50 mm, else one above the other; margins and the number of ticks
+/// follow from the width of their labels, and titles are broken into lines.
+struct Layout {
+  double letter;  ///< the size of letters
+  std::vector<PlacedText> texts;
+  std::vector<PanelPlace> panels;
+  std::vector<LegendPlace> legend;
+  std::vector<Box> colours;  ///< of the colour bar, from the bottom up
+};
+
+/// @throws std::domain_error  if the figure is too small for its panels
 Layout lay_out(const Figure& figure);
+
+/// The width of a line of width 1 and the length of an arrow's head, in sizes of letters.
+inline constexpr double line_width = 0.074, head_length = 0.74;
+
+/// The size of letters in a figure of that width.
+double letter_mm(double width_mm);
+
+/// How many panels stand side by side.
+int panel_columns(double width_mm, int panels);
+
+/// The size of a figure: what is asked for, the rest so that its panels keep their shape.
+/// @param usual  the size in which its panels, side by side, look best
+PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked);
+
+/// The size of a panel of such a figure in mm, about: what is left beside names and ticks.
+Point panel_size(const PaperSize& figure, int panels);
 
 }  // namespace contensou::portraits

@@ -12,7 +12,10 @@ namespace contensou::portraits {
 Figure patch_drawing();
 
 /// Fig. 2: the friction force Phi and the friction moment Psi against k from 0 to 4, one line style for each law.
-Figure law_figure(const std::vector<reduction::Law>& laws);
+Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
+
+/// The limit surfaces of laws, the curves of force against moment at which a patch slips, and the ellipse.
+Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
 
 /// Fig. 3: the ball on the plane, its axes and the spot on which it touches.
 Figure ball_drawing();

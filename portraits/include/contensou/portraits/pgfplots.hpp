@@ -9,11 +9,11 @@ namespace contensou::portraits {
 
 /// The figure as a LaTeX document that pdflatex compiles, with its data inside. It needs the packages pgfplots and
 /// amsmath (Debian: texlive-pictures); the tikzpicture in it can be moved into a paper.
-/// @throws std::domain_error  for a panel with a ColourMap, which is too much for TeX's memory
+/// @throws std::domain_error  for a panel with a ColourMap, which is too much for TeX's memory; as tex_text
 std::string pgfplots(const Figure& figure);
 
-/// A figure's text as TeX: italics and indices become mathematics, characters that neither Latin letters nor known
-/// signs of mathematics are become '?'.
+/// A figure's text as TeX: italics and indices become mathematics.
+/// @throws std::domain_error  for a character that is neither a Latin nor a Greek letter nor a known sign
 std::string tex_text(std::string_view text);
 
 }  // namespace contensou::portraits

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "contensou/portraits/speed_scale.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/phase_plane.hpp"
 
@@ -27,7 +28,7 @@ enum class View {
   blowup,      ///< the origin blown up: to a half-circle, and in the chart (u, k)
   disc,        ///< the Poincare disc: the whole half-plane, infinity included
   time,        ///< u, v and k against tau/tau*
-  pair,        ///< the plane beside (u, ln k), where orbits of small mu have a shape
+  pair,        ///< the plane beside (u, ln k)
 };
 
 std::string_view name(View view);
@@ -67,6 +68,7 @@ struct PhasePortrait {
   reduction::PhasePlane plane;
   View view;
   Window window;
+  SpeedScale scale;                        ///< of v, in the views uv, patch and pair
   std::vector<PortraitOrbit> orbits;       ///< from the border of the window to the origin
   std::vector<Isochrone> isochrones;       ///< in the window
   std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
@@ -77,16 +79,19 @@ struct PhasePortrait {
   const reduction::ReducedSystem& system() const { return flow.system(); }
 };
 
-/// What to show. Left empty, the window and the view follow from mu.
+/// What to show. Left empty, the window follows from mu, and the view is uv.
 struct PortraitRequest {
   std::optional<View> view = {};
   std::optional<Window> window = {};
   std::optional<reduction::State> highlight = {};  ///< the window then contains it
   std::vector<reduction::State> through = {};      ///< points in the window, neither u nor v 0
   std::optional<int> orbits_per_side = {};         ///< of u = 0, >= 0
-  int isochrones = 7;                              ///< about so many, >= 0
+  std::optional<int> isochrones = {};              ///< about so many, >= 0; 7 if not said
   std::optional<reduction::Law> comparison = {};
   bool stepped = false;  ///< orbits by (2.7), stepped in beta, in place of the flow's own
+  /// The axis of v is linear also where the plane is then a comb of verticals: where orbits enter the origin along v = 0
+  /// with v falling faster than |u|^12, for the ball mu < 0.48. There, if orbits are not stepped, it is a SpeedScale.
+  bool linear = false;
   /// Keep only what the view is drawn from: orbits and isochrones for uv, patch and pair.
   bool drawn_only = false;
   double time_unit = 1;  ///< isochrones are at round multiples of this many tau
@@ -107,7 +112,7 @@ PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest&
 /// @param upstream  >= 0: where it starts, the larger of mu u and v is exp(upstream) times as large
 PortraitOrbit orbit_through(const reduction::Flow& flow, double ln_k, double ln_v, double upstream);
 
-/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], orbits [{u, v, tau_left}], isochrones
+/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], orbits [{u, v, ln_v, tau_left}], isochrones
 /// [{tau_stop, u, v}]; where asked for also highlight (an orbit), through (orbits), against {law, orbits, isochrones}.
 /// Numbers read back to the same doubles.
 std::string to_json(const PhasePortrait& portrait);

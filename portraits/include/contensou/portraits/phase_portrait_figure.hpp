@@ -24,11 +24,10 @@ struct PortraitStyle {
   enum class Arrows { time, one, none } arrows = Arrows::time;         ///< at equal times, one on each orbit, none
   enum class Field { none, motion, regularised } field = Field::none;  ///< directions of (2.6), (2.7)
   bool invariant = true;                                               ///< axes and ray, which are the nullclines
-  bool colour_by_time = true;           ///< orbits by the time left; not where two laws are compared
-  bool asked = true;                    ///< the highlighted orbit and those through points; else the caller draws them
-  bool screen = false;                  ///< light on dark, for a projector, instead of dark on light, for paper
-  std::optional<double> width_mm = {};  ///< empty: by view
-  std::optional<double> height_mm = {};
+  bool colour_by_time = true;  ///< orbits by the time left; not where two laws are compared
+  bool asked = true;           ///< the highlighted orbit and those through points; else the caller draws them
+  bool screen = false;         ///< light on dark, for a projector, instead of dark on light, for paper
+  AskedSize size = {};         ///< what is left out follows from the view
 };
 
 /// The law, and the one that it is compared with, in the words of a title.

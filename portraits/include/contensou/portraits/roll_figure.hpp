@@ -24,6 +24,7 @@ struct RollPicture {
   std::string subtitle;
   RollCurve ball;
   RollCurve textbook;  ///< the same start with sliding and spinning uncoupled
+  AskedSize size = {};
 };
 
 /// The path on the table, up to a little after the ball rolls, and the speeds against time, up to the stop (on a

@@ -32,7 +32,7 @@ struct StopTimeMap {
 ///                            is beyond the largest double
 StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes);
 
-/// The map as a drawing: stop times as colours, dark for long ones, with a scale; labelled isochrones over them; the
+/// The map as a drawing: stop times as colours, dark for short ones, with a scale; labelled isochrones over them; the
 /// ray k = 1, above which the centre of rotation is outside the patch.
 Figure draw(const StopTimeMap& map);
 

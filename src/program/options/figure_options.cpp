@@ -1,0 +1,55 @@
+#include "options/figure_options.hpp"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace contensou::program {
+
+namespace {
+
+constexpr double min_side = 40, max_side = 2000;
+constexpr double single_column = 85, double_column = 170;
+
+portraits::AskedSize parse_size(const std::string& typed) {
+  if (typed == "single") return {single_column, {}};
+  if (typed == "double") return {double_column, {}};
+  constexpr const char* wanted = "single, double, or width and height in mm are needed, as in 180x120";
+  const std::size_t cross = typed.find('x');
+  if (cross == std::string::npos) throw NotAllowed(wanted);
+  std::vector<double> sides;
+  try {
+    sides = {parse_number(typed.substr(0, cross)), parse_number(typed.substr(cross + 1))};
+  } catch (const BadInput& error) {
+    throw NotAllowed(fmt::format("{}; {}", error.what(), wanted));
+  }
+  for (double side : sides) {
+    if (side >= min_side && side <= max_side) continue;
+    throw NotAllowed(fmt::format("width and height must be {} to {} mm", min_side, max_side));
+  }
+  return {sides[0], sides[1]};
+}
+
+}  // namespace
+
+void FigureOptions::add(CLI::App& app) {
+  size_.add(app, "--size", "WxH",
+            fmt::format("size of the figure in mm, each {} to {}; or single, double: a journal's column, {} or {} mm "
+                        "wide",
+                        min_side, max_side, single_column, double_column),
+            parse_size);
+  title_.add(app, "--title", "TEXT", "title of the figure, or none: neither title nor subtitle");
+  dpi_.add(app, "--dpi", "N", "dots per inch of a png, 50 to 1200 (default 300)", whole_number(50, 1200));
+}
+
+portraits::Figure FigureOptions::apply(portraits::Figure figure, const std::string& format) const {
+  if (title_.given()) {
+    figure.title = title_.text() == "none" ? "" : portraits::literal(title_.text(), 200);
+    figure.subtitle = "";
+  }
+  if (dpi_.given() && format != "png") dpi_.reject(fmt::format("a {} has no dots: leave it out", format));
+  figure.dpi = static_cast<double>(dpi_.value_or(static_cast<long>(figure.dpi)));
+  return figure;
+}
+
+}  // namespace contensou::program
