@@ -108,8 +108,8 @@ Polyline thinned(const Panel& panel, const Polyline& line, double tolerance) {
     }
     if (middle == first) continue;
     kept[middle] = true;
-    open.push_back({first, middle});
-    open.push_back({middle, last});
+    open.emplace_back(first, middle);
+    open.emplace_back(middle, last);
   }
   Polyline result;
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -73,7 +73,7 @@ std::string law_legend(const PhasePortrait& portrait);
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 
 /// The state at which an orbit has that ln k, interpolated between its rows; the last before the stop if it has none.
-Instant at_log_ratio(const PortraitOrbit& orbit, double ln_k);
+Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 
 /// A state by logarithms, which do not underflow; one of them not finite: none.
 struct LogState {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,8 +30,8 @@ void require_state(const char* function, State state) {
   }
 }
 
-ReducedSystem::ReducedSystem(Law law, double patch_ratio, Inertia inertia)
-    : law_(std::move(law)),
+ReducedSystem::ReducedSystem(const Law& law, double patch_ratio, Inertia inertia)
+    : law_(law),
       mu_(positive("mu", patch_ratio)),
       inertia_{positive("chi", inertia.chi), positive("gamma", inertia.gamma)},
       // Below this r nothing but time depends on it, and time is had from mu itself (pivoting_limit).

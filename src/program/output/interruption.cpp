@@ -67,7 +67,7 @@ int open_unfinished(const std::string& folder, const std::string& target, std::s
   // The name is in the handler's hands before the file exists: mkostemp fills it in, then creates the file.
   path = folder + "/.contensou-XXXXXX";
   if (path.size() >= unfinished.size()) return errno = ENAMETOOLONG, -1;
-  std::strcpy(unfinished.data(), path.c_str());
+  unfinished[path.copy(unfinished.data(), path.size())] = '\0';
   is_unfinished = true;
   const int file = ::mkostemp(unfinished.data(), O_CLOEXEC);
   path = unfinished.data();

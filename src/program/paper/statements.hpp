@@ -35,7 +35,7 @@ struct Statement {
   struct Number : std::function<double(double)> {
     using function::function;
     Number() = default;
-    Number(double value) : function([value](double) { return value; }) {}
+    Number(double value) : function([value](double) { return value; }) {}  // NOLINT(google-explicit-constructor)
   };
 
   std::string_view equation, says;

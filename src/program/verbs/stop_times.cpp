@@ -30,8 +30,8 @@ void StopTimes::AtMu::row(std::span<const double> u0, double v0, std::span<doubl
   std::ranges::transform(u0, taus.begin(), [&](double u) { return one({.u = u, .v = v0}); });
 }
 
-StopTimes::StopTimes(reduction::Law law, reduction::Inertia body, long starts)
-    : law_(std::move(law)), body_(body), by_table_(starts >= starts_that_pay) {}
+StopTimes::StopTimes(const reduction::Law& law, reduction::Inertia body, long starts)
+    : law_(law), body_(body), by_table_(starts >= starts_that_pay) {}
 
 StopTimes::AtMu StopTimes::made(double mu) {
   const reduction::ReducedSystem system(law_, mu, body_);

@@ -29,11 +29,11 @@ class StopTimes {
   };
 
   /// By a route.
-  StopTimes(reduction::Law law, reduction::Inertia body, const RouteOption& route)
-      : law_(std::move(law)), body_(body), route_(route) {}
+  StopTimes(const reduction::Law& law, reduction::Inertia body, const RouteOption& route)
+      : law_(law), body_(body), route_(route) {}
 
   /// By the best route, for so many starts of each mu: by a table where they pay for it.
-  StopTimes(reduction::Law law, reduction::Inertia body, long starts);
+  StopTimes(const reduction::Law& law, reduction::Inertia body, long starts);
 
   /// @throws  as RouteOption::read and the making of the solution
   std::shared_ptr<const AtMu> at(double mu);

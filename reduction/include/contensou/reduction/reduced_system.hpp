@@ -31,7 +31,7 @@ class ReducedSystem {
  public:
   /// @param patch_ratio  mu = patch radius/R, > 0
   /// @throws std::domain_error  if mu, chi or gamma is not a positive finite number
-  ReducedSystem(Law law, double patch_ratio, Inertia inertia = homogeneous_ball);
+  ReducedSystem(const Law& law, double patch_ratio, Inertia inertia = homogeneous_ball);
 
   const Law& law() const { return law_; }
   double mu() const { return mu_; }
