@@ -47,7 +47,15 @@ void reject_extras(const CLI::App& app, const std::vector<std::string>& names) {
     for (const CLI::Option* known : app.get_options()) {
       for (const std::string& name : known->get_lnames()) options.push_back("--" + name);
     }
-    throw BadInput(fmt::format("unknown option {}{}", quotation(option), suggestion(option, options)));
+    std::vector<std::string> others;
+    if (const CLI::App* root = app.get_parent()) {
+      for (const CLI::App* verb : root->get_subcommands([](const CLI::App*) { return true; })) {
+        if (verb->get_option_no_throw(option) != nullptr) others.push_back(verb->get_name());
+      }
+    }
+    const std::string hint =
+        others.empty() ? suggestion(option, options) : fmt::format(": it is an option of {}", fmt::join(others, ", "));
+    throw BadInput(fmt::format("unknown option {}{}", quotation(option), hint));
   }
   if (names.empty()) throw BadInput(fmt::format("unexpected argument {}", quotation(typed)));
   throw BadInput(

@@ -44,6 +44,22 @@ TEST_CASE("a batch by another law and every route", "[route]") {
   }
 }
 
+TEST_CASE("a batch of a ball has SI columns", "[cli]") {
+  const Run run = run_program("stop --ball pool --batch -", "slip,note,spin\n1,a,100\n0,b,-50\n2,c,0\n");
+  CHECK(run.status == 0);
+  const auto rows = rows_of(run.out);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0] == std::vector<std::string>{"slip", "note", "spin", "t_stop"});
+  CHECK(std::stod(rows[1][3]) == Approx(10.10502826).epsilon(1e-9));
+  CHECK(std::stod(rows[2][3]) == Approx(5).epsilon(1e-14));
+  CHECK(std::stod(rows[3][3]) == Approx(4 / (7 * 0.2 * 9.80665)).epsilon(1e-14));
+  CHECK_THAT(run_program("stop --ball pool --batch -", "mu,u0,v0\n1,1,1\n").err,
+             Contains("no column is called 'spin'"));
+  CHECK_THAT(run_program("stop --ball pool --batch -", "slip,spin\n-1,1\n").err,
+             Contains("<stdin>:2: slip: slip >= 0"));
+  check_rejected("stop --ball pool --slip 1 --batch -", "the starts are in the file");
+}
+
 TEST_CASE("quoted fields pass through", "[cli]") {
   const Run run = run_program("stop --law pade --batch -",
                               "note,mu,u0,v0\n\"a,\"\"b\"\"\nc\",1,0,0\n\"#d\",1,0,0\n\"plain\",1,0,0\n");

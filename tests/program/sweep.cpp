@@ -57,6 +57,28 @@ TEST_CASE("a sweep as csv: u0 runs fastest, then v0, then mu", "[cli]") {
   CHECK(run_program("sweep --law pade --mu 0.1:0.3:2 --u0 -1:1:3 --v0 0:0.5:2 -o - --format csv").out == expected);
 }
 
+TEST_CASE("a sweep of a ball is in SI", "[cli]") {
+  const std::string sweep = "sweep --ball pool --friction 0.3 --spin -100:100:3 --slip 0:2:2";
+  const auto rows = rows_of(run_program(sweep).out);
+  REQUIRE(rows.size() == 7);
+  CHECK(rows[0] == std::vector<std::string>{"spin", "slip", "t_stop"});
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto one = json_of(
+        fmt::format("stop --ball pool --friction 0.3 --spin {} --slip {} --format json", rows[i][0], rows[i][1]));
+    CHECK(std::stod(rows[i][2]) == Approx(one.at("t_stop").get<double>()).epsilon(1e-14));
+  }
+  CHECK(run_program(sweep + " --format npy").out.size() == 128 + 6 * sizeof(double));
+  for (const auto& [arguments, words] : std::vector<std::pair<std::string, std::string>>{
+           {"--ball pool --spin 0:1:2", "--slip missing"},
+           {"--ball pool --mu 0.1 --spin 0:1:2 --slip 0:1:2", "--ball and --mu exclude each other"},
+           {"--mu 0.1 --spin 0:1:2 --slip 0:1:2", "add --ball"},
+           {"--ball pool --spin 0:1:2 --slip -1:1:2", "a sliding speed is >= 0"},
+           {"--friction 0.1 --mu 0.1 --u0 0:1:2 --v0 0:1:2", "add --ball"},
+           {"--ball pool --spin 0:1:2 --slip 0:1:2 -o map.svg", "a picture of a sweep is in u and v"}}) {
+    check_rejected("sweep " + arguments, words);
+  }
+}
+
 TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
   const TemporaryDirectory scratch;
   const std::string axes = " --u0 0:2:5 --v0 0.5:1.5:3 --law exact -o " + scratch.file("map.npy");

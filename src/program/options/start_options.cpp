@@ -83,10 +83,11 @@ void StartOptions::add(CLI::App& app) {
   add_ball(app, "instead of these four: a ball in SI units, built in or from a run file");
 }
 
-void StartOptions::add_ball(CLI::App& app, const std::string& help) {
+void StartOptions::add_ball(CLI::App& app, const std::string& help, bool starts) {
   ball_.add(app, "--ball", "NAME|FILE.toml", help);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const si::Quantity& quantity = *quantities[i];
+    if (!starts && (&quantity == &si::slip || &quantity == &si::spin)) continue;
     std::string name = fmt::format("--{}", quantity.name);
     std::ranges::replace(name, '_', '-');
     const auto read = [&quantity](const std::string& typed) {

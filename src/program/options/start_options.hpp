@@ -66,7 +66,9 @@ class StartOptions {
   void add(CLI::App& app);
 
   /// --ball and its overrides alone, for a verb that is in SI units.
-  void add_ball(CLI::App& app, const std::string& help = "a ball in SI units, built in or from a run file");
+  /// @param starts  whether --slip and --spin are among them
+  void add_ball(CLI::App& app, const std::string& help = "a ball in SI units, built in or from a run file",
+                bool starts = true);
 
   /// Whether any of them was given, --body aside.
   bool given() const { return !given_names().empty(); }
@@ -80,6 +82,8 @@ class StartOptions {
   /// @throws si::RunFileError   for a mistake in a run file
   /// @throws std::system_error  for a run file that cannot be read
   GivenStart read(const reduction::Law& law) const;
+
+  bool ball_given() const { return ball_.given(); }
 
   /// Whether --slip or --spin was given.
   bool overrides_start() const;

@@ -10,6 +10,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include "contensou/si/bridge.hpp"
 #include "output/answer.hpp"
 #include "output/ordered_work.hpp"
 #include "output/progress.hpp"
@@ -18,8 +19,6 @@
 namespace contensou::program {
 
 namespace {
-
-constexpr const char* result = "tau_stop";
 
 /// Some rows of the table, and what becomes of them.
 struct Piece {
@@ -39,15 +38,18 @@ class Batch {
       : table_(table),
         output_(output),
         request_(request),
-        columns_{table.column("mu"), table.column("u0"), table.column("v0")},
+        columns_(request.ball ? std::vector{table.column("spin"), table.column("slip")}
+                              : std::vector{table.column("mu"), table.column("u0"), table.column("v0")}),
+        ball_mu_(request.ball ? si::patch_ratio(*request.ball, request.law) : 0),
         stop_times_(request.law, request.body.inertia, request.route),
         progress_("rows", request.progress) {
+    const std::string result = request.ball ? "t_stop" : "tau_stop";
     if (table.has_column(result)) {
       throw table.complaint(table.header_line(),
                             fmt::format("the input already has a column '{}': rename or remove it", result));
     }
     std::vector<std::string> names = table.names();
-    names.emplace_back(result);
+    names.push_back(result);
     header_ = csv_line(names);
   }
 
@@ -59,8 +61,8 @@ class Batch {
     progress_.finish(static_cast<double>(rows_));
     if (overflows_ > 0) {
       const auto note = table_.complaint(
-          first_overflow_,
-          fmt::format("tau_stop exceeds the largest double and is written as inf ({} rows in all)", overflows_));
+          first_overflow_, fmt::format("{} exceeds the largest double and is written as inf ({} rows in all)",
+                                       request_.ball ? "t_stop" : "tau_stop", overflows_));
       std::fprintf(stderr, "%s\n", note.what());
     }
     return status_;
@@ -126,14 +128,20 @@ class Batch {
 
   double stop_time(const CsvRow& row) {
     table_.require_complete(row);
-    const double mu = table_.number(row, columns_.mu);
-    const reduction::State start{.u = table_.number(row, columns_.u0), .v = table_.number(row, columns_.v0)};
+    const bool is_ball = request_.ball.has_value();
+    const double mu = is_ball ? ball_mu_ : table_.number(row, columns_.front());
+    const double radius = is_ball ? request_.ball->ball.radius : 1;
+    const reduction::State start{.u = radius * table_.number(row, columns_.rbegin()[1]),
+                                 .v = table_.number(row, columns_.back())};
     if (const std::string wrong = request_.body.complaint(mu); !wrong.empty()) {
       throw table_.complaint(row.line(), fmt::format("mu: {}, got {}", wrong, mu));
     }
-    if (start.v < 0) throw table_.complaint(row.line(), fmt::format("v0: v0 >= 0 is required, got {}", start.v));
+    if (start.v < 0)
+      throw table_.complaint(row.line(),
+                             fmt::format("{0}: {0} >= 0 is required, got {1}", is_ball ? "slip" : "v0", start.v));
     try {
-      return stop_times_(mu, start);
+      const double tau = stop_times_(mu, start);
+      return is_ball ? si::seconds(*request_.ball, tau) : tau;
     } catch (const std::domain_error& error) {
       throw table_.complaint(row.line(), error.what());
     } catch (const std::runtime_error& error) {
@@ -144,9 +152,8 @@ class Batch {
   CsvReader& table_;
   OutputFile& output_;
   const BatchRequest& request_;
-  struct {
-    CsvColumn mu, u0, v0;
-  } columns_;
+  std::vector<CsvColumn> columns_;  ///< of mu, but for a ball, of pivoting and of sliding
+  double ball_mu_;
   StopTimes stop_times_;
   Progress progress_;
   std::string header_;  ///< is written with the first rows

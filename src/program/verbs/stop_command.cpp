@@ -18,7 +18,9 @@ class StopCommand final : public Verb {
     law_.add(app);
     route_.add(app);
     app.add_flag("--estimate", estimate_, "the estimates for small mu beside the stop time, with their errors");
-    batch_.add(app, "--batch", "FILE", "CSV with columns mu,u0,v0; adds tau_stop to each row; - is standard input");
+    batch_.add(app, "--batch", "FILE",
+               "CSV with columns mu,u0,v0, to which it adds tau_stop; with --ball slip,spin (m/s, rad/s) and t_stop "
+               "(s); - is standard input");
     app.add_flag("--keep-going", keep_going_, "with --batch: leave tau_stop of a bad row empty and go on");
     bulk_.add(app);
     output_.add(app);
@@ -36,13 +38,20 @@ class StopCommand final : public Verb {
 
  private:
   ExitStatus run_batch() const {
-    if (start_.given()) {
+    const bool has_ball = start_.ball_given();
+    if (has_ball ? start_.overrides_start() : start_.given()) {
       throw BadInput("--batch and " + start_.given_names() + " exclude each other: the starts are in the file");
     }
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     const Output out = output_.read(1);
-    const BatchRequest request{law_.read(start_.body()), start_.body(),           route_, keep_going_,
-                               bulk_.threads(),          bulk_.progress(out.path)};
+    const reduction::Law law = law_.read(start_.body());
+    const BatchRequest request{law,
+                               start_.body(),
+                               has_ball ? std::optional(start_.read(law).shot.value()) : std::nullopt,
+                               route_,
+                               keep_going_,
+                               bulk_.threads(),
+                               bulk_.progress(out.path)};
     OutputFile output(out.path);  // before the input, which may be long in coming
     CsvReader table(batch_.text());
     const ExitStatus status = stop_batch(table, output, request);

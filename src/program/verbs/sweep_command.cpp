@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "contensou/portraits/stop_time_map.hpp"
+#include "contensou/si/bridge.hpp"
 #include "options/bulk_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -55,8 +57,9 @@ struct Range {
 struct SweepGrid {
   Range mu;
   bool mu_is_range;  ///< whether the array has an axis for it
-  Range u0;
+  Range u0;          ///< of a ball, its spin
   Range v0;
+  std::optional<si::Shot> ball = {};  ///< the grid and the stop times are in SI
 
   /// Also where it would not fit an integer.
   double points() const {
@@ -85,7 +88,7 @@ std::vector<double> values_of(const Range& range, long begin, long count) {
 /// What a file begins with: the names of the columns, or NumPy's description of the array, whose doubles follow as they
 /// are in memory.
 std::string heading(const SweepRequest& request) {
-  if (request.format == SweepFormat::csv) return "mu,u0,v0,tau_stop\n";
+  if (request.format == SweepFormat::csv) return request.grid.ball ? "spin,slip,t_stop\n" : "mu,u0,v0,tau_stop\n";
   const SweepGrid& grid = request.grid;
   std::vector<long> shape{grid.v0.count, grid.u0.count};
   if (grid.mu_is_range) shape.insert(shape.begin(), grid.mu.count);
@@ -151,15 +154,22 @@ class Sweep {
       const std::span<const double> u0 =
           u0_.empty() ? std::span(computed)
                       : std::span(u0_).subspan(static_cast<std::size_t>(start % columns), taus.size());
-      stop_times->row(u0, v0, taus);
-      if (request_.format == SweepFormat::csv) append_lines(piece.text, piece.mu, u0, v0, taus);
+      if (grid_.ball) {
+        std::vector<double> pivoting(u0.begin(), u0.end());
+        for (double& u : pivoting) u *= grid_.ball->ball.radius;
+        stop_times->row(pivoting, v0, taus);
+        for (double& tau : taus) tau = si::seconds(*grid_.ball, tau);
+      } else {
+        stop_times->row(u0, v0, taus);
+      }
+      if (request_.format == SweepFormat::csv)
+        append_lines(piece.text, grid_.ball ? "" : fmt::format("{},", piece.mu), u0, v0, taus);
       done += taus.size();
     }
   }
 
-  static void append_lines(fmt::memory_buffer& text, double mu, std::span<const double> u0, double v0,
+  static void append_lines(fmt::memory_buffer& text, const std::string& mu_text, std::span<const double> u0, double v0,
                            std::span<const double> taus) {
-    const std::string mu_text = fmt::format("{},", mu);
     const std::string v0_text = fmt::format(",{},", v0);
     for (std::size_t i = 0; i < taus.size(); ++i) {
       text.append(mu_text);
@@ -249,6 +259,11 @@ class SweepCommand final : public Verb {
     mu_.add(app, "--mu", "M|MIN:MAX:N", "patch ratio, 0 < M <= 1, or N values of it", read);
     u0_.add(app, "--u0", "MIN:MAX:N", "N values of the pivoting R omega_z at the start, MIN and MAX among them", read);
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed at the start, MIN >= 0", read);
+    ball_.add_ball(app, "instead of these three: a ball in SI units, with --slip and --spin; the stop times are in s",
+                   false);
+    spin_.add(app, "--spin", "MIN:MAX:N", "with --ball: N values of the spin about the vertical, in rad/s", read);
+    slip_.add(app, "--slip", "MIN:MAX:N", "with --ball: N values of the sliding speed of the contact point, in m/s",
+              read);
     app.add_flag("--log", log_, "values in equal ratios instead of equal steps; MIN > 0");
     law_.add(app);
     body_.add_body(app);
@@ -258,10 +273,11 @@ class SweepCommand final : public Verb {
 
   ExitStatus run() override {
     const Body body = body_.body();
-    const SweepGrid grid = read_grid(body);
     const Output out = output_.read();
     const reduction::Law law = law_.read(body);
+    const SweepGrid grid = ball_.ball_given() ? read_grid_of_ball(law) : read_grid(body);
     if (out.picture()) {
+      if (grid.ball) throw BadInput("a picture of a sweep is in u and v: give --mu, --u0, --v0, or write npy or csv");
       bulk_.refuse("npy and csv: a picture is of few starts, leave it out");
       out.write(portraits::draw(make_map(reduction::ReducedSystem(law, grid.mu.least, body.inertia), grid)));
       return ExitStatus::done;
@@ -281,7 +297,10 @@ class SweepCommand final : public Verb {
  private:
   Range range_of(const ArgumentOf<Range>& argument) const {
     if (!argument.given()) {
-      throw BadInput(fmt::format("{} missing: a sweep is --mu M --u0 MIN:MAX:N --v0 MIN:MAX:N", argument.name()));
+      throw BadInput(
+          fmt::format("{} missing: a sweep is --mu M --u0 MIN:MAX:N --v0 MIN:MAX:N, or --ball NAME --spin "
+                      "MIN:MAX:N --slip MIN:MAX:N",
+                      argument.name()));
     }
     Range range = *argument;
     range.in_ratios = log_;
@@ -292,7 +311,22 @@ class SweepCommand final : public Verb {
     return range;
   }
 
+  SweepGrid read_grid_of_ball(const reduction::Law& law) const {
+    if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument()}); !others.empty()) {
+      throw BadInput(fmt::format("--ball and {} exclude each other: with --ball, use --spin and --slip", others));
+    }
+    const si::Shot shot = ball_.read_ball(law);
+    const double mu = si::patch_ratio(shot, law);
+    const SweepGrid grid{
+        .mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = range_of(slip_), .ball = shot};
+    if (grid.v0.least < 0) slip_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
+    return grid;
+  }
+
   SweepGrid read_grid(const Body& body) const {
+    if (ball_.given() || spin_.given() || slip_.given()) {
+      throw BadInput("without --ball NAME|FILE.toml, its options and --spin and --slip mean nothing: add --ball");
+    }
     if (!mu_.given() && !body.patch_ratio) {
       throw BadInput("--mu missing: give --mu M or MIN:MAX:N, or a --body that lies flat, disc or ring");
     }
@@ -325,7 +359,8 @@ class SweepCommand final : public Verb {
     return portraits::stop_time_map(flow, {values(grid.u0), values(grid.v0), log_});
   }
 
-  ArgumentOf<Range> mu_, u0_, v0_;
+  ArgumentOf<Range> mu_, u0_, v0_, spin_, slip_;
+  StartOptions ball_;
   bool log_ = false;
   LawOption law_;
   BodyOptions body_;
