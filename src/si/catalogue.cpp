@@ -11,8 +11,9 @@ CatalogueEntry pool() {
           {.ball = {.name = "pool ball on cloth", .mass = 0.1701, .radius = 0.028575},
            .contact = {.friction = 0.2, .patch = SpinDeceleration{10}},
            .start = SlipAndSpin{.slip = 1, .spin = 100}},
-          "Size, mass (2.25 in, 0.1701 kg), friction (0.15 to 0.4) and spin deceleration (5 to 15 rad/s^2):\n"
-          "billiards.colostate.edu/threads/physics.html. The patch follows from the spin deceleration."};
+          "Size, mass (2.25 in, 0.1701 kg), friction (0.15 to 0.4), spin deceleration (5 to 15 rad/s^2) and rolling\n"
+          "friction (0.005 to 0.015): billiards.colostate.edu/threads/physics.html. The patch follows from the spin\n"
+          "deceleration."};
 }
 
 CatalogueEntry steel() {

@@ -18,6 +18,10 @@ void MotionColumns::set(Eigen::Index row, const MotionPoint& point) {
   energy[row] = point.energy;
 }
 
+MotionPoint MotionColumns::row(Eigen::Index i) const {
+  return {t[i], {x[i], y[i]}, {vx[i], vy[i]}, {wx[i], wy[i], wz[i]}, slip[i], energy[i]};
+}
+
 double kinetic_energy(const Ball& ball, const Velocities& velocities) {
   const Eigen::Vector3d rim = ball.radius * velocities.angular_velocity;
   return ball.mass * (velocities.velocity.squaredNorm() / 2 + rim.squaredNorm() / 5);

@@ -57,6 +57,35 @@ TEST_CASE("every route samples up to the stop", "[route]") {
   }
 }
 
+TEST_CASE("half of an orbit's samples lie where it slides", "[cli]") {
+  for (const std::string route : {"closed", "quadrature", "regularised"}) {
+    const std::string command = "orbit --law pade --mu 0.1 --u0 1 --v0 1 --route " + route;
+    const auto rows = rows_of(run_program(command).out);
+    INFO(route);
+    REQUIRE(rows.size() == 201);
+    CHECK(std::stod(rows[101][2]) == Approx(1e-3).epsilon(1e-6));
+    const double stop = std::stod(rows[200][0]);
+    CHECK(stop == Approx(Flow({PadeLaw{}, 0.1}).orbit({1, 1}).stop_time()).epsilon(1e-9));
+    const auto even = rows_of(run_program(command + " --equidistant").out);
+    CHECK(std::stod(even[100][0]) == Approx(stop * 99 / 199).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the state by the time left", "[cli]") {
+  const auto rows = rows_of(run_program("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1e-30,0,2").out);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0].back() == "tau_left");
+  // Near the stop u = (5 mu/16) tau_left, to the last digits.
+  CHECK(std::stod(rows[1][1]) == Approx(5 * 0.3 / 16 * 1e-30).epsilon(1e-14));
+  CHECK(rows[2][1] == "0");
+  CHECK(rows[3].back() == "2");
+  check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 99", "99 is before the start, which is 11.626");
+  check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left -1", "tau_left >= 0");
+  check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --samples 3", "exclude each other");
+  check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --at 1", "exclude each other");
+  check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --route direct", "closed and quadrature");
+}
+
 TEST_CASE("a ball has seconds in its last column", "[cli]") {
   const auto rows = rows_of(run_program("orbit --ball pool --samples 2").out);
   REQUIRE(rows.size() == 3);

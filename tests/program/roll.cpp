@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -162,6 +163,54 @@ TEST_CASE("roll has its events in JSON and as comments of CSV", "[cli]") {
                       Contains("\n# rolls_after: {\"t\": ") && Contains("\nt,x,y,vx,vy,wx,wy,wz,slip,energy\n"));
 }
 
+TEST_CASE("half of the samples lie where the ball slides", "[cli]") {
+  const double rolls = json_of("roll --ball pool --samples 2 --format json").at("rolls_after").at("t").get<double>();
+  const auto adapted = columns_of("roll --ball pool").at("t");
+  CHECK(adapted.size() == 200);
+  CHECK(adapted[100] == Approx(rolls).epsilon(1e-12));
+  CHECK(std::ranges::is_sorted(adapted));
+  const auto even = columns_of("roll --ball pool --equidistant").at("t");
+  for (std::size_t i = 0; i < even.size(); ++i) {
+    CHECK(even[i] == Approx(even.back() * static_cast<double>(i) / 199).epsilon(1e-14));
+  }
+  CHECK(adapted.back() == even.back());
+  check_rejected("roll --ball pool --at 1 --equidistant", "exclude each other");
+}
+
+TEST_CASE("rolling friction brings the ball to rest", "[cli]") {
+  const std::string slowed = masse + " --rolling-friction 0.01";
+  const auto roll = json_of(slowed + " --samples 2 --format json");
+  const auto& rolls = roll.at("rolls_after");
+  const auto& rest = roll.at("rest");
+  const auto there =
+      columns_of(fmt::format("{} --at {},{}", slowed, rolls.at("t").get<double>(), rest.at("t").get<double>()));
+  const double speed = std::hypot(there.at("vx")[0], there.at("vy")[0]), a = 0.01 * 9.80665;
+  CHECK(rest.at("t").get<double>() == Approx(rolls.at("t").get<double>() + speed / a).epsilon(1e-12));
+  CHECK(std::hypot(rest.at("x").get<double>() - rolls.at("x").get<double>(),
+                   rest.at("y").get<double>() - rolls.at("y").get<double>()) ==
+        Approx(speed * speed / (2 * a)).epsilon(1e-12));
+  CHECK(there.at("x")[1] == Approx(rest.at("x").get<double>()).epsilon(1e-14));
+  CHECK(there.at("energy")[1] < 1e-15);
+  CHECK_THAT(run_program(slowed + " --format text").out,
+             Contains("its centre rests after") && Contains("u_r g = 0.0980665"));
+  CHECK_FALSE(json_of(masse + " --samples 2 --format json").contains("rest"));
+  const auto stepped = columns_of(slowed + " --samples 9 --route integrated");
+  const auto reduced = columns_of(slowed + " --samples 9");
+  for (std::size_t i = 0; i < 9; ++i) CHECK(stepped.at("x")[i] == Approx(reduced.at("x")[i]).margin(1e-11));
+}
+
+TEST_CASE("a cue's stroke is a start", "[cli]") {
+  const auto shot = json_of("roll --ball pool --strike 2 --tip 0.3,-0.2 --elevation 30 --samples 2 --format json");
+  const double m = 0.1701, R = 0.028575, root3 = std::sqrt(3);
+  const double V = 2 * 2 / (1 + m / 0.54 + 2.5 * (0.09 + 0.04));
+  CHECK(shot.at("velocity").at(0).get<double>() == Approx(V * root3 / 2).epsilon(1e-14));
+  CHECK(shot.at("velocity").at(1) == 0);
+  CHECK(shot.at("angular_velocity").at(0).get<double>() == Approx(2.5 * V / R * 0.3 / 2).epsilon(1e-14));
+  CHECK(shot.at("angular_velocity").at(1).get<double>() == Approx(2.5 * V / R * -0.2).epsilon(1e-14));
+  CHECK(shot.at("angular_velocity").at(2).get<double>() == Approx(2.5 * V / R * 0.3 * root3 / 2).epsilon(1e-14));
+  CHECK(json_of("roll --ball pool --strike 1 --cue-mass 0.1701 --samples 2 --format json").at("velocity").at(0) == 1);
+}
+
 TEST_CASE("a spinning ball never rolls before the textbook's, whatever counts as rolling", "[invariant]") {
   for (const std::string law : {"exact", "pade"}) {
     for (const auto& entry : contensou::si::catalogue()) {
@@ -226,7 +275,19 @@ TEST_CASE("every built-in ball rolls", "[cli]") {
 TEST_CASE("mistakes in a motion are bad input", "[cli]") {
   const std::vector<std::pair<std::string, std::string>> mistakes{
       {"roll", "--ball missing"},
-      {"roll --mu 0.1 --u0 1 --v0 1", "unknown option '--mu'"},
+      {"roll --mu 0.1 --u0 1 --v0 1",
+       "unknown option '--mu': it is an option of check, orbit, portrait, stop, sweep, terminal"},
+      {"stop --ball pool --velocity 1,0", "unknown option '--velocity': it is an option of roll"},
+      {"roll --ball pool --tip 0,0.4", "--tip is of a stroke: add --strike SPEED"},
+      {"roll --ball pool --strike 2 --tip 0.4,0.4", "--strike 2: the tip slips off the ball"},
+      {"roll --ball pool --strike 2 --tip 0.4", "2 numbers are needed, A,B"},
+      {"roll --ball pool --strike 0", "--strike 0: a cue's speed must be positive"},
+      {"roll --ball pool --strike 2 --elevation 90", "0 to below 90 degrees; got 90"},
+      {"roll --ball pool --strike 2 --cue-mass 0", "a cue's mass must be positive, in kg; got 0"},
+      {"roll --ball pool --strike 2 --velocity 1,0", "--strike is a start of its own"},
+      {"roll --ball pool --strike 2 --slip 1", "--strike is a start of its own"},
+      {"roll --ball pool --strike 1e308 --radius 1e-300 --patch-radius 1e-301", "must be finite"},
+      {"roll --ball pool --rolling-friction -1", "--rolling-friction -1: 0 or more is needed"},
       {"roll --ball pool --velocity 1", "--velocity 1: 2 numbers are needed, VX,VY"},
       {"roll --ball pool --velocity 1,2,3", "2 numbers are needed"},
       {"roll --ball pool --angular-velocity 1,2", "3 numbers are needed, WX,WY,WZ"},
@@ -245,7 +306,7 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
       {"roll --ball pool --until -1", "--until -1: "},
       {"roll --ball pool --until inf", "'inf' is not a finite number"},
       {"roll --ball pool --samples 3 -o roll.svg", "leave them out"},
-      {"roll --ball pool --rolling-below -1", "--rolling-below -1: a speed of slip is >= 0"},
+      {"roll --ball pool --rolling-below -1", "--rolling-below -1: 0 or more is needed"},
       {"roll --ball pool --rolling-below nan", "'nan' is not a finite number"},
   };
   for (const auto& [arguments, words] : mistakes) check_rejected(arguments, words);

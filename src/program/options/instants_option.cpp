@@ -8,25 +8,37 @@
 
 namespace contensou::program {
 
+Eigen::ArrayXd instants(Eigen::Index count, double busy, double end) {
+  const Eigen::Index early = count / 2, late = count - early;
+  if (early < 2 || !(busy > 0 && 2 * busy < end)) return Eigen::ArrayXd::LinSpaced(count, 0, end);
+  Eigen::ArrayXd all(count);
+  all << Eigen::ArrayXd::LinSpaced(early + 1, 0, busy).head(early), Eigen::ArrayXd::LinSpaced(late, busy, end);
+  return all;
+}
+
+Eigen::ArrayXd InstantsOption::read_times(const std::string& typed, const std::string& time) {
+  const bool is_file = typed == "-" || names_a_file(typed, {".csv", ".txt"});
+  const std::vector<double> times = is_file ? read_column(typed, time, Infinity::forbidden) : parse_numbers(typed);
+  if (const auto early = std::ranges::find_if(times, [](double at) { return at < 0; }); early != times.end()) {
+    throw NotAllowed(fmt::format("{} is not allowed: {} >= 0 is required", *early, time));
+  }
+  return Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size()));
+}
+
 CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const std::string& unit,
                                  const std::string& extent) {
   constexpr long max_samples = 10'000'000;
-  const auto read = [time](const std::string& typed) -> Eigen::ArrayXd {
-    const bool is_file = typed == "-" || names_a_file(typed, {".csv", ".txt"});
-    const std::vector<double> times = is_file ? read_column(typed, time, Infinity::forbidden) : parse_numbers(typed);
-    if (const auto early = std::ranges::find_if(times, [](double at) { return at < 0; }); early != times.end()) {
-      throw NotAllowed(fmt::format("{} is before the start: {} >= 0 is required", *early, time));
-    }
-    return Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size()));
-  };
+  const auto read = [time](const std::string& typed) { return read_times(typed, time); };
   CLI::Option* at = at_.add(
       app, "--at", "T1,T2,...|FILE",
       fmt::format("these {0} >= 0{1}, in any order; FILE has a column {0}, or one number a line", time, unit), read);
   samples_
       .add(app, "--samples", "N",
-           fmt::format("instead: equidistant instants{}, 2 or more (default {})", extent, standard_samples),
+           fmt::format("instead: N instants{}, 2 or more, half of them while it slides (default {})", extent,
+                       standard_samples),
            whole_number(2, max_samples))
       ->excludes(at);
+  app.add_flag("--equidistant", equidistant_, "instants of --samples at equal times")->excludes(at);
   return at;
 }
 

@@ -8,28 +8,42 @@
 
 namespace contensou::program {
 
-/// --at and --samples: the instants of a motion, or their number.
+/// Instants from 0 to the end, both included: half of them until `busy`, where things happen; equidistant where that is
+/// not in the first half.
+Eigen::ArrayXd instants(Eigen::Index count, double busy, double end);
+
+/// --at, --samples and --equidistant: the instants of a motion, or their number.
 class InstantsOption {
  public:
   /// @param time    its name, as of a column in the file of --at
   /// @param unit    "" or " in UNIT"
-  /// @param extent  of equidistant instants: "" or " from WHERE to WHERE"
+  /// @param extent  of those of --samples: "" or " from WHERE to WHERE"
   /// @return        --at
   CLI::Option* add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
 
-  bool given() const { return at_.given() || samples_.given(); }
+  /// A list of times >= 0, or the column of that name in a file.
+  static Eigen::ArrayXd read_times(const std::string& typed, const std::string& time);
+
+  bool given() const { return at_.given() || samples_.given() || equidistant_; }
 
   /// Those of --at, in the order given; null without it.
   const Eigen::ArrayXd* at() const { return at_.given() ? &*at_ : nullptr; }
 
-  /// How many equidistant ones are wanted.
+  /// How many are wanted without --at.
   Eigen::Index samples() const { return samples_.value_or(standard_samples); }
+  bool equidistant() const { return equidistant_; }
+
+  /// Those of --at, or as instants().
+  Eigen::ArrayXd between(double busy, double end) const {
+    return at_.given() ? *at_ : instants(samples(), equidistant_ ? 0 : busy, end);
+  }
 
  private:
   static constexpr long standard_samples = 200;
 
   ArgumentOf<Eigen::ArrayXd> at_;
   ArgumentOf<long> samples_;
+  bool equidistant_ = false;
 };
 
 }  // namespace contensou::program

@@ -11,6 +11,7 @@
 
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
+#include "options/instants_option.hpp"
 
 namespace contensou::program {
 
@@ -43,6 +44,18 @@ std::optional<Flow> flow_of(const ReducedSystem& system, Route route) {
   if (route == Route::closed) return system;
   if (route == Route::quadrature) return Flow::by_quadrature(system);
   return std::nullopt;
+}
+
+/// tau until the first of the speeds has fallen to 1e-3 of its start: most happens before.
+double busy_time(const Orbit& orbit, State start) {
+  const auto both_last = [&](double tau) {
+    const reduction::OrbitPoint point = orbit.at_time(tau);
+    return point.v >= 1e-3 * start.v && std::abs(point.u) >= 1e-3 * std::abs(start.u);
+  };
+  double low = 0;
+  double high = orbit.stop_time();
+  for (int i = 0; i < 40; ++i) (both_last((low + high) / 2) ? low : high) = (low + high) / 2;
+  return high;
 }
 
 double require_finite(double stop) {
@@ -87,16 +100,37 @@ OrbitColumns motion_at(const ReducedSystem& system, State start, Route route, co
   return columns;
 }
 
-OrbitColumns motion_samples(const ReducedSystem& system, State start, Route route, Eigen::Index count) {
-  if (const auto flow = flow_of(system, route)) {
-    const Orbit orbit = flow->orbit(start);
-    require_finite(orbit.stop_time());
-    return orbit.sample(count);
+OrbitColumns motion_at_time_left(const ReducedSystem& system, State start, Route route, const Eigen::ArrayXd& lefts) {
+  const auto flow = flow_of(system, route);
+  if (!flow)
+    throw BadInput("--time-left is of the routes closed and quadrature: a stepper knows the stop only by passing it");
+  const Orbit orbit = flow->orbit(start);
+  OrbitColumns columns(lefts.size());
+  for (Eigen::Index i = 0; i < lefts.size(); ++i) {
+    if (!(lefts[i] <= orbit.stop_time())) {
+      throw BadInput(
+          fmt::format("--time-left: {} is before the start, which is {} before the stop", lefts[i], orbit.stop_time()));
+    }
+    columns.set(i, orbit.at_time_left(lefts[i]));
   }
-  const Motion whole = step(system, start, route, {});
-  const double stop = require_finite(whole.stop_time);
-  OrbitColumns columns = motion_at(system, start, route, Eigen::ArrayXd::LinSpaced(count, 0, stop));
-  columns.set(count - 1, whole.points.row(whole.points.rows() - 1));
+  return columns;
+}
+
+OrbitColumns motion_samples(const ReducedSystem& system, State start, Route route, Eigen::Index count,
+                            bool equidistant) {
+  const auto flow = flow_of(system, route);
+  const Orbit orbit = (flow ? *flow : Flow(system)).orbit(start);
+  const std::optional<Motion> whole = flow ? std::nullopt : std::optional(step(system, start, route, {}));
+  const double stop = require_finite(whole ? whole->stop_time : orbit.stop_time());
+  const double busy = equidistant ? 0 : busy_time(orbit, start);
+  if (flow && !(2 * busy < stop && busy > 0)) return orbit.sample(count);
+  const Eigen::ArrayXd times = instants(count, busy, stop);
+  OrbitColumns columns = motion_at(system, start, route, times);
+  if (!flow) {
+    columns.set(count - 1, whole->points.row(whole->points.rows() - 1));
+    return columns;
+  }
+  for (Eigen::Index i = count / 2; i < count; ++i) columns.set(i, orbit.at_time_left(stop - times[i]));
   return columns;
 }
 

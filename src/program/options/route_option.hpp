@@ -34,9 +34,17 @@ class RouteOption {
 reduction::OrbitColumns motion_at(const reduction::ReducedSystem& system, reduction::State start,
                                   reduction::Route route, const Eigen::ArrayXd& times);
 
-/// @param count  equidistant instants from the start to the stop, both included; 2 or more
+/// States at so much time before the stop, to the last digits.
+///
+/// @param lefts  tau before the stop
+/// @throws BadInput  for a time before the start, and for a stepper, which has none
+reduction::OrbitColumns motion_at_time_left(const reduction::ReducedSystem& system, reduction::State start,
+                                            reduction::Route route, const Eigen::ArrayXd& lefts);
+
+/// @param count        instants from the start to the stop, both included; 2 or more
+/// @param equidistant  or half of them until the first of the speeds has fallen to 1e-3 of its start
 /// @throws std::runtime_error  as above, or if the stop time exceeds the largest double
 reduction::OrbitColumns motion_samples(const reduction::ReducedSystem& system, reduction::State start,
-                                       reduction::Route route, Eigen::Index count);
+                                       reduction::Route route, Eigen::Index count, bool equidistant);
 
 }  // namespace contensou::program

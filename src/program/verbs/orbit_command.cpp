@@ -16,7 +16,12 @@ class OrbitCommand final : public Verb {
     start_.add(app);
     law_.add(app);
     route_.add(app);
-    instants_.add(app, "tau", "", " from the start to the stop");
+    CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");
+    time_left_
+        .add(app, "--time-left", "T1,T2,...|FILE",
+             "instead: these tau before the stop, 0 to the stop time, and a column tau_left; FILE has that column",
+             [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
+        ->excludes(at);
     output_.add(app);
   }
 
@@ -25,10 +30,14 @@ class OrbitCommand final : public Verb {
     const GivenStart start = start_.read(law_.read(start_.body()));
     const reduction::ReducedSystem& system = start.system;
     const reduction::Route route = route_.read(system);
+    if (time_left_.given() && instants_.given()) {
+      throw BadInput("--time-left and --samples, --equidistant exclude each other: give one of them");
+    }
     const auto* at = instants_.at();
-    const reduction::OrbitColumns motion = at != nullptr
-                                               ? motion_at(system, start.state, route, *at)
-                                               : motion_samples(system, start.state, route, instants_.samples());
+    const reduction::OrbitColumns motion =
+        time_left_.given() ? motion_at_time_left(system, start.state, route, *time_left_)
+        : at != nullptr    ? motion_at(system, start.state, route, *at)
+                           : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
     Answer answer{.members = {{"law", system.law().name()},
                               {"route", name(route)},
                               {"mu", system.mu()},
@@ -40,6 +49,7 @@ class OrbitCommand final : public Verb {
                               {"ln_v", motion.ln_v},
                               {"k", motion.k},
                               {"beta", motion.beta}}};
+    if (time_left_.given()) answer.columns.push_back({"tau_left", *time_left_});
     if (start.shot) {
       answer.columns.push_back({"t", motion.tau.unaryExpr([&](double tau) { return si::seconds(*start.shot, tau); })});
     }
@@ -52,6 +62,7 @@ class OrbitCommand final : public Verb {
   LawOption law_;
   RouteOption route_;
   InstantsOption instants_;
+  ArgumentOf<Eigen::ArrayXd> time_left_;
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};
 };
 

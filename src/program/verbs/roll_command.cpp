@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -8,7 +10,9 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/bridge.hpp"
+#include "contensou/si/cue_strike.hpp"
 #include "contensou/si/integrated_motion.hpp"
+#include "contensou/si/rolling_friction.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "options/figure_options.hpp"
 #include "options/instants_option.hpp"
@@ -21,52 +25,85 @@ namespace contensou::program {
 
 namespace {
 
+/// A motion, with rolling friction if there is any.
+/// @tparam Motion  BallMotion or UncoupledMotion
+template <class Motion>
+struct Course {
+  Motion motion;
+  double rolls;  ///< s until it does
+  std::optional<si::RollingFriction> friction;
+
+  Course(const si::Shot& shot, const reduction::Law& law, double rolling_below, double rolling_friction)
+      : motion(shot, law), rolls(motion.slip_time(rolling_below)) {
+    if (rolling_friction > 0) {
+      friction.emplace(shot.ball, motion.at_time(rolls), rolling_friction * shot.environment.gravity);
+    }
+  }
+
+  si::MotionPoint at_time(double t) const { return friction ? (*friction)(motion.at_time(t)) : motion.at_time(t); }
+  si::MotionColumns at_times(const Eigen::ArrayXd& times) const { return slowed(motion.at_times(times)); }
+
+  si::MotionColumns slowed(si::MotionColumns columns) const {
+    for (Eigen::Index i = 0; friction && i < columns.rows(); ++i) columns.set(i, (*friction)(columns.row(i)));
+    return columns;
+  }
+};
+
 /// The whole motion of a ball.
 struct Roll {
   si::Shot shot;
   reduction::Law law;
-  bool integrated;       ///< the route of its columns: the equations of motion instead of the similarity solution
-  double rolling_below;  ///< m/s of slip
-  si::BallMotion whole{shot, law};
-  si::UncoupledMotion textbook{shot, law};
+  bool integrated;          ///< the route of its columns: the equations of motion instead of the similarity solution
+  double rolling_below;     ///< m/s of slip
+  double rolling_friction;  ///< u_r; 0: none
+  Course<si::BallMotion> whole{shot, law, rolling_below, rolling_friction};
+  Course<si::UncoupledMotion> textbook{shot, law, rolling_below, rolling_friction};
+
+  double stop_time() const { return whole.motion.stop_time(); }
 
   si::MotionColumns at_times(const Eigen::ArrayXd& times) const {
-    return integrated ? si::integrate_motion(shot, law, times).points : whole.at_times(times);
+    return integrated ? whole.slowed(si::integrate_motion(shot, law, times).points) : whole.at_times(times);
   }
 
-  /// Where a series of instants ends unless the user says otherwise, in s: a little past the stop.
-  double standard_end() const { return whole.stop_time() > 0 ? 1.1 * whole.stop_time() : 1; }
+  /// Where a series of instants ends unless the user says otherwise, in s: a little past the stop, and the rest.
+  double standard_end() const {
+    const double end = std::max(stop_time(), whole.friction ? whole.friction->rest_time() : 0);
+    return end > 0 ? 1.1 * end : 1;
+  }
 };
 
-/// What happens in a motion, and where. SI.
+/// When something happens, and where. SI.
+struct Event {
+  double t;
+  Eigen::Vector2d place;
+};
+
 struct Events {
-  double rolls, spin_ends;
-  Eigen::Vector2d rolls_at, spin_ends_at;
+  Event rolls, spin_ends;
+  std::optional<Event> rest;
   double slip_length, turns, path;  ///< path: until it rolls
 };
 
-/// @param motion  BallMotion or UncoupledMotion
-/// @param rolling_below  m/s of slip
 template <class Motion>
-Events events_of(const Motion& motion, double rolling_below) {
-  const double rolls = motion.slip_time(rolling_below);
-  const double spin_ends = motion.spin_end();
-  return {rolls,
-          spin_ends,
-          motion.at_time(rolls).position,
-          motion.at_time(spin_ends).position,
+Events events_of(const Course<Motion>& course) {
+  const auto& [motion, rolls, friction] = course;
+  const auto event = [&](double t) { return Event{t, course.at_time(t).position}; };
+  return {event(rolls),
+          event(motion.spin_end()),
+          friction ? std::optional(Event{friction->rest_time(), friction->rest_position()}) : std::nullopt,
           motion.slip_length(),
           motion.spin_angle() / (2 * std::numbers::pi),
           motion.path_length(rolls)};
 }
 
+Json members_of(const Event& event) { return {{"t", event.t}, {"x", event.place.x()}, {"y", event.place.y()}}; }
+
 Json members_of(const Events& events) {
-  const auto& [rolls, spin_ends, rolls_at, spin_ends_at, slip_length, turns, path] = events;
-  return {{"rolls_after", {{"t", rolls}, {"x", rolls_at.x()}, {"y", rolls_at.y()}}},
-          {"spin_ends", {{"t", spin_ends}, {"x", spin_ends_at.x()}, {"y", spin_ends_at.y()}}},
-          {"slip_length", slip_length},
-          {"turns", turns},
-          {"path", path}};
+  const auto& [rolls, spin_ends, rest, slip_length, turns, path] = events;
+  Json members{{"rolls_after", members_of(rolls)}, {"spin_ends", members_of(spin_ends)}};
+  if (rest) members["rest"] = members_of(*rest);
+  members.update({{"slip_length", slip_length}, {"turns", turns}, {"path", path}});
+  return members;
 }
 
 /// What friction takes of the kinetic energy, in J.
@@ -93,30 +130,30 @@ std::string heading(const si::Shot& shot, const reduction::Law& law, const Digit
 }
 
 std::string table(const Roll& roll, const Digits& digits) {
-  const Events ours = events_of(roll.whole, roll.rolling_below);
-  const Events theirs = events_of(roll.textbook, roll.rolling_below);
+  const Events ours = events_of(roll.whole);
+  const Events theirs = events_of(roll.textbook);
   std::string text;
   const auto line = [&, width = std::max(26, 2 * digits.count + 16)](const std::string& label, const std::string& first,
                                                                      const std::string& second,
                                                                      const std::string& unit) {
     text += fmt::format("{:<24}{:>{}}{:>{}}{}\n", label, first, width, second, width, unit);
   };
-  const auto number = [&](const std::string& label, double Events::*value, const std::string& unit) {
-    line(label, digits(ours.*value), digits(theirs.*value), "  " + unit);
+  const auto number = [&](const std::string& label, double first, double second, const std::string& unit) {
+    line(label, digits(first), digits(second), "  " + unit);
   };
-  const auto place = [&](Eigen::Vector2d Events::*value) {
-    line("  at", digits.list(ours.*value), digits.list(theirs.*value), "  m");
+  const auto event = [&](const std::string& label, const Event& first, const Event& second) {
+    number(label, first.t, second.t, "s");
+    line("  at", digits.list(first.place), digits.list(second.place), "  m");
   };
   line("", "law " + roll.law.name(), "textbook (uncoupled)", "");
-  number("rolls after", &Events::rolls, "s");
-  place(&Events::rolls_at);
+  event("rolls after", ours.rolls, theirs.rolls);
+  if (ours.rest) event("its centre rests after", *ours.rest, *theirs.rest);
   if (si::spin_at_start(roll.shot) != 0) {
-    number("spins no more after", &Events::spin_ends, "s");
-    place(&Events::spin_ends_at);
-    number("turned about vertical", &Events::turns, "turns");
+    event("spins no more after", ours.spin_ends, theirs.spin_ends);
+    number("turned about vertical", ours.turns, theirs.turns, "turns");
   }
-  number("length of slip", &Events::slip_length, "m");
-  number("path until it rolls", &Events::path, "m");
+  number("length of slip", ours.slip_length, theirs.slip_length, "m");
+  number("path until it rolls", ours.path, theirs.path, "m");
   const bool spins_too = si::spin_at_start(roll.shot) != 0 && si::slip_at_start(roll.shot) > 0;
   text += fmt::format("\nrolls  once its slip is below {} m/s{} (--rolling-below){}\n", digits(roll.rolling_below),
                       roll.rolling_below == si::rolling_slip ? ", which no eye tells from rolling" : "",
@@ -126,11 +163,16 @@ std::string table(const Roll& roll, const Digits& digits) {
   return text;
 }
 
-std::string ending(const si::Shot& shot, const Digits& digits) {
+std::string ending(const Roll& roll, const Digits& digits) {
+  const si::Shot& shot = roll.shot;
   const auto [velocity, angular_velocity] = si::final_motion(shot);
   const auto [start, loss, kept] = energy_balance(shot);
   std::string text = fmt::format("then   it rolls straight on: velocity {} m/s, angular velocity {} 1/s\n",
                                  digits.list(velocity), digits.list(angular_velocity));
+  if (roll.rolling_friction > 0) {
+    text += fmt::format("       slowed down by u_r g = {} m/s^2\n",
+                        digits(roll.rolling_friction * shot.environment.gravity));
+  }
   if (velocity.norm() > 0) {
     const double degrees = std::atan2(velocity.y(), velocity.x()) * (180 / std::numbers::pi);
     text += fmt::format("       at {} m/s, {} degrees from the x axis\n", digits(velocity.norm()), digits(degrees));
@@ -149,19 +191,6 @@ portraits::RollCurve curve(const si::Shot& shot, const si::MotionColumns& motion
           .rolls = rolls};
 }
 
-/// Instants for curves over [0, last]: even ones while the ball slides and a little longer, then geometric ones.
-Eigen::ArrayXd instants(double slides, double last) {
-  constexpr Eigen::Index even = 300;
-  const double middle = slides > 0 ? std::min(2 * slides, last) : last;
-  const Eigen::ArrayXd first = Eigen::ArrayXd::LinSpaced(even, 0, middle);
-  if (!(middle < last)) return first;
-  constexpr Eigen::Index late = 200;
-  Eigen::ArrayXd all(even + late);
-  const Eigen::ArrayXd growth = Eigen::ArrayXd::LinSpaced(late + 1, 0, std::log(last / middle)).exp();
-  all << first, middle * growth.tail(late);
-  return all;
-}
-
 /// Columns of the motion, and its events.
 /// @param times  s
 Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
@@ -173,12 +202,12 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
                {"mu", si::patch_ratio(roll.shot, roll.law)},
                {"velocity", std::vector(velocity.begin(), velocity.end())},
                {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())},
-               {"t_stop", roll.whole.stop_time()}};
-  members.update(members_of(events_of(roll.whole, roll.rolling_below)));
+               {"t_stop", roll.stop_time()}};
+  members.update(members_of(events_of(roll.whole)));
   members["rolls_after"]["threshold"] = roll.rolling_below;
   members["energy_balance"] = {
       {"start", start}, {"lost_sliding", loss.sliding}, {"lost_spinning", loss.pivoting}, {"kept", kept}};
-  members["textbook"] = members_of(events_of(roll.textbook, roll.rolling_below));
+  members["textbook"] = members_of(events_of(roll.textbook));
   return {.members = members,
           .columns = {{"t", motion.t},
                       {"x", motion.x},
@@ -197,20 +226,20 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
 /// textbook's answer beside it. For the route integrated, how close its stop is.
 std::string report_on(const Roll& roll, const Digits& digits) {
   const std::string text =
-      heading(roll.shot, roll.law, digits) + "\n" + table(roll, digits) + "\n" + ending(roll.shot, digits);
+      heading(roll.shot, roll.law, digits) + "\n" + table(roll, digits) + "\n" + ending(roll, digits);
   if (!roll.integrated) return text;
   const si::IntegratedMotion motion = si::integrate_motion(roll.shot, roll.law, {});
   return text +
          fmt::format("route integrated: slip and spin end after {} s, {:.1g} from the reduced route, in {} steps\n",
-                     digits(motion.stop_time), std::abs(motion.stop_time - roll.whole.stop_time()), motion.steps);
+                     digits(motion.stop_time), std::abs(motion.stop_time - roll.stop_time()), motion.steps);
 }
 
 /// The picture of the motion up to a time in s, beside the textbook's.
 portraits::RollPicture picture_of(const Roll& roll, double end) {
-  const auto& [shot, law, integrated, rolling_below, whole, textbook] = roll;
-  const double rolls = whole.slip_time(rolling_below);
-  const double textbook_rolls = textbook.slip_time(rolling_below);
-  const Eigen::ArrayXd times = instants(std::max(rolls, textbook_rolls), end);
+  const auto& [shot, law, integrated, rolling_below, rolling_friction, whole, textbook] = roll;
+  const double rolls = whole.rolls;
+  const double textbook_rolls = textbook.rolls;
+  const Eigen::ArrayXd times = instants(500, 2 * std::max(rolls, textbook_rolls), end);
   const double slip = si::slip_at_start(shot);
   const double spin = si::spin_at_start(shot);
   portraits::RollPicture picture{
@@ -222,8 +251,15 @@ portraits::RollPicture picture_of(const Roll& roll, double end) {
   if (slip > 0) {
     picture.subtitle += fmt::format("; it rolls after {:.3g} s (textbook {:.3g} s)", rolls, textbook_rolls);
   }
-  if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {:.3g} s", whole.stop_time());
+  if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {:.3g} s", roll.stop_time());
+  if (whole.friction) picture.subtitle += fmt::format("; it rests after {:.3g} s", whole.friction->rest_time());
   return picture;
+}
+
+double not_negative(const std::string& typed) {
+  const double value = parse_number(typed);
+  if (value < 0) throw NotAllowed("0 or more is needed");
+  return value;
 }
 
 double parse_end(const std::string& typed) {
@@ -250,11 +286,24 @@ class RollCommand final : public Verb {
         ->excludes(at);
     rolling_below_.add(app, "--rolling-below", "SPEED",
                        fmt::format("the ball rolls once it slips slower, in m/s (default {})", si::rolling_slip),
-                       [](const std::string& typed) {
-                         const double speed = parse_number(typed);
-                         if (speed < 0) throw NotAllowed("a speed of slip is >= 0, in m/s");
-                         return speed;
-                       });
+                       not_negative);
+    rolling_friction_.add(
+        app, "--rolling-friction", "U_R",
+        "once it rolls, the ball slows down at U_R g and rests (pool 0.005 to 0.015; default 0: it rolls on)",
+        not_negative);
+    strike_.add(app, "--strike", "SPEED",
+                "instead of a start: a cue of this speed in m/s strikes the ball at rest, along x", number);
+    tip_.add(
+        app, "--tip", "A,B",
+        fmt::format(
+            "with --strike: where, to the right of and above the centre as seen along the cue, in radii; at most {} "
+            "from it (default 0,0)",
+            si::largest_tip_offset),
+        [](const std::string& typed) { return Eigen::Vector2d(numbers(typed, 2, "A,B").data()); });
+    elevation_.add(app, "--elevation", "DEG", "with --strike: of the cue's butt, 0 to below 90 degrees (default 0)",
+                   number);
+    cue_mass_.add(app, "--cue-mass", "KG",
+                  fmt::format("with --strike: mass of the cue (default {})", si::standard_cue_mass), number);
     figure_.add(app);
     output_.add(app);
   }
@@ -262,7 +311,8 @@ class RollCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     const reduction::Law law = law_.read();
-    const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip)};
+    const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
+                    rolling_friction_.value_or(0)};
     const double end = until_.value_or(roll.standard_end());
     if (output.picture()) {
       if (instants_.given()) throw BadInput("a picture needs no --at or --samples: leave them out");
@@ -272,8 +322,7 @@ class RollCommand final : public Verb {
     } else if (output.format == "text" && !instants_.given() && !until_.given()) {
       output.write(report_on(roll, output.digits));
     } else {
-      const auto* at = instants_.at();
-      output.write(table_of(roll, at != nullptr ? *at : Eigen::ArrayXd::LinSpaced(instants_.samples(), 0, end)));
+      output.write(table_of(roll, instants_.between(roll.whole.rolls, end)));
     }
     return ExitStatus::done;
   }
@@ -284,7 +333,27 @@ class RollCommand final : public Verb {
     if ((start.velocity || start.angular_velocity) && start_.overrides_start()) {
       throw BadInput("--slip, --spin and --velocity, --angular-velocity exclude each other: give one pair of them");
     }
-    return start_.read_ball(law, start);
+    const std::string of_stroke = names_given({&tip_, &elevation_, &cue_mass_});
+    if (!strike_.given()) {
+      if (!of_stroke.empty()) throw BadInput(fmt::format("{} is of a stroke: add --strike SPEED", of_stroke));
+      return start_.read_ball(law, start);
+    }
+    if (start.velocity || start.angular_velocity || start_.overrides_start()) {
+      throw BadInput("--strike is a start of its own: leave out --velocity, --angular-velocity, --slip and --spin");
+    }
+    si::Shot shot = start_.read_ball(law);
+    const Eigen::Vector2d tip = tip_.value_or(Eigen::Vector2d::Zero());
+    try {
+      shot.start = si::struck(shot.ball, {.speed = *strike_,
+                                          .right = tip.x(),
+                                          .above = tip.y(),
+                                          .elevation = elevation_.value_or(0) * (std::numbers::pi / 180),
+                                          .mass = cue_mass_.value_or(si::standard_cue_mass)});
+    } catch (const std::domain_error& error) {
+      strike_.reject(error.what());
+    }
+    si::require_shot(shot);
+    return shot;
   }
 
   StartOptions start_;
@@ -293,7 +362,8 @@ class RollCommand final : public Verb {
   LawOption law_;
   ArgumentOf<bool> integrated_;
   InstantsOption instants_;
-  ArgumentOf<double> until_, rolling_below_;
+  ArgumentOf<double> until_, rolling_below_, rolling_friction_, strike_, elevation_, cue_mass_;
+  ArgumentOf<Eigen::Vector2d> tip_;
   FigureOptions figure_;
   OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"))}}};
 };

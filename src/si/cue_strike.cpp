@@ -1,0 +1,32 @@
+#include "contensou/si/cue_strike.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace contensou::si {
+
+Velocities struck(const Ball& ball, const CueStrike& strike) {
+  const auto& [speed, right, above, elevation, cue_mass] = strike;
+  const double offset = std::hypot(right, above);
+  if (!(speed > 0 && std::isfinite(speed)))
+    throw std::domain_error(fmt::format("a cue's speed must be positive, in m/s; got {}", speed));
+  if (!(cue_mass > 0 && std::isfinite(cue_mass)))
+    throw std::domain_error(fmt::format("a cue's mass must be positive, in kg; got {}", cue_mass));
+  if (!(elevation >= 0 && elevation < std::numbers::pi / 2)) {
+    throw std::domain_error(
+        fmt::format("a cue's elevation must be 0 to below 90 degrees; got {}", elevation * (180 / std::numbers::pi)));
+  }
+  if (!(offset <= largest_tip_offset)) {
+    throw std::domain_error(fmt::format("the tip slips off the ball {} radii from its centre: at most {} are allowed",
+                                        offset, largest_tip_offset));
+  }
+  const double velocity = 2 * speed / (1 + ball.mass / cue_mass + 2.5 * offset * offset);  // P/m
+  const double spin = 2.5 * velocity / ball.radius;
+  const double sine = std::sin(elevation), cosine = std::cos(elevation);
+  return {{velocity * cosine, 0}, {spin * right * sine, spin * above, spin * right * cosine}};
+}
+
+}  // namespace contensou::si
