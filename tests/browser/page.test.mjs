@@ -180,9 +180,12 @@ test("mu is dragged, and everything follows", async (t) => {
   }
 });
 
-/** The highlighted line of each panel in a gnuplot script of the program: its points, in the panel's coordinates. */
+/**
+ * The highlighted line of each panel in a gnuplot script of the program: its points, in the panel's coordinates. The first
+ * plot of a script is its legend.
+ */
 function highlightedLines(script) {
-  return script.split(/^plot (?='-')/m).slice(1).map((panel) => {
+  return script.split(/^plot (?='-')/m).slice(2).map((panel) => {
     const [entries, ...blocks] = panel.split(/(?<!\\)\n/);
     const data = blocks.join("\n").split(/^e$/m);
     const line = entries.split("\n").findIndex((entry) => /with lines lc rgb '#c2185b' lw 2.6/.test(entry));
@@ -451,13 +454,13 @@ test("fields and isochrones are switched where a view draws them", async () => {
   assert.doesNotMatch(await legend(), /time left/);
   assert.match(await page.textContent("#command"), / --isochrones 0 /);
   await page.selectOption("#field", "regularised");
-  assert.match(await legend(), /direction of \(2\.7\)/);
+  assert.match(await legend(), /direction of the regularised motion \(2\.7\)/);
   await page.click("#copy-link");
   assert.match(page.url(), /field=regularised&isochrones=0/);
   await page.click("#views [data-name=disc]");
   assert.ok((await page.isDisabled("#field")) && (await page.isDisabled("#isochrones")));
   await page.click("#views [data-name=pair]");
-  assert.match(await legend(), /direction of \(2\.7\)/);
+  assert.match(await legend(), /direction of the regularised motion \(2\.7\)/);
   await close();
 });
 
