@@ -230,14 +230,14 @@ void preload_fault(int call, Fault fault) {
   preload("CONTENSOU_FAULT", std::to_string(call) + " " + fault.kind + " " + std::to_string(fault.value));
 }
 
-/// Lets each of the program's calls go wrong, one in each run.
-void try_faults(const Writer& writer, const std::vector<Fault>& faults) {
+/// Lets each of the program's calls go wrong, or one of so many, one in each run.
+void try_faults(const Writer& writer, const std::vector<Fault>& faults, int one_of = 1) {
   Bench bench(writer);
   bench.refresh(true);
   bench.require_old_or_new(bench.run([&] { preload("CONTENSOU_FAULT_COUNT", bench.tool("count")); }));
   const int calls = std::stoi(read_file(bench.tool("count")));
   REQUIRE(calls >= 4);
-  for (int call = 1; call <= calls; ++call) {
+  for (int call = 1; call <= calls; call += one_of) {
     for (const Fault& fault : faults) {
       CAPTURE(call, fault.kind, fault.value);
       bench.refresh(call % 2 == 0);
@@ -304,10 +304,12 @@ TEST_CASE("a signal at any call leaves the old file or the new one", "[cli]") {
 
 TEST_CASE("any call that fails, any signal at any call, any verb", "[.full]") {
   for (const Writer& writer : writers) {
-    try_faults(writer, errors);
-    try_faults(writer, signals);
+    // One run of the verb paper draws eight pictures.
+    const int one_of = writer.words == "paper" ? 7 : 1;
+    try_faults(writer, errors, one_of);
+    try_faults(writer, signals, one_of);
   }
-  for (const Writer& writer : {batch, picture, map, writers.back()}) try_faults(writer, all_signals());
+  for (const Writer& writer : {batch, picture, map}) try_faults(writer, all_signals());
 }
 
 TEST_CASE("a limit on the size of files leaves the old file or the new one", "[cli]") {
