@@ -6,6 +6,7 @@
 #include <exception>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -32,14 +33,21 @@ struct Piece {
   double fraction_read = 0;  ///< of the table, with these rows; NaN if it has no known length
 };
 
+/// Of mu, but for a ball, of pivoting and of sliding.
+std::vector<CsvColumn> columns_of_starts(const CsvReader& table, bool is_ball) {
+  const auto names = is_ball ? std::vector{"spin", "slip"} : std::vector{"mu", "u0", "v0"};
+  std::vector<CsvColumn> columns;
+  for (const char* name : names) columns.push_back(table.column(name));
+  return columns;
+}
+
 class Batch {
  public:
   Batch(CsvReader& table, OutputFile& output, const BatchRequest& request)
       : table_(table),
         output_(output),
         request_(request),
-        columns_(request.ball ? std::vector{table.column("spin"), table.column("slip")}
-                              : std::vector{table.column("mu"), table.column("u0"), table.column("v0")}),
+        columns_(columns_of_starts(table, request.ball.has_value())),
         ball_mu_(request.ball ? si::patch_ratio(*request.ball, request.law) : 0),
         stop_times_(request.law, request.body.inertia, request.route),
         progress_("rows", request.progress) {
@@ -152,7 +160,7 @@ class Batch {
   CsvReader& table_;
   OutputFile& output_;
   const BatchRequest& request_;
-  std::vector<CsvColumn> columns_;  ///< of mu, but for a ball, of pivoting and of sliding
+  std::vector<CsvColumn> columns_;
   double ball_mu_;
   StopTimes stop_times_;
   Progress progress_;
