@@ -388,9 +388,13 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
       upstream > 0 ? last_where([&](double xi) { return ln_size(xi) < size + upstream; }, here, 1) : here;
   const double last = last_where([&](double xi) { return ln_size(xi) > size - downstream; }, here, -1);
   Track track{at(first)};
-  refine(track, first, {last}, at, [](const Instant& a, const Instant& b) {
+  // By u where it does not underflow: ln v - ln k has no digit left where orbits hug the axis.
+  const auto its_ln_size = [mu = flow.system().mu()](const Instant& it) {
+    return (it.u > 0 ? std::log(mu * it.u) : it.ln_v - it.ln_k) + std::max(it.ln_k, 0.0);
+  };
+  refine(track, first, {last}, at, [&](const Instant& a, const Instant& b) {
     const double angle = std::abs(std::atan(std::exp(a.ln_k)) - std::atan(std::exp(b.ln_k)));
-    const double shrinks = std::abs(a.ln_v - b.ln_v + std::min(b.ln_k, 0.0) - std::min(a.ln_k, 0.0));
+    const double shrinks = std::abs(its_ln_size(a) - its_ln_size(b));
     return std::max({angle / 0.02, turn(a, b) / 0.25, shrinks / 0.1});
   });
   track.push_back({0, 0, -infinity, chart.log_terminal_ratio(), 0});

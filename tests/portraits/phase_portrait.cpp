@@ -179,6 +179,15 @@ TEST_CASE("The similarity solution and (2.7) in beta draw the same curves", "[ro
   }
 }
 
+TEST_CASE("However small mu is, an orbit has as few points", "[extremes]") {
+  for (double mu : {1e-7, 1e-8, 1e-10}) {
+    const PhasePortrait portrait = phase_portrait({{reduction::HertzLaw{}, mu}}, {});
+    for (const PortraitOrbit& orbit : portrait.orbits) CHECK(orbit.u.size() < 1000);
+    CHECK(portrait.orbits.size() == 24);
+    CHECK(portraits::orbit_through(portrait.flow, 0, 0, 14).u.size() < 2000);
+  }
+}
+
 TEST_CASE("The axis of v follows mu: below 0.48 a linear one shows a comb", "[table]") {
   const auto linear = [](double mu, PortraitRequest request = {}) {
     const PhasePortrait portrait = phase_portrait({{reduction::PadeLaw{}, mu}}, request);
