@@ -12,6 +12,8 @@ class ReferenceRow {
  public:
   ReferenceRow(std::shared_ptr<const std::vector<std::string>> columns, std::vector<std::string> cells);
 
+  bool has(std::string_view column) const;
+
   /// @throws std::out_of_range  if the table has no such column
   const std::string& text(std::string_view column) const;
 
@@ -25,8 +27,6 @@ class ReferenceRow {
   std::string where() const;
 
  private:
-  bool has(std::string_view column) const;
-
   std::shared_ptr<const std::vector<std::string>> columns_;
   std::vector<std::string> cells_;
 };

