@@ -6,14 +6,12 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/numeric/odeint.hpp>
 #include <boost/version.hpp>
 
 #ifdef CONTENSOU_GSL
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
-#include <gsl/gsl_sf_hyperg.h>
 #include <gsl/gsl_version.h>
 #endif
 #ifdef CONTENSOU_SUNDIALS
@@ -51,16 +49,6 @@ struct Field {
     rate[1] = -7 * x[1] / (8 * mu * x[0] + 3 * pi * x[1]);
   }
 };
-
-/// The exponents of the closed orbit, and A and B of its A + B k.
-struct ClosedOrbit {
-  double a, e, big_a, big_b;
-};
-
-ClosedOrbit closed_orbit(double mu) {
-  const double r = 5 * mu * mu / 7;
-  return {r / (2 - r), r / (5 - r), 8 * (2 - r), 3 * pi * (5 - r)};
-}
 
 /// Steps until |u| is small, halving what goes through the stop. try_step(tau, x, dt) moves them on if it accepts.
 template <class Step>
@@ -116,13 +104,6 @@ RivalResult by_gsl_stepper(double mu, double u0, double v0) {
   return {tau, field.evaluations};
 }
 
-RivalResult by_gsl_hypergeometric(double mu, double u0, double v0) {
-  const auto [a, e, big_a, big_b] = closed_orbit(mu);
-  const double u = std::abs(u0);
-  const double y = big_a * mu * u / (big_a * mu * u + big_b * v0);
-  const double f = gsl_sf_hyperg_2F1(1, a - e + 1, a + 2, 1 - y);
-  return {16 * u / (5 * mu) + 3 * pi * v0 / 7 + 9 * pi / 14 * v0 * y * f, 0};
-}
 #endif
 
 #ifdef CONTENSOU_SUNDIALS
@@ -182,45 +163,11 @@ std::vector<Rival> all() {
 #ifdef CONTENSOU_GSL
   gsl_set_error_handler_off();
   found.push_back({"GSL rk8pd on (2.6)", by_gsl_stepper});
-  found.push_back({"GSL 2F1 in the closed form", by_gsl_hypergeometric});
 #endif
 #ifdef CONTENSOU_SUNDIALS
   found.push_back({"SUNDIALS CVODE, BDF, on (2.6)", by_cvode});
 #endif
   return found;
-}
-
-double fehlberg_step_at_the_stop(double mu, double u0, double v0, double stop) {
-  const auto system = [&](const State& x, State& rate, double) {
-    const double u = std::abs(x[0]);
-    rate[0] = -5 * mu * mu * x[0] / (16 * mu * u + 15 * pi * x[1]);
-    rate[1] = -7 * x[1] / (8 * mu * u + 3 * pi * x[1]);
-  };
-  auto stepper = odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(tolerance, tolerance);
-  State x{u0, v0};
-  double tau = 0;
-  double before = 0;
-  double dt = 1e-6 * (u0 + v0);
-  while (tau < stop) {
-    before = tau;
-    stepper.try_step(system, x, tau, dt);
-    if (dt < 1e-15 * stop) return 0;
-  }
-  return (tau - before) / (stop - before);
-}
-
-Quadrature raw_tanh_sinh(double mu, double u0, double v0) {
-  // tau* = (3 pi/7) integral of w dk/D over (0, k0), w = w0 (k/k0)^a ((A + B k0)/(A + B k))^(a - e).
-  const auto [a, e, big_a, big_b] = closed_orbit(mu);
-  const double k0 = v0 / (mu * u0);
-  const auto integrand = [&](double k) {
-    const double w = mu * u0 * std::pow(k / k0, a) * std::pow((big_a + big_b * k0) / (big_a + big_b * k), a - e);
-    return w * (8 + 3 * pi * k) * (16 + 15 * pi * k) / (3 * pi * k * (big_a + big_b * k));
-  };
-  boost::math::quadrature::tanh_sinh<double> rule;
-  double error = 0;
-  const double integral = rule.integrate(integrand, 0.0, k0, 1e-10, &error);
-  return {3 * pi / 7 * integral, error / integral};
 }
 
 std::string versions() {

@@ -20,9 +20,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/stop_time.hpp"
@@ -218,17 +216,10 @@ int main() {
     measure_in_memory("pade" + on, [&, threads] { pade.evaluate(u.span(), v.span(), tau.span(), threads); });
     measure_in_memory("hertz" + on, [&, threads] { hertz.evaluate(u.span(), v.span(), tau.span(), threads); });
   }
-  measure_in_memory("row", [&] { pade.evaluate_row(u.span(), 1.0, tau.span()); });
   // The loop alone, on panels that all hold one polynomial.
   const std::vector<StopTimePanels::Panel> panels(StopTimePanels::sheets * StopTimePanels::per_sheet, {{1, 0.5, 0.25}});
   const StopTimePanels plain{10, 32, panels.data(), {}};
   measure_in_memory("plain", [&] { run_plain(plain, u.data(), v.data(), tau.data(), points); });
-  constexpr std::size_t cached = 2048;
-  measure("in cache", [&] {
-    for (std::size_t i = 0; i < points / cached; ++i) {
-      pade.evaluate(u.span().first(cached), v.span().first(cached), tau.span().first(cached));
-    }
-  });
   measure("build pade", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(PadeLaw{}, 0.1))); });
   measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(HertzLaw{}, 0.1))); });
 
@@ -247,14 +238,6 @@ int main() {
   });
   measure("own mu, exact", [] {
     benchmark::DoNotOptimize(stop_time(ReducedSystem(HertzLaw{}, 0.1), {1, 1}, Route::quadrature));
-  });
-
-  // Orbits.
-  std::vector<Orbit> orbits;
-  const Flow pool({PadeLaw{}, 0.1});
-  for (int i = 0; i < 40; ++i) orbits.push_back(pool.orbit({1, 0.1 * std::exp(0.2 * (i - 20))}));
-  measure("inversion", [&] {
-    for (const Orbit& orbit : orbits) benchmark::DoNotOptimize(orbit.at_time(0.3 * orbit.stop_time()));
   });
 
   // Small mu.
@@ -303,17 +286,13 @@ int main() {
     fmt::print("| {} | {:.2f} ns | {:.0f} % | {:.2f} ns | {:.0f} % |\n", title, on(name, 1),
                100 * on("loop", 1) / on(name, 1), on(name, cores), 100 * on("loop", cores) / on(name, cores));
   }
-  for (const auto& [name, title] : {std::pair{"row", "table, Pade, a row of a grid"},
-                                    {"in cache", "table, Pade, 2048 starts again and again"},
-                                    {"plain", "table, as where there is no AVX2"}}) {
-    fmt::print("| {} | {:.2f} ns | {:.0f} % | | |\n", title, each(name), 100 * each("loop") / each(name));
-  }
+  fmt::print("| table, as where there is no AVX2 | {:.2f} ns | {:.0f} % | | |\n", each("plain"),
+             100 * each("loop") / each("plain"));
   fmt::print(
       "\nA table is built and proved in {} (Pade), {} (exact law). With a mu of its own a start takes {} (Pade), {} "
-      "(exact\nlaw). The state at one instant of an orbit takes {}.\n",
+      "(exact\nlaw).\n",
       duration(times("build pade")), duration(times("build hertz")),
-      duration(times("own mu") / static_cast<double>(own)), duration(times("own mu, exact")),
-      duration(times("inversion") / 40));
+      duration(times("own mu") / static_cast<double>(own)), duration(times("own mu, exact")));
 
   fmt::print("\n| u0 = v0 = 1, mu = |");
   for (double mu : small) fmt::print(" {} |", mu);
@@ -328,19 +307,4 @@ int main() {
     }
     fmt::print("\n");
   }
-
-  fmt::print("\n| u0 = v0 = 1, mu = |");
-  for (double mu : {1.0, 0.3, 0.1, 0.05}) fmt::print(" {} |", mu);
-  fmt::print("\n|---|---|---|---|---|\n| Fehlberg 7(8) on (2.6) with abs(u) accepts a step of |");
-  for (double mu : {1.0, 0.3, 0.1, 0.05}) {
-    const double stop = Flow(ReducedSystem(PadeLaw{}, mu)).stop_time({1, 1}).tau;
-    fmt::print(" {:.3g} times the time left |", contensou::rivals::fehlberg_step_at_the_stop(mu, 1, 1, stop));
-  }
-  fmt::print("\n| tanh-sinh on the separated integral |");
-  for (double mu : {1.0, 0.3, 0.1, 0.05}) {
-    const double exact = Flow(ReducedSystem(PadeLaw{}, mu)).stop_time({1, 1}).tau;
-    const auto [wrong, claimed] = contensou::rivals::raw_tanh_sinh(mu, 1, 1);
-    fmt::print(" {:.2g} % wrong, claims {:.2g} % |", 100 * std::abs(wrong / exact - 1), 100 * claimed);
-  }
-  fmt::print("\n");
 }

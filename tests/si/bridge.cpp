@@ -10,7 +10,6 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/motion.hpp"
 
 using namespace contensou;
 
@@ -48,23 +47,6 @@ TEST_CASE("a ball that only spins takes omega_z/alpha", "[limit]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     CHECK(stop_in_seconds(shot, law) == Approx(100.0 / 8).epsilon(1e-14));
   }
-}
-
-TEST_CASE("the bowling ball of the worked exercise", "[table]") {
-  si::Shot shot = si::find_ball("bowling")->shot;
-  shot.ball.radius = 0.11;
-  shot.contact.friction = 0.19;
-  shot.start = si::SlipAndSpin{.slip = 8.10, .spin = 0};
-  shot.environment.gravity = 9.8;
-  CHECK(stop_in_seconds(shot, reduction::PadeLaw{}) == Approx(1.243).margin(5e-4));
-  CHECK(si::final_motion(shot).velocity.x() == Approx(5.786).margin(5e-4));
-}
-
-TEST_CASE("the pool ball's times", "[table]") {
-  si::Shot shot = pool();
-  CHECK(stop_in_seconds(shot, reduction::PadeLaw{}) == Approx(10.2).margin(0.05));
-  std::get<si::SlipAndSpin>(shot.start).spin = 0;
-  CHECK(stop_in_seconds(shot, reduction::PadeLaw{}) == Approx(0.146).margin(5e-4));
 }
 
 TEST_CASE("seconds keep 0 and infinity where f g underflows", "[limit]") {

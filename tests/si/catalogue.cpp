@@ -7,6 +7,7 @@
 
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/bridge.hpp"
+#include "contensou/si/hertz_contact.hpp"
 
 using namespace contensou::si;
 
@@ -36,7 +37,18 @@ TEST_CASE("patches of the built-in balls", "[table]") {
   CHECK(find_ball("hockey") == nullptr);
 }
 
-TEST_CASE("the bowling ball's moduli stand for E* = 2.3 GPa", "[table]") {
+TEST_CASE("effective modulus of two equal bodies, beside a rigid plane, and of the bowling ball", "[limit]") {
+  CHECK(effective_modulus({.youngs_modulus = {2e9, 2e9}, .poisson_ratio = {0.5, 0.5}}) ==
+        Approx(2e9 / (2 * 0.75)).epsilon(1e-15));
+  CHECK(effective_modulus({.youngs_modulus = {2e6, 1e300}, .poisson_ratio = {0.49, 0.3}}) ==
+        Approx(2e6 / (1 - 0.49 * 0.49)).epsilon(1e-15));
   CHECK(effective_modulus(std::get<HertzModuli>(find_ball("bowling")->shot.contact.patch)) ==
         Approx(2.3e9).epsilon(1e-15));
+}
+
+TEST_CASE("the Hertz radius grows with the cube root of load and radius", "[symmetry]") {
+  const HertzModuli moduli{.youngs_modulus = {2.1e11, 7.0e10}, .poisson_ratio = {0.3, 0.22}};
+  const double patch = hertz_patch_radius(0.3, 0.01, moduli);
+  CHECK(hertz_patch_radius(8 * 0.3, 0.01, moduli) == Approx(2 * patch).epsilon(1e-15));
+  CHECK(hertz_patch_radius(0.3, 8 * 0.01, moduli) == Approx(2 * patch).epsilon(1e-15));
 }

@@ -26,36 +26,6 @@ struct NotANumber {
 
 }  // namespace
 
-TEST_CASE("the first integrals keep their values along the integration", "[invariant]") {
-  for (const reduction::Law& law : reduction::named_laws()) {
-    for (double mu : {1e-3, 0.1, 1.0}) {
-      for (const MotionCase& motion_case : motion_cases) {
-        INFO(law.name() << ", mu = " << mu << ", " << motion_case.name);
-        const Shot shot = shot_of(motion_case, mu);
-        const double v0 = slip_at_start(shot);
-        if (v0 < 1e-15) continue;
-        const double stop = integrate_motion(shot, law, {}).stop_time;
-        const MotionColumns motion = integrate_motion(shot, law, Eigen::ArrayXd::LinSpaced(50, 0, stop)).points;
-        const double R = shot.ball.radius;
-        const Eigen::Vector2d e = slip_velocity_at_start(shot) / v0;
-        const auto start = velocities_of(shot.start).angular_velocity;
-        const double speed = v0 + R * start.norm();
-        for (Eigen::Index i = 0; i < motion.rows(); ++i) {
-          const Eigen::Vector2d contact{motion.vx[i] - R * motion.wy[i], motion.vy[i] + R * motion.wx[i]};
-          const Eigen::Vector2d omega{motion.wx[i], motion.wy[i]};
-          // alpha; omega along the slip; 7 R omega across it + 5 v
-          CHECK(std::abs(e.x() * contact.y() - e.y() * contact.x()) < 1e-12 * speed);
-          CHECK(e.dot(contact) == Approx(motion.slip[i]).margin(1e-12 * speed));
-          CHECK(std::abs(e.dot(omega - start.head<2>())) * R < 1e-12 * speed);
-          const auto across = [&](const Eigen::Vector2d& w) { return e.x() * w.y() - e.y() * w.x(); };
-          CHECK(std::abs(7 * R * (across(omega) - across(start.head<2>())) + 5 * (motion.slip[i] - v0)) <
-                1e-10 * speed);
-        }
-      }
-    }
-  }
-}
-
 TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under any law", "[invariant]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     for (double mu : {1e-2, 0.3, 1.0}) {
