@@ -75,12 +75,6 @@ LegendreSeries LegendreSeries::derivative() const {
   return slope;
 }
 
-LegendreSeries LegendreSeries::mirrored() const {
-  LegendreSeries mirror = *this;
-  for (int j = 1; j <= order; j += 2) mirror.coefficients_[j] = -mirror.coefficients_[j];
-  return mirror;
-}
-
 double LegendreSeries::operator()(double t) const {
   // Clenshaw: (j + 1) P_{j+1} = (2j + 1) t P_j - j P_{j-1}.
   double next = 0;
@@ -98,6 +92,10 @@ LegendreSeries::Samples LegendreSeries::samples() const {
 
 double LegendreSeries::tail() const {
   return std::max(std::abs(coefficients_[order - 1]), std::abs(coefficients_[order - 2]));
+}
+
+double LegendreSeries::tail(const Samples& samples) {
+  return (transform().analysis.bottomRows<2>() * samples.matrix()).cwiseAbs().maxCoeff();
 }
 
 }  // namespace contensou::reduction

@@ -22,16 +22,19 @@ class LegendreSeries {
 
   LegendreSeries derivative() const;
 
-  /// t -> f(-t).
-  LegendreSeries mirrored() const;
-
   double operator()(double t) const;
+
+  /// The value at 1.
+  double at_end() const { return coefficients_.sum(); }
 
   /// The values at points().
   Samples samples() const;
 
   /// How fast the series still moves at its end, in the unit of the samples.
   double tail() const;
+
+  /// through(samples).tail().
+  static double tail(const Samples& samples);
 
   LegendreSeries& operator*=(double factor) {
     coefficients_ *= factor;

@@ -36,7 +36,7 @@ struct CurveCoefficients {
 class QuadratureCurve::Panels {
  public:
   Panels(const Law& law, const QuadratureCurve& curve)
-      : law_(law), r_(curve.r()), chart_(curve.chart()), beta_(law, r_, chart_, *curve.regular_) {
+      : law_(law), r_(curve.r()), chart_(curve.chart()), beta_(law, r_, chart_) {
     solve(sample());
   }
 
@@ -210,7 +210,7 @@ class QuadratureCurve::Panels {
 };
 
 QuadratureCurve::QuadratureCurve(const Law& law, double r, const TerminalChart& chart)
-    : SimilarityCurve(r, chart), law_(law), regular_(std::make_unique<RegularSolution>(law, r, chart)) {}
+    : SimilarityCurve(r, chart), law_(law), m_(std::make_unique<RegularSolution>(sliding_solution(law, r, chart))) {}
 
 QuadratureCurve::~QuadratureCurve() = default;
 
@@ -221,18 +221,23 @@ const QuadratureCurve::Panels& QuadratureCurve::panels() const {
 
 double QuadratureCurve::limit() const { return panels().limit(); }
 
-double QuadratureCurve::truncation() const { return regular_->truncation(); }
+double QuadratureCurve::truncation() const { return m_->truncation(); }
 
 double QuadratureCurve::accuracy() const { return rounding_of_stop_time(r()) + truncation(); }
 
-long QuadratureCurve::evaluations() const { return regular_->evaluations(); }
+long QuadratureCurve::evaluations() const { return m_->evaluations(); }
 
 double QuadratureCurve::sliding_coefficient(double xi) const {
-  return regular_->sliding_coefficient(chart().log_ratio(xi));
+  const double ln_k = chart().log_ratio(xi);
+  return ln_k > max_ln_k ? 1 : (*m_)(ln_k);
 }
 
 double QuadratureCurve::slip_length_coefficient(double xi) const {
-  return regular_->slip_length_coefficient(chart().log_ratio(xi));
+  std::call_once(n_made_, [this] {
+    n_ = std::make_unique<const RegularSolution>(reduction::slip_length_solution(law_, r(), chart()));
+  });
+  const double ln_k = chart().log_ratio(xi);
+  return (*n_)(ln_k) * (1 + std::exp(std::min(ln_k, max_ln_k)));
 }
 
 double QuadratureCurve::ln_w(double xi) const { return panels().ln_w(xi); }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "contensou/reduction/friction_law.hpp"
@@ -19,73 +19,77 @@ inline constexpr double panel_tolerance = 1e-15;
 inline constexpr int max_depth = 40;
 inline constexpr std::size_t max_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
 
-/// m of README (R4) and n of (R13) as functions of ln k between two neighbours of 0, the invariant rays and infinity.
+/// A quantity y that relaxes along a curve: |D| dy/dz + h y = g, D = Phi - r k Psi, h >= 0, z = +- ln k.
 ///
-/// With ' = d/d ln k and D = Phi - r k Psi, (R19) and (R31) are singular where D vanishes, and m and n are regular at
-/// the one of the two ratios that k tends to: by collocation, panel after panel away from it. D is not divided by:
-/// where all its digits are lost, m has all of its own.
+/// The equation is singular where D vanishes, and y is the solution that is regular where its way begins: by
+/// collocation, panel after panel. D is not divided by: where all its digits are lost, y has all of its own.
 class RegularSolution {
  public:
-  /// @param chart     on whose way Phi - r k Psi does not change its sign
-  /// @throws std::domain_error  if it does, or unless r > 0
-  RegularSolution(const Law& law, double r, const TerminalChart& chart);
-
-  /// Where its panels begin and end, in +- ln k, which grows away from the stop.
-  struct Interval {
-    double left, right;
-    double t(double z) const { return 2 * ((z - left) / (right - left)) - 1; }
+  struct Terms {
+    double difference;  ///< |D|
+    double rate;        ///< h
+    double source;      ///< g
   };
-  std::vector<Interval> intervals() const;
 
-  double sliding_coefficient(double ln_k) const;      ///< m
-  double slip_length_coefficient(double ln_k) const;  ///< n
+  /// @param equation   the terms at k, all three times any positive number
+  /// @param direction  +1 where z is ln k, -1 where it is -ln k; errors die out as z grows
+  /// @param edges      z where panels meet, increasing; y begins as g/h at the first
+  /// @param size       errors of g count relative to it, and so do those of a smaller y: a law may have 1 - Psi/Psi(0)
+  ///                   and 1 - Phi to eps of 1 only, and no time or slip feels more
+  RegularSolution(const std::function<Terms(double k)>& equation, double direction, const std::vector<double>& edges,
+                  double size);
 
-  /// What the last terms of the series leave out of m, relative to max(m, 1); the noise of the law is in it.
+  /// y; beyond the edges, its value there.
+  double operator()(double ln_k) const;
+
+  /// What the last terms of the series leave out of y, relative to max(|y|, size); the noise of the law is in it.
   double truncation() const { return truncation_; }
 
-  /// How often the law was called.
+  /// How often the equation was evaluated.
   long evaluations() const { return evaluations_; }
 
  private:
-  struct Values {
-    double sliding_coefficient, slip_length_coefficient;
-  };
-  struct Panel : Interval {
-    LegendreSeries sliding_coefficient, slip_length_coefficient;
+  struct Panel {
+    double left, right;
+    LegendreSeries y;
   };
 
   /// Adds the panels from left to right.
-  void march(const Law& law, double r, double left, double right, int depth);
-  /// The panel at z and the t there.
-  std::pair<const Panel&, double> place(double ln_k) const;
+  void march(const std::function<Terms(double k)>& equation, double left, double right, int depth);
 
-  TerminalChart chart_;
-  double sign_;
-  Values first_{};  ///< at the stop
-  Values last_{};   ///< at the right end of the last panel
+  double direction_;
+  double size_;
+  double begin_;
+  double first_;  ///< y at the first edge
+  double last_;   ///< y at the end of the last panel
   std::vector<Panel> panels_;
   double truncation_ = 0;
   long evaluations_ = 0;
 };
 
-/// b of README (R7) as a function of ln k, on the panels of a RegularSolution, from far away towards the stop: there D
-/// has the other sign in its equation (R7), and the regular solution is the one that is regular at the far end.
+/// m of README (R4) between two neighbours of 0, the invariant rays and infinity: regular at the one that k tends to.
+///
+/// @param chart  on whose way Phi - r k Psi does not change its sign
+/// @throws std::domain_error  if it does, or unless r > 0
+RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart);
+
+/// n/(1 + k), n of (R13), on the same way.
+RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart);
+
+/// b of (R7), on the same way, from far away towards the stop: there D has the other sign in its equation, and the
+/// regular solution is the one that is regular at the far end.
 class BetaSolution {
  public:
-  BetaSolution(const Law& law, double r, const TerminalChart& chart, const RegularSolution& grid);
+  BetaSolution(const Law& law, double r, const TerminalChart& chart);
 
   double operator()(double ln_k) const;
 
  private:
-  struct Panel : RegularSolution::Interval {
-    LegendreSeries b;
-  };
-
+  RegularSolution b_;
   double sign_;
-  double far_ = 0;      ///< b beyond the last panel
-  double at_stop_ = 0;  ///< b in the limit of the stop
-  double rate_ = 0;     ///< d ln(b - at_stop)/d z before the first panel
-  std::vector<Panel> panels_;
+  double nearest_;   ///< to the stop, in +- ln k
+  double at_stop_;   ///< b in the limit of the stop
+  double rate_ = 0;  ///< d ln(b - at_stop)/d(+- ln k) beyond nearest_
 };
 
 }  // namespace contensou::reduction

@@ -12,15 +12,15 @@ class RegularSolution;
 
 /// The similarity curve of any friction law, by quadrature of the separated equation.
 ///
-/// m and n, all that a stop time needs, are found in ln k, outwards from the stop (RegularSolution). ln w, b and c are
-/// found in xi, (R26), when one of them is first asked for, panel by panel: on each, their coefficients are sampled at
+/// m, all that a stop time needs, is found in ln k, outwards from the stop (RegularSolution). The others are found when
+/// they are first asked for: n and b like m, ln w and c in xi, (R26), panel by panel: on each, coefficients are sampled at
 /// Gauss points (Boost.Math), and solved as Legendre series. Panels meet at the law's kinks and are halved until the
 /// series have converged. They reach from k = 4e-18 to 1e19, where the limits hold to the last bit; and towards an
 /// invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
 ///
 /// Accuracy  sliding_coefficient 3 eps for a law that is smooth between its kinks, on and beside rays, too
 ///           (tests/reference/rays.csv); the other functions 1e-13, and less next to a ray.
-/// Cost      about 3 000 evaluations of the law for m and n, and as many again for ln w, b and c; then some 30 ns for
+/// Cost      about 1 400 evaluations of the law for m, and 7 000 for the four others; then some 30 ns for
 ///           each value. Noise in the law costs up to a million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
@@ -53,7 +53,9 @@ class QuadratureCurve final : public SimilarityCurve {
   const Panels& panels() const;
 
   Law law_;
-  std::unique_ptr<const RegularSolution> regular_;
+  std::unique_ptr<const RegularSolution> m_;
+  mutable std::once_flag n_made_;
+  mutable std::unique_ptr<const RegularSolution> n_;
   mutable std::once_flag made_;
   mutable std::unique_ptr<const Panels> panels_;
 };
