@@ -20,7 +20,7 @@ class RegularSolution;
 ///
 /// Accuracy  sliding_coefficient 3 eps for a law that is smooth between its kinks, on and beside rays, too
 ///           (tests/reference/rays.csv); the other functions 1e-13, and less next to a ray.
-/// Cost      about 1 400 evaluations of the law for m, and 7 000 for the four others; then some 30 ns for
+/// Cost      about 1 300 evaluations of the law for m, as many for n, and 3 500 for the three others; then some 30 ns for
 ///           each value. Noise in the law costs up to a million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
