@@ -13,8 +13,11 @@
 namespace contensou::si {
 
 BallMotion::BallMotion(const Shot& shot, const reduction::Law& law)
+    : BallMotion(shot, reduction::Flow(reduced_system(shot, law))) {}
+
+BallMotion::BallMotion(const Shot& shot, const reduction::Flow& flow)
     : shot_(shot),
-      orbit_(reduction::Flow(reduced_system(shot, law)).orbit(reduced_start(shot))),
+      orbit_(flow.orbit(reduced_start(shot))),
       stop_(seconds(shot, orbit_.stop_time())),
       scale_(1 / seconds(shot, 1)) {
   if (!std::isfinite(stop_)) throw std::runtime_error("the stop time exceeds the largest double");

@@ -14,15 +14,9 @@ namespace {
 
 /// A name, or two numbers.
 Body parse_body(const std::string& typed) {
-  static const Choices<Body> bodies{
-      {"ball", {}},
-      {"hollow-ball", {.inertia = {.chi = 2.5, .gamma = 1.5}}},
-      {"disc", {{.chi = 1, .gamma = 2}, 1.0, false, "uniform"}},
-      {"ring", {{.chi = 1, .gamma = 1}, 1.0, false, "ring"}},
-  };
   if (typed.find(',') == std::string::npos) {
     try {
-      return one_of(bodies, "body")(typed);
+      return one_of(bodies(), "body")(typed);
     } catch (const NotAllowed& error) {
       throw NotAllowed(fmt::format("{}, or two numbers CHI,GAMMA", error.what()));
     }
@@ -39,12 +33,6 @@ double parse_sliding_speed(const std::string& typed) {
 }
 
 }  // namespace
-
-std::string Body::complaint(double mu) const {
-  if (patch_ratio) return mu == *patch_ratio ? "" : "a puck rests on its whole face, so mu is 1: leave --mu out";
-  if (rolls_on_a_small_patch) return mu > 0 && mu <= 1 ? "" : "0 < mu <= 1 is required";
-  return mu > 0 ? "" : "mu > 0 is required";
-}
 
 void BodyOptions::add_mu(CLI::App& app) {
   mu_.add(app, "--mu", "M", "patch ratio, patch radius/R; a ball: 0 < M <= 1, another body: M > 0 (disc, ring: 1)",

@@ -3,26 +3,15 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
 #include "options/argument.hpp"
+#include "options/body.hpp"
 
 namespace contensou::program {
-
-/// An axisymmetric body as --body names it.
-struct Body {
-  reduction::Inertia inertia = reduction::homogeneous_ball;
-  std::optional<double> patch_ratio{};  ///< where the body itself decides it: a flat puck rests on its whole face
-  bool rolls_on_a_small_patch = true;   ///< mu <= 1
-  std::string_view law = "exact";       ///< of the pressure that it brings
-
-  /// What is wrong with a mu for this body; empty if nothing is.
-  std::string complaint(double mu) const;
-};
 
 /// --mu and --body.
 class BodyOptions {

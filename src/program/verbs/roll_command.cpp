@@ -10,9 +10,9 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/bridge.hpp"
+#include "contensou/si/course.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/integrated_motion.hpp"
-#include "contensou/si/rolling_friction.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "options/figure_options.hpp"
 #include "options/instants_option.hpp"
@@ -25,30 +25,6 @@ namespace contensou::program {
 
 namespace {
 
-/// A motion, with rolling friction if there is any.
-/// @tparam Motion  BallMotion or UncoupledMotion
-template <class Motion>
-struct Course {
-  Motion motion;
-  double rolls;  ///< s until it does
-  std::optional<si::RollingFriction> friction;
-
-  Course(const si::Shot& shot, const reduction::Law& law, double rolling_below, double rolling_friction)
-      : motion(shot, law), rolls(motion.slip_time(rolling_below)) {
-    if (rolling_friction > 0) {
-      friction.emplace(shot.ball, motion.at_time(rolls), rolling_friction * shot.environment.gravity);
-    }
-  }
-
-  si::MotionPoint at_time(double t) const { return friction ? (*friction)(motion.at_time(t)) : motion.at_time(t); }
-  si::MotionColumns at_times(const Eigen::ArrayXd& times) const { return slowed(motion.at_times(times)); }
-
-  si::MotionColumns slowed(si::MotionColumns columns) const {
-    for (Eigen::Index i = 0; friction && i < columns.rows(); ++i) columns.set(i, (*friction)(columns.row(i)));
-    return columns;
-  }
-};
-
 /// The whole motion of a ball.
 struct Roll {
   si::Shot shot;
@@ -56,8 +32,8 @@ struct Roll {
   bool integrated;          ///< the route of its columns: the equations of motion instead of the similarity solution
   double rolling_below;     ///< m/s of slip
   double rolling_friction;  ///< u_r; 0: none
-  Course<si::BallMotion> whole{shot, law, rolling_below, rolling_friction};
-  Course<si::UncoupledMotion> textbook{shot, law, rolling_below, rolling_friction};
+  si::Course<si::BallMotion> whole{shot, {shot, law}, rolling_below, rolling_friction};
+  si::Course<si::UncoupledMotion> textbook{shot, {shot, law}, rolling_below, rolling_friction};
 
   double stop_time() const { return whole.motion.stop_time(); }
 
@@ -72,33 +48,9 @@ struct Roll {
   }
 };
 
-/// When something happens, and where. SI.
-struct Event {
-  double t;
-  Eigen::Vector2d place;
-};
+Json members_of(const si::Event& event) { return {{"t", event.t}, {"x", event.place.x()}, {"y", event.place.y()}}; }
 
-struct Events {
-  Event rolls, spin_ends;
-  std::optional<Event> rest;
-  double slip_length, turns, path;  ///< path: until it rolls
-};
-
-template <class Motion>
-Events events_of(const Course<Motion>& course) {
-  const auto& [motion, rolls, friction] = course;
-  const auto event = [&](double t) { return Event{t, course.at_time(t).position}; };
-  return {event(rolls),
-          event(motion.spin_end()),
-          friction ? std::optional(Event{friction->rest_time(), friction->rest_position()}) : std::nullopt,
-          motion.slip_length(),
-          motion.spin_angle() / (2 * std::numbers::pi),
-          motion.path_length(rolls)};
-}
-
-Json members_of(const Event& event) { return {{"t", event.t}, {"x", event.place.x()}, {"y", event.place.y()}}; }
-
-Json members_of(const Events& events) {
+Json members_of(const si::Events& events) {
   const auto& [rolls, spin_ends, rest, slip_length, turns, path] = events;
   Json members{{"rolls_after", members_of(rolls)}, {"spin_ends", members_of(spin_ends)}};
   if (rest) members["rest"] = members_of(*rest);
@@ -130,8 +82,8 @@ std::string heading(const si::Shot& shot, const reduction::Law& law, const Digit
 }
 
 std::string table(const Roll& roll, const Digits& digits) {
-  const Events ours = events_of(roll.whole);
-  const Events theirs = events_of(roll.textbook);
+  const si::Events ours = events_of(roll.whole);
+  const si::Events theirs = events_of(roll.textbook);
   std::string text;
   const auto line = [&, width = std::max(26, 2 * digits.count + 16)](const std::string& label, const std::string& first,
                                                                      const std::string& second,
@@ -141,7 +93,7 @@ std::string table(const Roll& roll, const Digits& digits) {
   const auto number = [&](const std::string& label, double first, double second, const std::string& unit) {
     line(label, digits(first), digits(second), "  " + unit);
   };
-  const auto event = [&](const std::string& label, const Event& first, const Event& second) {
+  const auto event = [&](const std::string& label, const si::Event& first, const si::Event& second) {
     number(label, first.t, second.t, "s");
     line("  at", digits.list(first.place), digits.list(second.place), "  m");
   };

@@ -16,6 +16,10 @@ class BallMotion {
   /// @throws std::domain_error  as require_shot
   BallMotion(const Shot& shot, const reduction::Law& law);
 
+  /// With what is known already.
+  /// @param flow  of reduced_system(shot, law)
+  BallMotion(const Shot& shot, const reduction::Flow& flow);
+
   /// s from the start until the ball neither slides nor spins.
   double stop_time() const { return stop_; }
 

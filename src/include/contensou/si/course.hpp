@@ -1,0 +1,68 @@
+#pragma once
+
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "contensou/si/motion.hpp"
+#include "contensou/si/rolling_friction.hpp"
+
+namespace contensou::si {
+
+/// When something happens, and where the centre is then.
+struct Event {
+  double t;               ///< s
+  Eigen::Vector2d place;  ///< m
+};
+
+/// A motion with the instant when it rolls, and with rolling friction from then on if there is any.
+/// @tparam Motion  BallMotion or UncoupledMotion
+template <class Motion>
+struct Course {
+  Motion motion;
+  double rolls;  ///< s until it does
+  std::optional<RollingFriction> friction;
+
+  /// @param rolling_below     m/s, >= 0: a ball that slips no faster rolls
+  /// @param rolling_friction  u_r; 0: none
+  /// @throws std::domain_error  as slip_time and RollingFriction
+  Course(const Shot& shot, Motion of_shot, double rolling_below, double rolling_friction)
+      : motion(std::move(of_shot)), rolls(motion.slip_time(rolling_below)) {
+    if (rolling_friction != 0) {
+      friction.emplace(shot.ball, motion.at_time(rolls), rolling_friction * shot.environment.gravity);
+    }
+  }
+
+  MotionPoint at_time(double t) const { return friction ? (*friction)(motion.at_time(t)) : motion.at_time(t); }
+  MotionColumns at_times(const Eigen::ArrayXd& times) const { return slowed(motion.at_times(times)); }
+
+  /// Columns of the motion without rolling friction, with it.
+  MotionColumns slowed(MotionColumns columns) const {
+    for (Eigen::Index i = 0; friction && i < columns.rows(); ++i) columns.set(i, (*friction)(columns.row(i)));
+    return columns;
+  }
+
+  Event event(double t) const { return {t, at_time(t).position}; }
+};
+
+/// What happens on a course.
+struct Events {
+  Event rolls, spin_ends;
+  std::optional<Event> rest;  ///< with rolling friction
+  double slip_length;         ///< m
+  double turns;               ///< about the vertical
+  double path;                ///< m, of the centre until it rolls
+};
+
+template <class Motion>
+Events events_of(const Course<Motion>& course) {
+  const auto& [motion, rolls, friction] = course;
+  return {course.event(rolls),
+          course.event(motion.spin_end()),
+          friction ? std::optional(Event{friction->rest_time(), friction->rest_position()}) : std::nullopt,
+          motion.slip_length(),
+          motion.spin_angle() / (2 * std::numbers::pi),
+          motion.path_length(rolls)};
+}
+
+}  // namespace contensou::si
