@@ -1,0 +1,21 @@
+"""Balls and pucks that slide and spin at once, under the friction of Contensou and Zhuravlev.
+
+    import contensou as ct
+    ct.stop_time(u=1, v=1, mu=0.1)              # the paper's time until slip and spin end
+    ct.Flow(mu=0.3).orbit(u=1, v=1).at(tau=2)   # the state at an instant
+    ct.Ball.pool().roll(slip=1, spin=100)       # a real ball, in SI units
+    ct.portrait(mu=1).plot()                    # a phase portrait
+
+u = R omega_z is the speed of pivoting, v >= 0 that of sliding, mu the radius of the contact patch over that of the
+body, R; tau = (3 pi/2) f g t is the paper's time. All three are speeds in one unit, any one; a Ball is in SI units.
+Numbers may be arrays of any shapes that broadcast. What the library rejects is a ValueError.
+"""
+
+from ._balls import Ball, Event, Roll
+from ._flow import Check, Checks, End, Flow, Law, Orbit, Ray, Terminal, check, law, stop_time
+from ._portrait import Portrait, portrait
+
+__all__ = [
+    "Ball", "Check", "Checks", "End", "Event", "Flow", "Law", "Orbit", "Portrait", "Ray", "Roll", "Terminal",
+    "check", "law", "portrait", "stop_time",
+]

@@ -1,0 +1,225 @@
+"""Balls in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+from functools import cached_property, lru_cache
+from os import PathLike
+from pathlib import Path
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._flow import Flow, Law, LawLike, law as law_of
+
+_patch = ("patch_radius", "spin_deceleration", "youngs_modulus", "poisson_ratio")
+
+
+class Event(NamedTuple):
+    """When something happens, in s after the start, and where the centre is then, in m from the start."""
+
+    t: float
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A homogeneous ball on a horizontal plane, in SI units, with a typical start.
+
+    Its patch is given by one of patch_radius (m), spin_deceleration (rad/s^2, measured without slip), or Young's moduli
+    (Pa) and Poisson's ratios of ball and plane. slip (m/s, along x) and spin (rad/s about the vertical) are the start.
+    `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
+    """
+
+    mass: float
+    radius: float
+    friction: float
+    patch_radius: Optional[float] = None
+    spin_deceleration: Optional[float] = None
+    youngs_modulus: Optional[tuple[float, float]] = None
+    poisson_ratio: Optional[tuple[float, float]] = None
+    gravity: float = 9.80665
+    slip: float = 0
+    spin: float = 0
+    name: str = "ball"
+
+    def __post_init__(self) -> None:
+        for key in ("youngs_modulus", "poisson_ratio"):
+            if getattr(self, key) is not None:
+                object.__setattr__(self, key, tuple(getattr(self, key)))
+        _core.Shot(self, None, None)
+
+    @classmethod
+    def _of(cls, known: dict[str, Any], changes: dict[str, Any]) -> Ball:
+        if not changes.keys().isdisjoint(_patch):
+            known = {key: value for key, value in known.items() if key not in _patch}
+        return cls(**{**known, **changes})
+
+    def but(self, **changes: Any) -> Ball:
+        """The ball with other fields; a new patch_radius, spin_deceleration or moduli take the place of what it had."""
+        return self._of({each.name: getattr(self, each.name) for each in fields(self)}, changes)
+
+    @classmethod
+    def read(cls, path: Union[str, PathLike[str]], **changes: Any) -> Ball:
+        """The ball of a run file (TOML), as `contensou balls pool -o mine.toml` writes one."""
+        return cls._of(_core.parse_run_file(Path(path).read_text(encoding="utf-8"), str(path)), changes)
+
+    @classmethod
+    def pool(cls, **changes: Any) -> Ball:
+        """A pool ball on cloth."""
+        return cls._of(_core.balls()["pool"], changes)
+
+    @classmethod
+    def steel(cls, **changes: Any) -> Ball:
+        """A steel ball of 20 mm on glass."""
+        return cls._of(_core.balls()["steel"], changes)
+
+    @classmethod
+    def bowling(cls, **changes: Any) -> Ball:
+        """A bowling ball on a dry lane."""
+        return cls._of(_core.balls()["bowling"], changes)
+
+    @classmethod
+    def rubber(cls, **changes: Any) -> Ball:
+        """A rubber ball on steel."""
+        return cls._of(_core.balls()["rubber"], changes)
+
+    @classmethod
+    def gel(cls, **changes: Any) -> Ball:
+        """A gel ball on a rigid plane, where sliding and spinning are seen to be coupled."""
+        return cls._of(_core.balls()["gel"], changes)
+
+    def mu(self, law: LawLike = "exact") -> float:
+        """Patch radius over radius."""
+        return _solved(self, law_of(law)).mu
+
+    def roll(
+        self,
+        *,
+        velocity: Optional[ArrayLike] = None,
+        angular_velocity: Optional[ArrayLike] = None,
+        slip: Optional[float] = None,
+        spin: Optional[float] = None,
+        strike: Optional[float] = None,
+        tip: tuple[float, float] = (0, 0),
+        elevation: float = 0,
+        cue_mass: float = _core.standard_cue_mass,
+        law: LawLike = "exact",
+        rolling_below: float = _core.rolling_slip,
+        rolling_friction: float = 0,
+    ) -> Roll:
+        """The whole motion of the ball, from its own start or from another one:
+
+        velocity, angular_velocity:  of the centre, (x, y) in m/s, and of the ball, (x, y, z) in rad/s, z up
+        slip, spin:                  m/s along x, rad/s about the vertical
+        strike:                      a cue of this speed in m/s strikes the ball at rest, along x; tip is where, to the
+                                     right of and above the centre in radii; elevation of its butt in degrees; cue_mass, kg
+
+        rolling_below:     the ball rolls once it slips slower, m/s
+        rolling_friction:  u_r: once it rolls it slows down at u_r g and rests; 0: it rolls on
+        """
+        given = {name for name, value in locals().items() if name != "self" and value is not None}
+        if strike is not None and given & {"velocity", "angular_velocity", "slip", "spin"}:
+            raise ValueError("strike is a start of its own: leave out velocity, angular_velocity, slip and spin")
+        if given & {"velocity", "angular_velocity"} and given & {"slip", "spin"}:
+            raise ValueError("slip, spin and velocity, angular_velocity exclude each other: give one pair of them")
+        ball = self.but(**{key: value for key, value in (("slip", slip), ("spin", spin)) if value is not None})
+        if strike is not None:
+            start = _core.Shot(ball, strike, tip, elevation, cue_mass).start
+        else:
+            start = _core.Shot(ball, velocity, angular_velocity).start
+        return Roll(ball, *start, law_of(law), rolling_below, rolling_friction)
+
+    def evolve(self, rvw: ArrayLike, t: ArrayLike, *, law: LawLike = "exact", rolling_friction: float = 0) -> NDArray[np.float64]:
+        """The state of a ball on the table t seconds later, in the convention of pooltool: rows r, v and w, the place of
+        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 of any shape S: (S, 3, 3).
+        A new array; the ball rolls once it slips slower than 1 mm/s."""
+        rvw = np.asarray(rvw, float)
+        if rvw.shape != (3, 3) or rvw[1, 2] != 0:
+            raise ValueError(f"rvw: rows r, v, w of a ball on the table, shape (3, 3) with v_z = 0; got {rvw.tolist()}")
+        roll = self.roll(velocity=rvw[1, :2], angular_velocity=rvw[2], law=law, rolling_friction=rolling_friction)
+        at = np.asarray(roll(t))
+        result = np.zeros((*at.shape, 3, 3))
+        for row, column, name in ((0, 0, "x"), (0, 1, "y"), (1, 0, "vx"), (1, 1, "vy"), (2, 0, "wx"), (2, 1, "wy"), (2, 2, "wz")):
+            result[..., row, column] = at[name]
+        result[..., 0, :] += rvw[0]
+        return result
+
+
+@lru_cache(maxsize=64)
+def _solved(ball: Ball, law: Law) -> _core.Flow:
+    return _core.Shot(ball, None, None).flow(law._core)
+
+
+@dataclass(frozen=True)
+class Roll:
+    """The motion of a ball: called with times t >= 0 in s, of any shape, it gives a structured array of that shape with
+    fields t, x, y, vx, vy, wx, wy, wz, slip, energy (s, m, m/s, rad/s, J). The centre starts at (0, 0). `Ball.roll` makes one."""
+
+    ball: Ball
+    velocity: tuple[float, float]
+    angular_velocity: tuple[float, float, float]
+    law: Law
+    rolling_below: float
+    rolling_friction: float
+    textbook: bool = False
+    _core: Union[_core.BallMotion, _core.UncoupledMotion] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        shot = _core.Shot(self.ball, self.velocity, self.angular_velocity)
+        settings = self.rolling_below, self.rolling_friction
+        if self.textbook:
+            core: Union[_core.BallMotion, _core.UncoupledMotion] = _core.UncoupledMotion(shot, self.law._core, *settings)
+        else:
+            core = _core.BallMotion(shot, _solved(self.ball.but(slip=0, spin=0), self.law), *settings)
+        object.__setattr__(self, "_core", core)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Roll, tuple(getattr(self, each.name) for each in fields(self) if each.init)
+
+    def __call__(self, t: ArrayLike) -> Any:
+        return self._core.at(t)[()]
+
+    @property
+    def uncoupled(self) -> Roll:
+        """The textbook's ball, whose sliding and spinning do not know of each other, from the same start."""
+        return Roll(self.ball, self.velocity, self.angular_velocity, self.law, self.rolling_below, self.rolling_friction, True)
+
+    @property
+    def rolls_after(self) -> Event:
+        """When its slip has fallen to rolling_below."""
+        return Event(*self._core.rolls_after)
+
+    @property
+    def spin_ends(self) -> Event:
+        """When it no longer spins; at the start without spin."""
+        return Event(*self._core.spin_ends)
+
+    @property
+    def rest(self) -> Optional[Event]:
+        """When its centre rests, with rolling friction."""
+        rest = self._core.rest
+        return None if rest is None else Event(*rest)
+
+    @property
+    def stop_time(self) -> float:
+        """s until slip and spin end."""
+        return self._core.stop_time
+
+    @cached_property
+    def slip_length(self) -> float:
+        """m that the contact point slides."""
+        return self._core.slip_length
+
+    @cached_property
+    def turns(self) -> float:
+        """Turns about the vertical until the spin ends."""
+        return self._core.turns
+
+    @cached_property
+    def path(self) -> float:
+        """m along the path of the centre until it rolls."""
+        return self._core.path

@@ -1,0 +1,293 @@
+"""Laws, flows, orbits: the paper's plane (u, v)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any, Callable, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+
+Body = Union[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Law:
+    """A friction law; `law` makes one. Called with k = v/(mu |u|), of any shape, it gives (force, moment): Phi, the
+    force over f N, and Psi, the moment over f N times the patch radius, each of the shape of k.
+
+    name:             exact, pade, uniform, punch, ring, pressure:P, potential8, or that of a law of one's own
+    function:         (sliding, pivoting) -> (force, moment), two speeds >= 0 in one unit, v and mu |u|; it depends on
+                      their ratio alone. Raises what it likes: that comes through unchanged
+    rho, pressure:    instead, the pressure of the patch as a table: rho from 0 at the centre to 1 at the edge
+    kinks:            of a function: each k where it is not smooth
+    """
+
+    name: str = "exact"
+    function: Optional[Callable[[float, float], tuple[float, float]]] = None
+    rho: Optional[tuple[float, ...]] = None
+    pressure: Optional[tuple[float, ...]] = None
+    kinks: tuple[float, ...] = (1.0,)
+    _core: _core.Law = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.function is not None:
+            core = _core.Law(self.function, self.name, list(self.kinks))
+        elif self.rho is not None or self.pressure is not None:
+            core = _core.Law(self.name, self.rho or (), self.pressure or ())
+        else:
+            core = _core.Law(self.name)
+        object.__setattr__(self, "_core", core)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Law, (self.name, self.function, self.rho, self.pressure, self.kinks)
+
+    def __repr__(self) -> str:
+        return f"law({self.name!r})" if self.function is None and self.rho is None else f"<law {self.name}>"
+
+    def __call__(self, k: ArrayLike) -> tuple[Any, Any]:
+        return self._core.force(k)[()], self._core.moment(k)[()]
+
+    @property
+    def pivoting_moment(self) -> float:
+        """Psi(0), the moment of pure pivoting."""
+        return self._core.pivoting_moment
+
+    @property
+    def force_slope(self) -> float:
+        """Phi'(0), the viscosity of slow sliding over a pivoting patch."""
+        return self._core.force_slope
+
+
+LawLike = Union[str, Law, Callable[[float, float], tuple[float, float]]]
+
+
+def law(
+    of: LawLike = "exact",
+    *,
+    name: Optional[str] = None,
+    kinks: Sequence[float] = (1.0,),
+    rho: Optional[ArrayLike] = None,
+    pressure: Optional[ArrayLike] = None,
+) -> Law:
+    """The law of a name, of a function, or of a pressure given as a table. See Law."""
+    if rho is not None or pressure is not None:
+        table = [tuple(np.ravel(np.asarray(() if column is None else column, float)).tolist()) for column in (rho, pressure)]
+        return Law(name or "pressure", None, table[0], table[1])
+    if isinstance(of, Law):
+        return of
+    if isinstance(of, str):
+        return Law(of)
+    own = getattr(of, "__name__", "<lambda>")
+    return Law(name or ("user's law" if own == "<lambda>" else own), of, kinks=tuple(kinks))
+
+
+_law = law  # where an argument has that name
+
+
+class Ray(NamedTuple):
+    """A ray v = k mu |u| that motions keep to; the error of k is relative."""
+
+    k: float
+    attracts: bool
+    accuracy: float
+
+
+class End(NamedTuple):
+    """What k tends to, zero, ray or infinity, for every start with k_from < k < k_to."""
+
+    limit: str
+    k_star: float
+    k_from: float
+    k_to: float
+
+
+class Terminal(NamedTuple):
+    """Where k = v/(mu |u|) goes: r = gamma mu^2/chi, the r at which the regime changes, rays and ends by growing k."""
+
+    r: float
+    r_low: float
+    r_high: float
+    rays: tuple[Ray, ...]
+    ends: tuple[End, ...]
+
+    @property
+    def k_star(self) -> float:
+        """Of the end of the largest sector of starts."""
+        return max(self.ends, key=lambda end: math.atan(end.k_to) - math.atan(end.k_from)).k_star
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """The motion from one start to its stop. Any instant is found by itself."""
+
+    flow: Flow
+    u: float
+    v: float
+    _core: _core.Orbit = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_core", self.flow._core.orbit(self.u, self.v))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Orbit, (self.flow, self.u, self.v)
+
+    @property
+    def stop_time(self) -> float:
+        """tau until u = v = 0."""
+        return self._core.stop_time
+
+    @property
+    def accuracy(self) -> float:
+        """Relative error of stop_time."""
+        return self._core.accuracy
+
+    def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None) -> Any:
+        """The states at times tau >= 0 after the start, or tau_left before the stop: a structured array of their shape
+        with fields tau, u, v, ln_v, k, beta. v underflows near the stop, ln_v does not; beta is the paper's regularised
+        time (2.8)."""
+        if tau is not None and tau_left is None:
+            return self._core.at(tau)[()]
+        if tau is None and tau_left is not None:
+            return self._core.at_left(tau_left)[()]
+        raise TypeError("at: one of tau and tau_left is needed")
+
+    def sample(self, count: int = 201) -> NDArray[Any]:
+        """The states at equal times from the start to the stop."""
+        return self._core.at(np.linspace(0, self.stop_time, count))
+
+    def slip_length(self, tau: ArrayLike) -> Any:
+        """The integral of v over [0, tau], in the unit of speed squared."""
+        return self._core.slip_length(tau)[()]
+
+
+@dataclass(frozen=True, init=False)
+class Flow:
+    """All motions of one system: solved once (1 ms), then stop times and states of any start.
+
+    mu:    patch radius over R; 0 < mu <= 1 for a ball; disc and ring rest on their whole face, mu = 1
+    law:   a name, a Law or a function; that of the body if left out: exact for a ball
+    body:  ball, hollow-ball, disc, ring, or (chi, gamma): chi = 1 + m R^2/J about a horizontal axis (1: it cannot
+           roll), gamma = m R^2/J_z
+    """
+
+    mu: float
+    law: Law
+    body: Body
+    _core: _core.Flow = field(repr=False, compare=False)
+
+    def __init__(self, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball") -> None:
+        of = None if law is None else _law(law)
+        core = _core.Flow(None if of is None else of._core, mu, body)
+        for name, value in {"mu": core.mu, "law": of or Law(core.law.name), "body": body, "_core": core}.items():
+            object.__setattr__(self, name, value)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Flow, (self.mu, self.law, self.body)
+
+    def stop_time(self, *, u: ArrayLike, v: ArrayLike, out: Optional[NDArray[np.float64]] = None, threads: int = 1) -> Any:
+        """The time tau until u = v = 0, to a few eps (2e-15 relative).
+
+        u, v:     numbers, or arrays of shapes that broadcast; any u, v >= 0. In an array what is no start becomes NaN
+        out:      float64 of the broadcast shape, to write into; may be u or v itself
+        threads:  that share the work on a large array; other threads of Python go on meanwhile
+        """
+        if out is None and isinstance(u, (float, int)) and isinstance(v, (float, int)):
+            return self._core.stop_time(u, v)
+        u, v = np.broadcast_arrays(np.asarray(u, float), np.asarray(v, float))
+        if out is not None and (out.shape != u.shape or out.dtype != np.float64):
+            raise ValueError(f"out: float64 of shape {u.shape} is needed, got {out.dtype} of shape {out.shape}")
+        direct = out is not None and out.flags.c_contiguous and all(
+            out.ctypes.data == given.ctypes.data and given.flags.c_contiguous or not np.may_share_memory(out, given)
+            for given in (u, v)
+        )
+        taus = out if out is not None and direct else np.empty(u.shape)
+        self._core.stop_times(u, v, taus, threads)
+        if out is not None and not direct:
+            out[...] = taus
+        return out if out is not None else taus[()]
+
+    def orbit(self, *, u: float, v: float) -> Orbit:
+        """The motion from one start."""
+        return Orbit(self, u, v)
+
+    def terminal(self) -> Terminal:
+        """What k tends to as the body comes to rest."""
+        r, low, high, rays, ends = self._core.terminal()
+        return Terminal(r, low, high, tuple(Ray(*ray) for ray in rays), tuple(End(*end) for end in ends))
+
+
+@lru_cache(maxsize=64)
+def _flow(mu: Optional[float], law: Optional[LawLike], body: Body) -> Flow:
+    return Flow(mu, law, body)
+
+
+def stop_time(
+    *,
+    u: ArrayLike,
+    v: ArrayLike,
+    mu: Optional[ArrayLike] = None,
+    law: Optional[LawLike] = None,
+    body: Body = "ball",
+    out: Optional[NDArray[np.float64]] = None,
+    threads: int = 1,
+) -> Any:
+    """Flow(mu, law, body).stop_time, with the flows of the last calls kept; mu, too, may be an array, at the cost of a
+    flow (0.4 ms) for each of its values."""
+    if mu is None or isinstance(mu, (float, int)):
+        return _flow(mu, law, body).stop_time(u=u, v=v, out=out, threads=threads)
+    u, v, mu = np.broadcast_arrays(np.asarray(u, float), np.asarray(v, float), np.asarray(mu, float))
+    taus = np.empty(u.shape) if out is None else out
+    if taus.shape != u.shape:
+        raise ValueError(f"out: shape {u.shape} is needed, got {taus.shape}")
+    values, group = np.unique(mu, return_inverse=True)
+    group = group.reshape(u.shape)
+    found = [Flow(float(value), law, body).stop_time(u=u[group == i], v=v[group == i], threads=threads)
+             for i, value in enumerate(values)]
+    for i, part in enumerate(found):
+        taus[group == i] = part
+    return taus[()] if out is None else out
+
+
+class Check(NamedTuple):
+    """One statement of the theory about one motion; what is measured must not exceed what is allowed."""
+
+    law: str
+    check: str
+    measured: float
+    allowed: float
+    passed: bool
+
+
+class Checks(tuple[Check, ...]):
+    """The rows of `check`."""
+
+    @property
+    def passed(self) -> bool:
+        return all(row.passed for row in self)
+
+    def raise_for_failure(self) -> Checks:
+        """Itself, if every check passed.
+        Raises ArithmeticError naming those that did not."""
+        if self.passed:
+            return self
+        raise ArithmeticError("\n".join(str(Checks([row])) for row in self if not row.passed))
+
+    def __str__(self) -> str:
+        return "\n".join(
+            f"{row.law}: {row.check}: {row.measured:.2g}, {row.allowed:.2g} allowed: {'ok' if row.passed else 'FAIL'}"
+            for row in self
+        )
+
+
+def check(*, u: float, v: float, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball") -> Checks:
+    """Everything the theory says about the motion from one start, each as a number that must be small: the routes to its
+    stop time against each other, the symmetry, the first integral, the limits. Without a law, of both laws of the paper.
+    """
+    laws: list[Optional[LawLike]] = ["exact", "pade"] if law is None and body in ("ball", "hollow-ball") else [law]
+    flows = [_flow(mu, each, body) for each in laws]
+    return Checks(Check(flow.law.name, *row) for flow in flows for row in flow._core.check(u, v))

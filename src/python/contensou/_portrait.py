@@ -1,0 +1,202 @@
+"""Phase portraits."""
+
+from __future__ import annotations
+
+import json
+import re
+from os import PathLike
+from pathlib import Path
+from typing import Any, Iterable, Optional, Union
+
+import numpy as np
+
+from . import _core
+from ._balls import Ball
+from ._flow import Body, Flow, LawLike, law as law_of
+
+_widths = {"single": 85.0, "double": 170.0}
+
+
+def _columns(value: Any) -> Any:
+    """JSON with lists of numbers as arrays."""
+    if isinstance(value, dict):
+        return {key: _columns(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_columns(each) for each in value] if value and isinstance(value[0], (dict, list)) else np.array(value, float)
+    return value
+
+
+def _mathtext(text: str) -> str:
+    """A text of a figure as matplotlib writes it."""
+    parts = re.split(r"{/:Italic ((?:[^{}]|{[^}]*})*)}", text.replace("$", r"\$"))
+    parts[::2] = [re.sub(r"([_^])({[^}]*}|.)", r"$\1{\2}$", part) for part in parts[::2]]
+    parts[1::2] = [f"${part}$".replace(" ", r"\ ") for part in parts[1::2]]
+    return "".join(parts)
+
+
+class Portrait:
+    """A phase portrait: `portrait` makes one. In a notebook it shows itself."""
+
+    def __init__(self, asked: dict[str, Any]) -> None:
+        self._asked = asked
+        ball, law = asked["ball"], asked["law"]
+        shot = None if ball is None else _core.Shot(ball, None, None)
+        if shot is None:
+            flow = Flow(asked["mu"], law, asked["body"])._core
+        elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball":
+            flow = shot.flow(law_of(law or "exact")._core)
+        else:
+            raise ValueError("ball and mu, u, v, body exclude each other: a ball brings them")
+        if (asked["u"] is None) != (asked["v"] is None):
+            raise ValueError("a start has both u and v")
+        size, against = asked["size"], asked["against"]
+        if isinstance(size, str) and size not in _widths:
+            raise ValueError(f"size: single, double, or (width, height) in mm is needed, got {size!r}")
+        self._core = _core.Portrait(
+            flow, shot, None if asked["u"] is None else (asked["u"], asked["v"]),
+            against=None if against is None else law_of(against)._core,
+            size=(_widths[size], None) if isinstance(size, str) else size or (None, None),
+            **{key: asked[key] for key in ("view", "window", "orbits", "through", "isochrones", "arrows", "field", "axes",
+                                           "colour", "style", "scale", "title")},
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Portrait, (self._asked,)
+
+    def __repr__(self) -> str:
+        return f"portrait({', '.join(f'{key}={value!r}' for key, value in self._asked.items() if value is not None)})"
+
+    def render(self, format: str) -> bytes:
+        """The file in a format: svg, pdf, png and eps, drawn by gnuplot, which is looked up in PATH; gp, its script; tex."""
+        return self._core.render(format)
+
+    def save(self, path: Union[str, PathLike[str]]) -> None:
+        """Writes the file in the format of its ending."""
+        Path(path).write_bytes(self.render(Path(path).suffix[1:]))
+
+    def svg(self) -> str:
+        return self.render("svg").decode()
+
+    _repr_svg_ = svg
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """What `contensou portrait -o FILE.json` writes, lists of numbers as arrays: window; orbits, each with u, v, ln_v
+        and tau_left; isochrones, each with tau_stop, u, v; where asked for highlight, through, against."""
+        return dict(_columns(json.loads(self._core.json())))
+
+    @property
+    def figure(self) -> dict[str, Any]:
+        """The drawing as data: title, panels with axes, lines, arrows, marks, labels and regions in the units of the axes."""
+        return self._core.figure()
+
+    def plot(self, ax: Any = None) -> Any:
+        """The figure by matplotlib, into `ax`, axes or as many of them as it has panels; into a new figure without. Gives
+        the axes, or an array of them where there are several panels."""
+        from matplotlib import pyplot
+        from matplotlib.cm import ScalarMappable
+        from matplotlib.collections import LineCollection
+        from matplotlib.colors import ListedColormap
+
+        figure = self.figure
+        panels = figure["panels"]
+        if ax is None:
+            size = figure["width_mm"] / 25.4, figure["height_mm"] / 25.4
+            page, ax = pyplot.subplots(1, len(panels), figsize=size, facecolor=figure["ground"], layout="constrained")
+            page.suptitle(_mathtext(figure["title"]), color=figure["ink"])
+            if bar := figure["colour_bar"]:
+                scale = page.colorbar(ScalarMappable(cmap=ListedColormap(bar["colours"])), ax=ax, label=_mathtext(bar["name"]))
+                scale.set_ticks([at for at, _ in bar["ticks"]], labels=[_mathtext(text) for _, text in bar["ticks"]])
+        places = np.atleast_1d(ax)
+        if len(places) != len(panels):
+            raise ValueError(f"ax: {len(panels)} axes are needed, got {len(places)}")
+        for panel, place in zip(panels, places):
+            place.set(title=_mathtext(panel["title"]), facecolor=figure["ground"])
+            if panel["bare"]:
+                place.set_axis_off()
+            for name in "xy":
+                axis = panel[name]
+                if axis["logarithmic"]:
+                    place.set(**{f"{name}scale": "log"})
+                place.set(**{f"{name}lim": (axis["low"], axis["high"]), f"{name}label": _mathtext(axis["name"])})
+                if axis["ticks"]:
+                    ticks, texts = zip(*axis["ticks"])
+                    place.set(**{f"{name}ticks": ticks, f"{name}ticklabels": [_mathtext(text) for text in texts]})
+            if panel["to_scale"]:
+                place.set_aspect("equal")
+            for region in panel["regions"]:
+                place.fill(*region["border"].T, color=region["colour"], linewidth=0, zorder=0)
+            for layer in panel["lines"]:
+                style = "-." if layer["dashed"] and layer["dotted"] else "--" if layer["dashed"] else ":" if layer["dotted"] else "-"
+                place.add_collection(LineCollection(
+                    layer["lines"], colors=layer["colour"], linewidths=layer["width"], linestyles=style,
+                    label=_mathtext(layer["legend"]) or None), autolim=False)
+            for layer in panel["arrows"]:
+                self._arrows(place, layer)
+            for layer in panel["marks"]:
+                shape = {"dot": "o", "circle": "o", "square": "s"}[layer["shape"]]
+                inside = layer["colour"] if layer["shape"] == "dot" else figure["ground"]
+                place.plot(*layer["points"].T, shape, color=layer["colour"], markerfacecolor=inside, clip_on=False,
+                           markersize=6 * layer["size"], label=_mathtext(layer["legend"]) or None)
+            for label in panel["labels"]:
+                place.text(label["x"], label["y"], _mathtext(label["text"]), color=label["colour"], ha=label["align"],
+                           va="center", fontsize="small", bbox={"facecolor": figure["ground"], "lw": 0, "pad": 0.5})
+            if place.get_legend_handles_labels()[1]:
+                place.legend(fontsize="small", loc="best")
+        return ax
+
+    @staticmethod
+    def _arrows(place: Any, layer: dict[str, Any]) -> None:
+        """Heads of one size that point along a direction of the axes."""
+        at, direction = layer["arrows"][::2], layer["arrows"][1::2]
+        if len(at) == 0:
+            return
+        reach = 1e-6 * np.ptp(place.get_xlim()), 1e-6 * np.ptp(place.get_ylim())
+        size = np.abs(direction / reach).max(axis=1, keepdims=True)
+        tail = place.transData.transform(at)
+        way = place.transData.transform(at + direction / np.where(size > 0, size, 1)) - tail
+        angles = np.degrees(np.arctan2(way[:, 1], way[:, 0])) - 90
+        for point, angle in zip(at, angles):
+            place.plot(*point, marker=(3, 0, angle), color=layer["colour"], markersize=4, linestyle="")
+
+
+def portrait(
+    *,
+    mu: Optional[float] = None,
+    law: Optional[LawLike] = None,
+    body: Body = "ball",
+    u: Optional[float] = None,
+    v: Optional[float] = None,
+    ball: Optional[Ball] = None,
+    view: Optional[str] = None,
+    window: Optional[tuple[float, float]] = None,
+    orbits: Optional[int] = None,
+    through: Iterable[tuple[float, float]] = (),
+    isochrones: Optional[int] = None,
+    against: Optional[LawLike] = None,
+    arrows: str = "time",
+    field: str = "none",
+    axes: bool = True,
+    colour: str = "time",
+    style: str = "print",
+    scale: str = "bent",
+    size: Union[None, str, tuple[float, float]] = None,
+    title: Optional[str] = None,
+) -> Portrait:
+    """The phase portrait of a system, as in Flow, or of a ball in SI units, as `contensou portrait` draws it.
+
+    u, v:        the start of an orbit to be highlighted
+    view:        uv, patch, log, similarity, blowup, disc, time, pair
+    window:      (U, V): show |u| <= U and v <= V
+    orbits:      so many on each side of u = 0
+    through:     points (u, v) whose orbits are shown, too
+    isochrones:  about so many lines of equal stop time
+    against:     another law, in the same figure
+    arrows:      time, one or none; field: none, motion or regularised; axes: the invariant axes and rays
+    colour:      orbits by the time left (time), or in one colour (none)
+    style:       print or screen; scale: bent or linear
+    size:        (width, height) in mm, or single, double: the columns of a journal
+    title:       "" for neither title nor subtitle
+    """
+    asked = dict(locals(), through=[tuple(point) for point in through])
+    return Portrait(asked)

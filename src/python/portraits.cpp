@@ -1,0 +1,172 @@
+// contensou::portraits in Python: a portrait as data, as a figure and as a file.
+#include <algorithm>
+
+#include "contensou/portraits/gnuplot.hpp"
+#include "contensou/portraits/layout.hpp"
+#include "contensou/si/bridge.hpp"
+#include "options/portrait_spec.hpp"
+#include "values.hpp"
+
+namespace contensou::python {
+
+namespace {
+
+using portraits::Figure;
+using portraits::Panel;
+using portraits::PhasePortrait;
+using portraits::Point;
+using portraits::PortraitStyle;
+
+struct Portrait {
+  PhasePortrait data;
+  Figure figure;
+};
+
+/// Two columns.
+py::array_t<double> array_of(const std::vector<Point>& points) {
+  static_assert(sizeof(Point) == 2 * sizeof(double));
+  py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
+  std::copy(points.begin(), points.end(), reinterpret_cast<Point*>(array.mutable_data()));
+  return array;
+}
+
+std::string colour_of(portraits::Colour colour) { return fmt::format("#{:06x}", colour.rgb); }
+
+template <class Range, class Function>
+py::list list_of(const Range& range, Function value) {
+  py::list list;
+  for (const auto& entry : range) list.append(value(entry));
+  return list;
+}
+
+py::list ticks_of(const std::vector<portraits::Axis::Tick>& ticks) {
+  return list_of(ticks, [](const portraits::Axis::Tick& tick) { return py::make_tuple(tick.at, tick.text); });
+}
+
+py::dict axis_of(const portraits::Axis& axis) {
+  return py::dict(py::arg("name") = axis.name, py::arg("low") = axis.low, py::arg("high") = axis.high,
+                  py::arg("logarithmic") = axis.logarithmic, py::arg("ticks") = ticks_of(axis.ticks));
+}
+
+py::dict dict_of(const Panel& panel) {
+  static constexpr const char* shapes[] = {"dot", "circle", "square"};
+  static constexpr const char* sides[] = {"left", "center", "right"};
+  return py::dict(py::arg("title") = panel.title, py::arg("x") = axis_of(panel.x), py::arg("y") = axis_of(panel.y),
+                  py::arg("bare") = panel.bare, py::arg("to_scale") = panel.to_scale,
+                  py::arg("regions") = list_of(panel.regions,
+                                               [](const portraits::Region& region) {
+                                                 return py::dict(py::arg("border") = array_of(region.border),
+                                                                 py::arg("colour") = colour_of(region.colour));
+                                               }),
+                  py::arg("lines") = list_of(
+                      panel.lines,
+                      [](const portraits::Lines& layer) {
+                        return py::dict(py::arg("lines") = list_of(layer.lines, array_of),
+                                        py::arg("colour") = colour_of(layer.stroke.colour),
+                                        py::arg("width") = layer.stroke.width, py::arg("dashed") = layer.stroke.dashed,
+                                        py::arg("dotted") = layer.stroke.dotted, py::arg("legend") = layer.legend);
+                      }),
+                  py::arg("arrows") = list_of(panel.arrows,
+                                              [](const portraits::Arrows& layer) {
+                                                std::vector<Point> ends;
+                                                for (const auto& [at, direction] : layer.arrows)
+                                                  ends.insert(ends.end(), {at, direction});
+                                                return py::dict(py::arg("arrows") = array_of(ends),
+                                                                py::arg("colour") = colour_of(layer.colour));
+                                              }),
+                  py::arg("marks") = list_of(panel.marks,
+                                             [](const portraits::Marks& layer) {
+                                               return py::dict(py::arg("points") = array_of(layer.points),
+                                                               py::arg("colour") = colour_of(layer.colour),
+                                                               py::arg("size") = layer.size,
+                                                               py::arg("shape") = shapes[static_cast<int>(layer.shape)],
+                                                               py::arg("legend") = layer.legend);
+                                             }),
+                  py::arg("labels") = list_of(panel.labels, [](const portraits::Label& label) {
+                    return py::dict(py::arg("x") = label.at.x, py::arg("y") = label.at.y, py::arg("text") = label.text,
+                                    py::arg("colour") = colour_of(label.colour),
+                                    py::arg("align") = sides[static_cast<int>(label.align)]);
+                  }));
+}
+
+py::dict dict_of(const Figure& figure) {
+  const auto& bar = figure.colour_bar;
+  return py::dict(
+      py::arg("title") = figure.title, py::arg("subtitle") = figure.subtitle, py::arg("width_mm") = figure.width_mm,
+      py::arg("height_mm") = figure.height_mm, py::arg("ground") = colour_of(figure.theme.ground),
+      py::arg("ink") = colour_of(figure.theme.ink), py::arg("faint") = colour_of(figure.theme.faint),
+      py::arg("panels") = list_of(figure.panels, [](const Panel& panel) { return dict_of(panel); }),
+      py::arg("colour_bar") = bar ? std::optional(py::dict(py::arg("name") = bar->name,
+                                                           py::arg("colours") = list_of(bar->colours, colour_of),
+                                                           py::arg("ticks") = ticks_of(bar->ticks)))
+                                  : std::nullopt);
+}
+
+using Sides = std::pair<double, double>;
+
+Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Shot>& shot,
+                     const std::optional<Sides>& start, const std::optional<std::string>& view,
+                     const std::optional<Sides>& window, std::optional<int> orbits, const std::vector<Sides>& through,
+                     std::optional<int> isochrones, const std::optional<reduction::Law>& against,
+                     const std::string& arrows, const std::string& field, bool axes, const std::string& colour,
+                     const std::string& style, const std::string& scale,
+                     const std::pair<std::optional<double>, std::optional<double>>& size,
+                     const std::optional<std::string>& title) {
+  using Arrows = PortraitStyle::Arrows;
+  using Field = PortraitStyle::Field;
+  program::PortraitSpec asked{.flow = flow, .shot = shot};
+  if (start) asked.start = reduction::State{start->first, start->second};
+  if (shot) asked.start = si::reduced_start(*shot);
+  std::vector<std::pair<std::string, portraits::View>> views;
+  for (portraits::View choice : portraits::views()) views.emplace_back(name(choice), choice);
+  if (view) asked.request.view = one_of("view", "views", views, *view);
+  if (window) asked.request.window = {window->first, window->second};
+  for (const auto& [u, v] : through) asked.request.through.push_back({u, v});
+  asked.request.orbits_per_side = orbits;
+  asked.request.isochrones = isochrones;
+  asked.request.comparison = against;
+  asked.request.linear = one_of<bool>("scale", "scales", {{"bent", false}, {"linear", true}}, scale);
+  asked.style.arrows = one_of<Arrows>("place for arrows", "places",
+                                      {{"time", Arrows::time}, {"one", Arrows::one}, {"none", Arrows::none}}, arrows);
+  asked.style.field =
+      one_of<Field>("field", "fields",
+                    {{"none", Field::none}, {"motion", Field::motion}, {"regularised", Field::regularised}}, field);
+  asked.style.invariant = axes;
+  asked.style.colour_by_time = one_of<bool>("colour", "colours", {{"time", true}, {"none", false}}, colour);
+  asked.style.screen = one_of<bool>("style", "styles", {{"print", false}, {"screen", true}}, style);
+  asked.style.size = {size.first, size.second};
+  PhasePortrait data = asked.portrait();
+  Figure figure = asked.figure(data);
+  if (title) {
+    figure.title = portraits::literal(*title, 200);
+    figure.subtitle = "";
+  }
+  return {std::move(data), std::move(figure)};
+}
+
+}  // namespace
+
+void bind_portraits(py::module_& module) {
+  py::class_<Portrait>(module, "Portrait")
+      .def(py::init(&portrait_of), py::arg("flow"), py::arg("shot"), py::arg("start"), py::kw_only(), py::arg("view"),
+           py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"), py::arg("against"),
+           py::arg("arrows"), py::arg("field"), py::arg("axes"), py::arg("colour"), py::arg("style"), py::arg("scale"),
+           py::arg("size"), py::arg("title"), Released())
+      .def("render",
+           [](const Portrait& portrait, const std::string& ending) {
+             const auto format = portraits::find_picture_format(ending);
+             if (!format) {
+               throw std::domain_error(fmt::format("no such format '{}'; formats: {}", ending,
+                                                   fmt::join(portraits::picture_formats(), ", ")));
+             }
+             const auto drawn = [&] {
+               const py::gil_scoped_release released;
+               return portraits::render(portrait.figure, *format);
+             };
+             return py::bytes(drawn());
+           })
+      .def("json", [](const Portrait& portrait) { return portraits::to_json(portrait.data); })
+      .def("figure", [](const Portrait& portrait) { return dict_of(portrait.figure); });
+}
+
+}  // namespace contensou::python

@@ -1,0 +1,188 @@
+// contensou::reduction in Python: laws, flows, orbits, checks.
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <tuple>
+#include <variant>
+
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/tabulated_pressure_law.hpp"
+#include "contensou/reduction/verification.hpp"
+#include "options/body.hpp"
+#include "values.hpp"
+
+namespace contensou::python {
+
+namespace {
+
+using reduction::Flow;
+using reduction::Law;
+using reduction::Orbit;
+using reduction::OrbitPoint;
+using reduction::Resistance;
+using reduction::Slip;
+
+/// A law that is a function of Python.
+class FunctionLaw {
+ public:
+  FunctionLaw(py::function function, std::string name, std::vector<double> kinks)
+      : function_(new py::function(std::move(function)),
+                  [](py::function* last) {
+                    const py::gil_scoped_acquire acquired;
+                    delete last;
+                  }),
+        name_(std::move(name)),
+        kinks_(std::move(kinks)) {}
+
+  const std::string& name() const { return name_; }
+  const std::vector<double>& kinks() const { return kinks_; }
+
+  /// @throws py::error_already_set  what the function raises, with its own type and traceback
+  Resistance operator()(Slip slip) const {
+    const py::gil_scoped_acquire acquired;
+    const py::object answer = (*function_)(slip.sliding, slip.pivoting);
+    try {
+      const auto [force, moment] = answer.cast<std::pair<double, double>>();
+      return {force, moment};
+    } catch (const py::cast_error&) {
+      throw py::type_error(fmt::format("law {}: a pair of numbers (force, moment) is needed, got {}", name_,
+                                       py::repr(answer).cast<std::string>()));
+    }
+  }
+
+ private:
+  std::shared_ptr<py::function> function_;  ///< deleted under the lock, wherever the last copy ends
+  std::string name_;
+  std::vector<double> kinks_;
+};
+
+Law law_of_name(const std::string& name) {
+  if (auto law = reduction::find_law(name)) return *law;
+  std::vector<std::pair<std::string, Law>> laws;
+  for (const Law& law : reduction::named_laws()) laws.emplace_back(law.name(), law);
+  return one_of("law", "laws", laws, name, {"pressure:P"});
+}
+
+Eigen::ArrayXd column(const Numbers& values) { return Eigen::Map<const Eigen::ArrayXd>(values.data(), values.size()); }
+
+program::Body body_of(const std::variant<std::string, std::pair<double, double>>& given) {
+  if (const auto* ratios = std::get_if<1>(&given)) {
+    return {{.chi = ratios->first, .gamma = ratios->second}, std::nullopt, false};
+  }
+  return one_of("body", "bodies", program::bodies(), std::get<0>(given), {"(chi, gamma)"});
+}
+
+Flow flow_of(const std::optional<Law>& law, std::optional<double> mu,
+             const std::variant<std::string, std::pair<double, double>>& given) {
+  const program::Body body = body_of(given);
+  if (!mu) mu = body.patch_ratio;
+  if (!mu) throw std::domain_error("mu is missing: the radius of the contact patch over that of the body");
+  if (const std::string complaint = body.complaint(*mu); !complaint.empty()) {
+    throw std::domain_error(fmt::format("mu = {}: {}", *mu, complaint));
+  }
+  return reduction::ReducedSystem(law ? *law : law_of_name(std::string(body.law)), *mu, body.inertia);
+}
+
+/// Into `out`, contiguous and as many as there are starts. What is no start becomes NaN.
+void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_t<double>& out, unsigned threads) {
+  constexpr std::size_t starts_that_pay_for_a_table = 1 << 15;
+  const auto count = static_cast<std::size_t>(out.size());
+  const double* const us = u.data();
+  const double* const vs = v.data();
+  double* const taus = out.mutable_data();
+  const py::gil_scoped_release released;
+  if (count >= starts_that_pay_for_a_table || threads == 0) {
+    flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_state = std::isfinite(us[i]) && std::isfinite(vs[i]) && vs[i] >= 0;
+    taus[i] = is_state ? flow.stop_time({us[i], vs[i]}).tau : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+py::tuple terminal(const Flow& flow) {
+  const reduction::TerminalRatios& ratios = flow.terminal();
+  constexpr const char* regimes[] = {"zero", "ray", "infinity"};
+  py::list rays, ends;
+  for (const reduction::InvariantRay& ray : ratios.rays) {
+    rays.append(py::make_tuple(ray.k, ray.attracts(), ray.accuracy));
+  }
+  for (const reduction::TerminalRatio& end : ratios.ends) {
+    ends.append(py::make_tuple(regimes[static_cast<int>(end.regime)], end.k, end.from, end.to));
+  }
+  return py::make_tuple(flow.system().r(), ratios.low, ratios.high, rays, ends);
+}
+
+}  // namespace
+
+void bind_reduction(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(OrbitPoint, tau, u, v, ln_v, k, beta);
+
+  py::class_<Law>(module, "Law")
+      .def(py::init(&law_of_name))
+      .def(py::init([](py::function function, std::string name, std::vector<double> kinks) {
+        return Law(FunctionLaw(std::move(function), std::move(name), std::move(kinks)));
+      }))
+      .def(py::init([](std::string name, const Numbers& rho, const Numbers& pressure) {
+        return Law(reduction::TabulatedPressureLaw(std::move(name), column(rho), column(pressure)));
+      }))
+      .def_property_readonly("name", &Law::name)
+      .def_property_readonly("pivoting_moment", &Law::pivoting_moment)
+      .def_property_readonly("force_slope", &Law::force_slope)
+      .def("force",
+           [](const Law& law, const Numbers& k) {
+             return mapped<double>(k, [&](double ratio) { return law(reduction::slip_of_ratio(ratio)).force; });
+           })
+      .def("moment", [](const Law& law, const Numbers& k) {
+        return mapped<double>(k, [&](double ratio) { return law(reduction::slip_of_ratio(ratio)).moment; });
+      });
+
+  py::class_<Flow>(module, "Flow")
+      .def(py::init(&flow_of), Released())
+      .def_property_readonly("law", [](const Flow& flow) { return flow.system().law(); })
+      .def_property_readonly("mu", [](const Flow& flow) { return flow.system().mu(); })
+      .def(
+          "stop_time",
+          [](const Flow& flow, double u, double v) {
+            return flow.stop_time({u, v}).tau;
+          },
+          Released())
+      .def("stop_times", &stop_times)
+      .def(
+          "orbit",
+          [](const Flow& flow, double u, double v) {
+            return flow.orbit({u, v});
+          },
+          Released())
+      .def("terminal", &terminal)
+      .def(
+          "check",
+          [](const Flow& flow, double u, double v) {
+            std::vector<std::tuple<std::string, double, double, bool>> rows;
+            for (const reduction::Check& check : reduction::verify(flow, reduction::State{u, v})) {
+              rows.emplace_back(check.name, check.measured, check.allowed, check.passed());
+            }
+            return rows;
+          },
+          Released());
+
+  py::class_<Orbit>(module, "Orbit")
+      .def_property_readonly("stop_time", &Orbit::stop_time)
+      .def_property_readonly("accuracy", &Orbit::accuracy)
+      .def("at",
+           [](const Orbit& orbit, const Numbers& tau) {
+             return mapped<OrbitPoint>(tau, [&](double time) { return orbit.at_time(time); });
+           })
+      .def("at_left",
+           [](const Orbit& orbit, const Numbers& left) {
+             return mapped<OrbitPoint>(left, [&](double time) { return orbit.at_time_left(time); });
+           })
+      .def("slip_length", [](const Orbit& orbit, const Numbers& tau) {
+        return mapped<double>(tau, [&](double time) { return orbit.slip_length(time); });
+      });
+}
+
+}  // namespace contensou::python

@@ -1,0 +1,166 @@
+// contensou::si in Python: balls and their motion.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/bridge.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/si/course.hpp"
+#include "contensou/si/cue_strike.hpp"
+#include "contensou/si/quantity.hpp"
+#include "contensou/si/run_file.hpp"
+#include "contensou/si/uncoupled_motion.hpp"
+#include "values.hpp"
+
+namespace contensou::python {
+
+namespace {
+
+using reduction::Flow;
+using reduction::Law;
+
+using Pair = std::array<double, 2>;
+using Triple = std::array<double, 3>;
+
+/// An entry of the array that a motion gives.
+struct Instant {
+  double t, x, y, vx, vy, wx, wy, wz, slip, energy;
+};
+
+Instant instant_of(const si::MotionPoint& point) {
+  const auto& [t, position, velocity, w, slip, energy] = point;
+  return {t, position.x(), position.y(), velocity.x(), velocity.y(), w.x(), w.y(), w.z(), slip, energy};
+}
+
+/// The fields of a Ball of Python that say what its patch follows from.
+si::PatchSource patch_of(const py::object& ball) {
+  const auto radius = ball.attr("patch_radius").cast<std::optional<double>>();
+  const auto deceleration = ball.attr("spin_deceleration").cast<std::optional<double>>();
+  const auto modulus = ball.attr("youngs_modulus").cast<std::optional<Pair>>();
+  const auto ratio = ball.attr("poisson_ratio").cast<std::optional<Pair>>();
+  if (modulus.has_value() != ratio.has_value() ||
+      radius.has_value() + deceleration.has_value() + modulus.has_value() != 1) {
+    throw std::domain_error(
+        "a ball's patch is given by one of patch_radius, spin_deceleration, and youngs_modulus with poisson_ratio");
+  }
+  if (radius) return si::PatchRadius{*radius};
+  if (deceleration) return si::SpinDeceleration{*deceleration};
+  return si::HertzModuli{.youngs_modulus = *modulus, .poisson_ratio = *ratio};
+}
+
+/// A Ball of Python with its own start, or with what takes the place of it.
+si::Shot shot_of(const py::object& ball, const std::optional<Pair>& velocity,
+                 const std::optional<Triple>& angular_velocity) {
+  const auto number = [&](const char* field) { return ball.attr(field).cast<double>(); };
+  si::Shot shot{
+      .ball = {.name = ball.attr("name").cast<std::string>(), .mass = number("mass"), .radius = number("radius")},
+      .contact = {.friction = number("friction"), .patch = patch_of(ball)},
+      .start = si::SlipAndSpin{.slip = number("slip"), .spin = number("spin")},
+      .environment = {.gravity = number("gravity")}};
+  if (velocity || angular_velocity) {
+    si::Velocities start = si::velocities_of(shot.start);
+    if (velocity) start.velocity = Eigen::Vector2d(velocity->data());
+    if (angular_velocity) start.angular_velocity = Eigen::Vector3d(angular_velocity->data());
+    shot.start = start;
+  }
+  si::require_shot(shot);
+  return shot;
+}
+
+/// The fields of a Ball of Python.
+py::dict fields_of(const si::Shot& shot) {
+  py::dict fields;
+  fields["name"] = shot.ball.name;
+  fields["mass"] = shot.ball.mass;
+  fields["radius"] = shot.ball.radius;
+  fields["friction"] = shot.contact.friction;
+  fields["gravity"] = shot.environment.gravity;
+  fields["slip"] = si::slip_at_start(shot);
+  fields["spin"] = si::spin_at_start(shot);
+  for (const auto& [quantity, values] : si::given_by(shot.contact.patch)) {
+    const py::str name(std::string(quantity->name));
+    fields[name] = values.size() == 1 ? py::object(py::float_(values[0])) : py::make_tuple(values[0], values[1]);
+  }
+  return fields;
+}
+
+py::tuple place_of(const si::Event& event) { return py::make_tuple(event.t, event.place.x(), event.place.y()); }
+
+template <class Motion, class Given>
+void bind_course(py::module_& module, const char* name) {
+  using Course = si::Course<Motion>;
+  py::class_<Course>(module, name)
+      .def(py::init([](const si::Shot& shot, const Given& given, double rolling_below, double rolling_friction) {
+             return Course(shot, Motion(shot, given), rolling_below, rolling_friction);
+           }),
+           Released())
+      .def_property_readonly("stop_time",
+                             [](const Course& course) {
+                               if constexpr (std::is_same_v<Motion, si::BallMotion>)
+                                 return course.motion.stop_time();
+                               else
+                                 return std::max(course.motion.slip_time(0), course.motion.spin_end());
+                             })
+      .def("at",
+           [](const Course& course, const Numbers& times) {
+             return mapped<Instant>(times, [&](double t) { return instant_of(course.at_time(t)); });
+           })
+      .def_property_readonly("rolls_after", [](const Course& course) { return place_of(course.event(course.rolls)); })
+      .def_property_readonly("spin_ends",
+                             [](const Course& course) { return place_of(course.event(course.motion.spin_end())); })
+      .def_property_readonly(
+          "rest",
+          [](const Course& course) {
+            return course.friction
+                       ? std::optional(place_of({course.friction->rest_time(), course.friction->rest_position()}))
+                       : std::nullopt;
+          })
+      .def_property_readonly("slip_length", [](const Course& course) { return course.motion.slip_length(); })
+      .def_property_readonly("turns",
+                             [](const Course& course) { return course.motion.spin_angle() / (2 * std::numbers::pi); })
+      .def_property_readonly("path", [](const Course& course) { return course.motion.path_length(course.rolls); });
+}
+
+}  // namespace
+
+void bind_si(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(Instant, t, x, y, vx, vy, wx, wy, wz, slip, energy);
+
+  py::class_<si::Shot>(module, "Shot")
+      .def(py::init(&shot_of))
+      .def(py::init([](const py::object& ball, double speed, Pair tip, double elevation, double cue_mass) {
+        si::Shot shot = shot_of(ball, {}, {});
+        shot.start = si::struck(shot.ball, {.speed = speed,
+                                            .right = tip[0],
+                                            .above = tip[1],
+                                            .elevation = elevation * (std::numbers::pi / 180),
+                                            .mass = cue_mass});
+        si::require_shot(shot);
+        return shot;
+      }))
+      .def(
+          "flow", [](const si::Shot& shot, const Law& law) { return Flow(si::reduced_system(shot, law)); }, Released())
+      .def_property_readonly("start", [](const si::Shot& shot) {
+        const auto [velocity, w] = si::velocities_of(shot.start);
+        return py::make_tuple(py::make_tuple(velocity.x(), velocity.y()), py::make_tuple(w.x(), w.y(), w.z()));
+      });
+
+  bind_course<si::BallMotion, Flow>(module, "BallMotion");
+  bind_course<si::UncoupledMotion, Law>(module, "UncoupledMotion");
+
+  module.def("balls", [] {
+    py::dict balls;
+    for (const si::CatalogueEntry& entry : si::catalogue()) balls[entry.name.c_str()] = fields_of(entry.shot);
+    return balls;
+  });
+  module.def("parse_run_file", [](const std::string& text, const std::string& source) {
+    return fields_of(si::parse_run_file(text, source));
+  });
+  module.attr("rolling_slip") = si::rolling_slip;
+  module.attr("standard_cue_mass") = si::standard_cue_mass;
+}
+
+}  // namespace contensou::python

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "text/nearest_name.hpp"
+
+namespace contensou::python {
+
+namespace py = pybind11;
+
+/// While it computes, the library holds no lock of Python's: a law of Python's takes it for each call.
+using Released = py::call_guard<py::gil_scoped_release>;
+
+/// Numbers of any shape, one after the other.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// An array of the shape of `given`, each entry what the function makes of that number.
+template <class Value, class Function>
+py::array_t<Value> mapped(const Numbers& given, Function function) {
+  py::array_t<Value> result(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
+  const double* const from = given.data();
+  Value* const to = result.mutable_data();
+  const py::ssize_t size = given.size();
+  const py::gil_scoped_release released;
+  for (py::ssize_t i = 0; i < size; ++i) to[i] = function(from[i]);
+  return result;
+}
+
+/// The value that a name stands for.
+/// @param kinds  what the names are of, such as "laws"
+/// @throws std::domain_error  listing the names, if it is none of them
+template <class Value>
+Value one_of(std::string_view kind, std::string_view kinds, const std::vector<std::pair<std::string, Value>>& choices,
+             const std::string& typed, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : choices) {
+    if (name == typed) return value;
+    names.push_back(name);
+  }
+  names.insert(names.end(), more.begin(), more.end());
+  throw std::domain_error(
+      fmt::format("no such {} '{}'{}; {}: {}", kind, typed, suggestion(typed, names), kinds, fmt::join(names, ", ")));
+}
+
+void bind_reduction(py::module_& module);
+void bind_si(py::module_& module);
+void bind_portraits(py::module_& module);
+
+}  // namespace contensou::python

@@ -1,0 +1,142 @@
+"""Balls in SI: against the program, against the equations of motion by SciPy, and in pooltool's convention."""
+
+import copy
+import json
+import math
+import os
+import pickle
+import subprocess
+
+import contensou as ct
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+PROGRAM = os.environ.get("CONTENSOU")
+
+
+def program(*arguments):
+    return json.loads(subprocess.run([PROGRAM, *arguments, "--format", "json"], capture_output=True, check=True).stdout)
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+@pytest.mark.parametrize("given, options", [
+    ({"velocity": (1, 0), "angular_velocity": (40, 35, -50)}, ["--velocity", "1,0", "--angular-velocity", "40,35,-50"]),
+    ({"slip": 0.5, "spin": 300, "law": "pade", "rolling_below": 1e-2},
+     ["--slip", "0.5", "--spin", "300", "--law", "pade", "--rolling-below", "0.01"]),
+    ({"strike": 2, "tip": (0.3, -0.2), "elevation": 30, "cue_mass": 0.5, "rolling_friction": 0.01},
+     ["--strike", "2", "--tip", "0.3,-0.2", "--elevation", "30", "--cue-mass", "0.5", "--rolling-friction", "0.01"]),
+])
+def test_a_roll_is_the_programs(given, options):
+    theirs = program("roll", "--ball", "gel", *options, "--at", "0,0.1,1,9")
+    ours = ct.Ball.gel().roll(**given)
+    at = ours([0, 0.1, 1, 9])
+    for name in at.dtype.names:
+        np.testing.assert_array_equal(at[name], theirs[name], name)
+    for roll, told in ((ours, theirs), (ours.uncoupled, theirs["textbook"])):
+        assert roll.rolls_after == tuple(told["rolls_after"][each] for each in "txy")
+        assert roll.spin_ends == tuple(told["spin_ends"].values())
+        assert (roll.rest or ()) == tuple(told.get("rest", {}).values())
+        assert [roll.slip_length, roll.turns, roll.path] == [told[each] for each in ("slip_length", "turns", "path")]
+    assert ours.stop_time == theirs["t_stop"] and ours.ball.mu(ours.law) == theirs["mu"]
+    assert ours.velocity == tuple(theirs["velocity"]) and ours.angular_velocity == tuple(theirs["angular_velocity"])
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_the_balls_are_the_programs(tmp_path):
+    for name in ("pool", "steel", "bowling", "rubber", "gel"):
+        ball = getattr(ct.Ball, name)()
+        subprocess.run([PROGRAM, "balls", name, "-o", str(tmp_path / "mine.toml")], check=True)
+        assert ct.Ball.read(tmp_path / "mine.toml") == ball
+        assert ball.roll().stop_time == program("stop", "--ball", name)["t_stop"]
+
+
+def newton(ball, law, velocity, angular_velocity, t):
+    """V, omega and the way of the centre after t, from F = f N Phi against the slip and M = f N eps Psi against the spin."""
+    law, eps = ct.law(law), ball.mu(law) * ball.radius
+    weight = ball.mass * ball.gravity
+
+    def rate(time, state):
+        x, y, vx, vy, wx, wy, wz = state
+        slip = np.array([vx - ball.radius * wy, vy + ball.radius * wx])
+        speed = np.hypot(*slip)
+        force, moment = law(speed / (eps * abs(wz)))
+        fx, fy = -ball.friction * weight * force * slip / speed
+        inertia = 0.4 * ball.mass * ball.radius**2
+        # The force acts at (0, 0, -R).
+        return [vx, vy, fx / ball.mass, fy / ball.mass, ball.radius * fy / inertia, -ball.radius * fx / inertia,
+                -math.copysign(ball.friction * weight * eps * moment, wz) / inertia]
+
+    start = [0, 0, *velocity, *angular_velocity]
+    return solve_ivp(rate, (0, t), start, method="LSODA", rtol=1e-11, atol=1e-12).y[:, -1]
+
+
+@pytest.mark.parametrize("law", ["exact", "uniform"])
+def test_a_roll_obeys_newton(law):
+    ball, start = ct.Ball.gel(), ((1, 0.2), (-20, 30, 80))
+    at = ball.roll(velocity=start[0], angular_velocity=start[1], law=law)(0.2)
+    assert [at[name] for name in ("x", "y", "vx", "vy", "wx", "wy", "wz")] == pytest.approx(
+        newton(ball, law, *start, 0.2), rel=1e-7)
+
+
+def pooltool_slide(rvw, R, u_s, g, t):
+    """What pooltool's slide without spin says: deceleration u_s g against the slip, R w from it by the cross product."""
+    r, v, w = rvw
+    slip = v + np.cross(w, [0, 0, -R])
+    u = slip / np.linalg.norm(slip)
+    return np.array([r + v * t - u_s * g * t**2 * u / 2, v - u_s * g * t * u,
+                     w - 5 / (2 * R) * u_s * g * t * np.cross(u, [0, 0, 1])])
+
+
+def test_evolve_has_pooltools_convention():
+    ball = ct.Ball.pool()
+    rvw = np.array([[0.3, 0.5, ball.radius], [1.0, 0.4, 0], [30.0, -20, 0]])
+    before = rvw.copy()
+    expected = pooltool_slide(rvw, ball.radius, ball.friction, ball.gravity, 0.05)
+    np.testing.assert_allclose(ball.evolve(rvw, 0.05), expected, rtol=1e-12)
+    states = ball.evolve(rvw, [[0, 0.05], [1, 2]], rolling_friction=0.01)
+    assert states.shape == (2, 2, 3, 3) and np.array_equal(states[0, 0], rvw) and np.array_equal(rvw, before)
+    np.testing.assert_allclose(states[0, 1], expected, rtol=1e-12)
+    for r, v, w in states[1]:  # it rolls: w = z x v/R
+        np.testing.assert_allclose(w, np.cross([0, 0, 1], v) / ball.radius, atol=1e-10)
+    assert np.linalg.norm(states[1, 0, 1] - states[1, 1, 1]) == pytest.approx(0.01 * ball.gravity, rel=1e-9)
+    # In two steps or in one.
+    rvw[2, 2] = 90
+    half = ball.evolve(rvw, 0.1)
+    np.testing.assert_allclose(ball.evolve(half, 0.2), ball.evolve(rvw, 0.3), rtol=1e-9)
+    for wrong in (rvw[:2], np.diag([1, 1, 1]) * 0 + [[0, 0, 1]]):
+        with pytest.raises(ValueError, match="rows r, v, w of a ball on the table"):
+            ball.evolve(wrong, 0.1)
+
+
+def test_a_ball_changes():
+    pool = ct.Ball.pool(patch_radius=2e-3, spin=50)
+    assert pool.spin_deceleration is None and pool.mu() == 2e-3 / pool.radius and pool.roll().angular_velocity[2] == 50
+    assert pool.but(spin_deceleration=10, spin=100) == ct.Ball.pool()
+    assert ct.Ball(mass=0.17, radius=0.03, friction=0.2, patch_radius=1e-3).roll(slip=1).velocity == (1, 0)
+    steel = ct.Ball.steel()
+    assert steel == ct.Ball.steel(youngs_modulus=list(steel.youngs_modulus), poisson_ratio=steel.poisson_ratio)
+
+
+@pytest.mark.parametrize("ask, words", [
+    (lambda: ct.Ball(mass=0, radius=1, friction=1, patch_radius=0.1), "mass must be positive|mass"),
+    (lambda: ct.Ball(mass=1, radius=1, friction=1), "a ball's patch is given by one of patch_radius"),
+    (lambda: ct.Ball(mass=1, radius=1, friction=1, patch_radius=0.1, spin_deceleration=1), "given by one of"),
+    (lambda: ct.Ball.pool(patch_radius=1), "at most the ball's radius"),
+    (lambda: ct.Ball.pool().roll(strike=1, tip=(0.6, 0)), "the tip slips off the ball"),
+    (lambda: ct.Ball.pool().roll(strike=1, spin=0), "strike is a start of its own"),
+    (lambda: ct.Ball.pool().roll(velocity=(1, 0), spin=1), "exclude each other"),
+    (lambda: ct.Ball.pool().roll(rolling_friction=-1), "deceleration > 0 is required"),
+    (lambda: ct.Ball.pool().roll(rolling_below=-1), "speed >= 0 is required"),
+    (lambda: ct.Ball.pool().roll()(-1), "t must be >= 0, in s; got -1"),
+])
+def test_rejected_in_the_librarys_own_words(ask, words):
+    with pytest.raises(ValueError, match=words):
+        ask()
+
+
+def test_pickling_and_copying():
+    for value in (ct.Ball.steel(), ct.Ball.gel().roll(strike=1), ct.Ball.gel().roll().uncoupled):
+        for other in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
+            assert other == value and hash(other) == hash(value) and repr(other) == repr(value)
+    assert pickle.loads(pickle.dumps(ct.Ball.pool().roll()))(1) == ct.Ball.pool().roll()(1)

@@ -1,0 +1,219 @@
+"""Laws, stop times and orbits, against SciPy and against the equations themselves."""
+
+import copy
+import math
+import pickle
+import threading
+
+import contensou as ct
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+
+LAWS = ["exact", "pade", "uniform", "punch", "ring", "pressure:1.5", "potential8"]
+
+
+def patch_integral(power, k):
+    """Phi and Psi of the pressure (1 - rho^2)^power, from Coulomb's law at each point of the patch: no law is called.
+    The substitution s = (1 - rho^2)^(power + 1) takes the pressure with it."""
+
+    def mean(function):
+        over_angle = lambda s: quad(lambda a: function(math.sqrt(1 - s ** (1 / (power + 1))), a), 0, math.pi,
+                                    epsabs=1e-10, epsrel=1e-10, points=[math.pi / 2], limit=200)[0] / math.pi
+        return quad(over_angle, 0, 1, epsabs=1e-9, epsrel=1e-9, limit=200)[0]
+
+    # The patch slides along x and turns: a point at (rho, a) moves with (k - rho sin a, rho cos a); a -> pi - a adds nothing.
+    speed = lambda rho, a: math.hypot(k - rho * math.cos(a), rho * math.sin(a)) or 1
+    force = mean(lambda rho, a: (k - rho * math.cos(a)) / speed(rho, a))
+    moment = mean(lambda rho, a: rho * (rho - k * math.cos(a)) / speed(rho, a))
+    return force, moment
+
+
+@pytest.mark.parametrize("name, power", [("exact", 0.5), ("uniform", 0), ("punch", -0.5), ("pressure:1.5", 1.5)])
+@pytest.mark.parametrize("k", [0.3, 2.0])
+def test_laws_are_integrals_over_the_patch(name, power, k):
+    assert ct.law(name)(k) == pytest.approx(patch_integral(power, k), rel=1e-7)
+
+
+def by_scipy(law, mu, u, v, chi=3.5, gamma=2.5):
+    """The stop time of (2.6), in ln u and ln v, by SciPy, until nothing is left or only pivoting: its tail is known."""
+
+    def rate(time, state):
+        force, moment = law(math.exp(state[1] - state[0]) / mu)
+        return [-2 * gamma * mu / (3 * math.pi) * moment / math.exp(state[0]),
+                -2 * chi / (3 * math.pi) * force / math.exp(state[1])]
+
+    stopped = lambda time, state: min(state[1] - state[0] - math.log(mu) + 16, max(state) + 23)
+    stopped.terminal = True
+    run = solve_ivp(rate, (0, 1e6), [math.log(u), math.log(v)], method="LSODA", events=stopped, rtol=1e-10, atol=1e-10)
+    assert run.t_events[0].size == 1
+    left = math.exp(run.y_events[0][0][0])
+    return run.t_events[0][0] + left * 3 * math.pi / (2 * gamma * mu * law.pivoting_moment)
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("mu, u, v", [(0.1, 1, 1), (1, 1, 0.3)])
+def test_stop_times_against_solve_ivp(name, mu, u, v):
+    assert ct.stop_time(u=u, v=v, mu=mu, law=name) == pytest.approx(by_scipy(ct.law(name), mu, u, v), rel=1e-7)
+
+
+def test_orbit_obeys_its_equations():
+    orbit = ct.Flow(mu=0.3).orbit(u=-1, v=1)
+    times = np.linspace(0.1, 3, 7)
+    h = 1e-4
+    slope = {name: (orbit.at(times + h)[name] - orbit.at(times - h)[name]) / (2 * h) for name in "uv"}
+    force, moment = ct.law("exact")(orbit.at(times)["k"])
+    np.testing.assert_allclose(slope["v"], -7 / (3 * np.pi) * force, rtol=1e-6)
+    np.testing.assert_allclose(slope["u"], 5 * 0.3 / (3 * np.pi) * moment, rtol=1e-6)
+    length = quad(lambda tau: orbit.at(tau)["v"], 0, 3)[0]
+    assert orbit.slip_length(3) == pytest.approx(length, rel=1e-9)
+
+
+def test_orbit_as_arrays():
+    orbit = ct.Flow(mu=0.3).orbit(u=1, v=1)
+    states = orbit.at(tau=[[0, 1], [2, orbit.stop_time]])
+    assert states.shape == (2, 2) and states.dtype.names == ("tau", "u", "v", "ln_v", "k", "beta")
+    assert states[0, 0]["u"] == states[0, 0]["v"] == 1 and states[1, 1]["u"] == 0
+    assert orbit.at(tau=1)["u"] == states[0, 1]["u"]
+    assert orbit.at(tau_left=orbit.stop_time - 1)["u"] == pytest.approx(states[0, 1]["u"], rel=1e-14)
+    assert len(orbit.sample(11)) == 11
+    with pytest.raises(TypeError, match="one of tau and tau_left"):
+        orbit.at(1, tau_left=1)
+
+
+def test_law_of_ones_own():
+    c = 3 * math.pi / 16
+
+    def ellipse(sliding, pivoting):
+        size = math.hypot(sliding, c * pivoting)
+        return sliding / size, c * c * pivoting / size
+
+    assert ct.law(ellipse).name == "ellipse"
+    assert ct.law(lambda sliding, pivoting: ellipse(sliding, pivoting)).name == "user's law"
+    assert ct.stop_time(u=1, v=1, mu=0.1, law=ellipse) == pytest.approx(33.09573431, abs=1e-8)  # README.md
+    rho = np.linspace(0, 1, 2001)
+    table = ct.law(rho=rho, pressure=1 - rho**2, name="paraboloid")
+    assert table([0.1, 1, 3])[0] == pytest.approx(ct.law("pressure:1")([0.1, 1, 3])[0], rel=1e-12)
+
+
+def test_an_error_of_ones_own_law_comes_through():
+    class Mine(Exception):
+        pass
+
+    broken = False
+
+    def law(sliding, pivoting):
+        if broken:
+            raise Mine("mine", 42)
+        return ct.law("exact")._core.force(sliding / pivoting if pivoting else np.inf)[()], 0.5 / (1 + sliding / pivoting) if pivoting else 0
+
+    flow = ct.Flow(mu=0.2, law=law)
+    broken = True
+    for ask in (lambda: ct.Flow(mu=0.3, law=law), lambda: flow.law(1), lambda: flow.orbit(u=1, v=1).at(1)):
+        with pytest.raises(Mine) as raised:
+            ask()
+        assert raised.value.args == ("mine", 42) and raised.traceback[-1].name == "law"
+    for answer in (None, 1, (1, 2, 3), ("a", 2)):
+        with pytest.raises(TypeError, match="law f: a pair of numbers"):
+            ct.law(lambda sliding, pivoting: answer, name="f")
+
+
+def test_broadcasting_and_out():
+    u, v = np.linspace(-1, 1, 5)[:, None], np.linspace(0, 2, 4)
+    flow = ct.Flow(mu=0.3)
+    taus = flow.stop_time(u=u, v=v)
+    assert taus.shape == (5, 4)
+    assert taus[1, 2] == flow.stop_time(u=u[1, 0], v=v[2]) == ct.stop_time(u=u[1, 0], v=v[2], mu=0.3)
+    assert isinstance(flow.stop_time(u=1, v=2), float) and isinstance(flow.stop_time(u=np.int64(1), v=2.0), float)
+    out = np.empty((5, 4))
+    assert flow.stop_time(u=u, v=v, out=out) is out and np.array_equal(out, taus)
+    wide = np.zeros((5, 8))
+    flow.stop_time(u=u, v=v, out=wide[:, ::2])
+    assert np.array_equal(wide[:, ::2], taus) and not wide[:, 1::2].any()
+    many = np.linspace(0, 2, 100_000)
+    expected = flow.stop_time(u=many, v=many[::-1])
+    assert expected[17] == pytest.approx(flow.stop_time(u=many[17], v=many[-18]), rel=1e-15)
+    for name, into in (("u", many.copy()), ("shifted", np.append(many, 0)[1:])):
+        into[...] = many
+        assert np.array_equal(flow.stop_time(u=into, v=many[::-1], out=into), expected), name
+    shifted = np.append(many, 0)
+    assert np.array_equal(flow.stop_time(u=shifted[:-1], v=many[::-1], out=shifted[1:]), expected)
+    assert np.array_equal(flow.stop_time(u=many, v=many[::-1], threads=3), expected)
+    assert np.isnan(flow.stop_time(u=[1, np.nan, 1], v=[-1, 1, np.inf])).all()
+    assert flow.stop_time(u=np.empty(0), v=np.empty(0)).shape == (0,)
+    with pytest.raises(ValueError, match=r"float64 of shape \(5, 4\) is needed, got float32"):
+        flow.stop_time(u=u, v=v, out=np.empty((5, 4), np.float32))
+    locked = np.empty((5, 4))
+    locked.flags.writeable = False
+    with pytest.raises(ValueError, match="not writeable|read-only"):
+        flow.stop_time(u=u, v=v, out=locked)
+
+
+def test_mu_may_be_an_array():
+    taus = ct.stop_time(u=1, v=[[1], [2]], mu=[0.1, 0.3, 0.1])
+    assert taus.shape == (2, 3) and taus[1, 1] == ct.stop_time(u=1, v=2, mu=0.3) and (taus[:, 0] == taus[:, 2]).all()
+
+
+def test_other_threads_go_on():
+    """A law of Python's and an array, both at once from two threads: neither waits for ever."""
+    slow = ct.Flow(mu=0.2, law=lambda sliding, pivoting: ct.law("exact")._core.force(1)[()] and tuple(
+        ct.law("exact")(sliding / pivoting if pivoting else np.inf)))
+    found = []
+    ask = lambda: found.append((slow.orbit(u=1, v=1).at(1)["u"], slow.stop_time(u=np.ones(50_000), v=1.0)[0]))
+    threads = [threading.Thread(target=ask) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+        assert not thread.is_alive()
+    assert found[0] == found[1] == found[2]
+    assert found[0][1] == pytest.approx(ct.stop_time(u=1, v=1, mu=0.2), rel=1e-12)
+
+
+def test_terminal():
+    puck = ct.Flow(body="disc").terminal()
+    assert puck.k_star == pytest.approx(0.653001789205598, rel=1e-14) and puck.ends[0].limit == "ray"
+    assert puck.rays[0].attracts and puck.rays[0].k == puck.k_star
+    assert ct.Flow(mu=0.3).terminal().ends == (("zero", 0, 0, math.inf),)
+    assert ct.Flow(mu=1, body=(1, 2.5)).terminal().k_star == pytest.approx(0.537779149856729, rel=1e-14)
+
+
+def test_check():
+    checks = ct.check(mu=0.3, u=1, v=1)
+    assert {row.law for row in checks} == {"exact", "pade"} and checks.raise_for_failure() is checks and len(checks) > 20
+    assert {row.law for row in ct.check(body="disc", u=1, v=1)} == {"uniform"}
+    failed = ct.Checks([checks[0]._replace(passed=False), checks[1]])
+    with pytest.raises(ArithmeticError, match="FAIL"):
+        failed.raise_for_failure()
+
+
+@pytest.mark.parametrize("ask, words", [
+    (lambda: ct.law("exat"), r"no such law 'exat' \(did you mean 'exact'\?\); laws: exact, pade, .*pressure:P"),
+    (lambda: ct.law("pressure:-2"), "-1 < P <= 25 is required"),
+    (lambda: ct.law(lambda s, p: (2 * s, p)), "Phi must be 1 in pure sliding"),
+    (lambda: ct.law("exact")(-1), "the ratio k = sliding/pivoting must be >= 0, got -1"),
+    (lambda: ct.law(rho=[0, 1], pressure=[0, 0]), "pressure"),
+    (lambda: ct.Flow(mu=2), "mu = 2: 0 < mu <= 1 is required"),
+    (lambda: ct.Flow(), "mu is missing"),
+    (lambda: ct.Flow(mu=1, body="disk"), r"no such body 'disk' \(did you mean 'disc'\?\)"),
+    (lambda: ct.Flow(mu=0.3).stop_time(u=1, v=-1), "v must be >= 0|v >= 0"),
+    (lambda: ct.Flow(mu=0.3).stop_time(u=[1, 2], v=[1, 2, 3]), "broadcast"),
+    (lambda: ct.Flow(mu=0.3).stop_time(u=[1], v=[1], threads=0), "a thread or more"),
+    (lambda: ct.Flow(mu=0.3).orbit(u=1, v=1).at(-1), "tau"),
+    (lambda: ct.check(mu=0.3, u=0, v=0), "rest"),
+])
+def test_rejected_in_the_librarys_own_words(ask, words):
+    with pytest.raises(ValueError, match=words):
+        ask()
+
+
+def named(sliding, pivoting):
+    return sliding / (sliding + 0.4 * pivoting), 0.4 * pivoting / (sliding + 0.4 * pivoting)
+
+
+@pytest.mark.parametrize("value", [
+    ct.law("pressure:2"), ct.law(named), ct.law(rho=[0, 1], pressure=[1, 0.5]), ct.Flow(mu=0.3), ct.Flow(mu=0.2, law=named),
+    ct.Flow(mu=0.3).orbit(u=1, v=1), ct.Flow(body="ring").terminal()], ids=lambda value: type(value).__name__)
+def test_pickling_and_copying(value):
+    for other in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
+        assert other == value and hash(other) == hash(value) and repr(other) == repr(value)

@@ -1,0 +1,35 @@
+"""src/python/README.md: what it shows is what happens, and mypy accepts it and the package."""
+
+import doctest
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import contensou
+
+README = Path(__file__).parents[2] / "src/python/README.md"
+
+
+def test_what_the_tour_shows(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    results = doctest.testfile(str(README), module_relative=False, optionflags=doctest.ELLIPSIS)
+    assert results.attempted > 30 and results.failed == 0
+
+
+def test_types(tmp_path):
+    """The package, strictly; and the tour, in which one argument is made a wrong one."""
+    code = doctest.script_from_examples(README.read_text()).replace('law="exat"', "law=1")
+    (tmp_path / "tour.py").write_text(code)
+    (tmp_path / "mypy.ini").write_text("""[mypy]
+strict = True
+ignore_missing_imports = True
+[mypy-tour]
+disallow_untyped_defs = False
+disallow_untyped_calls = False
+""")
+    package = Path(contensou.__file__).parent
+    run = subprocess.run([sys.executable, "-m", "mypy", "--config-file", "mypy.ini", str(package), "tour.py"], cwd=tmp_path,
+                         capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(package.parent)})
+    told = [line for line in run.stdout.splitlines() if "error:" in line]
+    assert len(told) == 1 and 'Argument "law" to "stop_time" has incompatible type "int"' in told[0], run.stdout + run.stderr
