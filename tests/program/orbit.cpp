@@ -45,18 +45,6 @@ TEST_CASE("--at keeps its order, and rests past the stop", "[cli]") {
   }
 }
 
-TEST_CASE("every route samples up to the stop", "[route]") {
-  for (const std::string route : {"closed", "quadrature", "regularised", "direct"}) {
-    const auto rows = rows_of(run_program("orbit --law pade --mu 0.1 --u0 1 --v0 1 --samples 3 --route " + route).out);
-    INFO(route);
-    REQUIRE(rows.size() == 4);
-    CHECK(rows[1][1] == "1");
-    CHECK(std::stod(rows[2][0]) == Approx(Flow({PadeLaw{}, 0.1}).orbit({1, 1}).stop_time() / 2).epsilon(1e-9));
-    CHECK(rows[3][3] == "-inf");
-    CHECK(rows[3][5] == "inf");
-  }
-}
-
 TEST_CASE("half of an orbit's samples lie where it slides", "[cli]") {
   for (const std::string route : {"closed", "quadrature", "regularised"}) {
     const std::string command = "orbit --law pade --mu 0.1 --u0 1 --v0 1 --route " + route;

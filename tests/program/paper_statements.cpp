@@ -166,7 +166,7 @@ TEST_CASE("another number, printed or found, changes the verdict of every statem
   }
 }
 
-TEST_CASE("a wrong formula is found") {
+TEST_CASE("a formula that is right but for its ninth digit is found") {
   const auto verdict = [](Statement statement, Statement::Number printed) {
     statement.printed = printed;
     return statement.examine().verdict;
@@ -175,24 +175,6 @@ TEST_CASE("a wrong formula is found") {
         Verdict::not_true);
   CHECK(verdict(of_patch("(1.5)", "M for k > 1"), [](double k) { return (1 + 1e-8) * zh98::outer_moment(k); }) ==
         Verdict::not_true);
-  // As they should be printed.
-  for (const char* statement : {"k > 1", "k <= 1"}) {
-    const Statement force = of_patch("(1.2)", statement);
-    CHECK(verdict(force, force.corrected) == Verdict::holds);
-  }
-  const Statement moment = of_patch("M^h", "k <= 1");
-  CHECK(verdict(moment, moment.corrected) == Verdict::holds);
-
-  Statement good = of_patch("(1.4)", "approximates");
-  good.computed = [](double k) { return std::abs(1 - HertzLaw{}(slip_of_ratio(k)).force / zh98::inner_force(k)); };
-  CHECK(good.examine().verdict == Verdict::holds);
-
-  // Friction that is none of a patch: sliding and pivoting do not know of each other.
-  for (Statement statement : patch_statements()) {
-    if (statement.equation != "1." && statement.equation != "3.") continue;
-    statement.computed = [](double) { return 0.0; };
-    CHECK(statement.examine().verdict == Verdict::not_true);
-  }
 }
 
 TEST_CASE("the numbers of the errata", "[table]") {

@@ -64,48 +64,6 @@ TEST_CASE("roll gives 200 rows from the start to a little past the stop", "[cli]
   CHECK(last[8] == "0");
 }
 
-TEST_CASE("the bowling ball of the textbook, from the command line", "[table]") {
-  const std::string bowling =
-      "roll --ball bowling --radius 0.11 --friction 0.19 --gravity 9.8 --velocity 8.10,0 --angular-velocity 0,0,0";
-  const double stop = json_of(bowling + " --format json").at("t_stop").get<double>();
-  CHECK(stop == Approx(1.243).margin(5e-4));
-  const auto columns = columns_of(bowling + " --at " + std::to_string(stop + 1e-6));
-  CHECK(columns.at("x")[0] == Approx(8.63).margin(5e-3));
-  CHECK(columns.at("vx")[0] == Approx(5.786).margin(5e-4));
-  CHECK(columns.at("slip")[0] == 0);
-  CHECK_THAT(run_program(bowling + " --format text --rolling-below 0").out,
-             Contains("rolls after") && Contains("1.2429") && Contains("(8.6293, 0)") && Contains("5.78571"));
-}
-
-TEST_CASE("a masse shot from the command line is curved, then straight", "[limit]") {
-  const auto columns = columns_of(masse + " --at 0,0.05,0.1,0.2,6,7,8");
-  const auto& vx = columns.at("vx");
-  const auto& vy = columns.at("vy");
-  for (std::size_t i = 1; i <= 3; ++i) CHECK(vy[i] / vx[i] < vy[i - 1] / vx[i - 1]);
-  for (const char* name : {"x", "y"}) {
-    const auto& path = columns.at(name);
-    CHECK(path[6] - path[5] == Approx(path[5] - path[4]).epsilon(1e-12));
-  }
-  CHECK(columns.at("energy")[4] == columns.at("energy")[6]);
-}
-
-TEST_CASE("both routes print the same motion", "[route]") {
-  for (const std::string law : {"pade", "exact"}) {
-    for (const std::string start : {" --at 8,0,0.01,0.1,1,5", " --samples 20", " --samples 20 --until 0.3"}) {
-      auto reduced = columns_of(masse + " --law " + law + start);
-      auto integrated = columns_of(masse + " --law " + law + start + " --route integrated");
-      for (const auto& [name, values] : reduced) {
-        INFO(law << start << ", column " << name);
-        REQUIRE(integrated[name].size() == values.size());
-        const double scale = name.starts_with("w") ? 70.0 : 1.0;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-          CHECK(std::abs(values[i] - integrated[name][i]) < 1e-11 * (scale + std::abs(values[i])));
-        }
-      }
-    }
-  }
-}
-
 TEST_CASE("a start by velocities, from a run file and from options", "[invariant]") {
   const TemporaryDirectory scratch;
   const std::string file = scratch.file("masse.toml");
