@@ -1,4 +1,4 @@
-"""src/python/README.md: what it shows is what happens, and mypy accepts it and the package."""
+"""The READMEs: what they show in Python is what happens, and mypy accepts it and the package."""
 
 import doctest
 import os
@@ -7,14 +7,17 @@ import sys
 from pathlib import Path
 
 import contensou
+import pytest
 
-README = Path(__file__).parents[2] / "src/python/README.md"
+TOP = Path(__file__).parents[2]
+README = TOP / "src/python/README.md"
 
 
-def test_what_the_tour_shows(tmp_path, monkeypatch):
+@pytest.mark.parametrize("readme, examples", [(README, 40), (TOP / "README.md", 4)], ids=["tour", "README"])
+def test_what_is_shown(readme, examples, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    results = doctest.testfile(str(README), module_relative=False, optionflags=doctest.ELLIPSIS)
-    assert results.attempted > 30 and results.failed == 0
+    results = doctest.testfile(str(readme), module_relative=False, optionflags=doctest.ELLIPSIS)
+    assert results.attempted >= examples and results.failed == 0
 
 
 def test_types(tmp_path):

@@ -133,14 +133,23 @@ class Ball:
             start = _core.Shot(ball, velocity, angular_velocity).start
         return Roll(ball, *start, law_of(law), rolling_below, rolling_friction)
 
-    def evolve(self, rvw: ArrayLike, t: ArrayLike, *, law: LawLike = "exact", rolling_friction: float = 0) -> NDArray[np.float64]:
+    def evolve(
+        self,
+        rvw: ArrayLike,
+        t: ArrayLike,
+        *,
+        law: LawLike = "exact",
+        rolling_below: float = _core.rolling_slip,
+        rolling_friction: float = 0,
+    ) -> NDArray[np.float64]:
         """The state of a ball on the table t seconds later, in the convention of pooltool: rows r, v and w, the place of
-        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 of any shape S: (S, 3, 3).
-        A new array; the ball rolls once it slips slower than 1 mm/s."""
+        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 of any shape S: (*S, 3, 3).
+        A new array."""
         rvw = np.asarray(rvw, float)
         if rvw.shape != (3, 3) or rvw[1, 2] != 0:
             raise ValueError(f"rvw: rows r, v, w of a ball on the table, shape (3, 3) with v_z = 0; got {rvw.tolist()}")
-        roll = self.roll(velocity=rvw[1, :2], angular_velocity=rvw[2], law=law, rolling_friction=rolling_friction)
+        roll = self.roll(velocity=rvw[1, :2], angular_velocity=rvw[2], law=law,
+                         rolling_below=rolling_below, rolling_friction=rolling_friction)
         at = np.asarray(roll(t))
         result = np.zeros((*at.shape, 3, 3))
         for row, column, name in ((0, 0, "x"), (0, 1, "y"), (1, 0, "vx"), (1, 1, "vy"), (2, 0, "wx"), (2, 1, "wy"), (2, 2, "wz")):
