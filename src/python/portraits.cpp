@@ -45,7 +45,7 @@ py::list ticks_of(const std::vector<portraits::Axis::Tick>& ticks) {
 
 py::dict axis_of(const portraits::Axis& axis) {
   return py::dict(py::arg("name") = axis.name, py::arg("low") = axis.low, py::arg("high") = axis.high,
-                  py::arg("logarithmic") = axis.logarithmic, py::arg("ticks") = ticks_of(axis.ticks));
+                  py::arg("ticks") = ticks_of(axis.ticks));
 }
 
 py::dict dict_of(const Panel& panel) {

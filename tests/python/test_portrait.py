@@ -66,6 +66,10 @@ def test_by_matplotlib(view, panels):
         shown = [line for layer in panel["lines"] for line in layer["lines"] if len(line)]
         assert len(drawn) == len(shown) and all(map(np.array_equal, drawn, shown))
         assert len(place.texts) == len(panel["labels"])
+        heads = [way for layer in panel["arrows"] for way in layer["arrows"][1::2] if way.any()]
+        assert sum(type(each).__name__ == "FancyArrowPatch" for each in place.patches) == len(heads)
+    texts = [text for place in axes for text in place.get_legend_handles_labels()[1]]
+    assert len(texts) == len(set(texts)) > 0
     pyplot.close("all")
 
 

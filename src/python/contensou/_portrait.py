@@ -110,14 +110,17 @@ class Portrait:
         places = np.atleast_1d(ax)
         if len(places) != len(panels):
             raise ValueError(f"ax: {len(panels)} axes are needed, got {len(places)}")
+        listed: set[str] = set()  # each text once, as in the library's own legend
         for panel, place in zip(panels, places):
+            for layer in panel["lines"] + panel["marks"]:
+                text = layer["legend"]
+                layer["legend"] = None if text in listed else _mathtext(text) or None
+                listed.add(text)
             place.set(title=_mathtext(panel["title"]), facecolor=figure["ground"])
             if panel["bare"]:
                 place.set_axis_off()
             for name in "xy":
                 axis = panel[name]
-                if axis["logarithmic"]:
-                    place.set(**{f"{name}scale": "log"})
                 place.set(**{f"{name}lim": (axis["low"], axis["high"]), f"{name}label": _mathtext(axis["name"])})
                 if axis["ticks"]:
                     ticks, texts = zip(*axis["ticks"])
@@ -130,14 +133,14 @@ class Portrait:
                 style = "-." if layer["dashed"] and layer["dotted"] else "--" if layer["dashed"] else ":" if layer["dotted"] else "-"
                 place.add_collection(LineCollection(
                     layer["lines"], colors=layer["colour"], linewidths=layer["width"], linestyles=style,
-                    label=_mathtext(layer["legend"]) or None), autolim=False)
+                    label=layer["legend"]), autolim=False)
             for layer in panel["arrows"]:
-                self._arrows(place, layer)
+                self._arrows(place, panel, layer)
             for layer in panel["marks"]:
                 shape = {"dot": "o", "circle": "o", "square": "s"}[layer["shape"]]
                 inside = layer["colour"] if layer["shape"] == "dot" else figure["ground"]
                 place.plot(*layer["points"].T, shape, color=layer["colour"], markerfacecolor=inside, clip_on=False,
-                           markersize=6 * layer["size"], label=_mathtext(layer["legend"]) or None)
+                           markersize=6 * layer["size"], label=layer["legend"])
             for label in panel["labels"]:
                 place.text(label["x"], label["y"], _mathtext(label["text"]), color=label["colour"], ha=label["align"],
                            va="center", fontsize="small", bbox={"facecolor": figure["ground"], "lw": 0, "pad": 0.5})
@@ -146,18 +149,17 @@ class Portrait:
         return ax
 
     @staticmethod
-    def _arrows(place: Any, layer: dict[str, Any]) -> None:
-        """Heads of one size that point along a direction of the axes."""
+    def _arrows(place: Any, panel: dict[str, Any], layer: dict[str, Any]) -> None:
+        """Heads of one size, each at the end of a way of a thousandth of the axes, whatever size these will have."""
+        from matplotlib.patches import FancyArrowPatch
+
+        span = np.array([panel[name]["high"] - panel[name]["low"] for name in "xy"])
         at, direction = layer["arrows"][::2], layer["arrows"][1::2]
-        if len(at) == 0:
-            return
-        reach = 1e-6 * np.ptp(place.get_xlim()), 1e-6 * np.ptp(place.get_ylim())
-        size = np.abs(direction / reach).max(axis=1, keepdims=True)
-        tail = place.transData.transform(at)
-        way = place.transData.transform(at + direction / np.where(size > 0, size, 1)) - tail
-        angles = np.degrees(np.arctan2(way[:, 1], way[:, 0])) - 90
-        for point, angle in zip(at, angles):
-            place.plot(*point, marker=(3, 0, angle), color=layer["colour"], markersize=4, linestyle="")
+        at, way = at[direction.any(axis=1)], direction[direction.any(axis=1)] / span
+        way *= 1e-3 * span / np.abs(way).max(axis=1, keepdims=True)
+        for head, tail in zip(at, at - way):
+            place.add_patch(FancyArrowPatch(tail, head, arrowstyle="-|>", mutation_scale=9, shrinkA=0, shrinkB=0,
+                                            color=layer["colour"], linewidth=0.5))
 
 
 def portrait(
