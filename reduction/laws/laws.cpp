@@ -1,6 +1,8 @@
 #include "contensou/reduction/laws.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -8,32 +10,38 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/potential8_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/tabulated_pressure_law.hpp"
 
 namespace contensou::reduction {
 
 namespace {
 
-constexpr std::string_view family = "pressure:";
+/// Uniform pressure between the fraction eta of the radius and the edge.
+Law annulus(double eta) {
+  const Eigen::ArrayXd rho = (Eigen::ArrayXd(4) << 0, eta, eta, 1).finished();
+  const Eigen::ArrayXd pressure = (Eigen::ArrayXd(4) << 0, 0, 1, 1).finished();
+  return TabulatedPressureLaw(fmt::format("annulus:{}", eta), rho, pressure);
+}
 
-Law law_of_the_family(std::string_view exponent) {
+Law member(const LawFamily& family, std::string_view typed) {
   // Not std::from_chars, which libc++ does not have for a double.
-  std::istringstream text{std::string(exponent)};
+  std::istringstream text{std::string(typed)};
   text.imbue(std::locale::classic());
-  double p = 0;
-  if (!(text >> std::noskipws >> p) || exponent.starts_with("+-") ||
+  double number = 0;
+  if (!(text >> std::noskipws >> number) || typed.starts_with("+-") ||
       text.peek() != std::istringstream::traits_type::eof()) {
-    throw std::domain_error(fmt::format(
-        "'{}' is not a number; the exponent P of the pressure (1 - rho^2)^P is needed, as in pressure:0.5", exponent));
+    throw std::domain_error(fmt::format("'{}' is not a number; {} of {} is needed, as in {}:{}", typed, family.letter,
+                                        family.meaning, family.name, family.example));
   }
-  if (!(p > -1 && p <= PressureLaw::max_p)) {
-    throw std::domain_error(fmt::format("-1 < P <= {} is required{}", PressureLaw::max_p,
-                                        p == -1 ? "; the limit P -> -1 is the law ring" : ""));
+  if (!(number >= family.min && number <= family.max)) {
+    throw std::domain_error(fmt::format("{} is required", family.allowed));
   }
-  return PressureLaw(p);
+  return family.law(number);
 }
 
 }  // namespace
@@ -45,12 +53,27 @@ const std::vector<Law>& paper_laws() {
 
 const std::vector<Law>& named_laws() {
   static const std::vector<Law> laws{HertzLaw{},           PadeLaw{},           PressureLaw::uniform(),
-                                     PressureLaw::punch(), PressureLaw::ring(), Potential8Law{}};
+                                     PressureLaw::punch(), PressureLaw::ring(), PressureLaw::paraboloid(),
+                                     EllipticLaw{},        Potential8Law{}};
   return laws;
 }
 
+const std::vector<LawFamily>& law_families() {
+  static const std::vector<LawFamily> families{
+      {"pressure", "P", "pressure (1 - rho^2)^P", "-1 < P <= 25 (the limit P -> -1 is the law ring)", 0.5,
+       std::nextafter(-1.0, 0.0), PressureLaw::max_p, [](double p) -> Law { return PressureLaw(p); }},
+      {"annulus", "ETA", "uniform pressure from ETA to 1 of the radius", "0 < ETA <= 0.999 (0 is the law uniform)",
+       0.65, std::numeric_limits<double>::min(), 0.999, annulus},
+      {"elliptic", "C", "an ellipse with Psi(0) = C as limit surface", "0.001 <= C <= 1", 0.6, EllipticLaw::min_moment,
+       1, [](double c) -> Law { return EllipticLaw(c); }},
+  };
+  return families;
+}
+
 std::optional<Law> find_law(std::string_view name) {
-  if (name.starts_with(family)) return law_of_the_family(name.substr(family.size()));
+  const std::string_view before = name.substr(0, name.find(':'));
+  const auto family = std::ranges::find(law_families(), before, &LawFamily::name);
+  if (before != name && family != law_families().end()) return member(*family, name.substr(before.size() + 1));
   const auto& laws = named_laws();
   const auto found = std::ranges::find(laws, name, &Law::name);
   if (found == laws.end()) return std::nullopt;

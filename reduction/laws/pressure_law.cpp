@@ -64,6 +64,7 @@ PressureLaw::PressureLaw(double p)
 PressureLaw PressureLaw::uniform() { return {0, "uniform"}; }
 PressureLaw PressureLaw::punch() { return {-0.5, "punch"}; }
 PressureLaw PressureLaw::ring() { return {-1, "ring"}; }
+PressureLaw PressureLaw::paraboloid() { return {1, "paraboloid"}; }
 
 Resistance PressureLaw::operator()(Slip slip) const {
   require_slip("PressureLaw", slip);

@@ -3,7 +3,7 @@ import { addNumberField, fillSelect } from "./fields.js";
 
 const titles = {
   pade: "Padé (the paper's system)", exact: "exact (Hertz)", uniform: "uniform pressure", punch: "flat punch", ring: "ring",
-  potential8: "8th-degree potential",
+  paraboloid: "paraboloid", elliptic: "elliptic limit surface", potential8: "8th-degree potential",
 };
 const family = "pressure";
 const ofFamily = /^pressure:(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)$/;

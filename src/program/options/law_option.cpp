@@ -22,7 +22,9 @@ std::vector<std::string> law_names() {
 /// The names, and what stands for more of them.
 std::vector<std::string> law_forms() {
   std::vector<std::string> forms = law_names();
-  forms.insert(forms.end(), {"pressure:P", "FILE.csv"});
+  for (const auto& family : reduction::law_families())
+    forms.push_back(fmt::format("{}:{}", family.name, family.letter));
+  forms.push_back("FILE.csv");
   return forms;
 }
 

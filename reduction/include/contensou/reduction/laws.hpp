@@ -14,9 +14,21 @@ const std::vector<Law>& paper_laws();
 /// Every law that has a name, in the order in which it is shown: those of the paper first.
 const std::vector<Law>& named_laws();
 
-/// The law of that name, or of the exponent P in "pressure:P" (PressureLaw::name); empty if there is no such law.
-/// @throws std::domain_error  after "pressure:", for what is no number or no exponent of PressureLaw; names neither law
-///                            nor function: the caller does
+/// Laws that a number tells apart, named as in "pressure:0.5".
+struct LawFamily {
+  std::string_view name;     ///< before the colon
+  std::string_view letter;   ///< of the number, such as P
+  std::string_view meaning;  ///< what the number decides
+  std::string_view allowed;  ///< min and max, for messages
+  double example;
+  double min, max;  ///< both allowed
+  Law (*law)(double number);
+};
+const std::vector<LawFamily>& law_families();
+
+/// The law of that name, or of that family and number; empty if there is no such law.
+/// @throws std::domain_error  after a family's colon, for what is no number or none of the family; names neither law nor
+///                            function: the caller does
 std::optional<Law> find_law(std::string_view name);
 
 }  // namespace contensou::reduction

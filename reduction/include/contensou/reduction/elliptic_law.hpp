@@ -1,0 +1,47 @@
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "contensou/reduction/friction_law.hpp"
+
+namespace contensou::reduction {
+
+/// Friction whose force and moment lie on an ellipse, Phi^2 + (Psi/C)^2 = 1, and are normal to it: the limit surface of
+/// pushing and grasping, and the elliptic friction cone of physics engines.
+///
+/// Source    Phi = k/sqrt(k^2 + C^2), Psi = C^2/sqrt(k^2 + C^2); R. D. Howe, M. R. Cutkosky, doi:10.1177/027836499601500603.
+///           Every orbit is a power, v ~ w^(1/(r C^2)), and the stop time one integral (README (R35)).
+/// Accuracy  2 eps for every k.
+/// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
+class EllipticLaw {
+ public:
+  static constexpr SlidingBounds sliding_bounds{0, 1};
+  /// Psi(0) of Hertz's pressure, 3 pi/16.
+  static constexpr double hertz_moment = 3 * std::numbers::pi / 16;
+  static constexpr double min_moment = 1e-3;
+
+  /// @param moment  C = Psi(0), the moment of pure pivoting in units of f N eps: min_moment to 1, that of a thin ring
+  /// @throws std::domain_error  for another
+  explicit EllipticLaw(double moment = hertz_moment);
+
+  /// "elliptic", or "elliptic:C" with the shortest C that reads back to the same double.
+  std::string name() const;
+
+  double moment() const { return moment_; }
+
+  /// No k: both functions are smooth.
+  static std::vector<double> kinks() { return {}; }
+
+  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  Resistance operator()(Slip slip) const;
+
+  /// 1 - Psi/Psi(0), without cancellation for k << 1.
+  double moment_deficit(Slip slip) const;
+
+ private:
+  double moment_;
+};
+
+}  // namespace contensou::reduction

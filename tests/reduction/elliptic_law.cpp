@@ -1,0 +1,70 @@
+// The law whose motions are elementary, against README (R35).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pressure_law.hpp"
+
+using namespace contensou::reduction;
+
+namespace {
+
+using Real = long double;
+
+/// (R35) in units of w0, in z = -ln y: C and what is left of the root without it, panel by panel.
+Real time_left(Real k0, Real r, Real c) {
+  const Real ratio = r * c * c;
+  const Real exponent = (1 - ratio) / ratio;
+  const Real fades = 45 / (1 + std::min(exponent, Real(0)));
+  const Real reach = exponent > 0 ? std::min(fades, (std::max(std::log(k0 / c), Real(0)) + 45) / exponent) : fades;
+  const Real width = std::min(Real(0.5), std::abs(Real(0.5) / exponent));
+  Real rest = 0;
+  for (Real z = 0; z < reach; z += width) {
+    rest += boost::math::quadrature::gauss<Real, 20>::integrate(
+        [&](Real at) {
+          const Real k = k0 * std::exp(-exponent * at);
+          return std::exp(-at) * k * (k / (std::hypot(k, c) + c));
+        },
+        z, z + width);
+  }
+  return (c + rest) / ratio;
+}
+
+}  // namespace
+
+TEST_CASE("an ellipse's motions are powers, wherever k goes", "[laws]") {
+  for (double c : {EllipticLaw::hertz_moment, 0.05, 1.0}) {
+    for (double r : {1e-4, 0.02, 0.7, 1.0, 2.5, 40.0, 1 / (c * c)}) {
+      const ReducedSystem system(EllipticLaw(c), 1, {1, r});
+      const Flow flow(system);
+      for (double k0 : {1e-6, 0.1, 1.0, 7.0, 1e6}) {
+        CAPTURE(c, r, k0);
+        const double wanted = static_cast<double>(1.5L * std::numbers::pi_v<Real> * time_left(k0, system.r(), c));
+        CHECK(flow.stop_time({1, k0}).tau == Approx(wanted).epsilon(1e-15).margin(0));
+        // v ~ w^(1/(r c^2)) half-way.
+        const auto half = flow.orbit({1, k0}).at_time(flow.stop_time({1, k0}).tau / 2);
+        const double power = 1 / (system.r() * c * c);
+        CHECK(half.ln_v == Approx(std::log(k0) + power * std::log(half.u)).margin(1e-11 * (1 + power)));
+      }
+    }
+  }
+}
+
+TEST_CASE("an annulus is a disc less a disc", "[laws]") {
+  for (double k : {0.01, 0.5, 2.0, 100.0}) {
+    CAPTURE(k);
+    const auto [force, moment] = (*find_law("annulus:0.65"))({k, 1});
+    // Two discs: the outer one less the inner one, whose load is eta^2 and whose k is k/eta.
+    const double eta = 0.65;
+    const auto outer = PressureLaw::uniform()({k, 1}), inner = PressureLaw::uniform()({k / eta, 1});
+    const double load = 1 - eta * eta;
+    CHECK(force == Approx((outer.force - eta * eta * inner.force) / load).epsilon(1e-14));
+    CHECK(moment == Approx((outer.moment - eta * eta * eta * inner.moment) / load).epsilon(1e-14));
+  }
+}
