@@ -59,8 +59,8 @@ Samples slope_by_collocation(const Samples& drag, const Samples& rate, const Sam
 }  // namespace
 
 LegendreSeries solve_linear_ode(const Samples& drag, const Samples& rate, const Samples& source, double start) {
-  // For z = y - start: where h and g share a noise, g/h does not have it, and nor has y; and the rounding of a series is
-  // that of what y changes by.
+  // For z = y - start: where h and g share a noise, g/h does not have it, and nor has y; and the rounding of a series
+  // is that of what y changes by.
   const Samples change = source - rate * start;
   LegendreSeries y;
   if (forgetful(drag, rate)) {

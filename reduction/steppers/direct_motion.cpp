@@ -25,9 +25,9 @@ namespace odeint = boost::numeric::odeint;
 using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + beta/beta_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
-/// Next to a kink a law may have a term x ln|x|, x = ln k less that of the kink, to which Fehlberg's estimate of the error is as good as blind
-/// (all its stages but those at the two ends of a step cancel): steps there change x by this fraction of itself, down to
-/// what x^2 does not feel.
+/// Next to a kink a law may have a term x ln|x|, x = ln k less that of the kink, to which Fehlberg's estimate of the
+/// error is as good as blind (all its stages but those at the two ends of a step cancel): steps there change x by this
+/// fraction of itself, down to what x^2 does not feel.
 constexpr double fraction_of_distance = 0.5;
 constexpr double nearest_kink = 1e-8;
 

@@ -4,8 +4,9 @@
 
 namespace contensou::reduction {
 
-/// What ball arithmetic proves that a stop time misses the true one by, in units of the last place of a double of the true
-/// size: the closed form (R28) of the Pade law, every term enclosed, the inputs taken as the exact numbers that the doubles are.
+/// What ball arithmetic proves that a stop time misses the true one by, in units of the last place of a double of the
+/// true size: the closed form (R28) of the Pade law, every term enclosed, the inputs taken as the exact numbers that
+/// the doubles are.
 ///
 /// @param tau   the stop time to judge; infinity counts as 2^1024
 /// @param more  is added to tau, for one that is known to more digits than a double has

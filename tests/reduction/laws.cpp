@@ -171,7 +171,8 @@ TEST_CASE("no law has a step where its form changes", "[laws][limit]") {
   }
 }
 
-// Rounding may flatten but not turn them. Coulomb friction: the curve (Phi, Psi) is convex; Pade lies on the other side.
+// Rounding may flatten but not turn them. Coulomb friction: the curve (Phi, Psi) is convex; Pade lies on the other
+// side.
 TEST_CASE("forces rise, moments fall, and Phi + Psi/Psi(0) is on its side of 1", "[laws][invariant]") {
   for (const Asked& asked : all_laws()) {
     Resistance before = asked.law({0, 1});

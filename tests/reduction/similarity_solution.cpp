@@ -119,7 +119,8 @@ TEST_CASE("a start on a ray stays on it", "[similarity_solution][invariant]") {
   }
 }
 
-// Phi/(k Psi) of this law has a minimum, 1.9909 at k = 0.144, below its 2 at k = 0: a ray that repels and one that attracts.
+// Phi/(k Psi) of this law has a minimum, 1.9909 at k = 0.144, below its 2 at k = 0: a ray that repels and one that
+// attracts.
 TEST_CASE("a law with several rays has a curve on each side of each", "[similarity_solution]") {
   const Law law = *find_law("potential8");
   CHECK(quadrature_solution(law, 1.99, terminal_ratios(law, 1.99)).curves().size() == 1);

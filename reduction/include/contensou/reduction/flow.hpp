@@ -34,8 +34,8 @@ class Flow {
   static Flow by_quadrature(const ReducedSystem& system);
 
   /// With a solution of your own, in place of a closed form. Its curves are taken at their word: verify examines them.
-  /// @throws std::domain_error  if the curves are of another r than system.r(), do not cover every k, or tend to another
-  ///                            ratio than terminal() says
+  /// @throws std::domain_error  if the curves are of another r than system.r(), do not cover every k, or tend to
+  ///                            another ratio than terminal() says
   Flow(const ReducedSystem& system, SimilaritySolution solution);
 
   const ReducedSystem& system() const;

@@ -25,8 +25,8 @@ namespace contensou::reduction {
 ///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
 ///   - `static constexpr SlidingBounds sliding_bounds`, its two-sided bound of the stop time;
-///   - `kinks()`, every k where Phi or Psi is not smooth (1 unless stated: where the rim of the patch is at rest). A kink
-///     that is not named costs accuracy of the steppers, and of the curves only time.
+///   - `kinks()`, every k where Phi or Psi is not smooth (1 unless stated: where the rim of the patch is at rest). A
+///     kink that is not named costs accuracy of the steppers, and of the curves only time.
 ///
 /// A law says nothing of how motions under it are solved: closed forms are found by a law's type (closed_solution,
 /// closed_stop_time), never by its name.

@@ -27,8 +27,8 @@ struct LawFamily {
 const std::vector<LawFamily>& law_families();
 
 /// The law of that name, or of that family and number; empty if there is no such law.
-/// @throws std::domain_error  after a family's colon, for what is no number or none of the family; names neither law nor
-///                            function: the caller does
+/// @throws std::domain_error  after a family's colon, for what is no number or none of the family; names neither law
+///                            nor function: the caller does
 std::optional<Law> find_law(std::string_view name);
 
 }  // namespace contensou::reduction

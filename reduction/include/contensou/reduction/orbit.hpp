@@ -10,13 +10,14 @@ namespace contensou::reduction {
 
 class Flow;
 
-/// The motion from one start to its stop (Flow::orbit): the system's similarity curve, scaled to pass through the start.
+/// The motion from one start to its stop (Flow::orbit): the system's similarity curve, scaled to pass through the
+/// start.
 ///
 /// There are no time steps: any instant is found by itself. Invariant axes (u0 = 0, v0 = 0), the invariant ray and rest
 /// are ordinary starts.
 ///
-/// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference), beta to
-///           1e-8, and to 1e-5 within 1e-3 of an invariant ray. Near the stop the conditioning is that of the question:
+/// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference), beta
+///           to 1e-8, and to 1e-5 within 1e-3 of an invariant ray. Near the stop the conditioning is that of the question:
 ///           the speeds are proportional to stop_time() - tau, so ask at_time_left().
 class Orbit {
  public:

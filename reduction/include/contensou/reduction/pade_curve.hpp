@@ -8,8 +8,9 @@ namespace contensou::reduction {
 
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
-/// Source    README (R8) orbit, (R9) time (theory of Zh98 (2.6) carried to the end), (R11) regularised time, (R14) slip.
-/// Accuracy  sliding_coefficient, slip_length_coefficient and beta_coefficient about 5 eps relative, ln_w eps (|ln w| + r) absolute.
+/// Source    README (R8) orbit, (R9) time (Zh98 (2.6) carried to the end), (R11) regularised time, (R14) slip.
+/// Accuracy  sliding_coefficient, slip_length_coefficient and beta_coefficient about 5 eps relative, ln_w
+///           eps (|ln w| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
   /// Largest r of the closed form: (R11) loses digits as r -> 2. A ball has r <= 5/7.

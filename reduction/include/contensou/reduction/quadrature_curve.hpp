@@ -13,15 +13,15 @@ class RegularSolution;
 /// The similarity curve of any friction law, by quadrature of the separated equation.
 ///
 /// m, all that a stop time needs, is found in ln k, outwards from the stop (RegularSolution). The others are found when
-/// they are first asked for: n and b like m, ln w and c in xi, (R26), panel by panel: on each, coefficients are sampled at
-/// Gauss points (Boost.Math), and solved as Legendre series. Panels meet at the law's kinks and are halved until the
+/// they are first asked for: n and b like m, ln w and c in xi, (R26), panel by panel: on each, coefficients are sampled
+/// at Gauss points (Boost.Math), and solved as Legendre series. Panels meet at the law's kinks and are halved until the
 /// series have converged. They reach from k = 4e-18 to 1e19, where the limits hold to the last bit; and towards an
 /// invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
 ///
 /// Accuracy  sliding_coefficient 3 eps for a law that is smooth between its kinks, on and beside rays, too
 ///           (tests/reference/rays.csv); the other functions 1e-13, and less next to a ray.
-/// Cost      about 1 300 evaluations of the law for m, as many for n, and 3 500 for the three others; then some 30 ns for
-///           each value. Noise in the law costs up to a million, and shows in truncation().
+/// Cost      about 1 300 evaluations of the law for m, as many for n, and 3 500 for the three others; then some 30 ns
+///           for each value. Noise in the law costs up to a million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi

@@ -10,12 +10,12 @@
 
 namespace contensou::reduction {
 
-/// Coulomb friction of a circular patch whose pressure is given as a table: linear in rho^2 between two rows, with a step
-/// where two rows have the same rho.
+/// Coulomb friction of a circular patch whose pressure is given as a table: linear in rho^2 between two rows, with a
+/// step where two rows have the same rho.
 ///
 /// Source    README (R32) to (R34): a sum over thin rings, with the pressure as their weight.
-/// Accuracy  12 eps for every table, however steep, and every k where Phi and Psi do not underflow. A smooth pressure in
-///           n rows is met within about 1/n^2, and 1/n^(3/2) where it falls like a root at the edge.
+/// Accuracy  12 eps for every table, however steep, and every k where Phi and Psi do not underflow. A smooth pressure
+///           in n rows is met within about 1/n^2, and 1/n^(3/2) where it falls like a root at the edge.
 /// Cost      2 to 10 us a slip, whether the table has 10 rows or 10 000: rows far from rho = k count in groups.
 class TabulatedPressureLaw {
  public:

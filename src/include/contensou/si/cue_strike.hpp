@@ -26,8 +26,8 @@ inline constexpr double largest_tip_offset = 0.5;
 ///   m V = P d,  J omega = r x P d = P (a sin e, b, a cos e),
 /// and the points that touch leave each other as fast as they met, so that
 ///   P = 2 m s/(1 + m/M + (5/2)(a^2 + b^2)/R^2).
-/// The table takes the downward part of V; its friction during the impact is left out. This is the model of W. Leckie and
-/// M. Greenspan, "An event-based pool physics simulator", LNCS 4250 (2006), who measure b in the vertical plane.
+/// The table takes the downward part of V; its friction during the impact is left out. This is the model of W. Leckie
+/// and M. Greenspan, "An event-based pool physics simulator", LNCS 4250 (2006), who measure b in the vertical plane.
 ///
 /// @throws std::domain_error  for a value out of its range, and where the tip slips off the ball
 Velocities struck(const Ball& ball, const CueStrike& strike);

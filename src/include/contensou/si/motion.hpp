@@ -26,9 +26,9 @@ struct MotionColumns {
   void set(Eigen::Index row, const MotionPoint& point);
 };
 
-/// m/s: a ball that slips no faster counts as rolling, unless another threshold is asked for. A millimetre in a second is
-/// less than an eye or a camera tells from rolling. Zero would not do: friction over a pivoting patch is viscous, and the
-/// slip ends with the spin only.
+/// m/s: a ball that slips no faster counts as rolling, unless another threshold is asked for. A millimetre in a second
+/// is less than an eye or a camera tells from rolling. Zero would not do: friction over a pivoting patch is viscous,
+/// and the slip ends with the spin only.
 inline constexpr double rolling_slip = 1e-3;
 
 /// Kinetic energy in J of a homogeneous ball: m V^2/2 + (m R^2/5) omega^2.
