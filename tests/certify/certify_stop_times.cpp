@@ -92,9 +92,13 @@ TEST_CASE("random stop times of the Pade ball against their enclosures", "[certi
     const double distance = random.log_uniform(1e-16, 1e-3) * (i % 2 == 0 ? 1 : -1);
     add(critical, std::sqrt((i % 4 < 2 ? 2.8 : 7.0) * (1 + distance)), random.log_uniform(1e-3, 1e3));
   }
-  ordinary.judge();
-  wide.judge();
-  critical.judge();
+  // Also at r = 2, r = 5 and on the ray.
+  Sample bodies("chi, gamma of other bodies");
+  for (const Inertia body : {Inertia{1, 2}, Inertia{1, 5}, Inertia{1, 1}, Inertia{2.5, 1.5}, Inertia{1, 3},
+                             Inertia{1, 40}, Inertia{3, 1e-9}}) {
+    for (double k0 = 1e-6; k0 < 1e6; k0 *= 1.3) bodies.add(ReducedSystem(PadeLaw{}, 1, body), {1, k0});
+  }
+  for (const Sample& sample : {ordinary, wide, critical, bodies}) sample.judge();
 }
 
 TEST_CASE("m of the Pade law at random r and k against its enclosure", "[certify]") {
@@ -182,15 +186,6 @@ TEST_CASE("stop times at the ends of the double range against their enclosures",
     }
   }
   ends.judge();
-}
-
-TEST_CASE("other bodies against their enclosures, also at r = 2, r = 5 and on the ray", "[certify]") {
-  Sample bodies("chi, gamma of other bodies");
-  for (const Inertia body : {Inertia{1, 2}, Inertia{1, 5}, Inertia{1, 1}, Inertia{2.5, 1.5}, Inertia{1, 3},
-                             Inertia{1, 40}, Inertia{3, 1e-9}}) {
-    for (double k0 = 1e-6; k0 < 1e6; k0 *= 1.3) bodies.add(ReducedSystem(PadeLaw{}, 1, body), {1, k0});
-  }
-  bodies.judge();
 }
 
 TEST_CASE("the exact law at random k against its enclosure", "[certify]") {

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <poll.h>
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -59,59 +58,21 @@ const std::vector<Writer> writers{
      "--out"},
 };
 
-struct Ended {
-  int status;  ///< -1: by a signal
-  int signal;
-  std::string out, err;
-};
-
 /// Runs the program in a folder.
 /// @param prepare  is called in the program's process
-Ended run_in(const fs::path& folder, const Writer& writer, const std::function<void()>& prepare) {
-  std::vector<std::string> words{CONTENSOU_PROGRAM};
+Run run_in(const fs::path& folder, const Writer& writer, const std::function<void()>& prepare) {
   std::istringstream given(writer.words);
-  words.insert(words.end(), std::istream_iterator<std::string>(given), {});
+  std::vector<std::string> words(std::istream_iterator<std::string>(given), {});
   if (!writer.files.empty()) {
     const fs::path file = writer.files.front();
     words.insert(words.end(), {writer.option, writer.option == "-o" ? file.string() : file.parent_path().string()});
   }
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  int out[2], err[2];
-  REQUIRE((::pipe2(out, O_CLOEXEC) == 0 && ::pipe2(err, O_CLOEXEC) == 0));
-  const pid_t child = ::fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
+  return run_program(words, {}, [&] {
     const rlimit none{0, 0};
-    const bool ready = ::chdir(folder.c_str()) == 0 && ::dup2(out[1], 1) == 1 && ::dup2(err[1], 2) == 2 &&
-                       ::setrlimit(RLIMIT_CORE, &none) == 0;
+    if (::chdir(folder.c_str()) != 0 || ::setrlimit(RLIMIT_CORE, &none) != 0) ::_exit(99);
     for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
     prepare();
-    if (ready) ::execv(CONTENSOU_PROGRAM, argv.data());
-    ::_exit(99);
-  }
-  ::close(out[1]);
-  ::close(err[1]);
-  Ended ended{};
-  pollfd ends[]{{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
-  for (int open = 2; open > 0;) {
-    ::poll(ends, 2, -1);
-    for (pollfd& end : ends) {
-      char text[4096];
-      if (end.revents == 0) continue;
-      const ssize_t count = ::read(end.fd, text, sizeof text);
-      if (count > 0) (&end == ends ? ended.out : ended.err).append(text, static_cast<std::size_t>(count));
-      if (count > 0) continue;
-      ::close(std::exchange(end.fd, -1));
-      --open;
-    }
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  ended.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  return ended;
+  });
 }
 
 /// Paths of everything in a folder.
@@ -135,7 +96,7 @@ class Bench {
     write_file(tools_.file("table"), "mu,u0,v0\n0.1,1,1\n0.2,1,1\n");
     path_ = tools_.file("bin") + ":" + std::getenv("PATH");
     refresh(false);
-    const Ended ended = run([] {});
+    const Run ended = run([] {});
     INFO(writer_.words << "\n" << ended.err);
     REQUIRE(ended.status == 0);
     out_ = ended.out;
@@ -161,7 +122,7 @@ class Bench {
     before_ = all_in(folder_);
   }
 
-  Ended run(const std::function<void()>& prepare) const {
+  Run run(const std::function<void()>& prepare) const {
     return run_in(folder_, writer_, [&] {
       ::setenv("OLD_PATH", std::getenv("PATH"), 1);
       ::setenv("PATH", path_.c_str(), 1);
@@ -171,7 +132,7 @@ class Bench {
   }
 
   /// Each file is the old one or, which success means for all of them, the new one; nothing else is there.
-  void require_old_or_new(const Ended& ended) const {
+  void require_old_or_new(const Run& ended) const {
     INFO(writer_.words << ", status " << ended.status << ", signal " << ended.signal << "\n" << ended.err);
     std::vector<std::string> before = before_;
     for (std::size_t i = 0; i < whole_.size(); ++i) {
@@ -350,14 +311,14 @@ TEST_CASE("a closed standard stream changes no file", "[cli]") {
     for (const int stream : {0, 2}) {
       CAPTURE(stream);
       bench.refresh(true);
-      const Ended ended = bench.run([stream] { ::close(stream); });
+      const Run ended = bench.run([stream] { ::close(stream); });
       CHECK(ended.status == 0);
       bench.require_old_or_new(ended);
     }
   }
   const TemporaryDirectory folder;
   write_file(folder.file("table"), "mu,u0,v0\nbad,1,1\n0.2,1,1\n");
-  const Ended ended =
+  const Run ended =
       run_in(folder.path(), {"stop --batch table --keep-going", {"t.csv"}}, [] { ::close(STDERR_FILENO); });
   CHECK(ended.status == 2);
   CHECK(read_file(folder.file("t.csv")).starts_with("mu,u0,v0,tau_stop\nbad,1,1,\n0.2,1,1,"));
@@ -365,10 +326,10 @@ TEST_CASE("a closed standard stream changes no file", "[cli]") {
 
 TEST_CASE("a closed standard output is a failure, a closed pipe the usual end", "[cli]") {
   const TemporaryDirectory folder;
-  const Ended closed = run_in(folder.path(), {"orbit --ball pool", {}}, [] { ::close(STDOUT_FILENO); });
+  const Run closed = run_in(folder.path(), {"orbit --ball pool", {}}, [] { ::close(STDOUT_FILENO); });
   CHECK(closed.status == 4);
   CHECK_THAT(closed.err, Catch::Contains("cannot write standard output: "));
-  const Ended unread = run_in(folder.path(), {"orbit --ball pool", {}}, [] {
+  const Run unread = run_in(folder.path(), {"orbit --ball pool", {}}, [] {
     int pipe[2];
     if (::pipe(pipe) == 0) ::dup2(pipe[1], STDOUT_FILENO), ::close(pipe[0]), ::close(pipe[1]);
   });
@@ -380,7 +341,7 @@ TEST_CASE("Ctrl-C in a long sweep leaves the old file and says so", "[cli]") {
   for (const std::string file : {"map.npy", "map.csv"}) {
     const TemporaryDirectory folder;
     write_file(folder.file(file), "old");
-    const Ended ended =
+    const Run ended =
         run_in(folder.path(), {"sweep --mu 0.1 --u0 0:1:1000000 --v0 0:1:100 --threads 2", {file}}, [&folder] {
           const pid_t program = ::getpid();
           if (::fork() != 0) return;
@@ -398,7 +359,7 @@ TEST_CASE("Ctrl-C in a long sweep leaves the old file and says so", "[cli]") {
 TEST_CASE("an ignored signal stays ignored", "[cli]") {
   const TemporaryDirectory folder;
   write_file(folder.file("table"), "mu,u0,v0\n0.1,1,1\n");
-  const Ended ended = run_in(folder.path(), batch, [] {
+  const Run ended = run_in(folder.path(), batch, [] {
     preload_fault(2, {'b', SIGHUP});
     std::signal(SIGHUP, SIG_IGN);
   });
@@ -412,7 +373,7 @@ TEST_CASE("gnuplot ends with the program, however that ends", "[cli]") {
   const std::string gnuplot = folder.file("bin/gnuplot");
   write_file(gnuplot, "#!/bin/sh\necho $$ >'" + folder.file("running") + "'\nkill -KILL $PPID\nexec sleep 100\n");
   fs::permissions(gnuplot, fs::perms::owner_all);
-  const Ended ended = run_in(folder.path(), picture, [&folder] {
+  const Run ended = run_in(folder.path(), picture, [&folder] {
     ::setenv("PATH", (folder.file("bin") + ":" + std::getenv("PATH")).c_str(), 1);
   });
   CHECK(ended.signal == SIGKILL);
@@ -425,7 +386,7 @@ TEST_CASE("gnuplot ends with the program, however that ends", "[cli]") {
 TEST_CASE("process 1 of a container ends by a signal, too", "[cli]") {
   const TemporaryDirectory folder;
   write_file(folder.file("table"), "mu,u0,v0\n0.1,1,1\n");
-  const Ended ended = run_in(folder.path(), batch, [] {
+  const Run ended = run_in(folder.path(), batch, [] {
     preload_fault(2, {'b', SIGTERM});
     if (::unshare(CLONE_NEWPID) != 0) ::_exit(98);
     const pid_t first = ::fork();

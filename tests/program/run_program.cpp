@@ -1,13 +1,16 @@
 #include "run_program.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -41,28 +44,47 @@ std::string read_file(const fs::path& path) {
 
 void write_file(const fs::path& path, std::string_view text) { std::ofstream(path, std::ios::binary) << text; }
 
-Run run_program(const std::vector<std::string>& arguments, std::string_view input) {
-  const TemporaryDirectory scratch;
-  const std::string in = scratch.file("in"), out = scratch.file("out"), err = scratch.file("err");
-  write_file(in, input);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, in.c_str(), O_RDONLY, 0);
-  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
-  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
-
+Run run_program(const std::vector<std::string>& arguments, std::string_view input,
+                const std::function<void()>& prepare) {
   std::vector<std::string> words{CONTENSOU_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  pid_t child = 0;
-  const int failure = ::posix_spawn(&child, CONTENSOU_PROGRAM, &actions, nullptr, argv.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw std::runtime_error("cannot start " CONTENSOU_PROGRAM);
-  int ended = 0;
-  ::waitpid(child, &ended, 0);
-  return {WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, read_file(out), read_file(err)};
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::tmpfile(), std::fclose);
+  int out[2], err[2];
+  REQUIRE((in && ::pipe2(out, O_CLOEXEC) == 0 && ::pipe2(err, O_CLOEXEC) == 0));
+  std::fwrite(input.data(), 1, input.size(), in.get());
+  std::rewind(in.get());
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const bool ready = ::dup2(::fileno(in.get()), 0) == 0 && ::dup2(out[1], 1) == 1 && ::dup2(err[1], 2) == 2;
+    prepare();
+    if (ready) ::execv(CONTENSOU_PROGRAM, argv.data());
+    ::_exit(99);
+  }
+  ::close(out[1]);
+  ::close(err[1]);
+  Run run{};
+  pollfd ends[]{{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
+  for (int open = 2; open > 0;) {
+    ::poll(ends, 2, -1);
+    for (pollfd& end : ends) {
+      char text[4096];
+      if (end.revents == 0) continue;
+      const ssize_t count = ::read(end.fd, text, sizeof text);
+      if (count > 0) (&end == ends ? run.out : run.err).append(text, static_cast<std::size_t>(count));
+      if (count > 0) continue;
+      ::close(std::exchange(end.fd, -1));
+      --open;
+    }
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  run.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  return run;
 }
 
 Run run_program(const std::string& arguments, std::string_view input) {

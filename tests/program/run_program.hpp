@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,13 +10,16 @@
 
 /// What a run of the program gave.
 struct Run {
-  int status;
-  std::string out;
-  std::string err;
+  int status;  ///< -1: by a signal
+  std::string out, err;
+  int signal;
 };
 
 /// Runs the program that was built.
-Run run_program(const std::vector<std::string>& arguments, std::string_view input = {});
+/// @param prepare  is called in the program's process
+Run run_program(
+    const std::vector<std::string>& arguments, std::string_view input = {},
+    const std::function<void()>& prepare = [] {});
 
 /// The same for arguments without spaces, written as on a command line.
 Run run_program(const std::string& arguments, std::string_view input = {});

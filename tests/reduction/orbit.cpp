@@ -245,32 +245,6 @@ TEST_CASE("a body at rest stays at rest", "[orbit][limit]") {
   CHECK(orbit.sample(3).rows() == 3);
 }
 
-TEST_CASE("a state is found again by its ratio and by its time", "[orbit][route]") {
-  WorstCase by_time("u by tau"), by_ratio("ln k by tau");
-  for (const Law& law : paper_laws()) {
-    for (double mu : {1e-3, 0.1, 0.8}) {
-      const Orbit orbit = Flow(ReducedSystem(law, mu)).orbit({-2, 2 * mu * 20});
-      const double start = orbit.start_log_ratio();
-      CHECK(start == Approx(std::log(20.0)).epsilon(1e-14));
-      CHECK(orbit.at_log_ratio(start).tau == Approx(0).margin(1e-15 * orbit.stop_time()));
-      double before = 0;
-      for (double step : {0.01, 0.5, 2.0, 3.0, 5.0, 20.0, 60.0}) {
-        const OrbitPoint point = orbit.at_log_ratio(start - step);
-        const std::string where = fmt::format("{}, mu = {}, ln k = {}", law.name(), mu, start - step);
-        CHECK(point.tau > before);
-        before = point.tau;
-        const OrbitPoint again = orbit.at_time(point.tau);
-        CHECK(again.tau == point.tau);
-        by_time.add(point.u, again.u, 2, where);
-        // Later tau no longer tells one k from the next.
-        if (point.v > 1e-2 * mu * 40) by_ratio.add(start - step, std::log(again.k), 1, where);
-      }
-    }
-  }
-  CHECK_WITHIN_EPS(by_time, 100);
-  CHECK_WITHIN_EPS(by_ratio, 1000);
-}
-
 TEST_CASE("near the stop u is proportional to the time left", "[orbit][limit]") {
   for (const Law& law : paper_laws()) {
     const double mu = 0.3;

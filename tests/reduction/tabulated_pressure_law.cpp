@@ -12,7 +12,6 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "worst_case.hpp"
 
@@ -139,21 +138,6 @@ struct Comparison {
 
 }  // namespace
 
-TEST_CASE("a table of Hertz pressure tends to the exact law", "[tabulated_pressure_law][limit]") {
-  const auto error = [](int rows) {
-    const TabulatedPressureLaw law = table([](double rho) { return std::sqrt((1 - rho) * (1 + rho)); }, rows);
-    double worst = 0;
-    for (double k : {0.01, 0.3, 0.9, 1.0, 1.1, 3.0, 50.0}) {
-      const auto exact = HertzLaw{}({k, 1});
-      worst = std::max({worst, std::abs(law({k, 1}).force - exact.force), std::abs(law({k, 1}).moment - exact.moment)});
-    }
-    return worst;
-  };
-  CHECK(error(101) < 1e-3);
-  CHECK(error(1601) < 1.6e-5);
-  CHECK(error(1601) < error(101) / 50);  // 16^(3/2) = 64
-}
-
 TEST_CASE("a steep flank loses no digit, however steep", "[tabulated_pressure_law][route]") {
   Comparison comparison;
   for (double gap : {2e-16, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.1}) {
@@ -210,12 +194,6 @@ TEST_CASE("a disc of half the patch stops like a patch of half the radius", "[ta
       CHECK(step.stop_time({1, v}).tau == Approx(half.stop_time({1, v}).tau).epsilon(4e-15));
     }
   }
-}
-
-TEST_CASE("a thin annulus stops like a ring", "[tabulated_pressure_law][limit]") {
-  const Flow annulus({table_of({0, 0.5, 0.5, 0.5 + 1e-12, 0.5 + 1e-12, 1}, {0, 0, 1, 1, 0, 0}), 1});
-  const Flow ring({PressureLaw::ring(), 0.5});
-  CHECK(annulus.stop_time({1, 1}).tau == Approx(ring.stop_time({1, 1}).tau).epsilon(1e-11));
 }
 
 TEST_CASE("a table names its steps and sharp bends as kinks", "[tabulated_pressure_law][limit]") {

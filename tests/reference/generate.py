@@ -869,16 +869,6 @@ def stop_table(law, points):
         yield exact(mu) + exact(u0) + exact(v0) + [text(tau), digits]
 
 
-def table_stop_pade():
-    """Stop times, Pade law."""
-    return stop_table("pade", stop_points(10, 27, EXTREMES))
-
-
-def table_stop_hertz():
-    """Stop times, exact law."""
-    return stop_table("hertz", stop_points(5, 11, HERTZ_EXTREMES))
-
-
 TRAJECTORY_MUS = [1e-4, 1e-3, 0.0035, 0.01, 0.099, 0.1, 0.241, 0.3, 0.7, 1.0]
 FRACTIONS = [1e-6, 0.01, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 0.999]
 STARTS = [1e-3, 0.5, 2.5, 1e5, 0.05, 1.0, 30.0, 1e3]                # k0
@@ -916,16 +906,6 @@ def trajectory_table(law, points):
         u = u if u0 > 0 else -u
         yield (exact(mu) + exact(u0) + exact(v0) + [text(stop), repr(fraction)] + exact(tau)
                + [text(value) for value in (u, log_v, k, beta)] + [min(digits, more)])
-
-
-def table_trajectory_pade():
-    """States, Pade law."""
-    return trajectory_table("pade", trajectory_points())
-
-
-def table_trajectory_hertz():
-    """States, exact law."""
-    return trajectory_table("hertz", trajectory_points())
 
 
 BODIES = [                                          # (chi, gamma, mu, u0, v0)
@@ -1279,10 +1259,10 @@ def table_dilogarithm():
 TABLES = {
     "laws": table_laws,
     "laws_pressure": table_laws_pressure,
-    "stop_pade": table_stop_pade,
-    "stop_hertz": table_stop_hertz,
-    "trajectory_pade": table_trajectory_pade,
-    "trajectory_hertz": table_trajectory_hertz,
+    "stop_pade": lambda: stop_table("pade", stop_points(10, 27, EXTREMES)),
+    "stop_hertz": lambda: stop_table("hertz", stop_points(5, 11, HERTZ_EXTREMES)),
+    "trajectory_pade": lambda: trajectory_table("pade", trajectory_points()),
+    "trajectory_hertz": lambda: trajectory_table("hertz", trajectory_points()),
     "bodies": table_bodies,
     "rays": table_rays,
     "dilogarithm": table_dilogarithm,
