@@ -1,12 +1,60 @@
 #include "contensou/si/quantity.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <locale>
+#include <numbers>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace contensou::si {
+
+const std::vector<Dimension>& dimensions() {
+  using std::numbers::pi;
+  static const std::vector<Dimension> all{
+      {"LENGTH", "m", "metres", {{"cm", 1, 100}, {"mm", 1, 1000}, {"in", 254, 1e4}, {"ft", 3048, 1e4}}},
+      {"MASS", "kg", "kilograms", {{"g", 1, 1000}, {"lb", 45359237, 1e8}, {"oz", 28349523125, 1e12}}},
+      {"TIME", "s", "seconds", {{"ms", 1, 1000}, {"min", 60}}},
+      {"SPEED",
+       "m/s",
+       "metres per second",
+       {{"cm/s", 1, 100}, {"mm/s", 1, 1000}, {"km/h", 10, 36}, {"ft/s", 3048, 1e4}, {"mph", 44704, 1e5}}},
+      {"ROTATION", "rad/s", "radians per second", {{"deg/s", pi, 180}, {"rev/s", 2 * pi}, {"rpm", pi, 30}}},
+      {"DECELERATION", "rad/s^2", "radians per second squared", {{"deg/s^2", pi, 180}, {"rev/s^2", 2 * pi}}},
+      {"ACCELERATION", "m/s^2", "metres per second squared", {{"cm/s^2", 1, 100}, {"ft/s^2", 3048, 1e4}}},
+      {"ANGLE", "deg", "degrees", {{"rad", 180, pi}}},
+      {"PRESSURE", "Pa", "pascals", {{"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}}},
+  };
+  return all;
+}
+
+const Dimension* find_dimension(std::string_view symbol) {
+  const auto found = std::ranges::find(dimensions(), symbol, &Dimension::symbol);
+  return found == dimensions().end() ? nullptr : &*found;
+}
+
+std::string units_of(const Dimension& dimension) {
+  std::string list(dimension.symbol);
+  for (const Unit& unit : dimension.others) {
+    list += fmt::format("{} {}", &unit == &dimension.others.back() ? " or" : ",", unit.symbol);
+  }
+  return list;
+}
+
+std::optional<double> parse_quantity(const std::string& text, const Dimension& dimension) {
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  double number = 0;
+  std::string symbol, more;
+  if (!(words >> number >> symbol) || words >> more) return std::nullopt;
+  if (symbol == dimension.symbol) return number;
+  const auto unit = std::ranges::find(dimension.others, symbol, &Unit::symbol);
+  if (unit == dimension.others.end()) return std::nullopt;
+  return number * unit->factor / unit->divisor;
+}
 
 void require(const Quantity& quantity, double value) {
   using enum Quantity::Range;

@@ -236,14 +236,20 @@ class Reader {
   }
 
   double number(const toml::node& node, const Section& section, const Quantity& quantity) const {
+    const Dimension* dimension = find_dimension(quantity.unit);
+    const auto* text = node.as_string();
     double value = 0;
-    if (const auto* integer = node.as_integer()) {
+    if (const auto with_unit = text && dimension ? parse_quantity(text->get(), *dimension) : std::nullopt) {
+      value = *with_unit;
+    } else if (const auto* integer = node.as_integer()) {
       value = static_cast<double>(integer->get());
     } else if (const auto* real = node.as_floating_point()) {
       value = real->get();
     } else {
-      fail(node.source().begin, fmt::format("{} must be a number{}{}", place(section, quantity.name),
-                                            quantity.unit.empty() ? "" : ", in ", quantity.unit));
+      fail(node.source().begin, fmt::format("{} must be a number{}", place(section, quantity.name),
+                                            dimension ? fmt::format(", in {0}, or one in quotes with {1} behind it",
+                                                                    quantity.unit, units_of(*dimension))
+                                                      : ""));
     }
     at(node.source().begin, [&] { require(quantity, value); });
     return value;

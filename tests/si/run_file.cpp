@@ -1,5 +1,6 @@
 #include "contensou/si/run_file.hpp"
 
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -113,6 +114,15 @@ TEST_CASE("velocities take the place of a start, one or both", "[table]") {
   const StartOverride both{Eigen::Vector2d(2, 3), Eigen::Vector3d(4, 5, 6)};
   CHECK(velocities_of(parse_run_file(without, "x.toml", {}, both).start).angular_velocity == Eigen::Vector3d(4, 5, 6));
   CHECK_THROWS_WITH(parse_run_file(without, "x.toml", {}, velocity_only), Contains("'slip' in [start] is missing"));
+}
+
+TEST_CASE("values in quotes may have another unit", "[table]") {
+  CHECK(parse_run_file(with(good, "radius = 0.028575", "radius = \"2.25 in\""), "x.toml").ball.radius == 0.05715);
+  CHECK(spin_at_start(parse_run_file(with(good, "spin = 100", "spin = '60 rpm'"), "x.toml")) ==
+        Approx(2 * std::numbers::pi).epsilon(1e-15));
+  CHECK_THROWS_WITH(
+      parse_run_file(with(good, "0.1701", "\"6 m\""), "x.toml"),
+      Contains("x.toml:3:8: 'mass' in [ball] must be a number, in kg, or one in quotes with kg, g, lb or oz"));
 }
 
 TEST_CASE("mistakes are found with their place", "[table]") {

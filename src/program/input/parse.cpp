@@ -37,6 +37,10 @@ std::string quotation(std::string_view input) {
   return fmt::format("'{}...'", escaped(input.substr(0, size)));
 }
 
+const char* decimal_hint(std::string_view text) {
+  return text.find(',') == std::string_view::npos ? "" : ": decimals take a point";
+}
+
 bool is_number(std::string_view text) {
   double value = 0;
   return read(text, value) != std::errc::invalid_argument;
@@ -46,8 +50,8 @@ double parse_number(std::string_view text, Infinity infinity) {
   double value = 0;
   const std::errc error = read(text, value);
   if (error == std::errc::invalid_argument) {
-    throw BadInput(fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3{}", quotation(text),
-                               text.find(',') == std::string_view::npos ? "" : ": decimals take a point"));
+    throw BadInput(
+        fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3{}", quotation(text), decimal_hint(text)));
   }
   if (error == std::errc::result_out_of_range) {
     throw BadInput(fmt::format("{} does not fit a double (5e-324 to 1.8e308)", quotation(text)));
@@ -57,13 +61,19 @@ double parse_number(std::string_view text, Infinity infinity) {
   return value;
 }
 
-std::vector<double> parse_numbers(std::string_view text, Infinity infinity) {
-  std::vector<double> values;
+std::vector<std::string> split(std::string_view text, char mark) {
+  std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    values.push_back(parse_number(text.substr(begin, end - begin), infinity));
+    const std::size_t end = std::min(text.find(mark, begin), text.size());
+    parts.emplace_back(text.substr(begin, end - begin));
     begin = end + 1;
   }
+  return parts;
+}
+
+std::vector<double> parse_numbers(std::string_view text, Infinity infinity) {
+  std::vector<double> values;
+  for (const std::string& part : split(text, ',')) values.push_back(parse_number(part, infinity));
   return values;
 }
 

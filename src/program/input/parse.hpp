@@ -15,12 +15,18 @@ std::string quotation(std::string_view input);
 
 enum class Infinity { forbidden, allowed };
 
+/// "" or, for a text with a comma, a sentence for a message that it is no number.
+const char* decimal_hint(std::string_view text);
+
 /// Whether parse_number finds a number, of whatever size.
 bool is_number(std::string_view text);
 
 /// The number that a whole text spells, spaces around it aside.
 /// @throws BadInput  quoting the text, if it is not a number, does not fit a double, or is not finite where it must be
 double parse_number(std::string_view text, Infinity infinity = Infinity::forbidden);
+
+/// What stands between these marks.
+std::vector<std::string> split(std::string_view text, char mark);
 
 /// Numbers between commas.
 /// @throws BadInput  as parse_number

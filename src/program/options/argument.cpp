@@ -1,10 +1,12 @@
 #include "options/argument.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "contensou/si/quantity.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::program {
@@ -64,8 +66,32 @@ bool names_a_file(const std::string& typed, const std::vector<std::string>& endi
          std::ranges::any_of(endings, [&](const std::string& ending) { return typed.ends_with(ending); });
 }
 
-std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names) {
-  std::vector<double> values = parse_numbers(typed);
+double parse_quantity(const std::string& typed, std::string_view symbol) {
+  const si::Dimension* dimension = si::find_dimension(symbol);
+  if (dimension == nullptr || is_number(typed)) return parse_number(typed);
+  const double value = si::parse_quantity(typed, *dimension).value_or(NAN);
+  if (std::isfinite(value)) return value;
+  throw BadInput(fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3, in {}, or with {} behind it{}",
+                             quotation(typed), symbol, si::units_of(*dimension), decimal_hint(typed)));
+}
+
+std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol) {
+  const std::string& last = texts.back();
+  std::size_t size = last.size();
+  while (size > 0 && !is_number(last.substr(0, size))) --size;
+  const std::string unit = size > 0 ? last.substr(size) : "";
+  std::vector<double> values;
+  for (std::string& text : texts) {
+    const bool is_plain = is_number(text);
+    values.push_back(parse_quantity(is_plain ? text + unit : text, symbol));
+    if (unit.empty() && !is_plain) throw NotAllowed("give each number a unit, or one behind the last for all of them");
+  }
+  return values;
+}
+
+std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names,
+                            std::string_view symbol) {
+  std::vector<double> values = parse_quantities(split(typed, ','), symbol);
   if (values.size() != count) throw NotAllowed(fmt::format("{} numbers are needed, {}", count, names));
   return values;
 }

@@ -90,9 +90,21 @@ inline auto whole_number(long lowest, long highest) {
   return [=](const std::string& typed) { return parse_integer(typed, lowest, highest); };
 }
 
+/// Reads a number in a unit, or with a unit of the same kind behind it.
+/// @param symbol  of the unit (si::dimensions); none for a pure number
+double parse_quantity(const std::string& typed, std::string_view symbol);
+inline auto quantity(std::string_view symbol) {
+  return [=](const std::string& typed) { return parse_quantity(typed, symbol); };
+}
+
+/// The same of each text. A unit behind the last is of all of them, unless each has its own.
+std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol);
+
 /// Reads so many numbers between commas.
-/// @param names  of the numbers, for messages, such as U,V
-std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names);
+/// @param names   of the numbers, for messages, such as U,V
+/// @param symbol  as parse_quantity
+std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names,
+                            std::string_view symbol = "");
 
 /// One of some names, and what it stands for.
 template <class Value>

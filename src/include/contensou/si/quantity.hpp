@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace contensou::si {
 
@@ -31,6 +34,31 @@ inline constexpr Quantity velocity{"velocity", "m/s", "velocity of the centre, x
 inline constexpr Quantity angular_velocity{"angular_velocity", "rad/s", "angular velocity, x, y and z (up)",
                                            Quantity::Range::any};
 inline constexpr Quantity gravity{"gravity", "m/s^2", "acceleration of gravity", Quantity::Range::positive};
+
+/// A unit that may stand behind a number: one of it is factor/divisor SI units.
+struct Unit {
+  std::string_view symbol;
+  double factor;
+  double divisor = 1;
+};
+
+/// What is measured in one SI unit, or in degrees.
+struct Dimension {
+  std::string_view name;    ///< as help calls a value
+  std::string_view symbol;  ///< of the unit that a plain number has
+  std::string_view words;   ///< the same, in the plural
+  std::vector<Unit> others;
+};
+const std::vector<Dimension>& dimensions();
+
+/// The dimension of a unit's symbol; null for that of a pure number.
+const Dimension* find_dimension(std::string_view symbol);
+
+/// "m, cm, mm, in, ft or yd".
+std::string units_of(const Dimension& dimension);
+
+/// The value of a number with one of the units behind it, such as "2.25 in"; nothing for any other text.
+std::optional<double> parse_quantity(const std::string& text, const Dimension& dimension);
 
 /// Rejects a value that the quantity cannot have. Infinity and NaN are never allowed.
 /// @throws std::domain_error  naming the quantity, what is allowed and the value
