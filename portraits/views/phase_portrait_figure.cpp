@@ -27,6 +27,7 @@ std::string title(const PhasePortrait& portrait) {
 }  // namespace
 
 std::string_view name(View view) { return layout_of(view).name; }
+std::string_view axes(View view) { return layout_of(view).axes; }
 
 std::optional<View> find_view(std::string_view name) {
   const auto found = std::ranges::find(view_layouts, name, &ViewLayout::name);

@@ -27,6 +27,7 @@ Panel contact_panel(const Drawing& drawing, bool right_half);
 struct ViewLayout {
   View view;
   std::string_view name;
+  std::string_view axes;  ///< in words
   std::vector<Panel> (*panels)(const Drawing&);
   int panels_across;
   double width_mm;
@@ -56,28 +57,30 @@ constexpr std::string_view bent_shows =
 
 /// All views, in the order in which they are listed.
 inline constexpr std::array view_layouts{
-    ViewLayout{View::uv, "uv", plane_view, 1, 190, 125, nullptr, plane_shows},
-    ViewLayout{View::patch, "patch", patch_view, 1, 190, 125, nullptr,
-               "the two speeds at the rim of the patch: sliding and pivoting compare"},
-    ViewLayout{View::log, "log", log_view, 1, 175, 130,
+    ViewLayout{View::uv, "uv", "the paper's plane (u, v)", plane_view, 1, 190, 125, nullptr, plane_shows},
+    ViewLayout{View::patch, "patch",
+               "(mu u, v): the rim speed of pivoting and the speed of sliding, on axes that compare", patch_view, 1,
+               190, 125, nullptr, "the two speeds at the rim of the patch: sliding and pivoting compare"},
+    ViewLayout{View::log, "log", "the same, both logarithmic", log_view, 1, 175, 130,
                [](const PhasePortrait& portrait) {
                  const auto [u, v] = portrait.window;
                  const double tau = portrait.flow.orbit({u, v}).stop_time();
                  return std::pair{0.01 * tau, tau};
                },
                "by scaling orbits are translates of one curve along the diagonal"},
-    ViewLayout{View::similarity, "similarity", similarity_view, 2, 270, 125,
+    ViewLayout{View::similarity, "similarity", "(q, p) and (ln k, p): orbits are translates of one curve",
+               similarity_view, 2, 270, 125,
                [](const PhasePortrait& portrait) {
                  return std::pair{scaled_stop_time(portrait, -6, -4), scaled_stop_time(portrait, 6, 0)};
                },
                "canonical coordinates: orbits are translates of one curve"},
-    ViewLayout{View::blowup, "blowup", blowup_view, 2, 280, 112, far_times,
-               "the origin, blown up: each half-line joins a saddle to a node"},
-    ViewLayout{View::disc, "disc", disc_view, 1, 210, 125, far_times,
-               "the Poincaré disc: every orbit is born at infinity and dies at the stop"},
-    ViewLayout{View::time, "time", time_view, 3, 270, 105, nullptr,
+    ViewLayout{View::blowup, "blowup", "the origin blown up: to a half-circle, and in the chart (u, ln k)", blowup_view,
+               2, 280, 112, far_times, "the origin, blown up: each half-line joins a saddle to a node"},
+    ViewLayout{View::disc, "disc", "the Poincare disc: the whole half-plane, infinity included", disc_view, 1, 210, 125,
+               far_times, "the Poincaré disc: every orbit is born at infinity and dies at the stop"},
+    ViewLayout{View::time, "time", "u, v and k against tau/tau*", time_view, 3, 270, 105, nullptr,
                "by scaling only {/:Italic k}_0 = {/:Italic v}_0/({/:Italic μu}_0) matters"},
-    ViewLayout{View::pair, "pair", pair_view, 2, 300, 125, nullptr, plane_shows},
+    ViewLayout{View::pair, "pair", "the plane beside (u, ln k)", pair_view, 2, 300, 125, nullptr, plane_shows},
 };
 
 }  // namespace contensou::portraits

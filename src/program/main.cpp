@@ -15,6 +15,7 @@
 
 #include "contensou/si/run_file.hpp"
 #include "input/parse.hpp"
+#include "output/help.hpp"
 #include "output/interruption.hpp"
 #include "output/output.hpp"
 #include "text/nearest_name.hpp"
@@ -32,9 +33,13 @@ namespace {
 std::string footer() {
   std::string text = "Examples:\n";
   for (const VerbEntry& entry : verbs()) text += fmt::format("  {}\n", entry.example);
-  return text +
-         "\n'contensou VERB --help' lists the options of a verb.\n"
-         "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot failed.";
+  return text + "\n" +
+         help_paragraph(
+             "'contensou help VERB' lists the options of a verb, 'contensou help laws|views|units|files' "
+             "explains what they take.") +
+         help_paragraph(
+             "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot "
+             "failed.");
 }
 
 /// What CLI11 could not place: a verb or an option that does not exist, or a word too many.
@@ -98,16 +103,18 @@ ExitStatus run(const std::vector<std::string>& arguments, std::string& verb) {
   std::vector<std::string> names;
   for (const VerbEntry& entry : verbs()) names.push_back(entry.name);
   CLI::App app("A ball that slides and spins on a plane under combined dry friction.\n", "contensou");
-  app.get_formatter()->label("SUBCOMMAND", "VERB");
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", "contensou " CONTENSOU_VERSION, "name the version");
   app.footer(footer());
   app.require_subcommand(0, 1)->allow_extras();
   std::vector<std::unique_ptr<Verb>> made;
   for (const VerbEntry& entry : verbs()) {
     CLI::App& of_verb = *app.add_subcommand(entry.name, entry.summary)->allow_extras()->group("Verbs");
-    of_verb.footer("Example:\n  " + entry.example);
+    of_verb.footer("Example:\n  " + entry.example + "\n" + help_on_fields(entry.name));
     made.push_back(entry.make());
     made.back()->add_options(of_verb);
+    of_verb.set_help_flag();  // so that it is the last
+    of_verb.set_help_flag("-h,--help", "print this");
   }
   try {
     const bool known = !arguments.empty() && std::ranges::find(names, arguments.front()) != names.end();
@@ -142,7 +149,7 @@ ExitStatus complain(ExitStatus status, const std::string& message) {
 ExitStatus guarded(const std::vector<std::string>& arguments) {
   std::string verb;
   try {
-    return arguments == std::vector<std::string>{"help"} ? run({"--help"}, verb) : run(arguments, verb);
+    return run(arguments, verb);
   } catch (const BadLine& error) {
     return complain(ExitStatus::bad_input, error.what());
   } catch (const si::RunFileError& error) {

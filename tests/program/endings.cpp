@@ -25,6 +25,7 @@ const std::vector<Output> outputs{
     {"check --mu 0.3 --u0 1 --v0 1", "a table of checks", {"txt", "csv", "json"}},
     {"terminal --mu 0.3", "a terminal ratio", {"txt", "csv", "json"}},
     {"roll --ball pool --samples 3", "a motion", {"csv", "txt", "json"}},
+    {"roll --ball pool --batch -", "a table of motions", {"csv"}},
     {"balls", "a list of balls", {"txt", "csv", "json"}},
     {"balls pool", "a run file", {"toml", "txt"}},
     {"paper", "a table of statements", {"txt", "csv", "json"}},
@@ -33,7 +34,7 @@ const std::vector<Output> outputs{
     {"portrait --mu 0.3 --facts", "a table of facts", {"txt", "csv", "json"}},
 };
 
-constexpr const char* start_table = "mu,u0,v0\n0.1,1,1\n";
+constexpr const char* start_table = "mu,u0,v0,slip,spin\n0.1,1,1,1,1\n";
 
 }  // namespace
 

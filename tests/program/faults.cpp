@@ -150,7 +150,7 @@ class Bench {
     std::ranges::sort(before);
     REQUIRE(all_in(folder_) == before);
     if (ended.status >= 0) REQUIRE((ended.status == 0 || ended.status == 4));
-    if (ended.status > 0) REQUIRE(ended.err.starts_with("contensou: "));
+    if (ended.status > 0) REQUIRE(("\n" + ended.err).find("\ncontensou: ") != std::string::npos);
     REQUIRE(ended.err.find("exception") == std::string::npos);
     if (ended.status != 0) REQUIRE(ended.out.empty());
     if (ended.status == 0) REQUIRE(ended.out == out_);

@@ -1,22 +1,129 @@
+#include <algorithm>
+#include <numbers>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/laws.hpp"
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
+namespace {
+
+const std::vector<std::string> verbs{"stop",  "sweep",   "orbit", "roll",  "law",      "portrait",
+                                     "check", "explore", "paper", "balls", "terminal", "help"};
+const std::vector<std::string> topics{"laws", "views", "units", "files"};
+
+}  // namespace
+
 TEST_CASE("every verb has help with an example", "[cli]") {
-  for (const std::string verb :
-       {"stop", "sweep", "orbit", "roll", "law", "portrait", "check", "explore", "paper", "balls"}) {
+  for (const std::string& verb : verbs) {
     const Run run = run_program(verb + " --help");
     INFO(verb);
     CHECK(run.status == 0);
     CHECK(run.err.empty());
     CHECK_THAT(run.out, Contains("Example:") && Contains("contensou " + verb));
-    CHECK_THAT(run_program("--help").out, Contains("contensou " + verb));
+    CHECK(run_program("help " + verb).out == run.out);
+    CHECK_THAT(run_program("--help").out, Contains("\n  " + verb + " ") && Contains("contensou " + verb));
   }
+  CHECK(run_program("help").out == run_program("--help").out);
+}
+
+TEST_CASE("no line of help is longer than 80 columns", "[cli]") {
+  std::string text = run_program("--help").out;
+  for (const auto& names : {verbs, topics}) {
+    for (const std::string& name : names) text += run_program("help " + name).out;
+  }
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    INFO(line);
+    CHECK(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }) <= 80);
+  }
+}
+
+TEST_CASE("topics of help", "[cli]") {
+  const std::string laws = run_program("help laws").out;
+  for (const auto& law : contensou::reduction::named_laws()) {
+    const auto name = laws.find("\n  " + law.name() + " ");
+    REQUIRE(name != std::string::npos);
+    INFO(law.name());
+    CHECK(laws[laws.find_first_not_of(' ', name + law.name().size() + 3)] != '\n');  // it has a meaning
+  }
+  for (const auto& family : contensou::reduction::law_families()) {
+    CHECK_THAT(laws, Contains(fmt::format("\n  {}:{} ", family.name, family.letter)));
+  }
+  for (const std::string view : {"uv", "patch", "log", "similarity", "blowup", "disc", "time", "pair"}) {
+    CHECK_THAT(run_program("help views").out, Contains("\n  " + view + " "));
+  }
+  CHECK_THAT(run_program("help units").out, Contains("m, cm, mm, in or ft") && Contains("rev/s or rpm"));
+  CHECK_THAT(run_program("help files").out, Contains("spin_deceleration") && Contains("[contact.hertz]"));
+  CHECK_THAT(run_program("help roll").out, Contains("slip_length") && Contains("rolling-friction"));
+  check_rejected("help unit", "no such topic (did you mean 'units'?); topics: laws, views, units, files, balls, check");
+  check_rejected("help stop law", "unexpected argument 'law'");
+}
+
+TEST_CASE("values in other units", "[cli]") {
+  using std::numbers::pi;
+  struct Typed {
+    std::vector<std::string> arguments;
+    std::string field;
+    double value;
+  };
+  const auto pool = [](std::vector<std::string> more) {
+    std::vector<std::string> all{"stop", "--ball", "pool", "--format", "json"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  constexpr double radius = 0.028575;
+  const std::vector<Typed> all{
+      {pool({"--slip", "2 m/s"}), "v0", 2},
+      {pool({"--slip", "7.2km/h"}), "v0", 2},
+      {pool({"--slip", "1e1 mph"}), "v0", 4.4704},
+      {pool({"--slip", " 10 ft/s "}), "v0", 3.048},
+      {pool({"--spin", "300 rpm"}), "u0", 10 * pi * radius},
+      {pool({"--spin", "-5 rev/s"}), "u0", -10 * pi * radius},
+      {pool({"--spin", "90 deg/s"}), "u0", pi / 2 * radius},
+      {pool({"--radius", "2.25 in", "--spin", "1"}), "u0", 0.05715},
+      {pool({"--radius", "28.575 mm", "--spin", "1"}), "u0", radius},
+      {pool({"--patch-radius", "0.28575 cm"}), "mu", 0.1},
+      {{"roll", "--ball", "pool", "--format", "json", "--velocity", "3.6,7.2 km/h"}, "velocity", 1},
+      {{"roll", "--ball", "pool", "--format", "json", "--angular-velocity", "1 rev/s, 0 rpm, 0"}, "", 0},
+      {{"roll", "--ball", "pool", "--format", "json", "--angular-velocity", "60,0,0 rpm"}, "angular_velocity", 2 * pi},
+      {{"roll", "--ball", "pool", "--format", "json", "--at", "100,200 ms"}, "t", 0.1},
+      {{"roll", "--ball", "pool", "--format", "json", "--samples", "2", "--until", "0.5 min"}, "t", 0},
+  };
+  for (const auto& [arguments, field, value] : all) {
+    const Run run = run_program(arguments);
+    INFO(Catch::Detail::stringify(arguments) << run.err);
+    CHECK(run.status == (field.empty() ? 2 : 0));
+    if (run.status != 0) continue;
+    const auto found = nlohmann::json::parse(run.out)[field];
+    CHECK((found.is_array() ? found[0] : found).get<double>() == Approx(value).epsilon(1e-15).margin(0));
+  }
+  const Run refused = run_program(pool({"--slip", "2 furlongs"}));
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.err, Contains("--slip: '2 furlongs' is not a number") && Contains("in m/s, or with m/s, cm/s"));
+  CHECK_THAT(run_program(pool({"--spin", "3 m/s"})).err, Contains("rad/s, deg/s, rev/s or rpm"));
+  CHECK_THAT(run_program({"stop", "--mu", "1", "--u0", "1", "--v0", "1 m/s"}).err, Contains("'1 m/s' is not a number"));
+  const std::vector<std::string> sweep{"sweep", "--ball", "pool", "--spin", "0:60 rpm:2", "--slip", "100:200 cm/s:2"};
+  CHECK(std::stod(rows_of(run_program(sweep).out).back()[0]) == Approx(2 * pi).epsilon(1e-15));
+  CHECK(rows_of(run_program(sweep).out).back()[1] == "2");
+}
+
+TEST_CASE("other names", "[cli]") {
+  const auto same = [](const std::string& one, const std::string& other) {
+    const Run run = run_program(one);
+    CHECK(run.status == 0);
+    CHECK(run.out == run_program(other).out);
+  };
+  same("stop --ball pool --law hertz", "stop --ball pool --law exact");
+  same("stop --body puck --u0 1 --v0 1", "stop --body disc --u0 1 --v0 1");
+  same("portrait --mu 1 --color none -o - --format gp", "portrait --mu 1 --colour none -o - --format gp");
 }
 
 TEST_CASE("the examples of the help work", "[cli]") {

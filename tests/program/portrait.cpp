@@ -72,7 +72,7 @@ TEST_CASE("portrait writes every view as script, as LaTeX and as data", "[cli]")
     const Run script = run_program(start + scratch.file("p.gp"));
     CHECK(script.status == 0);
     CHECK(script.out.empty());
-    CHECK(script.err.empty());
+    CHECK(script.err == "wrote " + scratch.file("p.gp") + "\n");
     CHECK_THAT(read_file(scratch.file("p.gp")), Contains("set terminal svg"));
     CHECK(run_program(start + scratch.file("p.tex")).status == 0);
     CHECK_THAT(read_file(scratch.file("p.tex")), Contains("\\begin{tikzpicture}"));

@@ -230,6 +230,53 @@ TEST_CASE("every built-in ball rolls", "[cli]") {
   }
 }
 
+TEST_CASE("the largest speeds that roll allows have no infinity", "[limit]") {
+  for (const std::string start :
+       {"--slip 4e152", "--slip 1 --spin 4e152", "--slip 1e-300 --spin 1e-300", "--strike 2.7e152"}) {
+    const Run run = run_program("roll --format json --rolling-friction 0.01 --samples 5 --ball pool " + start);
+    INFO(start << run.err);
+    CHECK(run.status == 0);
+    CHECK(run.out.find("inf") == std::string::npos);
+  }
+}
+
+TEST_CASE("a batch of motions has the events of each", "[cli]") {
+  const std::string options = "roll --ball pool --rolling-friction 0.01 ";
+  const auto one = [&](const std::string& start) {
+    const auto json = json_of(options + "--format json --samples 2 " + start);
+    std::vector<double> values;
+    for (const char* event : {"rolls_after", "spin_ends"}) {
+      for (const char* member : {"t", "x", "y"}) values.push_back(json[event][member].get<double>());
+    }
+    for (const char* member : {"slip_length", "turns", "path"}) values.push_back(json[member].get<double>());
+    for (const char* member : {"t", "x", "y"}) values.push_back(json["rest"][member].get<double>());
+    return values;
+  };
+  const auto check = [&](const std::string& table, std::size_t inputs, const std::vector<std::string>& starts) {
+    const Run run = run_program(options + "--batch -", table);
+    INFO(run.err);
+    CHECK(run.status == 0);
+    const auto rows = rows_of(run.out);
+    REQUIRE(rows.size() == starts.size() + 1);
+    CHECK(rows[0][inputs] == "t_rolls");
+    CHECK(rows[0].back() == "y_rest");
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      std::vector<double> values;
+      for (std::size_t j = inputs; j < rows[0].size(); ++j) values.push_back(std::stod(rows[i + 1][j]));
+      CHECK(values == one(starts[i]));
+    }
+  };
+  check("spin,note,slip\n100,a,1\n0,b,2\n-50,c,0\n", 3,
+        {"--slip 1 --spin 100", "--slip 2 --spin 0", "--slip 0 --spin -50"});
+  check("vx,vy,wx,wy,wz\n1,0,40,35,-50\n", 5, {"--velocity 1,0 --angular-velocity 40,35,-50"});
+  check_rejected("roll --ball pool --batch -", "<stdin>:2: at speeds of 1e+300", "spin,slip\n1,1e300\n");
+  check_rejected("roll --ball pool --batch -", "no column is called 'slip'", "mu,u0,v0\n1,1,1\n");
+  const Run kept = run_program("roll --ball pool --keep-going --batch -", "spin,slip\n1,-1\n1,1\n");
+  CHECK(kept.status == 2);
+  CHECK_THAT(kept.out, Contains("\n1,-1,,,,,,,,,\n1,1,0.1"));
+  CHECK(rows_of(kept.out)[0].back() == "path");
+}
+
 TEST_CASE("mistakes in a motion are bad input", "[cli]") {
   const std::vector<std::pair<std::string, std::string>> mistakes{
       {"roll", "--ball missing"},
@@ -265,6 +312,15 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
       {"roll --ball pool --until inf", "'inf' is not a finite number"},
       {"roll --ball pool --samples 3 -o roll.svg", "leave them out"},
       {"roll --ball pool --rolling-below -1", "--rolling-below -1: 0 or more is needed"},
+      {"roll --ball pool --strike 1e300", "lengths, angles or energies exceed the largest double; up to 1.3e+153 is"},
+      {"roll --ball pool --slip 2e299", "exceed the largest double"},
+      {"roll --ball pool --slip 1e153 --spin 1e155 -o roll.json", "exceed the largest double"},
+      {"roll --ball pool --slip 1e10 --until 1e300", "up to 1.8e+06 is allowed"},
+      {"roll --ball pool --slip 1 --batch -", "leave out --slip, --spin"},
+      {"roll --ball pool --strike 1 --batch -", "leave out --strike"},
+      {"roll --ball pool --samples 3 --batch -", "leave out --at, --samples"},
+      {"roll --ball pool --keep-going", "--keep-going is for many starts: add --batch FILE"},
+      {"roll --ball pool --threads 2", "--threads is for many starts: add --batch FILE"},
       {"roll --ball pool --rolling-below nan", "'nan' is not a finite number"},
   };
   for (const auto& [arguments, words] : mistakes) check_rejected(arguments, words);

@@ -58,6 +58,7 @@ TEST_CASE("a batch of a ball has SI columns", "[cli]") {
   CHECK_THAT(run_program("stop --ball pool --batch -", "slip,spin\n-1,1\n").err,
              Contains("<stdin>:2: slip: slip >= 0"));
   check_rejected("stop --ball pool --slip 1 --batch -", "the starts are in the file");
+  check_rejected("stop --ball pool --mu 0.1 --batch -", "--ball pool and --mu exclude each other");
 }
 
 TEST_CASE("quoted fields pass through", "[cli]") {

@@ -13,6 +13,7 @@ const std::vector<std::pair<std::string, Body>>& bodies() {
       {"ball", {}},
       {"hollow-ball", {.inertia = {.chi = 2.5, .gamma = 1.5}}},
       {"disc", {{.chi = 1, .gamma = 2}, 1.0, false, "uniform"}},
+      {"puck", {{.chi = 1, .gamma = 2}, 1.0, false, "uniform"}},
       {"ring", {{.chi = 1, .gamma = 1}, 1.0, false, "ring"}},
   };
   return named;

@@ -14,10 +14,11 @@ constexpr long max_threads = 1024;
 }  // namespace
 
 void BulkOptions::add(CLI::App& app) {
+  app.option_defaults()->group("Computation");
   threads_.add(app, "--threads", "N", "threads to compute with (default: all cores); the result does not depend on it",
                whole_number(1, max_threads));
   progress_.add(app, "--progress", "WHEN",
-                "auto (default: if standard error is a terminal), always or never show progress on standard error",
+                "progress on standard error: auto (default, if that is a terminal), always or never",
                 one_of<std::optional<bool>>({{"auto", std::nullopt}, {"always", true}, {"never", false}}));
 }
 

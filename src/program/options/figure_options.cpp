@@ -33,11 +33,13 @@ portraits::AskedSize parse_size(const std::string& typed) {
 }  // namespace
 
 void FigureOptions::add(CLI::App& app) {
-  size_.add(app, "--size", "WxH",
-            fmt::format("size of the figure in mm, each {} to {}; or single, double: a journal's column, {} or {} mm "
-                        "wide",
-                        min_side, max_side, single_column, double_column),
-            parse_size);
+  app.option_defaults()->group("Picture");
+  size_.add(
+      app, "--size", "WxH",
+      fmt::format("width and height in millimetres, each {} to {}; or single, double: a journal's column, {} or {} "
+                  "mm wide",
+                  min_side, max_side, single_column, double_column),
+      parse_size);
   title_.add(app, "--title", "TEXT", "title of the figure, or none: neither title nor subtitle");
   dpi_.add(app, "--dpi", "N", "dots per inch of a png, 50 to 1200 (default 300)", whole_number(50, 1200));
 }

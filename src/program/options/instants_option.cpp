@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/si/quantity.hpp"
 #include "input/csv.hpp"
 
 namespace contensou::program {
@@ -16,9 +17,10 @@ Eigen::ArrayXd instants(Eigen::Index count, double busy, double end) {
   return all;
 }
 
-Eigen::ArrayXd InstantsOption::read_times(const std::string& typed, const std::string& time) {
+Eigen::ArrayXd InstantsOption::read_times(const std::string& typed, const std::string& time, std::string_view unit) {
   const bool is_file = typed == "-" || names_a_file(typed, {".csv", ".txt"});
-  const std::vector<double> times = is_file ? read_column(typed, time, Infinity::forbidden) : parse_numbers(typed);
+  const std::vector<double> times =
+      is_file ? read_column(typed, time, Infinity::forbidden) : parse_quantities(split(typed, ','), unit);
   if (const auto early = std::ranges::find_if(times, [](double at) { return at < 0; }); early != times.end()) {
     throw NotAllowed(fmt::format("{} is not allowed: {} >= 0 is required", *early, time));
   }
@@ -28,17 +30,20 @@ Eigen::ArrayXd InstantsOption::read_times(const std::string& typed, const std::s
 CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const std::string& unit,
                                  const std::string& extent) {
   constexpr long max_samples = 10'000'000;
-  const auto read = [time](const std::string& typed) { return read_times(typed, time); };
-  CLI::Option* at = at_.add(
-      app, "--at", "T1,T2,...|FILE",
-      fmt::format("these {0} >= 0{1}, in any order; FILE has a column {0}, or one number a line", time, unit), read);
+  app.option_defaults()->group("Instants");
+  const auto read = [=](const std::string& typed) { return read_times(typed, time, unit); };
+  CLI::Option* at =
+      at_.add(app, "--at", "T1,T2,...|FILE",
+              fmt::format("these {0} >= 0{1}, in any order; FILE has a column {0}, or one number a line", time,
+                          unit.empty() ? "" : ", in " + std::string(si::find_dimension(unit)->words)),
+              read);
   samples_
       .add(app, "--samples", "N",
            fmt::format("instead: N instants{}, 2 or more, half of them while it slides (default {})", extent,
                        standard_samples),
            whole_number(2, max_samples))
       ->excludes(at);
-  app.add_flag("--equidistant", equidistant_, "instants of --samples at equal times")->excludes(at);
+  app.add_flag("--equidistant", equidistant_, "--samples at equal times")->excludes(at);
   return at;
 }
 

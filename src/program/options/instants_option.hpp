@@ -16,13 +16,14 @@ Eigen::ArrayXd instants(Eigen::Index count, double busy, double end);
 class InstantsOption {
  public:
   /// @param time    its name, as of a column in the file of --at
-  /// @param unit    "" or " in UNIT"
+  /// @param unit    its symbol, or none
   /// @param extent  of those of --samples: "" or " from WHERE to WHERE"
   /// @return        --at
   CLI::Option* add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
 
   /// A list of times >= 0, or the column of that name in a file.
-  static Eigen::ArrayXd read_times(const std::string& typed, const std::string& time);
+  /// @param unit  of the list, as parse_quantity
+  static Eigen::ArrayXd read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
 
   bool given() const { return at_.given() || samples_.given() || equidistant_; }
 

@@ -1,5 +1,6 @@
 #include "options/law_option.hpp"
 
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -13,29 +14,40 @@ namespace contensou::program {
 
 namespace {
 
-std::vector<std::string> law_names() {
+std::vector<std::string> names_of_forms() {
   std::vector<std::string> names;
-  for (const reduction::Law& law : reduction::named_laws()) names.push_back(law.name());
+  for (const auto& [name, meaning] : law_forms()) names.push_back(name);
   return names;
-}
-
-/// The names, and what stands for more of them.
-std::vector<std::string> law_forms() {
-  std::vector<std::string> forms = law_names();
-  for (const auto& family : reduction::law_families())
-    forms.push_back(fmt::format("{}:{}", family.name, family.letter));
-  forms.push_back("FILE.csv");
-  return forms;
 }
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> law_forms() {
+  std::map<std::string_view, std::string> meanings{
+      {"exact", "Hertz's pressure, (1 - rho^2)^(1/2), the default of a ball; also called hertz"},
+      {"pade", fmt::format("the paper's approximation of it, {}", cost_of_pade)},
+      {"uniform", "the same pressure all over the patch, the default of --body disc"},
+      {"punch", "a flat rigid punch, pressure (1 - rho^2)^(-1/2)"},
+      {"ring", "all pressure on the rim, the default of --body ring"},
+      {"paraboloid", "a soft foundation, pressure 1 - rho^2"},
+      {"elliptic", "the ellipse of grasping and of physics engines as limit surface, with Hertz's Psi(0)"},
+      {"potential8", "within 3.41 % of exact, as simple as pade: the gradient of a potential"},
+  };
+  std::vector<std::pair<std::string, std::string>> forms;
+  for (const reduction::Law& law : reduction::named_laws()) forms.emplace_back(law.name(), meanings[law.name()]);
+  for (const auto& family : reduction::law_families()) {
+    forms.emplace_back(fmt::format("{}:{}", family.name, family.letter),
+                       fmt::format("{}, {}", family.meaning, family.allowed));
+  }
+  forms.emplace_back("FILE.csv", "your own pressure: columns rho,pressure, rho from 0 to 1");
+  return forms;
+}
+
 void LawOption::add(CLI::App& app) {
-  law_.add(
-      app, "--law", "LAW",
-      fmt::format("friction law: {}. exact (default): Hertz's pressure; a --body disc: uniform, ring: ring. pade: the "
-                  "paper's approximation, {}. P > -1: pressure (1 - rho^2)^P; FILE.csv: columns rho,pressure",
-                  fmt::join(law_forms(), ", "), cost_of_pade));
+  app.option_defaults()->group("Law of friction");
+  law_.add(app, "--law", "LAW",
+           fmt::format("{} (default exact; --body disc: uniform, ring: ring). 'contensou help laws' explains them",
+                       fmt::join(names_of_forms(), ", ")));
 }
 
 void LawOption::add(CLI::App& app, const std::string& name, const std::string& value_name, const std::string& help) {
@@ -45,12 +57,12 @@ void LawOption::add(CLI::App& app, const std::string& name, const std::string& v
 reduction::Law LawOption::read(const Body& body) const {
   if (!law_.given()) return *reduction::find_law(body.law);
   try {
-    if (auto law = reduction::find_law(law_.text())) return *law;
+    if (auto law = reduction::find_law(law_.text() == "hertz" ? "exact" : law_.text())) return *law;
   } catch (const std::domain_error& error) {
     law_.reject(error.what());
   }
   if (names_a_file(law_.text(), {".csv"})) return read_pressure_profile(law_.text());
-  const std::vector<std::string> forms = law_forms();
+  const std::vector<std::string> forms = names_of_forms();
   law_.reject(fmt::format("no such law{}; laws: {}", suggestion(law_.text(), forms), fmt::join(forms, ", ")));
 }
 

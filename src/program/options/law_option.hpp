@@ -12,6 +12,9 @@ namespace contensou::program {
 inline constexpr const char* cost_of_pade =
     "in which the extra slip of a spinning ball is too long: pool 5, steel 129, bowling 470 times";
 
+/// What --law takes, and what it means.
+std::vector<std::pair<std::string, std::string>> law_forms();
+
 /// --law.
 class LawOption {
  public:

@@ -55,6 +55,7 @@ std::string drawn(const portraits::Figure& figure, portraits::PictureFormat form
 }
 
 void OutputOptions::add(CLI::App& app) {
+  app.option_defaults()->group("Output");
   const OutputKind& usual = kinds_.front();
   std::string endings, formats;
   bool has_text = false;

@@ -74,7 +74,7 @@ void RouteOption::add(CLI::App& app, const std::vector<Route>& offered) {
   Choices<Route> choices;
   for (Route route : every_route()) choices.emplace_back(name(route), route);
   route_.add(app, "--route", "ROUTE",
-             fmt::format("{} (default: the first that the law has)", fmt::join(names_of(offered), ", ")),
+             fmt::format("{} (default: the first of them that the law has)", fmt::join(names_of(offered), ", ")),
              one_of(choices, "route"));
 }
 

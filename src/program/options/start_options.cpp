@@ -35,15 +35,14 @@ double parse_sliding_speed(const std::string& typed) {
 }  // namespace
 
 void BodyOptions::add_mu(CLI::App& app) {
-  mu_.add(app, "--mu", "M", "patch ratio, patch radius/R; a ball: 0 < M <= 1, another body: M > 0 (disc, ring: 1)",
-          number);
+  mu_.add(app, "--mu", "M", "patch radius over R; of a ball 0 < M <= 1, of another body M > 0 (disc, ring: 1)", number);
 }
 
 void BodyOptions::add_body(CLI::App& app) {
   body_.add(
       app, "--body", "BODY",
-      "ball (default), hollow-ball, disc or ring (flat pucks that cannot roll: mu = 1), or CHI,GAMMA: chi = 1 + m "
-      "R^2/J about a horizontal axis (1: cannot roll), gamma = m R^2/J_z",
+      "ball (default), hollow-ball, disc (or puck) and ring, which lie flat (mu = 1), or CHI,GAMMA: chi = 1 + m R^2/J "
+      "about a horizontal axis (1: cannot roll), gamma = m R^2/J_z",
       parse_body);
 }
 
@@ -64,22 +63,25 @@ const si::CatalogueEntry& require_ball(const std::string& name) {
 }
 
 void StartOptions::add(CLI::App& app) {
+  app.option_defaults()->group("Start");
   body_.add_mu(app);
   u0_.add(app, "--u0", "U", "pivoting R omega_z at the start, either sign, in any unit of speed", number);
-  v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0", parse_sliding_speed);
+  v0_.add(app, "--v0", "V", "sliding speed at the start, 0 or more, in the unit of --u0", parse_sliding_speed);
   body_.add_body(app);
   add_ball(app, "instead of these four: a ball in SI units, built in or from a run file");
 }
 
 void StartOptions::add_ball(CLI::App& app, const std::string& help, bool starts) {
-  ball_.add(app, "--ball", "NAME|FILE.toml", help);
+  app.option_defaults()->group("Start");
+  ball_.add(app, "--ball", "NAME|FILE.toml", help + " ('contensou balls' lists them)");
+  app.option_defaults()->group("Ball (with --ball, in place of its own values)");
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const si::Quantity& quantity = *quantities[i];
     if (!starts && (&quantity == &si::slip || &quantity == &si::spin)) continue;
     std::string name = fmt::format("--{}", quantity.name);
     std::ranges::replace(name, '_', '-');
     const auto read = [&quantity](const std::string& typed) {
-      const double value = parse_number(typed);
+      const double value = parse_quantity(typed, quantity.unit);
       try {
         si::require(quantity, value);
       } catch (const std::domain_error& error) {
@@ -87,8 +89,10 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, bool starts)
       }
       return value;
     };
-    overrides_[i].add(app, name, quantity.unit.empty() ? "X" : std::string(quantity.unit),
-                      fmt::format("with --ball: {}", quantity.meaning), read);
+    const si::Dimension* dimension = si::find_dimension(quantity.unit);
+    overrides_[i].add(app, name, dimension ? std::string(dimension->name) : "X",
+                      fmt::format("{}{}", quantity.meaning, dimension ? fmt::format(", in {}", dimension->words) : ""),
+                      read);
   }
 }
 

@@ -99,6 +99,7 @@ void OutputFile::finish() {
   if (std::rename(unfinished_.c_str(), target_.c_str()) != 0) fail(errno);
   unfinished_.clear();
   forget_unfinished();
+  std::fputs(fmt::format("wrote {}\n", path_).c_str(), stderr);
 }
 
 void write_output(const std::string& path, std::string_view content) {

@@ -25,7 +25,7 @@ class OutputFile {
 
   void write(std::string_view content);
 
-  /// The file is there from now on.
+  /// The file is there from now on, and standard error says so.
   void finish();
 
  private:

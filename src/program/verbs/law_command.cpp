@@ -19,9 +19,11 @@ class LawCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     law_.add(app);
+    app.option_defaults()->group("What to write");
     CLI::Option* k = k_.add(app, "--k", "K1,K2,...", "ratios k = v/(mu |u|), 0 to inf", parse_ratios);
-    batch_.add(app, "--batch", "FILE", "instead: a CSV with a column k; - is standard input")->excludes(k);
-    app.add_flag("--surface", surface_, "draw the limit surface instead: force against moment, laws beside each other");
+    batch_.add(app, "--batch", "FILE", "instead: CSV with a column k; - is standard input")->excludes(k);
+    app.add_flag("--surface", surface_,
+                 "with a picture as -o: the limit surface, force against moment, laws beside each other");
     figure_.add(app);
     output_.add(app);
   }

@@ -19,7 +19,7 @@ class OrbitCommand final : public Verb {
     CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");
     time_left_
         .add(app, "--time-left", "T1,T2,...|FILE",
-             "instead: these tau before the stop, 0 to the stop time, and a column tau_left; FILE has that column",
+             "instead: so much tau before the stop, and a column tau_left; FILE has that column",
              [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
         ->excludes(at);
     output_.add(app);

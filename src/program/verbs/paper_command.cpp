@@ -146,7 +146,8 @@ std::string as_text(const std::vector<StatementRow>& rows, const Digits& digits)
 class PaperCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    out_.add(app, "--out", "DIR", "write fig1 to fig4 into DIR as svg and pdf; without it, the table alone");
+    app.option_defaults()->group("Figures");
+    out_.add(app, "--out", "DIR", "write fig1 to fig4 into DIR as svg and pdf (default: the table alone)");
     output_.add(app);
   }
 

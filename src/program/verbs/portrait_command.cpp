@@ -58,10 +58,10 @@ class PortraitCommand final : public Verb {
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
     add_looks(app);
     figure_.add(app);
-    app.add_flag(
-        "--facts", facts_,
-        "print the plane's facts instead: regime, singular points at the origin and at infinity with eigenvalues and "
-        "kind, how orbits enter the origin; to standard output unless -o is given");
+    app.option_defaults()->group("Output");
+    app.add_flag("--facts", facts_,
+                 "instead of the picture: regime, singular points with eigenvalues and kind, how orbits enter the "
+                 "origin; to standard output unless -o is given");
     output_.add(app);
   }
 
@@ -117,12 +117,12 @@ class PortraitCommand final : public Verb {
       names.push_back(name(view));
       views.emplace_back(name(view), view);
     }
-    add("--view", "VIEW", fmt::format("the axes: {} (default uv)", fmt::join(names, ", ")),
+    app.option_defaults()->group("Picture");
+    add("--view", "VIEW", fmt::format("{} (default uv). 'contensou help views' explains them", fmt::join(names, ", ")),
         into(request_.view, one_of(views, "view")));
     add("--scale", "SCALE",
-        "of v in uv, patch and pair: bent (default where orbits touch v = 0 so closely that the plane is a comb, for "
-        "the "
-        "ball mu < 0.48): below the shading like v^s, where every orbit runs straight into the stop; or linear",
+        "of v in uv, patch and pair: linear, or bent, below the shading like v^s, on which every orbit runs straight "
+        "into the stop (default where the plane would be a comb, of the ball mu < 0.48)",
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     add("--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)",
         into(request_.window, parse_window));
@@ -149,7 +149,7 @@ class PortraitCommand final : public Verb {
         ->expected(0, 1);
     add("--axes", "on|off", "the invariant axes and the invariant ray, which are the nullclines (default on)",
         into(style_.invariant, one_of<bool>({{"on", true}, {"off", false}})));
-    add("--colour", "BY", "orbits by the time left (time, default) or in one colour (none)",
+    add("--colour,--color", "BY", "orbits by the time left (time, default) or in one colour (none)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
     against_.add(app, "--against", "LAW", "the same for another law, dashed, in the same figure");
     add("--style", "STYLE", "print (default), or screen: light on dark, for a projector",

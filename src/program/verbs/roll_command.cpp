@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -13,12 +15,15 @@
 #include "contensou/si/course.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/integrated_motion.hpp"
+#include "contensou/si/quantity.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
+#include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/instants_option.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
+#include "output/batch.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -208,63 +213,100 @@ portraits::RollPicture picture_of(const Roll& roll, double end) {
   return picture;
 }
 
-double not_negative(const std::string& typed) {
-  const double value = parse_number(typed);
+/// Rejects a motion whose lengths, angles or energies may exceed the largest double.
+/// @param stop  s, when slip and spin end
+/// @param last  s, the last instant, if one is asked for
+void require_finite(const si::Shot& shot, double stop, double rolling_friction, std::optional<double> last = {}) {
+  constexpr double largest = std::numeric_limits<double>::max() / 100;
+  const auto [velocity, angular_velocity] = si::velocities_of(shot.start);
+  // m/s and 1/s; nothing moves or turns faster.
+  const double speed = velocity.stableNorm() + std::max(1.0, shot.ball.radius) * angular_velocity.stableNorm();
+  const double end = stop + (rolling_friction > 0 ? speed / (rolling_friction * shot.environment.gravity) : 0);
+  const double allowed = std::min({std::sqrt(largest / std::max(1.0, shot.ball.mass)),
+                                   std::sqrt(largest) * std::sqrt(speed / end), largest / last.value_or(1)});
+  if (speed == 0 || speed <= allowed) return;
+  throw BadInput(
+      fmt::format("at speeds of {:.2g} (m/s, 1/s) lengths, angles or energies exceed the largest double; up to "
+                  "{:.2g} is allowed",
+                  speed, allowed));
+}
+
+double not_negative(double value) {
   if (value < 0) throw NotAllowed("0 or more is needed");
   return value;
 }
 
 double parse_end(const std::string& typed) {
-  const double end = parse_number(typed);
+  const double end = parse_quantity(typed, "s");
   if (!(end > 0)) throw NotAllowed("a time after the start is needed, in s");
   return end;
+}
+
+/// Reads a vector.
+template <int Size>
+auto vector(const char* names, std::string_view unit = "") {
+  return [=](const std::string& typed) {
+    return Eigen::Matrix<double, Size, 1>(numbers(typed, Size, names, unit).data());
+  };
 }
 
 class RollCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     start_.add_ball(app);
-    velocity_.add(app, "--velocity", "VX,VY", "velocity of the centre in m/s, instead of the start's",
-                  [](const std::string& typed) { return Eigen::Vector2d(numbers(typed, 2, "VX,VY").data()); });
-    angular_velocity_.add(
-        app, "--angular-velocity", "WX,WY,WZ", "angular velocity in rad/s, z up, instead of the start's",
-        [](const std::string& typed) { return Eigen::Vector3d(numbers(typed, 3, "WX,WY,WZ").data()); });
+    app.option_defaults()->group("Velocities (in place of the ball's own start)");
+    velocity_.add(app, "--velocity", "VX,VY", "of the centre, in metres per second",
+                  vector<2>("VX,VY", si::velocity.unit));
+    angular_velocity_.add(app, "--angular-velocity", "WX,WY,WZ", "z up, in radians per second",
+                          vector<3>("WX,WY,WZ", si::angular_velocity.unit));
+    app.option_defaults()->group("Stroke of a cue, along x (in place of the ball's own start)");
+    strike_.add(app, "--strike", "SPEED", "of the cue, in metres per second", quantity("m/s"));
+    tip_.add(app, "--tip", "A,B",
+             fmt::format("where it strikes, to the right of and above the centre as seen along the cue, in radii, at "
+                         "most {} from it (default 0,0)",
+                         si::largest_tip_offset),
+             vector<2>("A,B"));
+    elevation_.add(app, "--elevation", "ANGLE", "of the cue's butt, 0 to below 90 degrees (default 0)",
+                   quantity("deg"));
+    cue_mass_.add(app, "--cue-mass", "MASS", fmt::format("in kilograms (default {})", si::standard_cue_mass),
+                  quantity("kg"));
     law_.add(app);
     integrated_.add(app, "--route", "ROUTE",
                     "reduced: the similarity solution (default), or integrated: the five equations of motion (2.5)",
                     one_of<bool>({{"reduced", false}, {"integrated", true}}, "route"));
-    CLI::Option* at = instants_.add(app, "t", " in s", "");
-    until_.add(app, "--until", "T", "the last of them, in s (default: a little past the stop)", parse_end)
-        ->excludes(at);
-    rolling_below_.add(app, "--rolling-below", "SPEED",
-                       fmt::format("the ball rolls once it slips slower, in m/s (default {})", si::rolling_slip),
-                       not_negative);
+    app.option_defaults()->group("Rolling");
+    rolling_below_.add(
+        app, "--rolling-below", "SPEED",
+        fmt::format("of the slip, in metres per second, below which it rolls (default {})", si::rolling_slip),
+        [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
     rolling_friction_.add(
         app, "--rolling-friction", "U_R",
         "once it rolls, the ball slows down at U_R g and rests (pool 0.005 to 0.015; default 0: it rolls on)",
-        not_negative);
-    strike_.add(app, "--strike", "SPEED",
-                "instead of a start: a cue of this speed in m/s strikes the ball at rest, along x", number);
-    tip_.add(
-        app, "--tip", "A,B",
-        fmt::format(
-            "with --strike: where, to the right of and above the centre as seen along the cue, in radii; at most {} "
-            "from it (default 0,0)",
-            si::largest_tip_offset),
-        [](const std::string& typed) { return Eigen::Vector2d(numbers(typed, 2, "A,B").data()); });
-    elevation_.add(app, "--elevation", "DEG", "with --strike: of the cue's butt, 0 to below 90 degrees (default 0)",
-                   number);
-    cue_mass_.add(app, "--cue-mass", "KG",
-                  fmt::format("with --strike: mass of the cue (default {})", si::standard_cue_mass), number);
+        [](const std::string& typed) { return not_negative(parse_number(typed)); });
+    CLI::Option* at = instants_.add(app, "t", "s", "");
+    until_.add(app, "--until", "TIME", "the last of them, in seconds (default: a little past the stop)", parse_end)
+        ->excludes(at);
+    app.option_defaults()->group("Many starts");
+    batch_.add(app, "--batch", "FILE",
+               "CSV with columns slip,spin or vx,vy,wx,wy,wz in SI units, to which it adds the events; - is standard "
+               "input");
+    app.add_flag("--keep-going", keep_going_, "leave the results of a bad row empty and go on");
+    bulk_.add(app);
     figure_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
+    if (batch_.given()) return run_many();
+    if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
+    bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     const reduction::Law law = law_.read();
     const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
                     rolling_friction_.value_or(0)};
+    const auto* at = instants_.at();
+    const auto last = at != nullptr && at->size() > 0 ? std::optional(at->maxCoeff()) : until_.optional();
+    require_finite(roll.shot, roll.stop_time(), roll.rolling_friction, last);
     const double end = until_.value_or(roll.standard_end());
     if (output.picture()) {
       if (instants_.given()) throw BadInput("a picture needs no --at or --samples: leave them out");
@@ -280,6 +322,62 @@ class RollCommand final : public Verb {
   }
 
  private:
+  ExitStatus run_many() const {
+    const std::string others =
+        names_given({&velocity_, &angular_velocity_, &strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_});
+    if (!others.empty() || start_.overrides_start() || instants_.given()) {
+      throw BadInput(fmt::format("--batch has the starts in the file, and gives events alone: leave out {}",
+                                 !others.empty()     ? others
+                                 : instants_.given() ? "--at, --samples"
+                                                     : "--slip, --spin"));
+    }
+    const Output out = output_.read(1);
+    const reduction::Law law = law_.read();
+    const si::Shot still = start_.read_ball(law);
+    const reduction::Flow flow(si::reduced_system(still, law));
+    OutputFile output(out.path);
+    CsvReader table(batch_.text());
+    const bool general = table.has_column("vx");
+    BatchRequest request{.inputs = {"slip", "spin"},
+                         .results = {"t_rolls", "x_rolls", "y_rolls", "t_spin_ends", "x_spin_ends", "y_spin_ends",
+                                     "slip_length", "turns", "path"},
+                         .compute =
+                             [&](std::span<const double> row, std::span<double> results) {
+                               si::Shot shot = still;
+                               if (general) {
+                                 shot.start = si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}};
+                               } else {
+                                 shot.start = si::SlipAndSpin{row[0], row[1]};
+                               }
+                               si::require_shot(shot);
+                               compute_events(shot, flow, results);
+                             },
+                         .keep_going = keep_going_,
+                         .threads = bulk_.threads(),
+                         .progress = bulk_.progress(out.path)};
+    if (general) request.inputs = {"vx", "vy", "wx", "wy", "wz"};
+    if (rolling_friction_.value_or(0) > 0)
+      request.results.insert(request.results.end(), {"t_rest", "x_rest", "y_rest"});
+    const ExitStatus status = run_batch(table, output, request);
+    output.finish();
+    return status;
+  }
+
+  void compute_events(const si::Shot& shot, const reduction::Flow& flow, std::span<double> results) const {
+    const double friction = rolling_friction_.value_or(0);
+    const si::Course<si::BallMotion> course(shot, {shot, flow}, rolling_below_.value_or(si::rolling_slip), friction);
+    require_finite(shot, course.motion.stop_time(), friction);
+    const auto [rolls, spin_ends, rest, slip_length, turns, path] = events_of(course);
+    auto place = results.begin();
+    const auto add = [&](const si::Event& event) {
+      for (double value : {event.t, event.place.x(), event.place.y()}) *place++ = value;
+    };
+    add(rolls);
+    add(spin_ends);
+    for (double value : {slip_length, turns, path}) *place++ = value;
+    if (rest) add(*rest);
+  }
+
   si::Shot read_shot(const reduction::Law& law) const {
     const si::StartOverride start{velocity_.optional(), angular_velocity_.optional()};
     if ((start.velocity || start.angular_velocity) && start_.overrides_start()) {
@@ -316,13 +414,15 @@ class RollCommand final : public Verb {
   InstantsOption instants_;
   ArgumentOf<double> until_, rolling_below_, rolling_friction_, strike_, elevation_, cue_mass_;
   ArgumentOf<Eigen::Vector2d> tip_;
+  Argument batch_;
+  bool keep_going_ = false;
+  BulkOptions bulk_;
   FigureOptions figure_;
-  OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"))}}};
+  OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"))}, {"a table of motions", {"csv"}}}};
 };
 
-const RegisteredVerb<RollCommand> roll_verb(
-    "roll", "The whole motion of a ball: t,x,y,vx,vy,wx,wy,wz,slip,energy",
-    "contensou roll --ball pool --velocity 1,0 --angular-velocity 40,35,-50 --format text");
+const RegisteredVerb<RollCommand> roll_verb("roll", "The whole motion of a ball: t,x,y,vx,vy,wx,wy,wz,slip,energy",
+                                            "contensou roll --ball gel --slip 0.5 --spin 300 --format text");
 
 }  // namespace
 

@@ -1,11 +1,15 @@
+#include <fmt/format.h>
+
+#include "contensou/si/bridge.hpp"
 #include "options/bulk_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
+#include "output/batch.hpp"
 #include "verb.hpp"
 #include "verbs/stop_answer.hpp"
-#include "verbs/stop_batch.hpp"
+#include "verbs/stop_times.hpp"
 
 namespace contensou::program {
 
@@ -17,17 +21,18 @@ class StopCommand final : public Verb {
     start_.add(app);
     law_.add(app);
     route_.add(app);
-    app.add_flag("--estimate", estimate_, "the estimates for small mu beside the stop time, with their errors");
+    app.add_flag("--estimate", estimate_, "beside it the estimates for small mu, with their errors");
+    app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
-               "CSV with columns mu,u0,v0, to which it adds tau_stop; with --ball slip,spin (m/s, rad/s) and t_stop "
-               "(s); - is standard input");
-    app.add_flag("--keep-going", keep_going_, "with --batch: leave tau_stop of a bad row empty and go on");
+               "CSV with columns mu,u0,v0, to which it adds tau_stop; with --ball columns slip,spin in m/s, rad/s and "
+               "t_stop in s; - is standard input");
+    app.add_flag("--keep-going", keep_going_, "leave the result of a bad row empty and go on");
     bulk_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
-    if (batch_.given()) return run_batch();
+    if (batch_.given()) return run_many();
     if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
@@ -37,7 +42,12 @@ class StopCommand final : public Verb {
   }
 
  private:
-  ExitStatus run_batch() const {
+  static double sliding(const char* name, double speed) {
+    if (speed >= 0) return speed;
+    throw BadInput(fmt::format("{0}: {0} >= 0 is required, got {1}", name, speed));
+  }
+
+  ExitStatus run_many() const {
     const bool has_ball = start_.ball_given();
     if (has_ball ? start_.overrides_start() : start_.given()) {
       throw BadInput("--batch and " + start_.given_names() + " exclude each other: the starts are in the file");
@@ -45,16 +55,32 @@ class StopCommand final : public Verb {
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.body());
-    const BatchRequest request{law,
-                               start_.body(),
-                               has_ball ? std::optional(start_.read(law).shot.value()) : std::nullopt,
-                               route_,
-                               keep_going_,
-                               bulk_.threads(),
-                               bulk_.progress(out.path)};
+    StopTimes stop_times(law, start_.body().inertia, route_);
+    BatchRequest request{.inputs = {"mu", "u0", "v0"},
+                         .results = {"tau_stop"},
+                         .compute =
+                             [&](std::span<const double> row, std::span<double> results) {
+                               if (const std::string wrong = start_.body().complaint(row[0]); !wrong.empty()) {
+                                 throw BadInput(fmt::format("mu: {}, got {}", wrong, row[0]));
+                               }
+                               results[0] = stop_times(row[0], {.u = row[1], .v = sliding("v0", row[2])});
+                             },
+                         .keep_going = keep_going_,
+                         .threads = bulk_.threads(),
+                         .progress = bulk_.progress(out.path)};
+    if (has_ball) {
+      const si::Shot shot = start_.read(law).shot.value();
+      request.inputs = {"spin", "slip"};
+      request.results = {"t_stop"};
+      request.compute = [&, shot, mu = si::patch_ratio(shot, law)](std::span<const double> row,
+                                                                   std::span<double> results) {
+        const reduction::State start{.u = row[0] * shot.ball.radius, .v = sliding("slip", row[1])};
+        results[0] = si::seconds(shot, stop_times(mu, start));
+      };
+    }
     OutputFile output(out.path);  // before the input, which may be long in coming
     CsvReader table(batch_.text());
-    const ExitStatus status = stop_batch(table, output, request);
+    const ExitStatus status = run_batch(table, output, request);
     output.finish();
     return status;
   }

@@ -204,7 +204,7 @@ class Sweep {
 /// Writes the stop times of all starts in the memory of a few blocks of them; the bytes do not depend on the number of
 /// threads.
 ///   npy  NumPy's format 1.0: float64, shape (v0, u0), or (mu, v0, u0) if mu is a range
-///   csv  columns mu,u0,v0,tau_stop
+///   csv  columns mu,u0,v0,tau_stop; of a ball spin,slip,t_stop
 ///
 /// @param output  not finished here
 /// @throws BadInput     if the array would be larger than any file
@@ -224,16 +224,16 @@ void sweep(const SweepRequest& request, OutputFile& output) {
 }
 
 /// MIN:MAX:N, or a number alone.
-Range parse_range(const std::string& typed) {
-  const std::size_t first = typed.find(':');
-  if (first == std::string::npos) return {.least = parse_number(typed), .most = parse_number(typed)};
-  const std::size_t second = typed.find(':', first + 1);
-  if (second == std::string::npos || typed.find(':', second + 1) != std::string::npos) {
+/// @param unit  as parse_quantity
+Range parse_range(const std::string& typed, std::string_view unit) {
+  const std::vector<std::string> parts = split(typed, ':');
+  if (parts.size() == 1) return {.least = parse_quantity(typed, unit), .most = parse_quantity(typed, unit)};
+  if (parts.size() != 3) {
     throw BadInput(fmt::format("{} is not a range; write it MIN:MAX:N, as in 0:2:201", quotation(typed)));
   }
-  const Range range{.least = parse_number(typed.substr(0, first)),
-                    .most = parse_number(typed.substr(first + 1, second - first - 1)),
-                    .count = parse_integer(typed.substr(second + 1), 1, std::numeric_limits<long>::max())};
+  const std::vector<double> ends = parse_quantities({parts[0], parts[1]}, unit);
+  const Range range{
+      .least = ends[0], .most = ends[1], .count = parse_integer(parts[2], 1, std::numeric_limits<long>::max())};
   const auto& [least, most, count, in_ratios] = range;
   if (least > most) throw BadInput(fmt::format("MIN = {} exceeds MAX = {}: put the smaller one first", least, most));
   if (count == 1 && least != most) {
@@ -249,24 +249,26 @@ Range parse_range(const std::string& typed) {
 class SweepCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    const auto read = [](const std::string& typed) {
-      try {
-        return parse_range(typed);
-      } catch (const BadInput& error) {
-        throw NotAllowed(error.what());
-      }
+    const auto read = [](std::string_view unit) {
+      return [=](const std::string& typed) {
+        try {
+          return parse_range(typed, unit);
+        } catch (const BadInput& error) {
+          throw NotAllowed(error.what());
+        }
+      };
     };
-    mu_.add(app, "--mu", "M|MIN:MAX:N", "patch ratio, 0 < M <= 1, or N values of it", read);
-    u0_.add(app, "--u0", "MIN:MAX:N", "N values of the pivoting R omega_z at the start, MIN and MAX among them", read);
-    v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed at the start, MIN >= 0", read);
-    ball_.add_ball(app, "instead of these three: a ball in SI units, with --slip and --spin; the stop times are in s",
-                   false);
-    spin_.add(app, "--spin", "MIN:MAX:N", "with --ball: N values of the spin about the vertical, in rad/s", read);
-    slip_.add(app, "--slip", "MIN:MAX:N", "with --ball: N values of the sliding speed of the contact point, in m/s",
-              read);
+    app.option_defaults()->group("Start");
+    mu_.add(app, "--mu", "M|MIN:MAX:N", "patch radius over R, 0 < M <= 1, or N values of it", read(""));
+    u0_.add(app, "--u0", "MIN:MAX:N", "N values of the pivoting R omega_z, MIN and MAX among them", read(""));
+    v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed, MIN >= 0", read(""));
     app.add_flag("--log", log_, "values in equal ratios instead of equal steps; MIN > 0");
-    law_.add(app);
     body_.add_body(app);
+    ball_.add_ball(app, "instead of these: a ball in SI units, with --spin and --slip; times in seconds", false);
+    spin_.add(app, "--spin", "MIN:MAX:N", "N values of the spin about the vertical, in radians per second",
+              read(si::spin.unit));
+    slip_.add(app, "--slip", "MIN:MAX:N", "N values of the sliding speed, in metres per second", read(si::slip.unit));
+    law_.add(app);
     bulk_.add(app);
     output_.add(app);
   }
@@ -311,16 +313,19 @@ class SweepCommand final : public Verb {
     return range;
   }
 
+  Range speeds_of(const ArgumentOf<Range>& argument) const {
+    const Range range = range_of(argument);
+    if (range.least < 0) argument.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
+    return range;
+  }
+
   SweepGrid read_grid_of_ball(const reduction::Law& law) const {
     if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument()}); !others.empty()) {
       throw BadInput(fmt::format("--ball and {} exclude each other: with --ball, use --spin and --slip", others));
     }
     const si::Shot shot = ball_.read_ball(law);
     const double mu = si::patch_ratio(shot, law);
-    const SweepGrid grid{
-        .mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = range_of(slip_), .ball = shot};
-    if (grid.v0.least < 0) slip_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
-    return grid;
+    return {.mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = speeds_of(slip_), .ball = shot};
   }
 
   SweepGrid read_grid(const Body& body) const {
@@ -333,11 +338,10 @@ class SweepCommand final : public Verb {
     const SweepGrid grid{.mu = mu_.given() ? range_of(mu_) : Range{*body.patch_ratio, *body.patch_ratio},
                          .mu_is_range = mu_.given() && mu_.text().find(':') != std::string::npos,
                          .u0 = range_of(u0_),
-                         .v0 = range_of(v0_)};
+                         .v0 = speeds_of(v0_)};
     for (double mu : {grid.mu.least, grid.mu.most}) {
       if (const std::string wrong = body.complaint(mu); !wrong.empty()) mu_.reject(wrong);
     }
-    if (grid.v0.least < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
     return grid;
   }
 

@@ -11,6 +11,7 @@ namespace {
 class TerminalCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
+    app.option_defaults()->group("System");
     body_.add_mu(app);
     law_.add(app);
     body_.add_body(app);

@@ -20,18 +20,12 @@ struct Window {
 };
 
 /// Which axes. A new view is an entry here, a function in views/ and a row in views/portrait_views.hpp.
-enum class View {
-  uv,          ///< the paper's plane (u, v)
-  patch,       ///< (mu u, v): the rim speed of pivoting and the speed of sliding, on axes that compare
-  log,         ///< the same, both logarithmic
-  similarity,  ///< (q, p) and (ln k, p): orbits are translates of one curve
-  blowup,      ///< the origin blown up: to a half-circle, and in the chart (u, k)
-  disc,        ///< the Poincare disc: the whole half-plane, infinity included
-  time,        ///< u, v and k against tau/tau*
-  pair,        ///< the plane beside (u, ln k)
-};
+enum class View { uv, patch, log, similarity, blowup, disc, time, pair };
 
 std::string_view name(View view);
+
+/// What is drawn against what, in words.
+std::string_view axes(View view);
 std::optional<View> find_view(std::string_view name);
 
 /// In the order in which they are listed.

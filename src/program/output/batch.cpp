@@ -1,4 +1,4 @@
-#include "verbs/stop_batch.hpp"
+#include "output/batch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,9 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "contensou/si/bridge.hpp"
 #include "output/answer.hpp"
 #include "output/ordered_work.hpp"
 #include "output/progress.hpp"
-#include "verbs/stop_times.hpp"
 
 namespace contensou::program {
 
@@ -24,40 +22,28 @@ namespace {
 /// Some rows of the table, and what becomes of them.
 struct Piece {
   CsvBlock rows;
+  std::vector<double> values, results;  ///< of one row
   fmt::memory_buffer lines;
   std::string complaints;
   long overflows = 0;
-  long first_overflow = 0;  ///< its line
+  std::string first_overflow;  ///< what is said of it
   ExitStatus status = ExitStatus::done;
   std::exception_ptr fault;  ///< of the first row that has no line
   double fraction_read = 0;  ///< of the table, with these rows; NaN if it has no known length
 };
 
-/// Of mu, but for a ball, of pivoting and of sliding.
-std::vector<CsvColumn> columns_of_starts(const CsvReader& table, bool is_ball) {
-  const auto names = is_ball ? std::vector{"spin", "slip"} : std::vector{"mu", "u0", "v0"};
-  std::vector<CsvColumn> columns;
-  for (const char* name : names) columns.push_back(table.column(name));
-  return columns;
-}
-
 class Batch {
  public:
   Batch(CsvReader& table, OutputFile& output, const BatchRequest& request)
-      : table_(table),
-        output_(output),
-        request_(request),
-        columns_(columns_of_starts(table, request.ball.has_value())),
-        ball_mu_(request.ball ? si::patch_ratio(*request.ball, request.law) : 0),
-        stop_times_(request.law, request.body.inertia, request.route),
-        progress_("rows", request.progress) {
-    const std::string result = request.ball ? "t_stop" : "tau_stop";
-    if (table.has_column(result)) {
-      throw table.complaint(table.header_line(),
-                            fmt::format("the input already has a column '{}': rename or remove it", result));
-    }
+      : table_(table), output_(output), request_(request), progress_("rows", request.progress) {
     std::vector<std::string> names = table.names();
-    names.push_back(result);
+    for (const std::string& name : request.inputs) columns_.push_back(table.column(name));
+    for (const std::string& name : request.results) {
+      names.push_back(name);
+      if (!table.has_column(name)) continue;
+      throw table.complaint(table.header_line(),
+                            fmt::format("the input already has a column '{}': rename or remove it", name));
+    }
     header_ = csv_line(names);
   }
 
@@ -68,10 +54,10 @@ class Batch {
     output_.write(header_);
     progress_.finish(static_cast<double>(rows_));
     if (overflows_ > 0) {
-      const auto note = table_.complaint(
-          first_overflow_, fmt::format("{} exceeds the largest double and is written as inf ({} rows in all)",
-                                       request_.ball ? "t_stop" : "tau_stop", overflows_));
-      std::fprintf(stderr, "%s\n", note.what());
+      std::fputs(fmt::format("{} exceeds the largest double and is written as inf ({} rows in all)\n", first_overflow_,
+                             overflows_)
+                     .c_str(),
+                 stderr);
     }
     return status_;
   }
@@ -114,10 +100,15 @@ class Batch {
   /// @throws BadLine, std::runtime_error  beginning with the row's place
   void add(const CsvRow& row, Piece& piece) {
     try {
-      const double tau = stop_time(row);
-      if (std::isinf(tau) && piece.overflows++ == 0) piece.first_overflow = row.line();
+      compute(row, piece);
+      const auto infinite = std::ranges::find_if(piece.results, [](double x) { return std::isinf(x); });
+      if (infinite != piece.results.end() && piece.overflows++ == 0) {
+        const auto& name = request_.results[static_cast<std::size_t>(infinite - piece.results.begin())];
+        piece.first_overflow = table_.complaint(row.line(), name).what();
+      }
       piece.lines.append(row.text());
-      fmt::format_to(fmt::appender(piece.lines), FMT_COMPILE(",{}\n"), tau);
+      for (double result : piece.results) fmt::format_to(fmt::appender(piece.lines), FMT_COMPILE(",{}"), result);
+      piece.lines.push_back('\n');
     } catch (const BadLine& error) {
       keep_without_result(row, error, ExitStatus::bad_input, piece);
     } catch (const std::runtime_error& error) {
@@ -128,28 +119,20 @@ class Batch {
   void keep_without_result(const CsvRow& row, const std::exception& error, ExitStatus status, Piece& piece) const {
     if (!request_.keep_going) throw;
     piece.complaints.append(error.what()) += '\n';
-    std::vector<std::string> fields(table_.names().size() + 1);
+    std::vector<std::string> fields(table_.names().size() + request_.results.size());
     for (std::size_t i = 0; i < std::min(row.size(), table_.names().size()); ++i) fields[i] = row[i];
     piece.lines.append(csv_line(fields));
     piece.status = std::max(piece.status, status);
   }
 
-  double stop_time(const CsvRow& row) {
+  /// @throws BadLine, std::runtime_error  beginning with the row's place
+  void compute(const CsvRow& row, Piece& piece) const {
     table_.require_complete(row);
-    const bool is_ball = request_.ball.has_value();
-    const double mu = is_ball ? ball_mu_ : table_.number(row, columns_.front());
-    const double radius = is_ball ? request_.ball->ball.radius : 1;
-    const reduction::State start{.u = radius * table_.number(row, columns_.rbegin()[1]),
-                                 .v = table_.number(row, columns_.back())};
-    if (const std::string wrong = request_.body.complaint(mu); !wrong.empty()) {
-      throw table_.complaint(row.line(), fmt::format("mu: {}, got {}", wrong, mu));
-    }
-    if (start.v < 0)
-      throw table_.complaint(row.line(),
-                             fmt::format("{0}: {0} >= 0 is required, got {1}", is_ball ? "slip" : "v0", start.v));
+    piece.values.clear();
+    for (const CsvColumn& column : columns_) piece.values.push_back(table_.number(row, column));
+    piece.results.resize(request_.results.size());
     try {
-      const double tau = stop_times_(mu, start);
-      return is_ball ? si::seconds(*request_.ball, tau) : tau;
+      request_.compute(piece.values, piece.results);
     } catch (const std::domain_error& error) {
       throw table_.complaint(row.line(), error.what());
     } catch (const std::runtime_error& error) {
@@ -161,19 +144,17 @@ class Batch {
   OutputFile& output_;
   const BatchRequest& request_;
   std::vector<CsvColumn> columns_;
-  double ball_mu_;
-  StopTimes stop_times_;
   Progress progress_;
   std::string header_;  ///< is written with the first rows
   std::size_t rows_ = 0;
   long overflows_ = 0;
-  long first_overflow_ = 0;
+  std::string first_overflow_;
   ExitStatus status_ = ExitStatus::done;
 };
 
 }  // namespace
 
-ExitStatus stop_batch(CsvReader& table, OutputFile& output, const BatchRequest& request) {
+ExitStatus run_batch(CsvReader& table, OutputFile& output, const BatchRequest& request) {
   return Batch(table, output, request).run();
 }
 

@@ -1,0 +1,86 @@
+#include "output/help.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "field_table.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+constexpr std::size_t width = 80;
+constexpr std::size_t margin = 22;  ///< where meanings begin
+
+/// @param column  where the first line begins
+/// @param indent  where the others do
+std::string wrapped(std::string_view text, std::size_t column, std::size_t indent) {
+  std::string lines;
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    const auto bytes_more = std::ranges::count_if(word, [](char c) { return (c & 0xC0) == 0x80; });  // of UTF-8
+    const std::size_t size = word.size() - static_cast<std::size_t>(bytes_more);
+    if (!lines.empty()) {
+      const bool fits = column + 1 + size <= width;
+      lines += fits ? " " : fmt::format("\n{:{}}", "", indent);
+      column = fits ? column + 1 : indent;
+    }
+    lines += word;
+    column += size;
+  }
+  return lines + "\n";
+}
+
+}  // namespace
+
+std::string help_paragraph(std::string_view text) { return wrapped(text, 0, 0); }
+
+std::string help_entry(std::string_view name, std::string_view meaning) {
+  const std::string separator = name.size() + 4 > margin ? fmt::format("\n{:{}}", "", margin) : "";
+  return fmt::format("  {:<{}}{}{}", name, separator.empty() ? margin - 2 : 0, separator,
+                     wrapped(meaning, margin, margin));
+}
+
+std::string help_on_fields(const std::string& verb) {
+  std::string text, subject;
+  std::istringstream rows(field_table);
+  for (std::string row; std::getline(rows, row);) {
+    std::erase(row, '`');
+    std::array<std::string, 5> cells;  // the first is empty: it is what stands before the first bar
+    std::istringstream line(row);
+    for (std::string& cell : cells) std::getline(line, cell, '|');
+    for (std::string& cell : cells) CLI::detail::trim(cell);
+    const auto& [none, of, fields, unit, meaning] = cells;
+    if (!of.empty()) subject = of;
+    if (subject != verb && !subject.starts_with(verb + " ")) continue;
+    if (!of.empty()) text += of == verb ? "\nColumns and fields:\n" : fmt::format("\nColumns of {}:\n", of);
+    text += help_entry(fields, unit.empty() ? meaning : fmt::format("{} ({})", meaning, unit));
+  }
+  return text;
+}
+
+HelpFormatter::HelpFormatter() {
+  label("SUBCOMMAND", "VERB");
+  label("Positionals", "Arguments");
+}
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+  std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+  return CLI::detail::rtrim(text = CLI::detail::find_and_replace(text, "\n\n\n", "\n\n")) + "\n";
+}
+
+std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
+  std::string name = make_option_name(option, is_positional);
+  if (const auto comma = name.find(','); comma != std::string::npos) name.insert(comma + 1, " ");
+  if (!is_positional && option->get_type_size() != 0) name += " " + option->get_type_name();
+  return help_entry(name, option->get_description());
+}
+
+std::string HelpFormatter::make_subcommand(const CLI::App* verb) const {
+  return help_entry(verb->get_name(), verb->get_description());
+}
+
+}  // namespace contensou::program

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+namespace contensou::program {
+
+/// Text in lines of at most 80 columns.
+std::string help_paragraph(std::string_view text);
+
+/// A name and, beside or below it, what it means, in lines of at most 80 columns.
+std::string help_entry(std::string_view name, std::string_view meaning);
+
+/// The columns and fields that a verb writes, from the table in src/README.md; empty if it has none.
+std::string help_on_fields(const std::string& verb);
+
+/// How CLI11 writes the help of a verb.
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  HelpFormatter();
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+  std::string make_option(const CLI::Option* option, bool is_positional) const override;
+  std::string make_subcommand(const CLI::App* verb) const override;
+};
+
+}  // namespace contensou::program

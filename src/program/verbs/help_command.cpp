@@ -1,0 +1,116 @@
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/si/quantity.hpp"
+#include "options/law_option.hpp"
+#include "output/answer.hpp"
+#include "output/help.hpp"
+#include "output/output.hpp"
+#include "verb.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+std::string laws() {
+  std::string text = help_paragraph(
+      "Laws of friction (--law), by their pressure at rho, the distance from the centre "
+      "of the patch over its radius:");
+  for (const auto& [name, meaning] : law_forms()) text += help_entry(name, meaning);
+  return text;
+}
+
+std::string views() {
+  std::string text = help_paragraph(
+      "Views of a portrait (--view). u = R omega_z is the pivoting, v the sliding speed, "
+      "k = v/(mu |u|):");
+  for (portraits::View view : portraits::views()) text += help_entry(name(view), axes(view));
+  return text;
+}
+
+std::string units() {
+  std::string text = help_paragraph(
+      "Options in SI units take a unit behind the number, as in --slip \"2 m/s\", --spin 300rpm, --radius \"2.25 in\"; "
+      "one behind a list or a range is of all its numbers. A plain number has the first of its kind. In run files such "
+      "values stand in quotes. Tables have plain numbers.");
+  for (const si::Dimension& dimension : si::dimensions()) text += help_entry(dimension.name, units_of(dimension));
+  return text + "\n" +
+         help_paragraph(
+             "mu, u0 and v0 have no unit here: mu is the radius of the patch over that of the ball, u0 and v0 "
+             "are in any one unit of speed, and times are the paper's tau = (3 pi/2) f g t in that unit.");
+}
+
+std::string files() {
+  std::string text = help_paragraph("Run files (--ball FILE.toml), such as 'contensou balls pool' prints:");
+  const std::vector<std::pair<const char*, std::vector<std::pair<si::Quantity, const char*>>>> sections{
+      {"[ball]", {{si::mass, ""}, {si::radius, "; and name, a text in quotes"}}},
+      {"[contact]", {{si::friction, ""}, {si::patch_radius, "; or"}, {si::spin_deceleration, "; or"}}},
+      {"[contact.hertz]", {{si::youngs_modulus, ", as [E1, E2]"}, {si::poisson_ratio, ", as [n1, n2]"}}},
+      {"[start]",
+       {{si::slip, ""},
+        {si::spin, "; or"},
+        {si::velocity, ", as [vx, vy]"},
+        {si::angular_velocity, ", as [wx, wy, wz]"}}},
+      {"[environment]", {{si::gravity, " (default 9.80665)"}}}};
+  for (const auto& [section, quantities] : sections) {
+    text += fmt::format("{}\n", section);
+    for (const auto& [quantity, more] : quantities) {
+      text += help_entry(quantity.name, fmt::format("{}{}{}{}", quantity.meaning, quantity.unit.empty() ? "" : ", in ",
+                                                    quantity.unit, more));
+    }
+  }
+  return text + "\n" +
+         help_paragraph(
+             "Tables (--batch, --at, --law FILE.csv): CSV with one header line; # begins a comment; - is "
+             "standard input. 'contensou help VERB' names the columns that it reads and writes.") +
+         "\n" +
+         help_paragraph(
+             "-o FILE is written whole or not at all, and replaces an older one; - is standard output. Its "
+             "ending decides the format, which --format names where there is none. csv and json have all "
+             "digits; text (ending txt) has --digits. Pictures are svg, pdf, png, eps, tex (pgfplots) and gp "
+             "(a gnuplot script with its data).");
+}
+
+const Choices<std::string (*)()> topics{{"laws", laws}, {"views", views}, {"units", units}, {"files", files}};
+
+class HelpCommand final : public Verb {
+ public:
+  void add_options(CLI::App& app) override {
+    root_ = app.get_parent();
+    topic_.add(app, "TOPIC", "", "laws, views, units, files, or a verb (default: all verbs)",
+               [this](const std::string& typed) { return text_on(typed); });
+  }
+
+  ExitStatus run() override {
+    write_output("-", topic_.given() ? *topic_ : root_->get_formatter()->make_help(root_, "contensou", {}));
+    return ExitStatus::done;
+  }
+
+ private:
+  std::string text_on(const std::string& topic) const {
+    std::vector<std::string> names;
+    for (const auto& [name, text] : topics) {
+      if (name == topic) return text();
+      names.push_back(name);
+    }
+    for (const CLI::App* verb : root_->get_subcommands([](const CLI::App*) { return true; })) {
+      if (verb->get_name() == topic) return verb->help("contensou");
+      names.push_back(verb->get_name());
+    }
+    throw no_such("topic", topic, names);
+  }
+
+  const CLI::App* root_ = nullptr;
+  ArgumentOf<std::string> topic_;
+};
+
+const RegisteredVerb<HelpCommand> help_verb("help", "What an option takes, or the options of a verb",
+                                            "contensou help units");
+
+}  // namespace
+
+}  // namespace contensou::program
