@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -124,6 +126,26 @@ TEST_CASE("other names", "[cli]") {
   same("stop --ball pool --law hertz", "stop --ball pool --law exact");
   same("stop --body puck --u0 1 --v0 1", "stop --body disc --u0 1 --v0 1");
   same("portrait --mu 1 --color none -o - --format gp", "portrait --mu 1 --colour none -o - --format gp");
+}
+
+TEST_CASE("completion", "[cli]") {
+  const auto completed = [](const std::string& line) {
+    const TemporaryDirectory scratch;
+    const auto folder = std::filesystem::path(CONTENSOU_README).parent_path() / "src/program/manners";
+    write_file(scratch.file("script"),
+               "source " + (folder / "contensou").string() + "\nCOMP_WORDS=(" + CONTENSOU_PROGRAM + " " + line +
+                   ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_contensou\necho ${COMPREPLY[@]} >" +
+                   scratch.file("out"));
+    REQUIRE(std::system(("bash '" + scratch.file("script") + "'").c_str()) == 0);
+    return read_file(scratch.file("out"));
+  };
+  CHECK(completed("st") == "stop\n");
+  CHECK(completed("roll --sp") == "--spin-deceleration --spin\n");
+  CHECK(completed("stop --law p") == "pade punch paraboloid potential8\n");
+  CHECK(completed("portrait --view s") == "similarity\n");
+  CHECK(completed("stop --ball p") == "pool\n");
+  CHECK(completed("help un") == "units\n");
+  CHECK(completed("stop --batch x") == "\n");
 }
 
 TEST_CASE("the examples of the help work", "[cli]") {

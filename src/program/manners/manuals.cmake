@@ -1,0 +1,26 @@
+# Man pages from the program's own help, by help2man:
+#   cmake -D CONTENSOU=PROGRAM -D HELP2MAN=PROGRAM -D VERBS=NAMES -D OUT=FOLDER -P manuals.cmake
+function(contensou_help topic result)
+  execute_process(COMMAND ${CONTENSOU} help ${topic} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+foreach(verb IN ITEMS "" LISTS VERBS)
+  string(REGEX REPLACE "-$" "" page "contensou-${verb}")
+  contensou_help("${verb}" help)
+  string(REGEX MATCH "^[^\n]*" summary "${help}")
+  set(include "[name]\n${page} \\- ${summary}\n")
+  if(verb)
+    string(APPEND include "[see also]\n.BR contensou (1)\n")
+  else()
+    foreach(topic IN ITEMS laws views units files)
+      contensou_help(${topic} text)
+      string(REPLACE "\n" "\n\\&" text "\n${text}")  # no line begins with a dot or an apostrophe
+      string(APPEND include "[${topic}]\n.nf${text}\n.fi\n")
+    endforeach()
+  endif()
+  file(WRITE ${OUT}/include "${include}")
+  execute_process(COMMAND ${HELP2MAN} --no-info --include=${OUT}/include --output=${OUT}/${page}.1 "--help-option=help ${verb}"
+    ${CONTENSOU} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+file(REMOVE ${OUT}/include)
