@@ -62,7 +62,11 @@ Law law_of_name(const std::string& name) {
   if (auto law = reduction::find_law(name)) return *law;
   std::vector<std::pair<std::string, Law>> laws;
   for (const Law& law : reduction::named_laws()) laws.emplace_back(law.name(), law);
-  return one_of("law", "laws", laws, name, {"pressure:P"});
+  std::vector<std::string> families;
+  for (const auto& family : reduction::law_families()) {
+    families.push_back(fmt::format("{}:{}", family.name, family.letter));
+  }
+  return one_of("law", "laws", laws, name, families);
 }
 
 Eigen::ArrayXd column(const Numbers& values) { return Eigen::Map<const Eigen::ArrayXd>(values.data(), values.size()); }

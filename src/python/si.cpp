@@ -151,10 +151,10 @@ void bind_si(py::module_& module) {
   bind_course<si::BallMotion, Flow>(module, "BallMotion");
   bind_course<si::UncoupledMotion, Law>(module, "UncoupledMotion");
 
-  module.def("balls", [] {
-    py::dict balls;
-    for (const si::CatalogueEntry& entry : si::catalogue()) balls[entry.name.c_str()] = fields_of(entry.shot);
-    return balls;
+  module.def("ball", [](const std::string& name) {
+    std::vector<std::pair<std::string, si::Shot>> balls;
+    for (const si::CatalogueEntry& entry : si::catalogue()) balls.emplace_back(entry.name, entry.shot);
+    return fields_of(one_of("ball", "balls", balls, name));
   });
   module.def("parse_run_file", [](const std::string& text, const std::string& source) {
     return fields_of(si::parse_run_file(text, source));

@@ -44,8 +44,11 @@ def test_a_roll_is_the_programs(given, options):
 
 @pytest.mark.skipif(not PROGRAM, reason="the program is not built")
 def test_the_balls_are_the_programs(tmp_path):
-    for name in ("pool", "steel", "bowling", "rubber", "gel"):
-        ball = getattr(ct.Ball, name)()
+    names = [ball["name"] for ball in program("balls")["balls"]]
+    assert len(names) >= 5
+    for name in names:
+        ball = ct.Ball.named(name)
+        assert not hasattr(ct.Ball, name) or getattr(ct.Ball, name)() == ball
         subprocess.run([PROGRAM, "balls", name, "-o", str(tmp_path / "mine.toml")], check=True)
         assert ct.Ball.read(tmp_path / "mine.toml") == ball
         assert ball.roll().stop_time == program("stop", "--ball", name)["t_stop"]
@@ -122,6 +125,7 @@ def test_a_ball_changes():
     (lambda: ct.Ball(mass=0, radius=1, friction=1, patch_radius=0.1), "mass must be positive|mass"),
     (lambda: ct.Ball(mass=1, radius=1, friction=1), "a ball's patch is given by one of patch_radius"),
     (lambda: ct.Ball(mass=1, radius=1, friction=1, patch_radius=0.1, spin_deceleration=1), "given by one of"),
+    (lambda: ct.Ball.named("pol"), r"no such ball 'pol' \(did you mean 'pool'\?\); balls: pool, steel"),
     (lambda: ct.Ball.pool(patch_radius=1), "at most the ball's radius"),
     (lambda: ct.Ball.pool().roll(strike=1, tip=(0.6, 0)), "the tip slips off the ball"),
     (lambda: ct.Ball.pool().roll(strike=1, spin=0), "strike is a start of its own"),

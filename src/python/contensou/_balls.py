@@ -68,29 +68,34 @@ class Ball:
         return cls._of(_core.parse_run_file(Path(path).read_text(encoding="utf-8"), str(path)), changes)
 
     @classmethod
+    def named(cls, name: str, **changes: Any) -> Ball:
+        """The ball that `contensou balls` lists by that name."""
+        return cls._of(_core.ball(name), changes)
+
+    @classmethod
     def pool(cls, **changes: Any) -> Ball:
         """A pool ball on cloth."""
-        return cls._of(_core.balls()["pool"], changes)
+        return cls.named("pool", **changes)
 
     @classmethod
     def steel(cls, **changes: Any) -> Ball:
         """A steel ball of 20 mm on glass."""
-        return cls._of(_core.balls()["steel"], changes)
+        return cls.named("steel", **changes)
 
     @classmethod
     def bowling(cls, **changes: Any) -> Ball:
         """A bowling ball on a dry lane."""
-        return cls._of(_core.balls()["bowling"], changes)
+        return cls.named("bowling", **changes)
 
     @classmethod
     def rubber(cls, **changes: Any) -> Ball:
         """A rubber ball on steel."""
-        return cls._of(_core.balls()["rubber"], changes)
+        return cls.named("rubber", **changes)
 
     @classmethod
     def gel(cls, **changes: Any) -> Ball:
         """A gel ball on a rigid plane, where sliding and spinning are seen to be coupled."""
-        return cls._of(_core.balls()["gel"], changes)
+        return cls.named("gel", **changes)
 
     def mu(self, law: LawLike = "exact") -> float:
         """Patch radius over radius."""

@@ -20,7 +20,7 @@ class Law:
     """A friction law; `law` makes one. Called with k = v/(mu |u|), of any shape, it gives (force, moment): Phi, the
     force over f N, and Psi, the moment over f N times the patch radius, each of the shape of k.
 
-    name:             exact, pade, uniform, punch, ring, pressure:P, potential8, or that of a law of one's own
+    name:             one of `contensou law`'s, such as exact, pade, uniform, pressure:1.5, or that of a law of one's own
     function:         (sliding, pivoting) -> (force, moment), two speeds >= 0 in one unit, v and mu |u|; it depends on
                       their ratio alone. Raises what it likes: that comes through unchanged
     rho, pressure:    instead, the pressure of the patch as a table: rho from 0 at the centre to 1 at the edge
