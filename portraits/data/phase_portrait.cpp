@@ -31,9 +31,10 @@ Window default_window(const ReducedSystem& system, View view, const std::vector<
   for (const State& state : shown) far = {std::max(far.u, std::abs(state.u)), std::max(far.v, state.v)};
   constexpr double margin = 1.2;
   if (view == View::patch || view == View::log || view == View::blowup) {
-    // Both axes are speeds at the patch.
+    // Both axes are speeds at the patch; of the blow-up's chart one is u.
     const double side = margin * std::max(system.mu() * far.u, far.v);
-    return side > 0 ? Window{side / system.mu(), side} : Window{1, system.mu()};
+    if (side > 0) return {view == View::blowup && far.u > 0 ? margin * far.u : side / system.mu(), side};
+    return {1, system.mu()};
   }
   if (far.u != 0 && far.v != 0) return {margin * far.u, margin * far.v};
   if (far.u != 0 || far.v != 0) return {margin * std::max(far.u, far.v), margin * std::max(far.u, far.v)};

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iterator>
 #include <string_view>
 #include <vector>
@@ -16,8 +17,15 @@ using Json = nlohmann::ordered_json;
 
 std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
+/// v/(mu |u|), by its logarithm, which does not underflow.
+std::vector<double> ratios(const PortraitOrbit& orbit) { return list(orbit.ln_k.exp()); }
+
 Json json_of(const PortraitOrbit& orbit) {
-  return {{"u", list(orbit.u)}, {"v", list(orbit.v)}, {"ln_v", list(orbit.ln_v)}, {"tau_left", list(orbit.tau_left)}};
+  return {{"u", list(orbit.u)},
+          {"v", list(orbit.v)},
+          {"ln_v", list(orbit.ln_v)},
+          {"k", ratios(orbit)},
+          {"tau_left", list(orbit.tau_left)}};
 }
 
 Json json_of(const Isochrone& isochrone) {
@@ -31,31 +39,24 @@ Json json_of(const std::vector<Curve>& curves) {
   return json;
 }
 
-double tau_at(const PortraitOrbit& orbit, Eigen::Index row) { return orbit.tau_left[row]; }
-double tau_at(const Isochrone& isochrone, Eigen::Index) { return isochrone.tau_stop; }
-
-template <class Curve>
-void append(std::string& csv, std::string_view kind, const std::vector<Curve>& curves) {
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    for (Eigen::Index j = 0; j < curves[i].u.size(); ++j) {
-      fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}\n", kind, i, curves[i].u[j], curves[i].v[j],
-                     tau_at(curves[i], j));
-    }
-  }
+Json origin_of(const PhasePortrait& portrait, const PortraitSource& source) {
+  const reduction::ReducedSystem& system = portrait.system();
+  Json json{{"law", system.law().name()},
+            {"mu", system.mu()},
+            {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
+            {"view", name(portrait.view)},
+            {"window", {portrait.window.u, portrait.window.v}}};
+  if (!source.version.empty()) json["version"] = source.version;
+  if (!source.ball.empty()) json.update({{"ball", source.ball}, {"seconds_per_tau", source.seconds_per_tau}});
+  return json;
 }
 
 }  // namespace
 
-std::string to_json(const PhasePortrait& portrait) {
-  const reduction::ReducedSystem& system = portrait.system();
-  Json json{{"schema", 1},
-            {"law", system.law().name()},
-            {"mu", system.mu()},
-            {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
-            {"view", name(portrait.view)},
-            {"window", {portrait.window.u, portrait.window.v}},
-            {"orbits", json_of(portrait.orbits)},
-            {"isochrones", json_of(portrait.isochrones)}};
+std::string to_json(const PhasePortrait& portrait, const PortraitSource& source) {
+  Json json{{"schema", 1}};
+  json.update(origin_of(portrait, source));
+  json.update({{"orbits", json_of(portrait.orbits)}, {"isochrones", json_of(portrait.isochrones)}});
   if (portrait.highlight) json["highlight"] = json_of(*portrait.highlight);
   if (!portrait.through.empty()) json["through"] = json_of(portrait.through);
   for (const PhasePortrait& other : portrait.comparisons) {
@@ -66,15 +67,41 @@ std::string to_json(const PhasePortrait& portrait) {
   return json_document(json);
 }
 
-std::string to_csv(const PhasePortrait& portrait) {
-  std::string csv = "kind,index,u,v,tau\n";
-  append(csv, "orbit", portrait.orbits);
-  if (portrait.highlight) append(csv, "highlight", std::vector{*portrait.highlight});
-  append(csv, "through", portrait.through);
-  append(csv, "isochrone", portrait.isochrones);
+std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source) {
+  std::string csv;
+  const Json origin = origin_of(portrait, source);
+  for (const auto& [name, value] : origin.items()) {
+    csv += fmt::format("# {}: ", name);
+    append_json(csv, value);
+    csv += '\n';
+  }
+  const bool timed = source.seconds_per_tau > 0;
+  csv += fmt::format("kind,index,u,v,tau,ln_v,k{}\n", timed ? ",t" : "");
+  const auto row = [&](std::string_view kind, std::size_t index, const PortraitOrbit::Instant& at) {
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{}", kind, index, at.u, at.v, at.tau_left, at.ln_v,
+                   std::exp(at.ln_k));
+    csv += timed ? fmt::format(",{}\n", source.seconds_per_tau * at.tau_left) : "\n";
+  };
+  const auto orbits = [&](std::string_view kind, const std::vector<PortraitOrbit>& all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (Eigen::Index j = 0; j < all[i].rows(); ++j) row(kind, i, all[i].at(j));
+    }
+  };
+  const auto isochrones = [&](std::string_view kind, const PhasePortrait& of) {
+    for (std::size_t i = 0; i < of.isochrones.size(); ++i) {
+      const auto& [tau, u, v] = of.isochrones[i];
+      for (Eigen::Index j = 0; j < u.size(); ++j) {
+        row(kind, i, {u[j], v[j], std::log(v[j]), std::log(v[j] / (of.system().mu() * std::abs(u[j]))), tau});
+      }
+    }
+  };
+  orbits("orbit", portrait.orbits);
+  if (portrait.highlight) orbits("highlight", {*portrait.highlight});
+  orbits("through", portrait.through);
+  isochrones("isochrone", portrait);
   for (const PhasePortrait& other : portrait.comparisons) {
-    append(csv, "against_orbit", other.orbits);
-    append(csv, "against_isochrone", other.isochrones);
+    orbits("against_orbit", other.orbits);
+    isochrones("against_isochrone", other);
   }
   return csv;
 }

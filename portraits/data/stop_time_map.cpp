@@ -30,7 +30,7 @@ void require_axis(const char* name, const Eigen::ArrayXd& values, bool logarithm
 
 }  // namespace
 
-StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes) {
+StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, double time_unit) {
   const auto& [u0, v0, logarithmic] = axes;
   require_axis("u0", u0, logarithmic);
   require_axis("v0", v0, logarithmic);
@@ -46,11 +46,12 @@ StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes) {
   if (!map.tau.allFinite()) {
     throw std::domain_error("stop_time_map: a stop time is beyond the largest double: use a larger unit of speed");
   }
-  const double low = map.tau.minCoeff(), high = map.tau.maxCoeff();
+  const double low = map.tau.minCoeff() / time_unit, high = map.tau.maxCoeff() / time_unit;
   constexpr double few_decades = 4.5, pieces = 7;
-  map.isochrones = isochrones(
-      flow, {{u0[0], v0[0]}, {u0[columns - 1], v0[rows - 1]}, logarithmic},
-      logarithmic ? round_ratios(low, high, few_decades) : multiples(low, high, round_step(high - low, pieces)));
+  std::vector<double> times =
+      logarithmic ? round_ratios(low, high, few_decades) : multiples(low, high, round_step(high - low, pieces));
+  for (double& time : times) time *= time_unit;
+  map.isochrones = isochrones(flow, {{u0[0], v0[0]}, {u0[columns - 1], v0[rows - 1]}, logarithmic}, times);
   return map;
 }
 

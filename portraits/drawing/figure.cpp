@@ -34,7 +34,11 @@ double text_width(std::string_view text) {
     if (continues(c)) continue;
     if (c == '\\' && i + 1 < text.size()) c = text[++i];
     const bool narrow = std::string_view(" .,;:|'!()[]/ijlftr").find(c) != std::string_view::npos;
-    width += (narrow ? 0.36 : c >= 'A' && c <= 'Z' ? 0.7 : 0.62) * (raised >= 0 ? small : 1);
+    width += (narrow                 ? 0.36
+              : c == 'm' || c == 'w' ? 0.95
+              : c >= 'A' && c <= 'Z' ? 0.7
+                                     : 0.62) *
+             (raised >= 0 ? small : 1);
     if (raised == depth) raised = -1;
   }
   return width;

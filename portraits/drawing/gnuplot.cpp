@@ -46,6 +46,7 @@ constexpr std::array formats{
     Format{"pdf", PictureFormat::pdf, "%PDF", "%%EOF"},
     Format{"png", PictureFormat::png, "\x89PNG", "\0\0\0\0IEND\xAE\x42\x60\x82"sv},
     Format{"eps", PictureFormat::eps, "%!PS-Adobe", "%%EOF"},
+    Format{"gif", PictureFormat::gif, "GIF89a", ";"},
     Format{"gp", PictureFormat::gp, "", ""},
     Format{"tex", PictureFormat::tex, "", ""},
 };
@@ -55,36 +56,33 @@ constexpr unsigned time_limit = 60;
 /// Its status where it cannot be run, as a shell's.
 constexpr int not_run = 127;
 
+/// How gnuplot is told the format, and how large it draws a point of size 1.
+struct Terminal {
+  std::string command;
+  double point_mm;
+};
+
 /// @param letter  the size of letters, mm
-std::string terminal(const Figure& figure, double letter, PictureFormat format) {
-  const double width = figure.width_mm;
-  const double height = figure.height_mm;
-  const double line = line_width * letter * figure.theme.line;
-  // gnuplot's cairo terminals count a point as 1/96 inch in letters and as half a point in lines.
-  constexpr double letters_per_mm = 72 / 25.4 * 0.75;
-  constexpr double lines_per_mm = 72 / 25.4 / 0.5;
-  const std::string common = fmt::format("enhanced rounded background '#{:06x}'", figure.theme.ground.rgb);
-  switch (format) {
-    case PictureFormat::pdf:
-    case PictureFormat::eps:
-      return fmt::format("set terminal {}cairo size {}cm,{}cm {} font 'sans,{:.4g}' fontscale 1 linewidth {:.4g}",
-                         format == PictureFormat::pdf ? "pdf" : "eps", width / 10, height / 10, common,
-                         letter * letters_per_mm, line * lines_per_mm);
-    case PictureFormat::png: {
-      const double pixels_per_mm = figure.dpi / 25.4;
-      return fmt::format("set terminal pngcairo size {:.0f},{:.0f} {} font 'sans,{:.4g}' fontscale 1 linewidth {:.4g}",
-                         width * pixels_per_mm, height * pixels_per_mm, common, letter * pixels_per_mm * 0.75,
-                         line * pixels_per_mm);
-    }
-    case PictureFormat::svg:
-    case PictureFormat::gp:
-    case PictureFormat::tex:
-      break;
-  }
-  constexpr double pixels_per_mm = 5;
-  return fmt::format("set terminal svg size {:.0f},{:.0f} dynamic {} font 'sans-serif,{:.4g}' linewidth {:.4g}",
-                     width * pixels_per_mm, height * pixels_per_mm, common, letter * pixels_per_mm,
-                     line * pixels_per_mm);
+Terminal terminal(const Figure& figure, double letter, PictureFormat format) {
+  const bool vector = format == PictureFormat::pdf || format == PictureFormat::eps;
+  const bool pixels = format == PictureFormat::png || format == PictureFormat::gif;
+  // gnuplot's cairo and gd terminals count a point as 1/96 inch in letters, and a PDF's as half a point in lines.
+  const double per_mm = vector ? 72 / 25.4 : format == PictureFormat::png ? figure.dpi / 25.4 : pixels ? 4 : 5;
+  const std::string size =
+      vector ? fmt::format("{}cm,{}cm", figure.size.width_mm / 10, figure.size.height_mm / 10)
+             : fmt::format("{:.0f},{:.0f}", figure.size.width_mm * per_mm, figure.size.height_mm * per_mm);
+  const auto [name, point_mm] = format == PictureFormat::pdf   ? std::pair{"pdfcairo", 6 / per_mm}
+                                : format == PictureFormat::eps ? std::pair{"epscairo", 6 / per_mm}
+                                : format == PictureFormat::png ? std::pair{"pngcairo", 6.5 / per_mm}
+                                : format == PictureFormat::gif
+                                    ? std::pair{"gif animate delay 4 loop 0 optimize", 6.4 / per_mm}
+                                    : std::pair{"svg dynamic", 0.75 * letter};
+  const char* usual_font = vector || pixels ? "sans" : "sans-serif";
+  return {fmt::format("set terminal {} size {} enhanced rounded background '#{:06x}' font '{},{:.4g}' linewidth {:.4g}",
+                      name, size, figure.theme.ground.rgb, figure.font.empty() ? usual_font : figure.font,
+                      letter * per_mm * (vector || pixels ? 0.75 : 1),
+                      line_width * letter * figure.theme.line * per_mm * (vector ? 2 : 1)),
+          point_mm};
 }
 
 /// Text as a gnuplot string: between single quotes nothing is run and only the quote itself is special. Control
@@ -122,11 +120,6 @@ struct PointType {
 PointType point_type(Marks::Shape shape) {
   if (shape == Marks::Shape::circle) return {6, 7};
   return shape == Marks::Shape::square ? PointType{4, 5} : PointType{7, 0};
-}
-
-std::string mark_style(const Marks& marks) {
-  return fmt::format("with points pt {} ps {} lw 1.6 lc {}", point_type(marks.shape).outline, marks.size,
-                     colour(marks.colour));
 }
 
 const char* alignment(Label::Align align) {
@@ -176,9 +169,8 @@ class Data {
 /// Writes the script of a figure.
 class Script {
  public:
-  Script(const Figure& figure, PictureFormat format) : figure_(figure), layout_(lay_out(figure)) {
-    put("# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\n");
-    put("set encoding utf8\n{}\n", terminal(figure, layout_.letter, format));
+  Script(const Figure& figure, PictureFormat format)
+      : figure_(figure), layout_(lay_out(figure)), terminal_(terminal(figure, layout_.letter, format)) {
     put("set style textbox opaque noborder fillcolor {} margins 0.2,0.1\n", colour(figure.theme.ground));
     put("set xtics textcolor {0}\nset ytics textcolor {0}\nset cbtics textcolor {0}\nset multiplot\n", ink_);
     page();
@@ -186,7 +178,13 @@ class Script {
     put("unset multiplot\n");
   }
 
-  std::string text() && { return std::move(text_); }
+  /// What comes first, once.
+  std::string heading() const {
+    return fmt::format(
+        "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\nset encoding utf8\n{}\n",
+        terminal_.command);
+  }
+  const std::string& text() const { return text_; }
 
  private:
   template <class... Values>
@@ -196,7 +194,7 @@ class Script {
 
   /// A place on the page, from millimetres.
   std::string at(double x, double y) const {
-    return fmt::format("screen {:.8g},{:.8g}", x / figure_.width_mm, y / figure_.height_mm);
+    return fmt::format("screen {:.8g},{:.8g}", x / figure_.size.width_mm, y / figure_.size.height_mm);
   }
 
   void axis(const char* which, const Axis& axis, const std::vector<Axis::Tick>& ticks) {
@@ -231,10 +229,10 @@ class Script {
 
   void panel(const Panel& panel, const PanelPlace& place) {
     const Box& box = place.box;
-    put("set lmargin at screen {:.8g}\nset rmargin at screen {:.8g}\n", box.left / figure_.width_mm,
-        (box.left + box.width) / figure_.width_mm);
-    put("set bmargin at screen {:.8g}\nset tmargin at screen {:.8g}\n", box.bottom / figure_.height_mm,
-        (box.bottom + box.height) / figure_.height_mm);
+    put("set lmargin at screen {:.8g}\nset rmargin at screen {:.8g}\n", box.left / figure_.size.width_mm,
+        (box.left + box.width) / figure_.size.width_mm);
+    put("set bmargin at screen {:.8g}\nset tmargin at screen {:.8g}\n", box.bottom / figure_.size.height_mm,
+        (box.bottom + box.height) / figure_.size.height_mm);
     put("set border {} lw 0.8 lc {}\n", panel.bare ? 0 : 3, ink_);
     axis("x", panel.x, place.x);
     axis("y", panel.y, place.y);
@@ -269,7 +267,7 @@ class Script {
       }
       if (vectors.empty()) continue;
       plot(fmt::format("with vectors head filled size screen {:.4g},18,75 fixed lc {} lw 0.5",
-                       head_length * layout_.letter / figure_.width_mm, colour(layer.colour)));
+                       layer.size * head_length * layout_.letter / figure_.size.width_mm, colour(layer.colour)));
       data.add(vectors);
     }
     for (const Marks& layer : panel.marks) {
@@ -280,11 +278,13 @@ class Script {
   }
 
   void marks(const Marks& layer, const std::vector<Row>& places, Data& data) {
+    const double size = layer.size * mark_size * layout_.letter / terminal_.point_mm;
     if (const int ground = point_type(layer.shape).ground) {
-      plot(fmt::format("with points pt {} ps {} lc {}", ground, layer.size, colour(figure_.theme.ground)));
+      plot(fmt::format("with points pt {} ps {:.4g} lc {}", ground, size, colour(figure_.theme.ground)));
       data.add(places);
     }
-    plot(mark_style(layer));
+    plot(fmt::format("with points pt {} ps {:.4g} lw 1.6 lc {}", point_type(layer.shape).outline, size,
+                     colour(layer.colour)));
     data.add(places);
   }
 
@@ -292,7 +292,7 @@ class Script {
   void page() {
     put("set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n"
         "unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n",
-        figure_.width_mm, figure_.height_mm);
+        figure_.size.width_mm, figure_.size.height_mm);
     for (const PlacedText& text : layout_.texts) {
       put("set label {} at {} {}{} tc {}\n", quoted(fmt::format("{{/*{:.3g} {}}}", text.size, text.text)),
           at(text.at.x, text.at.y), alignment(text.align), text.turned ? " rotate by 90" : "",
@@ -318,6 +318,7 @@ class Script {
 
   const Figure& figure_;
   Layout layout_;
+  Terminal terminal_;
   std::string ink_ = colour(figure_.theme.ink);
   std::string separator_;  ///< before the next plot of the command
   std::string text_;
@@ -402,7 +403,7 @@ std::string first_lines(const std::string& text, int count) {
   std::string result;
   for (std::string line; count > 0 && std::getline(stream, line);) {
     const std::size_t begin = line.find_first_not_of(" \t^");
-    if (begin == std::string::npos) continue;
+    if (begin == std::string::npos || line.ends_with("frames in animation sequence")) continue;
     result += "\n  " + line.substr(begin);
     --count;
   }
@@ -431,7 +432,7 @@ std::string finished_svg(std::string svg, const Figure& figure) {
   replace_all(svg, "\xEF\xBF\xBF", "\xEF\xBF\xBD");
   const std::string_view view_box = "viewBox=";
   if (const std::size_t at = svg.find(view_box); at != std::string::npos) {
-    svg.insert(at, fmt::format("width=\"{:g}mm\" height=\"{:g}mm\" ", figure.width_mm, figure.height_mm));
+    svg.insert(at, fmt::format("width=\"{:g}mm\" height=\"{:g}mm\" ", figure.size.width_mm, figure.size.height_mm));
   }
   return svg;
 }
@@ -458,7 +459,9 @@ std::string finished(std::string picture, const Figure& figure, PictureFormat fo
 
 std::vector<std::string_view> picture_formats() {
   std::vector<std::string_view> endings;
-  for (const Format& format : formats) endings.push_back(format.ending);
+  for (const Format& format : formats) {
+    if (format.format != PictureFormat::gif) endings.push_back(format.ending);
+  }
   return endings;
 }
 
@@ -468,13 +471,15 @@ std::optional<PictureFormat> find_picture_format(std::string_view ending) {
   return found->format;
 }
 
-std::string gnuplot_script(const Figure& figure) { return Script(figure, PictureFormat::gp).text(); }
+namespace {
 
-std::string render(const Figure& figure, PictureFormat format) {
-  if (format == PictureFormat::gp) return gnuplot_script(figure);
-  if (format == PictureFormat::tex) return pgfplots(figure);
+std::string script_of(const Figure& figure, PictureFormat format) {
+  const Script script(figure, format);
+  return script.heading() + script.text();
+}
 
-  const std::string commands = Script(figure, format).text();
+/// Has gnuplot draw a script.
+std::string drawn(const std::string& commands, PictureFormat format) {
   const MemoryFile input(commands), output, errors;
   std::string wrong = complaint(run(input, output, errors));
   const std::string messages = first_lines(errors.content(), 4);
@@ -487,7 +492,26 @@ std::string render(const Figure& figure, PictureFormat format) {
   if (wrong.empty() && !(whole && has_plots)) wrong = fmt::format("drew nothing that is a whole {}", ending);
   if (!wrong.empty()) throw GnuplotError(fmt::format("gnuplot {}{}", wrong, messages));
   if (!messages.empty()) std::cerr << fmt::format("contensou: gnuplot drew the picture and said{}\n", messages);
-  return finished(std::move(picture), figure, format);
+  return picture;
+}
+
+}  // namespace
+
+std::string gnuplot_script(const Figure& figure) { return script_of(figure, PictureFormat::gp); }
+
+std::string render(const Figure& figure, PictureFormat format) {
+  if (format == PictureFormat::gp) return gnuplot_script(figure);
+  if (format == PictureFormat::tex) return pgfplots(figure);
+  return finished(drawn(script_of(figure, format), format), figure, format);
+}
+
+std::string render_film(const std::vector<Figure>& frames) {
+  std::string commands;
+  for (const Figure& frame : frames) {
+    const Script script(frame, PictureFormat::gif);
+    commands += (commands.empty() ? script.heading() : "reset\n") + script.text();
+  }
+  return drawn(commands, PictureFormat::gif);
 }
 
 }  // namespace contensou::portraits

@@ -193,11 +193,11 @@ PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked) {
   return {width, shape * width / columns * (panels / columns) + around * letter_mm(width) / letter_mm(170)};
 }
 
-Point panel_size(const PaperSize& figure, int panels) {
-  const double letter = letter_mm(figure.width_mm);
-  const int columns = panel_columns(figure.width_mm, panels), rows = panels / columns;
-  return {std::max(figure.width_mm / columns - 9 * letter, 10.0),
-          std::max((figure.height_mm - 7 * letter) / rows - 6 * letter, 10.0)};
+Point panel_size(const PaperSize& size, int panels) {
+  const double letter = letter_mm(size.width_mm);
+  const int columns = panel_columns(size.width_mm, panels), rows = panels / columns;
+  return {std::max(size.width_mm / columns - 9 * letter, 10.0),
+          std::max((size.height_mm - 7 * letter) / rows - 6 * letter, 10.0)};
 }
 
 namespace {
@@ -276,9 +276,9 @@ class Compositor {
  public:
   explicit Compositor(const Figure& figure)
       : figure_(figure),
-        em_(letter_mm(figure.width_mm) * figure.theme.letters),
-        width_(figure.width_mm / em_),
-        top_(figure.height_mm / em_ - 0.7) {
+        em_(letter_mm(figure.size.width_mm) * figure.theme.letters),
+        width_(figure.size.width_mm / em_),
+        top_(figure.size.height_mm / em_ - 0.7) {
     layout_.letter = em_;
     heading(figure.title, 1.2, false);
     heading(figure.subtitle, 1, true);
@@ -335,7 +335,7 @@ class Compositor {
 
   void panels(double width) {
     const int count = static_cast<int>(figure_.panels.size());
-    const int columns = panel_columns(width * em_, count), rows = count / columns;
+    const int columns = std::min(panel_columns(width * em_, count), figure_.most_columns), rows = count / columns;
     const double strip = width / columns;
     // Heights first: ticks of y-axes follow from them, and margins from those.
     double above = 0.5, below = 0.5;
@@ -384,7 +384,7 @@ class Compositor {
           fmt::format("a figure of {:.4g} x {:.4g} mm leaves {:.3g} x {:.3g} mm for a panel, which needs {:.3g} x "
                       "{:.3g} mm: make it "
                       "larger, or leave out its title",
-                      figure_.width_mm, figure_.height_mm, std::max(0.0, box.width * em_),
+                      figure_.size.width_mm, figure_.size.height_mm, std::max(0.0, box.width * em_),
                       std::max(0.0, box.height * em_), least_width * em_, least_height * em_));
     }
     if (panel.to_scale) {

@@ -21,58 +21,13 @@ namespace {
 
 constexpr double points_per_mm = 72.27 / 25.4;
 
-/// Signs beyond Latin letters, as mathematics.
-constexpr std::array signs{
-    std::pair{"α", "\\alpha"},
-    std::pair{"β", "\\beta"},
-    std::pair{"γ", "\\gamma"},
-    std::pair{"δ", "\\delta"},
-    std::pair{"ε", "\\varepsilon"},
-    std::pair{"ζ", "\\zeta"},
-    std::pair{"η", "\\eta"},
-    std::pair{"θ", "\\theta"},
-    std::pair{"ι", "\\iota"},
-    std::pair{"κ", "\\kappa"},
-    std::pair{"λ", "\\lambda"},
-    std::pair{"μ", "\\mu"},
-    std::pair{"ν", "\\nu"},
-    std::pair{"ξ", "\\xi"},
-    std::pair{"π", "\\pi"},
-    std::pair{"ρ", "\\rho"},
-    std::pair{"σ", "\\sigma"},
-    std::pair{"ς", "\\varsigma"},
-    std::pair{"τ", "\\tau"},
-    std::pair{"υ", "\\upsilon"},
-    std::pair{"φ", "\\varphi"},
-    std::pair{"χ", "\\chi"},
-    std::pair{"ψ", "\\psi"},
-    std::pair{"ω", "\\omega"},
-    std::pair{"Γ", "\\Gamma"},
-    std::pair{"Δ", "\\Delta"},
-    std::pair{"Θ", "\\Theta"},
-    std::pair{"Λ", "\\Lambda"},
-    std::pair{"Ξ", "\\Xi"},
-    std::pair{"Π", "\\Pi"},
-    std::pair{"Σ", "\\Sigma"},
-    std::pair{"Φ", "\\Phi"},
-    std::pair{"Ψ", "\\Psi"},
-    std::pair{"Ω", "\\Omega"},
-    std::pair{"·", "\\cdot{}"},
-    std::pair{"×", "\\times"},
-    std::pair{"∝", "\\propto"},
-    std::pair{"∞", "\\infty"},
-    std::pair{"≤", "\\le"},
-    std::pair{"≥", "\\ge"},
-    std::pair{"→", "\\to"},
-    std::pair{"−", "-"},
-    std::pair{"±", "\\pm"},
-    std::pair{"°", "{}^\\circ"},
-    std::pair{"…", "\\ldots"},
-    std::pair{"′", "'"},
-    std::pair{"|", "|"},
-    std::pair{"<", "<"},
-    std::pair{">", ">"},
-};
+/// Signs beyond Latin letters, each with its mathematics.
+constexpr std::string_view signs =
+    " α\\alpha β\\beta γ\\gamma δ\\delta ε\\varepsilon ζ\\zeta η\\eta θ\\theta ι\\iota κ\\kappa"
+    " λ\\lambda μ\\mu ν\\nu ξ\\xi π\\pi ρ\\rho σ\\sigma ς\\varsigma τ\\tau υ\\upsilon φ\\varphi"
+    " χ\\chi ψ\\psi ω\\omega Γ\\Gamma Δ\\Delta Θ\\Theta Λ\\Lambda Ξ\\Xi Π\\Pi Σ\\Sigma Φ\\Phi Ψ\\Psi"
+    " Ω\\Omega ·\\cdot{} ×\\times ∝\\propto ∞\\infty ≤\\le ≥\\ge →\\to −- ±\\pm °{}^\\circ …\\ldots"
+    " ′' || << >> ";
 
 /// Reads a figure's text (figure.hpp) and writes TeX.
 class Reader {
@@ -113,15 +68,16 @@ class Reader {
   }
 
   std::string character(bool mathematics) {
-    for (const auto& [sign, tex] : signs) {
-      if (!text_.substr(at_).starts_with(sign)) continue;
-      at_ += std::string_view(sign).size();
-      return mathematics ? fmt::format("{}{}", tex, *tex == '\\' ? " " : "") : fmt::format("\\ensuremath{{{}}}", tex);
-    }
     const auto first = static_cast<unsigned char>(text_[at_]);
     const std::size_t size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
     const std::string one(text_.substr(at_, size));
     at_ += size;
+    if (const std::size_t sign = signs.find(" " + one); first > ' ' && sign != signs.npos) {
+      const std::size_t tex = sign + 1 + one.size();
+      const std::string_view math = signs.substr(tex, signs.find(' ', tex) - tex);
+      return mathematics ? fmt::format("{}{}", math, math[0] == '\\' ? " " : "")
+                         : fmt::format("\\ensuremath{{{}}}", math);
+    }
     if (first >= 0xC3 && first <= 0xC5 && one.size() == 2) return one;  // Latin with accents
     if (first >= 0x80) {
       throw std::domain_error(fmt::format(
@@ -150,8 +106,8 @@ class Writer {
     put("\\begin{{document}}%\n"
         "\\begin{{tikzpicture}}[x=1mm,y=1mm,text={},font=\\fontsize{{{:.3g}}}{{{:.3g}}}\\selectfont]\n",
         name(figure_.theme.ink), letter, 1.2 * letter);
-    put("\\fill[{}] (0,0) rectangle ({:.6g},{:.6g});\n", name(figure_.theme.ground), figure_.width_mm,
-        figure_.height_mm);
+    put("\\fill[{}] (0,0) rectangle ({:.6g},{:.6g});\n", name(figure_.theme.ground), figure_.size.width_mm,
+        figure_.size.height_mm);
     for (const PlacedText& text : layout_.texts) {
       put("\\node[inner sep=0pt,scale={:.3g},text={}{}{}] at ({:.6g},{:.6g}) {{{}}};\n", text.size,
           name(text.faint ? figure_.theme.faint : figure_.theme.ink), text.turned ? ",rotate=90" : "",
@@ -183,7 +139,7 @@ class Writer {
         "\\usepackage[paperwidth={:.6g}mm,paperheight={:.6g}mm,margin=0mm]{{geometry}}\n"
         "\\pagestyle{{empty}}\n\\setlength{{\\parindent}}{{0pt}}\\setlength{{\\topskip}}{{0pt}}\n"
         "\\pdfinfoomitdate=1 \\pdftrailerid{{}}\n",
-        figure_.width_mm, figure_.height_mm + 0.1);
+        figure_.size.width_mm, figure_.size.height_mm + 0.1);
     for (unsigned rgb : used_) put("\\definecolor{{c{0:06X}}}{{HTML}}{{{0:06X}}}\n", rgb);
     return tex_ + body;
   }
@@ -210,7 +166,7 @@ class Writer {
   }
 
   std::string mark_style(const Marks& marks) {
-    const double size = 2.6 * marks.size;  // pt
+    const double size = marks.size * mark_size / 2 * layout_.letter * points_per_mm;
     const bool open = marks.shape != Marks::Shape::dot;
     return fmt::format("mark={},mark size={:.3g}pt,mark options={{draw={},fill={},line width=0.7pt}}",
                        marks.shape == Marks::Shape::square ? "square*" : "*", size, name(marks.colour),
@@ -263,8 +219,8 @@ class Writer {
         put("\\draw[-{{Stealth[length={5:.3g}mm,width={6:.3g}mm]}},draw={0},fill={0},line width=0.3pt] "
             "({1:.4f},{2:.4f})--({3:.4f},{4:.4f});\n",
             name(layer.colour), box.left + tail.x * box.width, box.bottom + tail.y * box.height,
-            box.left + tip.x * box.width, box.bottom + tip.y * box.height, head_length * layout_.letter,
-            0.48 * layout_.letter);
+            box.left + tip.x * box.width, box.bottom + tip.y * box.height, layer.size * head_length * layout_.letter,
+            layer.size * 0.48 * layout_.letter);
       }
     }
     for (const Marks& layer : panel.marks) {

@@ -40,11 +40,12 @@ Polyline arc(Point centre, double rx, double ry, double from, double to) {
 /// A drawing as it grows.
 class Sketch {
  public:
-  Sketch(std::string title, std::string subtitle, double width_mm, double height_mm) {
+  /// @param usual  size, whose shape is kept unless both sides are asked for
+  Sketch(std::string title, std::string subtitle, const PaperSize& usual, const AskedSize& size) {
     figure_.title = std::move(title);
     figure_.subtitle = std::move(subtitle);
-    figure_.width_mm = width_mm;
-    figure_.height_mm = height_mm;
+    const double width = size.width_mm.value_or(usual.width_mm);
+    figure_.size = {width, size.height_mm.value_or(width * usual.height_mm / usual.width_mm)};
     panel_.bare = true;
   }
 
@@ -107,14 +108,14 @@ Polyline curve(const reduction::Law& law, double reduction::Resistance::*part) {
 
 }  // namespace
 
-Figure patch_drawing() {
+Figure patch_drawing(const AskedSize& size) {
   // Unit of length: eps. The slip of the patch's centre points along x.
   constexpr double h = 1.65;
   constexpr Point O{0, 0};
   constexpr Point C{0, -h};
   Sketch sketch("The contact patch and its centre of velocity",
                 "Zh98, Fig. 1: every element slips across its radius vector " + italic("r") + " from " + italic("C"),
-                150, 140);
+                {150, 140}, size);
 
   const auto polar = [&](double r, double theta) {
     return Point{C.x + r * std::sin(theta), C.y + r * std::cos(theta)};
@@ -189,7 +190,7 @@ Figure patch_drawing() {
   return sketch.framed({0.12, -0.27}, 3.57, 3.2);
 }
 
-Figure ball_drawing() {
+Figure ball_drawing(const AskedSize& size) {
   // Unit of length: R. The plane is seen from above at an angle.
   constexpr double depth_x = 0.6;
   constexpr double depth_y = 0.27;
@@ -197,7 +198,7 @@ Figure ball_drawing() {
   Sketch sketch("The ball on the plane",
                 "Zh98, Fig. 3: it slides with " + italic("v") + ", spins with " + italic("ω_z") +
                     " and touches on a spot of radius " + italic("ε = μR"),
-                190, 140);
+                {190, 140}, size);
 
   // The ball hides what lies behind its outline, the circle of radius 1 about (0, 1).
   constexpr double long_side = 1.3;
@@ -291,9 +292,7 @@ Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size
   } else {
     figure.subtitle = "force and moment against the ratio of slip to spin";
   }
-  const auto [width, height] = fitted({170, 115}, 1, size);
-  figure.width_mm = width;
-  figure.height_mm = height;
+  figure.size = fitted({170, 115}, 1, size);
   figure.panels = {panel};
   return figure;
 }
@@ -318,9 +317,8 @@ Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const Asked
   Figure figure;
   figure.title = "The limit surface of a circular patch";
   figure.subtitle = "force and moment at which a patch slips, laws of pressure beside each other";
-  const auto [width, height] = fitted({130, 130}, 1, size);
-  figure.width_mm = width;
-  figure.height_mm = size.height_mm ? height : std::max(height, 1.05 * width);
+  const double width = size.width_mm.value_or(130);
+  figure.size = {width, size.height_mm.value_or(1.05 * width)};
   figure.panels = {panel};
   return figure;
 }

@@ -15,13 +15,21 @@ namespace {
 
 const ViewLayout& layout_of(View view) { return *std::ranges::find(view_layouts, view, &ViewLayout::view); }
 
+std::string body_name(const reduction::Inertia& inertia) {
+  const auto [chi, gamma] = inertia;
+  if (chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma)
+    return "Sliding and spinning ball";
+  const bool flat = chi == 1;
+  const char* kind = flat && gamma == 2           ? "Puck, a disc"
+                     : flat && gamma == 1         ? "Puck, a ring"
+                     : chi == 2.5 && gamma == 1.5 ? "Hollow ball"
+                                                  : "Sliding and spinning body";
+  return fmt::format("{},  {{/:Italic χ}} = {:.4g}, {{/:Italic γ}} = {:.4g}", kind, chi, gamma);
+}
+
 std::string title(const PhasePortrait& portrait) {
-  const auto [chi, gamma] = portrait.system().inertia();
-  const bool ball = chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
-  const std::string body =
-      ball ? "Sliding and spinning ball"
-           : fmt::format("Sliding and spinning body,  {{/:Italic χ}} = {:.4g}, {{/:Italic γ}} = {:.4g}", chi, gamma);
-  return fmt::format("{},  {{/:Italic μ}} = {},  law: {}", body, number(portrait.system().mu()), law_names(portrait));
+  return fmt::format("{},  {{/:Italic μ}} = {},  law: {}", body_name(portrait.system().inertia()),
+                     number(portrait.system().mu()), law_names(portrait));
 }
 
 }  // namespace
@@ -49,7 +57,7 @@ std::string law_names(const PhasePortrait& portrait) {
   return names;
 }
 
-Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, const PortraitStyle& style) {
+Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, PortraitStyle style) {
   const ViewLayout& layout = layout_of(portrait.view);
   const PaperSize size = fitted({layout.width_mm, layout.height_mm}, layout.panels_across, style.size);
   Drawing drawing{portrait, caption, style, palette(style.screen), {}, panel_size(size, layout.panels_across), 0};
@@ -58,15 +66,18 @@ Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, const
     drawing.bands = linear_bands(portrait, drawing.palette);
   } else {
     const auto [shortest, longest] = layout.times(portrait);
-    drawing.bands = logarithmic_bands(shortest, longest, caption.time_unit, drawing.palette);
+    style.colour_by_time = style.colour_by_time && shortest < longest;
+    drawing.bands = logarithmic_bands(shortest, 2 * longest, caption.time_unit, drawing.palette);
   }
   Figure figure;
   figure.title = caption.title.empty() ? title(portrait) : caption.title;
-  figure.subtitle = !caption.subtitle.empty() ? caption.subtitle
-                    : portrait.scale.linear() ? std::string(layout.shows)
-                                              : fmt::format("{}{})", bent_shows, number(portrait.scale.exponent, 3));
-  figure.width_mm = size.width_mm;
-  figure.height_mm = size.height_mm;
+  const bool bent = !portrait.scale.linear();
+  figure.subtitle = !caption.subtitle.empty() ? caption.subtitle : std::string(bent ? bent_shows : layout.shows);
+  if (bent) {
+    figure.subtitle += fmt::format(" (shaded: {{/:Italic v}} on the scale {{/:Italic v^{{s}}}}, {{/:Italic s}} = {})",
+                                   number(portrait.scale.exponent, 3));
+  }
+  figure.size = size;
   figure.theme = drawing.palette.theme;
   figure.panels = layout.panels(drawing);
   if (drawing.coloured() && portrait.view != View::time) figure.colour_bar = colour_bar(drawing.bands, caption);

@@ -151,35 +151,41 @@ std::vector<Panel> pair_view(const Drawing& drawing) {
 std::vector<Panel> log_view(const Drawing& drawing) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
-  const double ln_mu = std::log(portrait.system().mu());
-  const double corner = std::log(portrait.window.v);
-  constexpr double shrinks = 3;  // e-folds of the speed that outlives
-  constexpr double above = 3;    // from which k = 1 is seen
+  const double mu = portrait.system().mu(), V = portrait.window.v;
   const auto& [direction, k_star, order] = portrait.plane.tangents.front();
-  const double slope = 1 + order;
   const bool spins_last = direction != InvariantDirection::sliding;
-  const double x_range = spins_last ? shrinks + 1 : shrinks * slope + above;
-  const double y_range = spins_last ? shrinks * slope + above : shrinks + 1;
+  const double shrinks = shrinks_in_log_view(portrait);
+  // Both speeds at the right border, over V, and from there on how far above k = 1 is seen.
+  double corner = 0, above = 3;
+  if (portrait.highlight && shrinks < 1) {
+    const Instant start = portrait.highlight->at(0);
+    if (std::isfinite(start.ln_k)) {
+      corner = start.ln_v - start.ln_k - std::log(V) + shrinks / 4;
+      above = std::max(above, start.ln_k + 1);
+    }
+  }
+  const double last_range = shrinks * 4 / 3, first_range = shrinks * (1 + order) + above;
   const std::vector<double> rays = ray_log_ratios(portrait);
   Panel panel;
-  panel.x = {"ln {/:Italic μ}|{/:Italic u}|", corner - x_range, corner, false, {}};
-  panel.y = {
-      "ln {/:Italic v}", corner + (spins_last ? above : 1) - y_range, corner + (spins_last ? above : 1), false, {}};
-  if (!rays.empty()) {
-    panel.x.low = corner - 6;
-    panel.y = {"ln {/:Italic v}", corner - 6 + rays.front(), corner + 1 + rays.back(), false, {}};
-  }
+  panel.x.high = corner;
+  panel.x.low = corner - (rays.empty() ? (spins_last ? last_range : first_range) : 6);
+  panel.y.high = corner + (!rays.empty() ? 1 + rays.back() : spins_last ? above : last_range / 4);
+  panel.y.low = !rays.empty() ? rays.front() - 6 : panel.y.high - (spins_last ? first_range : last_range);
+  panel.x.name = fmt::format("ln({{/:Italic μ}}|{{/:Italic u}}|/{{/:Italic V}}),  {{/:Italic V}} = {} {}", number(V, 4),
+                             drawing.caption.speed_unit);
+  panel.y.name = "ln({/:Italic v}/{/:Italic V})";
   // Minus infinity is a point far beyond the borders.
-  const Point nowhere{panel.x.low - 10 * x_range, panel.y.low - 10 * y_range};
+  const Point nowhere{11 * panel.x.low - 10 * panel.x.high, 11 * panel.y.low - 10 * panel.y.high};
+  const auto log_u = [=](double u) { return std::log(mu * std::abs(u) / V); };
   PortraitPanel layers(drawing, panel, [=](const Instant& at) {
-    return Point{at.u == 0 ? nowhere.x : ln_mu + std::log(std::abs(at.u)), std::max(at.ln_v, nowhere.y)};
+    return Point{at.u == 0 ? nowhere.x : log_u(at.u), std::max(at.ln_v - std::log(V), nowhere.y)};
   });
   const auto copies = [&](const PortraitOrbit& curve) {
     // Translates along the diagonal, evenly across the panel.
     const int count = drawing.crowd(14);
-    const double w = ln_mu + std::log(at_log_ratio(curve, 0).u);
+    const double w = log_u(at_log_ratio(curve, 0).u);
     const double first = spins_last ? panel.x.low : panel.x.low - 6;
-    const double last = spins_last ? panel.x.high + shrinks : panel.x.high + 6;
+    const double last = panel.x.high + (spins_last ? shrinks : 6);
     Copies result;
     for (int i = 0; i < count; ++i) {
       result.push_back({curve, std::exp(first + (i + 0.5) * (last - first) / count - w)});
@@ -188,15 +194,13 @@ std::vector<Panel> log_view(const Drawing& drawing) {
   };
   layers.add_copies(
       copies,
-      [](Point at) {
-        return LogState{at.y - at.x, at.y};
+      [V](Point at) {
+        return LogState{at.y - at.x, at.y + std::log(V)};
       },
       false);
-  constexpr double squeezed = 200;  // from which the diagonal is the upper border
-  if (x_range < squeezed && y_range < squeezed)
-    layers.panel().lines.push_back({{{{panel.y.low, panel.y.low}, {panel.y.high, panel.y.high}}},
-                                    {drawing.palette.isochrone, 1.1, true},
-                                    "{/:Italic k} = 1"});
+  const double low = std::min(panel.x.low, panel.y.low), high = std::max(panel.x.high, panel.y.high);
+  layers.panel().lines.push_back(
+      {{{{low, low}, {high, high}}}, {drawing.palette.isochrone, 1.1, true}, "{/:Italic k} = 1"});
   layers.add_invariant({}, [&](double ln_k) {
     return std::vector<Polyline>{{{panel.y.high - ln_k, panel.y.high}, {panel.y.low - ln_k, panel.y.low}}};
   });

@@ -147,9 +147,8 @@ TimeBands logarithmic_bands(double shortest, double longest, double unit, const 
 }
 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption) {
-  ColourBar bar{fmt::format("time left{}{}", caption.time_unit_name.empty() ? "" : ", ", caption.time_unit_name),
-                bands.colours,
-                {}};
+  const std::string unit = caption.time_unit_name.empty() ? "" : fmt::format(" ({})", caption.time_unit_name);
+  ColourBar bar{"time left" + unit, bands.colours, {}};
   // Bands are equal on the bar.
   for (std::size_t band : bands.marked) {
     bar.ticks.push_back({static_cast<double>(band) / static_cast<double>(bands.colours.size()),
@@ -346,6 +345,12 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
     heads_.push_back(at);
     result.push_back({arrow, left});
   };
+  // With the time of the nearest row.
+  const auto add_there = [&](const Arrow& arrow) {
+    const auto nearest =
+        std::ranges::min_element(line, {}, [&](Point point) { return paper_distance(panel_, point, arrow.at); });
+    add(arrow, copy.factor * copy.orbit.tau_left[nearest - line.begin()]);
+  };
   if (drawing_.style.arrows == Style::time) {
     for (Eigen::Index i = 1; i < copy.orbit.rows(); ++i) {
       const double before = copy.factor * copy.orbit.tau_left[i - 1], now = copy.factor * copy.orbit.tau_left[i];
@@ -361,14 +366,11 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
   if (!drawing_.portrait.scale.linear() && drawing_.style.arrows == Style::time) {
     // Where it slides hardly any time passes: one there, too.
     const Arrow arrow = arrow_along(panel_, parts.front(), 0.2);
-    if (on_paper(panel_, arrow.at).y > 0.6) add(arrow, copy.factor * copy.orbit.tau_left[0]);
+    if (on_paper(panel_, arrow.at).y > 0.6) add_there(arrow);
   }
   if (!result.empty()) return result;
   for (double share : {arrow_share_, arrow_share_ + 0.1, arrow_share_ - 0.1}) {
-    const Arrow arrow = arrow_along(panel_, parts.front(), share);
-    const auto nearest =
-        std::ranges::min_element(line, {}, [&](Point point) { return paper_distance(panel_, point, arrow.at); });
-    add(arrow, copy.factor * copy.orbit.tau_left[nearest - line.begin()]);
+    add_there(arrow_along(panel_, parts.front(), share));
     if (!result.empty()) break;
   }
   return result;
@@ -454,6 +456,7 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
                                   const std::function<std::vector<Polyline>(double ln_k)>& ray) {
   if (!drawing_.style.invariant) return;
   const auto add_arrows = [this](const Lines& lines) {
+    if (drawing_.style.arrows == PortraitStyle::Arrows::none) return;
     Arrows arrows{{}, lines.stroke.colour};
     for (const Polyline& line : lines.lines) {
       for (const Polyline& part : clipped(panel_, line)) {
@@ -464,7 +467,7 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
   };
   if (!axes.empty()) {
     panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 2.2, false}, "invariant axes"});
-    if (drawing_.style.arrows != PortraitStyle::Arrows::none) add_arrows(panel_.lines.back());
+    add_arrows(panel_.lines.back());
   }
   Lines attracting{{}, {drawing_.palette.comparison, 2.2, false}, "invariant ray {/:Italic k} = {/:Italic k}*"};
   Lines repelling{{}, {drawing_.palette.comparison, 2.2, true}, "invariant ray that orbits leave"};
@@ -474,7 +477,7 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
   }
   for (Lines& lines : {std::ref(attracting), std::ref(repelling)}) {
     if (lines.lines.empty()) continue;
-    if (drawing_.style.arrows != PortraitStyle::Arrows::none) add_arrows(lines);
+    add_arrows(lines);
     panel_.lines.push_back(std::move(lines));
   }
 }
@@ -483,7 +486,9 @@ void PortraitPanel::add_field(const std::function<reduction::State(Point)>& stat
   using Field = PortraitStyle::Field;
   if (drawing_.style.field == Field::none) return;
   const reduction::ReducedSystem& system = drawing_.portrait.system();
-  constexpr int columns = 24, rows = 15;
+  constexpr double cell_mm = 6.5;
+  const int columns = static_cast<int>(drawing_.panel_mm.x / cell_mm),
+            rows = static_cast<int>(drawing_.panel_mm.y / cell_mm);
   struct Needle {
     Point at, direction;  ///< on paper, the direction of length 1
     double size;
@@ -515,6 +520,7 @@ void PortraitPanel::add_field(const std::function<reduction::State(Point)>& stat
               {drawing_.palette.field, 1, false},
               drawing_.style.field == Field::regularised ? "direction of the regularised motion (2.7)"
                                                          : "direction of the motion (2.6)"};
+  Arrows heads{{}, drawing_.palette.field, 0.6};
   for (const Needle& needle : needles) {
     const double share = max_size > min_size ? std::log(needle.size / min_size) / std::log(max_size / min_size) : 1;
     const double cell = 1 / std::max(std::abs(needle.direction.x) * columns, std::abs(needle.direction.y) * rows);
@@ -522,8 +528,10 @@ void PortraitPanel::add_field(const std::function<reduction::State(Point)>& stat
     const Point tail{needle.at.x - half * needle.direction.x, needle.at.y - half * needle.direction.y};
     const Point tip{needle.at.x + half * needle.direction.x, needle.at.y + half * needle.direction.y};
     lines.lines.push_back({from_paper(panel_, tail), from_paper(panel_, tip)});
+    heads.arrows.push_back(arrow_along(panel_, lines.lines.back(), 1));
   }
   panel_.lines.insert(panel_.lines.begin(), std::move(lines));
+  panel_.arrows.insert(panel_.arrows.begin(), std::move(heads));
 }
 
 }  // namespace contensou::portraits

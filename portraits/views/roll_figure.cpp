@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "data/round_numbers.hpp"
 
 namespace contensou::portraits {
 
@@ -20,6 +25,7 @@ constexpr Colour textbook_colour{0x8a8a8a};
 constexpr Colour slip_colour{0x8c0f35};
 constexpr Colour rim_colour{0x2f7fc1};
 constexpr Colour speed_colour{0xe0a030};
+constexpr Colour ball_colour{0xf3efe6};
 
 constexpr PaperSize usual{290, 125};
 
@@ -40,7 +46,7 @@ void require_columns(const RollCurve& curve) {
 double shown_time(const RollPicture& picture) {
   const double rolls = std::max(picture.ball.rolls, picture.textbook.rolls);
   const double last = picture.ball.t[picture.ball.t.size() - 1];
-  return rolls > 0 ? std::min(1.6 * rolls, last) : last;
+  return rolls > 0 && picture.slow == 0 ? std::min(1.6 * rolls, last) : last;
 }
 
 Polyline path_of(const RollCurve& curve, double end) {
@@ -93,7 +99,7 @@ Panel paths(const RollPicture& picture) {
 /// The path from above, to scale unless it is flat.
 Panel path_panel(const RollPicture& picture, const PaperSize& size) {
   Panel panel = paths(picture);
-  const Point paper = panel_size(size, 2);
+  const Point paper = panel_size(size, picture.slow > 0 ? 4 : 2);
   const double panel_shape = paper.x / paper.y;
   const double scale = std::max((panel.x.high - panel.x.low) / panel_shape, panel.y.high - panel.y.low);
   // Most of the panel is used, across too.
@@ -127,7 +133,7 @@ Panel distance_panel(RollPicture picture, Point along) {
 Panel speed_panel(const RollPicture& picture) {
   const double last = picture.ball.t[picture.ball.t.size() - 1];
   const double rolls = std::max(picture.ball.rolls, picture.textbook.rolls);
-  const bool logarithmic = rolls > 0 && last > long_spin * rolls;
+  const bool logarithmic = picture.slow == 0 && rolls > 0 && last > long_spin * rolls;
   Panel panel;
   panel.title = "speeds; dashed: textbook, sliding and spinning uncoupled";
   panel.x = {"{/:Italic t}, s", logarithmic ? rolls / 30 : 0, last, logarithmic, {}};
@@ -164,7 +170,105 @@ Panel speed_panel(const RollPicture& picture) {
   return panel;
 }
 
+/// What a frame of a film has drawn of a panel so far. A GIF has no dashes, and the colours of its first frame alone.
+Panel until(const Panel& whole, std::size_t frame) {
+  Panel panel = whole;
+  panel.marks.clear();
+  for (Lines& lines : panel.lines) {
+    for (Polyline& line : lines.lines) line.resize(std::min(line.size(), frame + 1));
+    if (lines.stroke.dashed) lines.stroke = {textbook_colour, 1.2};
+  }
+  return panel;
+}
+
+/// A ball of radius 1 from above: two circles through what was its top, and a spot beside it; what it does beside that.
+Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eigen::Index frame, Colour colour,
+                      const char* name) {
+  using Eigen::Vector3d;
+  constexpr int pieces = 72;
+  const auto circle = [&](const Vector3d& one, const Vector3d& other) {
+    Polyline line;
+    for (int i = 0; i <= pieces; ++i) {
+      const double angle = 2 * std::numbers::pi * i / pieces;
+      const Vector3d at = std::cos(angle) * one + std::sin(angle) * other;
+      constexpr double hidden = std::numeric_limits<double>::quiet_NaN();
+      line.push_back(at.z() > -1e-9 ? Point{at.x(), at.y()} : Point{hidden, hidden});
+    }
+    return line;
+  };
+  const auto [x, y, z] = std::tuple(turned.col(0), turned.col(1), turned.col(2));
+  const Polyline outline = circle(Vector3d::UnitX(), Vector3d::UnitY());
+  Panel panel;
+  panel.title = name;
+  panel.x = {"", -1.6, 3, false, {}};
+  panel.y = {"", -1.05, 1.05, false, {}};
+  panel.to_scale = panel.bare = true;
+  panel.regions = {{outline, ball_colour}};
+  panel.lines = {{{circle(x, z), circle(y, z)}, {colour, 1.6}, ""}, {{outline}, {colour, 2.2}, ""}};
+  const Vector3d spot = (x + y + 2 * z).normalized();
+  if (spot.z() > 0) panel.marks.push_back({{{spot.x(), spot.y()}}, slip_colour, 2});
+  const std::string slides = fmt::format("slides {:.2f} m/s", curve.slip[frame]);
+  panel.labels = {{{1.3, 0.25}, curve.t[frame] >= curve.rolls ? "rolls" : slides, path_colour, Label::Align::left},
+                  {{1.3, -0.25},
+                   fmt::format("spins {:.1f} rad/s", curve.angular_velocity(2, frame)),
+                   path_colour,
+                   Label::Align::left}};
+  return panel;
+}
+
 }  // namespace
+
+FilmPace film_pace(double end) {
+  constexpr double longest = 10, rate = 25;
+  const double most = longest / end, digit = std::pow(10, std::floor(std::log10(most)));
+  const double slow = most >= 1 ? digit * std::floor(most / digit) : round_down(most);
+  const double frames = std::max(1.0, std::round(end * slow * rate));
+  return {Eigen::ArrayXd::LinSpaced(static_cast<Eigen::Index>(frames) + 1, 0, frames / (rate * slow)), slow};
+}
+
+std::vector<Figure> roll_film(const RollPicture& picture) {
+  Figure whole = roll_figure(picture);
+  const Eigen::ArrayXd& t = picture.ball.t;
+  const RollCurve* const curves[]{&picture.ball, &picture.textbook};
+  for (const RollCurve* curve : curves) {
+    if (curve->angular_velocity.cols() == t.size()) continue;
+    throw std::domain_error("roll_film: columns need an angular velocity in each row");
+  }
+  const double slow = picture.slow;
+  const std::string pace = slow == 1  ? "real time"
+                           : slow > 1 ? fmt::format("slowed {:g} times", slow)
+                                      : fmt::format("{:g} times faster", 1 / slow);
+  const bool moves = whole.panels.size() == 2;
+  const int digits = std::max(2, static_cast<int>(std::ceil(std::log10(25 * slow))));  // each frame differs
+  whole.most_columns = moves ? 2 : 3;
+  std::vector<Figure> frames;
+  Eigen::Matrix3d turned[]{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    Figure& frame = frames.emplace_back(whole);
+    for (Panel& panel : frame.panels) panel = until(panel, static_cast<std::size_t>(i));
+    frame.panels.back().title = fmt::format("{{/:Italic t}} = {:.{}f} s, {}; grey: textbook", t[i], digits, pace);
+    for (int which : {0, 1}) {
+      const RollCurve& curve = *curves[which];
+      if (i > 0) {
+        const auto& omega = curve.angular_velocity;
+        const Eigen::Vector3d angle = (omega.col(i) + omega.col(i - 1)) / 2 * (t[i] - t[i - 1]);
+        turned[which] = Eigen::AngleAxisd(angle.norm(), angle.stableNormalized()) * turned[which];
+      }
+      const Colour colour = which == 0 ? path_colour : textbook_colour;
+      frame.panels.push_back(
+          ball_from_above(curve, turned[which], i, colour, which == 0 ? "this ball, from above" : "the textbook's"));
+      if (!moves) continue;
+      // Where it is, and where it began to roll; this ball's on top.
+      Panel& path = frame.panels.front();
+      const Polyline& line = path.lines[static_cast<std::size_t>(which)].lines.front();
+      Marks rolls{{}, colour, 1.6, Marks::Shape::circle, which == 0 ? "rolls from here" : ""};
+      const auto at = static_cast<std::size_t>((t < curve.rolls).count());
+      if (at < line.size()) rolls.points.push_back(line[at]);
+      path.marks.insert(path.marks.begin(), {Marks{{line.back()}, colour, 1.6}, rolls});
+    }
+  }
+  return frames;
+}
 
 Figure roll_figure(const RollPicture& picture) {
   require_columns(picture.ball);
@@ -189,12 +293,13 @@ Figure roll_figure(const RollPicture& picture) {
   figure.title = picture.title;
   figure.subtitle = picture.subtitle;
   const bool stays = reach == 0;  // it spins in place
-  const PaperSize size =
-      fitted(stays ? PaperSize{usual.width_mm / 2 + 25, usual.height_mm} : usual, stays ? 1 : 2, picture.size);
-  figure.width_mm = size.width_mm;
-  figure.height_mm = size.height_mm;
+  const double film_width = picture.size.width_mm.value_or(160);
+  const double film_shape = panel_columns(film_width, 4) == 1 ? 2.2 : stays ? 0.45 : 0.75;
+  figure.size = picture.slow > 0 ? PaperSize{film_width, picture.size.height_mm.value_or(film_shape * film_width)}
+                : stays          ? fitted({usual.width_mm / 2 + 25, usual.height_mm}, 1, picture.size)
+                                 : fitted(usual, 2, picture.size);
   if (!stays) {
-    figure.panels.push_back(bend <= straight * reach ? distance_panel(picture, far) : path_panel(picture, size));
+    figure.panels.push_back(bend <= straight * reach ? distance_panel(picture, far) : path_panel(picture, figure.size));
   }
   figure.panels.push_back(speed_panel(picture));
   return figure;

@@ -71,11 +71,14 @@ std::vector<Panel> similarity_view(const Drawing& drawing) {
   const double mu = portrait.system().mu();
   const std::vector<double> rays = ray_log_ratios(portrait);
   const auto [low, high] = rays.empty() ? std::pair{0.0, 0.0} : std::pair{rays.front(), rays.back()};
+  // A motion that is asked for begins inside.
+  const double start = portrait.highlight && portrait.highlight->u[0] != 0 ? portrait.highlight->ln_k[0] : 0;
   Panel by_q, by_ratio;
   by_q.title = "{/:Italic q = v}/{/:Italic u}: the symmetry moves {/:Italic p} alone";
-  by_q.x = {"{/:Italic q = μk}", 0, mu * (rays.empty() ? 4 : 3 * std::exp(high)), false, {}};
+  by_q.x = {
+      "{/:Italic q = μk}", 0, mu * std::max(rays.empty() ? 4 : 3 * std::exp(high), 1.2 * std::exp(start)), false, {}};
   by_ratio.title = "the same against ln {/:Italic k}";
-  by_ratio.x = {"ln {/:Italic k}", low - 4, high + 4, false, {}};
+  by_ratio.x = {"ln {/:Italic k}", low - 4, std::max(high + 4, start + 1), false, {}};
   std::vector<Panel> panels;
   panels.push_back(translates(
       drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); },

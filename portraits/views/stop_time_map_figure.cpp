@@ -33,13 +33,13 @@ double between(const Eigen::ArrayXXd& values, double row_share, double column_sh
          y * ((1 - x) * values(i + 1, j) + x * values(i + 1, j + 1));
 }
 
-ColourMap colours(const StopTimeMap& map) {
+ColourMap colours(const StopTimeMap& map, const std::string& time) {
   constexpr int rows = 180, columns = 240;
   const bool logarithmic = map.axes.logarithmic;
   const Eigen::ArrayXXd values = logarithmic ? Eigen::ArrayXXd(map.tau.log()) : map.tau;
   ColourMap image;
   image.columns = columns;
-  image.scale = {"{/:Italic τ}*", map.tau.minCoeff(), map.tau.maxCoeff(), logarithmic, {}};
+  image.scale = {time, map.tau.minCoeff(), map.tau.maxCoeff(), logarithmic, {}};
   // As a portrait's: dark next to the stop; paler, so that lines are seen on it.
   constexpr int steps = 16;
   for (int i = 0; i <= steps; ++i) image.palette.push_back(viridis(static_cast<double>(i) / steps, 0.35));
@@ -68,32 +68,39 @@ Lines ray(const StopTimeMap& map) {
 
 }  // namespace
 
-Figure draw(const StopTimeMap& map) {
+Figure draw(StopTimeMap map, const MapCaption& caption, const AskedSize& size) {
   constexpr double min_labelled = 0.15;
-  const bool logarithmic = map.axes.logarithmic;
+  Figure figure;
+  figure.title = !caption.title.empty()
+                     ? caption.title
+                     : fmt::format("When it stops,  {{/:Italic μ}} = {:.4g},  law: {}", map.mu, literal(map.law));
+  figure.subtitle = caption.subtitle;
+  figure.size = fitted({175, 130}, 1, size);
+  // From here on in the units of the axes.
+  map.axes.u0 /= caption.u_unit;
+  map.mu *= caption.u_unit;
+  map.tau /= caption.time_unit;
   Panel panel;
-  panel.x = axis("{/:Italic u}_0,  pivoting at the start", map.axes.u0, logarithmic);
-  panel.y = axis("{/:Italic v}_0,  sliding at the start", map.axes.v0, logarithmic);
-  panel.colours = colours(map);
+  panel.x = axis(caption.u, map.axes.u0, map.axes.logarithmic);
+  panel.y = axis(caption.v, map.axes.v0, map.axes.logarithmic);
+  panel.colours = colours(map, caption.time);
 
-  Lines isochrones{{}, {isochrone_colour, 1.1, false}, "equal stop time {/:Italic τ}*"};
+  Lines isochrones{{}, {isochrone_colour, 1.1, false}, "equal stop time " + caption.time};
   for (const Isochrone& isochrone : map.isochrones) {
     Polyline line;
-    for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) line.push_back({isochrone.u[i], isochrone.v[i]});
+    for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
+      line.push_back({isochrone.u[i] / caption.u_unit, isochrone.v[i]});
+    }
     if (paper_length(panel, line) >= min_labelled) {
-      panel.labels.push_back({arrow_along(panel, line, 0.5).at, fmt::format("{:.6g}", isochrone.tau_stop),
-                              isochrone_colour, Label::Align::centre});
+      // By turns higher and lower, beside each other.
+      const double share = panel.labels.size() % 2 == 0 ? 0.46 : 0.54;
+      panel.labels.push_back({arrow_along(panel, line, share).at,
+                              fmt::format("{:.6g}", isochrone.tau_stop / caption.time_unit), isochrone_colour});
     }
     isochrones.lines.push_back(std::move(line));
   }
   panel.lines.push_back(std::move(isochrones));
   if (Lines guide = ray(map); !guide.lines.empty()) panel.lines.push_back(std::move(guide));
-
-  Figure figure;
-  figure.title = fmt::format("When it stops,  {{/:Italic μ}} = {:.4g},  law: {}", map.mu, literal(map.law));
-  figure.subtitle = "stop time {/:Italic τ}* of every start, in the unit of the speeds";
-  figure.width_mm = 175;
-  figure.height_mm = 130;
   figure.panels = {std::move(panel)};
   return figure;
 }

@@ -309,8 +309,8 @@ val portrait_file(const val& asked, const std::string& ending) {
     const portraits::PhasePortrait portrait = question.portrait();
     val result = val::object();
     result.set("text", ending == "tex"    ? portraits::pgfplots(question.figure(portrait))
-                       : ending == "json" ? portraits::to_json(portrait)
-                                          : portraits::to_csv(portrait));
+                       : ending == "json" ? portraits::to_json(portrait, question.source())
+                                          : portraits::to_csv(portrait, question.source()));
     return result;
   });
 }

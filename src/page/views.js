@@ -83,8 +83,8 @@ export const views = [
     title: "log",
     hint: "Logarithms of both speeds. Scaling moves an orbit along the diagonal: all of them are copies of one curve.",
     panels: [{
-      place: ({ u, lnV }, { mu }) => [Math.log(mu * Math.abs(u)), lnV],
-      state: (x, y, { mu }) => ({ u: Math.exp(x) / mu, v: Math.exp(y) }),
+      place: ({ u, lnV }, { mu, window: [, V] }) => [Math.log((mu * Math.abs(u)) / V), lnV - Math.log(V)],
+      state: (x, y, { mu, window: [, V] }) => ({ u: (V * Math.exp(x)) / mu, v: V * Math.exp(y) }),
     }],
   },
   {

@@ -20,6 +20,7 @@ using portraits::PortraitStyle;
 struct Portrait {
   PhasePortrait data;
   Figure figure;
+  portraits::PortraitSource source;
 };
 
 /// Two columns.
@@ -92,9 +93,10 @@ py::dict dict_of(const Panel& panel) {
 py::dict dict_of(const Figure& figure) {
   const auto& bar = figure.colour_bar;
   return py::dict(
-      py::arg("title") = figure.title, py::arg("subtitle") = figure.subtitle, py::arg("width_mm") = figure.width_mm,
-      py::arg("height_mm") = figure.height_mm, py::arg("ground") = colour_of(figure.theme.ground),
-      py::arg("ink") = colour_of(figure.theme.ink), py::arg("faint") = colour_of(figure.theme.faint),
+      py::arg("title") = figure.title, py::arg("subtitle") = figure.subtitle,
+      py::arg("width_mm") = figure.size.width_mm, py::arg("height_mm") = figure.size.height_mm,
+      py::arg("ground") = colour_of(figure.theme.ground), py::arg("ink") = colour_of(figure.theme.ink),
+      py::arg("faint") = colour_of(figure.theme.faint),
       py::arg("panels") = list_of(figure.panels, [](const Panel& panel) { return dict_of(panel); }),
       py::arg("colour_bar") = bar ? std::optional(py::dict(py::arg("name") = bar->name,
                                                            py::arg("colours") = list_of(bar->colours, colour_of),
@@ -141,7 +143,7 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Shot>&
     figure.title = portraits::literal(*title, 200);
     figure.subtitle = "";
   }
-  return {std::move(data), std::move(figure)};
+  return {std::move(data), std::move(figure), asked.source()};
 }
 
 }  // namespace
@@ -165,7 +167,7 @@ void bind_portraits(py::module_& module) {
              };
              return py::bytes(drawn());
            })
-      .def("json", [](const Portrait& portrait) { return portraits::to_json(portrait.data); })
+      .def("json", [](const Portrait& portrait) { return portraits::to_json(portrait.data, portrait.source); })
       .def("figure", [](const Portrait& portrait) { return dict_of(portrait.figure); });
 }
 

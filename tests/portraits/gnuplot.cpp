@@ -9,11 +9,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "figures.hpp"
 
 using namespace contensou;
+using portraits::Figure;
 using portraits::PictureFormat;
 namespace fs = std::filesystem;
 
@@ -67,6 +69,7 @@ TEST_CASE("Endings name formats", "[table]") {
   for (std::size_t i = 0; i < endings.size(); ++i) {
     CHECK(portraits::find_picture_format(endings[i]) == static_cast<PictureFormat>(i));
   }
+  CHECK(portraits::find_picture_format("gif") == PictureFormat::gif);
   for (const char* unknown : {"jpg", ""}) CHECK_FALSE(portraits::find_picture_format(unknown));
 }
 
@@ -91,6 +94,29 @@ TEST_CASE("Scripts and the picture formats that need none are written without gn
   CHECK(portraits::render(sample(), PictureFormat::gp) == portraits::gnuplot_script(sample()));
   CHECK(portraits::render(sample(), PictureFormat::tex).find("\\documentclass") != std::string::npos);
   CHECK(sandbox.left_nothing());
+}
+
+TEST_CASE("A film has all its frames, and a mark is as wide on paper in every format", "[gnuplot]") {
+  Figure figure;
+  figure.size = {40, 40};
+  figure.panels = {{}};
+  figure.panels[0].x = figure.panels[0].y = {"", 0, 1, false, {}};
+  figure.panels[0].marks = {{{{0.2, 0.2}}, {0x112233}, 2}};
+  std::vector<Figure> frames(3, figure);
+  for (const int i : {1, 2}) frames[i].panels[0].marks[0].points = {{0.3 * i, 0.8}};
+  const std::string film = portraits::render_film(frames);
+  CHECK_THAT(film, Catch::StartsWith("GIF89a"));
+  // Each begins with its delay of 4 hundredths of a second.
+  int delays = 0;
+  for (std::size_t at = 0; (at = film.find("\x21\xF9\x04", at)) != std::string::npos; ++at) delays += film[at + 4] == 4;
+  CHECK(delays == 3);
+
+  // A circle of radius 1 in the units of gnuplot's symbols, of 5 to the millimetre.
+  const std::string svg = portraits::render(figure, PictureFormat::svg);
+  const std::size_t scale = svg.find("scale(");
+  REQUIRE(scale != std::string::npos);
+  const double wanted = 2 * portraits::mark_size * portraits::letter_mm(40);
+  CHECK(2 * std::stod(svg.substr(scale + 6)) / 5 == Approx(wanted).epsilon(0.01));
 }
 
 TEST_CASE("A missing gnuplot is named, with a way out", "[domain]") {

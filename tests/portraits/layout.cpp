@@ -137,8 +137,8 @@ TEST_CASE("Nothing on the page overlaps or leaves it, in a column or on a page",
         if (bar)
           figure.colour_bar = ColourBar{"time left, s", {Colour{1}, Colour{2}}, {{0, "0"}, {0.02, "1"}, {1, "10"}}};
         const PaperSize size = fitted({190, 125}, static_cast<int>(count), {.width_mm = width});
-        figure.width_mm = size.width_mm;
-        figure.height_mm = size.height_mm + 15;
+        figure.size.width_mm = size.width_mm;
+        figure.size.height_mm = size.height_mm + 15;
         CAPTURE(width, count, bar);
         const Layout layout = lay_out(figure);
         CHECK(layout.letter * 72 / 25.4 >= 6.2);
@@ -147,8 +147,8 @@ TEST_CASE("Nothing on the page overlaps or leaves it, in a column or on a page",
         for (std::size_t i = 0; i < all.size(); ++i) {
           CHECK(all[i].left >= 0);
           CHECK(all[i].bottom >= 0);
-          CHECK(all[i].left + all[i].width <= figure.width_mm);
-          CHECK(all[i].bottom + all[i].height <= figure.height_mm);
+          CHECK(all[i].left + all[i].width <= figure.size.width_mm);
+          CHECK(all[i].bottom + all[i].height <= figure.size.height_mm);
           for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(overlap(all[i], all[j]));
         }
         CHECK(layout.colours.size() == (bar ? 2 : 0));
@@ -161,10 +161,10 @@ TEST_CASE("A figure without room for its panels is refused, with a way out", "[d
   Figure figure;
   figure.title = "title";
   figure.panels.assign(2, square());
-  figure.width_mm = 85;
-  figure.height_mm = 40;
+  figure.size.width_mm = 85;
+  figure.size.height_mm = 40;
   CHECK_THROWS_WITH(lay_out(figure), Catch::Contains("85 x 40 mm") && Catch::Contains("make it larger"));
-  figure.height_mm = 90;
+  figure.size.height_mm = 90;
   CHECK_NOTHROW(lay_out(figure));
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("Ticks are round, in the axis, and as many as have room", "[table]") {
   figure.panels[0].x = {"", -1, 1, false, {}};
   std::size_t before = 2;
   for (double width : {60.0, 120.0, 400.0}) {
-    figure.width_mm = width;
+    figure.size.width_mm = width;
     const auto ticks = lay_out(figure).panels[0].x;
     CHECK(ticks.size() > before);
     before = ticks.size();

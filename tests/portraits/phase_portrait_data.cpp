@@ -1,8 +1,10 @@
+#include <cmath>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -46,14 +48,25 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
   CHECK(json["against"]["law"] == "exact");
   CHECK(json["against"]["orbits"][3]["v"].get<std::vector<double>>() == list(portrait.comparisons[0].orbits[3].v));
   CHECK(portraits::to_json(portrait).find("null") == std::string::npos);
+  CHECK(json["orbits"][3]["k"][0].get<double>() ==
+        Approx(portrait.orbits[3].v[0] / (0.3 * std::abs(portrait.orbits[3].u[0]))));
+  const auto of_ball = nlohmann::json::parse(portraits::to_json(portrait, {"1.2", "red ball", 0.5}));
+  CHECK((of_ball["version"] == "1.2" && of_ball["ball"] == "red ball" && of_ball["seconds_per_tau"] == 0.5));
 }
 
-TEST_CASE("CSV has one row for each point", "[table]") {
+TEST_CASE("CSV says where it comes from, and has one row for each point", "[table]") {
   const auto portrait = saved_portrait();
-  std::istringstream csv(portraits::to_csv(portrait));
-  std::string line;
-  std::getline(csv, line);
-  CHECK(line == "kind,index,u,v,tau");
+  std::istringstream csv(portraits::to_csv(portrait, {"1.2", "red ball", 0.5}));
+  std::string line, remarks;
+  while (std::getline(csv, line) && line.starts_with('#')) remarks += line + '\n';
+  CHECK_THAT(remarks, Catch::StartsWith("# law: \"pade\"\n# mu: 0.3\n# body: {\"chi\": 3.5, \"gamma\": 2.5}\n"));
+  CHECK_THAT(remarks, Catch::EndsWith("# version: \"1.2\"\n# ball: \"red ball\"\n# seconds_per_tau: 0.5\n"));
+  CHECK(line == "kind,index,u,v,tau,ln_v,k,t");
+  const portraits::PortraitOrbit& first = portrait.orbits[0];
+  const double tau = first.tau_left[0];
+  const auto row = fmt::format("orbit,0,{},{},{},{},{},{}", first.u[0], first.v[0], tau, first.ln_v[0],
+                               std::exp(first.ln_k[0]), 0.5 * tau);
+  CHECK(portraits::to_csv(portrait, {"", "b", 0.5}).find("k,t\n" + row + "\n") != std::string::npos);
   std::map<std::string, Eigen::Index> rows;
   while (std::getline(csv, line)) ++rows[line.substr(0, line.find(','))];
   std::map<std::string, Eigen::Index> wanted;

@@ -99,6 +99,43 @@ TEST_CASE("the legend lists the entries of every panel once", "[table]") {
   }
 }
 
+TEST_CASE("a film shows as much as has happened, and both balls as they have turned", "[table]") {
+  for (double end : {0.013, 0.4, 7.0, 10.5, 300.0}) {
+    const auto [t, slow] = film_pace(end);
+    CAPTURE(end, slow);
+    CHECK(t[1] * slow == Approx(0.04));
+    CHECK(t[t.size() - 1] == Approx(end).epsilon(0.01));
+    CHECK(t.size() <= 252);
+    CHECK(t.size() >= 100);
+  }
+  RollCurve ball = curve(0.5, 2.2), textbook = curve(0.6, 2.2);
+  textbook.rolls = 1.5;
+  // A quarter of a turn about the vertical.
+  for (RollCurve* of : {&ball, &textbook}) {
+    of->angular_velocity = Eigen::Vector3d(0, 0, 3.14159265 / 2 / 2.2).replicate(1, of->t.size());
+  }
+  const RollPicture picture{"", "", ball, textbook, {}, 20};
+  const std::vector<Figure> frames = roll_film(picture);
+  REQUIRE(frames.size() == 101);
+  for (std::size_t i : {0, 50, 60, 100}) {
+    const auto& panels = frames[i].panels;
+    REQUIRE(panels.size() == 4);
+    CHECK(panels[0].lines[0].lines[0].size() == i + 1);
+    CHECK_THAT(panels[1].title, Catch::Contains("slowed 20 times"));
+    // Textbook, then this ball, each where it is and where it began to roll.
+    REQUIRE(panels[0].marks.size() == 4);
+    CHECK(panels[0].marks[2].points[0].x == Approx(ball.t[static_cast<Eigen::Index>(i)]));
+    CHECK(panels[0].marks[3].points.size() == (i >= 46 ? 1 : 0));
+    CHECK(panels[2].labels[0].text == (i >= 46 ? "rolls" : "slides 1.00 m/s"));
+    CHECK_THAT(panels[3].labels[0].text, Catch::StartsWith(i >= 69 ? "rolls" : "slides"));
+  }
+  const Point before = frames[0].panels[2].marks[0].points[0], after = frames[100].panels[2].marks[0].points[0];
+  CHECK(after.x == Approx(-before.y));
+  CHECK(after.y == Approx(before.x));
+  ball.angular_velocity.resize(3, 0);
+  CHECK_THROWS_AS(roll_film({"", "", ball, textbook, {}, 20}), std::domain_error);
+}
+
 TEST_CASE("columns of different lengths are refused", "[domain]") {
   RollCurve bad = curve(0.5, 2.2);
   bad.rim = Eigen::ArrayXd::Zero(3);

@@ -50,6 +50,25 @@ TEST_CASE("A map has a row for each v0 and a column for each u0", "[route]") {
   }
 }
 
+TEST_CASE("A map in units of its own is the same picture", "[route]") {
+  const Flow flow({reduction::HertzLaw{}, 0.3});
+  const MapAxes axes{even(7, 0, 2), even(5, 0, 4)};
+  const Figure plain = draw(stop_time_map(flow, axes));
+  // u in units of 0.5, times in units of 10.
+  const Figure figure = draw(stop_time_map(flow, axes, 10),
+                             {.title = "ball", .time = "t", .u_unit = 0.5, .time_unit = 10}, {.width_mm = 85});
+  CHECK(figure.size.width_mm == 85);
+  CHECK(figure.title == "ball");
+  const Panel &one = plain.panels[0], &other = figure.panels[0];
+  CHECK(other.x.high == 4);
+  CHECK(other.colours->scale.high == Approx(one.colours->scale.high / 10));
+  CHECK(layer(other, "{/:Italic k} = 1").lines[0][1].x == Approx(2 * layer(one, "{/:Italic k} = 1").lines[0][1].x));
+  for (const Label& label : other.labels) {
+    CHECK(flow.stop_time({0.5 * label.at.x, label.at.y}).tau == Approx(10 * std::stod(label.text)).epsilon(1e-3));
+  }
+  CHECK(other.labels.size() >= 4);
+}
+
 TEST_CASE("Every point of an isochrone stops at its time, and lies in the map", "[invariant]") {
   for (const double mu : {0.01, 0.3, 1.0}) {
     const reduction::Flow flow({reduction::PadeLaw{}, mu});

@@ -37,6 +37,7 @@ const std::vector<Writer> writers{
     {"law", {"law.svg"}},
     {"roll --ball pool", {"roll.csv"}},
     {"roll --ball pool", {"roll.pdf"}},
+    {"roll --ball pool --until 0.001", {"roll.gif"}},
     {"terminal --mu 0.1", {"terminal.json"}},
     {"portrait --mu 0.3", {"portrait.svg"}},
     {"portrait --mu 0.3", {"portrait.pdf"}},

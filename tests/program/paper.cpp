@@ -28,7 +28,7 @@ TEST_CASE("paper: a table of every statement with its verdict", "[cli]") {
 TEST_CASE("paper --out: the four figures, each twice", "[cli][gnuplot]") {
   const TemporaryDirectory scratch;
   const std::string folder = scratch.file("new/folder");
-  const Run run = run_program(std::vector<std::string>{"paper", "--out", folder});
+  const Run run = run_program(std::vector<std::string>{"paper", "--size", "single", "--out", folder});
   REQUIRE(run.status == 0);
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -36,7 +36,7 @@ TEST_CASE("paper --out: the four figures, each twice", "[cli][gnuplot]") {
     INFO(entry.path().string());
     const bool svg = entry.path().extension() == ".svg";
     CHECK_THAT(content, StartsWith(svg ? "<?xml" : "%PDF"));
-    if (svg) CHECK_THAT(content, Contains("</svg>") && Contains("Zh98, Fig. "));
+    if (svg) CHECK_THAT(content, Contains("</svg>") && Contains("Zh98, Fig. ") && Contains("width=\"85mm\""));
     if (!svg) CHECK_THAT(content, Contains("%%EOF"));
     CHECK_THAT(entry.path().stem().string(), StartsWith("fig"));
     ++files;
@@ -60,7 +60,7 @@ TEST_CASE("paper --out: a folder that cannot be is status 4, and nothing is writ
 
 TEST_CASE("paper: bad options", "[cli]") {
   for (const char* options : {"paper --out", "paper --out= ", "paper --mu 0.1", "paper figures", "paper --format svg",
-                              "paper --out a --out b"}) {
+                              "paper --out a --out b", "paper --size single"}) {
     const Run run = run_program(options);
     CAPTURE(options, run.err);
     CHECK(run.status == 2);

@@ -204,6 +204,18 @@ TEST_CASE("the summary has both models and the energy", "[cli]") {
   }
 }
 
+TEST_CASE("a moving picture, in real time or a stated pace", "[cli][gnuplot]") {
+  const TemporaryDirectory scratch;
+  const Run run =
+      run_program("roll --ball pool --until 0.01 --size 120x90 --font Serif -o " + scratch.file("shot.gif"));
+  INFO(run.err);
+  CHECK(run.status == 0);
+  CHECK((run.out.empty() && run.err.empty()));
+  const std::string film = read_file(scratch.file("shot.gif"));
+  CHECK_THAT(film, StartsWith("GIF89a"));
+  CHECK(film.size() < 2'000'000);
+}
+
 TEST_CASE("a picture of the motion as a script", "[cli]") {
   const TemporaryDirectory scratch;
   for (const std::string& start :
@@ -311,6 +323,10 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
       {"roll --ball pool --until -1", "--until -1: "},
       {"roll --ball pool --until inf", "'inf' is not a finite number"},
       {"roll --ball pool --samples 3 -o roll.svg", "leave them out"},
+      {"roll --ball pool --dpi 100 -o roll.gif", "--dpi 100: a gif has no dots"},
+      {"roll --ball pool --digits 3 -o roll.gif", "a picture has no digits"},
+      {"roll --ball pool --font Times -o roll.tex", "--font Times: a tex has the font of the document"},
+      {"roll --ball pool --font a,b -o roll.svg", "--font a,b: the name of a font is needed"},
       {"roll --ball pool --rolling-below -1", "--rolling-below -1: 0 or more is needed"},
       {"roll --ball pool --strike 1e300", "lengths, angles or energies exceed the largest double; up to 1.3e+153 is"},
       {"roll --ball pool --slip 2e299", "exceed the largest double"},

@@ -74,7 +74,8 @@ TEST_CASE("a sweep of a ball is in SI", "[cli]") {
            {"--mu 0.1 --spin 0:1:2 --slip 0:1:2", "add --ball"},
            {"--ball pool --spin 0:1:2 --slip -1:1:2", "a sliding speed is >= 0"},
            {"--friction 0.1 --mu 0.1 --u0 0:1:2 --v0 0:1:2", "add --ball"},
-           {"--ball pool --spin 0:1:2 --slip 0:1:2 -o map.svg", "a picture of a sweep is in u and v"}}) {
+           {"--ball pool --spin 1 --slip 0:1:2 -o map.svg", "--spin 1: a picture needs a range"},
+           {"--ball pool --spin 0:1:2 --slip 0:1:2 --size single", "--size: csv is no picture"}}) {
     check_rejected("sweep " + arguments, words);
   }
 }
@@ -261,4 +262,8 @@ TEST_CASE("a sweep as a picture", "[cli]") {
   REQUIRE(run_program(command + scratch.file("map.svg")).status == 0);
   CHECK_THAT(read_file(scratch.file("map.svg")), StartsWith("<?xml") && Contains("<image"));
   CHECK(scratch.names() == std::vector<std::string>{"map.gp", "map.svg"});
+  const Run ball =
+      run_program("sweep --ball pool --spin 0:200:21 --slip 0:2:21 --size single --font Serif --format gp");
+  CHECK_THAT(ball.out, Contains("rad/s") && Contains("m/s") && Contains("pool ball on cloth") &&
+                           Contains("size 425,") && Contains("font 'Serif,") && Contains("set xrange [0:200]"));
 }

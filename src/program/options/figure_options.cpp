@@ -1,5 +1,7 @@
 #include "options/figure_options.hpp"
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,9 +32,19 @@ portraits::AskedSize parse_size(const std::string& typed) {
   return {sides[0], sides[1]};
 }
 
+std::string parse_font(const std::string& typed) {
+  // Others would end its name in the languages of pictures.
+  const auto forbidden = [](char c) {
+    return static_cast<unsigned char>(c) < ' ' || std::string_view("'\",;:<>&\\").find(c) != std::string_view::npos;
+  };
+  if (typed.empty() || std::ranges::any_of(typed, forbidden))
+    throw NotAllowed("the name of a font is needed, as in 'DejaVu Serif'");
+  return typed;
+}
+
 }  // namespace
 
-void FigureOptions::add(CLI::App& app) {
+void FigureOptions::add(CLI::App& app, bool several) {
   app.option_defaults()->group("Picture");
   size_.add(
       app, "--size", "WxH",
@@ -40,6 +52,8 @@ void FigureOptions::add(CLI::App& app) {
                   "mm wide",
                   min_side, max_side, single_column, double_column),
       parse_size);
+  font_.add(app, "--font", "NAME", "font of svg, pdf, png, eps and gif (default: sans-serif)", parse_font);
+  if (several) return;
   title_.add(app, "--title", "TEXT", "title of the figure, or none: neither title nor subtitle");
   dpi_.add(app, "--dpi", "N", "dots per inch of a png, 50 to 1200 (default 300)", whole_number(50, 1200));
 }
@@ -49,6 +63,9 @@ portraits::Figure FigureOptions::apply(portraits::Figure figure, const std::stri
     figure.title = title_.text() == "none" ? "" : portraits::literal(title_.text(), 200);
     figure.subtitle = "";
   }
+  if (font_.given() && format == "tex")
+    font_.reject("a tex has the font of the document that it stands in: leave it out");
+  figure.font = font_.value_or("");
   if (dpi_.given() && format != "png") dpi_.reject(fmt::format("a {} has no dots: leave it out", format));
   figure.dpi = static_cast<double>(dpi_.value_or(static_cast<long>(figure.dpi)));
   return figure;

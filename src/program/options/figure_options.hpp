@@ -7,22 +7,27 @@
 
 namespace contensou::program {
 
-/// How a figure looks on a journal's page: --size, --title and --dpi.
+/// How a figure looks on a journal's page: --size, --font, --title and --dpi.
 class FigureOptions {
  public:
-  void add(CLI::App& app);
+  /// @param several  figures, each with a title of its own and without dots: --size and --font alone
+  void add(CLI::App& app, bool several = false);
+
+  /// The options that were given, for a message.
+  std::string names() const { return names_given({&size_, &font_, &title_, &dpi_}); }
 
   /// --size; nothing of it without the option.
   portraits::AskedSize size() const { return size_.value_or(portraits::AskedSize{}); }
 
-  /// The figure with the title and the dots that are asked for.
+  /// The figure with the title, the font and the dots that are asked for.
   /// @param format  that it is written in
-  /// @throws BadInput  for --dpi with other than png
+  /// @throws BadInput  for --dpi with other than png, for --font with tex
   portraits::Figure apply(portraits::Figure figure, const std::string& format) const;
 
  private:
   ArgumentOf<portraits::AskedSize> size_;
   Argument title_;
+  ArgumentOf<std::string> font_;
   ArgumentOf<long> dpi_;
 };
 

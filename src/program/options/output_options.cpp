@@ -44,11 +44,12 @@ void Output::write(std::string_view content) const { write_output(path, content)
 
 void Output::write(const Answer& answer) const { write(render(answer, format, digits)); }
 
-void Output::write(const portraits::Figure& figure) const { write(drawn(figure, picture().value())); }
+void Output::write(const std::vector<portraits::Figure>& figures) const { write(drawn(figures, picture().value())); }
 
-std::string drawn(const portraits::Figure& figure, portraits::PictureFormat format) {
+std::string drawn(const std::vector<portraits::Figure>& figures, portraits::PictureFormat format) {
   try {
-    return portraits::render(figure, format);
+    return format == portraits::PictureFormat::gif ? portraits::render_film(figures)
+                                                   : portraits::render(figures.front(), format);
   } catch (const portraits::GnuplotError& error) {
     throw FileFailure(error.what());
   }

@@ -34,14 +34,14 @@ struct Output {
   void write(std::string_view content) const;
   void write(const Answer& answer) const;
 
-  /// A picture, in its format.
+  /// A picture, in its format; the frames of a gif.
   /// @throws FileFailure  as write_output, and if gnuplot is missing or fails
-  void write(const portraits::Figure& figure) const;
+  void write(const std::vector<portraits::Figure>& figures) const;
 };
 
-/// The bytes of a figure.
+/// The bytes of a figure; of a gif's frames.
 /// @throws FileFailure  if gnuplot is missing or fails
-std::string drawn(const portraits::Figure& figure, portraits::PictureFormat format);
+std::string drawn(const std::vector<portraits::Figure>& figures, portraits::PictureFormat format);
 
 /// -o, --format and --digits.
 class OutputOptions {

@@ -24,6 +24,11 @@ portraits::Figure PortraitSpec::figure(const portraits::PhasePortrait& portrait)
   return portraits::draw(portrait, caption(portrait), style);
 }
 
+portraits::PortraitSource PortraitSpec::source() const {
+  if (!shot) return {.version = CONTENSOU_VERSION};
+  return {.version = CONTENSOU_VERSION, .ball = shot->ball.name, .seconds_per_tau = si::seconds(*shot, 1)};
+}
+
 portraits::PortraitCaption PortraitSpec::caption(const portraits::PhasePortrait& portrait) const {
   portraits::PortraitCaption caption;
   if (!start) return caption;

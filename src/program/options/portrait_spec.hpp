@@ -24,6 +24,9 @@ struct PortraitSpec {
   /// The drawing of that portrait, with the units of a ball.
   portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
 
+  /// What its data say about where they come from.
+  portraits::PortraitSource source() const;
+
  private:
   portraits::PortraitCaption caption(const portraits::PhasePortrait& portrait) const;
 };

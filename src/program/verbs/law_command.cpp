@@ -37,7 +37,7 @@ class LawCommand final : public Verb {
       if (surface_) laws.insert(laws.end(), {*reduction::find_law("uniform"), *reduction::find_law("ring")});
       if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) laws.push_back(law);
       const auto draw = surface_ ? portraits::limit_surface_figure : portraits::law_figure;
-      output.write(figure_.apply(draw(laws, figure_.size()), output.format));
+      output.write({figure_.apply(draw(laws, figure_.size()), output.format)});
       return ExitStatus::done;
     }
     if (!k_.given() && !batch_.given()) {

@@ -15,6 +15,7 @@
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "options/figure_options.hpp"
 #include "options/output_options.hpp"
 #include "output/interruption.hpp"
 #include "output/output.hpp"
@@ -59,17 +60,17 @@ struct NamedFigure {
   Figure figure;
 };
 
-std::vector<NamedFigure> figures() {
+std::vector<NamedFigure> figures(const portraits::AskedSize& size) {
   const reduction::ReducedSystem system(reduction::PadeLaw{}, drawn_patch_ratio);
   portraits::PortraitCaption caption;
   caption.title = fmt::format("Integral curves of d{{/:Italic v}}/d{{/:Italic u}},  {{/:Italic μ}} = {},  law: {}",
                               drawn_patch_ratio, system.law().name());
   caption.subtitle =
       "Zh98, Fig. 4: all of them run into the origin, tangent to the {/:Italic u}-axis; {/:Italic u} = 0 stands alone";
-  return {{"fig1", portraits::patch_drawing()},
-          {"fig2", portraits::law_figure(reduction::paper_laws())},
-          {"fig3", portraits::ball_drawing()},
-          {"fig4", portraits::draw(portraits::phase_portrait(system, {}), caption)}};
+  return {{"fig1", portraits::patch_drawing(size)},
+          {"fig2", portraits::law_figure(reduction::paper_laws(), size)},
+          {"fig3", portraits::ball_drawing(size)},
+          {"fig4", portraits::draw(portraits::phase_portrait(system, {}), caption, {.size = size})}};
 }
 
 struct File {
@@ -78,12 +79,13 @@ struct File {
 };
 
 /// All figures in both formats, drawn side by side.
-std::vector<File> draw_figures(const fs::path& folder) {
+std::vector<File> draw_figures(const fs::path& folder, const FigureOptions& looks) {
   std::vector<std::pair<std::string, std::future<std::string>>> drawings;
-  for (const NamedFigure& named : figures()) {
+  for (const auto& [name, figure] : figures(looks.size())) {
     for (const auto& [ending, format] : {std::pair{".svg", PictureFormat::svg}, {".pdf", PictureFormat::pdf}}) {
-      drawings.emplace_back((folder / (named.name + ending)).string(),
-                            std::async(std::launch::async, drawn, named.figure, format));
+      drawings.emplace_back(
+          (folder / (name + ending)).string(),
+          std::async(std::launch::async, drawn, std::vector{looks.apply(figure, ending + 1)}, format));
     }
   }
   std::vector<File> files;
@@ -148,14 +150,18 @@ class PaperCommand final : public Verb {
   void add_options(CLI::App& app) override {
     app.option_defaults()->group("Figures");
     out_.add(app, "--out", "DIR", "write fig1 to fig4 into DIR as svg and pdf (default: the table alone)");
+    figure_.add(app, true);
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
     if (out_.given() && out_.text().empty()) out_.reject("a folder's name is needed");
+    if (const std::string names = figure_.names(); !out_.given() && !names.empty()) {
+      throw BadInput(fmt::format("{}: without --out DIR nothing is drawn: add it, or leave it out", names));
+    }
     const std::vector<StatementRow> rows = recompute();
-    if (out_.given()) write_files(out_, draw_figures(out_.text()));
+    if (out_.given()) write_files(out_, draw_figures(out_.text(), figure_));
     Answer answer;
     for (const auto& [statement, found, correction, where] : rows) {
       answer.rows.push_back({{"equation", statement.equation},
@@ -175,6 +181,7 @@ class PaperCommand final : public Verb {
 
  private:
   Argument out_;
+  FigureOptions figure_;
   OutputOptions output_{{{"a table of statements", answer_formats("text")}}};
 };
 

@@ -93,9 +93,9 @@ class PortraitCommand final : public Verb {
     if (against_.given()) question.request.comparison = against_.read();
     const portraits::PhasePortrait portrait = question.portrait();
     if (output.picture()) {
-      output.write(figure_.apply(question.figure(portrait), output.format));
+      output.write({figure_.apply(question.figure(portrait), output.format)});
     } else {
-      output.write(output.format == "csv" ? portraits::to_csv(portrait) : portraits::to_json(portrait));
+      output.write((output.format == "csv" ? portraits::to_csv : portraits::to_json)(portrait, question.source()));
     }
     return ExitStatus::done;
   }

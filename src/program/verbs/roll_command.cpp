@@ -145,7 +145,10 @@ portraits::RollCurve curve(const si::Shot& shot, const si::MotionColumns& motion
           .slip = motion.slip,
           .rim = shot.ball.radius * motion.wz.abs(),
           .speed = (motion.vx.square() + motion.vy.square()).sqrt(),
-          .rolls = rolls};
+          .rolls = rolls,
+          .angular_velocity = (Eigen::Matrix3Xd(3, motion.rows()) << motion.wx.matrix().transpose(),
+                               motion.wy.matrix().transpose(), motion.wz.matrix().transpose())
+                                  .finished()};
 }
 
 /// Columns of the motion, and its events.
@@ -191,12 +194,11 @@ std::string report_on(const Roll& roll, const Digits& digits) {
                      digits(motion.stop_time), std::abs(motion.stop_time - roll.stop_time()), motion.steps);
 }
 
-/// The picture of the motion up to a time in s, beside the textbook's.
-portraits::RollPicture picture_of(const Roll& roll, double end) {
+/// The picture of the motion at these instants, beside the textbook's.
+portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times) {
   const auto& [shot, law, integrated, rolling_below, rolling_friction, whole, textbook] = roll;
   const double rolls = whole.rolls;
   const double textbook_rolls = textbook.rolls;
-  const Eigen::ArrayXd times = instants(500, 2 * std::max(rolls, textbook_rolls), end);
   const double slip = si::slip_at_start(shot);
   const double spin = si::spin_at_start(shot);
   portraits::RollPicture picture{
@@ -310,9 +312,17 @@ class RollCommand final : public Verb {
     const double end = until_.value_or(roll.standard_end());
     if (output.picture()) {
       if (instants_.given()) throw BadInput("a picture needs no --at or --samples: leave them out");
-      portraits::RollPicture picture = picture_of(roll, end);
+      const double rolls = std::max(roll.whole.rolls, roll.textbook.rolls);
+      const bool moves = output.picture() == portraits::PictureFormat::gif;
+      const double film_end = rolls > 0 && !until_.given() ? std::min(1.6 * rolls, end) : end;
+      const auto [film_times, slow] = portraits::film_pace(film_end);
+      portraits::RollPicture picture = picture_of(roll, moves ? film_times : instants(500, 2 * rolls, end));
       picture.size = figure_.size();
-      output.write(figure_.apply(portraits::roll_figure(picture), output.format));
+      picture.slow = moves ? slow : 0;
+      std::vector<portraits::Figure> figures =
+          moves ? portraits::roll_film(picture) : std::vector{portraits::roll_figure(picture)};
+      for (portraits::Figure& figure : figures) figure = figure_.apply(std::move(figure), output.format);
+      output.write(figures);
     } else if (output.format == "text" && !instants_.given() && !until_.given()) {
       output.write(report_on(roll, output.digits));
     } else {
@@ -418,7 +428,7 @@ class RollCommand final : public Verb {
   bool keep_going_ = false;
   BulkOptions bulk_;
   FigureOptions figure_;
-  OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"))}, {"a table of motions", {"csv"}}}};
+  OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};
 };
 
 const RegisteredVerb<RollCommand> roll_verb("roll", "The whole motion of a ball: t,x,y,vx,vy,wx,wy,wz,slip,energy",

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "contensou/portraits/stop_time_map.hpp"
 #include "contensou/si/bridge.hpp"
 #include "options/bulk_options.hpp"
+#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
@@ -270,6 +272,7 @@ class SweepCommand final : public Verb {
     slip_.add(app, "--slip", "MIN:MAX:N", "N values of the sliding speed, in metres per second", read(si::slip.unit));
     law_.add(app);
     bulk_.add(app);
+    figure_.add(app);
     output_.add(app);
   }
 
@@ -279,10 +282,14 @@ class SweepCommand final : public Verb {
     const reduction::Law law = law_.read(body);
     const SweepGrid grid = ball_.ball_given() ? read_grid_of_ball(law) : read_grid(body);
     if (out.picture()) {
-      if (grid.ball) throw BadInput("a picture of a sweep is in u and v: give --mu, --u0, --v0, or write npy or csv");
       bulk_.refuse("npy and csv: a picture is of few starts, leave it out");
-      out.write(portraits::draw(make_map(reduction::ReducedSystem(law, grid.mu.least, body.inertia), grid)));
+      out.write(
+          {figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.least, body.inertia), grid), out.format)});
       return ExitStatus::done;
+    }
+    if (const std::string names = figure_.names(); !names.empty()) {
+      throw BadInput(
+          fmt::format("{}: {} is no picture; leave it out, or write svg, pdf, png, eps or gp", names, out.format));
     }
     OutputFile output(out.path);
     sweep({.law = law,
@@ -345,10 +352,10 @@ class SweepCommand final : public Verb {
     return grid;
   }
 
-  portraits::StopTimeMap make_map(const reduction::ReducedSystem& system, const SweepGrid& grid) const {
+  portraits::Figure make_map(const reduction::ReducedSystem& system, const SweepGrid& grid) const {
     constexpr double max_drawn = 1e6;
     if (grid.mu_is_range) mu_.reject("a picture shows one mu: give --mu M, or write npy or csv");
-    for (const auto* axis : {&u0_, &v0_}) {
+    for (const auto* axis : grid.ball ? std::array{&spin_, &slip_} : std::array{&u0_, &v0_}) {
       if ((*axis)->count < 2) axis->reject("a picture needs a range, MIN:MAX:N");
     }
     if (grid.points() > max_drawn) {
@@ -360,7 +367,21 @@ class SweepCommand final : public Verb {
     };
     const reduction::Flow flow(system);
     tell_if_not_proved(flow.table());
-    return portraits::stop_time_map(flow, {values(grid.u0), values(grid.v0), log_});
+    portraits::MapCaption caption;
+    if (grid.ball) {
+      caption = {
+          .title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(grid.ball->ball.name),
+                               system.mu(), portraits::literal(system.law().name())),
+          .subtitle = "how long slip and spin last, from every start",
+          .u = "spin {/:Italic ω_z} at the start, rad/s",
+          .v = "slip {/:Italic v} at the start, m/s",
+          .time = "{/:Italic t}*, s",
+          .u_unit = grid.ball->ball.radius,
+          .time_unit = 1 / si::seconds(*grid.ball, 1)};
+    }
+    return portraits::draw(
+        portraits::stop_time_map(flow, {caption.u_unit * values(grid.u0), values(grid.v0), log_}, caption.time_unit),
+        caption, figure_.size());
   }
 
   ArgumentOf<Range> mu_, u0_, v0_, spin_, slip_;
@@ -369,6 +390,7 @@ class SweepCommand final : public Verb {
   LawOption law_;
   BodyOptions body_;
   BulkOptions bulk_;
+  FigureOptions figure_;
   OutputOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};
 };
 

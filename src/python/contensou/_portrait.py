@@ -81,8 +81,8 @@ class Portrait:
 
     @property
     def data(self) -> dict[str, Any]:
-        """What `contensou portrait -o FILE.json` writes, lists of numbers as arrays: window; orbits, each with u, v, ln_v
-        and tau_left; isochrones, each with tau_stop, u, v; where asked for highlight, through, against."""
+        """What `contensou portrait -o FILE.json` writes, lists of numbers as arrays: window; orbits, each with u, v, ln_v,
+        k and tau_left; isochrones, each with tau_stop, u, v; where asked for highlight, through, against."""
         return dict(_columns(json.loads(self._core.json())))
 
     @property

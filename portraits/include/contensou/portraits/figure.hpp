@@ -46,13 +46,14 @@ struct Arrow {
 struct Arrows {
   std::vector<Arrow> arrows;
   Colour colour;
+  double size = 1;
 };
 
 /// Signs at points; one entry of the legend. A circle and a square are open, on the figure's ground.
 struct Marks {
   std::vector<Point> points;
   Colour colour;
-  double size = 0.6;  ///< relative to the text's dots
+  double size = 0.6;
   enum class Shape { dot, circle, square } shape = Shape::dot;
   std::string legend = {};  ///< empty: not in the legend
 };
@@ -115,6 +116,11 @@ struct ColourBar {
   std::vector<Axis::Tick> ticks;  ///< at: share of the height
 };
 
+/// The size of a figure on paper.
+struct PaperSize {
+  double width_mm = 180, height_mm = 120;
+};
+
 /// The colours and letters of a whole figure.
 struct Theme {
   Colour ground{0xffffff};
@@ -129,17 +135,13 @@ struct Theme {
 struct Figure {
   std::string title;
   std::string subtitle;
-  double width_mm = 180;
-  double height_mm = 120;
-  double dpi = 300;  ///< of a PNG
+  PaperSize size = {};
+  double dpi = 300;       ///< of a PNG
+  std::string font = {};  ///< its name; empty: a sans-serif one. TeX keeps its own
+  int most_columns = 4;   ///< of panels, side by side
   std::vector<Panel> panels;
   std::optional<ColourBar> colour_bar = {};
   Theme theme = {};
-};
-
-/// The size of a figure on paper.
-struct PaperSize {
-  double width_mm, height_mm;
 };
 
 /// A size that is asked for; what is left out is chosen.

@@ -11,10 +11,10 @@
 namespace contensou::portraits {
 
 /// What a figure can be written as. gp is a gnuplot script with its data, tex is LaTeX (pgfplots.hpp); the others are
-/// drawn by gnuplot.
-enum class PictureFormat { svg, pdf, png, eps, gp, tex };
+/// drawn by gnuplot. gif moves.
+enum class PictureFormat { svg, pdf, png, eps, gp, tex, gif };
 
-/// The file endings of all formats, without a dot.
+/// The file endings of all formats but gif, without a dot.
 std::vector<std::string_view> picture_formats();
 
 /// The format of that file ending, without its dot.
@@ -28,7 +28,7 @@ class GnuplotError : public std::runtime_error {
 /// The figure as a gnuplot script with its data inside: `gnuplot FILE.gp > FILE.svg` draws it.
 std::string gnuplot_script(const Figure& figure);
 
-/// The bytes of the figure in a format; the same for the same figure. gp and tex need no gnuplot. For the others
+/// The bytes of the figure in a format other than gif; the same for the same figure. gp and tex need no gnuplot. For the others
 /// gnuplot is looked up on PATH and run once, with no settings but the script's (without ~/.gnuplot), for at most 60 s;
 /// it ends when this program does. What it reads and writes is in memory. What it says on its standard error although
 /// it drew the figure goes to std::cerr.
@@ -36,5 +36,9 @@ std::string gnuplot_script(const Figure& figure);
 /// @return  a whole file: it has its format's beginning and end, and an SVG all that the figure plots
 /// @throws GnuplotError  if gnuplot is not found, fails, takes longer or draws nothing that is whole
 std::string render(const Figure& figure, PictureFormat format);
+
+/// A moving picture as a GIF that begins again and again, with 4 pixels to the millimetre; as render.
+/// @param frames  of one size, 25 for a second
+std::string render_film(const std::vector<Figure>& frames);
 
 }  // namespace contensou::portraits

@@ -91,8 +91,8 @@ struct Layout {
 /// @throws std::domain_error  if the figure is too small for its panels
 Layout lay_out(const Figure& figure);
 
-/// The width of a line of width 1 and the length of an arrow's head, in sizes of letters.
-inline constexpr double line_width = 0.074, head_length = 0.74;
+/// The width of a line, the length of an arrow's head and the width of a mark of size 1, in sizes of letters.
+inline constexpr double line_width = 0.074, head_length = 0.74, mark_size = 0.5;
 
 /// The size of letters in a figure of that width.
 double letter_mm(double width_mm);

@@ -106,13 +106,21 @@ PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest&
 /// @param upstream  >= 0: where it starts, the larger of mu u and v is exp(upstream) times as large
 PortraitOrbit orbit_through(const reduction::Flow& flow, double ln_k, double ln_v, double upstream);
 
-/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], orbits [{u, v, ln_v, tau_left}], isochrones
-/// [{tau_stop, u, v}]; where asked for also highlight (an orbit), through (orbits), against {law, orbits, isochrones}.
-/// Numbers read back to the same doubles.
-std::string to_json(const PhasePortrait& portrait);
+/// Where a portrait comes from, beside its system.
+struct PortraitSource {
+  std::string version = {};    ///< of the program; empty: not told
+  std::string ball = {};       ///< its name, if speeds are in m/s
+  double seconds_per_tau = 0;  ///< of that ball
+};
 
-/// The portrait as CSV with the columns kind,index,u,v,tau: kind is orbit, highlight, through or isochrone (of another
-/// law, against_orbit or against_isochrone), tau the time left.
-std::string to_csv(const PhasePortrait& portrait);
+/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], version, ball, seconds_per_tau, orbits
+/// [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]; where asked for also highlight (an orbit), through (orbits),
+/// against {law, orbits, isochrones}. Numbers read back to the same doubles.
+std::string to_json(const PhasePortrait& portrait, const PortraitSource& source = {});
+
+/// The portrait as CSV with the columns kind,index,u,v,tau,ln_v,k, and t of a ball: kind is orbit, highlight, through or
+/// isochrone (of another law, against_orbit or against_isochrone), tau and t (s) the time left. Before them, in lines that
+/// begin with #, what JSON has before its orbits.
+std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits

@@ -34,6 +34,6 @@ struct PortraitStyle {
 std::string law_names(const PhasePortrait& portrait);
 
 /// The portrait as a drawing in its view. A pure function: all numbers come from the portrait.
-Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {}, const PortraitStyle& style = {});
+Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {}, PortraitStyle style = {});
 
 }  // namespace contensou::portraits

@@ -28,12 +28,23 @@ struct StopTimeMap {
 
 /// Computes the map. Isochrones come from the flow itself, not from the map's values.
 ///
+/// @param time_unit  in tau: isochrones are at round multiples of it
 /// @throws std::domain_error  if an axis is not as MapAxes says, spans values outside 1e-100 .. 1e100, or a stop time
 ///                            is beyond the largest double
-StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes);
+StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, double time_unit = 1);
+
+/// Words and units of a map's drawing; the defaults are the paper's.
+struct MapCaption {
+  std::string title = {};  ///< empty: mu and the law
+  std::string subtitle = "stop time {/:Italic τ}* of every start, in the unit of the speeds";
+  std::string u = "{/:Italic u}_0,  pivoting at the start", v = "{/:Italic v}_0,  sliding at the start";
+  std::string time = "{/:Italic τ}*";
+  double u_unit = 1;     ///< of the axis, in u
+  double time_unit = 1;  ///< in tau
+};
 
 /// The map as a drawing: stop times as colours, dark for short ones, with a scale; labelled isochrones over them; the
 /// ray k = 1, above which the centre of rotation is outside the patch.
-Figure draw(const StopTimeMap& map);
+Figure draw(StopTimeMap map, const MapCaption& caption = {}, const AskedSize& size = {});
 
 }  // namespace contensou::portraits
