@@ -29,9 +29,9 @@
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/ball_motion.hpp"
-#include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/motion.hpp"
+#include "contensou/si/scaling.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "javascript.hpp"
 #include "program/options/portrait_spec.hpp"
@@ -231,17 +231,18 @@ val names_of_laws() {
 }
 
 /// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2.
-si::Shot shot_of(const val& fields) {
+si::Experiment experiment_of(const val& fields) {
   const auto number = [&](const char* key) { return fields[key].as<double>(); };
   const double patch = number("patch");
-  si::Shot shot{.ball = {.name = "ball", .mass = number("mass"), .radius = number("radius")},
-                .contact = {.friction = number("friction"), .patch = si::PatchRadius{patch}},
-                .start = si::Velocities{{number("velocityX"), number("velocityY")},
-                                        {number("omegaX"), number("omegaY"), number("omegaZ")}},
-                .environment = {.gravity = number("gravity")}};
-  if (fields["patchBy"].as<std::string>() == "spin_deceleration") shot.contact.patch = si::SpinDeceleration{patch};
-  si::require_shot(shot);
-  return shot;
+  si::Experiment experiment{.ball = {.name = "ball", .mass = number("mass"), .radius = number("radius")},
+                            .contact = {.friction = number("friction"), .patch = si::PatchRadius{patch}},
+                            .start = si::Velocities{{number("velocityX"), number("velocityY")},
+                                                    {number("omegaX"), number("omegaY"), number("omegaZ")}},
+                            .environment = {.gravity = number("gravity")}};
+  if (fields["patchBy"].as<std::string>() == "spin_deceleration")
+    experiment.contact.patch = si::SpinDeceleration{patch};
+  si::require_experiment(experiment);
+  return experiment;
 }
 
 /// The question of portrait_request.js.
@@ -249,20 +250,20 @@ si::Shot shot_of(const val& fields) {
 program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr) {
   const auto has = [&](const char* key) { return !asked[key].isNull(); };
   const auto state = [](const val& point) { return State{point["u"].as<double>(), point["v"].as<double>()}; };
-  std::optional<si::Shot> shot;
+  std::optional<si::Experiment> experiment;
   if (has("ball")) {
-    shot = shot_of(asked["ball"]);
-    shot->ball.name = asked["ball"]["title"].as<std::string>();
+    experiment = experiment_of(asked["ball"]);
+    experiment->ball.name = asked["ball"]["title"].as<std::string>();
   }
   const auto flow = [&]() -> Flow {
     if (known) return *known;
     const Law law = law_of(asked["law"].as<std::string>());
-    return ReducedSystem(law, shot ? si::patch_ratio(*shot, law) : asked["mu"].as<double>(),
+    return ReducedSystem(law, experiment ? si::patch_ratio(*experiment, law) : asked["mu"].as<double>(),
                          {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()});
   };
-  program::PortraitSpec question{.flow = flow(), .shot = shot};
-  if (shot) {
-    question.start = si::reduced_start(*shot);
+  program::PortraitSpec question{.flow = flow(), .experiment = experiment};
+  if (experiment) {
+    question.start = si::reduced_start(*experiment);
   } else if (has("start")) {
     question.start = state(asked["start"]);
   }
@@ -318,18 +319,18 @@ val portrait_file(const val& asked, const std::string& ending) {
 val catalogue() {
   val balls = val::array();
   for (const si::CatalogueEntry& entry : si::catalogue()) {
-    const auto* by_spin = std::get_if<si::SpinDeceleration>(&entry.shot.contact.patch);
+    const auto* by_spin = std::get_if<si::SpinDeceleration>(&entry.experiment.contact.patch);
     val ball = val::object();
     ball.set("name", entry.name);
-    ball.set("title", entry.shot.ball.name);
-    ball.set("mass", entry.shot.ball.mass);
-    ball.set("radius", entry.shot.ball.radius);
-    ball.set("friction", entry.shot.contact.friction);
-    ball.set("gravity", entry.shot.environment.gravity);
+    ball.set("title", entry.experiment.ball.name);
+    ball.set("mass", entry.experiment.ball.mass);
+    ball.set("radius", entry.experiment.ball.radius);
+    ball.set("friction", entry.experiment.contact.friction);
+    ball.set("gravity", entry.experiment.environment.gravity);
     ball.set("patchBy", std::string(by_spin ? "spin_deceleration" : "patch_radius"));
-    ball.set("patch", by_spin ? by_spin->value : si::patch_radius_of(entry.shot, reduction::HertzLaw{}));
-    ball.set("slip", si::slip_at_start(entry.shot));
-    ball.set("spin", si::spin_at_start(entry.shot));
+    ball.set("patch", by_spin ? by_spin->value : si::patch_radius_of(entry.experiment, reduction::HertzLaw{}));
+    ball.set("slip", si::slip_at_start(entry.experiment));
+    ball.set("spin", si::spin_at_start(entry.experiment));
     ball.set("sources", entry.sources);
     balls.call<void>("push", ball);
   }
@@ -339,11 +340,11 @@ val catalogue() {
 /// What the plane needs to know of a ball.
 val contact(const std::string& law, const val& fields) {
   return answer([&] {
-    const si::Shot shot = shot_of(fields);
+    const si::Experiment experiment = experiment_of(fields);
     val result = val::object();
-    result.set("mu", si::patch_ratio(shot, law_of(law)));
-    result.set("patchRadius", si::patch_radius_of(shot, law_of(law)));
-    result.set("secondsPerTau", si::seconds(shot, 1));
+    result.set("mu", si::patch_ratio(experiment, law_of(law)));
+    result.set("patchRadius", si::patch_radius_of(experiment, law_of(law)));
+    result.set("secondsPerTau", si::seconds(experiment, 1));
     return result;
   });
 }
@@ -352,16 +353,16 @@ val contact(const std::string& law, const val& fields) {
 /// spinning do not know of each other.
 val roll(const std::string& law, const val& fields) {
   return answer([&] {
-    const si::Shot shot = shot_of(fields);
-    const si::BallMotion motion(shot, law_of(law));
+    const si::Experiment experiment = experiment_of(fields);
+    const si::BallMotion motion(experiment, law_of(law));
     constexpr int instants = 240;
-    const si::UncoupledMotion textbook(shot, law_of(law));
+    const si::UncoupledMotion textbook(experiment, law_of(law));
     const double rolls = motion.slip_time(si::rolling_slip);
     const double end = rolls > 0 ? 1.6 * rolls : motion.stop_time();
     const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(instants + 1, 0, end);
     const auto columns = motion.at_times(times);
     const auto textbook_columns = textbook.at_times(times);
-    const si::FinalMotion final = si::final_motion(shot);
+    const si::FinalMotion final = si::final_motion(experiment);
     val result = val::object();
     result.set("t", column(columns.t));
     result.set("x", column(columns.x));
@@ -384,7 +385,7 @@ val roll(const std::string& law, const val& fields) {
 /// Where a ball is at one instant.
 val place(const std::string& law, const val& fields, double t) {
   return answer([&] {
-    const auto point = si::BallMotion(shot_of(fields), law_of(law)).at_time(t);
+    const auto point = si::BallMotion(experiment_of(fields), law_of(law)).at_time(t);
     val result = val::object();
     result.set("x", point.position.x());
     result.set("y", point.position.y());

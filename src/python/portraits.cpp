@@ -3,7 +3,7 @@
 
 #include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
-#include "contensou/si/bridge.hpp"
+#include "contensou/si/scaling.hpp"
 #include "options/portrait_spec.hpp"
 #include "values.hpp"
 
@@ -106,7 +106,7 @@ py::dict dict_of(const Figure& figure) {
 
 using Sides = std::pair<double, double>;
 
-Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Shot>& shot,
+Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experiment>& experiment,
                      const std::optional<Sides>& start, const std::optional<std::string>& view,
                      const std::optional<Sides>& window, std::optional<int> orbits, const std::vector<Sides>& through,
                      std::optional<int> isochrones, const std::optional<reduction::Law>& against,
@@ -116,9 +116,9 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Shot>&
                      const std::optional<std::string>& title) {
   using Arrows = PortraitStyle::Arrows;
   using Field = PortraitStyle::Field;
-  program::PortraitSpec asked{.flow = flow, .shot = shot};
+  program::PortraitSpec asked{.flow = flow, .experiment = experiment};
   if (start) asked.start = reduction::State{start->first, start->second};
-  if (shot) asked.start = si::reduced_start(*shot);
+  if (experiment) asked.start = si::reduced_start(*experiment);
   std::vector<std::pair<std::string, portraits::View>> views;
   for (portraits::View choice : portraits::views()) views.emplace_back(name(choice), choice);
   if (view) asked.request.view = one_of("view", "views", views, *view);
@@ -150,10 +150,10 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Shot>&
 
 void bind_portraits(py::module_& module) {
   py::class_<Portrait>(module, "Portrait")
-      .def(py::init(&portrait_of), py::arg("flow"), py::arg("shot"), py::arg("start"), py::kw_only(), py::arg("view"),
-           py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"), py::arg("against"),
-           py::arg("arrows"), py::arg("field"), py::arg("axes"), py::arg("colour"), py::arg("style"), py::arg("scale"),
-           py::arg("size"), py::arg("title"), Released())
+      .def(py::init(&portrait_of), py::arg("flow"), py::arg("experiment"), py::arg("start"), py::kw_only(),
+           py::arg("view"), py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"),
+           py::arg("against"), py::arg("arrows"), py::arg("field"), py::arg("axes"), py::arg("colour"),
+           py::arg("style"), py::arg("scale"), py::arg("size"), py::arg("title"), Released())
       .def("render",
            [](const Portrait& portrait, const std::string& ending) {
              const auto format = portraits::find_picture_format(ending);

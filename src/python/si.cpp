@@ -6,12 +6,12 @@
 #include <type_traits>
 
 #include "contensou/si/ball_motion.hpp"
-#include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/course.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
+#include "contensou/si/scaling.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "values.hpp"
 
@@ -52,35 +52,35 @@ si::PatchSource patch_of(const py::object& ball) {
 }
 
 /// A Ball of Python with its own start, or with what takes the place of it.
-si::Shot shot_of(const py::object& ball, const std::optional<Pair>& velocity,
-                 const std::optional<Triple>& angular_velocity) {
+si::Experiment experiment_of(const py::object& ball, const std::optional<Pair>& velocity,
+                             const std::optional<Triple>& angular_velocity) {
   const auto number = [&](const char* field) { return ball.attr(field).cast<double>(); };
-  si::Shot shot{
+  si::Experiment experiment{
       .ball = {.name = ball.attr("name").cast<std::string>(), .mass = number("mass"), .radius = number("radius")},
       .contact = {.friction = number("friction"), .patch = patch_of(ball)},
       .start = si::SlipAndSpin{.slip = number("slip"), .spin = number("spin")},
       .environment = {.gravity = number("gravity")}};
   if (velocity || angular_velocity) {
-    si::Velocities start = si::velocities_of(shot.start);
+    si::Velocities start = si::velocities_of(experiment.start);
     if (velocity) start.velocity = Eigen::Vector2d(velocity->data());
     if (angular_velocity) start.angular_velocity = Eigen::Vector3d(angular_velocity->data());
-    shot.start = start;
+    experiment.start = start;
   }
-  si::require_shot(shot);
-  return shot;
+  si::require_experiment(experiment);
+  return experiment;
 }
 
 /// The fields of a Ball of Python.
-py::dict fields_of(const si::Shot& shot) {
+py::dict fields_of(const si::Experiment& experiment) {
   py::dict fields;
-  fields["name"] = shot.ball.name;
-  fields["mass"] = shot.ball.mass;
-  fields["radius"] = shot.ball.radius;
-  fields["friction"] = shot.contact.friction;
-  fields["gravity"] = shot.environment.gravity;
-  fields["slip"] = si::slip_at_start(shot);
-  fields["spin"] = si::spin_at_start(shot);
-  for (const auto& [quantity, values] : si::given_by(shot.contact.patch)) {
+  fields["name"] = experiment.ball.name;
+  fields["mass"] = experiment.ball.mass;
+  fields["radius"] = experiment.ball.radius;
+  fields["friction"] = experiment.contact.friction;
+  fields["gravity"] = experiment.environment.gravity;
+  fields["slip"] = si::slip_at_start(experiment);
+  fields["spin"] = si::spin_at_start(experiment);
+  for (const auto& [quantity, values] : si::given_by(experiment.contact.patch)) {
     const py::str name(std::string(quantity->name));
     fields[name] = values.size() == 1 ? py::object(py::float_(values[0])) : py::make_tuple(values[0], values[1]);
   }
@@ -93,9 +93,10 @@ template <class Motion, class Given>
 void bind_course(py::module_& module, const char* name) {
   using Course = si::Course<Motion>;
   py::class_<Course>(module, name)
-      .def(py::init([](const si::Shot& shot, const Given& given, double rolling_below, double rolling_friction) {
-             return Course(shot, Motion(shot, given), rolling_below, rolling_friction);
-           }),
+      .def(py::init(
+               [](const si::Experiment& experiment, const Given& given, double rolling_below, double rolling_friction) {
+                 return Course(experiment, Motion(experiment, given), rolling_below, rolling_friction);
+               }),
            Released())
       .def_property_readonly("stop_time",
                              [](const Course& course) {
@@ -129,22 +130,24 @@ void bind_course(py::module_& module, const char* name) {
 void bind_si(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Instant, t, x, y, vx, vy, wx, wy, wz, slip, energy);
 
-  py::class_<si::Shot>(module, "Shot")
-      .def(py::init(&shot_of))
+  py::class_<si::Experiment>(module, "Experiment")
+      .def(py::init(&experiment_of))
       .def(py::init([](const py::object& ball, double speed, Pair tip, double elevation, double cue_mass) {
-        si::Shot shot = shot_of(ball, {}, {});
-        shot.start = si::struck(shot.ball, {.speed = speed,
-                                            .right = tip[0],
-                                            .above = tip[1],
-                                            .elevation = elevation * (std::numbers::pi / 180),
-                                            .mass = cue_mass});
-        si::require_shot(shot);
-        return shot;
+        si::Experiment experiment = experiment_of(ball, {}, {});
+        experiment.start = si::struck(experiment.ball, {.speed = speed,
+                                                        .right = tip[0],
+                                                        .above = tip[1],
+                                                        .elevation = elevation * (std::numbers::pi / 180),
+                                                        .mass = cue_mass});
+        si::require_experiment(experiment);
+        return experiment;
       }))
       .def(
-          "flow", [](const si::Shot& shot, const Law& law) { return Flow(si::reduced_system(shot, law)); }, Released())
-      .def_property_readonly("start", [](const si::Shot& shot) {
-        const auto [velocity, w] = si::velocities_of(shot.start);
+          "flow",
+          [](const si::Experiment& experiment, const Law& law) { return Flow(si::reduced_system(experiment, law)); },
+          Released())
+      .def_property_readonly("start", [](const si::Experiment& experiment) {
+        const auto [velocity, w] = si::velocities_of(experiment.start);
         return py::make_tuple(py::make_tuple(velocity.x(), velocity.y()), py::make_tuple(w.x(), w.y(), w.z()));
       });
 
@@ -152,8 +155,8 @@ void bind_si(py::module_& module) {
   bind_course<si::UncoupledMotion, Law>(module, "UncoupledMotion");
 
   module.def("ball", [](const std::string& name) {
-    std::vector<std::pair<std::string, si::Shot>> balls;
-    for (const si::CatalogueEntry& entry : si::catalogue()) balls.emplace_back(entry.name, entry.shot);
+    std::vector<std::pair<std::string, si::Experiment>> balls;
+    for (const si::CatalogueEntry& entry : si::catalogue()) balls.emplace_back(entry.name, entry.experiment);
     return fields_of(one_of("ball", "balls", balls, name));
   });
   module.def("parse_run_file", [](const std::string& text, const std::string& source) {

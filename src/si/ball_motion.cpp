@@ -8,18 +8,18 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "contensou/si/bridge.hpp"
+#include "contensou/si/scaling.hpp"
 
 namespace contensou::si {
 
-BallMotion::BallMotion(const Shot& shot, const reduction::Law& law)
-    : BallMotion(shot, reduction::Flow(reduced_system(shot, law))) {}
+BallMotion::BallMotion(const Experiment& experiment, const reduction::Law& law)
+    : BallMotion(experiment, reduction::Flow(reduced_system(experiment, law))) {}
 
-BallMotion::BallMotion(const Shot& shot, const reduction::Flow& flow)
-    : shot_(shot),
-      orbit_(flow.orbit(reduced_start(shot))),
-      stop_(seconds(shot, orbit_.stop_time())),
-      scale_(1 / seconds(shot, 1)) {
+BallMotion::BallMotion(const Experiment& experiment, const reduction::Flow& flow)
+    : experiment_(experiment),
+      orbit_(flow.orbit(reduced_start(experiment))),
+      stop_(seconds(experiment, orbit_.stop_time())),
+      scale_(1 / seconds(experiment, 1)) {
   if (!std::isfinite(stop_)) throw std::runtime_error("the stop time exceeds the largest double");
 }
 
@@ -29,7 +29,8 @@ MotionPoint BallMotion::at_time(double t) const {
   if (!(t >= 0)) throw std::domain_error(fmt::format("BallMotion::at_time: t must be >= 0, in s; got {}", t));
   const double tau = paper_time(t);
   const reduction::OrbitPoint point = orbit_.at_time(tau);
-  return motion_by_slip(shot_, t, point.v, seconds(shot_, orbit_.slip_length(tau)), point.u / shot_.ball.radius);
+  return motion_by_slip(experiment_, t, point.v, seconds(experiment_, orbit_.slip_length(tau)),
+                        point.u / experiment_.ball.radius);
 }
 
 MotionColumns BallMotion::at_times(const Eigen::ArrayXd& times) const {
@@ -41,16 +42,16 @@ MotionColumns BallMotion::at_times(const Eigen::ArrayXd& times) const {
 double BallMotion::slip_time(double speed) const {
   if (!(speed >= 0))
     throw std::domain_error(fmt::format("BallMotion::slip_time: speed >= 0 is required, got {}", speed));
-  if (slip_at_start(shot_) <= speed) return 0;
+  if (slip_at_start(experiment_) <= speed) return 0;
   double low = 0;
   double high = orbit_.stop_time();
   for (double middle = high / 2; middle > low && middle < high; middle = low + (high - low) / 2) {
     (orbit_.at_time(middle).ln_v > std::log(speed) ? low : high) = middle;
   }
-  return seconds(shot_, high);
+  return seconds(experiment_, high);
 }
 
-double BallMotion::slip_length() const { return seconds(shot_, orbit_.slip_length(orbit_.stop_time())); }
+double BallMotion::slip_length() const { return seconds(experiment_, orbit_.slip_length(orbit_.stop_time())); }
 
 template <class Function>
 double BallMotion::integral(Function function, double end) const {
@@ -59,7 +60,7 @@ double BallMotion::integral(Function function, double end) const {
   constexpr double tolerance = 1e-10;
   std::vector<double> edges{0, end};
   for (double share : {0.5, 0.1, 0.01, 1e-4, 1e-8}) {
-    edges.push_back(std::min(slip_time(share * slip_at_start(shot_)), end));
+    edges.push_back(std::min(slip_time(share * slip_at_start(experiment_)), end));
   }
   std::ranges::sort(edges);
   double sum = 0;
@@ -70,7 +71,7 @@ double BallMotion::integral(Function function, double end) const {
 }
 
 double BallMotion::spin_angle() const {
-  return integral([this](double t) { return orbit_.at_time(paper_time(t)).u / shot_.ball.radius; }, stop_);
+  return integral([this](double t) { return orbit_.at_time(paper_time(t)).u / experiment_.ball.radius; }, stop_);
 }
 
 double BallMotion::path_length(double t) const {

@@ -37,7 +37,7 @@ using CashKarp = odeint::runge_kutta_cash_karp54<Values>;
 constexpr double tolerance = 1e-14;
 constexpr long step_limit = 1'000'000;
 
-/// The equations with the values of one shot.
+/// The equations with the values of one experiment.
 struct Ballistics {
   const reduction::Law& law;
   double R, m, J;
@@ -190,36 +190,38 @@ std::vector<Eigen::Index> increasing(const Eigen::ArrayXd& times) {
 
 }  // namespace
 
-IntegratedMotion integrate_motion(const Shot& shot, const reduction::Law& law, const Eigen::ArrayXd& times) {
-  require_shot(shot);
+IntegratedMotion integrate_motion(const Experiment& experiment, const reduction::Law& law,
+                                  const Eigen::ArrayXd& times) {
+  require_experiment(experiment);
   for (double t : times) {
     if (t >= 0 && std::isfinite(t)) continue;
     throw std::domain_error(fmt::format("integrate_motion: times must be finite and >= 0, in s; got {}", t));
   }
   IntegratedMotion motion{MotionColumns(times.size())};
-  const Velocities start = velocities_of(shot.start);
-  const Vector2d contact = slip_velocity_at_start(shot);
-  const double v0 = slip_at_start(shot);
-  const double spin = spin_at_start(shot);
+  const Velocities start = velocities_of(experiment.start);
+  const Vector2d contact = slip_velocity_at_start(experiment);
+  const double v0 = slip_at_start(experiment);
+  const double spin = spin_at_start(experiment);
   if (v0 == 0 && spin == 0) {
     for (Eigen::Index i = 0; i < times.size(); ++i) {
       motion.points.set(i, {times[i], start.velocity * times[i], start.velocity, start.angular_velocity, 0,
-                            kinetic_energy(shot.ball, start)});
+                            kinetic_energy(experiment.ball, start)});
     }
     return motion;
   }
 
-  const double R = shot.ball.radius;
-  Ballistics ball{.law = law,
-                  .R = R,
-                  .m = shot.ball.mass,
-                  .J = 0.4 * shot.ball.mass * R * R,
-                  .normal_friction = shot.contact.friction * shot.ball.mass * shot.environment.gravity,
-                  .eps = patch_radius_of(shot, law),
-                  .turn = std::copysign(1.0, spin),
-                  .speed_scale = std::max({start.velocity.norm(), R * start.angular_velocity.norm()}),
-                  .time_scale = 1,
-                  .slip_scale = 1};
+  const double R = experiment.ball.radius;
+  Ballistics ball{
+      .law = law,
+      .R = R,
+      .m = experiment.ball.mass,
+      .J = 0.4 * experiment.ball.mass * R * R,
+      .normal_friction = experiment.contact.friction * experiment.ball.mass * experiment.environment.gravity,
+      .eps = patch_radius_of(experiment, law),
+      .turn = std::copysign(1.0, spin),
+      .speed_scale = std::max({start.velocity.norm(), R * start.angular_velocity.norm()}),
+      .time_scale = 1,
+      .slip_scale = 1};
   ball.time_scale = ball.slip_time_left(v0) + ball.spin_time_left(std::abs(spin));
   if (v0 > 0) ball.slip_scale = v0 * ball.slip_time_left(v0);
   const double speed = ball.speed_scale;
@@ -244,7 +246,7 @@ IntegratedMotion integrate_motion(const Shot& shot, const reduction::Law& law, c
       throw std::runtime_error(fmt::format("integrate_motion: {} steps were not enough to reach the stop", step_limit));
     }
     while (next != order.end() && times[*next] / T <= t) {
-      motion.points.set(*next, point_of(ball, shot.ball, x, times[*next]));
+      motion.points.set(*next, point_of(ball, experiment.ball, x, times[*next]));
       ++next;
     }
     const double wanted = next == order.end() ? std::numeric_limits<double>::infinity() : times[*next] / T;
@@ -274,7 +276,7 @@ IntegratedMotion integrate_motion(const Shot& shot, const reduction::Law& law, c
   for (; next != order.end(); ++next) {
     // Reached within the last step by rounding, not before it.
     const double at = std::max(times[*next], t * T);
-    motion.points.set(*next, point_of(ball, shot.ball, tail.at_time(at), times[*next]));
+    motion.points.set(*next, point_of(ball, experiment.ball, tail.at_time(at), times[*next]));
   }
   motion.stop_time = tail.stop();
   const Values end = tail.at_time(tail.stop());

@@ -27,29 +27,30 @@ double kinetic_energy(const Ball& ball, const Velocities& velocities) {
   return ball.mass * (velocities.velocity.squaredNorm() / 2 + rim.squaredNorm() / 5);
 }
 
-EnergyLoss energy_loss(const Shot& shot) {
-  const double v = slip_at_start(shot);
-  const double u = shot.ball.radius * spin_at_start(shot);
-  return {shot.ball.mass * v * v / 7, shot.ball.mass * u * u / 5};
+EnergyLoss energy_loss(const Experiment& experiment) {
+  const double v = slip_at_start(experiment);
+  const double u = experiment.ball.radius * spin_at_start(experiment);
+  return {experiment.ball.mass * v * v / 7, experiment.ball.mass * u * u / 5};
 }
 
-FinalMotion final_motion(const Shot& shot) {
-  const double R = shot.ball.radius;
-  if (const auto* start = std::get_if<SlipAndSpin>(&shot.start)) {
+FinalMotion final_motion(const Experiment& experiment) {
+  const double R = experiment.ball.radius;
+  if (const auto* start = std::get_if<SlipAndSpin>(&experiment.start)) {
     const double speed = start->slip * (5.0 / 7.0);
     return {{speed, 0}, {0, speed / R, 0}};
   }
-  const Eigen::Vector2d rolling = velocities_of(shot.start).velocity - slip_velocity_at_start(shot) * (2.0 / 7.0);
+  const Eigen::Vector2d rolling =
+      velocities_of(experiment.start).velocity - slip_velocity_at_start(experiment) * (2.0 / 7.0);
   return {rolling, {(0 - rolling.y()) / R, rolling.x() / R, 0}};  // 0 - y: no -0
 }
 
-MotionPoint motion_by_slip(const Shot& shot, double t, double slip, double slip_length, double spin) {
-  const Velocities start = velocities_of(shot.start);
-  const Eigen::Vector2d contact = slip_velocity_at_start(shot);
-  const double v0 = slip_at_start(shot);
+MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, double slip_length, double spin) {
+  const Velocities start = velocities_of(experiment.start);
+  const Eigen::Vector2d contact = slip_velocity_at_start(experiment);
+  const double v0 = slip_at_start(experiment);
   const Eigen::Vector2d along = v0 > 0 ? Eigen::Vector2d(contact / v0) : Eigen::Vector2d::Zero();
   const double lost = v0 - slip;
-  const double rolling = 5 * lost / (7 * shot.ball.radius);
+  const double rolling = 5 * lost / (7 * experiment.ball.radius);
 
   MotionPoint point;
   point.t = t;
@@ -58,7 +59,7 @@ MotionPoint motion_by_slip(const Shot& shot, double t, double slip, double slip_
   point.angular_velocity = {start.angular_velocity.x() - rolling * along.y(),
                             start.angular_velocity.y() + rolling * along.x(), spin};
   point.slip = slip;
-  point.energy = kinetic_energy(shot.ball, {point.velocity, point.angular_velocity});
+  point.energy = kinetic_energy(experiment.ball, {point.velocity, point.angular_velocity});
   return point;
 }
 

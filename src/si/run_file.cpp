@@ -148,7 +148,7 @@ class Reader {
   Reader(std::string_view source, const Overrides& overrides, const StartOverride& start)
       : source_(source), overrides_(overrides), start_(start) {}
 
-  Shot read(std::string_view text) const {
+  Experiment read(std::string_view text) const {
     const toml::table document = parse(text);
     const Section file{"", &document, {1, 1}};
     const Section ball = section(file, "ball");
@@ -161,7 +161,7 @@ class Reader {
     allow(start, {slip.name, spin.name, velocity.name, angular_velocity.name});
     allow(environment, {gravity.name});
 
-    const Shot shot{
+    const Experiment experiment{
         .ball = {.name = name(ball), .mass = number(ball, mass), .radius = number(ball, radius)},
         .contact = {.friction = number(contact, friction), .patch = patch(contact)},
         .start = start_of(start),
@@ -169,11 +169,11 @@ class Reader {
     };
     // Of values that the file does not have it is not the place.
     if (overrides_.empty()) {
-      at(contact.position, [&] { require_shot(shot); });
+      at(contact.position, [&] { require_experiment(experiment); });
     } else {
-      require_shot(shot);
+      require_experiment(experiment);
     }
-    return shot;
+    return experiment;
   }
 
  private:
@@ -352,8 +352,8 @@ std::string line(const Quantity& quantity, const std::vector<double>& values) {
 
 }  // namespace
 
-Shot parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides,
-                    const StartOverride& start) {
+Experiment parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides,
+                          const StartOverride& start) {
   for (const auto& [name, value] : overrides) {
     const Quantity* known = nullptr;
     for (const Quantity* quantity :
@@ -366,7 +366,7 @@ Shot parse_run_file(std::string_view text, std::string_view source, const Overri
   return Reader(source, overrides, start).read(text);
 }
 
-Shot read_run_file(const std::string& path, const Overrides& overrides, const StartOverride& start) {
+Experiment read_run_file(const std::string& path, const Overrides& overrides, const StartOverride& start) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   std::string text(max_size + 1, '\0');
   if (file) text.resize(std::fread(text.data(), 1, text.size(), file.get()));
@@ -376,17 +376,17 @@ Shot read_run_file(const std::string& path, const Overrides& overrides, const St
   return parse_run_file(text, path, overrides, start);
 }
 
-std::string run_file(const Shot& shot, std::string_view remark) {
+std::string run_file(const Experiment& experiment, std::string_view remark) {
   std::string text;
   std::istringstream lines{std::string(remark)};
   for (std::string comment; std::getline(lines, comment);) text += fmt::format("# {}\n", comment);
   std::ostringstream name;
-  name << toml::value<std::string>(shot.ball.name);
+  name << toml::value<std::string>(experiment.ball.name);
 
   const auto add = [&](const std::vector<GivenQuantity>& given) {
     for (const auto& [quantity, values] : given) text += line(*quantity, values);
   };
-  const auto& [ball, contact, start, environment] = shot;
+  const auto& [ball, contact, start, environment] = experiment;
   text += fmt::format("[ball]\nname = {}\n", name.str());
   add({{&mass, {ball.mass}}, {&radius, {ball.radius}}});
   text += "\n[contact]\n" + line(friction, {contact.friction});

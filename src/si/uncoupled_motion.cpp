@@ -5,19 +5,19 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "contensou/si/bridge.hpp"
+#include "contensou/si/scaling.hpp"
 
 namespace contensou::si {
 
-UncoupledMotion::UncoupledMotion(const Shot& shot, const reduction::Law& law) : shot_(shot) {
-  const reduction::ReducedSystem system = reduced_system(shot, law);
-  const reduction::State start = reduced_start(shot);
-  slip_end_ = seconds(shot, system.sliding_limit(start.v));
-  spin_end_ = seconds(shot, system.pivoting_limit(start.u));
+UncoupledMotion::UncoupledMotion(const Experiment& experiment, const reduction::Law& law) : experiment_(experiment) {
+  const reduction::ReducedSystem system = reduced_system(experiment, law);
+  const reduction::State start = reduced_start(experiment);
+  slip_end_ = seconds(experiment, system.sliding_limit(start.v));
+  spin_end_ = seconds(experiment, system.pivoting_limit(start.u));
 }
 
 double UncoupledMotion::slip_time(double speed) const {
-  const double v0 = slip_at_start(shot_);
+  const double v0 = slip_at_start(experiment_);
   return v0 > speed ? slip_end_ * (1 - speed / v0) : 0;
 }
 
@@ -29,12 +29,12 @@ double UncoupledMotion::path_length(double t) const {
 
 MotionPoint UncoupledMotion::at_time(double t) const {
   if (!(t >= 0)) throw std::domain_error(fmt::format("UncoupledMotion::at_time: t must be >= 0, in s; got {}", t));
-  const double v0 = slip_at_start(shot_);
+  const double v0 = slip_at_start(experiment_);
   const bool slides = t < slip_end_;
   const double slip = slides ? v0 * (1 - t / slip_end_) : 0;
   const double slip_length = slides ? (v0 + slip) / 2 * t : v0 / 2 * slip_end_;
-  const double spin = t < spin_end_ ? spin_at_start(shot_) * (1 - t / spin_end_) : 0;
-  return motion_by_slip(shot_, t, slip, slip_length, spin);
+  const double spin = t < spin_end_ ? spin_at_start(experiment_) * (1 - t / spin_end_) : 0;
+  return motion_by_slip(experiment_, t, slip, slip_length, spin);
 }
 
 MotionColumns UncoupledMotion::at_times(const Eigen::ArrayXd& times) const {

@@ -158,14 +158,15 @@ TEST_CASE("rolling friction brings the ball to rest", "[cli]") {
 }
 
 TEST_CASE("a cue's stroke is a start", "[cli]") {
-  const auto shot = json_of("roll --ball pool --strike 2 --tip 0.3,-0.2 --elevation 30 --samples 2 --format json");
+  const auto experiment =
+      json_of("roll --ball pool --strike 2 --tip 0.3,-0.2 --elevation 30 --samples 2 --format json");
   const double m = 0.1701, R = 0.028575, root3 = std::sqrt(3);
   const double V = 2 * 2 / (1 + m / 0.54 + 2.5 * (0.09 + 0.04));
-  CHECK(shot.at("velocity").at(0).get<double>() == Approx(V * root3 / 2).epsilon(1e-14));
-  CHECK(shot.at("velocity").at(1) == 0);
-  CHECK(shot.at("angular_velocity").at(0).get<double>() == Approx(2.5 * V / R * 0.3 / 2).epsilon(1e-14));
-  CHECK(shot.at("angular_velocity").at(1).get<double>() == Approx(2.5 * V / R * -0.2).epsilon(1e-14));
-  CHECK(shot.at("angular_velocity").at(2).get<double>() == Approx(2.5 * V / R * 0.3 * root3 / 2).epsilon(1e-14));
+  CHECK(experiment.at("velocity").at(0).get<double>() == Approx(V * root3 / 2).epsilon(1e-14));
+  CHECK(experiment.at("velocity").at(1) == 0);
+  CHECK(experiment.at("angular_velocity").at(0).get<double>() == Approx(2.5 * V / R * 0.3 / 2).epsilon(1e-14));
+  CHECK(experiment.at("angular_velocity").at(1).get<double>() == Approx(2.5 * V / R * -0.2).epsilon(1e-14));
+  CHECK(experiment.at("angular_velocity").at(2).get<double>() == Approx(2.5 * V / R * 0.3 * root3 / 2).epsilon(1e-14));
   CHECK(json_of("roll --ball pool --strike 1 --cue-mass 0.1701 --samples 2 --format json").at("velocity").at(0) == 1);
 }
 

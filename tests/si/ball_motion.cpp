@@ -10,23 +10,23 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/integrated_motion.hpp"
 #include "contensou/si/motion.hpp"
+#include "contensou/si/scaling.hpp"
 #include "motion_cases.hpp"
 
 using namespace contensou;
 using namespace contensou::si;
 
 TEST_CASE("the bowling ball of the textbook", "[table]") {
-  Shot shot = find_ball("bowling")->shot;
-  shot.ball.radius = 0.11;
-  shot.contact.friction = 0.19;
-  shot.environment.gravity = 9.8;
-  shot.start = Velocities{{8.10, 0}, {0, 0, 0}};
+  Experiment experiment = find_ball("bowling")->experiment;
+  experiment.ball.radius = 0.11;
+  experiment.contact.friction = 0.19;
+  experiment.environment.gravity = 9.8;
+  experiment.start = Velocities{{8.10, 0}, {0, 0, 0}};
   for (const reduction::Law& law : reduction::named_laws()) {
-    const BallMotion motion(shot, law);
+    const BallMotion motion(experiment, law);
     const MotionPoint stop = motion.at_time(motion.stop_time());
     CHECK(motion.stop_time() == Approx(1.243).margin(5e-4));
     CHECK(stop.velocity.x() == Approx(5.786).margin(5e-4));
@@ -46,20 +46,20 @@ TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
       if (law.force_slope() <= 5 * mu * mu / 7 * law.pivoting_moment()) continue;  // ends on the ray: no curve
       for (const MotionCase& motion_case : motion_cases) {
         INFO(law.name() << ", mu = " << mu << ", " << motion_case.name);
-        const Shot shot = shot_of(motion_case, mu);
-        const BallMotion reduced(shot, law);
+        const Experiment experiment = experiment_of(motion_case, mu);
+        const BallMotion reduced(experiment, law);
         const double stop = reduced.stop_time();
-        const double sliding = 2 * slip_at_start(shot) / (7 * 0.2 * 9.80665);
+        const double sliding = 2 * slip_at_start(experiment) / (7 * 0.2 * 9.80665);
         Eigen::ArrayXd times(62);  // the whole motion and beyond, and where it slides
         times << Eigen::ArrayXd::LinSpaced(31, 0, 1.2 * stop), Eigen::ArrayXd::LinSpaced(31, 0, 2 * sliding);
         const MotionColumns a = reduced.at_times(times);
-        const IntegratedMotion integrated = integrate_motion(shot, law, times);
+        const IntegratedMotion integrated = integrate_motion(experiment, law, times);
         const MotionColumns& b = integrated.points;
 
-        const double R = shot.ball.radius;
+        const double R = experiment.ball.radius;
         const double speed = motion_case.start.velocity.norm() + R * motion_case.start.angular_velocity.norm();
         const double length = speed * stop + 1e-300;
-        const double energy = shot.ball.mass * speed * speed;
+        const double energy = experiment.ball.mass * speed * speed;
         const auto differ = [](const Eigen::ArrayXd& one, const Eigen::ArrayXd& other, double scale) {
           return (one - other).abs().maxCoeff() / scale;
         };
@@ -83,10 +83,10 @@ TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
 TEST_CASE("after the stop the ball rolls on a straight line", "[invariant]") {
   for (const MotionCase& motion_case : motion_cases) {
     INFO(motion_case.name);
-    const Shot shot = shot_of(motion_case, 0.1);
-    const BallMotion motion(shot, reduction::HertzLaw{});
+    const Experiment experiment = experiment_of(motion_case, 0.1);
+    const BallMotion motion(experiment, reduction::HertzLaw{});
     const double stop = motion.stop_time();
-    const FinalMotion rolling = final_motion(shot);
+    const FinalMotion rolling = final_motion(experiment);
     const MotionPoint here = motion.at_time(stop);
     const MotionPoint later = motion.at_time(stop + 3);
     CHECK((later.position - here.position - 3 * rolling.velocity).norm() < 1e-13 * (1 + later.position.norm()));
@@ -99,14 +99,14 @@ TEST_CASE("after the stop the ball rolls on a straight line", "[invariant]") {
 }
 
 TEST_CASE("a masse shot curves while it slips", "[limit]") {
-  const Shot shot = shot_of(motion_cases[1], 0.1);
-  const BallMotion motion(shot, reduction::PadeLaw{});
+  const Experiment experiment = experiment_of(motion_cases[1], 0.1);
+  const BallMotion motion(experiment, reduction::PadeLaw{});
   const auto direction = [&](double t) {
     const MotionPoint point = motion.at_time(t);
     return std::atan2(point.velocity.y(), point.velocity.x());
   };
   CHECK(direction(0) == 0);
-  const double slips = motion.slip_time(0.01 * slip_at_start(shot));
+  const double slips = motion.slip_time(0.01 * slip_at_start(experiment));
   double before = 0;
   for (int i = 1; i <= 10; ++i) {
     const double now = direction(slips * i / 10);
@@ -118,21 +118,21 @@ TEST_CASE("a masse shot curves while it slips", "[limit]") {
 
 TEST_CASE("when the slip has fallen to a speed", "[route]") {
   for (const reduction::Law& law : reduction::named_laws()) {
-    const Shot shot = shot_of(motion_cases[2], 0.1);
-    const BallMotion motion(shot, law);
+    const Experiment experiment = experiment_of(motion_cases[2], 0.1);
+    const BallMotion motion(experiment, law);
     for (double share : {0.9, 0.5, 1e-3}) {
-      CHECK(motion.at_time(motion.slip_time(share * slip_at_start(shot))).slip ==
-            Approx(share * slip_at_start(shot)).epsilon(1e-9));
+      CHECK(motion.at_time(motion.slip_time(share * slip_at_start(experiment))).slip ==
+            Approx(share * slip_at_start(experiment)).epsilon(1e-9));
     }
     CHECK(motion.slip_time(0) == motion.stop_time());
-    CHECK(motion.slip_time(slip_at_start(shot)) == 0);
+    CHECK(motion.slip_time(slip_at_start(experiment)) == 0);
     CHECK_THROWS_AS(motion.slip_time(-1), std::domain_error);
   }
-  CHECK(BallMotion(shot_of(motion_cases[5], 0.1), reduction::PadeLaw{}).slip_time(0.5) == 0);
+  CHECK(BallMotion(experiment_of(motion_cases[5], 0.1), reduction::PadeLaw{}).slip_time(0.5) == 0);
 }
 
 TEST_CASE("a time before the start is refused", "[domain]") {
-  const BallMotion motion(shot_of(motion_cases[0], 0.1), reduction::PadeLaw{});
+  const BallMotion motion(experiment_of(motion_cases[0], 0.1), reduction::PadeLaw{});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (double t : {-1.0, nan}) {
     CHECK_THROWS_AS(motion.at_time(t), std::domain_error);

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/si/bridge.hpp"
 #include "contensou/si/hertz_contact.hpp"
+#include "contensou/si/scaling.hpp"
 
 using namespace contensou::si;
 
@@ -28,10 +28,10 @@ TEST_CASE("patches of the built-in balls", "[table]") {
   for (const auto& [name, patch, mu] : rows) {
     INFO(name);
     REQUIRE(find_ball(name) != nullptr);
-    const Shot& shot = find_ball(name)->shot;
-    CHECK(patch_radius_of(shot, law) == Approx(patch).epsilon(2e-3));
-    CHECK(patch_ratio(shot, law) == Approx(mu).epsilon(6e-3));
-    CHECK_NOTHROW(require_shot(shot));
+    const Experiment& experiment = find_ball(name)->experiment;
+    CHECK(patch_radius_of(experiment, law) == Approx(patch).epsilon(2e-3));
+    CHECK(patch_ratio(experiment, law) == Approx(mu).epsilon(6e-3));
+    CHECK_NOTHROW(require_experiment(experiment));
     CHECK_FALSE(find_ball(name)->sources.empty());
   }
   CHECK(find_ball("hockey") == nullptr);
@@ -42,7 +42,7 @@ TEST_CASE("effective modulus of two equal bodies, beside a rigid plane, and of t
         Approx(2e9 / (2 * 0.75)).epsilon(1e-15));
   CHECK(effective_modulus({.youngs_modulus = {2e6, 1e300}, .poisson_ratio = {0.49, 0.3}}) ==
         Approx(2e6 / (1 - 0.49 * 0.49)).epsilon(1e-15));
-  CHECK(effective_modulus(std::get<HertzModuli>(find_ball("bowling")->shot.contact.patch)) ==
+  CHECK(effective_modulus(std::get<HertzModuli>(find_ball("bowling")->experiment.contact.patch)) ==
         Approx(2.3e9).epsilon(1e-15));
 }
 

@@ -44,10 +44,10 @@ TEST_CASE("the spin of a stroke is the moment of its impulse", "[route]") {
 }
 
 TEST_CASE("a ball that is struck 2/5 of its radius above its centre rolls at once", "[table]") {
-  const Shot shot{.ball = ball,
-                  .contact = {.friction = 0.2, .patch = PatchRadius{1e-3}},
-                  .start = struck(ball, {.speed = 1, .right = 0, .above = 0.4, .elevation = 0})};
-  CHECK(slip_at_start(shot) == Approx(0).margin(1e-15));
+  const Experiment experiment{.ball = ball,
+                              .contact = {.friction = 0.2, .patch = PatchRadius{1e-3}},
+                              .start = struck(ball, {.speed = 1, .right = 0, .above = 0.4, .elevation = 0})};
+  CHECK(slip_at_start(experiment) == Approx(0).margin(1e-15));
   CHECK(struck(ball, {.speed = 1, .right = 0, .above = 0, .elevation = 0}).velocity.x() ==
         Approx(2 / (1 + 0.17 / standard_cue_mass)).epsilon(1e-15));
 }

@@ -29,16 +29,16 @@ struct NotANumber {
 TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under any law", "[invariant]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     for (double mu : {1e-2, 0.3, 1.0}) {
-      const Shot shot = shot_of(motion_cases[2], mu);
-      const double stop = integrate_motion(shot, law, {}).stop_time;
+      const Experiment experiment = experiment_of(motion_cases[2], mu);
+      const double stop = integrate_motion(experiment, law, {}).stop_time;
       // The power of each friction, (f N) Phi v and (f N eps) Psi |omega_z|, summed along the integration.
-      const double load = shot.contact.friction * shot.ball.mass * shot.environment.gravity;
-      const double eps = patch_radius_of(shot, law);
+      const double load = experiment.contact.friction * experiment.ball.mass * experiment.environment.gravity;
+      const double eps = patch_radius_of(experiment, law);
       // Simpson's rule in s, t = stop s^4: the start, where the ball slides, in detail.
       constexpr Eigen::Index panels = 4000;
       const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(panels + 1, 0, 1);
       const Eigen::ArrayXd times = stop * s.pow(4);
-      const MotionColumns motion = integrate_motion(shot, law, times).points;
+      const MotionColumns motion = integrate_motion(experiment, law, times).points;
       double sliding = 0, pivoting = 0;
       for (Eigen::Index i = 0; i <= panels; ++i) {
         const double weight = (i == 0 || i == panels ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * panels);
@@ -50,7 +50,7 @@ TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under an
         pivoting += weight * rate * load * psi * rim;
       }
       INFO(law.name() << ", mu = " << mu);
-      const EnergyLoss loss = energy_loss(shot);
+      const EnergyLoss loss = energy_loss(experiment);
       CHECK(sliding == Approx(loss.sliding).epsilon(1e-6));
       CHECK(pivoting == Approx(loss.pivoting).epsilon(1e-6));
       CHECK(motion.energy[0] - motion.energy[panels] == Approx(loss.sliding + loss.pivoting).epsilon(1e-11));
@@ -59,10 +59,10 @@ TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under an
 }
 
 TEST_CASE("instants in any order, past the stop too", "[limit]") {
-  const Shot shot = shot_of(motion_cases[2], 0.1);
+  const Experiment experiment = experiment_of(motion_cases[2], 0.1);
   Eigen::ArrayXd times(5);
   times << 30, 0.01, 0, 0.01, 2;
-  const MotionColumns motion = integrate_motion(shot, reduction::HertzLaw{}, times).points;
+  const MotionColumns motion = integrate_motion(experiment, reduction::HertzLaw{}, times).points;
   CHECK((motion.t == times).all());
   CHECK(motion.vx[1] == motion.vx[3]);
   CHECK(motion.x[2] == 0);
@@ -72,10 +72,11 @@ TEST_CASE("instants in any order, past the stop too", "[limit]") {
 }
 
 TEST_CASE("what cannot be integrated is said", "[domain]") {
-  const Shot shot = shot_of(motion_cases[0], 0.1);
+  const Experiment experiment = experiment_of(motion_cases[0], 0.1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (double t : {-1.0, nan}) {
-    CHECK_THROWS_AS(integrate_motion(shot, reduction::PadeLaw{}, Eigen::ArrayXd::Constant(1, t)), std::domain_error);
+    CHECK_THROWS_AS(integrate_motion(experiment, reduction::PadeLaw{}, Eigen::ArrayXd::Constant(1, t)),
+                    std::domain_error);
   }
-  CHECK_THROWS_AS(integrate_motion(shot, NotANumber{}, {}), std::runtime_error);
+  CHECK_THROWS_AS(integrate_motion(experiment, NotANumber{}, {}), std::runtime_error);
 }

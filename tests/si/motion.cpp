@@ -16,29 +16,29 @@ TEST_CASE("kinetic energy of a ball", "[table]") {
 TEST_CASE("the motion that belongs to a slip obeys (2.1) and loses the right energy", "[invariant]") {
   for (const MotionCase& motion_case : motion_cases) {
     INFO(motion_case.name);
-    const Shot shot = shot_of(motion_case, 0.1);
-    const double R = shot.ball.radius;
-    const double v0 = slip_at_start(shot);
-    const MotionPoint start = motion_by_slip(shot, 0, v0, 0, spin_at_start(shot));
+    const Experiment experiment = experiment_of(motion_case, 0.1);
+    const double R = experiment.ball.radius;
+    const double v0 = slip_at_start(experiment);
+    const MotionPoint start = motion_by_slip(experiment, 0, v0, 0, spin_at_start(experiment));
     CHECK(start.velocity == motion_case.start.velocity);
     CHECK(start.angular_velocity == motion_case.start.angular_velocity);
     CHECK(start.position.norm() == 0);
-    const MotionPoint point = motion_by_slip(shot, 1, v0 / 3, 0.1, 5);
+    const MotionPoint point = motion_by_slip(experiment, 1, v0 / 3, 0.1, 5);
     const Eigen::Vector2d contact{point.velocity.x() - R * point.angular_velocity.y(),
                                   point.velocity.y() + R * point.angular_velocity.x()};
-    CHECK((contact - slip_velocity_at_start(shot) / 3).norm() < 1e-14);
-    const MotionPoint end = motion_by_slip(shot, 1, 0, 0.1, 0);
-    const EnergyLoss loss = energy_loss(shot);
+    CHECK((contact - slip_velocity_at_start(experiment) / 3).norm() < 1e-14);
+    const MotionPoint end = motion_by_slip(experiment, 1, 0, 0.1, 0);
+    const EnergyLoss loss = energy_loss(experiment);
     CHECK(start.energy - end.energy == Approx(loss.sliding + loss.pivoting).epsilon(1e-12).margin(1e-15));
   }
 }
 
 TEST_CASE("any start ends in rolling along one line", "[invariant]") {
-  Shot shot = find_ball("pool")->shot;
-  const double R = shot.ball.radius;
+  Experiment experiment = find_ball("pool")->experiment;
+  const double R = experiment.ball.radius;
   const Velocities start{{1, 0.5}, {20, -30, 40}};
-  shot.start = start;
-  const auto [rolling, turning] = final_motion(shot);
+  experiment.start = start;
+  const auto [rolling, turning] = final_motion(experiment);
   CHECK(rolling.x() == Approx(R * turning.y()).epsilon(1e-15));
   CHECK(rolling.y() == Approx(-R * turning.x()).epsilon(1e-15));
   CHECK(turning.z() == 0);
@@ -46,11 +46,11 @@ TEST_CASE("any start ends in rolling along one line", "[invariant]") {
   CHECK(rolling.x() + 0.4 * R * turning.y() == Approx(1 + 0.4 * R * -30).epsilon(1e-15));
   CHECK(rolling.y() - 0.4 * R * turning.x() == Approx(0.5 - 0.4 * R * 20).epsilon(1e-15));
   // The two ways to give one start agree.
-  shot.start = Velocities{{2, 0}, {0, 0, 7}};
-  const FinalMotion general = final_motion(shot);
-  shot.start = SlipAndSpin{.slip = 2, .spin = 7};
-  CHECK(general.velocity.isApprox(final_motion(shot).velocity, 1e-15));
-  CHECK(general.angular_velocity.isApprox(final_motion(shot).angular_velocity, 1e-15));
+  experiment.start = Velocities{{2, 0}, {0, 0, 7}};
+  const FinalMotion general = final_motion(experiment);
+  experiment.start = SlipAndSpin{.slip = 2, .spin = 7};
+  CHECK(general.velocity.isApprox(final_motion(experiment).velocity, 1e-15));
+  CHECK(general.angular_velocity.isApprox(final_motion(experiment).angular_velocity, 1e-15));
   // 7 R omega_y + 5 v keeps its value, v being the slip.
   CHECK(7 * R * general.angular_velocity.y() == Approx(5 * 2).epsilon(1e-15));
 }

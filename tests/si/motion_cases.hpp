@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "contensou/si/shot.hpp"
+#include "contensou/si/experiment.hpp"
 
 /// Starts of every kind, for a ball of radius 0.03 m.
 struct MotionCase {
@@ -24,7 +24,7 @@ inline const std::array motion_cases{
     MotionCase{"hardly any spin", {{1, 0}, {0, 0, -1e-3}}},
 };
 
-inline contensou::si::Shot shot_of(const MotionCase& motion_case, double patch_ratio) {
+inline contensou::si::Experiment experiment_of(const MotionCase& motion_case, double patch_ratio) {
   return {.ball = {.name = "ball", .mass = 0.17, .radius = 0.03},
           .contact = {.friction = 0.2, .patch = contensou::si::PatchRadius{patch_ratio * 0.03}},
           .start = motion_case.start};

@@ -13,11 +13,11 @@ using namespace contensou;
 using namespace contensou::si;
 
 TEST_CASE("from where it rolls, a ball slows down evenly and rests V/a later, V^2/(2 a) farther", "[table]") {
-  const Shot shot = shot_of(motion_cases[2], 0.1);
-  const BallMotion free(shot, reduction::HertzLaw{});
+  const Experiment experiment = experiment_of(motion_cases[2], 0.1);
+  const BallMotion free(experiment, reduction::HertzLaw{});
   const MotionPoint rolls = free.at_time(free.slip_time(1e-3));
   const double a = 0.1, speed = rolls.velocity.norm();
-  const RollingFriction friction(shot.ball, rolls, a);
+  const RollingFriction friction(experiment.ball, rolls, a);
   CHECK(friction.rest_time() == Approx(rolls.t + speed / a).epsilon(1e-15));
   CHECK((friction.rest_position() - rolls.position).norm() == Approx(speed * speed / (2 * a)).epsilon(1e-14));
 
@@ -26,8 +26,8 @@ TEST_CASE("from where it rolls, a ball slows down evenly and rests V/a later, V^
   const MotionPoint half = friction(free.at_time(rolls.t + speed / a / 2));
   CHECK(half.velocity.norm() == Approx(speed / 2).epsilon(1e-14));
   CHECK((half.position - rolls.position).norm() == Approx(0.75 * speed * speed / (2 * a)).epsilon(1e-14));
-  CHECK(half.velocity.x() == Approx(shot.ball.radius * half.angular_velocity.y()).epsilon(1e-14));
-  CHECK(half.velocity.y() == Approx(-shot.ball.radius * half.angular_velocity.x()).epsilon(1e-14));
+  CHECK(half.velocity.x() == Approx(experiment.ball.radius * half.angular_velocity.y()).epsilon(1e-14));
+  CHECK(half.velocity.y() == Approx(-experiment.ball.radius * half.angular_velocity.x()).epsilon(1e-14));
   const MotionPoint rest = friction(free.at_time(friction.rest_time() + free.stop_time()));
   CHECK(rest.energy == 0);
   CHECK((rest.position - friction.rest_position()).norm() < 1e-15);
@@ -36,8 +36,8 @@ TEST_CASE("from where it rolls, a ball slows down evenly and rests V/a later, V^
   // Without a speed it rests where it is.
   const MotionPoint still{
       .t = 1, .position = {2, 3}, .velocity = {0, 0}, .angular_velocity = {0, 0, 5}, .slip = 0, .energy = 0};
-  CHECK(RollingFriction(shot.ball, still, a).rest_time() == 1);
-  CHECK(RollingFriction(shot.ball, still, a).rest_position() == still.position);
+  CHECK(RollingFriction(experiment.ball, still, a).rest_time() == 1);
+  CHECK(RollingFriction(experiment.ball, still, a).rest_position() == still.position);
   for (double wrong : {0.0, -1.0, std::nan("")})
-    CHECK_THROWS_AS(RollingFriction(shot.ball, still, wrong), std::domain_error);
+    CHECK_THROWS_AS(RollingFriction(experiment.ball, still, wrong), std::domain_error);
 }

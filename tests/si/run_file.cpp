@@ -44,7 +44,7 @@ bool same(const PatchSource& a, const PatchSource& b) {
   return x.youngs_modulus == y.youngs_modulus && x.poisson_ratio == y.poisson_ratio;
 }
 
-void check_same(const Shot& a, const Shot& b) {
+void check_same(const Experiment& a, const Experiment& b) {
   CHECK(a.ball.name == b.ball.name);
   CHECK(a.ball.mass == b.ball.mass);
   CHECK(a.ball.radius == b.ball.radius);
@@ -59,15 +59,15 @@ void check_same(const Shot& a, const Shot& b) {
 }  // namespace
 
 TEST_CASE("a run file in full", "[table]") {
-  const Shot shot = parse_run_file(good, "x.toml");
-  CHECK(shot.ball.name == "pool ball on cloth");
-  CHECK(shot.ball.mass == 0.1701);
-  CHECK(shot.ball.radius == 0.028575);
-  CHECK(shot.contact.friction == 0.2);
-  CHECK(std::get<SpinDeceleration>(shot.contact.patch).value == 10);
-  CHECK(slip_at_start(shot) == 1);
-  CHECK(spin_at_start(shot) == 100);
-  CHECK(shot.environment.gravity == 9.80665);
+  const Experiment experiment = parse_run_file(good, "x.toml");
+  CHECK(experiment.ball.name == "pool ball on cloth");
+  CHECK(experiment.ball.mass == 0.1701);
+  CHECK(experiment.ball.radius == 0.028575);
+  CHECK(experiment.contact.friction == 0.2);
+  CHECK(std::get<SpinDeceleration>(experiment.contact.patch).value == 10);
+  CHECK(slip_at_start(experiment) == 1);
+  CHECK(spin_at_start(experiment) == 100);
+  CHECK(experiment.environment.gravity == 9.80665);
   CHECK(parse_run_file(good + "[environment]\ngravity = 1.62\n", "x.toml").environment.gravity == 1.62);
   const std::string hertz =
       with(good, "spin_deceleration = 10", "hertz = {youngs_modulus = [2.1e11, 7.0e10], poisson_ratio = [0.3, 0.22]}");
@@ -79,26 +79,27 @@ TEST_CASE("a run file in full", "[table]") {
 TEST_CASE("what is written reads back to the same doubles", "[invariant]") {
   for (const CatalogueEntry& entry : catalogue()) {
     INFO(entry.name);
-    check_same(parse_run_file(run_file(entry.shot, entry.sources), entry.name), entry.shot);
+    check_same(parse_run_file(run_file(entry.experiment, entry.sources), entry.name), entry.experiment);
   }
-  const Shot awkward{.ball = {.name = "a \"quoted\" 'name' with \\ and \xC3\xA9", .mass = 1.0 / 3, .radius = 1e300},
-                     .contact = {.friction = 5e-324, .patch = PatchRadius{1e299 / 3}},
-                     .start = SlipAndSpin{.slip = 12345678901234567890.0, .spin = -0.1},
-                     .environment = {.gravity = 123456789}};
+  const Experiment awkward{
+      .ball = {.name = "a \"quoted\" 'name' with \\ and \xC3\xA9", .mass = 1.0 / 3, .radius = 1e300},
+      .contact = {.friction = 5e-324, .patch = PatchRadius{1e299 / 3}},
+      .start = SlipAndSpin{.slip = 12345678901234567890.0, .spin = -0.1},
+      .environment = {.gravity = 123456789}};
   check_same(parse_run_file(run_file(awkward, "a remark\n\nof three lines"), "awkward"), awkward);
 }
 
 TEST_CASE("a start may be given by its velocities", "[table]") {
   const std::string general =
       with(with(good, "slip = 1.0", "velocity = [1, -0.5]"), "spin = 100", "angular_velocity = [3, 1e3, -7.5]");
-  const Shot shot = parse_run_file(general, "x.toml");
-  const auto& start = std::get<Velocities>(shot.start);
+  const Experiment experiment = parse_run_file(general, "x.toml");
+  const auto& start = std::get<Velocities>(experiment.start);
   CHECK(start.velocity == Eigen::Vector2d(1, -0.5));
   CHECK(start.angular_velocity == Eigen::Vector3d(3, 1000, -7.5));
-  check_same(parse_run_file(run_file(shot), "written"), shot);
-  const Shot awkward{.ball = shot.ball,
-                     .contact = shot.contact,
-                     .start = Velocities{{1.0 / 3, -5e-324}, {12345678901234567890.0, 0, -1e-300}}};
+  check_same(parse_run_file(run_file(experiment), "written"), experiment);
+  const Experiment awkward{.ball = experiment.ball,
+                           .contact = experiment.contact,
+                           .start = Velocities{{1.0 / 3, -5e-324}, {12345678901234567890.0, 0, -1e-300}}};
   check_same(parse_run_file(run_file(awkward), "written"), awkward);
 }
 

@@ -17,9 +17,9 @@ using namespace contensou::si;
 TEST_CASE("the textbook's motion is the limit of the whole one", "[limit]") {
   const reduction::PadeLaw law;
   for (const std::size_t alone : {std::size_t{5}, std::size_t{6}}) {  // pure spin, no spin
-    const Shot shot = shot_of(motion_cases[alone], 0.1);
-    const BallMotion whole(shot, law);
-    const UncoupledMotion textbook(shot, law);
+    const Experiment experiment = experiment_of(motion_cases[alone], 0.1);
+    const BallMotion whole(experiment, law);
+    const UncoupledMotion textbook(experiment, law);
     const double stop = whole.stop_time();
     CHECK(std::max(textbook.slip_time(0), textbook.spin_end()) == Approx(stop).epsilon(1e-14));
     CHECK(textbook.slip_length() == Approx(whole.slip_length()).epsilon(1e-13));
@@ -37,17 +37,17 @@ TEST_CASE("the textbook's motion is the limit of the whole one", "[limit]") {
 }
 
 TEST_CASE("the textbook's ball rolls after 2 v0/(7 f g), as any ball does in the end", "[table]") {
-  const Shot shot = shot_of(motion_cases[2], 0.1);
-  const UncoupledMotion textbook(shot, reduction::PadeLaw{});
-  CHECK(textbook.slip_time(0) == Approx(2 * slip_at_start(shot) / (7 * 0.2 * 9.80665)).epsilon(1e-14));
+  const Experiment experiment = experiment_of(motion_cases[2], 0.1);
+  const UncoupledMotion textbook(experiment, reduction::PadeLaw{});
+  CHECK(textbook.slip_time(0) == Approx(2 * slip_at_start(experiment) / (7 * 0.2 * 9.80665)).epsilon(1e-14));
   const MotionPoint rolls = textbook.at_time(textbook.slip_time(0));
-  CHECK((rolls.velocity - final_motion(shot).velocity).norm() < 1e-15);
+  CHECK((rolls.velocity - final_motion(experiment).velocity).norm() < 1e-15);
   CHECK(rolls.slip == 0);
   CHECK(textbook.at_time(textbook.slip_time(0.01)).slip == Approx(0.01).epsilon(1e-12));
   // Constant force: X = V0 t - f g t^2/2 e.
   const double t = 0.7 * textbook.slip_time(0);
-  const Eigen::Vector2d e = slip_velocity_at_start(shot).normalized();
-  const Eigen::Vector2d expected = velocities_of(shot.start).velocity * t - 0.2 * 9.80665 * t * t / 2 * e;
+  const Eigen::Vector2d e = slip_velocity_at_start(experiment).normalized();
+  const Eigen::Vector2d expected = velocities_of(experiment.start).velocity * t - 0.2 * 9.80665 * t * t / 2 * e;
   CHECK((textbook.at_time(t).position - expected).norm() < 1e-14);
   CHECK_THROWS_AS(textbook.at_time(-1), std::domain_error);
   CHECK_THROWS_AS(textbook.at_time(std::numeric_limits<double>::quiet_NaN()), std::domain_error);

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/si/bridge.hpp"
+#include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
 
@@ -16,7 +16,7 @@ portraits::PhasePortrait PortraitSpec::portrait() const {
     asked.orbits_per_side = asked.orbits_per_side.value_or(8);
     asked.isochrones = asked.isochrones.value_or(4);
   }
-  if (shot) asked.time_unit = 1 / si::seconds(*shot, 1);
+  if (experiment) asked.time_unit = 1 / si::seconds(*experiment, 1);
   return portraits::phase_portrait(flow, asked);
 }
 
@@ -25,8 +25,8 @@ portraits::Figure PortraitSpec::figure(const portraits::PhasePortrait& portrait)
 }
 
 portraits::PortraitSource PortraitSpec::source() const {
-  if (!shot) return {.version = CONTENSOU_VERSION};
-  return {.version = CONTENSOU_VERSION, .ball = shot->ball.name, .seconds_per_tau = si::seconds(*shot, 1)};
+  if (!experiment) return {.version = CONTENSOU_VERSION};
+  return {.version = CONTENSOU_VERSION, .ball = experiment->ball.name, .seconds_per_tau = si::seconds(*experiment, 1)};
 }
 
 portraits::PortraitCaption PortraitSpec::caption(const portraits::PhasePortrait& portrait) const {
@@ -34,19 +34,20 @@ portraits::PortraitCaption PortraitSpec::caption(const portraits::PhasePortrait&
   if (!start) return caption;
   const double stop = portrait.highlight ? portrait.highlight->tau_left[0] : 0;
   caption.highlight = "this motion";
-  if (!shot) {
+  if (!experiment) {
     caption.subtitle =
         fmt::format("u_0 = {:g}, v_0 = {:g}: slip and spin end after τ* = {:.4g}", start->u, start->v, stop);
     return caption;
   }
-  caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot->ball.name),
+  caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(experiment->ball.name),
                               flow.system().mu(), portraits::law_names(portrait));
-  caption.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s: they end after {:.3g} s", si::slip_at_start(*shot),
-                                 si::spin_at_start(*shot), si::seconds(*shot, stop));
+  caption.subtitle =
+      fmt::format("slip {:g} m/s, spin {:g} rad/s: they end after {:.3g} s", si::slip_at_start(*experiment),
+                  si::spin_at_start(*experiment), si::seconds(*experiment, stop));
   caption.speed_unit = "m/s";
   caption.time_symbol = "{/:Italic t}*";
   caption.time_unit_name = "s";
-  caption.time_unit = 1 / si::seconds(*shot, 1);
+  caption.time_unit = 1 / si::seconds(*experiment, 1);
   caption.highlight = "this ball";
   return caption;
 }

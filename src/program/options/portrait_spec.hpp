@@ -5,7 +5,7 @@
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/si/shot.hpp"
+#include "contensou/si/experiment.hpp"
 
 namespace contensou::program {
 
@@ -13,9 +13,9 @@ namespace contensou::program {
 /// have equal answers, so that the page's command line draws what the page shows.
 struct PortraitSpec {
   reduction::Flow flow;
-  std::optional<reduction::State> start = {};  ///< of the highlighted orbit
-  std::optional<si::Shot> shot = {};           ///< where mu and start came from, if it is a ball in SI units
-  portraits::PortraitRequest request = {};     ///< highlight and time unit follow from start and shot
+  std::optional<reduction::State> start = {};     ///< of the highlighted orbit
+  std::optional<si::Experiment> experiment = {};  ///< where mu and start came from, if it is a ball in SI units
+  portraits::PortraitRequest request = {};        ///< highlight and time unit follow from start and experiment
   portraits::PortraitStyle style = {};
 
   /// @throws std::domain_error  as phase_portrait

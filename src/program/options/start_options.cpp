@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/si/bridge.hpp"
+#include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
 
@@ -125,8 +125,8 @@ void StartOptions::require_one_kind() const {
 GivenStart StartOptions::read(const reduction::Law& law) const {
   require_one_kind();
   if (ball_.given()) {
-    const si::Shot shot = read_ball(law);
-    return {si::reduced_system(shot, law), si::reduced_start(shot), shot};
+    const si::Experiment experiment = read_ball(law);
+    return {si::reduced_system(experiment, law), si::reduced_start(experiment), experiment};
   }
   std::vector<std::string> missing;
   if (!body_.mu().given() && !body().patch_ratio) missing.push_back(body_.mu().name());
@@ -153,7 +153,7 @@ bool StartOptions::overrides_start() const {
   return false;
 }
 
-si::Shot StartOptions::read_ball(const reduction::Law& law, const si::StartOverride& start) const {
+si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::StartOverride& start) const {
   if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
   si::Overrides overrides;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -163,9 +163,9 @@ si::Shot StartOptions::read_ball(const reduction::Law& law, const si::StartOverr
     throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
   }
   try {
-    const si::Shot shot = read_shot(overrides, start);
-    si::patch_radius_of(shot, law);  // is one that it can have
-    return shot;
+    const si::Experiment experiment = read_shot(overrides, start);
+    si::patch_radius_of(experiment, law);  // is one that it can have
+    return experiment;
   } catch (const si::RunFileError&) {
     throw;
   } catch (const NotAllowed& error) {
@@ -176,10 +176,11 @@ si::Shot StartOptions::read_ball(const reduction::Law& law, const si::StartOverr
   }
 }
 
-si::Shot StartOptions::read_shot(const si::Overrides& overrides, const si::StartOverride& start) const {
+si::Experiment StartOptions::read_shot(const si::Overrides& overrides, const si::StartOverride& start) const {
   if (names_a_file(ball_.text(), {".toml"})) return si::read_run_file(ball_.text(), overrides, start);
   const si::CatalogueEntry& entry = require_ball(ball_.text());
-  return si::parse_run_file(si::run_file(entry.shot, entry.sources), "built-in ball " + entry.name, overrides, start);
+  return si::parse_run_file(si::run_file(entry.experiment, entry.sources), "built-in ball " + entry.name, overrides,
+                            start);
 }
 
 }  // namespace contensou::program

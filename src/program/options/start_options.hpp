@@ -43,7 +43,7 @@ const si::CatalogueEntry& require_ball(const std::string& name);
 struct GivenStart {
   reduction::ReducedSystem system;
   reduction::State state;
-  std::optional<si::Shot> shot;  ///< where it came from, if it is a ball in SI units
+  std::optional<si::Experiment> experiment;  ///< where it came from, if it is a ball in SI units
 
   bool at_rest() const { return state.u == 0 && state.v == 0; }
   bool slides_and_spins() const { return state.u != 0 && state.v != 0; }
@@ -80,7 +80,7 @@ class StartOptions {
   /// The ball of --ball. Throws as read.
   ///
   /// @param start  velocities that take the place of those of [start]
-  si::Shot read_ball(const reduction::Law& law, const si::StartOverride& start = {}) const;
+  si::Experiment read_ball(const reduction::Law& law, const si::StartOverride& start = {}) const;
 
   /// What moves, without how: --mu, a --body with a mu of its own, or --ball is enough. Throws as read.
   reduction::ReducedSystem read_body(const reduction::Law& law) const;
@@ -95,7 +95,7 @@ class StartOptions {
       &si::radius,  &si::mass, &si::friction, &si::patch_radius, &si::spin_deceleration,
       &si::gravity, &si::slip, &si::spin};
 
-  si::Shot read_shot(const si::Overrides& overrides, const si::StartOverride& start) const;
+  si::Experiment read_shot(const si::Overrides& overrides, const si::StartOverride& start) const;
   void require_one_kind() const;
   std::string override_names() const;
 

@@ -3,9 +3,9 @@
 #include <boost/math/quadrature/gauss.hpp>
 
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/integrated_motion.hpp"
+#include "contensou/si/scaling.hpp"
 #include "paper/statements.hpp"
 #include "paper/zh98.hpp"
 
@@ -27,12 +27,12 @@ double moment_of_inertia() {
 }  // namespace
 
 std::vector<Statement> ball_statements() {
-  si::Shot shot = si::find_ball("pool")->shot;
-  shot.start = si::Velocities{.velocity = {1, 0.3}, .angular_velocity = {20, -15, -60}};
+  si::Experiment experiment = si::find_ball("pool")->experiment;
+  experiment.start = si::Velocities{.velocity = {1, 0.3}, .angular_velocity = {20, -15, -60}};
   const reduction::PadeLaw law;
-  const double R = shot.ball.radius, m = shot.ball.mass, eps = si::patch_radius_of(shot, law);
-  const double fN = shot.contact.friction * m * shot.environment.gravity;
-  const auto [V, omega] = si::velocities_of(shot.start);
+  const double R = experiment.ball.radius, m = experiment.ball.mass, eps = si::patch_radius_of(experiment, law);
+  const double fN = experiment.contact.friction * m * experiment.environment.gravity;
+  const auto [V, omega] = si::velocities_of(experiment.start);
 
   // By mechanics in vectors.
   const Vector3d arm(0, 0, -R);  // the point of contact is below the centre
@@ -50,9 +50,9 @@ std::vector<Statement> ball_statements() {
   rates *= 2 * m / (3 * pi * fN);  // dt/dtau
 
   // By integration, at 0.02, 1, 1.5 and 2 stop times.
-  const double stop = si::integrate_motion(shot, law, Eigen::ArrayXd(0)).stop_time;
+  const double stop = si::integrate_motion(experiment, law, Eigen::ArrayXd(0)).stop_time;
   const Eigen::ArrayXd times = stop * (Eigen::ArrayXd(4) << 0.02, 1, 1.5, 2).finished();
-  const si::IntegratedMotion integrated = si::integrate_motion(shot, law, times);
+  const si::IntegratedMotion integrated = si::integrate_motion(experiment, law, times);
   const auto& at = integrated.points;
   const auto V_at = [&](int i) { return Vector2d(at.vx[i], at.vy[i]); };
   const auto omega_at = [&](int i) { return Vector2d(at.wx[i], at.wy[i]); };

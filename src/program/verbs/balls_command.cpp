@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/si/bridge.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/run_file.hpp"
+#include "contensou/si/scaling.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
@@ -17,7 +17,7 @@ namespace {
 using si::CatalogueEntry;
 
 Json row_of(const CatalogueEntry& entry) {
-  const auto& [ball, contact, start, environment] = entry.shot;
+  const auto& [ball, contact, start, environment] = entry.experiment;
   std::string sources = entry.sources;
   std::ranges::replace(sources, '\n', ' ');
   return {{"name", entry.name},
@@ -25,10 +25,10 @@ Json row_of(const CatalogueEntry& entry) {
           {"radius", ball.radius},
           {"mass", ball.mass},
           {"friction", contact.friction},
-          {"patch_radius", si::patch_radius_of(entry.shot, reduction::HertzLaw{})},
-          {"mu", si::patch_ratio(entry.shot, reduction::HertzLaw{})},
-          {"slip", si::slip_at_start(entry.shot)},
-          {"spin", si::spin_at_start(entry.shot)},
+          {"patch_radius", si::patch_radius_of(entry.experiment, reduction::HertzLaw{})},
+          {"mu", si::patch_ratio(entry.experiment, reduction::HertzLaw{})},
+          {"slip", si::slip_at_start(entry.experiment)},
+          {"spin", si::spin_at_start(entry.experiment)},
           {"gravity", environment.gravity},
           {"sources", sources}};
 }
@@ -63,7 +63,7 @@ class BallsCommand final : public Verb {
         format.reject("a run file is text: leave it out");
       }
       const CatalogueEntry& entry = **ball_;
-      output_.read(1).write(si::run_file(entry.shot, entry.sources));
+      output_.read(1).write(si::run_file(entry.experiment, entry.sources));
     } else {
       output_.read().write(list());
     }

@@ -1,4 +1,4 @@
-#include "contensou/si/bridge.hpp"
+#include "contensou/si/scaling.hpp"
 #include "options/instants_option.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -50,8 +50,9 @@ class OrbitCommand final : public Verb {
                               {"k", motion.k},
                               {"beta", motion.beta}}};
     if (time_left_.given()) answer.columns.push_back({"tau_left", *time_left_});
-    if (start.shot) {
-      answer.columns.push_back({"t", motion.tau.unaryExpr([&](double tau) { return si::seconds(*start.shot, tau); })});
+    if (start.experiment) {
+      answer.columns.push_back(
+          {"t", motion.tau.unaryExpr([&](double tau) { return si::seconds(*start.experiment, tau); })});
     }
     output.write(answer);
     return ExitStatus::done;

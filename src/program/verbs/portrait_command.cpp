@@ -85,7 +85,7 @@ class PortraitCommand final : public Verb {
     PortraitSpec question{
         .flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(system) : system,
         .start = has_start ? std::optional(start.state) : std::nullopt,
-        .shot = start.shot,
+        .experiment = start.experiment,
         .request = request_,
         .style = style_};
     question.style.size = figure_.size();

@@ -11,11 +11,11 @@
 #include "contensou/portraits/roll_figure.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/ball_motion.hpp"
-#include "contensou/si/bridge.hpp"
 #include "contensou/si/course.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/integrated_motion.hpp"
 #include "contensou/si/quantity.hpp"
+#include "contensou/si/scaling.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
@@ -32,18 +32,18 @@ namespace {
 
 /// The whole motion of a ball.
 struct Roll {
-  si::Shot shot;
+  si::Experiment experiment;
   reduction::Law law;
   bool integrated;          ///< the route of its columns: the equations of motion instead of the similarity solution
   double rolling_below;     ///< m/s of slip
   double rolling_friction;  ///< u_r; 0: none
-  si::Course<si::BallMotion> whole{shot, {shot, law}, rolling_below, rolling_friction};
-  si::Course<si::UncoupledMotion> textbook{shot, {shot, law}, rolling_below, rolling_friction};
+  si::Course<si::BallMotion> whole{experiment, {experiment, law}, rolling_below, rolling_friction};
+  si::Course<si::UncoupledMotion> textbook{experiment, {experiment, law}, rolling_below, rolling_friction};
 
   double stop_time() const { return whole.motion.stop_time(); }
 
   si::MotionColumns at_times(const Eigen::ArrayXd& times) const {
-    return integrated ? whole.slowed(si::integrate_motion(shot, law, times).points) : whole.at_times(times);
+    return integrated ? whole.slowed(si::integrate_motion(experiment, law, times).points) : whole.at_times(times);
   }
 
   /// Where a series of instants ends unless the user says otherwise, in s: a little past the stop, and the rest.
@@ -70,20 +70,21 @@ struct EnergyBalance {
   double kept;
 };
 
-EnergyBalance energy_balance(const si::Shot& shot) {
-  const auto [velocity, angular_velocity] = si::final_motion(shot);
-  return {si::kinetic_energy(shot.ball, si::velocities_of(shot.start)), si::energy_loss(shot),
-          si::kinetic_energy(shot.ball, {velocity, angular_velocity})};
+EnergyBalance energy_balance(const si::Experiment& experiment) {
+  const auto [velocity, angular_velocity] = si::final_motion(experiment);
+  return {si::kinetic_energy(experiment.ball, si::velocities_of(experiment.start)), si::energy_loss(experiment),
+          si::kinetic_energy(experiment.ball, {velocity, angular_velocity})};
 }
 
-std::string heading(const si::Shot& shot, const reduction::Law& law, const Digits& digits) {
-  const si::Velocities start = si::velocities_of(shot.start);
+std::string heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
+  const si::Velocities start = si::velocities_of(experiment.start);
   return fmt::format(
       "{}: radius {} m, mass {} kg, friction {}, patch radius {} m (mu = {})\n"
       "velocity {} m/s, angular velocity {} 1/s: slip {} m/s, spin {} rad/s\n",
-      shot.ball.name, digits(shot.ball.radius), digits(shot.ball.mass), digits(shot.contact.friction),
-      digits(si::patch_radius_of(shot, law)), digits(si::patch_ratio(shot, law)), digits.list(start.velocity),
-      digits.list(start.angular_velocity), digits(si::slip_at_start(shot)), digits(si::spin_at_start(shot)));
+      experiment.ball.name, digits(experiment.ball.radius), digits(experiment.ball.mass),
+      digits(experiment.contact.friction), digits(si::patch_radius_of(experiment, law)),
+      digits(si::patch_ratio(experiment, law)), digits.list(start.velocity), digits.list(start.angular_velocity),
+      digits(si::slip_at_start(experiment)), digits(si::spin_at_start(experiment)));
 }
 
 std::string table(const Roll& roll, const Digits& digits) {
@@ -105,13 +106,13 @@ std::string table(const Roll& roll, const Digits& digits) {
   line("", "law " + roll.law.name(), "textbook (uncoupled)", "");
   event("rolls after", ours.rolls, theirs.rolls);
   if (ours.rest) event("its centre rests after", *ours.rest, *theirs.rest);
-  if (si::spin_at_start(roll.shot) != 0) {
+  if (si::spin_at_start(roll.experiment) != 0) {
     event("spins no more after", ours.spin_ends, theirs.spin_ends);
     number("turned about vertical", ours.turns, theirs.turns, "turns");
   }
   number("length of slip", ours.slip_length, theirs.slip_length, "m");
   number("path until it rolls", ours.path, theirs.path, "m");
-  const bool spins_too = si::spin_at_start(roll.shot) != 0 && si::slip_at_start(roll.shot) > 0;
+  const bool spins_too = si::spin_at_start(roll.experiment) != 0 && si::slip_at_start(roll.experiment) > 0;
   text += fmt::format("\nrolls  once its slip is below {} m/s{} (--rolling-below){}\n", digits(roll.rolling_below),
                       roll.rolling_below == si::rolling_slip ? ", which no eye tells from rolling" : "",
                       spins_too ? ";\n       the last of it ends with the spin" : "");
@@ -121,14 +122,14 @@ std::string table(const Roll& roll, const Digits& digits) {
 }
 
 std::string ending(const Roll& roll, const Digits& digits) {
-  const si::Shot& shot = roll.shot;
-  const auto [velocity, angular_velocity] = si::final_motion(shot);
-  const auto [start, loss, kept] = energy_balance(shot);
+  const si::Experiment& experiment = roll.experiment;
+  const auto [velocity, angular_velocity] = si::final_motion(experiment);
+  const auto [start, loss, kept] = energy_balance(experiment);
   std::string text = fmt::format("then   it rolls straight on: velocity {} m/s, angular velocity {} 1/s\n",
                                  digits.list(velocity), digits.list(angular_velocity));
   if (roll.rolling_friction > 0) {
     text += fmt::format("       slowed down by u_r g = {} m/s^2\n",
-                        digits(roll.rolling_friction * shot.environment.gravity));
+                        digits(roll.rolling_friction * experiment.environment.gravity));
   }
   if (velocity.norm() > 0) {
     const double degrees = std::atan2(velocity.y(), velocity.x()) * (180 / std::numbers::pi);
@@ -138,12 +139,12 @@ std::string ending(const Roll& roll, const Digits& digits) {
                             digits(loss.sliding), digits(loss.pivoting), digits(kept));
 }
 
-portraits::RollCurve curve(const si::Shot& shot, const si::MotionColumns& motion, double rolls) {
+portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionColumns& motion, double rolls) {
   return {.t = motion.t,
           .x = motion.x,
           .y = motion.y,
           .slip = motion.slip,
-          .rim = shot.ball.radius * motion.wz.abs(),
+          .rim = experiment.ball.radius * motion.wz.abs(),
           .speed = (motion.vx.square() + motion.vy.square()).sqrt(),
           .rolls = rolls,
           .angular_velocity = (Eigen::Matrix3Xd(3, motion.rows()) << motion.wx.matrix().transpose(),
@@ -154,12 +155,12 @@ portraits::RollCurve curve(const si::Shot& shot, const si::MotionColumns& motion
 /// Columns of the motion, and its events.
 /// @param times  s
 Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
-  const auto [velocity, angular_velocity] = si::velocities_of(roll.shot.start);
-  const auto [start, loss, kept] = energy_balance(roll.shot);
+  const auto [velocity, angular_velocity] = si::velocities_of(roll.experiment.start);
+  const auto [start, loss, kept] = energy_balance(roll.experiment);
   const si::MotionColumns motion = roll.at_times(times);
   Json members{{"law", roll.law.name()},
                {"route", roll.integrated ? "integrated" : "reduced"},
-               {"mu", si::patch_ratio(roll.shot, roll.law)},
+               {"mu", si::patch_ratio(roll.experiment, roll.law)},
                {"velocity", std::vector(velocity.begin(), velocity.end())},
                {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())},
                {"t_stop", roll.stop_time()}};
@@ -186,9 +187,9 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
 /// textbook's answer beside it. For the route integrated, how close its stop is.
 std::string report_on(const Roll& roll, const Digits& digits) {
   const std::string text =
-      heading(roll.shot, roll.law, digits) + "\n" + table(roll, digits) + "\n" + ending(roll, digits);
+      heading(roll.experiment, roll.law, digits) + "\n" + table(roll, digits) + "\n" + ending(roll, digits);
   if (!roll.integrated) return text;
-  const si::IntegratedMotion motion = si::integrate_motion(roll.shot, roll.law, {});
+  const si::IntegratedMotion motion = si::integrate_motion(roll.experiment, roll.law, {});
   return text +
          fmt::format("route integrated: slip and spin end after {} s, {:.1g} from the reduced route, in {} steps\n",
                      digits(motion.stop_time), std::abs(motion.stop_time - roll.stop_time()), motion.steps);
@@ -196,17 +197,17 @@ std::string report_on(const Roll& roll, const Digits& digits) {
 
 /// The picture of the motion at these instants, beside the textbook's.
 portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times) {
-  const auto& [shot, law, integrated, rolling_below, rolling_friction, whole, textbook] = roll;
+  const auto& [experiment, law, integrated, rolling_below, rolling_friction, whole, textbook] = roll;
   const double rolls = whole.rolls;
   const double textbook_rolls = textbook.rolls;
-  const double slip = si::slip_at_start(shot);
-  const double spin = si::spin_at_start(shot);
+  const double slip = si::slip_at_start(experiment);
+  const double spin = si::spin_at_start(experiment);
   portraits::RollPicture picture{
-      .title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(shot.ball.name),
-                           si::patch_ratio(shot, law), portraits::literal(law.name())),
+      .title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(experiment.ball.name),
+                           si::patch_ratio(experiment, law), portraits::literal(law.name())),
       .subtitle = fmt::format("slip {:.4g} m/s, spin {:.4g} rad/s", slip, spin),
-      .ball = curve(shot, roll.at_times(times), rolls),
-      .textbook = curve(shot, textbook.at_times(times), textbook_rolls)};
+      .ball = curve(experiment, roll.at_times(times), rolls),
+      .textbook = curve(experiment, textbook.at_times(times), textbook_rolls)};
   if (slip > 0) {
     picture.subtitle += fmt::format("; it rolls after {:.3g} s (textbook {:.3g} s)", rolls, textbook_rolls);
   }
@@ -218,13 +219,14 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
 /// Rejects a motion whose lengths, angles or energies may exceed the largest double.
 /// @param stop  s, when slip and spin end
 /// @param last  s, the last instant, if one is asked for
-void require_finite(const si::Shot& shot, double stop, double rolling_friction, std::optional<double> last = {}) {
+void require_finite(const si::Experiment& experiment, double stop, double rolling_friction,
+                    std::optional<double> last = {}) {
   constexpr double largest = std::numeric_limits<double>::max() / 100;
-  const auto [velocity, angular_velocity] = si::velocities_of(shot.start);
+  const auto [velocity, angular_velocity] = si::velocities_of(experiment.start);
   // m/s and 1/s; nothing moves or turns faster.
-  const double speed = velocity.stableNorm() + std::max(1.0, shot.ball.radius) * angular_velocity.stableNorm();
-  const double end = stop + (rolling_friction > 0 ? speed / (rolling_friction * shot.environment.gravity) : 0);
-  const double allowed = std::min({std::sqrt(largest / std::max(1.0, shot.ball.mass)),
+  const double speed = velocity.stableNorm() + std::max(1.0, experiment.ball.radius) * angular_velocity.stableNorm();
+  const double end = stop + (rolling_friction > 0 ? speed / (rolling_friction * experiment.environment.gravity) : 0);
+  const double allowed = std::min({std::sqrt(largest / std::max(1.0, experiment.ball.mass)),
                                    std::sqrt(largest) * std::sqrt(speed / end), largest / last.value_or(1)});
   if (speed == 0 || speed <= allowed) return;
   throw BadInput(
@@ -308,7 +310,7 @@ class RollCommand final : public Verb {
                     rolling_friction_.value_or(0)};
     const auto* at = instants_.at();
     const auto last = at != nullptr && at->size() > 0 ? std::optional(at->maxCoeff()) : until_.optional();
-    require_finite(roll.shot, roll.stop_time(), roll.rolling_friction, last);
+    require_finite(roll.experiment, roll.stop_time(), roll.rolling_friction, last);
     const double end = until_.value_or(roll.standard_end());
     if (output.picture()) {
       if (instants_.given()) throw BadInput("a picture needs no --at or --samples: leave them out");
@@ -343,7 +345,7 @@ class RollCommand final : public Verb {
     }
     const Output out = output_.read(1);
     const reduction::Law law = law_.read();
-    const si::Shot still = start_.read_ball(law);
+    const si::Experiment still = start_.read_ball(law);
     const reduction::Flow flow(si::reduced_system(still, law));
     OutputFile output(out.path);
     CsvReader table(batch_.text());
@@ -353,14 +355,14 @@ class RollCommand final : public Verb {
                                      "slip_length", "turns", "path"},
                          .compute =
                              [&](std::span<const double> row, std::span<double> results) {
-                               si::Shot shot = still;
+                               si::Experiment experiment = still;
                                if (general) {
-                                 shot.start = si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}};
+                                 experiment.start = si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}};
                                } else {
-                                 shot.start = si::SlipAndSpin{row[0], row[1]};
+                                 experiment.start = si::SlipAndSpin{row[0], row[1]};
                                }
-                               si::require_shot(shot);
-                               compute_events(shot, flow, results);
+                               si::require_experiment(experiment);
+                               compute_events(experiment, flow, results);
                              },
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
@@ -373,10 +375,11 @@ class RollCommand final : public Verb {
     return status;
   }
 
-  void compute_events(const si::Shot& shot, const reduction::Flow& flow, std::span<double> results) const {
+  void compute_events(const si::Experiment& experiment, const reduction::Flow& flow, std::span<double> results) const {
     const double friction = rolling_friction_.value_or(0);
-    const si::Course<si::BallMotion> course(shot, {shot, flow}, rolling_below_.value_or(si::rolling_slip), friction);
-    require_finite(shot, course.motion.stop_time(), friction);
+    const si::Course<si::BallMotion> course(experiment, {experiment, flow}, rolling_below_.value_or(si::rolling_slip),
+                                            friction);
+    require_finite(experiment, course.motion.stop_time(), friction);
     const auto [rolls, spin_ends, rest, slip_length, turns, path] = events_of(course);
     auto place = results.begin();
     const auto add = [&](const si::Event& event) {
@@ -388,7 +391,7 @@ class RollCommand final : public Verb {
     if (rest) add(*rest);
   }
 
-  si::Shot read_shot(const reduction::Law& law) const {
+  si::Experiment read_shot(const reduction::Law& law) const {
     const si::StartOverride start{velocity_.optional(), angular_velocity_.optional()};
     if ((start.velocity || start.angular_velocity) && start_.overrides_start()) {
       throw BadInput("--slip, --spin and --velocity, --angular-velocity exclude each other: give one pair of them");
@@ -401,19 +404,19 @@ class RollCommand final : public Verb {
     if (start.velocity || start.angular_velocity || start_.overrides_start()) {
       throw BadInput("--strike is a start of its own: leave out --velocity, --angular-velocity, --slip and --spin");
     }
-    si::Shot shot = start_.read_ball(law);
+    si::Experiment experiment = start_.read_ball(law);
     const Eigen::Vector2d tip = tip_.value_or(Eigen::Vector2d::Zero());
     try {
-      shot.start = si::struck(shot.ball, {.speed = *strike_,
-                                          .right = tip.x(),
-                                          .above = tip.y(),
-                                          .elevation = elevation_.value_or(0) * (std::numbers::pi / 180),
-                                          .mass = cue_mass_.value_or(si::standard_cue_mass)});
+      experiment.start = si::struck(experiment.ball, {.speed = *strike_,
+                                                      .right = tip.x(),
+                                                      .above = tip.y(),
+                                                      .elevation = elevation_.value_or(0) * (std::numbers::pi / 180),
+                                                      .mass = cue_mass_.value_or(si::standard_cue_mass)});
     } catch (const std::domain_error& error) {
       strike_.reject(error.what());
     }
-    si::require_shot(shot);
-    return shot;
+    si::require_experiment(experiment);
+    return experiment;
   }
 
   StartOptions start_;

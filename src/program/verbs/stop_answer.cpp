@@ -12,8 +12,8 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/small_mu.hpp"
-#include "contensou/si/bridge.hpp"
 #include "contensou/si/motion.hpp"
+#include "contensou/si/scaling.hpp"
 #include "options/law_option.hpp"
 
 namespace contensou::program {
@@ -37,7 +37,7 @@ struct StopReport {
 /// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say nothing,
 /// nor where only one speed is: there they are one law.
 std::optional<OtherLaw> other_law(const GivenStart& start) {
-  const auto& [system, state, shot] = start;
+  const auto& [system, state, experiment] = start;
   const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
   if (!start.slides_and_spins() || (!is_pade && !system.law().as<reduction::HertzLaw>())) return std::nullopt;
   const reduction::Law& other = reduction::paper_laws()[is_pade ? 0 : 1];
@@ -51,7 +51,7 @@ double error_of(const reduction::StopEstimate& estimate, const reduction::StopTi
 }
 
 Json members_of(const StopReport& report) {
-  const auto& [system, state, shot] = report.start;
+  const auto& [system, state, experiment] = report.start;
   const double tau = report.stop.tau;
   Json members{
       {"law", system.law().name()},
@@ -71,9 +71,9 @@ Json members_of(const StopReport& report) {
     members["estimates"].push_back(
         {{"name", estimate.name}, {"tau_stop", estimate.tau}, {"error", error_of(estimate, report.stop)}});
   }
-  if (shot) {
-    const auto [velocity, angular_velocity] = si::final_motion(*shot);
-    members["t_stop"] = si::seconds(*shot, tau);
+  if (experiment) {
+    const auto [velocity, angular_velocity] = si::final_motion(*experiment);
+    members["t_stop"] = si::seconds(*experiment, tau);
     members["final"] = {{"velocity", std::vector(velocity.begin(), velocity.end())},
                         {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
   }
@@ -126,17 +126,18 @@ class Text {
 
  private:
   std::string heading() const {
-    const auto& [system, state, shot] = report_.start;
-    if (!shot) {
+    const auto& [system, state, experiment] = report_.start;
+    if (!experiment) {
       return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}", number_(system.mu()),
                          number_(state.u), number_(state.v), is_ball() ? "" : body_line());
     }
     return fmt::format(
         "{}: radius {} m, mass {} kg, friction {}, patch radius {} m\n"
         "slip {} m/s, spin {} rad/s: mu = {}, u0 = {} m/s, v0 = {} m/s\n",
-        shot->ball.name, number_(shot->ball.radius), number_(shot->ball.mass), number_(shot->contact.friction),
-        number_(si::patch_radius_of(*shot, system.law())), number_(si::slip_at_start(*shot)),
-        number_(si::spin_at_start(*shot)), number_(system.mu()), number_(state.u), number_(state.v));
+        experiment->ball.name, number_(experiment->ball.radius), number_(experiment->ball.mass),
+        number_(experiment->contact.friction), number_(si::patch_radius_of(*experiment, system.law())),
+        number_(si::slip_at_start(*experiment)), number_(si::spin_at_start(*experiment)), number_(system.mu()),
+        number_(state.u), number_(state.v));
   }
 
   bool is_ball() const {
@@ -160,18 +161,18 @@ class Text {
         return value;
     };
     std::string text = fmt::format("{:<18}", label);
-    if (report_.start.shot) text += fmt::format("{:>{}}", cell(seconds), number_.width());
+    if (report_.start.experiment) text += fmt::format("{:>{}}", cell(seconds), number_.width());
     return text + fmt::format("{:>{}}", cell(tau), number_.width()) + (note.empty() ? "" : "    " + note) + "\n";
   }
 
   std::string times() const {
-    const auto& shot = report_.start.shot;
+    const auto& experiment = report_.start.experiment;
     const auto row = [&](const std::string& label, double tau, const std::string& note = "") {
-      return line(label, shot ? si::seconds(*shot, tau) : tau, tau, note);
+      return line(label, experiment ? si::seconds(*experiment, tau) : tau, tau, note);
     };
     const double tau = report_.stop.tau;
     std::string text =
-        line<std::string>("", "t* (s)", shot ? "tau* (m/s)" : "tau*") +
+        line<std::string>("", "t* (s)", experiment ? "tau* (m/s)" : "tau*") +
         row("slip and spin end", tau,
             std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
                             : fmt::format("numerical error below {:.0e} of it", rounded_up(report_.stop.accuracy)));
@@ -218,18 +219,18 @@ class Text {
   }
 
   std::string ending() const {
-    const auto& [system, state, shot] = report_.start;
-    if (!shot) {
+    const auto& [system, state, experiment] = report_.start;
+    if (!experiment) {
       const double chi = system.inertia().chi;
       if (chi == 1) return "then   it lies still\n";
       return fmt::format("then   it rolls; the centre's velocity has changed by {} = {} along the slip\n",
                          is_ball() ? "-2 v0/7" : "-v0/chi", number_(0 - state.v / chi));
     }
-    const auto [velocity, angular_velocity] = si::final_motion(*shot);
+    const auto [velocity, angular_velocity] = si::final_motion(*experiment);
     return fmt::format(
         "then   it rolls: velocity {} m/s, angular velocity {} 1/s\n       ({}, z up)\n", number_.list(velocity),
         number_.list(angular_velocity),
-        std::holds_alternative<si::SlipAndSpin>(shot->start) ? "x along the initial slip" : "axes of the start");
+        std::holds_alternative<si::SlipAndSpin>(experiment->start) ? "x along the initial slip" : "axes of the start");
   }
 
   const StopReport& report_;
@@ -241,7 +242,7 @@ class Text {
 
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate) {
   using Estimates = std::vector<reduction::StopEstimate>;
-  const auto& [system, state, shot] = start;
+  const auto& [system, state, experiment] = start;
   const StopReport report{start,
                           reduction::stop_time(system, state, route),
                           system.sliding_limit(state.v),

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "contensou/si/bridge.hpp"
+#include "contensou/si/scaling.hpp"
 #include "options/bulk_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -69,13 +69,13 @@ class StopCommand final : public Verb {
                          .threads = bulk_.threads(),
                          .progress = bulk_.progress(out.path)};
     if (has_ball) {
-      const si::Shot shot = start_.read(law).shot.value();
+      const si::Experiment experiment = start_.read(law).experiment.value();
       request.inputs = {"spin", "slip"};
       request.results = {"t_stop"};
-      request.compute = [&, shot, mu = si::patch_ratio(shot, law)](std::span<const double> row,
-                                                                   std::span<double> results) {
-        const reduction::State start{.u = row[0] * shot.ball.radius, .v = sliding("slip", row[1])};
-        results[0] = si::seconds(shot, stop_times(mu, start));
+      request.compute = [&, experiment, mu = si::patch_ratio(experiment, law)](std::span<const double> row,
+                                                                               std::span<double> results) {
+        const reduction::State start{.u = row[0] * experiment.ball.radius, .v = sliding("slip", row[1])};
+        results[0] = si::seconds(experiment, stop_times(mu, start));
       };
     }
     OutputFile output(out.path);  // before the input, which may be long in coming

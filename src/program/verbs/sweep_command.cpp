@@ -15,7 +15,7 @@
 #include <fmt/ranges.h>
 
 #include "contensou/portraits/stop_time_map.hpp"
-#include "contensou/si/bridge.hpp"
+#include "contensou/si/scaling.hpp"
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
@@ -61,7 +61,7 @@ struct SweepGrid {
   bool mu_is_range;  ///< whether the array has an axis for it
   Range u0;          ///< of a ball, its spin
   Range v0;
-  std::optional<si::Shot> ball = {};  ///< the grid and the stop times are in SI
+  std::optional<si::Experiment> ball = {};  ///< the grid and the stop times are in SI
 
   /// Also where it would not fit an integer.
   double points() const {
@@ -330,9 +330,9 @@ class SweepCommand final : public Verb {
     if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument()}); !others.empty()) {
       throw BadInput(fmt::format("--ball and {} exclude each other: with --ball, use --spin and --slip", others));
     }
-    const si::Shot shot = ball_.read_ball(law);
-    const double mu = si::patch_ratio(shot, law);
-    return {.mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = speeds_of(slip_), .ball = shot};
+    const si::Experiment experiment = ball_.read_ball(law);
+    const double mu = si::patch_ratio(experiment, law);
+    return {.mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = speeds_of(slip_), .ball = experiment};
   }
 
   SweepGrid read_grid(const Body& body) const {

@@ -50,7 +50,7 @@ class Ball:
         for key in ("youngs_modulus", "poisson_ratio"):
             if getattr(self, key) is not None:
                 object.__setattr__(self, key, tuple(getattr(self, key)))
-        _core.Shot(self, None, None)
+        _core.Experiment(self, None, None)
 
     @classmethod
     def _of(cls, known: dict[str, Any], changes: dict[str, Any]) -> Ball:
@@ -133,9 +133,9 @@ class Ball:
             raise ValueError("slip, spin and velocity, angular_velocity exclude each other: give one pair of them")
         ball = self.but(**{key: value for key, value in (("slip", slip), ("spin", spin)) if value is not None})
         if strike is not None:
-            start = _core.Shot(ball, strike, tip, elevation, cue_mass).start
+            start = _core.Experiment(ball, strike, tip, elevation, cue_mass).start
         else:
-            start = _core.Shot(ball, velocity, angular_velocity).start
+            start = _core.Experiment(ball, velocity, angular_velocity).start
         return Roll(ball, *start, law_of(law), rolling_below, rolling_friction)
 
     def evolve(
@@ -165,7 +165,7 @@ class Ball:
 
 @lru_cache(maxsize=64)
 def _solved(ball: Ball, law: Law) -> _core.Flow:
-    return _core.Shot(ball, None, None).flow(law._core)
+    return _core.Experiment(ball, None, None).flow(law._core)
 
 
 @dataclass(frozen=True)
@@ -183,12 +183,12 @@ class Roll:
     _core: Union[_core.BallMotion, _core.UncoupledMotion] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        shot = _core.Shot(self.ball, self.velocity, self.angular_velocity)
+        experiment = _core.Experiment(self.ball, self.velocity, self.angular_velocity)
         settings = self.rolling_below, self.rolling_friction
         if self.textbook:
-            core: Union[_core.BallMotion, _core.UncoupledMotion] = _core.UncoupledMotion(shot, self.law._core, *settings)
+            core: Union[_core.BallMotion, _core.UncoupledMotion] = _core.UncoupledMotion(experiment, self.law._core, *settings)
         else:
-            core = _core.BallMotion(shot, _solved(self.ball.but(slip=0, spin=0), self.law), *settings)
+            core = _core.BallMotion(experiment, _solved(self.ball.but(slip=0, spin=0), self.law), *settings)
         object.__setattr__(self, "_core", core)
 
     def __reduce__(self) -> tuple[Any, ...]:

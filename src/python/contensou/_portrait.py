@@ -40,11 +40,11 @@ class Portrait:
     def __init__(self, asked: dict[str, Any]) -> None:
         self._asked = asked
         ball, law = asked["ball"], asked["law"]
-        shot = None if ball is None else _core.Shot(ball, None, None)
-        if shot is None:
+        experiment = None if ball is None else _core.Experiment(ball, None, None)
+        if experiment is None:
             flow = Flow(asked["mu"], law, asked["body"])._core
         elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball":
-            flow = shot.flow(law_of(law or "exact")._core)
+            flow = experiment.flow(law_of(law or "exact")._core)
         else:
             raise ValueError("ball and mu, u, v, body exclude each other: a ball brings them")
         if (asked["u"] is None) != (asked["v"] is None):
@@ -53,7 +53,7 @@ class Portrait:
         if isinstance(size, str) and size not in _widths:
             raise ValueError(f"size: single, double, or (width, height) in mm is needed, got {size!r}")
         self._core = _core.Portrait(
-            flow, shot, None if asked["u"] is None else (asked["u"], asked["v"]),
+            flow, experiment, None if asked["u"] is None else (asked["u"], asked["v"]),
             against=None if against is None else law_of(against)._core,
             size=(_widths[size], None) if isinstance(size, str) else size or (None, None),
             **{key: asked[key] for key in ("view", "window", "orbits", "through", "isochrones", "arrows", "field", "axes",

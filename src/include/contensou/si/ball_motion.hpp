@@ -13,18 +13,18 @@ namespace contensou::si {
 /// Accuracy  1e-12 of the scales of the motion against integrate_motion, for mu from 1e-3 to 1.
 class BallMotion {
  public:
-  /// @throws std::domain_error  as require_shot
-  BallMotion(const Shot& shot, const reduction::Law& law);
+  /// @throws std::domain_error  as require_experiment
+  BallMotion(const Experiment& experiment, const reduction::Law& law);
 
   /// With what is known already.
-  /// @param flow  of reduced_system(shot, law)
-  BallMotion(const Shot& shot, const reduction::Flow& flow);
+  /// @param flow  of reduced_system(experiment, law)
+  BallMotion(const Experiment& experiment, const reduction::Flow& flow);
 
   /// s from the start until the ball neither slides nor spins.
   double stop_time() const { return stop_; }
 
   /// s until it no longer spins: with spin at the start, slip lasts as long; 0 without.
-  double spin_end() const { return spin_at_start(shot_) == 0 ? 0 : stop_; }
+  double spin_end() const { return spin_at_start(experiment_) == 0 ? 0 : stop_; }
 
   /// @param t  s, >= 0
   /// @throws std::domain_error  if t is negative or not a number
@@ -53,7 +53,7 @@ class BallMotion {
   template <class Function>
   double integral(Function function, double end) const;
 
-  Shot shot_;
+  Experiment experiment_;
   reduction::Orbit orbit_;
   double stop_;
   double scale_;  ///< tau per s

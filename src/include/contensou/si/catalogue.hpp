@@ -4,14 +4,14 @@
 #include <string_view>
 #include <vector>
 
-#include "contensou/si/shot.hpp"
+#include "contensou/si/experiment.hpp"
 
 namespace contensou::si {
 
 /// A ball that is built in, with a typical start.
 struct CatalogueEntry {
   std::string name;  ///< one lower-case word
-  Shot shot;
+  Experiment experiment;
   std::string sources;  ///< where the values come from and which of them are assumed
 };
 

@@ -26,10 +26,10 @@ struct Course {
   /// @param rolling_below     m/s, >= 0: a ball that slips no faster rolls
   /// @param rolling_friction  u_r; 0: none
   /// @throws std::domain_error  as slip_time and RollingFriction
-  Course(const Shot& shot, Motion of_shot, double rolling_below, double rolling_friction)
+  Course(const Experiment& experiment, Motion of_shot, double rolling_below, double rolling_friction)
       : motion(std::move(of_shot)), rolls(motion.slip_time(rolling_below)) {
     if (rolling_friction != 0) {
-      friction.emplace(shot.ball, motion.at_time(rolls), rolling_friction * shot.environment.gravity);
+      friction.emplace(experiment.ball, motion.at_time(rolls), rolling_friction * experiment.environment.gravity);
     }
   }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contensou/si/shot.hpp"
+#include "contensou/si/experiment.hpp"
 
 namespace contensou::si {
 

@@ -23,10 +23,10 @@ struct IntegratedMotion {
 /// exact limit; beyond the stop the ball rolls.
 ///
 /// @param times  s, >= 0, in any order
-/// @throws std::domain_error   as require_shot, and if a time is negative or not finite
+/// @throws std::domain_error   as require_experiment, and if a time is negative or not finite
 /// @throws std::runtime_error  if the integration does not reach the stop
 ///
 /// Accuracy  1e-12 of the scales of the motion for mu from 1e-3 to 1.
-IntegratedMotion integrate_motion(const Shot& shot, const reduction::Law& law, const Eigen::ArrayXd& times);
+IntegratedMotion integrate_motion(const Experiment& experiment, const reduction::Law& law, const Eigen::ArrayXd& times);
 
 }  // namespace contensou::si

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/si/shot.hpp"
+#include "contensou/si/experiment.hpp"
 
 namespace contensou::si {
 
@@ -34,13 +34,13 @@ inline constexpr double rolling_slip = 1e-3;
 /// Kinetic energy in J of a homogeneous ball: m V^2/2 + (m R^2/5) omega^2.
 double kinetic_energy(const Ball& ball, const Velocities& velocities);
 
-/// What friction takes from a shot until it rolls, in J, under any friction law.
+/// What friction takes from an experiment until it rolls, in J, under any friction law.
 struct EnergyLoss {
   double sliding;   ///< m v0^2/7
   double pivoting;  ///< m (R omega_z0)^2/5
 };
 
-EnergyLoss energy_loss(const Shot& shot);
+EnergyLoss energy_loss(const Experiment& experiment);
 
 /// How a ball moves once it neither slides nor spins: it rolls on.
 struct FinalMotion {
@@ -48,12 +48,12 @@ struct FinalMotion {
   Eigen::Vector3d angular_velocity;  ///< 1/s; z up
 };
 
-/// The rolling that a shot ends in, under any friction law, in the axes of the start (x along the initial slip for
+/// The rolling that an experiment ends in, under any friction law, in the axes of the start (x along the initial slip for
 /// SlipAndSpin).
 ///
 /// With the axis x along the slip v, 7 R omega_y + 5 v is a first integral (Zh98 after (2.5)): R omega_y grows by 5
 /// v0/7, and the velocity of the centre along the slip falls by 2 v0/7.
-FinalMotion final_motion(const Shot& shot);
+FinalMotion final_motion(const Experiment& experiment);
 
 /// The motion when the contact point slides at `slip`, having slid for `slip_length` since the start, and the ball
 /// spins at `spin` about the vertical: friction leaves nothing else free.
@@ -66,6 +66,6 @@ FinalMotion final_motion(const Shot& shot);
 /// @param slip         m/s
 /// @param slip_length  m
 /// @param spin         rad/s
-MotionPoint motion_by_slip(const Shot& shot, double t, double slip, double slip_length, double spin);
+MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, double slip_length, double spin);
 
 }  // namespace contensou::si

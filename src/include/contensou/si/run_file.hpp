@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "contensou/si/shot.hpp"
+#include "contensou/si/experiment.hpp"
 
 namespace contensou::si {
 
@@ -25,21 +25,21 @@ struct StartOverride {
   std::optional<Eigen::Vector3d> angular_velocity{};
 };
 
-/// A shot from the text of a run file (TOML).
+/// An experiment from the text of a run file (TOML).
 ///
 /// @param source  what messages call the text
 /// @throws RunFileError  for anything but a complete, valid run file; unknown keys are errors
-Shot parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides = {},
-                    const StartOverride& start = {});
+Experiment parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides = {},
+                          const StartOverride& start = {});
 
-/// A shot from a run file.
+/// An experiment from a run file.
 /// @throws RunFileError       as parse_run_file
 /// @throws std::system_error  if the file cannot be read
-Shot read_run_file(const std::string& path, const Overrides& overrides = {}, const StartOverride& start = {});
+Experiment read_run_file(const std::string& path, const Overrides& overrides = {}, const StartOverride& start = {});
 
-/// A shot as a run file that reads back to the same doubles.
+/// An experiment as a run file that reads back to the same doubles.
 ///
 /// @param remark  lines of comment to put first
-std::string run_file(const Shot& shot, std::string_view remark = {});
+std::string run_file(const Experiment& experiment, std::string_view remark = {});
 
 }  // namespace contensou::si

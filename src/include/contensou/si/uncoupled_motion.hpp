@@ -10,8 +10,8 @@ namespace contensou::si {
 class UncoupledMotion {
  public:
   /// @param law  gives Psi(0), the moment of pure pivoting
-  /// @throws std::domain_error  as require_shot
-  UncoupledMotion(const Shot& shot, const reduction::Law& law);
+  /// @throws std::domain_error  as require_experiment
+  UncoupledMotion(const Experiment& experiment, const reduction::Law& law);
 
   /// s until the slip has fallen to that speed in m/s, >= 0; 0 for a ball that starts no faster. To 0: 2 v0/(7 f g).
   double slip_time(double speed) const;
@@ -20,10 +20,10 @@ class UncoupledMotion {
   double spin_end() const { return spin_end_; }
 
   /// m that the contact point slides on the ball.
-  double slip_length() const { return slip_at_start(shot_) * slip_end_ / 2; }
+  double slip_length() const { return slip_at_start(experiment_) * slip_end_ / 2; }
 
   /// rad that the ball turns about the vertical.
-  double spin_angle() const { return spin_at_start(shot_) * spin_end_ / 2; }
+  double spin_angle() const { return spin_at_start(experiment_) * spin_end_ / 2; }
 
   /// m along the path of the centre until that time in s, at most slip_time(0), to 1e-9.
   double path_length(double t) const;
@@ -36,7 +36,7 @@ class UncoupledMotion {
   MotionColumns at_times(const Eigen::ArrayXd& times) const;
 
  private:
-  Shot shot_;
+  Experiment experiment_;
   double slip_end_;
   double spin_end_;
 };

@@ -1,4 +1,4 @@
-#include "contensou/si/shot.hpp"
+#include "contensou/si/experiment.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -24,8 +24,8 @@ std::vector<GivenQuantity> given_by(const Start& start) {
   return {{&velocity, {centre.begin(), centre.end()}}, {&angular_velocity, {body.begin(), body.end()}}};
 }
 
-double patch_radius_of(const Shot& shot, const reduction::Law& law) {
-  const auto& [ball, contact, start, environment] = shot;
+double patch_radius_of(const Experiment& experiment, const reduction::Law& law) {
+  const auto& [ball, contact, start, environment] = experiment;
   double patch = 0;
   std::string origin = "given";
   if (const auto* given = std::get_if<PatchRadius>(&contact.patch)) {
@@ -49,39 +49,40 @@ Velocities velocities_of(const Start& start) {
   return std::get<Velocities>(start);
 }
 
-Eigen::Vector2d slip_velocity_at_start(const Shot& shot) {
-  const auto [centre, body] = velocities_of(shot.start);
-  const double R = shot.ball.radius;
+Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment) {
+  const auto [centre, body] = velocities_of(experiment.start);
+  const double R = experiment.ball.radius;
   return {centre.x() - R * body.y(), centre.y() + R * body.x()};
 }
 
-double slip_at_start(const Shot& shot) {
-  const Eigen::Vector2d contact = slip_velocity_at_start(shot);
+double slip_at_start(const Experiment& experiment) {
+  const Eigen::Vector2d contact = slip_velocity_at_start(experiment);
   return std::hypot(contact.x(), contact.y());
 }
 
-double spin_at_start(const Shot& shot) { return velocities_of(shot.start).angular_velocity.z(); }
+double spin_at_start(const Experiment& experiment) { return velocities_of(experiment.start).angular_velocity.z(); }
 
-void require_shot(const Shot& shot) {
-  require(mass, shot.ball.mass);
-  require(radius, shot.ball.radius);
-  require(friction, shot.contact.friction);
-  for (const auto& given : {given_by(shot.contact.patch), given_by(shot.start)}) {
+void require_experiment(const Experiment& experiment) {
+  require(mass, experiment.ball.mass);
+  require(radius, experiment.ball.radius);
+  require(friction, experiment.contact.friction);
+  for (const auto& given : {given_by(experiment.contact.patch), given_by(experiment.start)}) {
     for (const auto& [quantity, values] : given) {
       for (double value : values) require(*quantity, value);
     }
   }
-  require(gravity, shot.environment.gravity);
+  require(gravity, experiment.environment.gravity);
 
-  if (!std::holds_alternative<SpinDeceleration>(shot.contact.patch)) patch_radius_of(shot, reduction::HertzLaw{});
-  if (!std::isfinite(shot.ball.radius * spin_at_start(shot))) {
-    throw std::domain_error(
-        fmt::format("radius times spin must be finite, got {} m * {} rad/s", shot.ball.radius, spin_at_start(shot)));
+  if (!std::holds_alternative<SpinDeceleration>(experiment.contact.patch))
+    patch_radius_of(experiment, reduction::HertzLaw{});
+  if (!std::isfinite(experiment.ball.radius * spin_at_start(experiment))) {
+    throw std::domain_error(fmt::format("radius times spin must be finite, got {} m * {} rad/s", experiment.ball.radius,
+                                        spin_at_start(experiment)));
   }
-  if (!std::isfinite(slip_at_start(shot))) {
+  if (!std::isfinite(slip_at_start(experiment))) {
     throw std::domain_error(
         fmt::format("the velocity of the contact point must be finite: radius {} m and these velocities overflow",
-                    shot.ball.radius));
+                    experiment.ball.radius));
   }
 }
 

@@ -59,7 +59,7 @@ struct Environment {
 };
 
 /// Everything that decides one motion of a ball on a horizontal plane.
-struct Shot {
+struct Experiment {
   Ball ball;
   Contact contact;
   Start start;
@@ -79,24 +79,24 @@ std::vector<GivenQuantity> given_by(const Start& start);
 /// Radius of the contact patch in m, from whatever the contact gives it by.
 /// @param law  a measured spin deceleration holds under it
 /// @throws std::domain_error  unless it is in (0, R]
-double patch_radius_of(const Shot& shot, const reduction::Law& law);
+double patch_radius_of(const Experiment& experiment, const reduction::Law& law);
 
 /// A start as velocities of the centre and of the ball.
 Velocities velocities_of(const Start& start);
 
 /// Velocity (m/s) of the point of the ball that touches the plane, at the start:
 ///   (vx - R omega_y, vy + R omega_x), Zh98 (2.1).
-Eigen::Vector2d slip_velocity_at_start(const Shot& shot);
+Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment);
 
 /// Its size in m/s.
-double slip_at_start(const Shot& shot);
+double slip_at_start(const Experiment& experiment);
 
 /// omega_z in rad/s at the start.
-double spin_at_start(const Shot& shot);
+double spin_at_start(const Experiment& experiment);
 
 /// Rejects what no ball can be or do.
 /// @throws std::domain_error  if a value is outside its Quantity's range, or if R omega_z or the slip overflows; as
 ///                            patch_radius_of, where no law decides the patch
-void require_shot(const Shot& shot);
+void require_experiment(const Experiment& experiment);
 
 }  // namespace contensou::si
