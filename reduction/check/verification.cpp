@@ -166,13 +166,14 @@ class Examination {
 
   void times(const Motion& regularised) {
     // tau(k) and beta(k) of the similarity solution where the stepper passed the same k. Beside an invariant ray k says
-    // little about either.
+    // little about either, and on it nothing.
     const double beta_unit = 1 / (16 * system_.mu() * std::abs(start_.u) + 15 * pi * start_.v);
     double worst_tau = 0;
     double worst_beta = 0;
     for (Eigen::Index i = 0; i + 1 < regularised.points.rows(); ++i) {
       const OrbitPoint stepped = regularised.points.row(i);
       const double ln_k = log_ratio(stepped);
+      if (on_a_ray(ln_k)) continue;
       const OrbitPoint exact =
           orbit_.at_coordinate(std::min(orbit_.chart().coordinate(ln_k), orbit_.start_coordinate()));
       const double blunt = 1 + steepness(ln_k);

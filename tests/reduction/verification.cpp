@@ -204,6 +204,8 @@ TEST_CASE("every law passes every check, in every regime", "[verification][route
   for (double r : {1.991, 1.995, 2.0}) {
     all_pass({*find_law("potential8"), 1, {1, r}}, at_ratios(1, 1, {1e-3, 0.05, 0.0817, 0.1, 0.2, 3}));
   }
+  // A step that ends on the ray itself, where beta is infinite, was no number.
+  all_pass({*find_law("ring"), 1}, {{1, 1}, {1, 3}});
   // The last step up to k = 1, where the ring's law has a logarithm, had an error of 4e-10 that Fehlberg's estimate did
   // not see: a sound start failed.
   all_pass({*find_law("ring"), 1, {1, 2}}, {{-8.844036090085774e+24, 3.822494201173439e+22}});
