@@ -51,8 +51,8 @@ constexpr std::array formats{
     Format{"tex", PictureFormat::tex, "", ""},
 };
 
-/// Seconds that gnuplot may take.
-constexpr unsigned time_limit = 60;
+/// Seconds that gnuplot may take: a film takes 10, and a busy machine ten times as long.
+constexpr unsigned time_limit = 300;
 /// Its status where it cannot be run, as a shell's.
 constexpr int not_run = 127;
 

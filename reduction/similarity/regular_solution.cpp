@@ -47,8 +47,8 @@ std::vector<double> edges_of(const Law& law, double r, const TerminalChart& char
   for (double k : law.kinks()) edges.push_back(sign * std::log(k));
   std::erase_if(edges, [&](double edge) { return edge < begin || edge > std::max(begin, end); });
   std::ranges::sort(edges);
-  const auto same = std::ranges::unique(edges, [](double a, double b) { return b - a <= narrowest; });
-  edges.erase(same.begin(), same.end());
+  edges.erase(std::unique(edges.begin(), edges.end(), [](double a, double b) { return b - a <= narrowest; }),
+              edges.end());
   return edges;
 }
 

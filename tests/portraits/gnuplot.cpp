@@ -140,7 +140,7 @@ TEST_CASE("A failing gnuplot is an error with its words", "[domain]") {
   CHECK(failure("echo 'line 3: no such terminal' >&2; exit 7", PictureFormat::png) ==
         "gnuplot ended with status 7\n  line 3: no such terminal");
   CHECK(failure("kill -9 $$", PictureFormat::png) == "gnuplot was ended by signal 9");
-  CHECK_THAT(failure("kill -ALRM $$", PictureFormat::png), Catch::Contains("more than 60 s"));
+  CHECK_THAT(failure("kill -ALRM $$", PictureFormat::png), Catch::Contains("more than 300 s"));
   sandbox.install_gnuplot("\x7f no program");
   CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::png), Catch::Contains("cannot be run"));
   CHECK(sandbox.left_nothing());
@@ -149,7 +149,7 @@ TEST_CASE("A failing gnuplot is an error with its words", "[domain]") {
 TEST_CASE("gnuplot is stopped when it takes too long", "[.full]") {
   const Sandbox sandbox;
   sandbox.real_gnuplot("sleep 100;", "");
-  CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::svg), Catch::Contains("more than 60 s"));
+  CHECK_THROWS_WITH(portraits::render(sample(), PictureFormat::svg), Catch::Contains("more than 300 s"));
 }
 
 TEST_CASE("A picture that is not whole is refused", "[domain]") {
