@@ -1,4 +1,5 @@
-// A run file is an experiment or refused in a readable message, and an experiment that was printed is read back as the same.
+// A run file is an experiment or refused in a readable message, and an experiment that was printed is read back as the
+// same.
 #include "contensou/si/run_file.hpp"
 #include "finding.hpp"
 

@@ -7,8 +7,8 @@
 
 namespace contensou::program {
 
-/// Works on a long sequence of pieces, several at a time, each in a thread of its own. Takes and hands on one piece at a
-/// time, in order; holds at most one piece for each thread.
+/// Works on a long sequence of pieces, several at a time, each in a thread of its own. Takes and hands on one piece at
+/// a time, in order; holds at most one piece for each thread.
 ///
 /// @param ready    bool(): whether taking does not have to wait; if it has to, all pieces are handed on before
 /// @param take     bool(Piece&): makes it the next piece; false if there is none

@@ -34,8 +34,8 @@ struct StopReport {
   std::vector<reduction::StopEstimate> estimates;  ///< for small mu
 };
 
-/// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say nothing,
-/// nor where only one speed is: there they are one law.
+/// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say
+/// nothing, nor where only one speed is: there they are one law.
 std::optional<OtherLaw> other_law(const GivenStart& start) {
   const auto& [system, state, experiment] = start;
   const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;

@@ -28,10 +28,10 @@ class GnuplotError : public std::runtime_error {
 /// The figure as a gnuplot script with its data inside: `gnuplot FILE.gp > FILE.svg` draws it.
 std::string gnuplot_script(const Figure& figure);
 
-/// The bytes of the figure in a format other than gif; the same for the same figure. gp and tex need no gnuplot. For the others
-/// gnuplot is looked up on PATH and run once, with no settings but the script's (without ~/.gnuplot), for at most 60 s;
-/// it ends when this program does. What it reads and writes is in memory. What it says on its standard error although
-/// it drew the figure goes to std::cerr.
+/// The bytes of the figure in a format other than gif; the same for the same figure. gp and tex need no gnuplot. For
+/// the others gnuplot is looked up on PATH and run once, with no settings but the script's (without ~/.gnuplot), for at
+/// most 60 s; it ends when this program does. What it reads and writes is in memory. What it says on its standard error
+/// although it drew the figure goes to std::cerr.
 ///
 /// @return  a whole file: it has its format's beginning and end, and an SVG all that the figure plots
 /// @throws GnuplotError  if gnuplot is not found, fails, takes longer or draws nothing that is whole

@@ -83,8 +83,8 @@ struct PortraitRequest {
   std::optional<int> isochrones = {};              ///< about so many, >= 0; 7 if not said
   std::optional<reduction::Law> comparison = {};
   bool stepped = false;  ///< orbits by (2.7), stepped in beta, in place of the flow's own
-  /// The axis of v is linear also where the plane is then a comb of verticals: where orbits enter the origin along v = 0
-  /// with v falling faster than |u|^12, for the ball mu < 0.48. There, if orbits are not stepped, it is a SpeedScale.
+  /// The axis of v is linear also where the plane is then a comb of verticals: where orbits enter the origin along v =
+  /// 0 with v falling faster than |u|^12, for the ball mu < 0.48. There, if orbits are not stepped, it is a SpeedScale.
   bool linear = false;
   /// Keep only what the view is drawn from: orbits and isochrones for uv, patch and pair.
   bool drawn_only = false;
@@ -113,14 +113,14 @@ struct PortraitSource {
   double seconds_per_tau = 0;  ///< of that ball
 };
 
-/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], version, ball, seconds_per_tau, orbits
-/// [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]; where asked for also highlight (an orbit), through (orbits),
-/// against {law, orbits, isochrones}. Numbers read back to the same doubles.
+/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], version, ball, seconds_per_tau,
+/// orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]; where asked for also highlight (an orbit),
+/// through (orbits), against {law, orbits, isochrones}. Numbers read back to the same doubles.
 std::string to_json(const PhasePortrait& portrait, const PortraitSource& source = {});
 
-/// The portrait as CSV with the columns kind,index,u,v,tau,ln_v,k, and t of a ball: kind is orbit, highlight, through or
-/// isochrone (of another law, against_orbit or against_isochrone), tau and t (s) the time left. Before them, in lines that
-/// begin with #, what JSON has before its orbits.
+/// The portrait as CSV with the columns kind,index,u,v,tau,ln_v,k, and t of a ball: kind is orbit, highlight, through
+/// or isochrone (of another law, against_orbit or against_isochrone), tau and t (s) the time left. Before them, in
+/// lines that begin with #, what JSON has before its orbits.
 std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits

@@ -17,8 +17,8 @@ class Flow;
 /// are ordinary starts.
 ///
 /// Accuracy  u and ln v to 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference), beta
-///           to 1e-8, and to 1e-5 within 1e-3 of an invariant ray. Near the stop the conditioning is that of the question:
-///           the speeds are proportional to stop_time() - tau, so ask at_time_left().
+///           to 1e-8, and to 1e-5 within 1e-3 of an invariant ray. Near the stop the conditioning is that of the
+///           question: the speeds are proportional to stop_time() - tau, so ask at_time_left().
 class Orbit {
  public:
   double stop_time() const;
