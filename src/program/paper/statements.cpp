@@ -10,7 +10,7 @@ std::string_view word(Verdict verdict) {
     case Verdict::holds:
       return "holds";
     case Verdict::erratum:
-      return "slip";
+      return "erratum";
     case Verdict::not_true:
       break;
   }

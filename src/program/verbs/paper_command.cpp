@@ -140,7 +140,7 @@ std::string as_text(const std::vector<StatementRow>& rows, const Digits& digits)
   };
   return text + fmt::format(
                     "\nThe plane's statements and Fig. 4 are of the Pade law, as in the paper.\n"
-                    "{} statements: {} hold, {} are slips, {} are false; {} not as recorded\n",
+                    "{} statements: {} hold, {} are errata, {} are false; {} not as recorded\n",
                     rows.size(), count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
                     std::ranges::count(rows, false, &StatementRow::as_recorded));
 }
