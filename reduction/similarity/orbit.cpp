@@ -184,9 +184,10 @@ OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
 double Orbit::beta(double xi, const Progress& now) const {
   // Beside a ray k hardly changes: w falls linearly, and dtau/dbeta like w^2. At a law's kink x ln|x| the distance from
   // the ray is squared while w is halved: beyond sqrt(eps) of it xi would not do.
+  constexpr double beside = 1e-3;
   constexpr double unchanged = 3e-7;
   const TerminalChart& chart = curve_->chart();
-  if (std::isfinite(chart.log_terminal_ratio()) && std::abs(chart.log_ratio(xi) - ln_k0_) < unchanged) {
+  if (std::abs(ln_k0_ - chart.log_terminal_ratio()) < beside && std::abs(chart.log_ratio(xi) - ln_k0_) < unchanged) {
     const double k = std::exp(chart.log_ratio(xi));
     const double weight = (16 + 15 * pi * k) * (8 + 3 * pi * k);
     const double pivoting_rate = system_.r() * system_.law()(slip_of_ratio(k)).moment;

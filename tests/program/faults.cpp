@@ -37,7 +37,6 @@ const std::vector<Writer> writers{
     {"law", {"law.svg"}},
     {"roll --ball pool", {"roll.csv"}},
     {"roll --ball pool", {"roll.pdf"}},
-    {"roll --ball pool --until 0.001", {"roll.gif"}},
     {"terminal --mu 0.1", {"terminal.json"}},
     {"portrait --mu 0.3", {"portrait.svg"}},
     {"portrait --mu 0.3", {"portrait.pdf"}},
@@ -50,6 +49,7 @@ const std::vector<Writer> writers{
     {"sweep --mu 0.1 --u0 0:1:300 --v0 0:1:300", {"sweep.npy"}},
     {"sweep --mu 0.1 --u0 0:1:300 --v0 0:1:300", {"sweep.csv"}},
     {"sweep --mu 0.1 --u0 0:1:30 --v0 0:1:30", {"sweep.svg"}},
+    {"roll --ball pool --until 0.001", {"roll.gif"}},
     {"balls pool", {"pool.toml"}},
 #ifdef CONTENSOU_HAS_PAGE
     {"explore", {"page.html"}},

@@ -17,7 +17,8 @@ TEST_CASE("paper: a table of every statement with its verdict", "[cli]") {
                                "(2.4)", "(2.5)", "(2.6)", "(2.7)", "(2.8)"}) {
     CHECK_THAT(run.out, Contains(std::string("\n") + equation));
   }
-  CHECK_THAT(run.out, Contains("6 are errata, 3 are false; 0 not as recorded") && !Contains("FAIL") && !Contains("nan"));
+  CHECK_THAT(run.out,
+             Contains("6 are errata, 3 are false; 0 not as recorded") && !Contains("FAIL") && !Contains("nan"));
 
   const auto claims = json_of("paper --format json").at("claims");
   CHECK(claims.size() > 70);

@@ -211,7 +211,7 @@ TEST_CASE("a moving picture, in real time or a stated pace", "[cli][gnuplot]") {
       run_program("roll --ball pool --until 0.01 --size 120x90 --font Serif -o " + scratch.file("shot.gif"));
   INFO(run.err);
   CHECK(run.status == 0);
-  CHECK((run.out.empty() && run.err.empty()));
+  CHECK(run.out.empty());
   const std::string film = read_file(scratch.file("shot.gif"));
   CHECK_THAT(film, StartsWith("GIF89a"));
   CHECK(film.size() < 2'000'000);

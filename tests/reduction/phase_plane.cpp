@@ -73,6 +73,9 @@ TEST_CASE("Eigenvalues of the paper's system are those of the blow-up by hand", 
   }
 }
 
+/// The ellipse: k falls for all k, or grows for all k.
+bool has_no_ray(const TerminalRatios& limits) { return std::abs(limits.high - limits.low) < 1e-12 * limits.low; }
+
 TEST_CASE("The linear parts are the derivatives of the regularised field in its charts", "[phase_plane][route]") {
   const auto check = [](const ReducedSystem& system) {
     for (const SingularPoint& point : phase_plane(system).points) {
@@ -96,6 +99,7 @@ TEST_CASE("The linear parts are the derivatives of the regularised field in its 
     const TerminalRatios limits = terminal_ratios(law, 1);
     for (double r : {0.1 * limits.low, 0.7 * limits.low + 0.3 * limits.high, 0.5 * (limits.low + limits.high),
                      1.5 * limits.high}) {
+      if (has_no_ray(limits) && r > 0.9 * limits.low && r < 1.1 * limits.high) continue;
       check({law, 1, {1, r}});
       check({law, 0.25, {1, 16 * r}});
     }
@@ -126,11 +130,12 @@ TEST_CASE("Every half-line joins a saddle to a node, and the regime says which",
       CHECK(plane.tangents[0].contact_order == Approx(node.angular / node.radial).epsilon(1e-12));
     };
     check(plane_at(0.9 * limits.low), pivoting);
-    check(plane_at(0.4 * limits.low + 0.6 * limits.high), ray);
     check(plane_at(1.1 * limits.high), sliding);
     CHECK(plane_at(0.9 * limits.low).points.size() == 4);
-    CHECK(plane_at(0.4 * limits.low + 0.6 * limits.high).points.size() == 6);
     CHECK(plane_at(1.1 * limits.high).points.size() == 4);
+    if (has_no_ray(limits)) continue;
+    check(plane_at(0.4 * limits.low + 0.6 * limits.high), ray);
+    CHECK(plane_at(0.4 * limits.low + 0.6 * limits.high).points.size() == 6);
   }
 }
 
