@@ -21,6 +21,25 @@ namespace contensou::reduction {
 
 namespace {
 
+struct NamedLaw {
+  Law law;
+  std::string_view meaning;
+};
+
+const std::vector<NamedLaw>& laws_with_meaning() {
+  static const std::vector<NamedLaw> laws{
+      {HertzLaw{}, "Hertz's pressure, (1 - rho^2)^(1/2)"},
+      {PadeLaw{}, "the paper's approximation of it"},
+      {PressureLaw::uniform(), "the same pressure all over the patch"},
+      {PressureLaw::punch(), "a flat rigid punch, pressure (1 - rho^2)^(-1/2)"},
+      {PressureLaw::ring(), "all pressure on the rim"},
+      {PressureLaw::paraboloid(), "a soft foundation, pressure 1 - rho^2"},
+      {EllipticLaw{}, "the ellipse of grasping and of physics engines as limit surface, with Hertz's Psi(0)"},
+      {Potential8Law{}, "within 3.41 % of exact, as simple as pade: the gradient of a potential"},
+  };
+  return laws;
+}
+
 /// Uniform pressure between the fraction eta of the radius and the edge.
 Law annulus(double eta) {
   const Eigen::ArrayXd rho = (Eigen::ArrayXd(4) << 0, eta, eta, 1).finished();
@@ -52,10 +71,18 @@ const std::vector<Law>& paper_laws() {
 }
 
 const std::vector<Law>& named_laws() {
-  static const std::vector<Law> laws{HertzLaw{},           PadeLaw{},           PressureLaw::uniform(),
-                                     PressureLaw::punch(), PressureLaw::ring(), PressureLaw::paraboloid(),
-                                     EllipticLaw{},        Potential8Law{}};
+  static const std::vector<Law> laws = [] {
+    std::vector<Law> list;
+    for (const NamedLaw& named : laws_with_meaning()) list.push_back(named.law);
+    return list;
+  }();
   return laws;
+}
+
+std::string_view meaning_of_law(std::string_view name) {
+  const auto& laws = laws_with_meaning();
+  const auto found = std::ranges::find(laws, name, [](const NamedLaw& named) { return named.law.name(); });
+  return found == laws.end() ? "" : found->meaning;
 }
 
 const std::vector<LawFamily>& law_families() {

@@ -23,18 +23,19 @@ std::vector<std::string> names_of_forms() {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> law_forms() {
-  std::map<std::string_view, std::string> meanings{
-      {"exact", "Hertz's pressure, (1 - rho^2)^(1/2), the default of a ball; also called hertz"},
-      {"pade", fmt::format("the paper's approximation of it, {}", cost_of_pade)},
-      {"uniform", "the same pressure all over the patch, the default of --body disc"},
-      {"punch", "a flat rigid punch, pressure (1 - rho^2)^(-1/2)"},
-      {"ring", "all pressure on the rim, the default of --body ring"},
-      {"paraboloid", "a soft foundation, pressure 1 - rho^2"},
-      {"elliptic", "the ellipse of grasping and of physics engines as limit surface, with Hertz's Psi(0)"},
-      {"potential8", "within 3.41 % of exact, as simple as pade: the gradient of a potential"},
+  // What the program has to add.
+  const std::map<std::string_view, std::string_view> notes{
+      {"exact", "the default of a ball; also called hertz"},
+      {"pade", cost_of_pade},
+      {"uniform", "the default of --body disc"},
+      {"ring", "the default of --body ring"},
   };
   std::vector<std::pair<std::string, std::string>> forms;
-  for (const reduction::Law& law : reduction::named_laws()) forms.emplace_back(law.name(), meanings[law.name()]);
+  for (const reduction::Law& law : reduction::named_laws()) {
+    std::string meaning(reduction::meaning_of_law(law.name()));
+    if (const auto note = notes.find(law.name()); note != notes.end()) meaning += fmt::format(", {}", note->second);
+    forms.emplace_back(law.name(), meaning);
+  }
   for (const auto& family : reduction::law_families()) {
     forms.emplace_back(fmt::format("{}:{}", family.name, family.letter),
                        fmt::format("{}, {}", family.meaning, family.allowed));

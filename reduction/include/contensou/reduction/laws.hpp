@@ -14,6 +14,9 @@ const std::vector<Law>& paper_laws();
 /// Every law that has a name, in the order in which it is shown: those of the paper first.
 const std::vector<Law>& named_laws();
 
+/// What the law of that name is, in a few words; empty if no law has it.
+std::string_view meaning_of_law(std::string_view name);
+
 /// Laws that a number tells apart, named as in "pressure:0.5".
 struct LawFamily {
   std::string_view name;     ///< before the colon
