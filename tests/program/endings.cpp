@@ -16,22 +16,24 @@ struct Output {
   std::vector<std::string> endings;
 };
 
+const std::vector<std::string> of_answers{"txt", "csv", "json"};
+
 /// Every verb, in every way of writing something else.
 const std::vector<Output> outputs{
-    {"stop --ball pool", "a stop time", {"txt", "csv", "json"}},
+    {"stop --ball pool", "a stop time", of_answers},
     {"stop --batch -", "a table of stop times", {"csv"}},
-    {"orbit --ball pool --samples 3", "an orbit", {"csv", "txt", "json"}},
-    {"law --k 1", "a law", {"csv", "txt", "json"}},
-    {"check --mu 0.3 --u0 1 --v0 1", "a table of checks", {"txt", "csv", "json"}},
-    {"terminal --mu 0.3", "a terminal ratio", {"txt", "csv", "json"}},
-    {"roll --ball pool --samples 3", "a motion", {"csv", "txt", "json"}},
+    {"orbit --ball pool --samples 3", "an orbit", of_answers},
+    {"law --k 1", "a law", of_answers},
+    {"check --mu 0.3 --u0 1 --v0 1", "a table of checks", of_answers},
+    {"terminal --mu 0.3", "a terminal ratio", of_answers},
+    {"roll --ball pool --samples 3", "a motion", of_answers},
     {"roll --ball pool --batch -", "a table of motions", {"csv"}},
-    {"balls", "a list of balls", {"txt", "csv", "json"}},
+    {"balls", "a list of balls", of_answers},
     {"balls pool", "a run file", {"toml", "txt"}},
-    {"paper", "a table of statements", {"txt", "csv", "json"}},
+    {"paper", "a table of statements", of_answers},
     {"sweep --mu 0.3 --u0 0:1:3 --v0 0:1:3", "a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}},
     {"portrait --mu 0.3", "a portrait", {"gp", "svg", "pdf", "png", "eps", "tex", "csv", "json"}},
-    {"portrait --mu 0.3 --facts", "a table of facts", {"txt", "csv", "json"}},
+    {"portrait --mu 0.3 --facts", "a table of facts", of_answers},
 };
 
 constexpr const char* start_table = "mu,u0,v0,slip,spin\n0.1,1,1,1,1\n";

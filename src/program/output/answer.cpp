@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -75,29 +76,42 @@ std::string remarks(const Json& members) {
   return text;
 }
 
-std::string as_json(const Answer& answer) {
+std::string as_json(const Answer& answer, Digits /*all*/) {
   Json document{{"schema", 1}};
   document.update(answer.members);
   for (const auto& [name, values] : answer.columns) document[name] = std::vector(values.begin(), values.end());
   return portraits::json_document(document);
 }
 
+std::string as_csv(const Answer& answer, Digits /*all*/) {
+  return answer.columns.empty() ? as_csv(answer.rows) : remarks(answer.remarks) + as_csv(answer.columns);
+}
+
+std::string as_text(const Answer& answer, Digits digits) {
+  return answer.text ? answer.text(digits) : as_text(answer.columns, digits);
+}
+
+struct AnswerFormat {
+  std::string_view name;
+  std::string (*written)(const Answer&, Digits);
+};
+
+constexpr AnswerFormat all_answer_formats[]{{"text", as_text}, {"csv", as_csv}, {"json", as_json}};
+
 }  // namespace
 
 std::string Digits::operator()(double value) const { return fmt::format("{:.{}g}", value, count); }
 
 std::vector<std::string> answer_formats(const std::string& standard) {
-  std::vector<std::string> formats{"text", "csv", "json"};
+  std::vector<std::string> formats;
+  for (const AnswerFormat& format : all_answer_formats) formats.emplace_back(format.name);
   const auto place = std::ranges::find(formats, standard);
   std::rotate(formats.begin(), place, place + 1);
   return formats;
 }
 
 std::string render(const Answer& answer, const std::string& format, Digits digits) {
-  if (format == "json") return as_json(answer);
-  if (format == "csv" && answer.columns.empty()) return as_csv(answer.rows);
-  if (format == "csv") return remarks(answer.remarks) + as_csv(answer.columns);
-  return answer.text ? answer.text(digits) : as_text(answer.columns, digits);
+  return std::ranges::find(all_answer_formats, format, &AnswerFormat::name)->written(answer, digits);
 }
 
 std::string csv_line(const std::vector<std::string>& fields) {

@@ -48,6 +48,7 @@ std::vector<std::string> answer_formats(const std::string& standard);
 
 /// The text of an answer. CSV and JSON have the shortest digits that read back to the same double; CSV has the members
 /// of an object in a row as columns of their own.
+/// @param format  one of answer_formats
 /// @throws std::runtime_error  for NaN, which JSON cannot say
 std::string render(const Answer& answer, const std::string& format, Digits digits);
 
