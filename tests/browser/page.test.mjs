@@ -79,7 +79,8 @@ async function dragSlider(id, from, to, steps) {
   await page.mouse.up();
 }
 
-const views = ["uv", "patch", "log", "similarity", "blowup", "disc", "time", "pair"];
+const help = execFileSync(program, ["help", "views"], { encoding: "utf8" });
+const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name);
 
 /** Texts that are equal but for their numbers, and numbers that are equal but for the last digits of two C libraries. */
 function assertSameText(text, wanted, what) {

@@ -66,7 +66,7 @@ TEST_CASE("portrait --facts excludes what it does not draw", "[cli]") {
 
 TEST_CASE("portrait writes every view as script, as LaTeX and as data", "[cli]") {
   const TemporaryDirectory scratch;
-  for (const std::string view : {"uv", "patch", "log", "similarity", "blowup", "disc", "time", "pair"}) {
+  for (const std::string& view : names_in_help("views")) {
     CAPTURE(view);
     const std::string start = "portrait --mu 0.3 --view " + view + " -o ";
     const Run script = run_program(start + scratch.file("p.gp"));

@@ -37,6 +37,19 @@ std::vector<std::string> TemporaryDirectory::names() const {
   return names;
 }
 
+std::vector<std::string> names_in_help(const std::string& topic) {
+  const Run run = run_program("help " + topic);
+  REQUIRE(run.status == 0);
+  std::vector<std::string> names;
+  std::istringstream lines(run.out);
+  bool within = !topic.empty();
+  for (std::string line; std::getline(lines, line);) {
+    if (topic.empty() && (line.empty() || line == "Verbs:")) within = !line.empty();
+    if (within && line.starts_with("  ") && line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  }
+  return names;
+}
+
 std::string read_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

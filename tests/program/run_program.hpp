@@ -34,6 +34,10 @@ nlohmann::json json_of(const std::string& arguments);
 /// The rows of a CSV without quotes, the header first.
 std::vector<std::vector<std::string>> rows_of(const std::string& csv);
 
+/// The names that a part of the help has entries of.
+/// @param topic  "views" or "laws"; empty: the verbs
+std::vector<std::string> names_in_help(const std::string& topic);
+
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, std::string_view text);
 
