@@ -35,7 +35,8 @@ std::string views() {
 std::string units() {
   std::string text = help_paragraph(
       "Options in SI units take a unit behind the number, as in --slip \"2 m/s\", --spin 300rpm, --radius \"2.25 in\"; "
-      "one behind a list or a range is of all its numbers. A plain number has the first of its kind. In run files such "
+      "one behind a list is of all its numbers; in a range it stands before the count, --spin \"0:60 rpm:3\". A plain "
+      "number has the first of its kind. In run files such "
       "values stand in quotes. Tables have plain numbers.");
   for (const si::Dimension& dimension : si::dimensions()) text += help_entry(dimension.name, units_of(dimension));
   return text + "\n" +
@@ -71,8 +72,8 @@ std::string files() {
          help_paragraph(
              "-o FILE is written whole or not at all, and replaces an older one; - is standard output. Its "
              "ending decides the format, which --format names where there is none. csv and json have all "
-             "digits; text (ending txt) has --digits. Pictures are svg, pdf, png, eps, tex (pgfplots) and gp "
-             "(a gnuplot script with its data).");
+             "digits; text (ending txt) has --digits. npy is an array of NumPy's (sweep). Pictures are svg, "
+             "pdf, png, eps, tex (pgfplots), gp (a gnuplot script with its data) and, of roll, gif (it moves).");
 }
 
 const Choices<std::string (*)()> topics{{"laws", laws}, {"views", views}, {"units", units}, {"files", files}};
