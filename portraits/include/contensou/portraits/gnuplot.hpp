@@ -30,7 +30,7 @@ std::string gnuplot_script(const Figure& figure);
 
 /// The bytes of the figure in a format other than gif; the same for the same figure. gp and tex need no gnuplot. For
 /// the others gnuplot is looked up on PATH and run once, with no settings but the script's (without ~/.gnuplot), for at
-/// most 60 s; it ends when this program does. What it reads and writes is in memory. What it says on its standard error
+/// most 300 s; it ends when this program does. What it reads and writes is in memory. What it says on its standard error
 /// although it drew the figure goes to std::cerr.
 ///
 /// @return  a whole file: it has its format's beginning and end, and an SVG all that the figure plots
