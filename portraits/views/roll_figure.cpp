@@ -124,30 +124,35 @@ Panel distance_panel(RollPicture picture, Point along) {
   }
   Panel panel = paths(picture);
   const auto [low, high] = widened(panel.y.low, panel.y.high, panel.y.high > panel.y.low ? 0 : 1);
-  panel.title = "the path is straight: the way along it";
+  panel.title = "the path is straight: distance along it";
   panel.x = {"{/:Italic t}, s", 0, shown_time(picture), false, {}};
-  panel.y = {"way, m", low, high, false, {}};
+  panel.y = {"distance, m", low, high, false, {}};
   return panel;
 }
 
 Panel speed_panel(const RollPicture& picture) {
   const double last = picture.ball.t[picture.ball.t.size() - 1];
-  const double rolls = std::max(picture.ball.rolls, picture.textbook.rolls);
-  const bool logarithmic = picture.slow == 0 && rolls > 0 && last > long_spin * rolls;
+  const auto [first, rolls] = std::minmax(picture.ball.rolls, picture.textbook.rolls);
+  const bool logarithmic = picture.slow == 0 && first > 0 && last > long_spin * rolls;
   Panel panel;
   panel.title = "speeds; dashed: textbook, sliding and spinning uncoupled";
-  panel.x = {"{/:Italic t}, s", logarithmic ? rolls / 30 : 0, last, logarithmic, {}};
+  panel.x = {"{/:Italic t}, s", logarithmic ? first / 10 : 0, last, logarithmic, {}};
+  // A fast spin leaves room for the slip.
+  const double fastest = std::max(picture.ball.slip.maxCoeff(), picture.ball.speed.maxCoeff());
+  const double spin_to_slip = fastest > 0 ? picture.ball.rim.maxCoeff() / fastest : 1;
+  const double spin_scale = spin_to_slip > 4 ? round_down(spin_to_slip) : 1;
   double top = 0;
-  const auto add = [&](Eigen::ArrayXd RollCurve::*column, Colour colour, Marks::Shape shape, const char* legend) {
+  const auto add = [&](Eigen::ArrayXd RollCurve::*column, Colour colour, Marks::Shape shape, const std::string& legend,
+                       double scale = 1) {
     Marks marks{{}, colour, 0.8, shape, legend};
     for (const RollCurve* curve : {&picture.textbook, &picture.ball}) {
       const bool dashed = curve == &picture.textbook;
       Polyline line;
       for (Eigen::Index i = 0; i < curve->t.size(); ++i) {
         if (curve->t[i] < panel.x.low || curve->t[i] > last) continue;
-        line.push_back({curve->t[i], (curve->*column)[i]});
+        line.push_back({curve->t[i], (curve->*column)[i] / scale});
       }
-      top = std::max(top, (curve->*column).maxCoeff());
+      top = std::max(top, (curve->*column).maxCoeff() / scale);
       if (!dashed) {
         // At even steps on paper, before each of which the curve still is.
         constexpr int count = 8;
@@ -164,7 +169,8 @@ Panel speed_panel(const RollPicture& picture) {
     panel.marks.push_back(std::move(marks));
   };
   add(&RollCurve::slip, slip_colour, Marks::Shape::dot, "slip {/:Italic v}");
-  add(&RollCurve::rim, rim_colour, Marks::Shape::circle, "spin {/:Italic R}|{/:Italic ω_z}|");
+  add(&RollCurve::rim, rim_colour, Marks::Shape::circle,
+      "spin {/:Italic R}|{/:Italic ω_z}|" + (spin_scale > 1 ? " / " + number(spin_scale) : ""), spin_scale);
   add(&RollCurve::speed, speed_colour, Marks::Shape::square, "speed of the centre");
   panel.y = {"m/s", 0, top > 0 ? 1.08 * top : 1, false, {}};
   return panel;
@@ -181,22 +187,23 @@ Panel until(const Panel& whole, std::size_t frame) {
   return panel;
 }
 
-/// A ball of radius 1 from above: two circles through what was its top, and a spot beside it; what it does beside that.
+/// A ball of radius 1 from above: a circle through what was its top, half of it thick, so that a turn is told from its
+/// opposite, and a spot on that half; what it does beside that.
 Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eigen::Index frame, Colour colour,
                       const char* name) {
   using Eigen::Vector3d;
   constexpr int pieces = 72;
-  const auto circle = [&](const Vector3d& one, const Vector3d& other) {
+  const auto circle = [&](const Vector3d& one, const Vector3d& other, double part = 1) {
     Polyline line;
     for (int i = 0; i <= pieces; ++i) {
-      const double angle = 2 * std::numbers::pi * i / pieces;
+      const double angle = 2 * std::numbers::pi * part * i / pieces;
       const Vector3d at = std::cos(angle) * one + std::sin(angle) * other;
       constexpr double hidden = std::numeric_limits<double>::quiet_NaN();
       line.push_back(at.z() > -1e-9 ? Point{at.x(), at.y()} : Point{hidden, hidden});
     }
     return line;
   };
-  const auto [x, y, z] = std::tuple(turned.col(0), turned.col(1), turned.col(2));
+  const auto [x, z] = std::tuple(turned.col(0), turned.col(2));
   const Polyline outline = circle(Vector3d::UnitX(), Vector3d::UnitY());
   Panel panel;
   panel.title = name;
@@ -204,8 +211,10 @@ Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eig
   panel.y = {"", -1.05, 1.05, false, {}};
   panel.to_scale = panel.bare = true;
   panel.regions = {{outline, ball_colour}};
-  panel.lines = {{{circle(x, z), circle(y, z)}, {colour, 1.6}, ""}, {{outline}, {colour, 2.2}, ""}};
-  const Vector3d spot = (x + y + 2 * z).normalized();
+  panel.lines = {{{circle(z, -x, 0.5)}, {colour, 1.2}, ""},
+                 {{circle(z, x, 0.5)}, {slip_colour, 4}, ""},
+                 {{outline}, {colour, 2.2}, ""}};
+  const Vector3d spot = (x + z).normalized();
   if (spot.z() > 0) panel.marks.push_back({{{spot.x(), spot.y()}}, slip_colour, 2});
   const std::string slides = fmt::format("slides {:.2f} m/s", curve.slip[frame]);
   panel.labels = {{{1.3, 0.25}, curve.t[frame] >= curve.rolls ? "rolls" : slides, path_colour, Label::Align::left},
@@ -218,8 +227,9 @@ Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eig
 
 }  // namespace
 
-FilmPace film_pace(double end) {
+FilmPace film_pace(double end, std::optional<Eigen::Index> asked) {
   constexpr double longest = 10, rate = 25;
+  if (asked) return {Eigen::ArrayXd::LinSpaced(*asked, 0, end), static_cast<double>(*asked - 1) / (rate * end)};
   const double most = longest / end, digit = std::pow(10, std::floor(std::log10(most)));
   const double slow = most >= 1 ? digit * std::floor(most / digit) : round_down(most);
   const double frames = std::max(1.0, std::round(end * slow * rate));
@@ -236,8 +246,8 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
   }
   const double slow = picture.slow;
   const std::string pace = slow == 1  ? "real time"
-                           : slow > 1 ? fmt::format("slowed {:g} times", slow)
-                                      : fmt::format("{:g} times faster", 1 / slow);
+                           : slow > 1 ? fmt::format("slowed {:.3g} times", slow)
+                                      : fmt::format("{:.3g} times faster", 1 / slow);
   const bool moves = whole.panels.size() == 2;
   const int digits = std::max(2, static_cast<int>(std::ceil(std::log10(25 * slow))));  // each frame differs
   whole.most_columns = moves ? 2 : 3;
@@ -255,8 +265,8 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
         turned[which] = Eigen::AngleAxisd(angle.norm(), angle.stableNormalized()) * turned[which];
       }
       const Colour colour = which == 0 ? path_colour : textbook_colour;
-      frame.panels.push_back(
-          ball_from_above(curve, turned[which], i, colour, which == 0 ? "this ball, from above" : "the textbook's"));
+      frame.panels.push_back(ball_from_above(curve, turned[which], i, colour,
+                                             which == 0 ? "this ball, from above" : "the textbook's, from above"));
       if (!moves) continue;
       // Where it is, and where it began to roll; this ball's on top.
       Panel& path = frame.panels.front();

@@ -89,6 +89,21 @@ TEST_CASE("a long spin is drawn on a logarithmic time axis", "[limit]") {
   CHECK(speeds.x.low > 0);
 }
 
+TEST_CASE("a fast spin is drawn in a part of its size, and says so: the slip keeps its room", "[table]") {
+  RollCurve fast = curve(0.5, 2.2);
+  fast.rim = 23 * fast.slip;
+  const Panel speeds = roll_figure({"", "", fast, fast}).panels[1];
+  CHECK(speeds.y.high == Approx(1.08 * std::max(fast.speed.maxCoeff(), fast.rim.maxCoeff() / 20)));
+  CHECK(std::ranges::any_of(speeds.lines, [](const Lines& lines) { return lines.legend.ends_with(" / 20"); }));
+}
+
+TEST_CASE("a film of so many frames lasts as long as they do", "[table]") {
+  const auto [t, slow] = film_pace(2, 51);
+  CHECK(t.size() == 51);
+  CHECK(t[50] == 2);
+  CHECK(slow == Approx(1));
+}
+
 TEST_CASE("the legend lists the entries of every panel once", "[table]") {
   const std::string script = gnuplot_script(roll_figure({"", "", curve(0.5, 2.2), curve(0.6, 2.2)}));
   for (const std::string entry : {"this ball", "textbook", "speed of the centre"}) {
@@ -130,8 +145,12 @@ TEST_CASE("a film shows as much as has happened, and both balls as they have tur
     CHECK_THAT(panels[3].labels[0].text, Catch::StartsWith(i >= 69 ? "rolls" : "slides"));
   }
   const Point before = frames[0].panels[2].marks[0].points[0], after = frames[100].panels[2].marks[0].points[0];
-  CHECK(after.x == Approx(-before.y));
+  CHECK(after.x == Approx(-before.y).margin(1e-7));
   CHECK(after.y == Approx(before.x));
+  // A half of one circle alone is thick: a turn is told from its opposite up to half a turn a frame.
+  CHECK(frames[0].panels[2].lines[1].stroke.width > 2 * frames[0].panels[2].lines[0].stroke.width);
+  CHECK(frames[0].panels[2].lines[1].lines[0][36].x == Approx(1));
+  CHECK(frames[100].panels[2].lines[1].lines[0][36].y == Approx(1));
   ball.angular_velocity.resize(3, 0);
   CHECK_THROWS_AS(roll_film({"", "", ball, textbook, {}, 20}), std::domain_error);
 }

@@ -207,21 +207,28 @@ TEST_CASE("the summary has both models and the energy", "[cli]") {
 
 TEST_CASE("a moving picture, in real time or a stated pace", "[cli][gnuplot]") {
   const TemporaryDirectory scratch;
-  const Run run =
-      run_program("roll --ball pool --until 0.01 --size 120x90 --font Serif -o " + scratch.file("shot.gif"));
+  const Run run = run_program("roll --ball pool --until 0.01 --samples 30 --size 120x90 --font Serif -o " +
+                              scratch.file("shot.gif"));
   INFO(run.err);
   CHECK(run.status == 0);
   CHECK(run.out.empty());
   const std::string film = read_file(scratch.file("shot.gif"));
   CHECK_THAT(film, StartsWith("GIF89a"));
-  CHECK(film.size() < 2'000'000);
+  CHECK(film.size() < 500'000);
+  // A frame has a graphic control extension, and its delay is 1/25 s.
+  int frames = 0;
+  for (auto at = film.find("\x21\xf9\x04"); at != std::string::npos; at = film.find("\x21\xf9\x04", at + 1)) {
+    CHECK(film.substr(at + 4, 2) == std::string("\x04\0", 2));
+    ++frames;
+  }
+  CHECK(frames == 30);
 }
 
 TEST_CASE("a picture of the motion as a script", "[cli]") {
   const TemporaryDirectory scratch;
   for (const std::string& start :
        {masse, std::string("roll --ball gel --slip 0"), std::string("roll --ball bowling --spin 0"),
-        std::string("roll --ball pool --velocity 0,0 --angular-velocity 0,0,0")}) {
+        std::string("roll --ball pool --velocity 1,0 --angular-velocity 0,35,0")}) {
     const Run run = run_program(start + " -o " + scratch.file("roll.gp"));
     INFO(start << "\n" << run.err);
     CHECK(run.status == 0);
@@ -323,6 +330,9 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
       {"roll --ball pool --until -1", "--until -1: "},
       {"roll --ball pool --until inf", "'inf' is not a finite number"},
       {"roll --ball pool --samples 3 -o roll.svg", "leave them out"},
+      {"roll --ball pool --equidistant -o roll.gif", "leave them out"},
+      {"roll --ball pool --samples 1001 -o roll.gif", "at most 1000 frames, got --samples 1001"},
+      {"roll --ball pool --velocity 0,0 --angular-velocity 0,0,0 -o roll.svg", "the ball is at rest"},
       {"roll --ball pool --dpi 100 -o roll.gif", "--dpi 100: a gif has no dots"},
       {"roll --ball pool --digits 3 -o roll.gif", "a picture has no digits"},
       {"roll --ball pool --font Times -o roll.tex", "--font Times: a tex has the font of the document"},

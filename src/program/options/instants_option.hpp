@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -29,6 +30,9 @@ class InstantsOption {
 
   /// Those of --at, in the order given; null without it.
   const Eigen::ArrayXd* at() const { return at_.given() ? &*at_ : nullptr; }
+
+  /// That of --samples.
+  std::optional<Eigen::Index> asked() const { return samples_.optional(); }
 
   /// How many are wanted without --at.
   Eigen::Index samples() const { return samples_.value_or(standard_samples); }

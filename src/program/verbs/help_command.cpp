@@ -73,7 +73,8 @@ std::string files() {
              "-o FILE is written whole or not at all, and replaces an older one; - is standard output. Its "
              "ending decides the format, which --format names where there is none. csv and json have all "
              "digits; text (ending txt) has --digits. npy is an array of NumPy's (sweep). Pictures are svg, "
-             "pdf, png, eps, tex (pgfplots), gp (a gnuplot script with its data) and, of roll, gif (it moves).");
+             "pdf, png, eps, tex (pgfplots), gp (a gnuplot script with its data) and, of roll, gif (it moves; "
+             "--samples N frames).");
 }
 
 const Choices<std::string (*)()> topics{{"laws", laws}, {"views", views}, {"units", units}, {"files", files}};

@@ -209,10 +209,11 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
       .ball = curve(experiment, roll.at_times(times), rolls),
       .textbook = curve(experiment, textbook.at_times(times), textbook_rolls)};
   if (slip > 0) {
-    picture.subtitle += fmt::format("; it rolls after {:.3g} s (textbook {:.3g} s)", rolls, textbook_rolls);
+    picture.subtitle +=
+        fmt::format("; it rolls after {{{:.3g} s}}, the textbook's after {{{:.3g} s}}", rolls, textbook_rolls);
   }
-  if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {:.3g} s", roll.stop_time());
-  if (whole.friction) picture.subtitle += fmt::format("; it rests after {:.3g} s", whole.friction->rest_time());
+  if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {{{:.3g} s}}", roll.stop_time());
+  if (whole.friction) picture.subtitle += fmt::format("; it rests after {{{:.3g} s}}", whole.friction->rest_time());
   return picture;
 }
 
@@ -253,6 +254,8 @@ auto vector(const char* names, std::string_view unit = "") {
     return Eigen::Matrix<double, Size, 1>(numbers(typed, Size, names, unit).data());
   };
 }
+
+constexpr long most_frames = 1000;  ///< of a film: 40 s
 
 class RollCommand final : public Verb {
  public:
@@ -313,12 +316,21 @@ class RollCommand final : public Verb {
     require_finite(roll.experiment, roll.stop_time(), roll.rolling_friction, last);
     const double end = until_.value_or(roll.standard_end());
     if (output.picture()) {
-      if (instants_.given()) throw BadInput("a picture needs no --at or --samples: leave them out");
-      const double rolls = std::max(roll.whole.rolls, roll.textbook.rolls);
       const bool moves = output.picture() == portraits::PictureFormat::gif;
+      if (instants_.at() != nullptr || instants_.equidistant() || (instants_.asked() && !moves)) {
+        throw BadInput("a picture needs no --at, --samples or --equidistant, a film --samples alone: leave them out");
+      }
+      if (instants_.asked() > most_frames) {
+        throw BadInput(fmt::format("a film has at most {} frames, got --samples {}", most_frames, *instants_.asked()));
+      }
+      if (si::kinetic_energy(roll.experiment.ball, si::velocities_of(roll.experiment.start)) == 0) {
+        throw BadInput("the ball is at rest, there is nothing to draw: give it a --slip, a --spin or a --velocity");
+      }
+      const double rolls = std::max(roll.whole.rolls, roll.textbook.rolls);
       const double film_end = rolls > 0 && !until_.given() ? std::min(1.6 * rolls, end) : end;
-      const auto [film_times, slow] = portraits::film_pace(film_end);
-      portraits::RollPicture picture = picture_of(roll, moves ? film_times : instants(500, 2 * rolls, end));
+      const auto [film_times, slow] = portraits::film_pace(film_end, instants_.asked());
+      portraits::RollPicture picture =
+          picture_of(roll, moves ? film_times : end * Eigen::ArrayXd::LinSpaced(500, 0, 1).cube());
       picture.size = figure_.size();
       picture.slow = moves ? slow : 0;
       std::vector<portraits::Figure> figures =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,13 +38,13 @@ struct RollPicture {
 /// @throws std::domain_error  if a column is shorter than 2 or columns differ in length
 Figure roll_figure(const RollPicture& picture);
 
-/// The instants of a film of a motion up to that time in s, and its pace: 25 in a second of it, real time or a round
-/// number of times slower or faster, so that it lasts 4 to 10 s.
+/// The instants of a film of a motion up to that time in s, and its pace: 25 in a second of it; unless so many are asked
+/// for, real time or a round number of times slower or faster, so that it lasts 4 to 10 s.
 struct FilmPace {
   Eigen::ArrayXd t;
   double slow;
 };
-FilmPace film_pace(double end);
+FilmPace film_pace(double end, std::optional<Eigen::Index> asked = {});
 
 /// The motion as it goes on, a frame for each row of the columns: the path and the speeds so far, and both balls seen
 /// from above with marks that turn with them, and with what they do: slide or roll.
