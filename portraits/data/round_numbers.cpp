@@ -44,10 +44,10 @@ std::string number(double value, int digits) {
   if (value == 0) return "0";
   value = std::stod(fmt::format("{:.{}g}", value, digits));
   const double exponent = std::floor(std::log10(std::abs(value)) + 1e-9);
-  if (exponent >= -3 && exponent < 5) return fmt::format("{:.5g}", value);
+  if (exponent >= -3 && exponent < 5) return fmt::format("{:.{}g}", value, std::max(digits, 5));
   const double mantissa = value / std::pow(10, exponent);
   if (std::abs(mantissa - 1) < 1e-6) return fmt::format("10^{{{}}}", exponent);
-  return fmt::format("{:.3g}·10^{{{}}}", mantissa, exponent);
+  return fmt::format("{:.{}g}·10^{{{}}}", mantissa, digits > 5 ? digits : 3, exponent);
 }
 
 }  // namespace contensou::portraits

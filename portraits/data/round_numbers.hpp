@@ -19,7 +19,7 @@ std::vector<double> multiples(double low, double high, double step);
 std::vector<double> round_ratios(double low, double high, double few_decades);
 
 /// A number as people write it; large and small ones with their power of ten, in the markup of a figure.
-/// @param digits  at most so many are shown, and 3 before a power of ten
+/// @param digits  at most so many are shown; up to 5 of them, 3 before a power of ten
 std::string number(double value, int digits = 5);
 
 }  // namespace contensou::portraits

@@ -149,8 +149,7 @@ Panel polar_panel(const Drawing& drawing, double hole) {
   if (hole > 0) {
     panel.labels.push_back({{0, 0.42 * hole}, "the stop", ink, Label::Align::centre});
   } else {
-    panel.marks.push_back({{{0, 0}}, drawing.palette.highlight, 1.4});
-    panel.labels.push_back({{0, -0.07}, "stop", ink, Label::Align::centre});
+    panel.marks.push_back({{{0, 0}}, drawing.palette.invariant, 1.4, Marks::Shape::dot, "the stop"});
   }
   return panel;
 }

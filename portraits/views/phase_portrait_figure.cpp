@@ -71,12 +71,9 @@ Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, Portr
   }
   Figure figure;
   figure.title = caption.title.empty() ? title(portrait) : caption.title;
-  const bool bent = !portrait.scale.linear();
-  figure.subtitle = !caption.subtitle.empty() ? caption.subtitle : std::string(bent ? bent_shows : layout.shows);
-  if (bent) {
-    figure.subtitle += fmt::format(" (shaded: {{/:Italic v}} on the scale {{/:Italic v^{{s}}}}, {{/:Italic s}} = {})",
-                                   number(portrait.scale.exponent, 3));
-  }
+  figure.subtitle = !caption.subtitle.empty() ? caption.subtitle
+                    : portrait.scale.linear() ? std::string(layout.shows)
+                                              : std::string(bent_shows);
   figure.size = size;
   figure.theme = drawing.palette.theme;
   figure.panels = layout.panels(drawing);

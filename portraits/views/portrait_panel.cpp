@@ -444,9 +444,9 @@ void PortraitPanel::add_isochrones() {
     panel_.labels.push_back(
         {from_paper(panel_, place.where()), text, drawing_.palette.theme.faint, Label::Align::centre});
   }
-  panel_.lines.insert(panel_.lines.begin(), std::move(lines));
+  panel_.lines.insert(panel_.lines.begin(), lines);
   for (const PhasePortrait& other : drawing_.portrait.comparisons) {
-    Lines its_lines{{}, {drawing_.palette.comparison, 0.8, true}, ""};
+    Lines its_lines{{}, {drawing_.palette.comparison, 0.8, true}, lines.legend + ", " + law_legend(other)};
     for (const Isochrone& isochrone : other.isochrones) its_lines.lines.push_back(line_of(isochrone));
     panel_.lines.insert(panel_.lines.begin(), std::move(its_lines));
   }

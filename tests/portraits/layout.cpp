@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <catch2/catch.hpp>
@@ -182,6 +184,22 @@ TEST_CASE("Ticks are round, in the axis, and as many as have room", "[table]") {
     CHECK(ticks.back().text == "1");
   }
   CHECK(lay_out(figure).panels[0].y.front().at == Approx(1));
+}
+
+TEST_CASE("The texts of ticks far from 0 differ", "[table]") {
+  Panel panel;
+  panel.x = {"", -6.58125, -6.58071, false, {}};
+  panel.y = {"", 3.00000001e7, 3.00000009e7, false, {}};
+  Figure figure;
+  figure.size = {170, 120};
+  figure.panels = {panel};
+  const auto laid = lay_out(figure).panels[0];
+  for (const auto* ticks : {&laid.x, &laid.y}) {
+    std::set<std::string> texts;
+    for (const auto& tick : *ticks) texts.insert(tick.text);
+    CHECK(texts.size() >= 3);
+    CHECK(texts.size() == ticks->size());
+  }
 }
 
 TEST_CASE("A panel to scale has units of one length", "[invariant]") {

@@ -11,6 +11,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/reduction/flow.hpp"
@@ -441,6 +443,19 @@ TEST_CASE("The disc holds everything; its singular points are those of the plane
   CHECK(marks("saddle")[0].y == 0);
   REQUIRE(marks("unstable node").size() == 1);  // the end of the v-axis
   CHECK(marks("unstable node")[0].y == Approx(1));
+  REQUIRE(marks("the stop").size() == 1);
+  CHECK(std::hypot(marks("the stop")[0].x, marks("the stop")[0].y) == 0);
+}
+
+TEST_CASE("The axis says that it is bent, whatever the title", "[table]") {
+  const portraits::SpeedScale scale = portrait_of(0.3).scale;
+  CHECK_THAT(figure_of(0.3).panels[0].y.name, Catch::Contains(fmt::format("^{{{:.3g}}}", scale.exponent)));
+  CHECK_THAT(figure_of(1).panels[0].y.name, !Catch::Contains("shaded"));
+}
+
+TEST_CASE("Isochrones of the law that a portrait is compared with have their legend", "[table]") {
+  const Panel panel = draw(portrait_of(0.3, {.comparison = reduction::PadeLaw()}), {}, plain).panels.front();
+  CHECK(layer(panel, "time left τ*, law pade").lines.size() > 3);
 }
 
 TEST_CASE("The blown-up origin is a circle of its own, with a node and a saddle", "[table]") {
@@ -605,7 +620,7 @@ TEST_CASE("Captions replace title, units and the unit of the labels", "[table]")
   const Figure figure = draw(portrait_of(0.3, {.time_unit = 4}),
                              {.title = "A ball", .speed_unit = "m/s", .time_unit_name = "s", .time_unit = 4});
   CHECK(figure.title == "A ball");
-  CHECK(figure.panels[0].y.name.ends_with("m/s"));
+  CHECK_THAT(figure.panels[0].y.name, Catch::Contains(", m/s"));
   CHECK(layer(figure.panels[0], "time left").legend.ends_with(", s"));
   CHECK(figure.panels[0].labels.size() >= 3);
   for (const auto& label : figure.panels[0].labels) {
