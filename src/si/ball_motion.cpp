@@ -39,16 +39,29 @@ MotionColumns BallMotion::at_times(const Eigen::ArrayXd& times) const {
   return columns;
 }
 
+template <class Function>
+double BallMotion::time_until_not(Function holds) const {
+  double low = 0;
+  double high = orbit_.stop_time();
+  for (double middle = high / 2; middle > low && middle < high; middle = low + (high - low) / 2) {
+    (holds(orbit_.at_time(middle)) ? low : high) = middle;
+  }
+  return seconds(experiment_, high);
+}
+
 double BallMotion::slip_time(double speed) const {
   if (!(speed >= 0))
     throw std::domain_error(fmt::format("BallMotion::slip_time: speed >= 0 is required, got {}", speed));
   if (slip_at_start(experiment_) <= speed) return 0;
-  double low = 0;
-  double high = orbit_.stop_time();
-  for (double middle = high / 2; middle > low && middle < high; middle = low + (high - low) / 2) {
-    (orbit_.at_time(middle).ln_v > std::log(speed) ? low : high) = middle;
-  }
-  return seconds(experiment_, high);
+  return time_until_not([ln_v = std::log(speed)](const reduction::OrbitPoint& at) { return at.ln_v > ln_v; });
+}
+
+double BallMotion::spin_time(double speed) const {
+  if (!(speed >= 0))
+    throw std::domain_error(fmt::format("BallMotion::spin_time: speed >= 0 is required, got {}", speed));
+  if (std::abs(spin_at_start(experiment_)) <= speed) return 0;
+  return time_until_not(
+      [u = speed * experiment_.ball.radius](const reduction::OrbitPoint& at) { return std::abs(at.u) > u; });
 }
 
 double BallMotion::slip_length() const { return seconds(experiment_, orbit_.slip_length(orbit_.stop_time())); }

@@ -30,6 +30,7 @@ const std::vector<Output> outputs{
     {"roll --ball pool --batch -", "a table of motions", {"csv"}},
     {"balls", "a list of balls", of_answers},
     {"balls pool", "a run file", {"toml", "txt"}},
+    {"engine mujoco --ball pool", "a table of engines", of_answers},
     {"paper", "a table of statements", of_answers},
     {"sweep --mu 0.3 --u0 0:1:3 --v0 0:1:3", "a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}},
     {"portrait --mu 0.3", "a portrait", {"gp", "svg", "pdf", "png", "eps", "tex", "csv", "json"}},

@@ -37,6 +37,10 @@ class BallMotion {
   /// @throws std::domain_error  if the speed is negative or not a number
   double slip_time(double speed) const;
 
+  /// s until the spin, of either sign, has fallen to that many rad/s, >= 0; 0 for a ball that spins no faster.
+  /// @throws std::domain_error  if the speed is negative or not a number
+  double spin_time(double speed) const;
+
   /// m that the contact point slides on the ball, that is the integral of slip over time, until the stop.
   double slip_length() const;
 
@@ -48,6 +52,10 @@ class BallMotion {
 
  private:
   double paper_time(double t) const;
+
+  /// s until a function of an OrbitPoint, true at the start, is no longer.
+  template <class Function>
+  double time_until_not(Function holds) const;
 
   /// The integral of a function of time over [0, end], with panels graded towards the start, where slip dies out.
   template <class Function>

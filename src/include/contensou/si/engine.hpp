@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contensou/si/contact_cone.hpp"
+
+namespace contensou::si {
+
+/// What the numbers of an engine follow from.
+struct EngineContact {
+  double friction;         ///< f
+  double patch_radius;     ///< a, m
+  double pivoting_moment;  ///< Psi(0) of the law
+  double radius;           ///< R, m
+
+  /// f a Psi(0) in m: the moment of spinning without sliding, over the load.
+  double moment_arm() const { return friction * patch_radius * pivoting_moment; }
+};
+
+/// @throws std::domain_error  as patch_radius_of
+EngineContact contact_of(const Experiment& experiment, const reduction::Law& law);
+
+/// A number that is typed into an engine.
+struct EngineParameter {
+  std::string_view name;     ///< the engine's own
+  std::string_view unit;     ///< SI; empty for a pure number
+  std::string_view formula;  ///< of `value`, for people
+  double (*value)(const EngineContact& contact);
+};
+
+/// A way to set an engine, and what it then does.
+struct EngineSetting {
+  std::string_view words;
+  Cone cone;
+  double (*moment_arm)(const EngineContact& contact);  ///< m, the greatest moment over the load; 0: it has no moment
+};
+
+/// A physics engine whose contact has a moment about the normal, or has not.
+struct Engine {
+  std::string_view name;                    ///< one lower-case word
+  std::string_view title;                   ///< its own name
+  std::string_view version;                 ///< that the rest was read in
+  std::vector<EngineParameter> parameters;  ///< sliding first, the one that decides the moment last; empty without any
+  std::string_view limit;                   ///< of the moment M under the load N, in the engine's own words
+  std::string_view combination;             ///< of the numbers of the two bodies
+  std::vector<std::string_view> needs;      ///< switches without which the numbers do nothing
+  std::vector<EngineSetting> settings;      ///< the one that comes nearest to the law first, then what else is met
+  std::vector<std::string_view> remarks;    ///< what goes wrong
+  std::vector<std::string_view> sources;    ///< FILE:LINES
+};
+
+/// The engines that are known.
+const std::vector<Engine>& engines();
+
+/// The engine of that name; null if there is none.
+const Engine* find_engine(std::string_view name);
+
+}  // namespace contensou::si

@@ -1,0 +1,69 @@
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/si/engine.hpp"
+#include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+using contensou::si::engines;
+
+TEST_CASE("engine lists each engine on a line that begins with its name", "[cli]") {
+  const Run run = run_program("engine --ball pool");
+  CHECK(run.status == 0);
+  for (const auto& engine : engines()) CHECK_THAT(run.out, Contains("\n" + std::string(engine.name) + " "));
+  const auto json = json_of("engine --ball pool --format json");
+  REQUIRE(json.at("engines").size() == engines().size());
+  std::size_t settings = 0;
+  for (const auto& engine : engines()) settings += engine.settings.size();
+  CHECK(rows_of(run_program("engine --ball pool --format csv").out).size() == settings + 1);
+}
+
+TEST_CASE("engine NAME says what to type in and what then happens", "[cli]") {
+  const auto json = json_of("engine mujoco --ball pool --format json");
+  CHECK(json.at("schema") == 1);
+  CHECK(json.at("law") == "exact");
+  REQUIRE(json.at("engines").size() == 1);
+  const auto& engine = json.at("engines")[0];
+  CHECK(engine.at("parameters").at("friction[0]").at("value") == 0.2);
+  CHECK(engine.at("parameters").at("friction[1]").at("value") == json.at("moment_arm"));
+  CHECK(engine.at("parameters").at("friction[1]").at("unit") == "m");
+  // Elliptic: near the law. Pyramidal: the slip lasts as long as the spin. No moment: for ever.
+  const auto& settings = engine.at("settings");
+  CHECK(settings[0].at("t_slip").get<double>() == Approx(0.2590).epsilon(1e-3));
+  CHECK(json.at("t_slip").get<double>() == Approx(0.3080).epsilon(1e-3));
+  CHECK(settings[1].at("cone") == "pyramid");
+  CHECK(settings[1].at("t_slip").get<double>() == Approx(10.0855).epsilon(1e-5));
+  CHECK(settings[1].at("t_spin").get<double>() == Approx(10.1356).epsilon(1e-5));
+  CHECK(settings.back().at("cone") == "none");
+  CHECK(settings.back().at("t_spin") == "inf");
+
+  const std::string text = run_program("engine mujoco --ball pool").out;
+  for (const char* part : {"friction[1] = 0.000333052 m", "condim=\"4\"", "cone pyramidal (default)", "10.0855",
+                           "     17       0.60374       0.60786", "src/engine/engine_collision_driver.c:"}) {
+    CHECK_THAT(text, Contains(part));
+  }
+}
+
+TEST_CASE("the numbers follow from the ball, its start and the law", "[invariant]") {
+  const auto arm = [](const std::string& options) {
+    return json_of("engine physx --format json --ball pool " + options).at("moment_arm").get<double>();
+  };
+  // A measured spin deceleration is the moment: whatever the friction and the law.
+  CHECK(arm("--law uniform --friction 0.3") == Approx(arm("")).epsilon(1e-12));
+  CHECK(arm("--spin-deceleration 5") == Approx(arm("") / 2).epsilon(1e-12));
+  CHECK(arm("--patch-radius 2mm --law ring") == Approx(0.2 * 2e-3).epsilon(1e-12));
+  const auto slow = json_of("engine physx --format json --ball pool --slip 0.5 --spin 0");
+  CHECK(slow.at("t_spin") == 0);
+  CHECK(slow.at("engines")[0].at("settings")[0].at("t_slip").get<double>() == Approx(0.145528 / 2).epsilon(1e-5));
+}
+
+TEST_CASE("an engine that is not known is told the nearest", "[cli]") {
+  const Run run = run_program("engine mujuco --ball pool");
+  CHECK(run.status == 2);
+  CHECK(run.out.empty());
+  CHECK_THAT(run.err, Contains("no such engine") && Contains("did you mean 'mujoco'") && Contains("pooltool"));
+  const Run without_ball = run_program("engine mujoco");
+  CHECK(without_ball.status == 2);
+  CHECK_THAT(without_ball.err, Contains("--ball missing"));
+}

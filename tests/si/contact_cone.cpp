@@ -1,0 +1,116 @@
+#include "contensou/si/contact_cone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <boost/math/tools/minima.hpp>
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/catalogue.hpp"
+
+using namespace contensou;
+using namespace contensou::si;
+
+namespace {
+
+Experiment gel(double slip, double spin) {
+  Experiment experiment = find_ball("gel")->experiment;
+  experiment.start = SlipAndSpin{slip, spin};
+  return experiment;
+}
+
+/// From the cone and the principle of greatest dissipation alone: the point of the cone's border with the greatest power
+/// is searched for, acts for two microseconds, and is searched for again.
+FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) {
+  struct Point {
+    double force, moment;  // over f N, over c N
+  };
+  const auto border = [cone](double t) -> Point {  // t from 0 to 1: a quarter of it
+    const double x = (1 - t * t) / (1 + t * t);
+    const double y = 2 * t / (1 + t * t);
+    const double size = cone == Cone::elliptic ? 1 : cone == Cone::box ? std::max(x, y) : x + y;
+    return {x / size, y / size};
+  };
+  const double f = experiment.contact.friction;
+  const double R = experiment.ball.radius;
+  const double g = experiment.environment.gravity;
+  const double v0 = slip_at_start(experiment);
+  const double w0 = std::abs(spin_at_start(experiment));
+  constexpr double step = 2e-6;
+  double v = v0;
+  double w = w0;
+  FadeTimes times{0, 0};
+  for (long i = 1; v > faded * v0 || w > faded * w0; ++i) {
+    const auto loss = [&](double t) { return -border(t).force * f * v - border(t).moment * moment_arm * w; };
+    const Point acts = border(boost::math::tools::brent_find_minima(loss, 0.0, 1.0, 26).first);
+    v = std::max(0.0, v - 3.5 * f * g * acts.force * step);
+    w = std::max(0.0, w - 2.5 * moment_arm * g / (R * R) * acts.moment * step);
+    if (v > faded * v0) times.slip = static_cast<double>(i) * step;
+    if (w > faded * w0) times.spin = static_cast<double>(i) * step;
+  }
+  return times;
+}
+
+}  // namespace
+
+TEST_CASE("under a cone acts what dissipates most", "[independent]") {
+  constexpr double arm = 2.1e-3;
+  struct Start {
+    double slip, spin;
+  };
+  for (const Cone cone : {Cone::elliptic, Cone::box, Cone::pyramid}) {
+    // More slip than (c/f) omega, less of it, so little that it is all frozen, and all but no spin.
+    for (const auto& [slip, spin] : {Start{0.5, 30}, Start{0.05, -30}, Start{1e-4, 20}, Start{0.3, 0.05}}) {
+      const Experiment experiment = gel(slip, spin);
+      const FadeTimes found = by_search(experiment, cone, arm);
+      const FadeTimes times = fade_times(experiment, cone, arm);
+      INFO(name(cone) << ", slip " << slip << ", spin " << spin);
+      CHECK(times.slip == Approx(found.slip).epsilon(2e-3).margin(2e-5));
+      CHECK(times.spin == Approx(found.spin).epsilon(2e-3).margin(2e-5));
+    }
+  }
+}
+
+TEST_CASE("the elliptic cone is a friction law", "[identity]") {
+  const Experiment experiment = gel(0.5, 30);
+  const double patch = patch_radius_of(experiment, reduction::HertzLaw{});
+  const double arm = experiment.contact.friction * patch * reduction::EllipticLaw::hertz_moment;
+  const FadeTimes law = fade_times(experiment, reduction::EllipticLaw{});
+  const FadeTimes cone = fade_times(experiment, Cone::elliptic, arm);
+  CHECK(cone.slip == Approx(law.slip).epsilon(1e-12));
+  CHECK(cone.spin == Approx(law.spin).epsilon(1e-12));
+}
+
+TEST_CASE("times of a law are those of its motion", "[identity]") {
+  const Experiment experiment = gel(0.5, -30);
+  const FadeTimes times = fade_times(experiment, reduction::HertzLaw{});
+  const BallMotion motion(experiment, reduction::HertzLaw{});
+  CHECK(motion.at_time(times.slip).slip == Approx(0.5e-3).epsilon(1e-9));
+  CHECK(motion.at_time(times.spin).angular_velocity.z() == Approx(-30e-3).epsilon(1e-9));
+  CHECK(motion.spin_time(31) == 0);
+  CHECK(motion.spin_time(0) == Approx(motion.stop_time()).epsilon(1e-12));
+  CHECK_THROWS_AS(motion.spin_time(-1), std::domain_error);
+}
+
+TEST_CASE("without slip, without spin, without a moment", "[limit]") {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  for (const Cone cone : {Cone::elliptic, Cone::box, Cone::pyramid}) {
+    INFO(name(cone));
+    const double sliding = fade_times(gel(0.5, 0), cone, 2e-3).slip;
+    CHECK(sliding == Approx(0.999 * 2 * 0.5 / (7 * 0.5 * 9.80665)).epsilon(1e-12));
+    CHECK(fade_times(gel(0.5, 0), cone, 2e-3).spin == 0);
+    const double spinning = fade_times(gel(0, 30), cone, 2e-3).spin;
+    CHECK(spinning == Approx(0.999 * 2 * 0.03 * 0.03 * 30 / (5 * 2e-3 * 9.80665)).epsilon(1e-12));
+    CHECK(fade_times(gel(0, 30), cone, 2e-3).slip == 0);
+    CHECK(fade_times(gel(0.5, 30), cone, 0).slip == Approx(sliding).epsilon(1e-12));
+    CHECK(fade_times(gel(0.5, 30), cone, 0).spin == never);
+    CHECK(fade_times(gel(0.5, 0), cone, 0).spin == 0);
+    CHECK_THROWS_AS(fade_times(gel(0.5, 30), cone, -1e-3), std::domain_error);
+    CHECK_THROWS_AS(fade_times(gel(0.5, 30), cone, never), std::domain_error);
+  }
+}

@@ -1,0 +1,98 @@
+#include "contensou/si/engine.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/laws.hpp"
+#include "contensou/si/catalogue.hpp"
+
+using namespace contensou;
+using namespace contensou::si;
+
+namespace {
+
+/// The moment over the load, in m, that an engine makes of the numbers typed in, by the formula in its source.
+using Limit = std::function<double(const std::vector<double>& typed, double radius)>;
+
+const Limit last = [](const std::vector<double>& typed, double /*radius*/) { return typed.back(); };
+
+const std::map<std::string_view, Limit> limits{
+    {"mujoco", last},
+    {"newton", last},
+    {"genesis", last},
+    {"physx", [](const auto& typed, double /*radius*/) { return typed[0] * std::max(typed[1], 0.0); }},
+    {"bullet",
+     [](const auto& typed, double /*radius*/) {
+       const double of_plane = 0;
+       return typed[2] * typed[1] + of_plane * typed[0];
+     }},
+    {"chrono", last},
+    {"ode", last},
+    {"gazebo", [](const auto& typed, double /*radius*/) { return 3 * std::numbers::pi * typed[2] * typed[1] / 16; }},
+    {"edyn", last},
+    // alpha = 5 u_sp g/(2 R) with u_sp = proportionality R, and alpha = (5/2) M/(m R^2)
+    {"pooltool",
+     [](const auto& typed, double radius) { return 5 * (typed[1] * radius) / (2 * radius) * 2 * radius * radius / 5; }},
+    {"tailuge", [](const auto& typed, double /*radius*/) { return 0.0055 * 2 / 3 * typed[1]; }},
+};
+
+}  // namespace
+
+TEST_CASE("what is typed into an engine makes the moment of the law, whatever ball and law", "[table]") {
+  for (const CatalogueEntry& ball : catalogue()) {
+    for (const char* law_name : {"exact", "uniform", "ring"}) {
+      const reduction::Law law = *reduction::find_law(law_name);
+      const EngineContact contact = contact_of(ball.experiment, law);
+      CHECK(contact.moment_arm() ==
+            Approx(ball.experiment.contact.friction * patch_radius_of(ball.experiment, law) * law.pivoting_moment()));
+      for (const Engine& engine : engines()) {
+        INFO(engine.name << ", " << ball.name << ", " << law_name);
+        if (engine.parameters.empty()) continue;
+        std::vector<double> typed;
+        for (const EngineParameter& parameter : engine.parameters) typed.push_back(parameter.value(contact));
+        CHECK(typed.front() == contact.friction);
+        CHECK(limits.at(engine.name)(typed, contact.radius) == Approx(contact.moment_arm()).epsilon(1e-12));
+        CHECK(engine.settings.front().moment_arm(contact) == contact.moment_arm());
+      }
+    }
+  }
+}
+
+TEST_CASE("each engine says what it is, from where, and what it does", "[table]") {
+  std::set<std::string_view> names;
+  for (const Engine& engine : engines()) {
+    INFO(engine.name);
+    CHECK(names.insert(engine.name).second);
+    CHECK(std::ranges::all_of(engine.name, [](unsigned char letter) { return std::islower(letter) != 0; }));
+    CHECK(find_engine(engine.name) == &engine);
+    CHECK(engine.parameters.empty() == (limits.count(engine.name) == 0));
+    CHECK_FALSE(engine.title.empty());
+    CHECK(engine.version.find_first_of("0123456789") != std::string_view::npos);
+    CHECK_FALSE(engine.limit.empty());
+    CHECK_FALSE(engine.combination.empty());
+    REQUIRE_FALSE(engine.settings.empty());
+    REQUIRE_FALSE(engine.sources.empty());
+    for (std::string_view source : engine.sources) CHECK(source.find('.') != std::string_view::npos);
+  }
+  CHECK(find_engine("unreal") == nullptr);
+}
+
+TEST_CASE("what is published as the radius or diameter of a patch is too much by what is left out", "[table]") {
+  const Experiment& pool = find_ball("pool")->experiment;
+  const EngineContact contact = contact_of(pool, *reduction::find_law("exact"));
+  const auto times = [&](std::string_view engine, std::size_t setting) {
+    return find_engine(engine)->settings.at(setting).moment_arm(contact) / contact.moment_arm();
+  };
+  CHECK(times("mujoco", 3) == Approx(2 / (0.2 * 3 * std::numbers::pi / 16)));  // 17
+  CHECK(times("physx", 1) == Approx(16 / (3 * std::numbers::pi)));             // 1.7
+  // pooltool's spin deceleration is (5/2) u_sp g/R = 10.9 rad/s^2 where 10 were meant.
+  CHECK(times("pooltool", 1) == Approx(2.5 * (10 * 2.0 / 5 / 9) * 9.80665 / 10));
+}
