@@ -184,8 +184,8 @@ class OrbitTracer {
         border.push_back({at, across});
       }
     };
-    walk([&](double share) { return Seed{share * window_.u, std::log(window_.v)}; }, true);
-    walk([&](double share) { return Seed{window_.u, scale_.ln_v(1 - share)}; }, false);
+    walk([&](double fraction) { return Seed{fraction * window_.u, std::log(window_.v)}; }, true);
+    walk([&](double fraction) { return Seed{window_.u, scale_.ln_v(1 - fraction)}; }, false);
 
     std::vector<Seed> result;
     for (int i = 0; i < count; ++i) {

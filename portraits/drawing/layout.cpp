@@ -15,14 +15,14 @@ namespace contensou::portraits {
 
 namespace {
 
-double share(const Axis& axis, double value) {
+double fraction(const Axis& axis, double value) {
   if (axis.logarithmic) return std::log(value / axis.low) / std::log(axis.high / axis.low);
   return (value - axis.low) / (axis.high - axis.low);
 }
 
-double value(const Axis& axis, double share) {
-  if (axis.logarithmic) return axis.low * std::pow(axis.high / axis.low, share);
-  return axis.low + share * (axis.high - axis.low);
+double value(const Axis& axis, double fraction) {
+  if (axis.logarithmic) return axis.low * std::pow(axis.high / axis.low, fraction);
+  return axis.low + fraction * (axis.high - axis.low);
 }
 
 /// The part [from, to] of the way from a to b that lies in the unit square, if there is one (Liang and Barsky).
@@ -53,9 +53,11 @@ double off_chord(Point a, Point b, Point p) {
 
 double letter_mm(double width_mm) { return std::clamp(2.0 + 0.0041 * width_mm, 2.2, 2.7); }
 
-Point between(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
+Point between(Point a, Point b, double fraction) {
+  return {a.x + fraction * (b.x - a.x), a.y + fraction * (b.y - a.y)};
+}
 
-Point on_paper(const Panel& panel, Point point) { return {share(panel.x, point.x), share(panel.y, point.y)}; }
+Point on_paper(const Panel& panel, Point point) { return {fraction(panel.x, point.x), fraction(panel.y, point.y)}; }
 
 Point from_paper(const Panel& panel, Point place) { return {value(panel.x, place.x), value(panel.y, place.y)}; }
 
@@ -132,8 +134,8 @@ double paper_length(const Panel& panel, const Polyline& line) {
   return length;
 }
 
-Arrow arrow_along(const Panel& panel, const Polyline& line, double share) {
-  double to_go = share * paper_length(panel, line);
+Arrow arrow_along(const Panel& panel, const Polyline& line, double fraction) {
+  double to_go = fraction * paper_length(panel, line);
   for (std::size_t i = 1; i < line.size(); ++i) {
     const double piece = paper_distance(panel, line[i - 1], line[i]);
     if (piece > 0 && to_go <= piece) {
@@ -258,7 +260,7 @@ std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
   std::vector<Axis::Tick> kept;
   double free = -1e300;
   for (const Axis::Tick& tick : all) {
-    const double at = length * share(axis, tick.at), half = room(tick.text) / 2;
+    const double at = length * fraction(axis, tick.at), half = room(tick.text) / 2;
     if (at - half < free) continue;
     free = at + half;
     kept.push_back(tick);
@@ -336,7 +338,7 @@ class Compositor {
 
   void panels(double width) {
     const int count = static_cast<int>(figure_.panels.size());
-    const int columns = std::min(panel_columns(width * em_, count), figure_.most_columns), rows = count / columns;
+    const int columns = std::min(panel_columns(width * em_, count), figure_.max_columns), rows = count / columns;
     const double strip = width / columns;
     // Heights first: ticks of y-axes follow from them, and margins from those.
     double above = 0.5, below = 0.5;
@@ -359,7 +361,7 @@ class Compositor {
         if (!under.empty() && panel.x.high > panel.x.low) {
           const Axis::Tick& last = under.back();
           const double beyond =
-              tick_size * text_width(last.text) / 2 - (1 - share(panel.x, last.at)) * (strip - before);
+              tick_size * text_width(last.text) / 2 - (1 - fraction(panel.x, last.at)) * (strip - before);
           after = std::max(after, beyond + 0.5);
         }
         if (panel.colours) {

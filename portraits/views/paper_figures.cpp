@@ -311,8 +311,8 @@ Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const Asked
       line.push_back({moment / law.pivoting_moment(), force});
     }
     line.push_back({0, 1});
-    const double share = 0.8 * static_cast<double>(panel.lines.size() - 1) / static_cast<double>(laws.size());
-    panel.lines.push_back({{std::move(line)}, stroke_of(law, viridis(share)), literal(law.name(), 20)});
+    const double fraction = 0.8 * static_cast<double>(panel.lines.size() - 1) / static_cast<double>(laws.size());
+    panel.lines.push_back({{std::move(line)}, stroke_of(law, viridis(fraction)), literal(law.name(), 20)});
   }
   Figure figure;
   figure.title = "The limit surface of a circular patch";

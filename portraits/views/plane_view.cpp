@@ -77,7 +77,7 @@ Panel contact_panel(const Drawing& drawing, bool right_half) {
   const double U = portrait.window.u;
   const auto& [direction, k_star, order] = portrait.plane.tangents.front();
   const std::vector<double> rays = ray_log_ratios(portrait);
-  constexpr double shrinks = 20;  // u falls to this share
+  constexpr double shrinks = 20;  // u falls to this fraction
   const int per_side = drawing.crowd(12);
   constexpr double reach = 3;
   Panel panel;

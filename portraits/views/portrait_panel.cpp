@@ -77,8 +77,8 @@ class LabelPlace {
 
 }  // namespace
 
-Colour viridis(double share, double white) {
-  const double place = share * (viridis_steps.size() - 1);
+Colour viridis(double fraction, double white) {
+  const double place = fraction * (viridis_steps.size() - 1);
   const auto index = std::min(static_cast<std::size_t>(place), viridis_steps.size() - 2);
   const double part = place - static_cast<double>(index);
   unsigned rgb = 0;
@@ -94,8 +94,8 @@ Palette palette(bool screen) {
   constexpr int steps = 64;
   // Near the stop: on paper the darkest, on a dark screen the lightest.
   for (int i = 0; i <= steps; ++i) {
-    const double share = static_cast<double>(i) / steps;
-    times.push_back(viridis(screen ? 1 - 0.65 * share : 0.8 * share));
+    const double fraction = static_cast<double>(i) / steps;
+    times.push_back(viridis(screen ? 1 - 0.65 * fraction : 0.8 * fraction));
   }
   if (screen) {
     return {{{0x10141c}, {0xe3e8f0}, {0x9aa5b8}, 1.25, 1.15},
@@ -175,12 +175,12 @@ Instant at_log_ratio(const PortraitOrbit& curve, double ln_k) {
   for (Eigen::Index i = 1; i < curve.rows(); ++i) {
     const double before = curve.ln_k[i - 1], now = curve.ln_k[i];
     if ((before - ln_k) * (now - ln_k) > 0 || before == now) continue;
-    const double share = std::isfinite(now) ? (ln_k - before) / (now - before) : 0;
+    const double fraction = std::isfinite(now) ? (ln_k - before) / (now - before) : 0;
     const auto mixed = [&](double a, double b) {
-      return b > 0 ? std::exp((1 - share) * std::log(a) + share * std::log(b)) : a;
+      return b > 0 ? std::exp((1 - fraction) * std::log(a) + fraction * std::log(b)) : a;
     };
     return {mixed(curve.u[i - 1], curve.u[i]), mixed(curve.v[i - 1], curve.v[i]),
-            std::isfinite(curve.ln_v[i]) ? curve.ln_v[i - 1] + share * (curve.ln_v[i] - curve.ln_v[i - 1])
+            std::isfinite(curve.ln_v[i]) ? curve.ln_v[i - 1] + fraction * (curve.ln_v[i] - curve.ln_v[i - 1])
                                          : curve.ln_v[i - 1],
             ln_k, mixed(curve.tau_left[i - 1], curve.tau_left[i])};
   }
@@ -369,8 +369,8 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
     if (on_paper(panel_, arrow.at).y > 0.6) add_there(arrow);
   }
   if (!result.empty()) return result;
-  for (double share : {arrow_share_, arrow_share_ + 0.1, arrow_share_ - 0.1}) {
-    add_there(arrow_along(panel_, parts.front(), share));
+  for (double fraction : {arrow_fraction_, arrow_fraction_ + 0.1, arrow_fraction_ - 0.1}) {
+    add_there(arrow_along(panel_, parts.front(), fraction));
     if (!result.empty()) break;
   }
   return result;
@@ -460,7 +460,7 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
     Arrows arrows{{}, lines.stroke.colour};
     for (const Polyline& line : lines.lines) {
       for (const Polyline& part : clipped(panel_, line)) {
-        for (double share : {0.3, 0.7}) arrows.arrows.push_back(arrow_along(panel_, part, share));
+        for (double fraction : {0.3, 0.7}) arrows.arrows.push_back(arrow_along(panel_, part, fraction));
       }
     }
     panel_.arrows.push_back(std::move(arrows));
@@ -522,9 +522,9 @@ void PortraitPanel::add_field(const std::function<reduction::State(Point)>& stat
                                                          : "direction of the motion (2.6)"};
   Arrows heads{{}, drawing_.palette.field, 0.6};
   for (const Needle& needle : needles) {
-    const double share = max_size > min_size ? std::log(needle.size / min_size) / std::log(max_size / min_size) : 1;
+    const double fraction = max_size > min_size ? std::log(needle.size / min_size) / std::log(max_size / min_size) : 1;
     const double cell = 1 / std::max(std::abs(needle.direction.x) * columns, std::abs(needle.direction.y) * rows);
-    const double half = (0.25 + 0.6 * share) / 2 * cell;
+    const double half = (0.25 + 0.6 * fraction) / 2 * cell;
     const Point tail{needle.at.x - half * needle.direction.x, needle.at.y - half * needle.direction.y};
     const Point tip{needle.at.x + half * needle.direction.x, needle.at.y + half * needle.direction.y};
     lines.lines.push_back({from_paper(panel_, tail), from_paper(panel_, tip)});

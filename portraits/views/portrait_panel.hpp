@@ -22,9 +22,9 @@ struct Palette {
 Palette palette(bool screen);
 
 /// Viridis, from dark to light in steps that eyes of any kind see as equal.
-/// @param share  of the way, 0 to 1
-/// @param white  share of white that is mixed in
-Colour viridis(double share, double white = 0);
+/// @param fraction  of the way, 0 to 1
+/// @param white  fraction of white that is mixed in
+Colour viridis(double fraction, double white = 0);
 
 /// Times left cut into bands, each of one colour.
 struct TimeBands {
@@ -86,10 +86,10 @@ class PortraitPanel {
   PortraitPanel(const Drawing& drawing, Panel axes, Place place)
       : drawing_(drawing), panel_(std::move(axes)), place_(std::move(place)) {}
 
-  /// Where the arrow of an orbit that has none at equal times is: at that share of its length on paper; and how far
+  /// Where the arrow of an orbit that has none at equal times is: at that fraction of its length on paper; and how far
   /// heads are apart at least, in sizes of letters.
-  void set_arrows(double share, double keep_off) {
-    arrow_share_ = share;
+  void set_arrows(double fraction, double keep_off) {
+    arrow_fraction_ = fraction;
     keep_off_ = keep_off;
   }
 
@@ -143,7 +143,7 @@ class PortraitPanel {
   const Drawing& drawing_;
   Panel panel_;
   Place place_;
-  double arrow_share_ = 0.3;
+  double arrow_fraction_ = 0.3;
   double keep_off_ = 2;
   std::deque<PortraitOrbit> traced_;  ///< that copies refer to
   std::vector<Polyline> orbits_;      ///< that labels keep off

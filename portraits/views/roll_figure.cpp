@@ -29,7 +29,7 @@ constexpr Colour ball_colour{0xf3efe6};
 
 constexpr PaperSize usual{290, 125};
 
-/// A path that bends less than this share of its length is straight to the eye.
+/// A path that bends less than this fraction of its length is straight to the eye.
 constexpr double straight = 0.01;
 /// From this ratio of the two times on, the time axis is logarithmic.
 constexpr double long_spin = 6;
@@ -60,8 +60,8 @@ Polyline path_of(const RollCurve& curve, double end) {
 Point at_time(const RollCurve& curve, double t) {
   const Eigen::Index last = curve.t.size() - 1;
   const Eigen::Index i = std::clamp<Eigen::Index>((curve.t <= t).count() - 1, 0, last - 1);
-  const double share = std::clamp((t - curve.t[i]) / (curve.t[i + 1] - curve.t[i]), 0.0, 1.0);
-  return between({curve.x[i], curve.y[i]}, {curve.x[i + 1], curve.y[i + 1]}, share);
+  const double fraction = std::clamp((t - curve.t[i]) / (curve.t[i + 1] - curve.t[i]), 0.0, 1.0);
+  return between({curve.x[i], curve.y[i]}, {curve.x[i + 1], curve.y[i + 1]}, fraction);
 }
 
 /// An interval that is wider by a margin and has at least that length, about the same middle.
@@ -104,8 +104,8 @@ Panel path_panel(const RollPicture& picture, const PaperSize& size) {
   const double scale = std::max((panel.x.high - panel.x.low) / panel_shape, panel.y.high - panel.y.low);
   // Most of the panel is used, across too.
   const auto stretch = [scale](Axis& axis, const char* letter, double shape) {
-    constexpr double min_share = 0.75;
-    const double factor = std::max(1.0, min_share * scale * shape / std::max(axis.high - axis.low, 1e-300));
+    constexpr double min_fraction = 0.75;
+    const double factor = std::max(1.0, min_fraction * scale * shape / std::max(axis.high - axis.low, 1e-300));
     const auto [low, high] = widened(axis.low, axis.high, 1.16 * scale * shape / factor);
     const std::string note = factor > 1.05 ? fmt::format(" (stretched {:.2g} times)", factor) : "";
     axis = {fmt::format("{{/:Italic {}}}, m{}", letter, note), low, high, false, {}};
@@ -250,7 +250,7 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
                                       : fmt::format("{:.3g} times faster", 1 / slow);
   const bool moves = whole.panels.size() == 2;
   const int digits = std::max(2, static_cast<int>(std::ceil(std::log10(25 * slow))));  // each frame differs
-  whole.most_columns = moves ? 2 : 3;
+  whole.max_columns = moves ? 2 : 3;
   std::vector<Figure> frames;
   Eigen::Matrix3d turned[]{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
   for (Eigen::Index i = 0; i < t.size(); ++i) {

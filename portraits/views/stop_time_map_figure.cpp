@@ -20,10 +20,10 @@ Axis axis(const std::string& name, const Eigen::ArrayXd& values, bool logarithmi
   return {name, values[0], values[values.size() - 1], logarithmic, {}};
 }
 
-/// A value between those of a map, at a share of the way along either axis.
+/// A value between those of a map, at a fraction of the way along either axis.
 double between(const Eigen::ArrayXXd& values, double row_share, double column_share) {
-  const auto split = [](double share, Eigen::Index count) {
-    const double place = share * static_cast<double>(count - 1);
+  const auto split = [](double fraction, Eigen::Index count) {
+    const double place = fraction * static_cast<double>(count - 1);
     const auto before = std::min(static_cast<Eigen::Index>(place), count - 2);
     return std::pair{before, place - static_cast<double>(before)};
   };
@@ -93,8 +93,8 @@ Figure draw(StopTimeMap map, const MapCaption& caption, const AskedSize& size) {
     }
     if (paper_length(panel, line) >= min_labelled) {
       // By turns higher and lower, beside each other.
-      const double share = panel.labels.size() % 2 == 0 ? 0.46 : 0.54;
-      panel.labels.push_back({arrow_along(panel, line, share).at,
+      const double fraction = panel.labels.size() % 2 == 0 ? 0.46 : 0.54;
+      panel.labels.push_back({arrow_along(panel, line, fraction).at,
                               fmt::format("{:.6g}", isochrone.tau_stop / caption.time_unit), isochrone_colour});
     }
     isochrones.lines.push_back(std::move(line));

@@ -1,4 +1,4 @@
-// u, v and k against the share of the stop time that has passed: by scaling, only k at the start matters.
+// u, v and k against the fraction of the stop time that has passed: by scaling, only k at the start matters.
 #include <cmath>
 
 #include <fmt/format.h>

@@ -202,7 +202,7 @@ class Examination {
     add("two-sided bound of the stop time", worse(lower / stop - 1, worse(stop / upper - 1, 0)), rounding);
 
     // The inequality that the bounds rest on: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 where m >= 1.
-    const double sign = system_.law().sliding_bounds()->least >= 1 ? 1 : -1;
+    const double sign = system_.law().sliding_bounds()->min >= 1 ? 1 : -1;
     double worst = 0;
     for (int i = -200; i <= 200; ++i) {
       const Slip slip = slip_of_ratio(std::exp2(0.1 * i));

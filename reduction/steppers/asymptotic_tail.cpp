@@ -14,8 +14,8 @@ std::optional<AsymptoticTail> AsymptoticTail::at(const ReducedSystem& system, co
   if (ln_k < std::log(1e-17)) return AsymptoticTail(system, state, true);
   if (ln_k + std::log(pivoting_rate) > std::log(1e18)) return AsymptoticTail(system, state, false);
   // Neither, but next to nothing is left (k tends to a finite ratio, or very slowly to 0).
-  const double most = std::exp(state.ln_w) / pivoting_rate + std::exp(state.ln_v);
-  if (most < 1e-17 * state.s) return AsymptoticTail(system, state, ln_k < 0);
+  const double upper_bound = std::exp(state.ln_w) / pivoting_rate + std::exp(state.ln_v);
+  if (upper_bound < 1e-17 * state.s) return AsymptoticTail(system, state, ln_k < 0);
   return std::nullopt;
 }
 

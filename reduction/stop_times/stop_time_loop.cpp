@@ -16,12 +16,12 @@ constexpr int index_shift = std::numeric_limits<double>::digits - 1 - Panels::cu
 constexpr std::uint64_t left_mask = ~std::uint64_t{0} << index_shift;
 
 /// A stop time is ordinary from 2^-511 to 2^513: the bits of such a double, less this, begin with two zeros.
-constexpr std::uint64_t least_ordinary = std::bit_cast<std::uint64_t>(0x1p-511);
+constexpr std::uint64_t min_ordinary = std::bit_cast<std::uint64_t>(0x1p-511);
 constexpr std::uint64_t not_ordinary = std::uint64_t{3} << 62;
 
 /// Only then nothing has overflowed or underflowed, and the start is one.
 bool usable(double tau, double v0) {
-  return ((std::bit_cast<std::uint64_t>(tau) - least_ordinary) & not_ordinary) == 0 && !std::signbit(v0);
+  return ((std::bit_cast<std::uint64_t>(tau) - min_ordinary) & not_ordinary) == 0 && !std::signbit(v0);
 }
 
 /// Where a start lies.
@@ -29,19 +29,19 @@ struct Place {
   std::size_t panel;
   double t;
 };
-Place place(double u, double lv) {
-  const double smaller = lv < u ? lv : u;
-  const double distance = std::abs(lv - u);
-  const double y = (distance < smaller ? distance : smaller) / (u + lv) + Panels::lowest;
+Place place(double u, double v_mu) {
+  const double smaller = v_mu < u ? v_mu : u;
+  const double distance = std::abs(v_mu - u);
+  const double y = (distance < smaller ? distance : smaller) / (u + v_mu) + Panels::lowest;
   const auto bits = std::bit_cast<std::uint64_t>(y);
-  const std::size_t sheet = (distance < smaller ? Panels::near_one : 0) + (lv > u ? Panels::above_one : 0);
-  const auto index = static_cast<std::size_t>((bits >> index_shift) % Panels::per_sheet);
-  return {sheet + index, y - std::bit_cast<double>(bits & left_mask)};
+  const std::size_t branch = (distance < smaller ? Panels::near_one : 0) + (v_mu > u ? Panels::above_one : 0);
+  const auto index = static_cast<std::size_t>((bits >> index_shift) % Panels::per_branch);
+  return {branch + index, y - std::bit_cast<double>(bits & left_mask)};
 }
 
 double one(const Panels& table, double u0, double v0) {
   const double u = std::abs(u0);
-  const auto [panel, t] = place(u, table.lever * v0);
+  const auto [panel, t] = place(u, table.inverse_mu * v0);
   const double* c = table.panels[panel].c;
   const double t4 = (t * t) * (t * t);
   const double m = (((c[3] + t4 * c[7]) * t + (c[2] + t4 * c[6])) * t + (c[1] + t4 * c[5])) * t + (c[0] + t4 * c[4]);
@@ -50,7 +50,9 @@ double one(const Panels& table, double u0, double v0) {
 
 }  // namespace
 
-std::size_t panel_of(const Panels& table, double u0, double v0) { return place(std::abs(u0), table.lever * v0).panel; }
+std::size_t panel_of(const Panels& table, double u0, double v0) {
+  return place(std::abs(u0), table.inverse_mu * v0).panel;
+}
 
 double from_panels(const Panels& table, double u0, double v0) {
   const double tau = one(table, u0, v0);
@@ -86,11 +88,11 @@ StoredBits* at(std::uint64_t* first) { return reinterpret_cast<StoredBits*>(firs
     for (std::size_t n = 0, i = 0; n < vectors; ++n, i += width) {
       u[n] = Numbers(Bits(*at(&u0[begin + i])) & magnitude);
       v[n] = *at(&v0[begin + i]);
-      const Numbers lv = table.lever * v[n];
-      const Numbers smaller = lv < u[n] ? lv : u[n], distance = Numbers(Bits(lv - u[n]) & magnitude);
-      const Numbers y = (distance < smaller ? distance : smaller) / (u[n] + lv) + Panels::lowest;
-      const Bits sheet = (Bits(distance < smaller) & Panels::near_one) + (Bits(lv > u[n]) & Panels::above_one);
-      *at(&index[i]) = sheet + ((Bits(y) >> index_shift) & (Panels::per_sheet - 1));
+      const Numbers v_mu = table.inverse_mu * v[n];
+      const Numbers smaller = v_mu < u[n] ? v_mu : u[n], distance = Numbers(Bits(v_mu - u[n]) & magnitude);
+      const Numbers y = (distance < smaller ? distance : smaller) / (u[n] + v_mu) + Panels::lowest;
+      const Bits branch = (Bits(distance < smaller) & Panels::near_one) + (Bits(v_mu > u[n]) & Panels::above_one);
+      *at(&index[i]) = branch + ((Bits(y) >> index_shift) & (Panels::per_branch - 1));
       t[n] = y - Numbers(Bits(y) & left_mask);
       *at(&t4[i]) = (t[n] * t[n]) * (t[n] * t[n]);
     }
@@ -110,7 +112,7 @@ StoredBits* at(std::uint64_t* first) { return reinterpret_cast<StoredBits*>(firs
       m = m * t[n] + __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
       m = m * t[n] + __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
       const Numbers result = table.pivoting * u[n] + v[n] * m;
-      unusable |= ((Bits(result) - least_ordinary) & not_ordinary) | (Bits(v[n]) & ~magnitude);
+      unusable |= ((Bits(result) - min_ordinary) & not_ordinary) | (Bits(v[n]) & ~magnitude);
       *at(&found[i]) = result;
     }
     if ((unusable[0] | unusable[1] | unusable[2] | unusable[3]) == 0) {

@@ -7,29 +7,30 @@ namespace contensou::reduction {
 
 /// What StopTimeTable's loops read: stop times tau* = pivoting |u0| + v0 M(k0), the function M as polynomials.
 ///
-/// With lv = lever v0 and D = |u0| + lv a start lies on one of four sheets, which meet at lv/|u0| = 1/2, 1 and 2, at
-///   y = min(|u0|, lv, ||u0| - lv|)/D,
+/// With v_mu = v0/mu and D = |u0| + v_mu a start lies on one of four branches, which meet at k0 = v_mu/|u0| = 1/2, 1
+/// and 2, at
+///   y = min(|u0|, v_mu, ||u0| - v_mu|)/D,
 /// 0 where M may be singular: at k0 = 0, 1 and infinity. The exponent of y + lowest and `cut_bits` bits of its mantissa
-/// number the panels of a sheet: they become narrow towards y = 0.
+/// number the panels of a branch: they become narrow towards y = 0.
 struct StopTimePanels {
   static constexpr int terms = 8;
   static constexpr int cut_bits = 4;
   static constexpr int octaves = 64;
   static constexpr double lowest = 0x1p-63;  ///< its exponent is 0 modulo 64
-  static constexpr std::size_t per_sheet = std::size_t{octaves} << cut_bits;
-  static constexpr std::size_t used = (std::size_t{octaves - 3} << cut_bits) + 6;  ///< of a sheet: y <= 1/3
-  static constexpr std::size_t sheets = 4;
-  static constexpr std::size_t near_one = per_sheet;       ///< 1/2 < lv/|u0| < 2
-  static constexpr std::size_t above_one = 2 * per_sheet;  ///< lv/|u0| > 1
+  static constexpr std::size_t per_branch = std::size_t{octaves} << cut_bits;
+  static constexpr std::size_t used = (std::size_t{octaves - 3} << cut_bits) + 6;  ///< of a branch: y <= 1/3
+  static constexpr std::size_t branches = 4;
+  static constexpr std::size_t near_one = per_branch;       ///< 1/2 < v_mu/|u0| < 2
+  static constexpr std::size_t above_one = 2 * per_branch;  ///< v_mu/|u0| > 1
 
   /// Coefficients of the powers of y + lowest - left edge.
   struct alignas(64) Panel {
     double c[terms];
   };
 
-  double lever = 0;
+  double inverse_mu = 0;
   double pivoting = 0;            ///< P/|u0|
-  const Panel* panels = nullptr;  ///< sheets times per_sheet; of NaN where a panel is not to be used
+  const Panel* panels = nullptr;  ///< branches times per_branch; of NaN where a panel is not to be used
 
   /// The stop time of a start for which `usable` rejects what the polynomials say: of every start that is none, too.
   std::function<double(double u0, double v0)> otherwise;

@@ -35,7 +35,7 @@ double sliding_coefficient(const Flow& flow, double k) {
   return curve->sliding_coefficient(curve->chart().coordinate(ln_k));
 }
 
-/// lever v0/|u0| at a y of the sheet of a panel.
+/// inverse_mu v0/|u0| at a y of the branch of a panel.
 double ratio(std::size_t panel, double y) {
   const double up_to_one = (panel & Panels::near_one) != 0 ? (1 - y) / (1 + y) : y / (1 - y);
   return (panel & Panels::above_one) != 0 ? 1 / up_to_one : up_to_one;
@@ -48,7 +48,7 @@ struct Span {
 };
 Span span(std::size_t panel) {
   constexpr std::size_t cuts = std::size_t{1} << Panels::cut_bits;
-  const std::size_t index = panel % Panels::per_sheet;
+  const std::size_t index = panel % Panels::per_branch;
   const double octave = std::ldexp(Panels::lowest, static_cast<int>(index / cuts));
   const double width = octave / cuts;
   return {octave + width * static_cast<double>(index % cuts), width};
@@ -128,16 +128,16 @@ void run_shared(const Panels& panels, std::span<const double> u0, std::span<cons
 }  // namespace
 
 struct StopTimeTable::Stored {
-  explicit Stored(const Flow& given) : flow(given), storage(Panels::sheets * Panels::per_sheet, none()) {
+  explicit Stored(const Flow& given) : flow(given), storage(Panels::branches * Panels::per_branch, none()) {
     const ReducedSystem& system = flow.system();
-    loop.lever = 1 / system.mu();
+    loop.inverse_mu = 1 / system.mu();
     loop.pivoting = system.pivoting_limit(1);
     loop.panels = storage.data();
     loop.otherwise = [this](double u0, double v0) { return otherwise(u0, v0); };
     const double sliding = system.sliding_limit(1);
-    if (!moderate(loop.lever) || !moderate(loop.pivoting) || !moderate(sliding)) return;
+    if (!moderate(loop.inverse_mu) || !moderate(loop.pivoting) || !moderate(sliding)) return;
     for (std::size_t i = 0; i < storage.size(); ++i) {
-      if (i % Panels::per_sheet < Panels::used) storage[i] = made(i, sliding);
+      if (i % Panels::per_branch < Panels::used) storage[i] = made(i, sliding);
     }
     prove();
   }
@@ -164,11 +164,11 @@ struct StopTimeTable::Stored {
   void prove() {
     std::vector<bool> fails(storage.size());
     for (std::size_t i = 0; i < storage.size(); ++i) {
-      if (i % Panels::per_sheet >= Panels::used) continue;
+      if (i % Panels::per_branch >= Panels::used) continue;
       const auto [left, width] = span(i);
       for (double x : {0.01, 0.37, 0.85}) {
         const double k = ratio(i, left - Panels::lowest + width * x);
-        const State start = k < 1 ? State{1, k / loop.lever} : State{loop.lever / k, 1};
+        const State start = k < 1 ? State{1, k / loop.inverse_mu} : State{loop.inverse_mu / k, 1};
         const double wanted = flow.stop_time(start).tau;
         const double error = std::abs(from_panels(loop, start.u, start.v) - wanted) / wanted;
         if (error <= tolerance) {
@@ -181,7 +181,7 @@ struct StopTimeTable::Stored {
     for (std::size_t i = 0; i < storage.size(); ++i) {
       if (fails[i]) storage[i] = none();
     }
-    refused = static_cast<double>(std::ranges::count(fails, true)) / (Panels::sheets * Panels::used);
+    refused = static_cast<double>(std::ranges::count(fails, true)) / (Panels::branches * Panels::used);
   }
 
   /// A start that the table does not answer.

@@ -76,11 +76,11 @@ Bounds ReducedSystem::stop_time_bounds(State start) const {
   if (!law_.sliding_bounds()) return {0, std::numeric_limits<double>::infinity()};
   const double sliding = sliding_limit(start.v);
   const double pivoting = pivoting_limit(start.u);
-  const auto [least, most] = *law_.sliding_bounds();
-  const double least_sliding = least == 0 ? 0 : least * sliding;  // sliding may be infinite
+  const auto [min, max] = *law_.sliding_bounds();
+  const double min_sliding = min == 0 ? 0 : min * sliding;  // sliding may be infinite
   // Outwards by the rounding of these sums and of the stop time itself, so that it is never outside.
   const double rounding = (8 + std::log1p(r_)) * std::numeric_limits<double>::epsilon();
-  return {std::max(pivoting + least_sliding, sliding) * (1 - rounding), (pivoting + most * sliding) * (1 + rounding)};
+  return {std::max(pivoting + min_sliding, sliding) * (1 - rounding), (pivoting + max * sliding) * (1 + rounding)};
 }
 
 }  // namespace contensou::reduction

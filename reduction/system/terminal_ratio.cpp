@@ -25,7 +25,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double without_sign = TerminalRatios::tolerance;
 
 /// Beyond these ln k the law is its limit.
-constexpr double farthest = 60;
+constexpr double max_x = 60;
 
 struct Sample {
   double ln_k;
@@ -53,7 +53,7 @@ class Search {
 
   void sample() {
     constexpr double fine = 16;
-    for (double x = -farthest; x <= farthest; x += std::abs(x + 0.01) < fine ? 1 / fine : 0.5) {
+    for (double x = -max_x; x <= max_x; x += std::abs(x + 0.01) < fine ? 1 / fine : 0.5) {
       samples_.push_back({x, excess(x)});
     }
   }

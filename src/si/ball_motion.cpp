@@ -72,8 +72,8 @@ double BallMotion::integral(Function function, double end) const {
   constexpr unsigned depth = 12;
   constexpr double tolerance = 1e-10;
   std::vector<double> edges{0, end};
-  for (double share : {0.5, 0.1, 0.01, 1e-4, 1e-8}) {
-    edges.push_back(std::min(slip_time(share * slip_at_start(experiment_)), end));
+  for (double fraction : {0.5, 0.1, 0.01, 1e-4, 1e-8}) {
+    edges.push_back(std::min(slip_time(fraction * slip_at_start(experiment_)), end));
   }
   std::ranges::sort(edges);
   double sum = 0;

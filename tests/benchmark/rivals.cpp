@@ -32,7 +32,7 @@ using State = std::array<double, 2>;
 
 constexpr double tolerance = 1e-12;
 
-/// Below this share of its start |u| falls linearly.
+/// Below this fraction of its start |u| falls linearly.
 constexpr double rest = 1e-8;
 
 /// What is negligible beside the speeds of a start.

@@ -217,7 +217,8 @@ int main() {
     measure_in_memory("hertz" + on, [&, threads] { hertz.evaluate(u.span(), v.span(), tau.span(), threads); });
   }
   // The loop alone, on panels that all hold one polynomial.
-  const std::vector<StopTimePanels::Panel> panels(StopTimePanels::sheets * StopTimePanels::per_sheet, {{1, 0.5, 0.25}});
+  const std::vector<StopTimePanels::Panel> panels(StopTimePanels::branches * StopTimePanels::per_branch,
+                                                  {{1, 0.5, 0.25}});
   const StopTimePanels plain{10, 32, panels.data(), {}};
   measure_in_memory("plain", [&] { run_plain(plain, u.data(), v.data(), tau.data(), points); });
   measure("build pade", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(PadeLaw{}, 0.1))); });

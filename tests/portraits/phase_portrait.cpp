@@ -83,7 +83,7 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
     const double U = portrait.window.u, V = portrait.window.v;
     // Distance across the flow from the left end of the right half of the border, integrated anew by midpoints.
     const auto across = [&](const PortraitOrbit& orbit) {
-      const auto share = [&](State at, bool top) {
+      const auto fraction = [&](State at, bool top) {
         const auto rate = system.field(at);
         const double du = rate.u / U, dv = rate.v / V;
         return std::abs(top ? dv : du) / std::hypot(du, dv);
@@ -94,8 +94,8 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
       constexpr int pieces = 4000;
       for (int i = 0; i < pieces; ++i) {
         const double middle = (i + 0.5) / pieces;
-        sum += along_top / pieces * share({middle * along_top * U, V}, true);
-        if (along_side > 0) sum += along_side / pieces * share({U, (1 - middle * along_side) * V}, false);
+        sum += along_top / pieces * fraction({middle * along_top * U, V}, true);
+        if (along_side > 0) sum += along_side / pieces * fraction({U, (1 - middle * along_side) * V}, false);
       }
       return sum;
     };

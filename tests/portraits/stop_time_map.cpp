@@ -138,9 +138,9 @@ TEST_CASE("The colours of a map are its stop times, from the lower left", "[tabl
     REQUIRE(panel.colours);
     const ColourMap& colours = *panel.colours;
     const std::size_t rows = colours.values.size() / colours.columns;
-    const auto at = [](const Axis& axis, double share) {
-      return axis.logarithmic ? axis.low * std::pow(axis.high / axis.low, share)
-                              : axis.low + share * (axis.high - axis.low);
+    const auto at = [](const Axis& axis, double fraction) {
+      return axis.logarithmic ? axis.low * std::pow(axis.high / axis.low, fraction)
+                              : axis.low + fraction * (axis.high - axis.low);
     };
     const Flow flow({reduction::PadeLaw{}, panel.x.logarithmic ? 0.1 : 0.3});
     double worst = 0;

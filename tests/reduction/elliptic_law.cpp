@@ -3,9 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <boost/math/quadrature/gauss.hpp>
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/contact_patch.hpp"
 #include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -66,5 +68,24 @@ TEST_CASE("an annulus is a disc less a disc", "[laws]") {
     const double load = 1 - eta * eta;
     CHECK(force == Approx((outer.force - eta * eta * inner.force) / load).epsilon(1e-14));
     CHECK(moment == Approx((outer.moment - eta * eta * eta * inner.moment) / load).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("a soft finger's pressure is the table's that stands for it", "[laws]") {
+  for (double exponent : {1.0, 2.0, 4.0, 12.0, 50.0}) {
+    CAPTURE(exponent);
+    const Law law = *find_law(fmt::format("soft:{}", exponent));
+    const ContactPatch patch([=](double rest) {
+      return std::pow(-std::expm1(std::log1p(-rest) * exponent / 2), 1 / exponent);  // rest = 1 - rho^2
+    });
+    const auto gamma = [=](double times) { return std::tgamma(times / exponent); };
+    CHECK(law.pivoting_moment() == Approx(0.75 * gamma(3) * gamma(3) / (gamma(2) * gamma(4))).epsilon(4e-7));
+    for (double k : {0.1, 0.7, 1.0, 1.5, 20.0}) {
+      CAPTURE(k);
+      const auto [force, moment] = law({k, 1});
+      const auto [expected_force, expected_moment] = patch.over_chords(k);
+      CHECK(force == Approx(expected_force).epsilon(4e-7));
+      CHECK(moment == Approx(expected_moment).epsilon(4e-7));
+    }
   }
 }

@@ -56,8 +56,8 @@ TEST_CASE("a law keeps what it offers", "[friction_law]") {
   CHECK(exact.pivoting_moment() == HertzLaw{}({0, 1}).moment);
   CHECK(exact.force_slope() == Approx(1.1780972450961724).epsilon(1e-15));
   REQUIRE(exact.sliding_bounds());
-  CHECK(exact.sliding_bounds()->least == 0);
-  CHECK(exact.sliding_bounds()->most == 1);
+  CHECK(exact.sliding_bounds()->min == 0);
+  CHECK(exact.sliding_bounds()->max == 1);
   CHECK(exact.moment_deficit({1e-9, 1}) == HertzLaw{}.moment_deficit({1e-9, 1}));
   CHECK(Law(PadeLaw{}).name() == "pade");
   CHECK(Law(Named{}).name() == "mine");

@@ -133,7 +133,7 @@ TEST_CASE("tables are stop_time wherever the invariant ray lies", "[stop_time_ta
   for (double p : {-0.3, 2.0, 3.0, 4.5}) compare(found, {PressureLaw(p), 1, body(2 * p + 3)}, 1, 300);
   CHECK_WITHIN_EPS(found, 4);
 
-  // y = 1/2^n and what lies between is an edge on each of the four sheets.
+  // y = 1/2^n and what lies between is an edge on each of the four branches.
   WorstCase edges("rays at edges of panels");
   for (const Law& law : {Law(HertzLaw{}), Law(PressureLaw::ring()), Law(PressureLaw::uniform()), Law(PadeLaw{})}) {
     for (double y : {0x1.5p-2, 0x1.4p-2, 0x1p-2, 0x1.9p-4, 0x1p-6}) {
@@ -211,7 +211,7 @@ TEST_CASE("one start and many, cut and shared in any way, have the same bits", "
 TEST_CASE("the loop for one start at a time and the fastest have the same bits", "[stop_time_table][invariant]") {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> any(-1, 1);
-  std::vector<StopTimePanels::Panel> panels(StopTimePanels::sheets * StopTimePanels::per_sheet);
+  std::vector<StopTimePanels::Panel> panels(StopTimePanels::branches * StopTimePanels::per_branch);
   for (auto& panel : panels) {
     for (double& c : panel.c) c = any(generator);
     panel.c[0] += 2;

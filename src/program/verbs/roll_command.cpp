@@ -255,7 +255,7 @@ auto vector(const char* names, std::string_view unit = "") {
   };
 }
 
-constexpr long most_frames = 1000;  ///< of a film: 40 s
+constexpr long max_frames = 1000;  ///< of a film: 40 s
 
 class RollCommand final : public Verb {
  public:
@@ -320,8 +320,8 @@ class RollCommand final : public Verb {
       if (instants_.at() != nullptr || instants_.equidistant() || (instants_.asked() && !moves)) {
         throw BadInput("a picture needs no --at, --samples or --equidistant, a film --samples alone: leave them out");
       }
-      if (instants_.asked() > most_frames) {
-        throw BadInput(fmt::format("a film has at most {} frames, got --samples {}", most_frames, *instants_.asked()));
+      if (instants_.asked() > max_frames) {
+        throw BadInput(fmt::format("a film has at most {} frames, got --samples {}", max_frames, *instants_.asked()));
       }
       if (si::kinetic_energy(roll.experiment.ball, si::velocities_of(roll.experiment.start)) == 0) {
         throw BadInput("the ball is at rest, there is nothing to draw: give it a --slip, a --spin or a --velocity");

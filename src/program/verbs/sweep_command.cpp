@@ -37,21 +37,21 @@ constexpr double max_points = 1e18;  // times 8 bytes, below the largest file si
 
 /// Numbers from least to most in equal steps, or in equal ratios; both ends are among them.
 struct Range {
-  double least, most;
+  double min, max;
   long count = 1;
   bool in_ratios = false;
 
   /// The number at a place from 0 to count - 1, rounded once where long double has digits to spare.
   double operator[](long place) const {
     const long last = count - 1;
-    if (place == 0) return least;
-    if (place == last) return most;
+    if (place == 0) return min;
+    if (place == last) return max;
     const auto mix = [&](long double low, long double high) {
       return (low * static_cast<long double>(last - place) + high * static_cast<long double>(place)) /
              static_cast<long double>(last);
     };
     const auto log = [](double end) { return std::log2(static_cast<long double>(end)); };
-    return static_cast<double>(in_ratios ? std::exp2(mix(log(least), log(most))) : mix(least, most));
+    return static_cast<double>(in_ratios ? std::exp2(mix(log(min), log(max))) : mix(min, max));
   }
 };
 
@@ -229,21 +229,21 @@ void sweep(const SweepRequest& request, OutputFile& output) {
 /// @param unit  as parse_quantity
 Range parse_range(const std::string& typed, std::string_view unit) {
   const std::vector<std::string> parts = split(typed, ':');
-  if (parts.size() == 1) return {.least = parse_quantity(typed, unit), .most = parse_quantity(typed, unit)};
+  if (parts.size() == 1) return {.min = parse_quantity(typed, unit), .max = parse_quantity(typed, unit)};
   if (parts.size() != 3) {
     throw BadInput(fmt::format("{} is not a range; write it MIN:MAX:N, as in 0:2:201", quotation(typed)));
   }
   const std::vector<double> ends = parse_quantities({parts[0], parts[1]}, unit);
   const Range range{
-      .least = ends[0], .most = ends[1], .count = parse_integer(parts[2], 1, std::numeric_limits<long>::max())};
-  const auto& [least, most, count, in_ratios] = range;
-  if (least > most) throw BadInput(fmt::format("MIN = {} exceeds MAX = {}: put the smaller one first", least, most));
-  if (count == 1 && least != most) {
-    throw BadInput(fmt::format("one value cannot be both MIN = {} and MAX = {}: give N = 2 or more", least, most));
+      .min = ends[0], .max = ends[1], .count = parse_integer(parts[2], 1, std::numeric_limits<long>::max())};
+  const auto& [min, max, count, in_ratios] = range;
+  if (min > max) throw BadInput(fmt::format("MIN = {} exceeds MAX = {}: put the smaller one first", min, max));
+  if (count == 1 && min != max) {
+    throw BadInput(fmt::format("one value cannot be both MIN = {} and MAX = {}: give N = 2 or more", min, max));
   }
-  if (count > 1 && least == most) {
+  if (count > 1 && min == max) {
     throw BadInput(
-        fmt::format("all {} values would be {}: give different MIN and MAX, or the number alone", count, least));
+        fmt::format("all {} values would be {}: give different MIN and MAX, or the number alone", count, min));
   }
   return range;
 }
@@ -283,8 +283,7 @@ class SweepCommand final : public Verb {
     const SweepGrid grid = ball_.ball_given() ? read_grid_of_ball(law) : read_grid(body);
     if (out.picture()) {
       bulk_.refuse("npy and csv: a picture is of few starts, leave it out");
-      out.write(
-          {figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.least, body.inertia), grid), out.format)});
+      out.write({figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, body.inertia), grid), out.format)});
       return ExitStatus::done;
     }
     if (const std::string names = figure_.names(); !names.empty()) {
@@ -313,16 +312,15 @@ class SweepCommand final : public Verb {
     }
     Range range = *argument;
     range.in_ratios = log_;
-    if (log_ && range.count > 1 && !(range.least > 0)) {
-      argument.reject(
-          fmt::format("logarithmic steps need MIN > 0, got {}: raise MIN, or leave --log out", range.least));
+    if (log_ && range.count > 1 && !(range.min > 0)) {
+      argument.reject(fmt::format("logarithmic steps need MIN > 0, got {}: raise MIN, or leave --log out", range.min));
     }
     return range;
   }
 
   Range speeds_of(const ArgumentOf<Range>& argument) const {
     const Range range = range_of(argument);
-    if (range.least < 0) argument.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
+    if (range.min < 0) argument.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
     return range;
   }
 
@@ -346,7 +344,7 @@ class SweepCommand final : public Verb {
                          .mu_is_range = mu_.given() && mu_.text().find(':') != std::string::npos,
                          .u0 = range_of(u0_),
                          .v0 = speeds_of(v0_)};
-    for (double mu : {grid.mu.least, grid.mu.most}) {
+    for (double mu : {grid.mu.min, grid.mu.max}) {
       if (const std::string wrong = body.complaint(mu); !wrong.empty()) mu_.reject(wrong);
     }
     return grid;

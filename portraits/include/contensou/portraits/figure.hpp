@@ -113,7 +113,7 @@ struct Panel {
 struct ColourBar {
   std::string name;
   std::vector<Colour> colours;    ///< from the bottom up, in steps of one height
-  std::vector<Axis::Tick> ticks;  ///< at: share of the height
+  std::vector<Axis::Tick> ticks;  ///< at: fraction of the height
 };
 
 /// The size of a figure on paper.
@@ -138,7 +138,7 @@ struct Figure {
   PaperSize size = {};
   double dpi = 300;       ///< of a PNG
   std::string font = {};  ///< its name; empty: a sans-serif one. TeX keeps its own
-  int most_columns = 4;   ///< of panels, side by side
+  int max_columns = 4;    ///< of panels, side by side
   std::vector<Panel> panels;
   std::optional<ColourBar> colour_bar = {};
   Theme theme = {};

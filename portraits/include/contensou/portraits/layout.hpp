@@ -8,8 +8,8 @@
 
 namespace contensou::portraits {
 
-/// The point at that share (0 to 1) of the way from a to b.
-Point between(Point a, Point b, double share);
+/// The point at that fraction (0 to 1) of the way from a to b.
+Point between(Point a, Point b, double fraction);
 
 /// Where a point of a panel lies on paper: x from 0 (left) to 1 (right), y from 0 (bottom) to 1 (top).
 Point on_paper(const Panel& panel, Point point);
@@ -33,8 +33,8 @@ Polyline thinned(const Panel& panel, const Polyline& line, double tolerance = 2e
 /// What is seen of the lines: clipped and thinned.
 std::vector<Polyline> visible(const Panel& panel, const std::vector<Polyline>& lines);
 
-/// The arrow at a share (0 to 1) of a line's length on paper; of a line without length, an arrow without direction.
-Arrow arrow_along(const Panel& panel, const Polyline& line, double share);
+/// The arrow at a fraction (0 to 1) of a line's length on paper; of a line without length, an arrow without direction.
+Arrow arrow_along(const Panel& panel, const Polyline& line, double fraction);
 
 /// A rectangle in millimetres from the lower left corner of the figure.
 struct Box {

@@ -38,8 +38,8 @@ concept FrictionLaw = std::copy_constructible<L> && requires(const L& law, Slip 
 /// Bounds of m in  tau* = P + m S  over all starts (README (R6)): P and S are the times of pure pivoting and pure
 /// sliding.
 struct SlidingBounds {
-  double least;
-  double most;
+  double min;
+  double max;
 };
 
 /// Any friction law as one value: what the rest of the library computes with. Copies share one function: they are

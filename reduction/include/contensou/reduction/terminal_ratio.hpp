@@ -48,7 +48,7 @@ struct TerminalRatios {
   /// @throws std::domain_error  if k is negative or not a number
   TerminalRatio end_of(double k) const;
 
-  /// Where Phi/(k Psi) differs from r by less than this share of r it counts as r: two rays with no more between them
+  /// Where Phi/(k Psi) differs from r by less than this fraction of r it counts as r: two rays with no more between them
   /// are one, and one with no more between it and an axis is none.
   static constexpr double tolerance = 512 * std::numeric_limits<double>::epsilon();
 };
