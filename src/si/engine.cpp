@@ -33,12 +33,12 @@ Engine mujoco() {
                    {"cone elliptic, friction[1] 0.005 (default)", Cone::elliptic, five_millimetres},
                    {"cone elliptic, friction[1] the diameter", Cone::elliptic, diameter_of},
                    {"condim 3 (default)", Cone::box, no_arm}},
-      .remarks =
-          {"The manual calls friction[1] the diameter of the contact patch; f and Psi(0) are missing in that.",
-           "Under the pyramidal cone a ball that slides and spins never rolls before its spin ends: its slip\n"
-           "stays at (friction[1]/f) omega. Shown for a slip along a tangent axis; across, friction is weaker.",
-           "Of friction[0] the larger counts, too: a plane with its default of 1 has friction 1.",
-           "Either cone also lifts what slides: on a stiff contact the ball hops, and its slip ends up to 8 % later."},
+      .remarks = {"The manual calls friction[1] the diameter of the contact patch; f and Psi(0) are missing in that.",
+                  "Under the pyramidal cone a ball that slides and spins never rolls before its spin ends: its slip\n"
+                  "stays at (friction[1]/f) omega. Shown for a slip along a tangent axis; across, friction is weaker.",
+                  "Of friction[0] the larger counts, too: a plane with its default of 1 has friction 1.",
+                  "Either cone also lifts what slides: on a stiff contact the ball hops, and the slip of a pool ball\n"
+                  "ends 9 % later than here."},
       .sources = {"doc/computation/index.rst:965-968", "doc/computation/index.rst:984-999", "doc/XMLreference.rst:400",
                   "doc/XMLreference.rst:2703", "src/engine/engine_collision_driver.c:1766-1829",
                   "src/engine/engine_core_constraint.c:2228-2232", "src/engine/engine_util_misc.c:1584-1601"},

@@ -58,7 +58,7 @@ FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) 
 
 }  // namespace
 
-TEST_CASE("under a cone acts what dissipates most", "[independent]") {
+TEST_CASE("under a cone acts what dissipates most", "[route]") {
   constexpr double arm = 2.1e-3;
   struct Start {
     double slip, spin;
@@ -76,7 +76,7 @@ TEST_CASE("under a cone acts what dissipates most", "[independent]") {
   }
 }
 
-TEST_CASE("the elliptic cone is a friction law", "[identity]") {
+TEST_CASE("the elliptic cone is a friction law", "[route]") {
   const Experiment experiment = gel(0.5, 30);
   const double patch = patch_radius_of(experiment, reduction::HertzLaw{});
   const double arm = experiment.contact.friction * patch * reduction::EllipticLaw::hertz_moment;
@@ -86,7 +86,7 @@ TEST_CASE("the elliptic cone is a friction law", "[identity]") {
   CHECK(cone.spin == Approx(law.spin).epsilon(1e-12));
 }
 
-TEST_CASE("times of a law are those of its motion", "[identity]") {
+TEST_CASE("times of a law are those of its motion", "[route]") {
   const Experiment experiment = gel(0.5, -30);
   const FadeTimes times = fade_times(experiment, reduction::HertzLaw{});
   const BallMotion motion(experiment, reduction::HertzLaw{});
