@@ -1,10 +1,17 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -85,4 +92,94 @@ TEST_CASE("rest cannot be checked", "[cli]") {
   const Run run = run_program("check --mu 0.1 --u0 0 --v0 0");
   CHECK(run.status == 2);
   CHECK(run.out.empty());
+}
+
+TEST_CASE("a table of the exact motion passes, to all digits", "[cli]") {
+  for (const std::string start : {"--slip 2 --spin 50", "--slip 2 --spin 0", "--slip 0 --spin -50"}) {
+    const std::string motion = run_program("roll --ball gel --samples 60 " + start).out;
+    const Run run = run_program("check --ball gel --tolerance 1e-12 --against -", motion);
+    INFO(start << "\n" << run.out << run.err);
+    CHECK(run.status == 0);
+    CHECK(count_rows(run.out, "ok") == 2);
+    CHECK_THAT(run.out, Contains("nearest: exact\n"));
+    CHECK(run_program("check --ball gel --law elliptic --tolerance 1e-12 --against -", motion).status ==
+          (start == "--slip 2 --spin 50" ? 1 : 0));
+  }
+  const Run uniform = run_program("check --ball gel --tolerance 1e-12 --law exact --against -",
+                                  run_program("roll --ball gel --law uniform").out);
+  CHECK(uniform.status == 1);
+  CHECK_THAT(uniform.out, Contains("nearest: uniform\n"));
+}
+
+TEST_CASE("a table of the textbook's motion leaves the exact one and is known for what it is", "[cli]") {
+  // By hand: slip falls at 7 f g/2, spin of this ball at 10 rad/s^2. The clock starts at 5 s.
+  std::string table = "# made by hand\nspin, note,slip,t\n";
+  for (int i = 0; i <= 100; ++i) {
+    const double t = 11 * std::pow(i / 100.0, 3);
+    table += fmt::format("{},a,{},{}\n", std::min(0.0, 10 * t - 100), std::max(0.0, 1 - 0.7 * 9.80665 * t), 5 + t);
+  }
+  const Run run = run_program("check --ball pool --against -", table);
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(count_rows(run.out, "FAIL") == 2);
+  CHECK(count_words(run.out, "FAIL") == 2);
+  CHECK_THAT(run.out, Contains("nearest: textbook (uncoupled)\n"));
+
+  const Run json = run_program("check --ball pool --format json --against -", table);
+  const auto answer = nlohmann::json::parse(json.out);
+  CHECK(json.status == 1);
+  CHECK(answer.at("nearest") == "textbook (uncoupled)");
+  CHECK(answer.at("start").at("spin") == -100);
+  for (const auto& model : answer.at("models")) {
+    const double off = std::max(model.at("slip").get<double>(), model.at("spin").get<double>());
+    CHECK((off < 1e-14) == (model.at("model") == "textbook (uncoupled)"));
+  }
+  // The errors are those of roll.
+  const auto& slip = answer.at("checks").at(0);
+  const double t = slip.at("t").get<double>() - 5;
+  const auto exact = json_of(fmt::format("roll --ball pool --spin -100 --format json --at {:.17g}", t));
+  CHECK(slip.at("error").get<double>() ==
+        Approx(exact.at("slip").at(0).get<double>() - std::max(0.0, 1 - 0.7 * 9.80665 * t)).epsilon(1e-9));
+  CHECK(slip.at("measured") == slip.at("error"));
+  CHECK(slip.at("leaves") < slip.at("t"));
+  const double leaves = slip.at("leaves").get<double>();
+  const std::string tolerance = fmt::format(" --tolerance {:.17g} ", slip.at("measured").get<double>());
+  const Run allowed = run_program("check --ball pool --format csv --against -" + tolerance, table);
+  CHECK(allowed.status == 0);
+  CHECK_THAT(allowed.out, StartsWith("law,check,measured,allowed,verdict,error,t,leaves,nearest\n") &&
+                              Contains(",inf,textbook (uncoupled)\n"));
+  const auto there = json_of(fmt::format("roll --ball pool --spin -100 --format json --at {:.17g}", leaves - 5));
+  CHECK(there.at("slip").at(0).get<double>() - std::max(0.0, 1 - 0.7 * 9.80665 * (leaves - 5)) > 0.01);
+}
+
+TEST_CASE("--slip and --spin are the start in place of the first row's", "[cli]") {
+  const std::string motion = run_program("roll --ball pool --slip 2 --spin 50").out;
+  CHECK(run_program("check --ball pool --slip 2 --against -", motion).status == 0);
+  CHECK(run_program("check --ball pool --slip 3 --against -", motion).status == 1);
+  CHECK(run_program("check --ball pool --spin 60 --against -", motion).status == 1);
+}
+
+TEST_CASE("mistakes in a table that is checked", "[cli]") {
+  const std::string good = "t,slip,spin\n0,1,10\n1,0,0\n";
+  check_rejected("check --against -", "--against -: slip and spin are those of a ball in SI units: add --ball", good);
+  check_rejected("check --mu 0.1 --against -", "add --ball", good);
+  check_rejected("check --mu 0.1 --ball pool --against -", "exclude each other", good);
+  check_rejected("check --ball pool --body disc --against -", "is a homogeneous ball already", good);
+  check_rejected("check --ball pool --tolerance 0 --against -", "--tolerance 0: a share above 0 is needed", good);
+  check_rejected("check --ball pool --tolerance 0.1", "--tolerance is for a table: add --against FILE");
+  const std::vector<std::pair<std::string, std::string>> tables{
+      {"", "<stdin>:1: empty input"},
+      {"t,slip\n0,1\n", "<stdin>:1: no column is called 'spin'"},
+      {"t,slip,spin\n", "<stdin>:1: two rows or more are needed, got 0"},
+      {"t,slip,spin\n0,1,1\n", "<stdin>:2: two rows or more are needed, got 1"},
+      {"t,slip,spin\n0,1,1\n1,-1,1\n", "<stdin>:3: slip: a speed, 0 or more, is needed, got -1"},
+      {"t,slip,spin\n0,1,1\n-1,1,1\n", "<stdin>:3: t: -1 is before 0 of the row above"},
+      {"t,slip,spin\n0,1,1\n1,nan,1\n", "<stdin>:3: slip: 'nan' is not a finite number"},
+      {"t,slip,spin\n0,1,1\n1,1\n", "<stdin>:3: 2 fields where the header has 3"},
+      {"t,slip,spin\n\n0,0,0\n1,0,0\n", "<stdin>:3: the ball is at rest in the first row"},
+      {"t,slip,spin\n0,1,1.7e308\n1,0,0\n", "<stdin>:2: the start: "},
+  };
+  for (const auto& [table, words] : tables)
+    check_rejected("check --ball pool --radius 3 --patch-radius 1 --against -", words, table);
+  CHECK(run_program("check --ball pool --against nosuch.csv").status == 4);
 }

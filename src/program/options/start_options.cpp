@@ -146,11 +146,8 @@ reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) cons
   return body_.read(law, "--mu M, --ball NAME|FILE.toml");
 }
 
-bool StartOptions::overrides_start() const {
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    if ((quantities[i] == &si::slip || quantities[i] == &si::spin) && overrides_[i].given()) return true;
-  }
-  return false;
+std::optional<double> StartOptions::override_of(const si::Quantity& quantity) const {
+  return overrides_[static_cast<std::size_t>(std::ranges::find(quantities, &quantity) - quantities.begin())].optional();
 }
 
 si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::StartOverride& start) const {

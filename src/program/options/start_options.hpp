@@ -74,8 +74,11 @@ class StartOptions {
 
   bool ball_given() const { return ball_.given(); }
 
+  /// What an option such as --slip gave in place of the ball's own value.
+  std::optional<double> override_of(const si::Quantity& quantity) const;
+
   /// Whether --slip or --spin was given.
-  bool overrides_start() const;
+  bool overrides_start() const { return override_of(si::slip) || override_of(si::spin); }
 
   /// The ball of --ball. Throws as read.
   ///

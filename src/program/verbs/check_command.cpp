@@ -12,6 +12,7 @@
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
+#include "verbs/check_against.hpp"
 
 namespace contensou::program {
 
@@ -25,6 +26,7 @@ using reduction::State;
 struct Row {
   std::string law;
   Check check;
+  Json more = Json::object();  ///< that the row has of its own
 };
 
 const char* verdict(const Check& check) { return check.passed() ? "ok" : "FAIL"; }
@@ -80,7 +82,7 @@ std::string heading() {
 
 std::string as_text(const std::vector<Row>& rows, const Digits& digits) {
   std::size_t law_width = 0, check_width = 0;
-  for (const auto& [law, check] : rows) {
+  for (const auto& [law, check, more] : rows) {
     law_width = std::max(law_width, label(law).size());
     check_width = std::max(check_width, check.name.size());
   }
@@ -91,11 +93,48 @@ std::string as_text(const std::vector<Row>& rows, const Digits& digits) {
                         allowed, end);
   };
   add("law", "check", "measured", "allowed", "");
-  for (const auto& [law, check] : rows) {
+  for (const auto& [law, check, more] : rows) {
     add(label(law), check.name, digits(check.measured), fmt::format("{:.2g}", check.allowed),
         fmt::format("  {}", verdict(check)));
   }
   return text;
+}
+
+Answer answer_of(const std::vector<Row>& rows) {
+  Answer answer;
+  answer.members["checks"] = Json::array();
+  for (const auto& [law, check, more] : rows) {
+    Json row{
+        {"law", law}, {"check", check.name}, {"measured", or_infinity(check.measured)}, {"allowed", check.allowed}};
+    answer.rows.push_back(row);
+    answer.rows.back()["verdict"] = verdict(check);
+    answer.rows.back().update(more);
+    row["passed"] = check.passed();
+    row.update(more);
+    answer.members["checks"].push_back(std::move(row));
+  }
+  return answer;
+}
+
+std::string deviation_text(const char* speed, const char* unit, const Deviation& off, const Digits& digits) {
+  return fmt::format("{} is off by up to {} {}, at t = {} s; {}\n", speed, digits(off.error), unit, digits(off.t),
+                     std::isinf(off.leaves) ? "never by more than allowed"
+                                            : fmt::format("by more than allowed from t = {} s", digits(off.leaves)));
+}
+
+std::string text_beside(const MotionsBeside& motions, const Digits& digits) {
+  const ModelBeside& own = motions.models.front();
+  std::string text =
+      "\n" + deviation_text("slip", "m/s", own.slip, digits) + deviation_text("spin", "rad/s", own.spin, digits) + "\n";
+  const std::string heading = "worst share of the start";
+  std::size_t width = heading.size();
+  for (const ModelBeside& model : motions.models) width = std::max(width, label(model.name).size());
+  const auto add = [&](const std::string& name, const std::string& slip, const std::string& spin) {
+    text += fmt::format("{:<{}}{:>{}}{:>{}}\n", name, width, slip, digits.width(), spin, digits.width());
+  };
+  add(heading, "slip", "spin");
+  for (const auto& [name, slip, spin] : motions.models) add(label(name), digits(slip.share), digits(spin.share));
+  return text + fmt::format("\nnearest: {}\n", label(motions.nearest().name));
 }
 
 class CheckCommand final : public Verb {
@@ -103,11 +142,27 @@ class CheckCommand final : public Verb {
   void add_options(CLI::App& app) override {
     start_.add(app);
     law_.add(app);
+    app.option_defaults()->group("Against a table");
+    against_.add(
+        app, "--against", "FILE",
+        "with --ball: the motion in this CSV, of an engine or a camera, against that of the law; columns "
+        "t,slip,spin (or wz) in SI units; it starts as its first row, but for --slip and --spin; - is standard "
+        "input");
+    tolerance_.add(
+        app, "--tolerance", "SHARE",
+        fmt::format("of slip and spin at the start, by which they may be off (default {})", standard_tolerance),
+        [](const std::string& typed) {
+          const double share = parse_number(typed);
+          if (!(share > 0)) throw NotAllowed("a share above 0 is needed");
+          return share;
+        });
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
+    if (against_.given()) return compare(output);
+    if (tolerance_.given()) throw BadInput("--tolerance is for a table: add --against FILE");
     const bool of_one_start = start_.given() || start_.body_argument().given();
     const Body body = start_.body();
     const bool one_law = law_.given() || body.law != Body{}.law;
@@ -117,23 +172,47 @@ class CheckCommand final : public Verb {
         rows.push_back({law.name(), std::move(check)});
       }
     }
-    Answer answer;
-    answer.members["checks"] = Json::array();
-    for (const auto& [law, check] : rows) {
-      Json row{
-          {"law", law}, {"check", check.name}, {"measured", or_infinity(check.measured)}, {"allowed", check.allowed}};
-      answer.rows.push_back(row);
-      answer.rows.back()["verdict"] = verdict(check);
-      row["passed"] = check.passed();
-      answer.members["checks"].push_back(std::move(row));
-    }
+    Answer answer = answer_of(rows);
     answer.text = [&](const Digits& digits) { return (start_.given() ? "" : heading()) + as_text(rows, digits); };
     output.write(answer);
+    return status_of(rows);
+  }
+
+ private:
+  static constexpr double standard_tolerance = 0.01;
+
+  static ExitStatus status_of(const std::vector<Row>& rows) {
     const bool passed = std::ranges::all_of(rows, [](const Row& row) { return row.check.passed(); });
     return passed ? ExitStatus::done : ExitStatus::check_failed;
   }
 
- private:
+  /// A motion in a table against that of the law.
+  ExitStatus compare(const Output& output) const {
+    const Law law = law_.read(start_.body());
+    const MotionsBeside motions = compare_with_motions(against_, start_, law, tolerance_.value_or(standard_tolerance));
+    const auto row = [&](const std::string& name, const Deviation& off) {
+      return Row{law.name(),
+                 {name, off.share, tolerance_.value_or(standard_tolerance)},
+                 {{"error", off.error}, {"t", off.t}, {"leaves", off.leaves}}};
+    };
+    const auto& [own, slip, spin] = motions.models.front();
+    const std::vector<Row> rows{
+        row(motions.start.slip > 0 ? "slip error / slip at start" : "slip error / R spin at start", slip),
+        row(motions.start.spin != 0 ? "spin error / spin at start" : "R spin error / slip at start", spin)};
+    Answer answer = answer_of(rows);
+    for (Json& line : answer.rows) line["nearest"] = motions.nearest().name;
+    answer.members["start"] = {{"slip", motions.start.slip}, {"spin", motions.start.spin}};
+    answer.members["models"] = Json::array();
+    for (const ModelBeside& model : motions.models) {
+      answer.members["models"].push_back(
+          {{"model", model.name}, {"slip", model.slip.share}, {"spin", model.spin.share}});
+    }
+    answer.members["nearest"] = motions.nearest().name;
+    answer.text = [&](const Digits& digits) { return as_text(rows, digits) + text_beside(motions, digits); };
+    output.write(answer);
+    return status_of(rows);
+  }
+
   std::vector<Check> checks_of_start(const Law& law) const {
     const GivenStart start = start_.read(law);
     if (!start.at_rest()) return verify(start.system, start.state);
@@ -142,6 +221,8 @@ class CheckCommand final : public Verb {
 
   StartOptions start_;
   LawOption law_;
+  Argument against_;
+  ArgumentOf<double> tolerance_;
   OutputOptions output_{{{"a table of checks", answer_formats("text")}}};
 };
 

@@ -66,7 +66,7 @@ std::string files() {
   }
   return text + "\n" +
          help_paragraph(
-             "Tables (--batch, --at, --law FILE.csv): CSV with one header line; # begins a comment; - is "
+             "Tables (--batch, --at, --against, --law FILE.csv): CSV with one header line; # begins a comment; - is "
              "standard input. 'contensou help VERB' names the columns that it reads and writes.") +
          "\n" +
          help_paragraph(

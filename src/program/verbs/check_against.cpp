@@ -1,0 +1,112 @@
+#include "verbs/check_against.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "contensou/reduction/laws.hpp"
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/uncoupled_motion.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+struct Instant {
+  long line;
+  double t;  ///< s
+  si::SlipAndSpin speeds;
+};
+
+std::vector<Instant> read_instants(CsvReader& table) {
+  const CsvColumn t = table.column("t"), slip = table.column("slip");
+  const CsvColumn spin = table.column(!table.has_column("spin") && table.has_column("wz") ? "wz" : "spin");
+  std::vector<Instant> instants;
+  table.for_each_row([&](const CsvRow& row) {
+    const Instant instant{row.line(), table.number(row, t), {table.number(row, slip), table.number(row, spin)}};
+    if (instant.speeds.slip < 0)
+      throw table.complaint(instant.line,
+                            fmt::format("slip: a speed, 0 or more, is needed, got {}", instant.speeds.slip));
+    if (!instants.empty() && instant.t < instants.back().t) {
+      throw table.complaint(instant.line,
+                            fmt::format("t: {} is before {} of the row above: put the rows in order of time", instant.t,
+                                        instants.back().t));
+    }
+    instants.push_back(instant);
+  });
+  if (instants.size() < 2) {
+    throw table.complaint(
+        instants.empty() ? table.header_line() : instants.back().line,
+        fmt::format("two rows or more are needed, got {}: the motion starts as the first says", instants.size()));
+  }
+  return instants;
+}
+
+template <class Motion>
+ModelBeside beside(std::string name, const Motion& motion, const std::vector<Instant>& instants,
+                   const MotionsBeside& scale, double tolerance) {
+  ModelBeside model{std::move(name), {}, {}};
+  for (const auto& [line, t, speeds] : instants) {
+    const si::MotionPoint point = motion.at_time(t - instants.front().t);
+    const auto take = [&, at = t](Deviation& deviation, double error, double unit) {
+      if (error > deviation.error || std::isinf(deviation.t)) {
+        deviation = {.error = error, .share = error / unit, .t = at, .leaves = deviation.leaves};
+      }
+      if (error / unit > tolerance) deviation.leaves = std::min(deviation.leaves, at);
+    };
+    take(model.slip, std::abs(speeds.slip - point.slip), scale.slip_unit);
+    take(model.spin, std::abs(speeds.spin - point.angular_velocity.z()), scale.spin_unit);
+  }
+  return model;
+}
+
+}  // namespace
+
+double ModelBeside::worst() const { return std::max(slip.share, spin.share); }
+
+const ModelBeside& MotionsBeside::nearest() const {
+  constexpr double as_close = 1e-9;
+  const double least = std::ranges::min_element(models, {}, &ModelBeside::worst)->worst();
+  return *std::ranges::find_if(models, [&](const ModelBeside& model) { return model.worst() <= least + as_close; });
+}
+
+MotionsBeside compare_with_motions(const Argument& file, const StartOptions& ball, const reduction::Law& law,
+                                   double tolerance) {
+  if (!ball.ball_given()) file.reject("slip and spin are those of a ball in SI units: add --ball NAME|FILE.toml");
+  si::Experiment experiment = ball.read(law).experiment.value();
+  CsvReader table(file.text());
+  const std::vector<Instant> instants = read_instants(table);
+  const si::SlipAndSpin first = instants.front().speeds;
+  experiment.start =
+      si::SlipAndSpin{ball.override_of(si::slip).value_or(first.slip), ball.override_of(si::spin).value_or(first.spin)};
+  const double slip = si::slip_at_start(experiment), spin = std::abs(si::spin_at_start(experiment));
+  if (slip == 0 && spin == 0) {
+    throw table.complaint(instants.front().line, "the ball is at rest in the first row: there is no motion to compare");
+  }
+  try {
+    si::require_experiment(experiment);
+  } catch (const std::domain_error& error) {
+    throw table.complaint(instants.front().line, fmt::format("the start: {}", error.what()));
+  }
+  const double R = experiment.ball.radius;
+  MotionsBeside result{
+      {slip, si::spin_at_start(experiment)}, slip > 0 ? slip : R * spin, spin > 0 ? spin : slip / R, {}};
+  const auto add = [&](std::string name, const auto& motion) {
+    result.models.push_back(beside(std::move(name), motion, instants, result, tolerance));
+  };
+  add(law.name(), si::BallMotion(experiment, law));
+  add("textbook (uncoupled)", si::UncoupledMotion(experiment, law));
+  for (const reduction::Law& other : reduction::named_laws()) {
+    if (other.name() == law.name()) continue;
+    try {
+      add(other.name(), si::BallMotion(experiment, other));
+    } catch (const std::domain_error&) {
+      // Its patch would have to be larger than the ball for the spin deceleration that was measured.
+    }
+  }
+  return result;
+}
+
+}  // namespace contensou::program

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "input/csv.hpp"
+#include "options/argument.hpp"
+#include "options/start_options.hpp"
+
+namespace contensou::program {
+
+/// How far slip or spin of a table is from that of a model.
+struct Deviation {
+  double error = 0;                                         ///< the worst, in m/s or rad/s
+  double share = 0;                                         ///< the same, of the start
+  double t = std::numeric_limits<double>::infinity();       ///< s in the table, of the worst row
+  double leaves = std::numeric_limits<double>::infinity();  ///< s in the table, of the first row beyond the tolerance
+};
+
+/// A model of the motion beside a table.
+struct ModelBeside {
+  std::string name;
+  Deviation slip, spin;
+
+  double worst() const;  ///< share
+};
+
+/// A table of t, slip and spin beside the motions of a ball that starts as it does.
+struct MotionsBeside {
+  si::SlipAndSpin start;
+  double slip_unit, spin_unit;      ///< what errors are shares of, in m/s and rad/s
+  std::vector<ModelBeside> models;  ///< the law's own first
+
+  /// The model that is closest, the law's own before others as close.
+  const ModelBeside& nearest() const;
+};
+
+/// @param file       with columns t, slip and spin (or wz, as roll calls it), in SI units
+/// @param ball       starts as the first row says, but for --slip and --spin
+/// @param tolerance  a share of the start
+/// @throws BadInput   without --ball; BadLine for a mistake in the table
+MotionsBeside compare_with_motions(const Argument& file, const StartOptions& ball, const reduction::Law& law,
+                                   double tolerance);
+
+}  // namespace contensou::program
