@@ -1,5 +1,6 @@
 #include "contensou/si/contact_cone.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -90,6 +91,21 @@ FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm)
     tau = pyramid_times(system, u0, v0);
   }
   return {v0 > 0 ? seconds(experiment, tau.slip) : 0, u0 > 0 ? seconds(experiment, tau.spin) : 0};
+}
+
+SlipAndSpin speeds_under_pyramid(const Experiment& experiment, double moment_arm, double t) {
+  const auto [u0, v0] = reduced_start(experiment);
+  const double mu = moment_arm / experiment.contact.friction / experiment.ball.radius;
+  const ReducedSystem system(reduction::EllipticLaw(1), mu);
+  const double w0 = mu * std::abs(u0);
+  const double w = std::min(v0, w0);  // where the ray begins
+  const double ray = seconds(experiment, system.sliding_limit(v0 - w) + system.pivoting_limit((w0 - w) / mu));
+  const double stop = seconds(experiment, system.sliding_limit(v0) + system.pivoting_limit(u0));
+  const auto fallen = [&](double from) {
+    if (t < ray) return from - (from - w) * (t / ray);
+    return t < stop ? w * ((stop - t) / (stop - ray)) : 0.0;
+  };
+  return {fallen(v0), std::copysign(fallen(w0) / mu / experiment.ball.radius, u0)};
 }
 
 }  // namespace contensou::si

@@ -8,8 +8,13 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/si/contact_cone.hpp"
+#include "contensou/si/engine.hpp"
 #include "run_program.hpp"
 
+using namespace contensou;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
@@ -150,6 +155,22 @@ TEST_CASE("a table of the textbook's motion leaves the exact one and is known fo
                               Contains(",inf,textbook (uncoupled)\n"));
   const auto there = json_of(fmt::format("roll --ball pool --spin -100 --format json --at {:.17g}", leaves - 5));
   CHECK(there.at("slip").at(0).get<double>() - std::max(0.0, 1 - 0.7 * 9.80665 * (leaves - 5)) > 0.01);
+}
+
+TEST_CASE("an engine's pyramid is known for what it is", "[cli]") {
+  si::Experiment ball = si::find_ball("pool")->experiment;
+  ball.start = si::SlipAndSpin{1, 100};
+  const double arm = si::contact_of(ball, reduction::HertzLaw{}).moment_arm();
+  std::string table = "t,slip,spin\n";
+  for (int i = 0; i <= 50; ++i) {
+    const double t = i / 4.0;
+    const auto [slip, spin] = si::speeds_under_pyramid(ball, arm, t);
+    table += fmt::format("{},{},{}\n", t, slip, spin);
+  }
+  const Run run = run_program("check --ball pool --against -", table);
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK_THAT(run.out, Contains("nearest: pyramid (engines)\n"));
 }
 
 TEST_CASE("--slip and --spin are the start in place of the first row's", "[cli]") {

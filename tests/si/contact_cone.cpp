@@ -114,3 +114,23 @@ TEST_CASE("without slip, without spin, without a moment", "[limit]") {
     CHECK_THROWS_AS(fade_times(gel(0.5, 30), cone, never), std::domain_error);
   }
 }
+
+TEST_CASE("slip and spin under a pyramid fade when fade_times says", "[analytic]") {
+  const double arm = 2e-3;
+  for (const auto& [slip, spin] : {SlipAndSpin{1, 100}, {0.01, -100}, {1, 0}, {0, -3}, {0.4, 100}}) {
+    const Experiment experiment = gel(slip, spin);
+    const FadeTimes fades = fade_times(experiment, Cone::pyramid, arm);
+    CAPTURE(slip, spin);
+    CHECK(speeds_under_pyramid(experiment, arm, fades.slip).slip == Approx(faded * slip).epsilon(1e-10));
+    CHECK(speeds_under_pyramid(experiment, arm, fades.spin).spin == Approx(faded * spin).epsilon(1e-10));
+    CHECK(speeds_under_pyramid(experiment, arm, 0).slip == slip);
+    CHECK(speeds_under_pyramid(experiment, arm, 0).spin == Approx(spin).epsilon(1e-15));
+    const SlipAndSpin later = speeds_under_pyramid(experiment, arm, 9);
+    CHECK((later.slip == 0 && later.spin == 0));
+  }
+  // Its spin is frozen while k > 1; then both fall together.
+  const Experiment fast = gel(1, 100);
+  CHECK(speeds_under_pyramid(fast, arm, 0.02).spin == Approx(100).epsilon(1e-15));
+  const SlipAndSpin together = speeds_under_pyramid(fast, arm, 0.2);
+  CHECK(together.slip == Approx(arm / fast.contact.friction * together.spin).epsilon(1e-12));
+}

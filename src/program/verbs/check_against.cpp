@@ -8,6 +8,8 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/ball_motion.hpp"
+#include "contensou/si/contact_cone.hpp"
+#include "contensou/si/engine.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 
 namespace contensou::program {
@@ -44,20 +46,21 @@ std::vector<Instant> read_instants(CsvReader& table) {
   return instants;
 }
 
+/// @param motion  slip and spin at a time in s from the start
 template <class Motion>
 ModelBeside beside(std::string name, const Motion& motion, const std::vector<Instant>& instants,
                    const MotionsBeside& scale, double tolerance) {
   ModelBeside model{std::move(name), {}, {}};
   for (const auto& [line, t, speeds] : instants) {
-    const si::MotionPoint point = motion.at_time(t - instants.front().t);
+    const si::SlipAndSpin modelled = motion(t - instants.front().t);
     const auto take = [&, at = t](Deviation& deviation, double error, double unit) {
       if (error > deviation.error || std::isinf(deviation.t)) {
         deviation = {.error = error, .share = error / unit, .t = at, .leaves = deviation.leaves};
       }
       if (error / unit > tolerance) deviation.leaves = std::min(deviation.leaves, at);
     };
-    take(model.slip, std::abs(speeds.slip - point.slip), scale.slip_unit);
-    take(model.spin, std::abs(speeds.spin - point.angular_velocity.z()), scale.spin_unit);
+    take(model.slip, std::abs(speeds.slip - modelled.slip), scale.slip_unit);
+    take(model.spin, std::abs(speeds.spin - modelled.spin), scale.spin_unit);
   }
   return model;
 }
@@ -96,12 +99,21 @@ MotionsBeside compare_with_motions(const Argument& file, const StartOptions& bal
   const auto add = [&](std::string name, const auto& motion) {
     result.models.push_back(beside(std::move(name), motion, instants, result, tolerance));
   };
-  add(law.name(), si::BallMotion(experiment, law));
-  add("textbook (uncoupled)", si::UncoupledMotion(experiment, law));
+  const auto speeds_of = [](const auto& motion) {
+    return [&motion](double t) {
+      const si::MotionPoint point = motion.at_time(t);
+      return si::SlipAndSpin{point.slip, point.angular_velocity.z()};
+    };
+  };
+  add(law.name(), speeds_of(si::BallMotion(experiment, law)));
+  add("textbook (uncoupled)", speeds_of(si::UncoupledMotion(experiment, law)));
+  add("pyramid (engines)", [&, arm = si::contact_of(experiment, law).moment_arm()](double t) {
+    return si::speeds_under_pyramid(experiment, arm, t);
+  });
   for (const reduction::Law& other : reduction::named_laws()) {
     if (other.name() == law.name()) continue;
     try {
-      add(other.name(), si::BallMotion(experiment, other));
+      add(other.name(), speeds_of(si::BallMotion(experiment, other)));
     } catch (const std::domain_error&) {
       // Its patch would have to be larger than the ball for the spin deceleration that was measured.
     }

@@ -37,4 +37,10 @@ FadeTimes fade_times(const Experiment& experiment, const reduction::Law& law);
 /// @throws std::domain_error  as require_experiment, or if moment_arm is negative or not a finite number
 FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm);
 
+/// Slip and spin at an instant under Cone::pyramid: either alone until v = c/f |omega|, then both together.
+///
+/// @param moment_arm  c in m, > 0
+/// @param t           s, >= 0
+SlipAndSpin speeds_under_pyramid(const Experiment& experiment, double moment_arm, double t);
+
 }  // namespace contensou::si
