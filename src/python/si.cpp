@@ -5,6 +5,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "contensou/portraits/json.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/course.hpp"
@@ -14,6 +15,7 @@
 #include "contensou/si/scaling.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "values.hpp"
+#include "verbs/engine_members.hpp"
 
 namespace contensou::python {
 
@@ -162,6 +164,15 @@ void bind_si(py::module_& module) {
   module.def("parse_run_file", [](const std::string& text, const std::string& source) {
     return fields_of(si::parse_run_file(text, source));
   });
+  module.def(
+      "engines",
+      [](const si::Experiment& experiment, const Law& law, const std::optional<std::string>& name) {
+        std::vector<std::pair<std::string, const si::Engine*>> engines;
+        for (const si::Engine& engine : si::engines()) engines.emplace_back(engine.name, &engine);
+        const si::Engine* const only = name ? one_of("engine", "engines", engines, *name) : nullptr;
+        return portraits::json_document(program::engine_members(experiment, law, only));
+      },
+      Released());
   module.attr("rolling_slip") = si::rolling_slip;
   module.attr("standard_cue_mass") = si::standard_cue_mass;
 }

@@ -7,14 +7,14 @@ namespace contensou::si {
 
 namespace {
 
-using Contact = EngineContact;
-
 // Values that several engines share.
-double friction_of(const Contact& contact) { return contact.friction; }
-double arm_of(const Contact& contact) { return contact.moment_arm(); }
-double diameter_of(const Contact& contact) { return 2 * contact.patch_radius; }
-double no_arm(const Contact& /*any*/) { return 0; }
-double five_millimetres(const Contact& /*any*/) { return 0.005; }  ///< the default of MuJoCo and of those who follow it
+double friction_of(const EngineContact& contact) { return contact.friction; }
+double arm_of(const EngineContact& contact) { return contact.moment_arm(); }
+double diameter_of(const EngineContact& contact) { return 2 * contact.patch_radius; }
+double no_arm(const EngineContact& /*any*/) { return 0; }
+double five_millimetres(const EngineContact& /*any*/) {
+  return 0.005;
+}  ///< the default of MuJoCo and of those who follow it
 
 constexpr std::string_view arm_formula = "f a Psi(0)";
 
@@ -93,14 +93,14 @@ Engine physx() {
       .version = "5.6.1 (commit a3d8a64)",
       .parameters = {{"dynamicFriction", "", "f", friction_of},
                      {"minTorsionalPatchRadius", "m", "a Psi(0)",
-                      [](const Contact& contact) { return contact.patch_radius * contact.pivoting_moment; }}},
+                      [](const EngineContact& contact) { return contact.patch_radius * contact.pivoting_moment; }}},
       .limit = "M <= f N max(minTorsionalPatchRadius, sqrt(penetration torsionalPatchRadius))",
       .combination = "the larger of the two shapes",
       .needs = {"solverType eTGS: under ePGS, the default, the numbers are ignored",
                 "a contact with a single anchor point, as a ball has"},
       .settings = {{"eTGS", Cone::box, arm_of},
                    {"eTGS, minTorsionalPatchRadius = a", Cone::box,
-                    [](const Contact& contact) { return contact.friction * contact.patch_radius; }},
+                    [](const EngineContact& contact) { return contact.friction * contact.patch_radius; }},
                    {"eTGS, torsionalPatchRadius alone", Cone::box, no_arm},
                    {"ePGS (default)", Cone::box, no_arm}},
       .remarks =
@@ -119,7 +119,7 @@ Engine bullet() {
       .title = "Bullet",
       .version = "commit 6c888f4 (after 3.25)",
       .parameters = {{"setFriction of the ball", "", "f", friction_of},
-                     {"setFriction of the plane", "", "1", [](const Contact& /*any*/) { return 1.0; }},
+                     {"setFriction of the plane", "", "1", [](const EngineContact& /*any*/) { return 1.0; }},
                      {"setSpinningFriction of the ball", "m", arm_formula, arm_of}},
       .limit = "M <= s N with s = sA fB + sB fA; and the impulse of M is at most the number s in each step",
       .combination = "friction f = fA fB, spinning friction s = sA fB + sB fA: the plane has 1 and 0",
@@ -179,7 +179,7 @@ Engine gazebo() {
       .parameters = {{"<mu>, <mu2>", "", "f", friction_of},
                      {"<torsional><coefficient>", "", "f", friction_of},
                      {"<torsional><patch_radius>", "m", "16 Psi(0) a/(3 pi)",
-                      [](const Contact& contact) {
+                      [](const EngineContact& contact) {
                         return contact.patch_radius * contact.pivoting_moment * 16 / (3 * std::numbers::pi);
                       }}},
       .limit = "M <= (3 pi/16) coefficient patch_radius N",
@@ -215,13 +215,15 @@ Engine pooltool() {
       .version = "commit 9a8abfe (after 0.6.0)",
       .parameters = {{"u_s", "", "f", friction_of},
                      {"u_sp_proportionality", "1/m", "f a Psi(0)/R^2",
-                      [](const Contact& contact) { return contact.moment_arm() / contact.radius / contact.radius; }}},
+                      [](const EngineContact& contact) {
+                        return contact.moment_arm() / contact.radius / contact.radius;
+                      }}},
       .limit = "M = u_sp R N with u_sp = u_sp_proportionality R",
       .combination = "none: the table has no numbers of its own",
       .needs = {},
       .settings = {{"u_sp_proportionality", Cone::box, arm_of},
                    {"u_sp_proportionality 0.444 (default)", Cone::box,
-                    [](const Contact& contact) { return 10 * 2.0 / 5 / 9 * contact.radius * contact.radius; }}},
+                    [](const EngineContact& contact) { return 10 * 2.0 / 5 / 9 * contact.radius * contact.radius; }}},
       .remarks = {"The default is written 10 * 2 / 5 / 9: a spin deceleration of 10 rad/s^2, with 9 in place of g and\n"
                   "without R; what acts is 10.9 rad/s^2."},
       .sources = {"pooltool/objects/ball/params.py:77", "pooltool/objects/ball/params.py:102",
@@ -238,13 +240,13 @@ Engine tailuge() {
       .version = "commit c1f18f1",
       .parameters = {{"muS", "", "f", friction_of},
                      {"rho", "m", "3 f a Psi(0)/(2 mu), mu = 0.0055",
-                      [](const Contact& contact) { return 1.5 * contact.moment_arm() / rolling; }}},
+                      [](const EngineContact& contact) { return 1.5 * contact.moment_arm() / rolling; }}},
       .limit = "M = (2/3) mu rho N with its rolling friction mu = 0.0055",
       .combination = "none: the table has no numbers of its own",
       .needs = {},
       .settings = {{"rho", Cone::box, arm_of},
                    {"rho 0.045 m (default)", Cone::box,
-                    [](const Contact& /*any*/) { return 2.0 / 3 * rolling * 0.045; }}},
+                    [](const EngineContact& /*any*/) { return 2.0 / 3 * rolling * 0.045; }}},
       .remarks = {"rho is not the radius of the patch: the moment is made of the rolling friction.",
                   "Once the ball rolls no more, its spin above 24 rad/s falls 12 times as fast."},
       .sources = {"src/model/physics/constants.ts:1-3", "src/model/physics/constants.ts:45",

@@ -22,22 +22,22 @@ namespace {
 /// The moment over the load, in m, that an engine makes of the numbers typed in, by the formula in its source.
 using Limit = std::function<double(const std::vector<double>& typed, double radius)>;
 
-const Limit last = [](const std::vector<double>& typed, double /*radius*/) { return typed.back(); };
+const Limit the_last = [](const std::vector<double>& typed, double /*radius*/) { return typed.back(); };
 
 const std::map<std::string_view, Limit> limits{
-    {"mujoco", last},
-    {"newton", last},
-    {"genesis", last},
+    {"mujoco", the_last},
+    {"newton", the_last},
+    {"genesis", the_last},
     {"physx", [](const auto& typed, double /*radius*/) { return typed[0] * std::max(typed[1], 0.0); }},
     {"bullet",
      [](const auto& typed, double /*radius*/) {
        const double of_plane = 0;
        return typed[2] * typed[1] + of_plane * typed[0];
      }},
-    {"chrono", last},
-    {"ode", last},
+    {"chrono", the_last},
+    {"ode", the_last},
     {"gazebo", [](const auto& typed, double /*radius*/) { return 3 * std::numbers::pi * typed[2] * typed[1] / 16; }},
-    {"edyn", last},
+    {"edyn", the_last},
     // alpha = 5 u_sp g/(2 R) with u_sp = proportionality R, and alpha = (5/2) M/(m R^2)
     {"pooltool",
      [](const auto& typed, double radius) { return 5 * (typed[1] * radius) / (2 * radius) * 2 * radius * radius / 5; }},

@@ -1,12 +1,10 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
-#include "contensou/si/engine.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
+#include "verbs/engine_members.hpp"
 
 namespace contensou::program {
 
@@ -14,93 +12,32 @@ namespace {
 
 using si::Engine;
 
-/// On one line.
-std::string line_of(std::string_view text) {
-  std::string line(text);
-  std::ranges::replace(line, '\n', ' ');
-  return line;
-}
-
-template <class Texts>
-Json list_of(const Texts& texts) {
-  Json list = Json::array();
-  for (const auto& text : texts) list.push_back(line_of(text));
-  return list;
-}
-
-/// A ball as engines see it, under the law that their numbers are to stand for.
-struct Asked {
-  si::Experiment experiment;
-  reduction::Law law;
-  si::EngineContact contact{si::contact_of(experiment, law)};
-  si::FadeTimes fades{si::fade_times(experiment, law)};
-
-  Json members_of(const Engine& engine) const {
-    Json parameters = Json::object();
-    for (const auto& [name, unit, formula, value] : engine.parameters)
-      parameters[std::string(name)] = {{"value", value(contact)}, {"unit", unit}, {"formula", formula}};
-    Json settings = Json::array();
-    for (const auto& [words, cone, moment_arm] : engine.settings) {
-      const double arm = moment_arm(contact);
-      const auto [slip, spin] = si::fade_times(experiment, cone, arm);
-      settings.push_back({{"setting", words},
-                          {"cone", arm > 0 ? si::name(cone) : "none"},
-                          {"moment_arm", arm},
-                          {"t_slip", slip},
-                          {"t_spin", spin}});
-    }
-    return {{"name", engine.name},
-            {"title", engine.title},
-            {"version", engine.version},
-            {"parameters", parameters},
-            {"limit", engine.limit},
-            {"combination", engine.combination},
-            {"needs", list_of(engine.needs)},
-            {"settings", settings},
-            {"remarks", list_of(engine.remarks)},
-            {"sources", list_of(engine.sources)}};
-  }
-
-  Json members() const {
-    return {{"law", law.name()},
-            {"ball", experiment.ball.name},
-            {"friction", contact.friction},
-            {"patch_radius", contact.patch_radius},
-            {"pivoting_moment", contact.pivoting_moment},
-            {"moment_arm", contact.moment_arm()},
-            {"slip", si::slip_at_start(experiment)},
-            {"spin", si::spin_at_start(experiment)},
-            {"t_slip", fades.slip},
-            {"t_spin", fades.spin}};
-  }
-
-  std::string heading(const Digits& digits) const {
-    return fmt::format(
-        "{}: radius {} m, friction f = {}, patch radius a = {} m, slip {} m/s, spin {} rad/s\n"
-        "spinning without sliding, law {}: moment = f a Psi(0) load, Psi(0) = {}, f a Psi(0) = {} m\n",
-        experiment.ball.name, digits(experiment.ball.radius), digits(contact.friction), digits(contact.patch_radius),
-        digits(si::slip_at_start(experiment)), digits(si::spin_at_start(experiment)), law.name(),
-        digits(contact.pivoting_moment), digits(contact.moment_arm()));
-  }
-};
-
 /// Below the tables.
 constexpr const char* explanation =
     "slip, spin   s until 1e-3 of what they were at the start is left\n"
     "cone         of force F and moment M: elliptic (F/F0)^2 + (M/M0)^2 <= 1; box F <= F0, M <= M0, as if neither\n"
     "             knew of the other; pyramid F/F0 + M/M0 <= 1, where either slip or spin is braked\n";
 
-std::string number(const Json& value, const Digits& digits) { return digits(value.get<double>()); }
+std::string shown(const Json& value, const Digits& digits) { return digits(value.get<double>()); }
 
-/// What a line of a table says of a setting: its times, and its moment as a multiple of the ball's own.
-std::string times(const Json& setting, const Digits& digits) {
-  return fmt::format("{:>{}}{:>{}}\n", number(setting["t_slip"], digits), digits.width(),
-                     number(setting["t_spin"], digits), digits.width());
+std::string heading(const Json& members, const Digits& digits) {
+  const auto of = [&](const char* name) { return shown(members[name], digits); };
+  return fmt::format(
+      "{}: radius {} m, friction f = {}, patch radius a = {} m, slip {} m/s, spin {} rad/s\n"
+      "spinning without sliding, law {}: moment = f a Psi(0) load, Psi(0) = {}, f a Psi(0) = {} m\n",
+      members["ball"].get<std::string>(), of("radius"), of("friction"), of("patch_radius"), of("slip"), of("spin"),
+      members["law"].get<std::string>(), of("pivoting_moment"), of("moment_arm"));
+}
+
+/// The end of a line of a table.
+std::string end_of_line(const Json& setting, const Digits& digits) {
+  return fmt::format("{:>{}}{:>{}}\n", shown(setting["t_slip"], digits), digits.width(),
+                     shown(setting["t_spin"], digits), digits.width());
 }
 
 std::string typed_in(const std::string& name, const Json& parameter, const Digits& digits) {
   const std::string unit = parameter["unit"];
-  return fmt::format("{} = {}{}{}", name, number(parameter["value"], digits), unit.empty() ? "" : " ", unit);
+  return fmt::format("{} = {}{}{}", name, shown(parameter["value"], digits), unit.empty() ? "" : " ", unit);
 }
 
 std::string text_of_all(const Json& members, const Digits& digits) {
@@ -108,7 +45,7 @@ std::string text_of_all(const Json& members, const Digits& digits) {
   std::string text = fmt::format("\n{:<10}{:<{}}{:<10}{:>{}}{:>{}}\n{:<10}{:<{}}{:<10}", "engine", "type in", width,
                                  "cone", "slip (s)", digits.width(), "spin (s)", digits.width(), "the ball", "", width,
                                  members["law"].get<std::string>()) +
-                     times(members, digits);
+                     end_of_line(members, digits);
   for (const Json& engine : members["engines"]) {
     std::string parameter = "-";
     if (const Json& all = engine["parameters"]; !all.empty())
@@ -116,7 +53,7 @@ std::string text_of_all(const Json& members, const Digits& digits) {
     const Json& setting = engine["settings"][0];
     text += fmt::format("{:<10}{:<{}}{:<10}", engine["name"].get<std::string>(), parameter, width,
                         setting["cone"].get<std::string>()) +
-            times(setting, digits);
+            end_of_line(setting, digits);
   }
   return text + "\n" + explanation +
          "\n'contensou engine NAME --ball B' says what else an engine needs, what its defaults do, and where it says "
@@ -154,7 +91,7 @@ std::string text_of(const Engine& engine, const Json& members, const Digits& dig
   const auto line = [&](const std::string& label, const std::string& cone, const Json& of_line) {
     const double its_arm = of_line["moment_arm"];
     text += fmt::format("{:<{}}{:<9}{:>{}}{:>8.3g}", label, width, cone, digits(its_arm), digit_width, its_arm / arm) +
-            times(of_line, digits);
+            end_of_line(of_line, digits);
   };
   line("the ball, law " + members["law"].get<std::string>(), "", members);
   for (const Json& setting : of_engine["settings"]) line(setting["setting"], setting["cone"], setting);
@@ -164,27 +101,22 @@ std::string text_of(const Engine& engine, const Json& members, const Digits& dig
 }
 
 /// Of one engine, or of all.
-Answer answer_of(const Asked& asked, const Engine* only) {
-  Answer answer;
-  answer.members = asked.members();
-  for (const Engine& engine : si::engines()) {
-    if (only != nullptr && &engine != only) continue;
-    const Json of_engine = asked.members_of(engine);
-    answer.members["engines"].push_back(of_engine);
-    const Json& parameters = of_engine["parameters"];
-    for (const Json& setting : of_engine["settings"]) {
-      Json row{{"engine", engine.name}};
+Answer answer_of(const Json& members, const Engine* only) {
+  std::vector<Json> rows;
+  for (const Json& engine : members["engines"]) {
+    const Json& parameters = engine["parameters"];
+    for (const Json& setting : engine["settings"]) {
+      Json row{{"engine", engine["name"]}};
       row.update(setting);
       row["parameter"] = parameters.empty() ? "" : std::prev(parameters.end()).key();
       row["value"] = parameters.empty() ? Json("") : parameters.back()["value"];
-      row["law"] = {{"law", asked.law.name()}, {"law_t_slip", asked.fades.slip}, {"law_t_spin", asked.fades.spin}};
-      answer.rows.push_back(row);
+      row.update({{"law", members["law"]}, {"law_t_slip", members["t_slip"]}, {"law_t_spin", members["t_spin"]}});
+      rows.push_back(row);
     }
   }
-  answer.text = [asked, only, members = answer.members](const Digits& digits) {
-    return asked.heading(digits) + (only ? text_of(*only, members, digits) : text_of_all(members, digits));
-  };
-  return answer;
+  return {.members = members, .rows = rows, .text = [=](const Digits& digits) {
+            return heading(members, digits) + (only ? text_of(*only, members, digits) : text_of_all(members, digits));
+          }};
 }
 
 class EngineCommand final : public Verb {
@@ -198,8 +130,8 @@ class EngineCommand final : public Verb {
 
   ExitStatus run() override {
     const reduction::Law law = law_.read();
-    const Asked asked{start_.read_ball(law), law};
-    output_.read().write(answer_of(asked, engine_.given() ? *engine_ : nullptr));
+    const Engine* const only = engine_.given() ? *engine_ : nullptr;
+    output_.read().write(answer_of(engine_members(start_.read_ball(law), law, only), only));
     return ExitStatus::done;
   }
 

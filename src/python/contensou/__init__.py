@@ -12,10 +12,11 @@ Numbers may be arrays of any shapes that broadcast. What the library rejects is 
 """
 
 from ._balls import Ball, Event, Roll
+from ._engine import engine, engines
 from ._flow import Check, Checks, End, Flow, Law, Orbit, Ray, Terminal, check, law, stop_time
 from ._portrait import Portrait, portrait
 
 __all__ = [
     "Ball", "Check", "Checks", "End", "Event", "Flow", "Law", "Orbit", "Portrait", "Ray", "Roll", "Terminal",
-    "check", "law", "portrait", "stop_time",
+    "check", "engine", "engines", "law", "portrait", "stop_time",
 ]
