@@ -159,6 +159,9 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Star
   if (overrides.contains(si::patch_radius.name) && overrides.contains(si::spin_deceleration.name)) {
     throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
   }
+  if (overrides.contains(si::gravity.name) && overrides.contains(si::load.name)) {
+    throw BadInput("--gravity and --load exclude each other: give one of them");
+  }
   try {
     const si::Experiment experiment = read_shot(overrides, start);
     si::patch_radius_of(experiment, law);  // is one that it can have

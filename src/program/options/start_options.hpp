@@ -96,7 +96,7 @@ class StartOptions {
   /// What single options can change of a ball.
   static constexpr std::array quantities{
       &si::radius,  &si::mass, &si::friction, &si::patch_radius, &si::spin_deceleration,
-      &si::gravity, &si::slip, &si::spin};
+      &si::gravity, &si::load, &si::slip,     &si::spin};
 
   si::Experiment read_shot(const si::Overrides& overrides, const si::StartOverride& start) const;
   void require_one_kind() const;
