@@ -1,6 +1,7 @@
 #include "contensou/si/experiment.hpp"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -24,24 +25,27 @@ std::vector<GivenQuantity> given_by(const Start& start) {
   return {{&velocity, {centre.begin(), centre.end()}}, {&angular_velocity, {body.begin(), body.end()}}};
 }
 
+std::string origin_of(const PatchSource& patch) {
+  if (std::holds_alternative<PatchRadius>(patch)) return "given";
+  if (std::holds_alternative<HertzModuli>(patch)) return "by Hertz's formula";
+  return fmt::format("from its spin deceleration {} rad/s^2", std::get<SpinDeceleration>(patch).value);
+}
+
 double patch_radius_of(const Experiment& experiment, const reduction::Law& law) {
   const auto& [ball, contact, start, environment] = experiment;
   double patch = 0;
-  std::string origin = "given";
   if (const auto* given = std::get_if<PatchRadius>(&contact.patch)) {
     patch = given->value;
   } else if (const auto* measured = std::get_if<SpinDeceleration>(&contact.patch)) {
     patch = patch_radius_of_deceleration(ball.radius, measured->value, contact.friction, environment.gravity,
                                          law.pivoting_moment());
-    origin = fmt::format("from a spin deceleration of {} rad/s^2, under law {}", measured->value, law.name());
   } else {
     patch = hertz_patch_radius(ball.mass * environment.gravity, ball.radius, std::get<HertzModuli>(contact.patch));
-    origin = "from Hertz's formula";
   }
   if (patch > 0 && patch <= ball.radius) return patch;
   throw std::domain_error(
-      fmt::format("the patch radius must be above 0 and at most the ball's radius {} m, got {} m ({})", ball.radius,
-                  patch, origin));
+      fmt::format("the patch radius must be above 0 and at most the ball's radius {} m, got {} m ({}, under law {})",
+                  ball.radius, patch, origin_of(contact.patch), law.name()));
 }
 
 Velocities velocities_of(const Start& start) {
@@ -52,7 +56,12 @@ Velocities velocities_of(const Start& start) {
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment) {
   const auto [centre, body] = velocities_of(experiment.start);
   const double R = experiment.ball.radius;
-  return {centre.x() - R * body.y(), centre.y() + R * body.x()};
+  // What is left of a sum by the rounding of its terms is 0: a ball that is to roll rolls.
+  const auto sum = [](double a, double b) {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    return std::abs(a + b) <= rounding * std::abs(a) ? 0 : a + b;
+  };
+  return {sum(centre.x(), -R * body.y()), sum(centre.y(), R * body.x())};
 }
 
 double slip_at_start(const Experiment& experiment) {

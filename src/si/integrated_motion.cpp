@@ -1,5 +1,5 @@
 // Notation: V, omega velocities of ball and centre, c = (Vx - R omega_y, Vy + R omega_x) that of the contact point,
-// (2.1), v = |c|, alpha its direction, e = c/v. Friction is the force -f N Phi e at the contact point, the moment
+// (2.1), v = |c|, e = c/v, alpha the angle from that of the start to it. Friction is the force -f N Phi e at the contact point, the moment
 // -f N eps Psi sign(omega_z) about the vertical:
 //   m V' = F,   J omega_x' = R F_y,  J omega_y' = -R F_x,  J omega_z' = M                    (2.5)
 // Units of the integration: speed scale for R omega, time scale T for t, their product for the position, the slip
@@ -43,14 +43,17 @@ struct Ballistics {
   double R, m, J;
   double normal_friction;  ///< f N
   double eps;
-  double turn;  ///< sign of omega_z
+  double turn;     ///< sign of omega_z
+  Vector2d along;  ///< e at the start, from which alpha counts
   double speed_scale;
   double time_scale;
   double slip_scale;
 
   double slip(const Values& x) const { return speed_scale * std::exp(x[0]); }
   double spin(const Values& x) const { return speed_scale * std::exp(x[2]) / R; }  // |omega_z|
-  Vector2d direction(const Values& x) const { return {std::cos(x[1]), std::sin(x[1])}; }
+  Vector2d direction(const Values& x) const {
+    return std::cos(x[1]) * along + std::sin(x[1]) * Vector2d(-along.y(), along.x());
+  }
   Vector3d angular_velocity(const Values& x) const {
     return {speed_scale / R * x[3], speed_scale / R * x[4], turn * spin(x)};
   }
@@ -219,6 +222,7 @@ IntegratedMotion integrate_motion(const Experiment& experiment, const reduction:
       .normal_friction = experiment.contact.friction * experiment.ball.mass * experiment.environment.gravity,
       .eps = patch_radius_of(experiment, law),
       .turn = std::copysign(1.0, spin),
+      .along = v0 > 0 ? Vector2d(contact / v0) : Vector2d(1, 0),
       .speed_scale = std::max({start.velocity.norm(), R * start.angular_velocity.norm()}),
       .time_scale = 1,
       .slip_scale = 1};
@@ -226,7 +230,7 @@ IntegratedMotion integrate_motion(const Experiment& experiment, const reduction:
   if (v0 > 0) ball.slip_scale = v0 * ball.slip_time_left(v0);
   const double speed = ball.speed_scale;
   Values x{std::log(v0 / speed),
-           std::atan2(contact.y(), contact.x()),
+           0,
            std::log(R * std::abs(spin) / speed),
            R * start.angular_velocity.x() / speed,
            R * start.angular_velocity.y() / speed,

@@ -25,7 +25,7 @@ MotionPoint RollingFriction::operator()(MotionPoint free) const {
   const double rolled = std::min(free.t - rolls_.t, whole);
   const double speed = rolled < whole ? speed_ - deceleration_ * rolled : 0;
   free.position = rolls_.position + (speed_ + speed) / 2 * rolled * direction_;
-  free.velocity = speed * direction_;
+  free.velocity = speed * direction_ + Eigen::Vector2d::Zero();  // no -0
   free.angular_velocity.head<2>() = Eigen::Vector2d(0 - free.velocity.y(), free.velocity.x()) / ball_.radius;
   free.slip = 0;
   free.energy = kinetic_energy(ball_, {free.velocity, free.angular_velocity});

@@ -159,13 +159,13 @@ class Reader {
     allow(ball, {"name", mass.name, radius.name});
     allow(contact, {friction.name, patch_radius.name, spin_deceleration.name, "hertz"});
     allow(start, {slip.name, spin.name, velocity.name, angular_velocity.name});
-    allow(environment, {gravity.name, load.name});
+    allow(environment, {gravity.name});
 
     const Experiment experiment{
         .ball = {.name = name(ball), .mass = number(ball, mass), .radius = number(ball, radius)},
         .contact = {.friction = number(contact, friction), .patch = patch(contact)},
         .start = start_of(start),
-        .environment = {.gravity = gravity_of(environment, ball)},
+        .environment = {.gravity = number(environment, gravity, Environment{}.gravity)},
     };
     // Of values that the file does not have it is not the place.
     if (overrides_.empty()) {
@@ -281,21 +281,6 @@ class Reader {
     return values;
   }
 
-  /// By gravity, or by the load over the mass.
-  double gravity_of(const Section& environment, const Section& ball) const {
-    const bool load_given = overrides_.contains(load.name);
-    const bool gravity_given = overrides_.contains(gravity.name);
-    if (load_given && gravity_given) {
-      throw std::domain_error("a load and a gravity exclude each other: give one of them");
-    }
-    const bool load_in_file = environment.table->contains(load.name);
-    if (load_in_file && environment.table->contains(gravity.name)) {
-      fail(environment.position, "'load' and 'gravity' in [environment] exclude each other: give one of them");
-    }
-    return load_given || (load_in_file && !gravity_given) ? number(environment, load) / number(ball, mass)
-                                                          : number(environment, gravity, Environment{}.gravity);
-  }
-
   Start start_of(const Section& start) const {
     if (start_.velocity && start_.angular_velocity) return Velocities{*start_.velocity, *start_.angular_velocity};
     Start given = given_start(start);
@@ -372,7 +357,7 @@ Experiment parse_run_file(std::string_view text, std::string_view source, const 
   for (const auto& [name, value] : overrides) {
     const Quantity* known = nullptr;
     for (const Quantity* quantity :
-         {&mass, &radius, &friction, &patch_radius, &spin_deceleration, &slip, &spin, &gravity, &load}) {
+         {&mass, &radius, &friction, &patch_radius, &spin_deceleration, &slip, &spin, &gravity}) {
       if (quantity->name == name) known = quantity;
     }
     if (known == nullptr) throw std::domain_error(fmt::format("parse_run_file: no value is called '{}'", name));
@@ -381,14 +366,18 @@ Experiment parse_run_file(std::string_view text, std::string_view source, const 
   return Reader(source, overrides, start).read(text);
 }
 
-Experiment read_run_file(const std::string& path, const Overrides& overrides, const StartOverride& start) {
+std::string read_run_text(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   std::string text(max_size + 1, '\0');
   if (file) text.resize(std::fread(text.data(), 1, text.size(), file.get()));
   if (!file || std::ferror(file.get()) != 0) {
     throw std::system_error(errno, std::generic_category(), "cannot read " + path);
   }
-  return parse_run_file(text, path, overrides, start);
+  return text;
+}
+
+Experiment read_run_file(const std::string& path, const Overrides& overrides, const StartOverride& start) {
+  return parse_run_file(read_run_text(path), path, overrides, start);
 }
 
 std::string run_file(const Experiment& experiment, std::string_view remark) {

@@ -112,3 +112,17 @@ TEST_CASE("without an ending, what standard output would get", "[cli]") {
     }
   }
 }
+
+TEST_CASE("what is of a picture alone is refused with numbers", "[cli]") {
+  for (const std::string numbers : {"roll --ball pool", "roll --ball pool --format text", "law --k 1",
+                                    "portrait --mu 1 -o - --format csv", "sweep --mu 1 --u0 0:1:2 --v0 0:1:2"}) {
+    for (const std::string option : {"--size single", "--title none", "--dpi 300", "--font Serif"}) {
+      check_rejected(numbers + " " + option, option.substr(0, option.find(' ')) + ": ");
+      check_rejected(numbers + " " + option, "is no picture; leave that out, or write one, as in -o figure.svg");
+    }
+  }
+  for (const std::string option : {"--arrows one", "--field", "--axes off", "--colour none", "--style screen"}) {
+    check_rejected("portrait --mu 1 -o - --format json " + option, "json is no picture");
+  }
+  check_rejected("law --k 1 --surface", "--surface: csv is no picture");
+}

@@ -63,6 +63,7 @@ TEST_CASE("topics of help", "[cli]") {
   CHECK_THAT(run_program("help units").out, Contains("m, cm, mm, in or ft") && Contains("rev/s or rpm"));
   CHECK_THAT(run_program("help files").out, Contains("spin_deceleration") && Contains("[contact.hertz]"));
   CHECK_THAT(run_program("help roll").out, Contains("slip_length") && Contains("rolling-friction"));
+  CHECK_THAT(run_program("help roll").out, Contains("squirt") && Contains("by the same threshold"));
   check_rejected("help unit", "no such topic (did you mean 'units'?); topics: laws, views, units, files, balls, check");
   check_rejected("help stop law", "unexpected argument 'law'");
 }
@@ -107,7 +108,9 @@ TEST_CASE("values in other units", "[cli]") {
   }
   const Run refused = run_program(pool({"--slip", "2 furlongs"}));
   CHECK(refused.status == 2);
-  CHECK_THAT(refused.err, Contains("--slip: '2 furlongs' is not a number") && Contains("in m/s, or with m/s, cm/s"));
+  CHECK_THAT(refused.err, Contains("--slip: '2 furlongs' has the unit 'furlongs', which is none of m/s, cm/s"));
+  CHECK_THAT(run_program(pool({"--slip", "two"})).err,
+             Contains("'two' is not a number") && Contains("in m/s, or with m/s, cm/s"));
   CHECK_THAT(run_program(pool({"--spin", "3 m/s"})).err, Contains("rad/s, deg/s, rev/s or rpm"));
   CHECK_THAT(run_program({"stop", "--mu", "1", "--u0", "1", "--v0", "1 m/s"}).err, Contains("'1 m/s' is not a number"));
   const std::vector<std::string> sweep{"sweep", "--ball", "pool", "--spin", "0:60 rpm:2", "--slip", "100:200 cm/s:2"};

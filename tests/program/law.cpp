@@ -1,4 +1,5 @@
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -130,4 +131,20 @@ TEST_CASE("a table that no speed of the curves resolves is a numerical failure w
   CHECK(run.status == 3);
   CHECK(run.out.empty());
   CHECK_THAT(run.err, Contains("dot.csv") && Contains("1e-11") && Contains("radius of the loaded part"));
+}
+
+TEST_CASE("a picture of a law shows that law; the paper's two are compared", "[cli]") {
+  const auto curves = [](const std::string& arguments) {
+    const std::string script = run_program("law " + arguments + " -o - --format gp").out;
+    std::vector<std::string> shown;
+    for (const std::string law : {"exact", "pade", "punch", "uniform", "ring"}) {
+      if (script.find(law + "}' at") != std::string::npos) shown.push_back(law);
+    }
+    return shown;
+  };
+  CHECK(curves("") == std::vector<std::string>{"exact", "pade"});
+  CHECK(curves("--law pade") == std::vector<std::string>{"exact", "pade"});
+  CHECK(curves("--law punch") == std::vector<std::string>{"punch"});
+  CHECK(curves("--law punch --surface") == std::vector<std::string>{"exact", "pade", "punch", "uniform", "ring"});
+  CHECK_THAT(run_program("law --law punch -o - --format gp").out, !Contains("Zh98"));
 }

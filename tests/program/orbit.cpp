@@ -102,3 +102,20 @@ TEST_CASE("motions along the axes and at rest", "[limit]") {
     }
   }
 }
+
+TEST_CASE("instants of a ball in seconds", "[cli]") {
+  using Catch::Matchers::Contains;
+  const auto seconds = rows_of(run_program({"orbit", "--ball", "pool", "--at", "1, 2 s"}).out);
+  REQUIRE(seconds.size() == 3);
+  CHECK(std::stod(seconds[1].back()) == Approx(1).epsilon(1e-15));
+  CHECK(std::stod(seconds[2].back()) == Approx(2).epsilon(1e-15));
+  CHECK(rows_of(run_program({"orbit", "--ball", "pool", "--at", "2000 ms"}).out)[1] == seconds[2]);
+  CHECK(rows_of(run_program("orbit --ball pool --at " + seconds[2][0]).out)[1] == seconds[2]);  // a number is tau
+  const auto left = rows_of(run_program({"orbit", "--ball", "pool", "--time-left", "3 s"}).out);
+  const double stop = json_of("stop --ball pool --format json").at("t_stop").get<double>();
+  CHECK(std::stod(left[1].back()) == Approx(stop - 3).epsilon(1e-13));
+  const Run unknown = run_program({"orbit", "--mu", "1", "--u0", "1", "--v0", "1", "--at", "2 s"});
+  CHECK(unknown.status == 2);
+  CHECK_THAT(unknown.err, Contains("add --ball"));
+  CHECK_THAT(run_program({"orbit", "--ball", "pool", "--at", "2 Hz"}).err, Contains("none of s, ms or min"));
+}

@@ -33,6 +33,7 @@ std::map<std::string, std::vector<double>> columns_of(const std::string& argumen
 }
 
 const std::string general_file = R"([ball]
+name = "pool ball on cloth"
 mass = 0.1701
 radius = 0.028575
 [contact]
@@ -356,8 +357,37 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
   write_file(file, general_file + "spin = 3\n");
   const Run mixed = run_program("roll --ball " + file);
   CHECK(mixed.status == 2);
-  CHECK_THAT(mixed.err, StartsWith(file + ":10:1: ") && Contains("exclude each other"));
+  CHECK_THAT(mixed.err, StartsWith(file + ":11:1: ") && Contains("exclude each other"));
   write_file(file, general_file);
   CHECK(run_program("roll --spin 3 --ball " + file).status == 2);
   CHECK(run_program("roll --ball nosuch.toml").status == 4);
+}
+
+TEST_CASE("what is 0 by symmetry is 0, and nothing is -0", "[cli]") {
+  // A stroke 2/5 of a radius above the centre makes a ball roll at once.
+  const auto rolls = json_of("roll --ball pool --strike 2 --tip 0,0.4 --format json --samples 3");
+  CHECK(rolls.at("slip") == nlohmann::json{0, 0, 0});
+  CHECK(rolls.at("t_stop") == 0);
+  for (const std::string start :
+       {"--velocity=-1,0 --angular-velocity 0,0,0", "--velocity=-1,0 --angular-velocity 0,0,5",
+        "--velocity 0,-1 --angular-velocity 0,0,0"}) {
+    const bool along_x = start.find("-1,0 ") != std::string::npos;
+    for (const std::string route : {"reduced", "integrated"}) {
+      const Run run =
+          run_program("roll --ball pool --samples 7 --rolling-friction 0.01 --route " + route + " " + start);
+      CAPTURE(start, route);
+      const auto rows = rows_of(run.out);
+      const auto header = std::ranges::find(rows, "t", [](const auto& row) { return row.front(); });
+      REQUIRE(rows.end() - header == 8);
+      for (auto row = header + 1; row != rows.end(); ++row) {
+        for (const std::string& cell : *row) CHECK(cell != "-0");
+        for (std::size_t i = 0; i < row->size(); ++i) {
+          const std::string& name = (*header)[i];
+          const bool across =
+              along_x ? name == "y" || name == "vy" || name == "wx" : name == "x" || name == "vx" || name == "wy";
+          if (across) CHECK((*row)[i] == "0");
+        }
+      }
+    }
+  }
 }

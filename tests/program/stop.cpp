@@ -17,21 +17,10 @@ using namespace contensou::reduction;
 using Catch::Matchers::Contains;
 using nlohmann::json;
 
-TEST_CASE("a ball that is pressed on the plane", "[invariant]") {
-  const auto stop = [](const std::string& options) { return json_of("stop --format json --ball steel " + options); };
-  // Its weight as a load is nothing new.
-  CHECK(stop("--load 0.320677455").at("t_stop").get<double>() ==
-        Approx(stop("").at("t_stop").get<double>()).epsilon(1e-14));  // 0.0327 kg * 9.80665 m/s^2
-  // 100 N on 33 g: friction f N in place of f m g, and Hertz's patch of that load, eps^3 ~ N.
-  const json pressed = stop("--load 100N --spin 0");
-  CHECK(pressed.at("t_stop").get<double>() == Approx(2 * 0.5 * 0.0327 / (7 * 0.12 * 100)).epsilon(1e-12));
-  const double share = 100 / 0.320677455;
-  CHECK(pressed.at("mu").get<double>() == Approx(std::cbrt(share) * stop("").at("mu").get<double>()).epsilon(1e-12));
-}
-
 TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
   const json stop = json_of("stop --law pade --mu 0.1 --u0 2 --v0 1 --format json");
-  CHECK(stop.size() == 13);
+  CHECK(stop.size() == 14);
+  CHECK(stop.contains("version"));
   CHECK(stop.at("schema") == 1);
   CHECK(stop.at("law") == "pade");
   CHECK(stop.at("route") == "closed");
@@ -75,7 +64,7 @@ TEST_CASE("the law is exact, or that of the body's own pressure", "[cli]") {
 
 TEST_CASE("stop of a ball has seconds and the final motion", "[cli]") {
   const json stop = json_of("stop --ball pool --format json");
-  CHECK(stop.size() == 15);
+  CHECK(stop.size() == 19);
   CHECK(stop.at("t_stop").get<double>() == Approx(10.1).margin(0.05));
   CHECK(stop.at("final").at("velocity").size() == 2);
   CHECK(stop.at("final").at("velocity").at(0).get<double>() == Approx(5.0 / 7).epsilon(1e-15));
@@ -170,7 +159,7 @@ TEST_CASE("overrides act as if the run file had said so", "[cli]") {
     }
   }
   check_rejected("stop --ball pool --spin-deceleration 1e6",
-                 "from a spin deceleration of 1000000 rad/s^2, under law exact");
+                 "from its spin deceleration 1000000 rad/s^2, under law exact");
 }
 
 TEST_CASE("a known accuracy is in every format", "[cli]") {
@@ -213,4 +202,70 @@ TEST_CASE("stop --estimate: the estimates for small mu and what they miss by", "
   CHECK_THAT(run_program("stop --mu 1 --u0 1 --v0 1 --estimate").out, Contains("not small"));
   CHECK_THAT(run_program("stop --mu 1e-100 --u0 1e300 --v0 1 --estimate --format json").out, !Contains("nan"));
   CHECK(run_program("stop --batch - --estimate", "mu,u0,v0\n0.1,1,1\n").status == 2);
+}
+
+TEST_CASE("a patch that follows from a spin deceleration says so, and when it changes", "[cli]") {
+  CHECK_THAT(run_program("stop --ball pool").out,
+             Contains("patch radius 0.00282703 m, from its spin deceleration 10 rad/s^2: mu = 0.0989337\n"));
+  CHECK_THAT(run_program("stop --ball steel").out, Contains("m, by Hertz's formula: mu"));
+  CHECK_THAT(run_program("roll --ball pool --patch-radius 0.002 --format text").out,
+             Contains("patch radius 0.002 m, given: mu = 0.0699913\n"));
+  for (const auto& [changed, patch] : {std::pair{"--gravity 1.62", "0.0171134"},
+                                       {"--friction 0.1", "0.00565406"},
+                                       {"--radius 0.03", "0.003116"},
+                                       {"--law uniform", "0.00249789"}}) {
+    for (const std::string verb : {"stop", "orbit", "roll", "portrait -o - --format csv"}) {
+      const Run run = run_program(fmt::format("{} --ball pool {}", verb, changed));
+      INFO(verb << changed);
+      CHECK(run.status == 0);
+      CHECK_THAT(run.err, Contains(fmt::format("goes from 0.00282703 m to {}", patch)) &&
+                              Contains("--patch-radius 0.00282703 keeps"));
+      CHECK(json_of(fmt::format("stop --format json --ball pool {} --patch-radius 0.00282703", changed))
+                .at("ball")
+                .at("patch_radius") == 0.00282703);
+    }
+  }
+  for (const std::string silent :
+       {"--mass 1", "--law pade", "--gravity 1.62 --spin-deceleration 10", "--gravity 1.62 --patch-radius 0.003"}) {
+    CHECK(run_program("stop --ball pool " + silent).err.empty());
+  }
+  CHECK(run_program("stop --ball steel --gravity 1.62").err.empty());
+  // A file that leaves a value to the command line has no patch of its own.
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("b.toml"),
+             "[ball]\nmass=1\nradius=0.1\n[contact]\nspin_deceleration=10\n[start]\nslip=1\nspin=1\n");
+  const Run run = run_program("stop --ball " + scratch.file("b.toml") + " --friction 0.9");
+  CHECK(run.status == 0);
+  CHECK(run.err.empty());
+}
+
+TEST_CASE("data of a ball say which ball it is", "[cli]") {
+  for (const std::string verb : {"stop", "orbit", "roll"}) {
+    const json answer = json_of(verb + " --ball pool --format json");
+    CAPTURE(verb);
+    CHECK_THAT(answer.at("version").get<std::string>(), Catch::Matchers::StartsWith("0."));
+    const json& ball = answer.at("ball");
+    CHECK(ball.at("name") == "pool ball on cloth");
+    CHECK(ball.at("radius") == 0.028575);
+    CHECK(ball.at("mass") == 0.1701);
+    CHECK(ball.at("friction") == 0.2);
+    CHECK(ball.at("gravity") == 9.80665);
+    CHECK(ball.at("spin_deceleration") == 10);
+    CHECK(ball.at("patch_radius").get<double>() == Approx(0.00282703).epsilon(1e-6));
+  }
+  const json stop = json_of("stop --ball pool --slip 2 --spin 50 --format json");
+  CHECK(stop.at("slip") == 2);
+  CHECK(stop.at("spin") == 50);
+  CHECK(json_of("stop --ball steel --format json").at("ball").at("youngs_modulus") == json{2.1e11, 7e10});
+  CHECK_THAT(
+      run_program("roll --ball pool --samples 2").out,
+      Contains("\n# ball: {\"name\": \"pool ball on cloth\", \"radius\": 0.028575") && Contains("\n# version: \"0."));
+}
+
+TEST_CASE("the error under a pressure from a table is not promised", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("p.csv"), "rho,pressure\n0,1\n0.5,2\n0.5,1\n1,0.2\n");
+  const std::string start = "stop --mu 1 --u0 1 --v0 1 --law ";
+  CHECK_THAT(run_program(start + scratch.file("p.csv")).out, Contains("numerical error some 2e-15 of it"));
+  CHECK_THAT(run_program(start + "ring").out, Contains("numerical error below 2e-15 of it"));
 }

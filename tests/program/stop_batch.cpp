@@ -53,8 +53,8 @@ TEST_CASE("a batch of a ball has SI columns", "[cli]") {
   CHECK(std::stod(rows[1][3]) == Approx(10.10502826).epsilon(1e-9));
   CHECK(std::stod(rows[2][3]) == Approx(5).epsilon(1e-14));
   CHECK(std::stod(rows[3][3]) == Approx(4 / (7 * 0.2 * 9.80665)).epsilon(1e-14));
-  CHECK_THAT(run_program("stop --ball pool --batch -", "mu,u0,v0\n1,1,1\n").err,
-             Contains("no column is called 'spin'"));
+  CHECK_THAT(run_program("stop --ball pool --batch -", "mu,u0,v0\n1,1,1\n").err, Contains("are starts without --ball"));
+  CHECK_THAT(run_program("stop --ball pool --batch -", "slip\n1\n").err, Contains("no column is called 'spin'"));
   CHECK_THAT(run_program("stop --ball pool --batch -", "slip,spin\n-1,1\n").err,
              Contains("<stdin>:2: slip: slip >= 0"));
   check_rejected("stop --ball pool --slip 1 --batch -", "the starts are in the file");
@@ -320,4 +320,9 @@ TEST_CASE("a batch is written to a file whole or not at all", "[cli]") {
   CHECK(read_file(scratch.file("table.csv")) == "mu,u0,v0,tau_stop\n1,0,0,0\n");
   CHECK(scratch.names() == std::vector<std::string>{"table.csv"});
   CHECK(run_program("stop --batch " + scratch.path().string()).status == 4);
+}
+
+TEST_CASE("a table of the other kind of starts is told what it needs", "[cli]") {
+  check_rejected("stop --batch -", "<stdin>:1: columns slip, spin are in SI units: add --ball", "slip,spin\n1,2\n");
+  check_rejected("stop --ball pool --batch -", "roll --batch", "vx,vy,wx,wy,wz\n1,1,1,1,1\n");
 }

@@ -93,5 +93,5 @@ TEST_CASE("the patch is no larger than the ball", "[limit]") {
   CHECK_THROWS_WITH(require_experiment(experiment), Contains("0.031") && Contains("at most the ball's radius 0.03"));
   experiment.contact.patch = SpinDeceleration{1e6};
   CHECK_THROWS_WITH(patch_radius_of(experiment, PressureLaw::ring()),
-                    Contains("from a spin deceleration of 1000000 rad/s^2, under law ring"));
+                    Contains("from its spin deceleration 1000000 rad/s^2, under law ring"));
 }

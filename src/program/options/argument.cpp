@@ -71,6 +71,13 @@ double parse_quantity(const std::string& typed, std::string_view symbol) {
   if (dimension == nullptr || is_number(typed)) return parse_number(typed);
   const double value = si::parse_quantity(typed, *dimension).value_or(NAN);
   if (std::isfinite(value)) return value;
+  std::size_t size = typed.size();
+  while (size > 0 && !is_number(typed.substr(0, size))) --size;
+  if (size > 0 && decimal_hint(typed)[0] == '\0') {
+    const std::string unit = typed.substr(std::min(typed.find_first_not_of(' ', size), typed.size()));
+    throw BadInput(fmt::format("{} has the unit {}, which is none of {}", quotation(typed), quotation(unit),
+                               si::units_of(*dimension)));
+  }
   throw BadInput(fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3, in {}, or with {} behind it{}",
                              quotation(typed), symbol, si::units_of(*dimension), decimal_hint(typed)));
 }

@@ -58,6 +58,12 @@ void FigureOptions::add(CLI::App& app, bool several) {
   dpi_.add(app, "--dpi", "N", "dots per inch of a png, 50 to 1200 (default 300)", whole_number(50, 1200));
 }
 
+void require_picture(const std::string& names, const Output& output) {
+  if (names.empty() || output.picture()) return;
+  throw BadInput(
+      fmt::format("{}: {} is no picture; leave that out, or write one, as in -o figure.svg", names, output.format));
+}
+
 portraits::Figure FigureOptions::apply(portraits::Figure figure, const std::string& format) const {
   if (title_.given()) {
     figure.title = title_.text() == "none" ? "" : portraits::literal(title_.text(), 200);

@@ -4,8 +4,12 @@
 
 #include "contensou/portraits/figure.hpp"
 #include "options/argument.hpp"
+#include "options/output_options.hpp"
 
 namespace contensou::program {
+
+/// Throws BadInput unless a picture is written, or no options are named.
+void require_picture(const std::string& names, const Output& output);
 
 /// How a figure looks on a journal's page: --size, --font, --title and --dpi.
 class FigureOptions {
@@ -15,6 +19,9 @@ class FigureOptions {
 
   /// The options that were given, for a message.
   std::string names() const { return names_given({&size_, &font_, &title_, &dpi_}); }
+
+  /// Throws BadInput if one of them was given and no picture is written.
+  void require_picture(const Output& output) const { program::require_picture(names(), output); }
 
   /// --size; nothing of it without the option.
   portraits::AskedSize size() const { return size_.value_or(portraits::AskedSize{}); }

@@ -17,14 +17,17 @@ Eigen::ArrayXd instants(Eigen::Index count, double busy, double end) {
   return all;
 }
 
-Eigen::ArrayXd InstantsOption::read_times(const std::string& typed, const std::string& time, std::string_view unit) {
+InstantsOption::Times InstantsOption::read_times(const std::string& typed, const std::string& time,
+                                                 std::string_view unit) {
   const bool is_file = typed == "-" || names_a_file(typed, {".csv", ".txt"});
+  const std::vector<std::string> texts = split(typed, ',');
+  const bool in_seconds = unit.empty() && !is_file && !std::ranges::all_of(texts, is_number);
   const std::vector<double> times =
-      is_file ? read_column(typed, time, Infinity::forbidden) : parse_quantities(split(typed, ','), unit);
+      is_file ? read_column(typed, time, Infinity::forbidden) : parse_quantities(texts, in_seconds ? "s" : unit);
   if (const auto early = std::ranges::find_if(times, [](double at) { return at < 0; }); early != times.end()) {
     throw NotAllowed(fmt::format("{} is not allowed: {} >= 0 is required", *early, time));
   }
-  return Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size()));
+  return {Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())), in_seconds};
 }
 
 CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const std::string& unit,
@@ -35,7 +38,8 @@ CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const s
   CLI::Option* at =
       at_.add(app, "--at", "T1,T2,...|FILE",
               fmt::format("these {0} >= 0{1}, in any order; FILE has a column {0}, or one number a line", time,
-                          unit.empty() ? "" : ", in " + std::string(si::find_dimension(unit)->words)),
+                          unit.empty() ? "; of a ball also in seconds, as in '1,2 s'"
+                                       : ", in " + std::string(si::find_dimension(unit)->words)),
               read);
   samples_
       .add(app, "--samples", "N",

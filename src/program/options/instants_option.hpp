@@ -17,19 +17,25 @@ Eigen::ArrayXd instants(Eigen::Index count, double busy, double end);
 class InstantsOption {
  public:
   /// @param time    its name, as of a column in the file of --at
-  /// @param unit    its symbol, or none
+  /// @param unit    its symbol; or none, for the paper's time
   /// @param extent  of those of --samples: "" or " from WHERE to WHERE"
   /// @return        --at
   CLI::Option* add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
 
-  /// A list of times >= 0, or the column of that name in a file.
-  /// @param unit  of the list, as parse_quantity
-  static Eigen::ArrayXd read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
+  /// Times >= 0.
+  struct Times {
+    Eigen::ArrayXd values;
+    bool in_seconds = false;
+  };
+
+  /// A list of times, or the column of that name in a file.
+  /// @param unit  of the list, as parse_quantity; without one the list has no unit, or is in seconds
+  static Times read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
 
   bool given() const { return at_.given() || samples_.given() || equidistant_; }
 
   /// Those of --at, in the order given; null without it.
-  const Eigen::ArrayXd* at() const { return at_.given() ? &*at_ : nullptr; }
+  const Times* at() const { return at_.given() ? &*at_ : nullptr; }
 
   /// That of --samples.
   std::optional<Eigen::Index> asked() const { return samples_.optional(); }
@@ -40,13 +46,13 @@ class InstantsOption {
 
   /// Those of --at, or as instants().
   Eigen::ArrayXd between(double busy, double end) const {
-    return at_.given() ? *at_ : instants(samples(), equidistant_ ? 0 : busy, end);
+    return at_.given() ? at_->values : instants(samples(), equidistant_ ? 0 : busy, end);
   }
 
  private:
   static constexpr long standard_samples = 200;
 
-  ArgumentOf<Eigen::ArrayXd> at_;
+  ArgumentOf<Times> at_;
   ArgumentOf<long> samples_;
   bool equidistant_ = false;
 };

@@ -1,11 +1,14 @@
 #include "options/start_options.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
@@ -159,12 +162,11 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Star
   if (overrides.contains(si::patch_radius.name) && overrides.contains(si::spin_deceleration.name)) {
     throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
   }
-  if (overrides.contains(si::gravity.name) && overrides.contains(si::load.name)) {
-    throw BadInput("--gravity and --load exclude each other: give one of them");
-  }
   try {
-    const si::Experiment experiment = read_shot(overrides, start);
+    const BallText text = read_text();
+    const si::Experiment experiment = text.parsed(overrides, start);
     si::patch_radius_of(experiment, law);  // is one that it can have
+    tell_new_patch(text, overrides, experiment, law);
     return experiment;
   } catch (const si::RunFileError&) {
     throw;
@@ -176,11 +178,29 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Star
   }
 }
 
-si::Experiment StartOptions::read_shot(const si::Overrides& overrides, const si::StartOverride& start) const {
-  if (names_a_file(ball_.text(), {".toml"})) return si::read_run_file(ball_.text(), overrides, start);
+StartOptions::BallText StartOptions::read_text() const {
+  if (names_a_file(ball_.text(), {".toml"})) return {si::read_run_text(ball_.text()), ball_.text()};
   const si::CatalogueEntry& entry = require_ball(ball_.text());
-  return si::parse_run_file(si::run_file(entry.experiment, entry.sources), "built-in ball " + entry.name, overrides,
-                            start);
+  return {si::run_file(entry.experiment, entry.sources), "built-in ball " + entry.name};
+}
+
+void StartOptions::tell_new_patch(const BallText& text, si::Overrides overrides, const si::Experiment& experiment,
+                                  const reduction::Law& law) const {
+  const auto* measured = std::get_if<si::SpinDeceleration>(&experiment.contact.patch);
+  if (measured == nullptr || overrides.contains(si::spin_deceleration.name)) return;
+  for (const si::Quantity* changing : {&si::radius, &si::friction, &si::gravity}) overrides.erase(changing->name);
+  double own = 0;
+  try {
+    own = si::patch_radius_of(text.parsed(overrides, {}), reduction::HertzLaw{});
+  } catch (const std::domain_error&) {
+    return;  // the file leaves one of them to the command line
+  }
+  const double patch = si::patch_radius_of(experiment, law);
+  if (std::abs(patch - own) <= 1e-12 * own) return;
+  fmt::print(stderr,
+             "note: the patch radius goes from {:.6g} m to {:.6g} m: what was measured is the spin deceleration,\n"
+             "{} rad/s^2, and it is kept; --patch-radius {:.6g} keeps the patch instead\n",
+             own, patch, measured->value, own);
 }
 
 }  // namespace contensou::program

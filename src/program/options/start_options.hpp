@@ -96,9 +96,24 @@ class StartOptions {
   /// What single options can change of a ball.
   static constexpr std::array quantities{
       &si::radius,  &si::mass, &si::friction, &si::patch_radius, &si::spin_deceleration,
-      &si::gravity, &si::load, &si::slip,     &si::spin};
+      &si::gravity, &si::slip, &si::spin};
 
-  si::Experiment read_shot(const si::Overrides& overrides, const si::StartOverride& start) const;
+  /// The ball's run file, also of one that is built in.
+  struct BallText {
+    std::string text, source;
+
+    si::Experiment parsed(const si::Overrides& overrides, const si::StartOverride& start) const {
+      return si::parse_run_file(text, source, overrides, start);
+    }
+  };
+
+  BallText read_text() const;
+
+  /// Says on standard error where the patch that a measured spin deceleration stands for is not that of the ball's own
+  /// values, because some of them or the law were replaced.
+  void tell_new_patch(const BallText& text, si::Overrides overrides, const si::Experiment& experiment,
+                      const reduction::Law& law) const;
+
   void require_one_kind() const;
   std::string override_names() const;
 

@@ -66,8 +66,9 @@ std::string as_csv(const std::vector<Json>& rows) {
   return text;
 }
 
-std::string remarks(const Json& members) {
+std::string remarks(Json members) {
   std::string text;
+  if (!members.empty()) members["version"] = CONTENSOU_VERSION;
   for (const auto& [name, value] : members.items()) {
     text += fmt::format("# {}: ", name);
     portraits::append_json(text, value);
@@ -77,7 +78,7 @@ std::string remarks(const Json& members) {
 }
 
 std::string as_json(const Answer& answer, Digits /*all*/) {
-  Json document{{"schema", 1}};
+  Json document{{"schema", 1}, {"version", CONTENSOU_VERSION}};
   document.update(answer.members);
   for (const auto& [name, values] : answer.columns) document[name] = std::vector(values.begin(), values.end());
   return portraits::json_document(document);
@@ -88,7 +89,8 @@ std::string as_csv(const Answer& answer, Digits /*all*/) {
 }
 
 std::string as_text(const Answer& answer, Digits digits) {
-  return answer.text ? answer.text(digits) : as_text(answer.columns, digits);
+  if (answer.text) return answer.text(digits);
+  return answer.columns.empty() ? as_csv(answer.rows) : as_text(answer.columns, digits);
 }
 
 struct AnswerFormat {

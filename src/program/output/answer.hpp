@@ -36,11 +36,11 @@ struct Digits {
 
 /// What a verb answers, for every format.
 struct Answer {
-  Json members = Json::object();     ///< of the JSON document, after the number of its schema
+  Json members = Json::object();     ///< of the JSON document, after the number of its schema and the version
   std::vector<Column> columns = {};  ///< of CSV and text; the last members of JSON
   Json remarks = Json::object();     ///< of CSV with columns: a line of comment each, before the header
   std::vector<Json> rows = {};       ///< of CSV where there are no columns: objects with the same names
-  std::function<std::string(const Digits&)> text = {};  ///< empty: the columns
+  std::function<std::string(const Digits&)> text = {};  ///< empty: the columns, or the rows as in CSV
 };
 
 /// The formats of an answer, the standard one first.

@@ -36,7 +36,9 @@ std::string wrapped(std::string_view text, std::size_t column, std::size_t inden
 
 }  // namespace
 
-std::string help_paragraph(std::string_view text) { return wrapped(text, 0, 0); }
+std::string help_paragraph(std::string_view text, std::size_t indent) {
+  return std::string(indent, ' ') + wrapped(text, indent, indent);
+}
 
 std::string help_entry(std::string_view name, std::string_view meaning) {
   const std::string separator = name.size() + 4 > margin ? fmt::format("\n{:{}}", "", margin) : "";

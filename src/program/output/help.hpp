@@ -8,7 +8,7 @@
 namespace contensou::program {
 
 /// Text in lines of at most 80 columns.
-std::string help_paragraph(std::string_view text);
+std::string help_paragraph(std::string_view text, std::size_t indent = 0);
 
 /// A name and, beside or below it, what it means, in lines of at most 80 columns.
 std::string help_entry(std::string_view name, std::string_view meaning);

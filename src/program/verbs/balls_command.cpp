@@ -8,6 +8,7 @@
 #include "contensou/si/scaling.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
+#include "output/help.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -41,8 +42,8 @@ Answer list() {
     std::string text;
     for (const Json& ball : rows) {
       const auto word = [&](const char* name) { return ball[name].get<std::string>(); };
-      text += fmt::format("{:<9}{:<29}mu = {:<{}}{}\n", word("name"), word("description"), digits(ball["mu"]),
-                          digits.width() - 1, word("sources"));
+      text += fmt::format("{:<9}{:<29}mu = {}\n", word("name"), word("description"), digits(ball["mu"]));
+      text += help_paragraph(word("sources"), 9);
     }
     return text;
   };

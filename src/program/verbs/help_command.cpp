@@ -56,7 +56,7 @@ std::string files() {
         {si::spin, "; or"},
         {si::velocity, ", as [vx, vy]"},
         {si::angular_velocity, ", as [wx, wy, wz]"}}},
-      {"[environment]", {{si::gravity, " (default 9.80665); or"}, {si::load, ""}}}};
+      {"[environment]", {{si::gravity, " (default 9.80665)"}}}};
   for (const auto& [section, quantities] : sections) {
     text += fmt::format("{}\n", section);
     for (const auto& [quantity, more] : quantities) {

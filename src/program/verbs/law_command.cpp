@@ -30,19 +30,24 @@ class LawCommand final : public Verb {
 
   ExitStatus run() override {
     const Output output = output_.read();
+    figure_.require_picture(output);
+    if (surface_) require_picture("--surface", output);
     const reduction::Law law = law_.read();
     if (output.picture()) {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
       std::vector<reduction::Law> laws = reduction::paper_laws();
       if (surface_) laws.insert(laws.end(), {*reduction::find_law("uniform"), *reduction::find_law("ring")});
-      if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) laws.push_back(law);
+      if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) {
+        if (!surface_) laws.clear();  // the paper's two are compared with each other, Fig. 2
+        laws.push_back(law);
+      }
       const auto draw = surface_ ? portraits::limit_surface_figure : portraits::law_figure;
       output.write({figure_.apply(draw(laws, figure_.size()), output.format)});
       return ExitStatus::done;
     }
     if (!k_.given() && !batch_.given()) {
       throw BadInput(
-          "--k missing: give --k K1,K2,... or --batch FILE; or -o FILE with a picture's ending svg, pdf, png, eps, gp, "
+          "--k missing: give --k K1,K2,... or --batch FILE; or a picture, -o FILE ending in svg, pdf, png, eps, gp or "
           "tex");
     }
     output.write(

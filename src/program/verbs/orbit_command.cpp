@@ -5,6 +5,7 @@
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
+#include "verbs/ball_answer.hpp"
 
 namespace contensou::program {
 
@@ -19,7 +20,8 @@ class OrbitCommand final : public Verb {
     CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");
     time_left_
         .add(app, "--time-left", "T1,T2,...|FILE",
-             "instead: so much tau before the stop, and a column tau_left; FILE has that column",
+             "instead: so much tau before the stop (of a ball also in seconds, as in '1,2 s'), and a column tau_left; "
+             "FILE has that column",
              [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
         ->excludes(at);
     output_.add(app);
@@ -34,9 +36,10 @@ class OrbitCommand final : public Verb {
       throw BadInput("--time-left and --samples, --equidistant exclude each other: give one of them");
     }
     const auto* at = instants_.at();
+    const Eigen::ArrayXd lefts = time_left_.given() ? taus(*time_left_, start) : Eigen::ArrayXd();
     const reduction::OrbitColumns motion =
-        time_left_.given() ? motion_at_time_left(system, start.state, route, *time_left_)
-        : at != nullptr    ? motion_at(system, start.state, route, *at)
+        time_left_.given() ? motion_at_time_left(system, start.state, route, lefts)
+        : at != nullptr    ? motion_at(system, start.state, route, taus(*at, start))
                            : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
     Answer answer{.members = {{"law", system.law().name()},
                               {"route", name(route)},
@@ -49,8 +52,9 @@ class OrbitCommand final : public Verb {
                               {"ln_v", motion.ln_v},
                               {"k", motion.k},
                               {"beta", motion.beta}}};
-    if (time_left_.given()) answer.columns.push_back({"tau_left", *time_left_});
+    if (time_left_.given()) answer.columns.push_back({"tau_left", lefts});
     if (start.experiment) {
+      answer.members["ball"] = members_of_ball(*start.experiment, system.law());
       answer.columns.push_back(
           {"t", motion.tau.unaryExpr([&](double tau) { return si::seconds(*start.experiment, tau); })});
     }
@@ -59,11 +63,18 @@ class OrbitCommand final : public Verb {
   }
 
  private:
+  static Eigen::ArrayXd taus(const InstantsOption::Times& times, const GivenStart& start) {
+    if (!times.in_seconds) return times.values;
+    if (start.experiment) return times.values / si::seconds(*start.experiment, 1);
+    throw BadInput(
+        "times in seconds are of a ball: add --ball NAME|FILE.toml, or leave the unit out: tau is in that of --u0");
+  }
+
   StartOptions start_;
   LawOption law_;
   RouteOption route_;
   InstantsOption instants_;
-  ArgumentOf<Eigen::ArrayXd> time_left_;
+  ArgumentOf<InstantsOption::Times> time_left_;
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};
 };
 

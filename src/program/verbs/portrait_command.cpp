@@ -72,6 +72,8 @@ class PortraitCommand final : public Verb {
     const reduction::ReducedSystem& system = start.system;
     if (facts_) return print_facts(system);
     const Output output = output_.read();
+    figure_.require_picture(output);
+    require_picture(names_of_looks(first_of_drawing_), output);
     const reduction::Route route = route_.read(system);
     if (route == reduction::Route::direct) {
       throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
@@ -137,6 +139,7 @@ class PortraitCommand final : public Verb {
           if (!typed.empty()) request_.isochrones = read(typed);
         })
         ->expected(0, 1);
+    first_of_drawing_ = looks_.size();
     add("--arrows", "WHERE", "arrows on orbits: at equal times (time, default), one on each, none",
         into(style_.arrows,
              one_of<Style::Arrows>(
@@ -156,10 +159,16 @@ class PortraitCommand final : public Verb {
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
 
+  /// Of those that were given, from that place on.
+  std::string names_of_looks(std::size_t first) const {
+    std::vector<const Argument*> arguments;
+    for (; first < looks_.size(); ++first) arguments.push_back(&looks_[first]);
+    return names_given(arguments);
+  }
+
   ExitStatus print_facts(const reduction::ReducedSystem& system) const {
-    std::vector<const Argument*> useless{&against_.argument()};
-    for (const Argument& look : looks_) useless.push_back(&look);
-    if (const std::string names = names_given(useless); !names.empty()) {
+    if (std::string names = names_of_looks(0); against_.given() || !names.empty()) {
+      if (against_.given()) names += (names.empty() ? "" : ", ") + against_.argument().name();
       throw BadInput(
           fmt::format("--facts and {} exclude each other: facts are of the whole plane, and print no picture", names));
     }
@@ -172,6 +181,7 @@ class PortraitCommand final : public Verb {
   LawOption law_, against_;
   RouteOption route_;
   std::deque<Argument> looks_;
+  std::size_t first_of_drawing_ = 0;  ///< in looks_, of what the data do not show
   const Argument* window_ = nullptr;  ///< of looks_
   portraits::PortraitRequest request_;
   Style style_;

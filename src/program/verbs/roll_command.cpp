@@ -25,6 +25,7 @@
 #include "options/start_options.hpp"
 #include "output/batch.hpp"
 #include "verb.hpp"
+#include "verbs/ball_answer.hpp"
 
 namespace contensou::program {
 
@@ -78,13 +79,10 @@ EnergyBalance energy_balance(const si::Experiment& experiment) {
 
 std::string heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
   const si::Velocities start = si::velocities_of(experiment.start);
-  return fmt::format(
-      "{}: radius {} m, mass {} kg, friction {}, patch radius {} m (mu = {})\n"
-      "velocity {} m/s, angular velocity {} 1/s: slip {} m/s, spin {} rad/s\n",
-      experiment.ball.name, digits(experiment.ball.radius), digits(experiment.ball.mass),
-      digits(experiment.contact.friction), digits(si::patch_radius_of(experiment, law)),
-      digits(si::patch_ratio(experiment, law)), digits.list(start.velocity), digits.list(start.angular_velocity),
-      digits(si::slip_at_start(experiment)), digits(si::spin_at_start(experiment)));
+  return ball_heading(experiment, law, digits) +
+         fmt::format("velocity {} m/s, angular velocity {} 1/s: slip {} m/s, spin {} rad/s\n",
+                     digits.list(start.velocity), digits.list(start.angular_velocity),
+                     digits(si::slip_at_start(experiment)), digits(si::spin_at_start(experiment)));
 }
 
 std::string table(const Roll& roll, const Digits& digits) {
@@ -161,6 +159,7 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
   Json members{{"law", roll.law.name()},
                {"route", roll.integrated ? "integrated" : "reduced"},
                {"mu", si::patch_ratio(roll.experiment, roll.law)},
+               {"ball", members_of_ball(roll.experiment, roll.law)},
                {"velocity", std::vector(velocity.begin(), velocity.end())},
                {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())},
                {"t_stop", roll.stop_time()}};
@@ -267,7 +266,10 @@ class RollCommand final : public Verb {
     angular_velocity_.add(app, "--angular-velocity", "WX,WY,WZ", "z up, in radians per second",
                           vector<3>("WX,WY,WZ", si::angular_velocity.unit));
     app.option_defaults()->group("Stroke of a cue, along x (in place of the ball's own start)");
-    strike_.add(app, "--strike", "SPEED", "of the cue, in metres per second", quantity("m/s"));
+    strike_.add(app, "--strike", "SPEED",
+                "of the cue, in metres per second: an elastic impulse along it. Left out are squirt, miscues within "
+                "--tip's limit, the ball's bounce off the table and its friction there, and other balls (throw)",
+                quantity("m/s"));
     tip_.add(app, "--tip", "A,B",
              fmt::format("where it strikes, to the right of and above the centre as seen along the cue, in radii, at "
                          "most {} from it (default 0,0)",
@@ -284,7 +286,10 @@ class RollCommand final : public Verb {
     app.option_defaults()->group("Rolling");
     rolling_below_.add(
         app, "--rolling-below", "SPEED",
-        fmt::format("of the slip, in metres per second, below which it rolls (default {})", si::rolling_slip),
+        fmt::format(
+            "of the slip, in metres per second, below which it rolls (default {}); of the textbook's ball, too, "
+            "which at 0 rolls after 2 v/(7 f g)",
+            si::rolling_slip),
         [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
     rolling_friction_.add(
         app, "--rolling-friction", "U_R",
@@ -308,11 +313,12 @@ class RollCommand final : public Verb {
     if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
+    figure_.require_picture(output);
     const reduction::Law law = law_.read();
     const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
                     rolling_friction_.value_or(0)};
     const auto* at = instants_.at();
-    const auto last = at != nullptr && at->size() > 0 ? std::optional(at->maxCoeff()) : until_.optional();
+    const auto last = at != nullptr && at->values.size() > 0 ? std::optional(at->values.maxCoeff()) : until_.optional();
     require_finite(roll.experiment, roll.stop_time(), roll.rolling_friction, last);
     const double end = until_.value_or(roll.standard_end());
     if (output.picture()) {

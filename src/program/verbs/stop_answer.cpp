@@ -12,9 +12,11 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/small_mu.hpp"
+#include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/law_option.hpp"
+#include "verbs/ball_answer.hpp"
 
 namespace contensou::program {
 
@@ -73,6 +75,9 @@ Json members_of(const StopReport& report) {
   }
   if (experiment) {
     const auto [velocity, angular_velocity] = si::final_motion(*experiment);
+    members["ball"] = members_of_ball(*experiment, system.law());
+    members["slip"] = si::slip_at_start(*experiment);
+    members["spin"] = si::spin_at_start(*experiment);
     members["t_stop"] = si::seconds(*experiment, tau);
     members["final"] = {{"velocity", std::vector(velocity.begin(), velocity.end())},
                         {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
@@ -131,19 +136,19 @@ class Text {
       return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}", number_(system.mu()),
                          number_(state.u), number_(state.v), is_ball() ? "" : body_line());
     }
-    return fmt::format(
-        "{}: radius {} m, mass {} kg, friction {}, patch radius {} m\n"
-        "slip {} m/s, spin {} rad/s: mu = {}, u0 = {} m/s, v0 = {} m/s\n",
-        experiment->ball.name, number_(experiment->ball.radius), number_(experiment->ball.mass),
-        number_(experiment->contact.friction), number_(si::patch_radius_of(*experiment, system.law())),
-        number_(si::slip_at_start(*experiment)), number_(si::spin_at_start(*experiment)), number_(system.mu()),
-        number_(state.u), number_(state.v));
+    return ball_heading(*experiment, system.law(), number_) +
+           fmt::format("slip {} m/s, spin {} rad/s: u0 = {} m/s, v0 = {} m/s\n",
+                       number_(si::slip_at_start(*experiment)), number_(si::spin_at_start(*experiment)),
+                       number_(state.u), number_(state.v));
   }
 
   bool is_ball() const {
     const auto [chi, gamma] = system_.inertia();
     return chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
   }
+
+  /// A tabulated pressure has bends, at which the law's own accuracy is not proved.
+  bool from_table() const { return system_.law().as<reduction::TabulatedPressureLaw>() != nullptr; }
 
   std::string body_line() const {
     const auto [chi, gamma] = system_.inertia();
@@ -175,7 +180,8 @@ class Text {
         line<std::string>("", "t* (s)", experiment ? "tau* (m/s)" : "tau*") +
         row("slip and spin end", tau,
             std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
-                            : fmt::format("numerical error below {:.0e} of it", rounded_up(report_.stop.accuracy)));
+                            : fmt::format("numerical error {} {:.0e} of it", from_table() ? "some" : "below",
+                                          rounded_up(report_.stop.accuracy)));
     if (!report_.start.slides_and_spins()) return text;
     text += row("at least", report_.stop.bounds.lower) + row("at most", report_.stop.bounds.upper) +
             row("sliding only", report_.sliding_only, "limit u0 = 0") +

@@ -80,6 +80,18 @@ class StopCommand final : public Verb {
     }
     OutputFile output(out.path);  // before the input, which may be long in coming
     CsvReader table(batch_.text());
+    const bool si_columns = table.has_column("slip") || table.has_column("spin");
+    if (!has_ball && !table.has_column("mu") && si_columns) {
+      throw table.complaint(table.header_line(), "columns slip, spin are in SI units: add --ball NAME|FILE.toml");
+    }
+    if (has_ball && !si_columns && table.has_column("vx")) {
+      throw table.complaint(
+          table.header_line(),
+          "columns vx, vy, wx, wy, wz are a start of 'contensou roll --batch'; stop needs slip, spin");
+    }
+    if (has_ball && !si_columns && table.has_column("mu")) {
+      throw table.complaint(table.header_line(), "columns mu, u0, v0 are starts without --ball: leave it out");
+    }
     const ExitStatus status = run_batch(table, output, request);
     output.finish();
     return status;

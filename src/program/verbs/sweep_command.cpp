@@ -286,10 +286,7 @@ class SweepCommand final : public Verb {
       out.write({figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, body.inertia), grid), out.format)});
       return ExitStatus::done;
     }
-    if (const std::string names = figure_.names(); !names.empty()) {
-      throw BadInput(
-          fmt::format("{}: {} is no picture; leave it out, or write svg, pdf, png, eps or gp", names, out.format));
-    }
+    figure_.require_picture(out);
     OutputFile output(out.path);
     sweep({.law = law,
            .body = body.inertia,

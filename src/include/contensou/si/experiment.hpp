@@ -55,9 +55,7 @@ struct Velocities {
 using Start = std::variant<SlipAndSpin, Velocities>;
 
 struct Environment {
-  /// m/s^2, the load over the mass: nothing else of a ball on a horizontal plane depends on it. A ball that something
-  /// presses on the plane with N newtons has N/mass.
-  double gravity = 9.80665;
+  double gravity = 9.80665;  ///< m/s^2
 };
 
 /// Everything that decides one motion of a ball on a horizontal plane.
@@ -78,6 +76,9 @@ struct GivenQuantity {
 std::vector<GivenQuantity> given_by(const PatchSource& patch);
 std::vector<GivenQuantity> given_by(const Start& start);
 
+/// The same in words: "given", "from its spin deceleration 10 rad/s^2" or "by Hertz's formula".
+std::string origin_of(const PatchSource& patch);
+
 /// Radius of the contact patch in m, from whatever the contact gives it by.
 /// @param law  a measured spin deceleration holds under it
 /// @throws std::domain_error  unless it is in (0, R]
@@ -87,7 +88,7 @@ double patch_radius_of(const Experiment& experiment, const reduction::Law& law);
 Velocities velocities_of(const Start& start);
 
 /// Velocity (m/s) of the point of the ball that touches the plane, at the start:
-///   (vx - R omega_y, vy + R omega_x), Zh98 (2.1).
+///   (vx - R omega_y, vy + R omega_x), Zh98 (2.1); 0 where the terms cancel to rounding.
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment);
 
 /// Its size in m/s.

@@ -32,6 +32,10 @@ struct StartOverride {
 Experiment parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides = {},
                           const StartOverride& start = {});
 
+/// The text of a run file.
+/// @throws std::system_error  if it cannot be read
+std::string read_run_text(const std::string& path);
+
 /// An experiment from a run file.
 /// @throws RunFileError       as parse_run_file
 /// @throws std::system_error  if the file cannot be read
