@@ -22,6 +22,7 @@ Engine mujoco() {
   return {
       .name = "mujoco",
       .title = "MuJoCo",
+      .repository = "google-deepmind/mujoco",
       .version = "commit a725507 (after 3.12.0)",
       .parameters = {{"friction[0]", "", "f", friction_of}, {"friction[1]", "m", arm_formula, arm_of}},
       .limit = "M <= friction[1] N",
@@ -49,6 +50,7 @@ Engine newton() {
   return {
       .name = "newton",
       .title = "Newton",
+      .repository = "newton-physics/newton",
       .version = "commit 41a5392",
       .parameters = {{"mu", "", "f", friction_of}, {"mu_torsional", "m", arm_formula, arm_of}},
       .limit = "M <= mu_torsional N",
@@ -69,6 +71,7 @@ Engine genesis() {
   return {
       .name = "genesis",
       .title = "Genesis",
+      .repository = "Genesis-Embodied-AI/genesis-world",
       .version = "commit 29d7ade, pull requests 3028 and 3069",
       .parameters = {{"friction", "", "f", friction_of}, {"friction_torsional", "m", arm_formula, arm_of}},
       .limit = "M <= friction_torsional N",
@@ -82,7 +85,7 @@ Engine genesis() {
       .remarks =
           {"Its documentation calls the number the effective radius of the contact patch; f and Psi(0) are missing\n"
            "in that."},
-      .sources = {"genesis/engine/materials/rigid.py:31-35"},
+      .sources = {"genesis/engine/materials/rigid.py:35-39"},
   };
 }
 
@@ -90,6 +93,7 @@ Engine physx() {
   return {
       .name = "physx",
       .title = "PhysX",
+      .repository = "NVIDIA-Omniverse/PhysX",
       .version = "5.6.1 (commit a3d8a64)",
       .parameters = {{"dynamicFriction", "", "f", friction_of},
                      {"minTorsionalPatchRadius", "m", "a Psi(0)",
@@ -117,6 +121,7 @@ Engine bullet() {
   return {
       .name = "bullet",
       .title = "Bullet",
+      .repository = "bulletphysics/bullet3",
       .version = "commit 6c888f4 (after 3.25)",
       .parameters = {{"setFriction of the ball", "", "f", friction_of},
                      {"setFriction of the plane", "", "1", [](const EngineContact& /*any*/) { return 1.0; }},
@@ -138,6 +143,7 @@ Engine chrono() {
   return {
       .name = "chrono",
       .title = "Chrono (NSC)",
+      .repository = "projectchrono/chrono",
       .version = "commit 7689fbc",
       .parameters = {{"SetFriction", "", "f", friction_of}, {"SetSpinningFriction", "m", arm_formula, arm_of}},
       .limit = "M <= spinning_friction N",
@@ -158,6 +164,7 @@ Engine ode() {
   return {
       .name = "ode",
       .title = "ODE",
+      .repository = "thomasmarsh/ODE",
       .version = "commit bcfb66c",
       .parameters = {{"surface.mu", "", "f", friction_of}, {"surface.rhoN", "m", arm_formula, arm_of}},
       .limit = "M <= rhoN N",
@@ -175,7 +182,8 @@ Engine gazebo() {
   return {
       .name = "gazebo",
       .title = "Gazebo classic (its ODE)",
-      .version = "gazebo-classic, commit be2dc76 of contact.cpp",
+      .repository = "gazebosim/gazebo-classic",
+      .version = "commit be2dc76",
       .parameters = {{"<mu>, <mu2>", "", "f", friction_of},
                      {"<torsional><coefficient>", "", "f", friction_of},
                      {"<torsional><patch_radius>", "m", "16 Psi(0) a/(3 pi)",
@@ -196,6 +204,7 @@ Engine edyn() {
   return {
       .name = "edyn",
       .title = "edyn",
+      .repository = "xissburg/edyn",
       .version = "commit 42d2ec2 (after 1.3.1)",
       .parameters = {{"material.friction", "", "f", friction_of}, {"material.spin_friction", "m", arm_formula, arm_of}},
       .limit = "M <= spin_friction N",
@@ -212,6 +221,7 @@ Engine pooltool() {
   return {
       .name = "pooltool",
       .title = "pooltool",
+      .repository = "ekiefl/pooltool",
       .version = "commit 9a8abfe (after 0.6.0)",
       .parameters = {{"u_s", "", "f", friction_of},
                      {"u_sp_proportionality", "1/m", "f a Psi(0)/R^2",
@@ -237,6 +247,7 @@ Engine tailuge() {
   return {
       .name = "tailuge",
       .title = "tailuge/billiards",
+      .repository = "tailuge/billiards",
       .version = "commit c1f18f1",
       .parameters = {{"muS", "", "f", friction_of},
                      {"rho", "m", "3 f a Psi(0)/(2 mu), mu = 0.0055",
@@ -258,6 +269,7 @@ Engine drake() {
   return {
       .name = "drake",
       .title = "Drake",
+      .repository = "RobotLocomotion/drake",
       .version = "commit be259df (after 1.56.0)",
       .parameters = {},
       .limit = "point contact: none; hydroelastic contact: none of its own, the moment is that of the pressure",

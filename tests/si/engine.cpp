@@ -75,6 +75,7 @@ TEST_CASE("each engine says what it is, from where, and what it does", "[table]"
     CHECK(find_engine(engine.name) == &engine);
     CHECK(engine.parameters.empty() == (limits.count(engine.name) == 0));
     CHECK_FALSE(engine.title.empty());
+    CHECK(std::ranges::count(engine.repository, '/') == 1);
     CHECK(engine.version.find_first_of("0123456789") != std::string_view::npos);
     CHECK_FALSE(engine.limit.empty());
     CHECK_FALSE(engine.combination.empty());

@@ -43,8 +43,8 @@ std::string typed_in(const std::string& name, const Json& parameter, const Digit
 std::string text_of_all(const Json& members, const Digits& digits) {
   constexpr int width = 50;
   std::string text = fmt::format("\n{:<10}{:<{}}{:<10}{:>{}}{:>{}}\n{:<10}{:<{}}{:<10}", "engine", "type in", width,
-                                 "cone", "slip (s)", digits.width(), "spin (s)", digits.width(), "the ball", "", width,
-                                 members["law"].get<std::string>()) +
+                                 "cone", "slip (s)", digits.width(), "spin (s)", digits.width(), "the ball",
+                                 "law " + members["law"].get<std::string>(), width, "") +
                      end_of_line(members, digits);
   for (const Json& engine : members["engines"]) {
     std::string parameter = "-";
@@ -73,7 +73,7 @@ std::string block(const std::string& label, const std::vector<std::string>& text
 
 std::string text_of(const Engine& engine, const Json& members, const Digits& digits) {
   const Json& of_engine = members["engines"][0];
-  std::string text = fmt::format("\n{}, {}\n\n", engine.title, engine.version);
+  std::string text = fmt::format("\n{}: github.com/{}, {}\n\n", engine.title, engine.repository, engine.version);
   std::vector<std::string> lines;
   for (const auto& [name, parameter] : of_engine["parameters"].items())
     lines.push_back(
@@ -85,12 +85,12 @@ std::string text_of(const Engine& engine, const Json& members, const Digits& dig
 
   constexpr int width = 44;
   const int digit_width = digits.width();
-  text += fmt::format("\n{:<{}}{:<9}{:>{}}{:>8}{:>{}}{:>{}}\n", "", width, "cone", "moment/load", digit_width, "times",
+  text += fmt::format("\n{:<{}}{:<9}{:>{}}{:>10}{:>{}}{:>{}}\n", "", width, "cone", "moment/load", digit_width, "times",
                       "slip (s)", digit_width, "spin (s)", digit_width);
   const double arm = members["moment_arm"];
   const auto line = [&](const std::string& label, const std::string& cone, const Json& of_line) {
     const double its_arm = of_line["moment_arm"];
-    text += fmt::format("{:<{}}{:<9}{:>{}}{:>8.3g}", label, width, cone, digits(its_arm), digit_width, its_arm / arm) +
+    text += fmt::format("{:<{}}{:<9}{:>{}}{:>10.3g}", label, width, cone, digits(its_arm), digit_width, its_arm / arm) +
             end_of_line(of_line, digits);
   };
   line("the ball, law " + members["law"].get<std::string>(), "", members);

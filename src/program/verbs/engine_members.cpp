@@ -39,6 +39,7 @@ Json members_of(const Engine& engine, const si::Experiment& experiment, const si
   }
   return {{"name", engine.name},
           {"title", engine.title},
+          {"repository", engine.repository},
           {"version", engine.version},
           {"parameters", parameters},
           {"limit", engine.limit},

@@ -41,6 +41,7 @@ struct EngineSetting {
 struct Engine {
   std::string_view name;                    ///< one lower-case word
   std::string_view title;                   ///< its own name
+  std::string_view repository;              ///< on github.com
   std::string_view version;                 ///< that the rest was read in
   std::vector<EngineParameter> parameters;  ///< sliding first, the one that decides the moment last; empty without any
   std::string_view limit;                   ///< of the moment M under the load N, in the engine's own words
