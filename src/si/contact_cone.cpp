@@ -41,19 +41,39 @@ FadeTimes fade_times(const Experiment& experiment, const BallMotion& motion) {
           motion.spin_time(faded * std::abs(spin_at_start(experiment)))};
 }
 
-/// Under the pyramid, in tau.
-FadeTimes pyramid_times(const ReducedSystem& system, double u0, double v0) {
-  const double mu = system.mu();
-  const double u = faded * u0;
-  const double v = faded * v0;
-  const double whole = system.sliding_limit(v0) + system.pivoting_limit(u0);
-  // On the ray v = mu u, or before it at the start's u0 or v0.
-  const auto on_ray = [&](double speed) {
-    return whole - system.sliding_limit(speed) - system.pivoting_limit(speed / mu);
-  };
-  return {v >= mu * u0 ? system.sliding_limit(v0 - v) : on_ray(v),
-          mu * u >= v0 ? system.pivoting_limit(u0 - u) : on_ray(mu * u)};
+double mu_of(const Experiment& experiment, double moment_arm) {
+  return moment_arm / experiment.contact.friction / experiment.ball.radius;
 }
+
+/// The motion under the pyramid: v and w fall evenly, until v = w either alone, then both.
+class PyramidMotion {
+ public:
+  PyramidMotion(const Experiment& experiment, double mu)
+      : v0(slip_at_start(experiment)), w0(mu * std::abs(reduced_start(experiment).u)), on_ray_(std::min(v0, w0)) {
+    const ReducedSystem system(reduction::EllipticLaw(1), mu);
+    ray_ = seconds(experiment, system.sliding_limit(v0 - on_ray_) + system.pivoting_limit((w0 - on_ray_) / mu));
+    stop_ = seconds(experiment, system.sliding_limit(v0) + system.pivoting_limit(w0 / mu));
+  }
+
+  /// What v or w, `from` at the start, is at t.
+  double speed(double from, double t) const {
+    if (t < ray_) return from - (from - on_ray_) * (t / ray_);
+    return t < stop_ ? on_ray_ * ((stop_ - t) / (stop_ - ray_)) : 0;
+  }
+
+  /// When v or w, `from` at the start, is `speed`, less than that.
+  double time(double from, double speed) const {
+    return speed >= on_ray_ ? ray_ * ((from - speed) / (from - on_ray_)) : stop_ - (stop_ - ray_) * (speed / on_ray_);
+  }
+
+  double v0;  ///< m/s
+  double w0;  ///< m/s
+
+ private:
+  double on_ray_;  ///< v = w where they become equal
+  double ray_;     ///< s, when they do
+  double stop_;    ///< s
+};
 
 }  // namespace
 
@@ -80,32 +100,24 @@ FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm)
   }
   const auto [u, v0] = reduced_start(experiment);
   const double u0 = std::abs(u);
-  const double mu = moment_arm / experiment.contact.friction / experiment.ball.radius;
+  const double mu = mu_of(experiment, moment_arm);
   const ReducedSystem system(reduction::EllipticLaw(1), mu > 0 ? mu : 1);  // where mu is 0, its sliding is asked for
-  FadeTimes tau{system.sliding_limit((1 - faded) * v0), system.pivoting_limit((1 - faded) * u0)};
-  if (mu == 0) {
-    tau.spin = std::numeric_limits<double>::infinity();
-  } else if (cone == Cone::elliptic) {
-    return fade_times(experiment, BallMotion(experiment, reduction::Flow(system)));
-  } else if (cone == Cone::pyramid) {
-    tau = pyramid_times(system, u0, v0);
+  if (mu > 0 && cone == Cone::elliptic) return fade_times(experiment, BallMotion(experiment, reduction::Flow(system)));
+  FadeTimes times{
+      seconds(experiment, system.sliding_limit((1 - faded) * v0)),
+      mu > 0 ? seconds(experiment, system.pivoting_limit((1 - faded) * u0)) : std::numeric_limits<double>::infinity()};
+  if (mu > 0 && cone == Cone::pyramid) {
+    const PyramidMotion motion(experiment, mu);
+    times = {motion.time(v0, faded * v0), motion.time(motion.w0, faded * motion.w0)};
   }
-  return {v0 > 0 ? seconds(experiment, tau.slip) : 0, u0 > 0 ? seconds(experiment, tau.spin) : 0};
+  return {v0 > 0 ? times.slip : 0, u0 > 0 ? times.spin : 0};
 }
 
 SlipAndSpin speeds_under_pyramid(const Experiment& experiment, double moment_arm, double t) {
-  const auto [u0, v0] = reduced_start(experiment);
-  const double mu = moment_arm / experiment.contact.friction / experiment.ball.radius;
-  const ReducedSystem system(reduction::EllipticLaw(1), mu);
-  const double w0 = mu * std::abs(u0);
-  const double w = std::min(v0, w0);  // where the ray begins
-  const double ray = seconds(experiment, system.sliding_limit(v0 - w) + system.pivoting_limit((w0 - w) / mu));
-  const double stop = seconds(experiment, system.sliding_limit(v0) + system.pivoting_limit(u0));
-  const auto fallen = [&](double from) {
-    if (t < ray) return from - (from - w) * (t / ray);
-    return t < stop ? w * ((stop - t) / (stop - ray)) : 0.0;
-  };
-  return {fallen(v0), std::copysign(fallen(w0) / mu / experiment.ball.radius, u0)};
+  const double mu = mu_of(experiment, moment_arm);
+  const PyramidMotion motion(experiment, mu);
+  const double spin = motion.speed(motion.w0, t) / mu / experiment.ball.radius;
+  return {motion.speed(motion.v0, t), std::copysign(spin, spin_at_start(experiment))};
 }
 
 }  // namespace contensou::si
