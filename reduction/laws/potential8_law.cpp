@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "contensou/reduction/tangent.hpp"
+
 namespace contensou::reduction {
 
 namespace {
@@ -23,23 +25,32 @@ double eighth_root(double x) { return std::sqrt(std::sqrt(std::sqrt(x))); }
 
 }  // namespace
 
-Resistance Potential8Law::operator()(Slip slip) const {
+Tangent tangent(const Potential8Law& /*law*/, Slip slip) {
   require_slip("Potential8Law", slip);
+  // With P = R^8, and ' along the smaller speed:  R'' = (R/P) [P''/8 - 7 P (P'/(8 P))^2]
   if (slip.sliding <= slip.pivoting) {
     const double k = slip.sliding / slip.pivoting;
     const double x = k * k;
     const double octic = c + x * (8 * c + x * (fourth + x * (sixth + x)));
     const double slope = eighth_root(octic) / octic;
-    return {k * (2 * c + x * (fourth / 2 + x * (0.75 * sixth + x))) * slope,
-            (c + x * (6 * c + x * (fourth / 2 + x * (sixth / 4)))) * slope};
+    const double inner = 2 * c + x * (fourth / 2 + x * (0.75 * sixth + x));
+    const double curvature = 2 * c + x * (1.5 * fourth + x * (3.75 * sixth + x * 7)) - 7 * x * inner * (inner / octic);
+    return Tangent::of_potential({k * inner * slope, (c + x * (6 * c + x * (fourth / 2 + x * (sixth / 4)))) * slope},
+                                 slip, curvature * slope);
   }
   const double inverse_k = slip.pivoting / slip.sliding;
   const double x = inverse_k * inverse_k;
   const double octic = 1 + x * (sixth + x * (fourth + x * (8 * c + x * c)));
   const double slope = eighth_root(octic) / octic;
-  return {(1 + x * (0.75 * sixth + x * (fourth / 2 + x * (2 * c)))) * slope,
-          inverse_k * (sixth / 4 + x * (fourth / 2 + x * (6 * c + x * c))) * slope};
+  const double inner = sixth / 4 + x * (fourth / 2 + x * (6 * c + x * c));
+  const double curvature =
+      sixth / 4 + x * (1.5 * fourth + x * (30 * c + x * (7 * c))) - 7 * x * inner * (inner / octic);
+  return Tangent::of_potential(
+      {(1 + x * (0.75 * sixth + x * (fourth / 2 + x * (2 * c)))) * slope, inverse_k * inner * slope}, slip,
+      curvature * slope);
 }
+
+Resistance Potential8Law::operator()(Slip slip) const { return tangent(*this, slip).resistance; }
 
 double Potential8Law::moment_deficit(Slip slip) const {
   if (slip.sliding > slip.pivoting / 2) return 1 - (*this)(slip).moment / pivoting_moment;

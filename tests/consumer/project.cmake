@@ -1,6 +1,6 @@
 # CMakeLists.txt of somebody else's project, made of the programs that README.md shows (consumer_test.cmake).
 cmake_minimum_required(VERSION 3.25)
-project(consumer LANGUAGES CXX)
+project(consumer LANGUAGES C CXX)
 
 if(CONTENSOU_SOURCE)
   add_subdirectory(${CONTENSOU_SOURCE} contensou)
@@ -34,5 +34,10 @@ foreach(source IN LISTS sources)
   list(APPEND programs ${program})
   list(APPEND objects $<TARGET_OBJECTS:${program}_object>)
 endforeach()
+if(TARGET contensou::si)
+  add_executable(wrench_from_c wrench.c)
+  target_link_libraries(wrench_from_c PRIVATE contensou::si)
+  list(APPEND programs wrench_from_c)
+endif()
 add_custom_target(programs DEPENDS ${programs})
 add_custom_target(objects DEPENDS ${objects})

@@ -1,0 +1,86 @@
+// The slopes of laws against the laws themselves.
+#include "contensou/reduction/tangent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/potential8_law.hpp"
+#include "user_laws.hpp"
+
+using namespace contensou::reduction;
+using std::numbers::pi;
+
+namespace {
+
+/// Slopes by Richardson's extrapolation of central differences over the ratio of the speeds, to some 1e-11.
+Tangent extrapolated(const Law& law, Slip slip) {
+  const bool pivots = slip.sliding <= slip.pivoting;
+  const double ratio = pivots ? slip.sliding / slip.pivoting : slip.pivoting / slip.sliding;
+  const auto at = [&](double x) { return law(pivots ? Slip{x, 1} : Slip{1, x}); };
+  const auto slope = [&](auto part) {
+    const auto central = [&](double h) { return (part(at(ratio + h)) - part(at(ratio - h))) / (2 * h); };
+    const double h = std::min(2e-3, ratio / 8);
+    return (64 * central(h / 4) - 20 * central(h / 2) + central(h)) / 45;
+  };
+  const double sign = pivots ? 1 : -1;
+  return {law(slip), sign * slope([](Resistance r) { return r.force; }),
+          -sign * slope([](Resistance r) { return r.moment; })};
+}
+
+}  // namespace
+
+TEST_CASE("the tangent of every law is that of its curve", "[laws]") {
+  std::vector<Law> laws = named_laws();
+  for (const char* name : {"elliptic:0.6", "annulus:0.65", "pressure:3"}) laws.push_back(*find_law(name));
+  laws.push_back(contensou::tests::RootLaw{});
+  for (const Law& law : laws) {
+    const auto tangent = tangent_of(law);
+    for (double k : {1e-3, 0.1, 0.4, 0.55, 0.9, 1.1, 1.2, 1.4, 2.0, 5.0, 7.9, 8.1, 40.0, 900.0}) {
+      CAPTURE(law.name(), k);
+      const Slip slip = slip_of_ratio(k);
+      const auto [resistance, force_slope, moment_slope] = tangent({7 * slip.sliding, 7 * slip.pivoting});
+      const Tangent expected = extrapolated(law, slip);
+      CHECK(resistance.force == Approx(law(slip).force).epsilon(1e-15));
+      CHECK(resistance.moment == Approx(law(slip).moment).epsilon(1e-15));
+      CHECK(force_slope == Approx(expected.force_slope).margin(3e-9));
+      CHECK(moment_slope == Approx(expected.moment_slope).margin(3e-9));
+      CHECK(force_slope >= -1e-9);
+      if (law.name() != "pade")  // the only one without a potential
+        CHECK(slip.sliding * force_slope == Approx(slip.pivoting * moment_slope).margin(1e-9));
+    }
+  }
+}
+
+TEST_CASE("slopes at both ends and at k = 1 in closed form", "[laws][limit]") {
+  constexpr double largest = std::numeric_limits<double>::max();
+  for (double speed : {5e-324, 1.0, largest}) {
+    CHECK(tangent(HertzLaw{}, {0, speed}).force_slope == Approx(3 * pi / 8).epsilon(1e-15));
+    CHECK(tangent(HertzLaw{}, {speed, 0}).moment_slope == Approx(0.2).epsilon(1e-15));
+    CHECK(tangent(HertzLaw{}, {speed, speed}).force_slope == Approx(3 * pi / 32).epsilon(1e-15));
+    CHECK(tangent(Potential8Law{}, {0, speed}).force_slope == Approx(3 * pi / 8).epsilon(1e-14));
+    CHECK(tangent(Potential8Law{}, {speed, 0}).moment_slope == Approx(0.2).epsilon(1e-14));
+    CHECK(tangent(EllipticLaw{0.5}, {0, speed}).force_slope == Approx(2).epsilon(1e-15));
+    CHECK(tangent(EllipticLaw{0.5}, {speed, 0}).moment_slope == Approx(0.25).epsilon(1e-15));
+  }
+  for (const Law& law : named_laws()) {
+    for (double ratio : {0.0, 1e-12, 3e-6, 1e-5}) {
+      CAPTURE(law.name(), ratio);
+      CHECK(tangent_of(law)({ratio, 1}).force_slope == Approx(law.force_slope()).epsilon(1e-4));
+      if (law.name() == "pade") continue;  // its Phi and Psi are not smooth there
+      CHECK(tangent_of(law)({1, ratio}).force_slope == Approx(0).margin(1e-5));
+      CHECK(tangent_of(law)({ratio, 1}).moment_slope == Approx(ratio * law.force_slope()).margin(1e-9));
+    }
+  }
+  // Both forms of the exact law's slope meet.
+  const double below = tangent(HertzLaw{}, {std::nextafter(8, 0), 1}).moment_slope;
+  CHECK(tangent(HertzLaw{}, {8, 1}).moment_slope == Approx(below).epsilon(1e-11));
+  CHECK(tangent(HertzLaw{}, {std::nextafter(1, 2), 1}).moment_slope == Approx(3 * pi / 32).epsilon(1e-12));
+}

@@ -1,0 +1,20 @@
+// In a file of its own: GCC 12 takes an operator delete that it can inline for a mismatched one.
+#include "allocations.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<long> count;
+}
+
+long allocations() { return count; }
+
+void* operator new(std::size_t size) {
+  ++count;
+  if (void* place = std::malloc(size)) return place;
+  throw std::bad_alloc();
+}
+void operator delete(void* place) noexcept { std::free(place); }
+void operator delete(void* place, std::size_t /*size*/) noexcept { std::free(place); }

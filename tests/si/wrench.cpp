@@ -1,0 +1,260 @@
+#include "contensou/si/wrench.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+
+#include "allocations.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/wrench.h"
+
+using namespace contensou;
+using namespace contensou::si;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr Patch patch{0.2, 3e-3, 1e-4};
+constexpr double load = 1.7;
+constexpr double limit = patch.friction * load;
+
+/// Motions of every k and every size beside the creep, in every direction.
+std::vector<Vector3d> motions() {
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<double> ln_speed(std::log(1e-7), std::log(10)), angle(0, 6.3);
+  std::vector<Vector3d> all{{0, 0, 0}, {1, 0, 0}, {0, 0, 5}, {1e-3, -1e-3, 0}};
+  while (all.size() < 200) {
+    const double v = std::exp(ln_speed(generator)), w = std::exp(ln_speed(generator)), turn = angle(generator);
+    all.emplace_back(v * std::cos(turn), v * std::sin(turn), (turn > 2 ? w : -w) / patch.radius);
+  }
+  return all;
+}
+
+/// One Newton step of an implicit time step, for a body with these inverse masses.
+Vector3d stepped(const PatchFriction& friction, const Vector3d& motion, double weight, const Patch& of,
+                 const Vector3d& per_mass, double dt, const Vector3d& pushed = Vector3d::Zero()) {
+  const auto [value, jacobian] = friction(motion, weight, of);
+  const Matrix3d mobility = dt * per_mass.asDiagonal().toDenseMatrix();
+  return motion + (Matrix3d::Identity() - mobility * jacobian).inverse() * (mobility * (value + pushed));
+}
+
+}  // namespace
+
+TEST_CASE("beside a small creep the wrench is that of the law", "[analytic]") {
+  for (const reduction::Law& law : reduction::named_laws()) {
+    const PatchFriction friction(law);
+    const auto [force, moment] = law({0.5, 0.3});
+    const Vector3d value = friction({0.3, -0.4, -100}, load, {0.2, 3e-3, 1e-9}).value;
+    CAPTURE(law.name());
+    CHECK(value.x() == Approx(-0.6 * limit * force).epsilon(1e-14));
+    CHECK(value.y() == Approx(0.8 * limit * force).epsilon(1e-14));
+    CHECK(value.z() == Approx(limit * 3e-3 * moment).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("friction takes power, within its bounds, and its Jacobian is its own", "[invariant]") {
+  for (const reduction::Law& law : reduction::named_laws()) {
+    const PatchFriction friction(law);
+    for (const Vector3d& motion : motions()) {
+      const auto [value, jacobian] = friction(motion, load, patch);
+      CAPTURE(law.name(), motion.transpose());
+      CHECK((value.dot(motion) < 0 || motion.isZero()));
+      CHECK(value.head<2>().norm() <= limit * (1 + 1e-15));
+      CHECK(std::abs(value.z()) <= limit * patch.radius * law.pivoting_moment() * (1 + 1e-15));
+
+      // In the units of each: speeds of V, rim speeds of V.
+      const double V = std::hypot(motion.x(), motion.y(), patch.creep), w = patch.radius * std::abs(motion.z());
+      const Vector3d unit(V, V, std::max(V, w) / patch.radius);
+      const Vector3d moment_arm(1, 1, patch.radius);
+      const Matrix3d scaled = (moment_arm.cwiseInverse().asDiagonal() * jacobian * unit.asDiagonal()) / limit;
+      CHECK(scaled.cwiseAbs().maxCoeff() < 4);
+      if (std::abs(V / w - 1) < 0.1 || motion.isZero()) continue;  // laws with a kink
+      for (int i = 0; i < 3; ++i) {
+        if (law.name() == "pade" && i == 2 && w < 1e-4 * V) continue;  // it has a kink at omega = 0
+        const double h = 1e-5;
+        const Vector3d change = h * unit[i] * Vector3d::Unit(i);
+        const Vector3d slope =
+            (friction(motion + change, load, patch).value - friction(motion - change, load, patch).value) / (2 * h);
+        CHECK((slope.cwiseQuotient(moment_arm) / limit - scaled.col(i)).norm() < 3e-8);
+      }
+    }
+  }
+}
+
+TEST_CASE("the Jacobian of a law with a potential is symmetric and negative semidefinite", "[invariant]") {
+  for (const reduction::Law& law : reduction::named_laws()) {
+    if (law.name() == "pade") continue;
+    const PatchFriction friction(law);
+    for (const Vector3d& motion : motions()) {
+      const Vector3d arm(1, 1, 1 / patch.radius);  // all entries in one unit
+      const Matrix3d jacobian = arm.asDiagonal() * friction(motion, load, patch).jacobian * arm.asDiagonal();
+      const double size = jacobian.norm();
+      CAPTURE(law.name(), motion.transpose());
+      CHECK((jacobian - jacobian.transpose()).norm() < 1e-9 * size);
+      CHECK(Eigen::SelfAdjointEigenSolver<Matrix3d>(jacobian).eigenvalues().maxCoeff() < 1e-9 * size);
+    }
+  }
+}
+
+TEST_CASE("at rest the patch is viscous", "[limit]") {
+  const auto [value, jacobian] = PatchFriction(reduction::HertzLaw{})(Vector3d::Zero(), load, patch);
+  CHECK(value.isZero());
+  const double stiffness = limit / patch.creep;
+  const Matrix3d expected = -stiffness * Vector3d(1, 1, patch.radius * patch.radius / 5).asDiagonal().toDenseMatrix();
+  CHECK((jacobian - expected).norm() < 1e-14 * stiffness);
+}
+
+TEST_CASE("what creeps under a load", "[analytic]") {
+  const Vector3d per_mass(3, 3, 1e5);
+  const auto settled = [&](const reduction::Law& law, const Vector3d& pushed) {
+    const PatchFriction friction(law);
+    Vector3d motion = Vector3d::Zero();
+    for (int i = 0; i < 2000; ++i) motion = stepped(friction, motion, load, patch, per_mass, 1e-4, pushed);
+    return motion;
+  };
+  for (const reduction::Law& law : reduction::named_laws()) {
+    CAPTURE(law.name());
+    for (double share : {0.1, 0.5, 0.9}) {
+      const Vector3d creep = settled(law, {-share * limit, 0, 0});
+      CHECK(creep.x() == Approx(-patch.creep * share / std::sqrt(1 - share * share)).epsilon(1e-9));
+      CHECK(creep.tail<2>().norm() == 0);
+    }
+    const Vector3d twist = settled(law, {0, 0, 0.4 * limit * patch.radius * law.pivoting_moment()});
+    CHECK(law({patch.creep, patch.radius * twist.z()}).moment == Approx(0.4 * law.pivoting_moment()).epsilon(1e-9));
+  }
+  const double small = 1e-4;
+  CHECK(settled(reduction::HertzLaw{}, {0, 0, small * limit * patch.radius}).z() * patch.radius ==
+        Approx(5 * small * patch.creep).epsilon(1e-6));
+}
+
+TEST_CASE("time steps stop a pool ball when it stops", "[analytic]") {
+  Experiment pool = find_ball("pool")->experiment;
+  pool.start = SlipAndSpin{1, 100};
+  const double m = pool.ball.mass, R = pool.ball.radius, dt = 1e-3;
+  for (const char* name : {"exact", "potential8", "elliptic", "pade"}) {
+    const reduction::Law law = *reduction::find_law(name);
+    const BallMotion exact(pool, law);
+    const PatchFriction friction(law);
+    const Patch of{pool.contact.friction, patch_radius_of(pool, law), 1e-4};
+    // The contact point moves as a mass of 2 m/7.
+    const Vector3d per_mass(3.5 / m, 3.5 / m, 2.5 / (m * R * R));
+    Vector3d motion(1, 0, 100);
+    double slip_gone = 0, t = 0;
+    while ((motion.head<2>().norm() > 1e-3 || motion.z() > 0.1) && t < 20) {
+      motion = stepped(friction, motion, m * pool.environment.gravity, of, per_mass, dt);
+      t += dt;
+      if (motion.x() > 0.1) slip_gone = t;
+    }
+    CAPTURE(name);
+    CHECK(t == Approx(exact.stop_time()).epsilon(0.01));
+    CHECK(slip_gone == Approx(exact.slip_time(0.1)).epsilon(0.03));
+    for (int i = 0; i < 1000; ++i) motion = stepped(friction, motion, m * pool.environment.gravity, of, per_mass, dt);
+    CHECK(motion.head<2>().norm() + of.radius * std::abs(motion.z()) < 1e-9);
+  }
+}
+
+TEST_CASE("one Newton step per time step brings sliding to rest where the creep is a dt/2", "[limit]") {
+  const PatchFriction friction(reduction::HertzLaw{});
+  const double dt = 1e-3;
+  const Vector3d per_mass(2, 2, 1e5);
+  const auto end = [&](double share) {
+    const Patch of{0.2, 3e-3, share * 2 * 0.2 * load * dt};
+    Vector3d motion(0.1, 0, 0);
+    for (int i = 0; i < 2000; ++i) motion = stepped(friction, motion, load, of, per_mass, dt);
+    return motion.norm();
+  };
+  CHECK(end(0.5) < 1e-12);
+  CHECK(end(0.01) > 0.4 * 2 * 0.2 * load * dt);
+}
+
+TEST_CASE("no call allocates, of any law", "[limit]") {
+  for (const reduction::Law& law : reduction::named_laws()) {
+    const PatchFriction friction(law);
+    const std::vector<Vector3d> all = motions();
+    friction(all.back(), load, patch);
+    const long before = allocations();
+    double sum = 0;
+    for (const Vector3d& motion : all) sum += friction(motion, load, patch).value.z();
+    const long after = allocations();
+    CAPTURE(law.name());
+    CHECK(after == before);
+    CHECK(std::isfinite(sum));
+  }
+  const long before = allocations();
+  ::operator delete(::operator new(8));
+  CHECK(allocations() > before);
+}
+
+TEST_CASE("the C interface gives numbers or zeros, and throws nothing", "[limit]") {
+  const std::unique_ptr<contensou_law, void (*)(contensou_law*)> law(contensou_law_new("exact"), contensou_law_free);
+  REQUIRE(law);
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = NAN;
+  contensou_wrench wrench;
+  const auto call = [&](const Vector3d& motion, double weight, const contensou_patch& of) {
+    wrench = {{nan, nan}, nan, {{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}}};
+    return contensou_patch_wrench(law.get(), motion.data(), weight, &of, &wrench);
+  };
+  const auto numbers = [&] { return Eigen::Map<const Eigen::Array<double, 12, 1>>(wrench.force); };
+  const contensou_patch good{0.2, 3e-3, 1e-4};
+  for (const double v : {0.0, 1e-300, 1e-4, 1.0, 1e300}) {
+    for (const double omega : {0.0, 1e-300, -1.0, 1e300}) {
+      CAPTURE(v, omega);
+      CHECK(call({v, -v, omega}, load, good) == 0);
+      CHECK(numbers().allFinite());
+      CHECK(std::hypot(wrench.force[0], wrench.force[1]) <= limit * (1 + 1e-15));
+      const Wrench same = PatchFriction(reduction::HertzLaw{})({v, -v, omega}, load, patch);
+      CHECK(wrench.moment == same.value.z());
+      CHECK(wrench.jacobian[0][2] == same.jacobian(0, 2));
+      CHECK(wrench.jacobian[1][0] == same.jacobian(1, 0));
+    }
+  }
+  for (const auto& [weight, of] : {std::pair{0.0, good}, {-1.0, good}, {load, contensou_patch{0, 3e-3, 1e-4}}}) {
+    CHECK(call({1, 1, 1}, weight, of) == 0);
+    CHECK((numbers() == 0).all());
+  }
+  CHECK(call({1, 1, 1}, load, {0.2, 0, 1e-4}) == 0);
+  CHECK(wrench.moment == 0);
+  const auto refused = [&](const Vector3d& motion, double weight, const contensou_patch& of) {
+    CHECK(call(motion, weight, of) == 1);
+    CHECK((numbers() == 0).all());
+    CHECK_THROWS_AS(PatchFriction(reduction::HertzLaw{})(motion, weight, Patch{of.friction, of.radius, of.creep}),
+                    std::domain_error);
+  };
+  for (const double bad : {nan, infinity, -infinity}) {
+    refused({bad, 0, 0}, load, good);
+    refused({0, bad, 0}, load, good);
+    refused({0, 0, bad}, load, good);
+    refused({1, 0, 0}, bad, good);
+    refused({1, 0, 0}, load, {bad, 3e-3, 1e-4});
+    refused({1, 0, 0}, load, {0.2, bad, 1e-4});
+  }
+  refused({1, 0, 0}, load, {0.2, 3e-3, 0});
+  refused({1, 0, 0}, load, {0.2, 3e-3, nan});
+  refused({1, 0, 0}, load, {0.2, -1, 1e-4});
+  refused({1, 0, 0}, load, {-0.2, 3e-3, 1e-4});
+  refused({1.7e308, 1.7e308, 0}, load, good);
+  refused({0, 0, 1e308}, load, {0.2, 100, 1e-4});
+  refused({1, 0, 0}, 1e300, {0.2, 3e-3, 1e-20});
+  CHECK(contensou_patch_wrench(nullptr, Vector3d(1, 0, 0).data(), load, &good, &wrench) == 1);
+  CHECK(contensou_patch_wrench(law.get(), nullptr, load, &good, &wrench) == 1);
+  CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), load, nullptr, &wrench) == 1);
+  CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), load, &good, nullptr) == 1);
+  for (const char* name : {"exakt", "", "elliptic:x", "elliptic:7", static_cast<const char*>(nullptr)}) {
+    CHECK(contensou_law_new(name) == nullptr);
+  }
+  contensou_law_free(contensou_law_new("elliptic:0.6"));
+  contensou_law_free(nullptr);
+}
