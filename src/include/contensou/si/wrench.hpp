@@ -25,14 +25,15 @@ struct Wrench {
 /// |v| is sqrt(|v|^2 + s^2). With V this speed and w = eps |omega|,
 ///   F = -f N Phi(V, w) v/V,    M = -f N eps Psi(V, w) sign(omega)
 /// so |F| <= f N, |M| <= f N eps Psi(0), and F.v + M omega <= 0 for every motion. Under a law with a dissipation potential
-/// R (all named ones but pade, which also has a kink at omega = 0) this is minus the gradient of f N R(V, w), which is convex: the Jacobian is symmetric and
-/// negative semidefinite, and an implicit step has exactly one solution (reduction/README.md, (R37)). Its entries are
-/// bounded by those at rest, -f N/s for the force and -f N eps^2 K/s for the moment, K = lim k Psi (1/5 for exact).
+/// R (all named ones but pade, which also has a kink at omega = 0) this is minus the gradient of f N R(V, w), which is
+/// convex: the Jacobian is symmetric and negative semidefinite, and an implicit step has exactly one solution
+/// (reduction/README.md, (R37)). At rest it is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, K = lim k Psi
+/// (1/5 for exact); elsewhere it is of that order at most. (The law ring has a logarithm at k = 1.)
 ///
-/// What rests creeps instead, and stays where it is to within s times the time: under a tangential load T < f N alone at
+/// What rests creeps instead: under a tangential load T < f N alone at
 ///   |v| = s T/sqrt((f N)^2 - T^2),
 /// under a moment Q < f N eps Psi(0) alone at eps |omega| = s/k with Psi(k) = Q/(f N eps); at s Q/(K f N eps) if Q is small.
-/// While it moves faster than s the error is of the order (s/V)^2.
+/// Where either speed is above s, its share in force and moment is of the order of s^2 over the larger one's square.
 ///
 /// For one Newton step per time step dt, s should not be below a dt/2, where a is the deceleration by friction alone (for
 /// a ball 7/2 f g): else a body that slides without spinning jumps to and fro about rest by up to a dt/2. Steps that
