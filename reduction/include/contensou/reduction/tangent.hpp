@@ -13,7 +13,7 @@ class EllipticLaw;
 /// A resistance and how it changes with both speeds, for implicit steps in time. Since a law is of degree 0, one number
 /// says it of each part: with m the larger of the speeds v and w,
 ///   dPhi = force_slope (w dv - v dw)/m^2,    dPsi = -moment_slope (w dv - v dw)/m^2
-/// For a law with a dissipation potential v force_slope = w moment_slope, README (R37).
+/// For a law with a dissipation potential v force_slope = w moment_slope, README (R36).
 struct Tangent {
   Resistance resistance;
   double force_slope;   ///< Phi' for k <= 1, beyond it the slope of -Phi over 1/k
