@@ -60,7 +60,7 @@ Engine newton() {
                    {"SolverMuJoCo, cone pyramidal (default)", Cone::pyramid, arm_of},
                    {"SolverXPBD", Cone::box, arm_of},
                    {"SolverXPBD, mu_torsional 0.005 (default)", Cone::box, five_millimetres}},
-      .remarks = {},
+      .remarks = {"The other solvers do not read mu_torsional."},
       .sources = {"newton/_src/sim/builder.py:519", "newton/_src/solvers/xpbd/kernels.py:2261-2279",
                   "newton/_src/solvers/xpbd/kernels.py:2353-2376", "newton/_src/solvers/mujoco/kernels.py:2484-2488",
                   "newton/_src/solvers/mujoco/solver_mujoco.py:5423-5424"},
@@ -130,11 +130,13 @@ Engine bullet() {
       .combination = "friction f = fA fB, spinning friction s = sA fB + sB fA: the plane has 1 and 0",
       .needs = {"setRollingFriction above 0, however small: without it spinning friction is ignored"},
       .settings = {{"rolling friction > 0", Cone::box, arm_of}, {"rolling friction 0 (default)", Cone::box, no_arm}},
-      .remarks = {"The cap bites where the load times the time step exceeds 1 N s: a heavy body spins on.",
-                  "btMultiBody does not need rolling friction and has no cap."},
+      .remarks =
+          {"The cap bites where the load times the time step exceeds 1 N s: a heavy body spins on.",
+           "btMultiBody needs no rolling friction and has no cap, but solverMode SOLVER_USE_2_FRICTION_DIRECTIONS."},
       .sources = {"src/BulletCollision/CollisionDispatch/btManifoldResult.cpp:43-60",
                   "src/BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.cpp:1058-1061",
                   "src/BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.cpp:1679-1687",
+                  "src/BulletDynamics/Featherstone/btMultiBodyConstraintSolver.cpp:78-102",
                   "src/BulletDynamics/Featherstone/btMultiBodyConstraintSolver.cpp:1339-1344"},
   };
 }
