@@ -319,6 +319,7 @@ val portrait_file(const val& asked, const std::string& ending) {
 val catalogue() {
   val balls = val::array();
   for (const si::CatalogueEntry& entry : si::catalogue()) {
+    if (entry.experiment.ball.body.lies_flat()) continue;  // the page has balls
     const auto* by_spin = std::get_if<si::SpinDeceleration>(&entry.experiment.contact.patch);
     val ball = val::object();
     ball.set("name", entry.name);

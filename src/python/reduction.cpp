@@ -10,7 +10,7 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/verification.hpp"
-#include "options/body.hpp"
+#include "contensou/si/body.hpp"
 #include "values.hpp"
 
 namespace contensou::python {
@@ -71,16 +71,18 @@ Law law_of_name(const std::string& name) {
 
 Eigen::ArrayXd column(const Numbers& values) { return Eigen::Map<const Eigen::ArrayXd>(values.data(), values.size()); }
 
-program::Body body_of(const std::variant<std::string, std::pair<double, double>>& given) {
+si::Body body_of(const std::variant<std::string, std::pair<double, double>>& given) {
   if (const auto* ratios = std::get_if<1>(&given)) {
-    return {{.chi = ratios->first, .gamma = ratios->second}, std::nullopt, false};
+    return {"", {.chi = ratios->first, .gamma = ratios->second}, std::nullopt, false};
   }
-  return one_of("body", "bodies", program::bodies(), std::get<0>(given), {"(chi, gamma)"});
+  std::vector<std::pair<std::string, si::Body>> named;
+  for (const si::Body& body : si::bodies()) named.emplace_back(body.name, body);
+  return one_of("body", "bodies", named, std::get<0>(given), {"(chi, gamma)"});
 }
 
 Flow flow_of(const std::optional<Law>& law, std::optional<double> mu,
              const std::variant<std::string, std::pair<double, double>>& given) {
-  const program::Body body = body_of(given);
+  const si::Body body = body_of(given);
   if (!mu) mu = body.patch_ratio;
   if (!mu) throw std::domain_error("mu is missing: the radius of the contact patch over that of the body");
   if (const std::string complaint = body.complaint(*mu); !complaint.empty()) {

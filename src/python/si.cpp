@@ -5,7 +5,10 @@
 #include <numbers>
 #include <type_traits>
 
+#include <fmt/format.h>
+
 #include "contensou/portraits/json.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/course.hpp"
@@ -74,6 +77,14 @@ si::Experiment experiment_of(const py::object& ball, const std::optional<Pair>& 
 
 /// The fields of a Ball of Python.
 py::dict fields_of(const si::Experiment& experiment) {
+  if (experiment.ball.body.lies_flat()) {
+    const auto [chi, gamma] = experiment.ball.body.inertia;
+    const std::string law = si::law_of(experiment);
+    throw std::domain_error(
+        fmt::format("{} is a {}, which lies flat, and a Ball rolls: use Flow(mu={}, law=\"{}\", body=({}, {}))",
+                    experiment.ball.name, experiment.ball.body.name,
+                    si::patch_ratio(experiment, *reduction::find_law(law)), law, chi, gamma));
+  }
   py::dict fields;
   fields["name"] = experiment.ball.name;
   fields["mass"] = experiment.ball.mass;

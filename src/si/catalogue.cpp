@@ -54,10 +54,33 @@ CatalogueEntry gel() {
           "steel. The patch is large (mu = 0.24): the ball where sliding and spinning are seen to be coupled."};
 }
 
+Body body_of(std::string_view name) { return *std::ranges::find(bodies(), name, &Body::name); }
+
+CatalogueEntry puck() {
+  return {"puck",
+          {.ball = {.name = "ice hockey puck", .mass = 0.163, .radius = 0.0381, .body = body_of("disc")},
+           .contact = {.friction = 0.1, .patch = WholeFace{}},
+           .start = SlipAndSpin{.slip = 5, .spin = 100}},
+          "Regulation size and mass (3 in across, 5.5 to 6 oz); friction on ice, between 0.05 and 0.15, and uniform\n"
+          "pressure on the whole face assumed."};
+}
+
+CatalogueEntry curling_stone() {
+  return {
+      "curling-stone",
+      {.ball = {.name = "curling stone on pebbled ice", .mass = 19, .radius = 0.145, .body = body_of("disc")},
+       .contact = {.friction = 0.008, .patch = PatchRadius{0.065}, .law = "ring"},
+       .start = SlipAndSpin{.slip = 2, .spin = 1.57}},
+      "Radii of stone and running band, 145 and 65 mm, and spin: DigitalCurling, simulator_fcv1.cpp; mass within\n"
+      "the rules (17.24 to 19.96 kg). J_z of a disc and a thin band assumed; and a constant friction, where ice has\n"
+      "less at speed: 0.0072 at 2 m/s to 0.0098 at 0.5 m/s in that simulator's fit. It does not curl here."};
+}
+
 }  // namespace
 
 const std::vector<CatalogueEntry>& catalogue() {
-  static const std::vector<CatalogueEntry> entries{pool(), steel(), bowling(), rubber(), gel()};
+  static const std::vector<CatalogueEntry> entries{pool(), steel(), bowling(),      rubber(),
+                                                   gel(),  puck(),  curling_stone()};
   return entries;
 }
 

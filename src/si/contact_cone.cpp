@@ -50,7 +50,7 @@ class PyramidMotion {
  public:
   PyramidMotion(const Experiment& experiment, double mu)
       : v0(slip_at_start(experiment)), w0(mu * std::abs(reduced_start(experiment).u)), on_ray_(std::min(v0, w0)) {
-    const ReducedSystem system(reduction::EllipticLaw(1), mu);
+    const ReducedSystem system(reduction::EllipticLaw(1), mu, experiment.ball.body.inertia);
     ray_ = seconds(experiment, system.sliding_limit(v0 - on_ray_) + system.pivoting_limit((w0 - on_ray_) / mu));
     stop_ = seconds(experiment, system.sliding_limit(v0) + system.pivoting_limit(w0 / mu));
   }
@@ -101,7 +101,8 @@ FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm)
   const auto [u, v0] = reduced_start(experiment);
   const double u0 = std::abs(u);
   const double mu = mu_of(experiment, moment_arm);
-  const ReducedSystem system(reduction::EllipticLaw(1), mu > 0 ? mu : 1);  // where mu is 0, its sliding is asked for
+  const ReducedSystem system(reduction::EllipticLaw(1), mu > 0 ? mu : 1,
+                             experiment.ball.body.inertia);  // where mu is 0, its sliding is asked for
   if (mu > 0 && cone == Cone::elliptic) return fade_times(experiment, BallMotion(experiment, reduction::Flow(system)));
   FadeTimes times{
       seconds(experiment, system.sliding_limit((1 - faded) * v0)),

@@ -14,6 +14,7 @@ namespace contensou::si {
 std::vector<GivenQuantity> given_by(const PatchSource& patch) {
   if (const auto* given = std::get_if<PatchRadius>(&patch)) return {{&patch_radius, {given->value}}};
   if (const auto* measured = std::get_if<SpinDeceleration>(&patch)) return {{&spin_deceleration, {measured->value}}};
+  if (std::holds_alternative<WholeFace>(patch)) return {};
   const auto& [moduli, ratios] = std::get<HertzModuli>(patch);
   return {{&youngs_modulus, {moduli.begin(), moduli.end()}}, {&poisson_ratio, {ratios.begin(), ratios.end()}}};
 }
@@ -28,7 +29,12 @@ std::vector<GivenQuantity> given_by(const Start& start) {
 std::string origin_of(const PatchSource& patch) {
   if (std::holds_alternative<PatchRadius>(patch)) return "given";
   if (std::holds_alternative<HertzModuli>(patch)) return "by Hertz's formula";
+  if (std::holds_alternative<WholeFace>(patch)) return "its whole face";
   return fmt::format("from its spin deceleration {} rad/s^2", std::get<SpinDeceleration>(patch).value);
+}
+
+std::string law_of(const Experiment& experiment) {
+  return experiment.contact.law.empty() ? std::string(experiment.ball.body.law) : experiment.contact.law;
 }
 
 double patch_radius_of(const Experiment& experiment, const reduction::Law& law) {
@@ -36,9 +42,11 @@ double patch_radius_of(const Experiment& experiment, const reduction::Law& law) 
   double patch = 0;
   if (const auto* given = std::get_if<PatchRadius>(&contact.patch)) {
     patch = given->value;
+  } else if (std::holds_alternative<WholeFace>(contact.patch)) {
+    patch = ball.radius;
   } else if (const auto* measured = std::get_if<SpinDeceleration>(&contact.patch)) {
     patch = patch_radius_of_deceleration(ball.radius, measured->value, contact.friction, environment.gravity,
-                                         law.pivoting_moment());
+                                         law.pivoting_moment(), ball.body.inertia.gamma);
   } else {
     patch = hertz_patch_radius(ball.mass * environment.gravity, ball.radius, std::get<HertzModuli>(contact.patch));
   }
@@ -81,6 +89,21 @@ void require_experiment(const Experiment& experiment) {
     }
   }
   require(gravity, experiment.environment.gravity);
+  if (experiment.ball.body.lies_flat()) {
+    if (std::holds_alternative<HertzModuli>(experiment.contact.patch)) {
+      throw std::domain_error(
+          fmt::format("a {} lies flat: Hertz's formula is of a ball; give patch_radius, or nothing for the whole face",
+                      experiment.ball.body.name));
+    }
+    const Eigen::Vector2d turning = velocities_of(experiment.start).angular_velocity.head<2>();
+    if (turning != Eigen::Vector2d::Zero()) {
+      throw std::domain_error(
+          fmt::format("a {} lies flat and turns about the vertical only; got an angular velocity of {}, {}, ... rad/s",
+                      experiment.ball.body.name, turning.x(), turning.y()));
+    }
+  } else if (std::holds_alternative<WholeFace>(experiment.contact.patch)) {
+    throw std::domain_error("a ball has no face to lie on: give the patch");
+  }
 
   if (!std::holds_alternative<SpinDeceleration>(experiment.contact.patch))
     patch_radius_of(experiment, reduction::HertzLaw{});

@@ -17,8 +17,8 @@ double hertz_patch_radius(double load, double radius, const HertzModuli& moduli)
 }
 
 double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,
-                                    double pivoting_moment) {
-  return 2 * radius * radius * deceleration / (5 * friction * gravity * pivoting_moment);
+                                    double pivoting_moment, double gamma) {
+  return radius * radius * deceleration / (gamma * friction * gravity * pivoting_moment);
 }
 
 }  // namespace contensou::si

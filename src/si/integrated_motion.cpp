@@ -196,6 +196,8 @@ std::vector<Eigen::Index> increasing(const Eigen::ArrayXd& times) {
 IntegratedMotion integrate_motion(const Experiment& experiment, const reduction::Law& law,
                                   const Eigen::ArrayXd& times) {
   require_experiment(experiment);
+  if (experiment.ball.body.lies_flat())
+    throw std::domain_error("integrate_motion: it is of a ball, not of a body that lies flat");
   for (double t : times) {
     if (t >= 0 && std::isfinite(t)) continue;
     throw std::domain_error(fmt::format("integrate_motion: times must be finite and >= 0, in s; got {}", t));

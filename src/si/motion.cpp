@@ -24,23 +24,28 @@ MotionPoint MotionColumns::row(Eigen::Index i) const {
 
 double kinetic_energy(const Ball& ball, const Velocities& velocities) {
   const Eigen::Vector3d rim = ball.radius * velocities.angular_velocity;
-  return ball.mass * (velocities.velocity.squaredNorm() / 2 + rim.squaredNorm() / 5);
+  const auto [chi, gamma] = ball.body.inertia;
+  const double turning = ball.body.lies_flat() ? 0 : rim.head<2>().squaredNorm() / (2 * (chi - 1));
+  return ball.mass * (velocities.velocity.squaredNorm() / 2 + turning + rim.z() * rim.z() / (2 * gamma));
 }
 
 EnergyLoss energy_loss(const Experiment& experiment) {
   const double v = slip_at_start(experiment);
   const double u = experiment.ball.radius * spin_at_start(experiment);
-  return {experiment.ball.mass * v * v / 7, experiment.ball.mass * u * u / 5};
+  const auto [chi, gamma] = experiment.ball.body.inertia;
+  return {experiment.ball.mass * v * v / (2 * chi), experiment.ball.mass * u * u / (2 * gamma)};
 }
 
 FinalMotion final_motion(const Experiment& experiment) {
   const double R = experiment.ball.radius;
+  const double chi = experiment.ball.body.inertia.chi;
+  if (experiment.ball.body.lies_flat()) return {Eigen::Vector2d::Zero(), Eigen::Vector3d::Zero()};
   if (const auto* start = std::get_if<SlipAndSpin>(&experiment.start)) {
-    const double speed = start->slip * (5.0 / 7.0);
+    const double speed = start->slip * ((chi - 1) / chi);
     return {{speed, 0}, {0, speed / R, 0}};
   }
   const Eigen::Vector2d rolling =
-      velocities_of(experiment.start).velocity - slip_velocity_at_start(experiment) * (2.0 / 7.0);
+      velocities_of(experiment.start).velocity - slip_velocity_at_start(experiment) * (1 / chi);
   return {rolling, {(0 - rolling.y()) / R, rolling.x() / R, 0}};  // 0 - y: no -0
 }
 
@@ -50,12 +55,13 @@ MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, 
   const double v0 = slip_at_start(experiment);
   const Eigen::Vector2d along = v0 > 0 ? Eigen::Vector2d(contact / v0) : Eigen::Vector2d::Zero();
   const double lost = v0 - slip;
-  const double rolling = 5 * lost / (7 * experiment.ball.radius);
+  const double chi = experiment.ball.body.inertia.chi;
+  const double rolling = (chi - 1) * lost / (chi * experiment.ball.radius);
 
   MotionPoint point;
   point.t = t;
-  point.position = start.velocity * t - (v0 * t - slip_length) * (2.0 / 7.0) * along;
-  point.velocity = start.velocity - lost * (2.0 / 7.0) * along;
+  point.position = start.velocity * t - (v0 * t - slip_length) * (1 / chi) * along;
+  point.velocity = start.velocity - lost * (1 / chi) * along;
   point.angular_velocity = {start.angular_velocity.x() - rolling * along.y(),
                             start.angular_velocity.y() + rolling * along.x(), spin};
   point.slip = slip;

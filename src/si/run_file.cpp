@@ -17,6 +17,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/quantity.hpp"
 #include "text/nearest_name.hpp"
 
@@ -156,14 +157,17 @@ class Reader {
     const Section start = section(file, "start");
     const Section environment = section(file, "environment");
     allow(file, {"ball", "contact", "start", "environment"});
-    allow(ball, {"name", mass.name, radius.name});
-    allow(contact, {friction.name, patch_radius.name, spin_deceleration.name, "hertz"});
+    allow(ball, {"name", "body", mass.name, radius.name});
+    allow(contact, {friction.name, patch_radius.name, spin_deceleration.name, "hertz", "law"});
     allow(start, {slip.name, spin.name, velocity.name, angular_velocity.name});
     allow(environment, {gravity.name});
 
     const Experiment experiment{
-        .ball = {.name = name(ball), .mass = number(ball, mass), .radius = number(ball, radius)},
-        .contact = {.friction = number(contact, friction), .patch = patch(contact)},
+        .ball = {.name = line_of(ball, "name", "ball"),
+                 .mass = number(ball, mass),
+                 .radius = number(ball, radius),
+                 .body = body(ball)},
+        .contact = {.friction = number(contact, friction), .patch = patch(contact, body(ball)), .law = law(contact)},
         .start = start_of(start),
         .environment = {.gravity = number(environment, gravity, Environment{}.gravity)},
     };
@@ -224,15 +228,44 @@ class Reader {
     }
   }
 
-  std::string name(const Section& ball) const {
-    const toml::node* node = ball.table->get("name");
-    if (node == nullptr) return "ball";
-    if (!node->is_string()) fail(node->source().begin, "'name' in [ball] must be a string in quotes");
+  std::string line_of(const Section& section, std::string_view key, std::string_view standard) const {
+    const toml::node* node = section.table->get(key);
+    if (node == nullptr) return std::string(standard);
+    if (!node->is_string()) {
+      fail(node->source().begin, fmt::format("{} must be a string in quotes", place(section, key)));
+    }
     const std::string& text = node->as_string()->get();
     if (std::ranges::any_of(text, is_control)) {
-      fail(node->source().begin, "'name' in [ball] must be one line of text without control characters");
+      fail(node->source().begin,
+           fmt::format("{} must be one line of text without control characters", place(section, key)));
     }
     return text;
+  }
+
+  Body body(const Section& ball) const {
+    const std::string typed = line_of(ball, "body", "ball");
+    std::vector<std::string> names;
+    for (const Body& body : bodies()) {
+      if (!body.lies_flat() && body.name != "ball") continue;  // the strokes and the textbook are of a solid ball
+      if (body.name == typed) return body;
+      names.emplace_back(body.name);
+    }
+    fail(ball.table->get("body")->source().begin,
+         fmt::format("no such body '{:.80}'{}; bodies: {}", typed, suggestion(typed, names), fmt::join(names, ", ")));
+  }
+
+  std::string law(const Section& contact) const {
+    const std::string name = line_of(contact, "law", "");
+    if (name.empty()) return name;
+    try {
+      if (reduction::find_law(name)) return name;
+    } catch (const std::domain_error& error) {
+      fail(contact.table->get("law")->source().begin, error.what());
+    }
+    std::vector<std::string> names;
+    for (const reduction::Law& known : reduction::named_laws()) names.push_back(known.name());
+    fail(contact.table->get("law")->source().begin,
+         fmt::format("no such law '{:.80}'{}; laws: {}", name, suggestion(name, names), fmt::join(names, ", ")));
   }
 
   double number(const toml::node& node, const Section& section, const Quantity& quantity) const {
@@ -310,7 +343,7 @@ class Reader {
     return Velocities{{x, y}, {wx, wy, wz}};
   }
 
-  PatchSource patch(const Section& contact) const {
+  PatchSource patch(const Section& contact, const Body& body) const {
     const bool radius_given = overrides_.contains(patch_radius.name);
     const bool deceleration_given = overrides_.contains(spin_deceleration.name);
     if (radius_given && deceleration_given) {
@@ -322,6 +355,7 @@ class Reader {
       if (contact.table->contains(key)) given.push_back(key);
     }
     const bool overridden = radius_given || deceleration_given;
+    if (body.lies_flat() && given.empty() && !overridden) return WholeFace{};
     if (given.size() > 1 || (given.empty() && !overridden)) {
       fail(contact.position, fmt::format("[contact] must have exactly one of patch_radius, spin_deceleration and the "
                                          "table [contact.hertz]; it has {}",
@@ -386,14 +420,17 @@ std::string run_file(const Experiment& experiment, std::string_view remark) {
   for (std::string comment; std::getline(lines, comment);) text += fmt::format("# {}\n", comment);
   std::ostringstream name;
   name << toml::value<std::string>(experiment.ball.name);
+  const std::string_view body = experiment.ball.body.name;
 
   const auto add = [&](const std::vector<GivenQuantity>& given) {
     for (const auto& [quantity, values] : given) text += line(*quantity, values);
   };
   const auto& [ball, contact, start, environment] = experiment;
   text += fmt::format("[ball]\nname = {}\n", name.str());
+  if (body != "ball") text += fmt::format("body = \"{}\"\n", body);
   add({{&mass, {ball.mass}}, {&radius, {ball.radius}}});
   text += "\n[contact]\n" + line(friction, {contact.friction});
+  if (!contact.law.empty()) text += fmt::format("law = \"{}\"\n", contact.law);
   if (std::holds_alternative<HertzModuli>(contact.patch)) text += "\n[contact.hertz]\n";
   add(given_by(contact.patch));
   text += "\n[start]\n";

@@ -14,7 +14,7 @@ reduction::State reduced_start(const Experiment& experiment) {
 
 reduction::ReducedSystem reduced_system(const Experiment& experiment, const reduction::Law& law) {
   require_experiment(experiment);
-  return {law, patch_ratio(experiment, law)};
+  return {law, patch_ratio(experiment, law), experiment.ball.body.inertia};
 }
 
 double seconds(const Experiment& experiment, double tau) {

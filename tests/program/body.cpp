@@ -38,8 +38,49 @@ TEST_CASE("a body that contradicts the rest is rejected", "[cli]") {
   check_rejected("stop --body 1,2 --u0 1 --v0 1", "--mu missing");
   check_rejected("stop --body hollow-ball --mu 0 --u0 1 --v0 1", "--mu 0: ");
   check_rejected("stop --body pukc --u0 1 --v0 1", "--body pukc: no such body");
-  check_rejected("stop --ball pool --body disc", "--body disc: --ball is a homogeneous ball already");
+  check_rejected("stop --ball pool --body disc", "--body disc: --ball says its body itself");
+  check_rejected("stop --body disc --radius 0.04", "--radius changes a ball, or a puck: add --ball");
   check_rejected("check --body disc", "--u0, --v0 missing");
   CHECK_THAT(run_program("stop --batch - --body disc", "mu,u0,v0\n0.5,1,3\n").err,
              Contains("<stdin>:2: mu: a puck rests on its whole face"));
+}
+
+TEST_CASE("a puck in seconds", "[cli]") {
+  const std::string start = " --ball puck --friction 0.2 --radius 0.04 --slip 2 --spin 30";
+  const json stop = json_of("stop --format json" + start);
+  CHECK(stop.at("law") == "uniform");
+  CHECK(stop.at("mu") == 1);
+  CHECK(stop.at("body") == json{{"chi", 1}, {"gamma", 2}});
+  CHECK(stop.at("ball").at("body") == "disc");
+  CHECK(stop.at("ball").at("patch_radius") == 0.04);
+  CHECK(stop.at("final").at("velocity") == json{0, 0});
+  // The same in the paper's variables: t = 2 tau/(3 pi f g).
+  const json reduced = json_of("stop --format json --body disc --u0 1.2 --v0 2");
+  const double tau = reduced.at("tau_stop").get<double>();
+  const double t = 2 * tau / (3 * 3.14159265358979324) / 0.2 / 9.80665;
+  CHECK(stop.at("t_stop").get<double>() == Approx(t).epsilon(1e-14));
+  CHECK_THAT(run_program("stop" + start).out, Contains("ice hockey puck: disc, radius 0.04 m") &&
+                                                  Contains("patch radius 0.04 m, its whole face: mu = 1") &&
+                                                  Contains("then   it lies still, 1.11578 m from its start") &&
+                                                  Contains("law    uniform"));
+  const auto batch =
+      rows_of(run_program("stop --ball puck --friction 0.2 --radius 0.04 --batch -", "slip,spin\n2,30\n").out);
+  CHECK(std::stod(batch[1][2]) == Approx(t).epsilon(1e-14));
+  const auto swept = rows_of(run_program("sweep --ball puck --friction 0.2 --radius 0.04 --slip 2 --spin 30").out);
+  CHECK(std::stod(swept[1][2]) == Approx(t).epsilon(1e-14));
+  CHECK(std::stod(rows_of(run_program("orbit --samples 3" + start).out).back().back()) == Approx(t).epsilon(1e-14));
+  CHECK(json_of("portrait -o - --format json" + start).at("body") == stop.at("body"));
+  CHECK(run_program("check" + start).status == 0);
+  CHECK_THAT(run_program("portrait --ball puck -o - --format tex").out, !Contains("this ball"));
+
+  CHECK(json_of("stop --format json --ball curling-stone").at("law") == "ring");
+  CHECK(json_of("stop --format json --ball curling-stone --law exact").at("law") == "exact");
+  check_rejected("roll --ball puck",
+                 "--ball puck: a disc lies flat and never rolls; 'contensou stop' says when and where");
+  check_rejected("engine --ball puck", "never rolls");
+  // A file is read once, so that it may be a pipe.
+  const TemporaryDirectory scratch;
+  CHECK(run_program("balls puck -o " + scratch.file("puck.toml")).status == 0);
+  CHECK(run_program("stop --ball /dev/stdin", read_file(scratch.file("puck.toml"))).out ==
+        run_program("stop --ball puck").out);
 }

@@ -185,7 +185,7 @@ TEST_CASE("mistakes in a table that is checked", "[cli]") {
   check_rejected("check --against -", "--against -: slip and spin are those of a ball in SI units: add --ball", good);
   check_rejected("check --mu 0.1 --against -", "add --ball", good);
   check_rejected("check --mu 0.1 --ball pool --against -", "exclude each other", good);
-  check_rejected("check --ball pool --body disc --against -", "is a homogeneous ball already", good);
+  check_rejected("check --ball pool --body disc --against -", "--ball says its body itself", good);
   check_rejected("check --ball pool --tolerance 0 --against -", "--tolerance 0: a share above 0 is needed", good);
   check_rejected("check --ball pool --tolerance 0.1", "--tolerance is for a table: add --against FILE");
   const std::vector<std::pair<std::string, std::string>> tables{

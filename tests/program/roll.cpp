@@ -174,6 +174,7 @@ TEST_CASE("a cue's stroke is a start", "[cli]") {
 TEST_CASE("a spinning ball never rolls before the textbook's, whatever counts as rolling", "[invariant]") {
   for (const std::string law : {"exact", "pade"}) {
     for (const auto& entry : contensou::si::catalogue()) {
+      if (entry.experiment.ball.body.lies_flat()) continue;
       for (const char* below : {"1e-6", "1e-3", "0.1", "100"}) {
         const auto roll = json_of(fmt::format("roll --samples 2 --format json --ball {} --law {} --rolling-below {}",
                                               entry.name, law, below));
@@ -242,6 +243,7 @@ TEST_CASE("a picture of the motion as a script", "[cli]") {
 
 TEST_CASE("every built-in ball rolls", "[cli]") {
   for (const auto& entry : contensou::si::catalogue()) {
+    if (entry.experiment.ball.body.lies_flat()) continue;
     for (const std::string route : {"reduced", "integrated"}) {
       const Run run = run_program("roll --samples 11 --ball " + entry.name + " --route " + route);
       INFO(entry.name << " " << run.err);

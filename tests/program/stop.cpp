@@ -64,7 +64,7 @@ TEST_CASE("the law is exact, or that of the body's own pressure", "[cli]") {
 
 TEST_CASE("stop of a ball has seconds and the final motion", "[cli]") {
   const json stop = json_of("stop --ball pool --format json");
-  CHECK(stop.size() == 19);
+  CHECK(stop.size() == 20);
   CHECK(stop.at("t_stop").get<double>() == Approx(10.1).margin(0.05));
   CHECK(stop.at("final").at("velocity").size() == 2);
   CHECK(stop.at("final").at("velocity").at(0).get<double>() == Approx(5.0 / 7).epsilon(1e-15));
@@ -257,9 +257,9 @@ TEST_CASE("data of a ball say which ball it is", "[cli]") {
   CHECK(stop.at("slip") == 2);
   CHECK(stop.at("spin") == 50);
   CHECK(json_of("stop --ball steel --format json").at("ball").at("youngs_modulus") == json{2.1e11, 7e10});
-  CHECK_THAT(
-      run_program("roll --ball pool --samples 2").out,
-      Contains("\n# ball: {\"name\": \"pool ball on cloth\", \"radius\": 0.028575") && Contains("\n# version: \"0."));
+  CHECK_THAT(run_program("roll --ball pool --samples 2").out,
+             Contains("\n# ball: {\"name\": \"pool ball on cloth\", \"body\": \"ball\", \"radius\": 0.028575") &&
+                 Contains("\n# version: \"0."));
 }
 
 TEST_CASE("the error under a pressure from a table is not promised", "[cli]") {

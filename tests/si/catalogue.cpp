@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/hertz_contact.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -18,11 +19,9 @@ TEST_CASE("patches of the built-in balls", "[table]") {
     double mu;
   };
   // theory: Hertz's formula and the spin deceleration, rounded to three digits there
-  const std::vector<Row> rows{{"pool", 2.83e-3, 0.099},
-                              {"steel", 3.51e-5, 0.0035},
-                              {"bowling", 1.33e-3, 0.0123},
-                              {"rubber", 1.71e-3, 0.0685},
-                              {"gel", 7.24e-3, 0.241}};
+  const std::vector<Row> rows{{"pool", 2.83e-3, 0.099},       {"steel", 3.51e-5, 0.0035}, {"bowling", 1.33e-3, 0.0123},
+                              {"rubber", 1.71e-3, 0.0685},    {"gel", 7.24e-3, 0.241},    {"puck", 0.0381, 1},
+                              {"curling-stone", 0.065, 0.448}};
   REQUIRE(catalogue().size() == rows.size());
   const contensou::reduction::HertzLaw law;
   for (const auto& [name, patch, mu] : rows) {
@@ -51,4 +50,21 @@ TEST_CASE("the Hertz radius grows with the cube root of load and radius", "[symm
   const double patch = hertz_patch_radius(0.3, 0.01, moduli);
   CHECK(hertz_patch_radius(8 * 0.3, 0.01, moduli) == Approx(2 * patch).epsilon(1e-15));
   CHECK(hertz_patch_radius(0.3, 8 * 0.01, moduli) == Approx(2 * patch).epsilon(1e-15));
+}
+
+TEST_CASE("a curling stone's spin dies out as measured", "[table]") {
+  // Fitted by DigitalCurling (simulator_fcv1.cpp): friction 0.00200985/(v + 0.06385782) + 0.00626286, and
+  // domega/dt = -0.025/v. The coupled friction of a thin band has no parameter for the second.
+  const Experiment& stone = find_ball("curling-stone")->experiment;
+  const contensou::reduction::Law ring = *contensou::reduction::find_law(law_of(stone));
+  CHECK(ring.name() == "ring");
+  const double eps = patch_radius_of(stone, ring), R = stone.ball.radius, spin = spin_at_start(stone);
+  for (double v : {0.5, 1.0, 2.0, 2.5}) {
+    const double friction = 0.00200985 / (v + 0.06385782) + 0.00626286;
+    const double moment = ring(contensou::reduction::Slip{v, eps * spin}).moment;
+    const double deceleration =
+        stone.ball.body.inertia.gamma * friction * stone.environment.gravity * eps * moment / (R * R);
+    CAPTURE(v);
+    CHECK(0.025 == Approx(deceleration * v).epsilon(0.2));
+  }
 }

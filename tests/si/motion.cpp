@@ -2,7 +2,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/laws.hpp"
+#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/integrated_motion.hpp"
 #include "motion_cases.hpp"
 
 using namespace contensou::si;
@@ -53,4 +56,30 @@ TEST_CASE("any start ends in rolling along one line", "[invariant]") {
   CHECK(general.angular_velocity.isApprox(final_motion(experiment).angular_velocity, 1e-15));
   // 7 R omega_y + 5 v keeps its value, v being the slip.
   CHECK(7 * R * general.angular_velocity.y() == Approx(5 * 2).epsilon(1e-15));
+}
+
+TEST_CASE("a body that lies flat comes to rest, and loses all its energy", "[invariant]") {
+  Experiment puck = find_ball("puck")->experiment;
+  const contensou::reduction::Law law = *contensou::reduction::find_law(law_of(puck));
+  const BallMotion motion(puck, law);
+  const MotionPoint end = motion.at_time(motion.stop_time());
+  CHECK(end.velocity.norm() < 1e-14);
+  CHECK(end.angular_velocity == Eigen::Vector3d::Zero());
+  CHECK(end.position.x() == Approx(motion.slip_length()).epsilon(1e-13));  // it slides wherever it moves
+  CHECK(final_motion(puck).velocity == Eigen::Vector2d::Zero());
+  const auto [sliding, pivoting] = energy_loss(puck);
+  CHECK(sliding == Approx(0.163 * 25 / 2).epsilon(1e-15));
+  CHECK(sliding + pivoting == Approx(kinetic_energy(puck.ball, velocities_of(puck.start))).epsilon(1e-15));
+  // Power of friction: dE/dt = -f m g (Phi v + eps Psi |omega|), by a difference.
+  const double t = 0.4 * motion.stop_time(), dt = 1e-4;
+  const MotionPoint at = motion.at_time(t);
+  const double eps = patch_radius_of(puck, law);
+  const auto [force, moment] = law(contensou::reduction::Slip{at.slip, eps * at.angular_velocity.z()});
+  const double power = puck.contact.friction * puck.ball.mass * puck.environment.gravity *
+                       (force * at.slip + eps * moment * at.angular_velocity.z());
+  CHECK((motion.at_time(t - dt).energy - motion.at_time(t + dt).energy) / (2 * dt) == Approx(power).epsilon(1e-6));
+
+  puck.start = Velocities{{1, 0}, {0, 1, 2}};
+  CHECK_THROWS_WITH(require_experiment(puck), Catch::Matchers::Contains("turns about the vertical only"));
+  CHECK_THROWS_WITH(integrate_motion(find_ball("puck")->experiment, law, {}), Catch::Matchers::Contains("lies flat"));
 }

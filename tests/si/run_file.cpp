@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 
 using namespace contensou::si;
@@ -37,6 +38,7 @@ std::string with(std::string text, const std::string& old, const std::string& re
 
 bool same(const PatchSource& a, const PatchSource& b) {
   if (a.index() != b.index()) return false;
+  if (std::holds_alternative<WholeFace>(a)) return true;
   if (const auto* x = std::get_if<PatchRadius>(&a)) return x->value == std::get<PatchRadius>(b).value;
   if (const auto* x = std::get_if<SpinDeceleration>(&a)) return x->value == std::get<SpinDeceleration>(b).value;
   const auto& x = std::get<HertzModuli>(a);
@@ -276,4 +278,38 @@ gravity = 1.6
   CHECK_THROWS_AS(parse_run_file(two, "x.toml", {{"patch_radius", 2e-3}}), RunFileError);
   const std::string none = with(good, "spin_deceleration = 10\n", "");
   CHECK(std::get<PatchRadius>(parse_run_file(none, "x.toml", {{"patch_radius", 2e-3}}).contact.patch).value == 2e-3);
+}
+
+TEST_CASE("a body that lies flat, and a law of its own", "[table]") {
+  const std::string flat = with(with(good, "spin_deceleration = 10\n", ""), "mass", "body = \"disc\"\nmass");
+  const Experiment disc = parse_run_file(flat, "f");
+  CHECK(disc.ball.body.name == "disc");
+  CHECK(std::holds_alternative<WholeFace>(disc.contact.patch));
+  CHECK(law_of(disc) == "uniform");
+  const auto uniform = *contensou::reduction::find_law("uniform");
+  CHECK(patch_radius_of(disc, uniform) == 0.028575);
+  CHECK(patch_radius_of(parse_run_file(flat, "f", {{"radius", 0.04}}), uniform) == 0.04);
+  const Experiment banded =
+      parse_run_file(with(flat, "friction", "law = \"annulus:0.9\"\npatch_radius = 0.01\nfriction"), "f");
+  CHECK(law_of(banded) == "annulus:0.9");
+  CHECK(patch_radius_of(banded, uniform) == 0.01);
+  CHECK(law_of(parse_run_file(good, "f")) == "exact");
+  // A spin that dies out: J = m R^2/2.
+  const Experiment measured = parse_run_file(flat, "f", {{"spin_deceleration", 10}});
+  CHECK(patch_radius_of(measured, uniform) ==
+        Approx(0.028575 * 0.028575 * 10 / (2 * 0.2 * 9.80665 * (2.0 / 3))).epsilon(1e-14));
+
+  const auto refused = [&](const std::string& text, const std::string& words) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(parse_run_file(text, "f"), Contains(words));
+  };
+  refused(with(flat, "disc", "disk"),
+          "f:3:8: no such body 'disk' (did you mean 'disc'?); bodies: ball, disc, puck, ring");
+  refused(with(flat, "\"disc\"", "2"), "'body' in [ball] must be a string in quotes");
+  refused(with(flat, "friction", "law = \"unifrom\"\nfriction"), "no such law 'unifrom' (did you mean 'uniform'?)");
+  refused(with(flat, "friction", "law = \"pressure:-2\"\nfriction"), "f:7:7: ");
+  refused(with(flat, "[start]", "[contact.hertz]\nyoungs_modulus = [1, 1]\npoisson_ratio = [0.3, 0.3]\n[start]"),
+          "a disc lies flat: Hertz's formula is of a ball");
+  refused(with(with(flat, "slip = 1.0", "velocity = [1, 0]"), "spin = 100", "angular_velocity = [1, 0, 0]"),
+          "turns about the vertical only");
 }

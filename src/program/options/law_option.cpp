@@ -55,8 +55,8 @@ void LawOption::add(CLI::App& app, const std::string& name, const std::string& v
   law_.add(app, name, value_name, help);
 }
 
-reduction::Law LawOption::read(const Body& body) const {
-  if (!law_.given()) return *reduction::find_law(body.law);
+reduction::Law LawOption::read(const std::string& standard) const {
+  if (!law_.given()) return *reduction::find_law(standard);
   try {
     if (auto law = reduction::find_law(law_.text() == "hertz" ? "exact" : law_.text())) return *law;
   } catch (const std::domain_error& error) {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/body.hpp"
 #include "options/argument.hpp"
-#include "options/start_options.hpp"
 
 namespace contensou::program {
 
@@ -26,10 +26,10 @@ class LawOption {
   const Argument& argument() const { return law_; }
 
   /// The law of that name, of that exponent (pressure:P), or of the table in that file (with a / or ending in .csv);
-  /// that of the body's own pressure if none was given.
+  /// the standard one if none was given.
   /// @throws BadInput           for an unknown name or an exponent out of range; BadLine for a bad line of the file
   /// @throws std::system_error  if the file cannot be read
-  reduction::Law read(const Body& body = {}) const;
+  reduction::Law read(const std::string& standard = std::string(si::Body{}.law)) const;
 
  private:
   Argument law_;

@@ -48,7 +48,7 @@ portraits::PortraitCaption PortraitSpec::caption(const portraits::PhasePortrait&
   caption.time_symbol = "{/:Italic t}*";
   caption.time_unit_name = "s";
   caption.time_unit = 1 / si::seconds(*experiment, 1);
-  caption.highlight = "this ball";
+  caption.highlight = experiment->ball.body.lies_flat() ? "this motion" : "this ball";
   return caption;
 }
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
@@ -19,14 +19,16 @@ namespace {
 Body parse_body(const std::string& typed) {
   if (typed.find(',') == std::string::npos) {
     try {
-      return one_of(bodies(), "body")(typed);
+      Choices<Body> named;
+      for (const Body& body : si::bodies()) named.emplace_back(body.name, body);
+      return one_of(named, "body")(typed);
     } catch (const NotAllowed& error) {
       throw NotAllowed(fmt::format("{}, or two numbers CHI,GAMMA", error.what()));
     }
   }
   const std::vector<double> ratios = numbers(typed, 2, "CHI,GAMMA");
   if (!(ratios[0] > 0 && ratios[1] > 0)) throw NotAllowed("chi and gamma must be positive");
-  return {{.chi = ratios[0], .gamma = ratios[1]}, std::nullopt, false};
+  return {"", {.chi = ratios[0], .gamma = ratios[1]}, std::nullopt, false};
 }
 
 double parse_sliding_speed(const std::string& typed) {
@@ -118,10 +120,13 @@ void StartOptions::require_one_kind() const {
                                ball_.typed(), reduced));
   }
   if (ball_.given() && body_argument().given()) {
-    body_argument().reject("--ball is a homogeneous ball already: with another body give --mu, --u0 and --v0");
+    body_argument().reject(
+        "--ball says its body itself: a disc or ring in SI units is a run file with body = \"disc\" in [ball] "
+        "('contensou balls puck' prints one); without --ball give --mu, --u0 and --v0");
   }
   if (!ball_.given() && !override_names().empty()) {
-    throw BadInput(fmt::format("{} changes a ball: add --ball NAME|FILE.toml", override_names()));
+    throw BadInput(fmt::format("{} changes a ball, or a puck: add --ball NAME|FILE.toml ('contensou balls' lists them)",
+                               override_names()));
   }
 }
 
@@ -155,15 +160,12 @@ std::optional<double> StartOptions::override_of(const si::Quantity& quantity) co
 
 si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::StartOverride& start) const {
   if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
-  si::Overrides overrides;
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    if (overrides_[i].given()) overrides[quantities[i]->name] = *overrides_[i];
-  }
+  const si::Overrides overrides = this->overrides();
   if (overrides.contains(si::patch_radius.name) && overrides.contains(si::spin_deceleration.name)) {
     throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
   }
   try {
-    const BallText text = read_text();
+    const BallText& text = read_text();
     const si::Experiment experiment = text.parsed(overrides, start);
     si::patch_radius_of(experiment, law);  // is one that it can have
     tell_new_patch(text, overrides, experiment, law);
@@ -178,10 +180,37 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Star
   }
 }
 
-StartOptions::BallText StartOptions::read_text() const {
-  if (names_a_file(ball_.text(), {".toml"})) return {si::read_run_text(ball_.text()), ball_.text()};
+si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const si::StartOverride& start) const {
+  const si::Experiment experiment = read_ball(law, start);
+  if (!experiment.ball.body.lies_flat()) return experiment;
+  ball_.reject(
+      fmt::format("a {} lies flat and never rolls; 'contensou stop' says when and where it lies still, 'contensou "
+                  "orbit' gives slip and spin in time",
+                  experiment.ball.body.name));
+}
+
+std::string StartOptions::standard_law() const {
+  if (!ball_.given()) return std::string(body().law);
+  try {
+    return si::law_of(read_text().parsed(overrides(), {}));
+  } catch (const std::domain_error&) {  // read_ball says what is wrong
+    return std::string(Body{}.law);
+  }
+}
+
+si::Overrides StartOptions::overrides() const {
+  si::Overrides given;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (overrides_[i].given()) given[quantities[i]->name] = *overrides_[i];
+  }
+  return given;
+}
+
+const StartOptions::BallText& StartOptions::read_text() const {
+  if (text_) return *text_;
+  if (names_a_file(ball_.text(), {".toml"})) return text_.emplace(si::read_run_text(ball_.text()), ball_.text());
   const si::CatalogueEntry& entry = require_ball(ball_.text());
-  return {si::run_file(entry.experiment, entry.sources), "built-in ball " + entry.name};
+  return text_.emplace(si::run_file(entry.experiment, entry.sources), "built-in ball " + entry.name);
 }
 
 void StartOptions::tell_new_patch(const BallText& text, si::Overrides overrides, const si::Experiment& experiment,
@@ -191,7 +220,8 @@ void StartOptions::tell_new_patch(const BallText& text, si::Overrides overrides,
   for (const si::Quantity* changing : {&si::radius, &si::friction, &si::gravity}) overrides.erase(changing->name);
   double own = 0;
   try {
-    own = si::patch_radius_of(text.parsed(overrides, {}), reduction::HertzLaw{});
+    const si::Experiment before = text.parsed(overrides, {});
+    own = si::patch_radius_of(before, *reduction::find_law(si::law_of(before)));
   } catch (const std::domain_error&) {
     return;  // the file leaves one of them to the command line
   }

@@ -5,13 +5,15 @@
 #include <string>
 
 #include "contensou/reduction/reduced_system.hpp"
+#include "contensou/si/body.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
 #include "options/argument.hpp"
-#include "options/body.hpp"
 
 namespace contensou::program {
+
+using si::Body;
 
 /// --mu and --body.
 class BodyOptions {
@@ -80,6 +82,12 @@ class StartOptions {
   /// Whether --slip or --spin was given.
   bool overrides_start() const { return override_of(si::slip) || override_of(si::spin); }
 
+  /// The name of the law that the body or the ball brings.
+  std::string standard_law() const;
+
+  /// The ball of --ball where it has to roll. Throws as read, and BadInput for a body that lies flat.
+  si::Experiment read_rolling_ball(const reduction::Law& law, const si::StartOverride& start = {}) const;
+
   /// The ball of --ball. Throws as read.
   ///
   /// @param start  velocities that take the place of those of [start]
@@ -107,7 +115,8 @@ class StartOptions {
     }
   };
 
-  BallText read_text() const;
+  const BallText& read_text() const;
+  si::Overrides overrides() const;
 
   /// Says on standard error where the patch that a measured spin deceleration stands for is not that of the ball's own
   /// values, because some of them or the law were replaced.
@@ -120,6 +129,7 @@ class StartOptions {
   BodyOptions body_;
   ArgumentOf<double> u0_, v0_;
   Argument ball_;
+  mutable std::optional<BallText> text_;                         ///< a file is read once: it may be a pipe
   std::array<ArgumentOf<double>, quantities.size()> overrides_;  ///< of quantities
 };
 

@@ -10,6 +10,7 @@ namespace contensou::program {
 Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law) {
   const auto& [ball, contact, start, environment] = experiment;
   Json members{{"name", ball.name},
+               {"body", ball.body.name},
                {"radius", ball.radius},
                {"mass", ball.mass},
                {"friction", contact.friction},
@@ -24,9 +25,10 @@ Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law
 std::string ball_heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
   const auto& [ball, contact, start, environment] = experiment;
   return fmt::format(
-      "{}: radius {} m, mass {} kg, friction {}, gravity {} m/s^2\n"
+      "{}: {}radius {} m, mass {} kg, friction {}, gravity {} m/s^2\n"
       "patch radius {} m, {}: mu = {}\n",
-      ball.name, digits(ball.radius), digits(ball.mass), digits(contact.friction), digits(environment.gravity),
+      ball.name, ball.body.lies_flat() ? fmt::format("{}, ", ball.body.name) : "", digits(ball.radius),
+      digits(ball.mass), digits(contact.friction), digits(environment.gravity),
       digits(si::patch_radius_of(experiment, law)), si::origin_of(contact.patch),
       digits(si::patch_ratio(experiment, law)));
 }

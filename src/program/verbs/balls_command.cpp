@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/run_file.hpp"
 #include "contensou/si/scaling.hpp"
@@ -19,15 +19,18 @@ using si::CatalogueEntry;
 
 Json row_of(const CatalogueEntry& entry) {
   const auto& [ball, contact, start, environment] = entry.experiment;
+  const reduction::Law law = *reduction::find_law(si::law_of(entry.experiment));
   std::string sources = entry.sources;
   std::ranges::replace(sources, '\n', ' ');
   return {{"name", entry.name},
           {"description", ball.name},
+          {"body", ball.body.name},
+          {"law", law.name()},
           {"radius", ball.radius},
           {"mass", ball.mass},
           {"friction", contact.friction},
-          {"patch_radius", si::patch_radius_of(entry.experiment, reduction::HertzLaw{})},
-          {"mu", si::patch_ratio(entry.experiment, reduction::HertzLaw{})},
+          {"patch_radius", si::patch_radius_of(entry.experiment, law)},
+          {"mu", si::patch_ratio(entry.experiment, law)},
           {"slip", si::slip_at_start(entry.experiment)},
           {"spin", si::spin_at_start(entry.experiment)},
           {"gravity", environment.gravity},
@@ -42,8 +45,8 @@ Answer list() {
     std::string text;
     for (const Json& ball : rows) {
       const auto word = [&](const char* name) { return ball[name].get<std::string>(); };
-      text += fmt::format("{:<9}{:<29}mu = {}\n", word("name"), word("description"), digits(ball["mu"]));
-      text += help_paragraph(word("sources"), 9);
+      text += fmt::format("{:<14} {:<29}mu = {}\n", word("name"), word("description"), digits(ball["mu"]));
+      text += help_paragraph(word("sources"), 15);
     }
     return text;
   };

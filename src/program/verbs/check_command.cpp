@@ -164,10 +164,10 @@ class CheckCommand final : public Verb {
     if (against_.given()) return compare(output);
     if (tolerance_.given()) throw BadInput("--tolerance is for a table: add --against FILE");
     const bool of_one_start = start_.given() || start_.body_argument().given();
-    const Body body = start_.body();
-    const bool one_law = law_.given() || body.law != Body{}.law;
+    const std::string standard = start_.standard_law();
+    const bool one_law = law_.given() || standard != Body{}.law;
     std::vector<Row> rows;
-    for (const Law& law : one_law ? std::vector{law_.read(body)} : reduction::paper_laws()) {
+    for (const Law& law : one_law ? std::vector{law_.read(standard)} : reduction::paper_laws()) {
       for (Check& check : of_one_start ? checks_of_start(law) : built_in_checks(law)) {
         rows.push_back({law.name(), std::move(check)});
       }
@@ -188,7 +188,7 @@ class CheckCommand final : public Verb {
 
   /// A motion in a table against that of the law.
   ExitStatus compare(const Output& output) const {
-    const Law law = law_.read(start_.body());
+    const Law law = law_.read(start_.standard_law());
     const MotionsBeside motions = compare_with_motions(against_, start_, law, tolerance_.value_or(standard_tolerance));
     const auto row = [&](const std::string& name, const Deviation& off) {
       return Row{law.name(),

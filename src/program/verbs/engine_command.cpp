@@ -131,7 +131,7 @@ class EngineCommand final : public Verb {
   ExitStatus run() override {
     const reduction::Law law = law_.read();
     const Engine* const only = engine_.given() ? *engine_ : nullptr;
-    output_.read().write(answer_of(engine_members(start_.read_ball(law), law, only), only));
+    output_.read().write(answer_of(engine_members(start_.read_rolling_ball(law), law, only), only));
     return ExitStatus::done;
   }
 

@@ -48,8 +48,12 @@ std::string units() {
 std::string files() {
   std::string text = help_paragraph("Run files (--ball FILE.toml), such as 'contensou balls pool' prints:");
   const std::vector<std::pair<const char*, std::vector<std::pair<si::Quantity, const char*>>>> sections{
-      {"[ball]", {{si::mass, ""}, {si::radius, "; and name, a text in quotes"}}},
-      {"[contact]", {{si::friction, ""}, {si::patch_radius, "; or"}, {si::spin_deceleration, "; or"}}},
+      {"[ball]",
+       {{si::mass, ""}, {si::radius, "; and texts in quotes: name; body, ball (default), disc, puck or ring"}}},
+      {"[contact]",
+       {{si::friction, "; and law, the default of --law, a text in quotes"},
+        {si::patch_radius, "; of a disc or ring its whole face if left out; or"},
+        {si::spin_deceleration, "; or"}}},
       {"[contact.hertz]", {{si::youngs_modulus, ", as [E1, E2]"}, {si::poisson_ratio, ", as [n1, n2]"}}},
       {"[start]",
        {{si::slip, ""},

@@ -29,7 +29,7 @@ class OrbitCommand final : public Verb {
 
   ExitStatus run() override {
     const Output output = output_.read();
-    const GivenStart start = start_.read(law_.read(start_.body()));
+    const GivenStart start = start_.read(law_.read(start_.standard_law()));
     const reduction::ReducedSystem& system = start.system;
     const reduction::Route route = route_.read(system);
     if (time_left_.given() && instants_.given()) {

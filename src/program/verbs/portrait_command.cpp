@@ -67,7 +67,7 @@ class PortraitCommand final : public Verb {
 
   ExitStatus run() override {
     const bool has_start = !start_.without_motion();
-    const reduction::Law law = law_.read(start_.body());
+    const reduction::Law law = law_.read(start_.standard_law());
     const GivenStart start = has_start ? start_.read(law) : GivenStart{start_.read_body(law), {}, {}};
     const reduction::ReducedSystem& system = start.system;
     if (facts_) return print_facts(system);

@@ -363,7 +363,7 @@ class RollCommand final : public Verb {
     }
     const Output out = output_.read(1);
     const reduction::Law law = law_.read();
-    const si::Experiment still = start_.read_ball(law);
+    const si::Experiment still = start_.read_rolling_ball(law);
     const reduction::Flow flow(si::reduced_system(still, law));
     OutputFile output(out.path);
     CsvReader table(batch_.text());
@@ -417,12 +417,12 @@ class RollCommand final : public Verb {
     const std::string of_stroke = names_given({&tip_, &elevation_, &cue_mass_});
     if (!strike_.given()) {
       if (!of_stroke.empty()) throw BadInput(fmt::format("{} is of a stroke: add --strike SPEED", of_stroke));
-      return start_.read_ball(law, start);
+      return start_.read_rolling_ball(law, start);
     }
     if (start.velocity || start.angular_velocity || start_.overrides_start()) {
       throw BadInput("--strike is a start of its own: leave out --velocity, --angular-velocity, --slip and --spin");
     }
-    si::Experiment experiment = start_.read_ball(law);
+    si::Experiment experiment = start_.read_rolling_ball(law);
     const Eigen::Vector2d tip = tip_.value_or(Eigen::Vector2d::Zero());
     try {
       experiment.start = si::struck(experiment.ball, {.speed = *strike_,

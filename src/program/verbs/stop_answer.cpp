@@ -34,6 +34,7 @@ struct StopReport {
   double pivoting_only;                            ///< tau of a body that did not slide
   std::optional<OtherLaw> other;                   ///< the other law of the paper, beside one of its laws
   std::vector<reduction::StopEstimate> estimates;  ///< for small mu
+  double slip_length;                              ///< m, of a ball
 };
 
 /// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say
@@ -45,6 +46,12 @@ std::optional<OtherLaw> other_law(const GivenStart& start) {
   const reduction::Law& other = reduction::paper_laws()[is_pade ? 0 : 1];
   const reduction::Flow flow({other, system.mu(), system.inertia()});
   return OtherLaw{other.name(), flow.stop_time(state).tau};
+}
+
+/// m that the contact point slides until the stop.
+double slip_length(const GivenStart& start) {
+  const reduction::Orbit orbit = reduction::Flow(start.system).orbit(start.state);
+  return si::seconds(*start.experiment, orbit.slip_length(orbit.stop_time()));
 }
 
 /// What an estimate is too long by; 0 where both are infinite.
@@ -78,6 +85,7 @@ Json members_of(const StopReport& report) {
     members["ball"] = members_of_ball(*experiment, system.law());
     members["slip"] = si::slip_at_start(*experiment);
     members["spin"] = si::spin_at_start(*experiment);
+    members["slip_length"] = report.slip_length;
     members["t_stop"] = si::seconds(*experiment, tau);
     members["final"] = {{"velocity", std::vector(velocity.begin(), velocity.end())},
                         {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
@@ -232,6 +240,9 @@ class Text {
       return fmt::format("then   it rolls; the centre's velocity has changed by {} = {} along the slip\n",
                          is_ball() ? "-2 v0/7" : "-v0/chi", number_(0 - state.v / chi));
     }
+    if (experiment->ball.body.lies_flat()) {
+      return fmt::format("then   it lies still, {} m from its start\n", number_(report_.slip_length));
+    }
     const auto [velocity, angular_velocity] = si::final_motion(*experiment);
     return fmt::format(
         "then   it rolls: velocity {} m/s, angular velocity {} 1/s\n       ({}, z up)\n", number_.list(velocity),
@@ -254,7 +265,8 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           system.sliding_limit(state.v),
                           system.pivoting_limit(state.u),
                           other_law(start),
-                          estimate ? reduction::small_mu_estimates(system, state) : Estimates{}};
+                          estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
+                          experiment ? slip_length(start) : 0};
   const Json members = members_of(report);
   return {.members = members, .rows = {row_of(members)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();

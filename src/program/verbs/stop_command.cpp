@@ -36,7 +36,7 @@ class StopCommand final : public Verb {
     if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
-    const GivenStart start = start_.read(law_.read(start_.body()));
+    const GivenStart start = start_.read(law_.read(start_.standard_law()));
     output.write(stop_answer(start, route_.read(start.system), estimate_));
     return ExitStatus::done;
   }
@@ -54,8 +54,9 @@ class StopCommand final : public Verb {
     }
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     const Output out = output_.read(1);
-    const reduction::Law law = law_.read(start_.body());
-    StopTimes stop_times(law, start_.body().inertia, route_);
+    const reduction::Law law = law_.read(start_.standard_law());
+    const auto ball = has_ball ? start_.read(law).experiment : std::nullopt;
+    StopTimes stop_times(law, ball ? ball->ball.body.inertia : start_.body().inertia, route_);
     BatchRequest request{.inputs = {"mu", "u0", "v0"},
                          .results = {"tau_stop"},
                          .compute =
@@ -69,11 +70,11 @@ class StopCommand final : public Verb {
                          .threads = bulk_.threads(),
                          .progress = bulk_.progress(out.path)};
     if (has_ball) {
-      const si::Experiment experiment = start_.read(law).experiment.value();
+      const si::Experiment& experiment = *ball;
       request.inputs = {"spin", "slip"};
       request.results = {"t_stop"};
-      request.compute = [&, experiment, mu = si::patch_ratio(experiment, law)](std::span<const double> row,
-                                                                               std::span<double> results) {
+      request.compute = [&, mu = si::patch_ratio(experiment, law)](std::span<const double> row,
+                                                                   std::span<double> results) {
         const reduction::State start{.u = row[0] * experiment.ball.radius, .v = sliding("slip", row[1])};
         results[0] = si::seconds(experiment, stop_times(mu, start));
       };

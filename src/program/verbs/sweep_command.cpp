@@ -279,17 +279,18 @@ class SweepCommand final : public Verb {
   ExitStatus run() override {
     const Body body = body_.body();
     const Output out = output_.read();
-    const reduction::Law law = law_.read(body);
+    const reduction::Law law = law_.read(ball_.ball_given() ? ball_.standard_law() : std::string(body.law));
     const SweepGrid grid = ball_.ball_given() ? read_grid_of_ball(law) : read_grid(body);
+    const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : body.inertia;
     if (out.picture()) {
       bulk_.refuse("npy and csv: a picture is of few starts, leave it out");
-      out.write({figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, body.inertia), grid), out.format)});
+      out.write({figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia), grid), out.format)});
       return ExitStatus::done;
     }
     figure_.require_picture(out);
     OutputFile output(out.path);
     sweep({.law = law,
-           .body = body.inertia,
+           .body = inertia,
            .grid = grid,
            .format = out.format == "npy" ? SweepFormat::npy : SweepFormat::csv,
            .threads = bulk_.threads(),

@@ -19,7 +19,7 @@ class TerminalCommand final : public Verb {
   }
 
   ExitStatus run() override {
-    const Answer answer = terminal_answer(body_.read(law_.read(body_.body())));
+    const Answer answer = terminal_answer(body_.read(law_.read(std::string(body_.body().law))));
     output_.read().write(answer);
     return ExitStatus::done;
   }

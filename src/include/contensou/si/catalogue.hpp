@@ -8,7 +8,7 @@
 
 namespace contensou::si {
 
-/// A ball that is built in, with a typical start.
+/// A ball, or a body that lies flat, that is built in, with a typical start.
 struct CatalogueEntry {
   std::string name;  ///< one lower-case word
   Experiment experiment;

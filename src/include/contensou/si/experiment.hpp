@@ -7,17 +7,19 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/body.hpp"
 #include "contensou/si/hertz_contact.hpp"
 
 namespace contensou::si {
 
 struct Quantity;
 
-/// A homogeneous ball.
+/// A homogeneous ball, or a body that lies flat.
 struct Ball {
   std::string name;
-  double mass;    ///< kg
-  double radius;  ///< m
+  double mass;     ///< kg
+  double radius;   ///< m
+  Body body = {};  ///< of bodies()
 };
 
 /// The patch as it was measured.
@@ -30,13 +32,17 @@ struct SpinDeceleration {
   double value;  ///< rad/s^2
 };
 
+/// The whole face of a body that lies flat.
+struct WholeFace {};
+
 /// Where the patch radius comes from. Kept with the contact, so that it follows when radius, mass, friction or gravity
 /// change.
-using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli>;
+using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli, WholeFace>;
 
 struct Contact {
   double friction;  ///< coefficient of dry friction
   PatchSource patch;
+  std::string law = "";  ///< of friction, by its name, where the pressure is not that of the body
 };
 
 /// A ball that slides along x and spins about the vertical, with no horizontal angular velocity.
@@ -76,8 +82,11 @@ struct GivenQuantity {
 std::vector<GivenQuantity> given_by(const PatchSource& patch);
 std::vector<GivenQuantity> given_by(const Start& start);
 
-/// The same in words: "given", "from its spin deceleration 10 rad/s^2" or "by Hertz's formula".
+/// The same in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or "its whole face".
 std::string origin_of(const PatchSource& patch);
+
+/// The name of the law that an experiment's pressure brings.
+std::string law_of(const Experiment& experiment);
 
 /// Radius of the contact patch in m, from whatever the contact gives it by.
 /// @param law  a measured spin deceleration holds under it

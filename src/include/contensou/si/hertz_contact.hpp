@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "contensou/reduction/inertia.hpp"
+
 namespace contensou::si {
 
 /// Elastic constants of the two bodies in contact, the ball first, the plane second.
@@ -20,16 +22,17 @@ double effective_modulus(const HertzModuli& moduli);
 double hertz_patch_radius(double load, double radius, const HertzModuli& moduli);
 
 /// Radius (m) of the patch of a ball whose spin about the vertical, without sliding, falls at a measured rate:
-///   eps = 2 R^2 alpha/(5 f g Psi(0)).
+///   eps = R^2 alpha/(gamma f g Psi(0)).
 ///
-/// From J domega_z/dt = -f N eps Psi(0) with J = (2/5) m R^2 and N = m g.
+/// From J domega_z/dt = -f N eps Psi(0) with J = m R^2/gamma and N = m g.
 ///
 /// @param radius           R, m
 /// @param deceleration     alpha, rad/s^2
 /// @param friction         f
 /// @param gravity          g, m/s^2
 /// @param pivoting_moment  Psi(0) of the law: 3 pi/16 of the exact and the Pade law, 2/3 of uniform pressure
+/// @param gamma            of the body
 double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,
-                                    double pivoting_moment);
+                                    double pivoting_moment, double gamma = reduction::homogeneous_ball.gamma);
 
 }  // namespace contensou::si

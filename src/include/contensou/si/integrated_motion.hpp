@@ -23,7 +23,7 @@ struct IntegratedMotion {
 /// exact limit; beyond the stop the ball rolls.
 ///
 /// @param times  s, >= 0, in any order
-/// @throws std::domain_error   as require_experiment, and if a time is negative or not finite
+/// @throws std::domain_error   as require_experiment, for a body that lies flat, and if a time is negative or not finite
 /// @throws std::runtime_error  if the integration does not reach the stop
 ///
 /// Accuracy  1e-12 of the scales of the motion for mu from 1e-3 to 1.

@@ -31,13 +31,13 @@ struct MotionColumns {
 /// and the slip ends with the spin only.
 inline constexpr double rolling_slip = 1e-3;
 
-/// Kinetic energy in J of a homogeneous ball: m V^2/2 + (m R^2/5) omega^2.
+/// Kinetic energy in J: of a homogeneous ball m V^2/2 + (m R^2/5) omega^2.
 double kinetic_energy(const Ball& ball, const Velocities& velocities);
 
 /// What friction takes from an experiment until it rolls, in J, under any friction law.
 struct EnergyLoss {
-  double sliding;   ///< m v0^2/7
-  double pivoting;  ///< m (R omega_z0)^2/5
+  double sliding;   ///< m v0^2/(2 chi), of a ball m v0^2/7
+  double pivoting;  ///< m (R omega_z0)^2/(2 gamma), of a ball m (R omega_z0)^2/5
 };
 
 EnergyLoss energy_loss(const Experiment& experiment);
@@ -48,7 +48,7 @@ struct FinalMotion {
   Eigen::Vector3d angular_velocity;  ///< 1/s; z up
 };
 
-/// The rolling that an experiment ends in, under any friction law, in the axes of the start (x along the initial slip
+/// The rolling that an experiment ends in, or the rest of a body that lies flat, under any friction law, in the axes of the start (x along the initial slip
 /// for SlipAndSpin).
 ///
 /// With the axis x along the slip v, 7 R omega_y + 5 v is a first integral (Zh98 after (2.5)): R omega_y grows by 5

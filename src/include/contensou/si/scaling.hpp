@@ -13,7 +13,7 @@ double patch_ratio(const Experiment& experiment, const reduction::Law& law);
 /// u = R omega_z, v = slip.
 reduction::State reduced_start(const Experiment& experiment);
 
-/// The reduced system of a homogeneous ball.
+/// The reduced system of the ball or body.
 /// @throws std::domain_error  as require_experiment and patch_radius_of
 reduction::ReducedSystem reduced_system(const Experiment& experiment, const reduction::Law& law);
 
