@@ -207,10 +207,13 @@ si::Overrides StartOptions::overrides() const {
 }
 
 const StartOptions::BallText& StartOptions::read_text() const {
-  if (text_) return *text_;
-  if (names_a_file(ball_.text(), {".toml"})) return text_.emplace(si::read_run_text(ball_.text()), ball_.text());
-  const si::CatalogueEntry& entry = require_ball(ball_.text());
-  return text_.emplace(si::run_file(entry.experiment, entry.sources), "built-in ball " + entry.name);
+  if (!text_ && names_a_file(ball_.text(), {".toml"})) {
+    text_ = BallText{si::read_run_text(ball_.text()), ball_.text()};
+  } else if (!text_) {
+    const si::CatalogueEntry& entry = require_ball(ball_.text());
+    text_ = BallText{si::run_file(entry.experiment, entry.sources), "built-in ball " + entry.name};
+  }
+  return *text_;
 }
 
 void StartOptions::tell_new_patch(const BallText& text, si::Overrides overrides, const si::Experiment& experiment,
