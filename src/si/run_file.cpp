@@ -160,7 +160,7 @@ class Reader {
     allow(ball, {"name", "body", mass.name, radius.name});
     allow(contact, {friction.name, patch_radius.name, spin_deceleration.name, "hertz", "law"});
     allow(start, {slip.name, spin.name, velocity.name, angular_velocity.name});
-    allow(environment, {gravity.name});
+    allow(environment, {gravity.name, load.name});
 
     const Experiment experiment{
         .ball = {.name = line_of(ball, "name", "ball"),
@@ -169,7 +169,7 @@ class Reader {
                  .body = body(ball)},
         .contact = {.friction = number(contact, friction), .patch = patch(contact, body(ball)), .law = law(contact)},
         .start = start_of(start),
-        .environment = {.gravity = number(environment, gravity, Environment{}.gravity)},
+        .environment = {.gravity = gravity_of(environment, ball)},
     };
     // Of values that the file does not have it is not the place.
     if (overrides_.empty()) {
@@ -314,6 +314,21 @@ class Reader {
     return values;
   }
 
+  /// By gravity, or by the load over the mass.
+  double gravity_of(const Section& environment, const Section& ball) const {
+    const bool load_given = overrides_.contains(load.name);
+    const bool gravity_given = overrides_.contains(gravity.name);
+    if (load_given && gravity_given) {
+      throw std::domain_error("a load and a gravity exclude each other: give one of them");
+    }
+    const bool load_in_file = environment.table->contains(load.name);
+    if (load_in_file && environment.table->contains(gravity.name)) {
+      fail(environment.position, "'load' and 'gravity' in [environment] exclude each other: give one of them");
+    }
+    return load_given || (load_in_file && !gravity_given) ? number(environment, load) / number(ball, mass)
+                                                          : number(environment, gravity, Environment{}.gravity);
+  }
+
   Start start_of(const Section& start) const {
     if (start_.velocity && start_.angular_velocity) return Velocities{*start_.velocity, *start_.angular_velocity};
     Start given = given_start(start);
@@ -391,7 +406,7 @@ Experiment parse_run_file(std::string_view text, std::string_view source, const 
   for (const auto& [name, value] : overrides) {
     const Quantity* known = nullptr;
     for (const Quantity* quantity :
-         {&mass, &radius, &friction, &patch_radius, &spin_deceleration, &slip, &spin, &gravity}) {
+         {&mass, &radius, &friction, &patch_radius, &spin_deceleration, &slip, &spin, &gravity, &load}) {
       if (quantity->name == name) known = quantity;
     }
     if (known == nullptr) throw std::domain_error(fmt::format("parse_run_file: no value is called '{}'", name));

@@ -17,6 +17,18 @@ using namespace contensou::reduction;
 using Catch::Matchers::Contains;
 using nlohmann::json;
 
+TEST_CASE("a ball that is pressed on the plane", "[invariant]") {
+  const auto stop = [](const std::string& options) { return json_of("stop --format json --ball steel " + options); };
+  // Its weight as a load is nothing new.
+  CHECK(stop("--load 0.320677455").at("t_stop").get<double>() ==
+        Approx(stop("").at("t_stop").get<double>()).epsilon(1e-14));  // 0.0327 kg * 9.80665 m/s^2
+  // 100 N on 33 g: friction f N in place of f m g, and Hertz's patch of that load, eps^3 ~ N.
+  const json pressed = stop("--load 100N --spin 0");
+  CHECK(pressed.at("t_stop").get<double>() == Approx(2 * 0.5 * 0.0327 / (7 * 0.12 * 100)).epsilon(1e-12));
+  const double share = 100 / 0.320677455;
+  CHECK(pressed.at("mu").get<double>() == Approx(std::cbrt(share) * stop("").at("mu").get<double>()).epsilon(1e-12));
+}
+
 TEST_CASE("stop as JSON has its fields and no others", "[cli]") {
   const json stop = json_of("stop --law pade --mu 0.1 --u0 2 --v0 1 --format json");
   CHECK(stop.size() == 14);

@@ -241,6 +241,23 @@ TEST_CASE("a run file that never ends, or is not there", "[limit]") {
   CHECK_THROWS_WITH(read_run_file("/no/such/file.toml"), Contains("/no/such/file.toml"));
 }
 
+TEST_CASE("a load in place of gravity", "[table]") {
+  const auto gravity = [](const std::string& environment, const Overrides& overrides = {}) {
+    return parse_run_file(good + environment, "x.toml", overrides).environment.gravity;
+  };
+  CHECK(gravity("[environment]\nload = 3\n") == 3 / 0.1701);
+  CHECK(gravity("[environment]\nload = '3 kN'\n") == 3000 / 0.1701);
+  CHECK(gravity("", {{"load", 3}, {"mass", 0.5}}) == 6);
+  // The command line's comes before the file's, of either kind.
+  CHECK(gravity("[environment]\ngravity = 1.6\n", {{"load", 3}, {"mass", 0.5}}) == 6);
+  CHECK(gravity("[environment]\nload = 3\n", {{"gravity", 1.6}}) == 1.6);
+  CHECK(gravity("[environment]\nload = 3\n", {{"load", 5}, {"mass", 0.5}}) == 10);
+  CHECK_THROWS_WITH(gravity("[environment]\nload = 3\ngravity = 9.8\n"),
+                    StartsWith("x.toml:11:1: 'load' and 'gravity' in [environment] exclude each other"));
+  CHECK_THROWS_WITH(gravity("[environment]\nload = 0\n"), "x.toml:12:8: load must be finite and > 0, in N, got 0");
+  CHECK_THROWS_WITH(gravity("", {{"load", 3}, {"gravity", 9.8}}), Contains("a load and a gravity exclude each other"));
+}
+
 TEST_CASE("overrides act as if the file had said so", "[invariant]") {
   const Overrides overrides{{"radius", 0.03}, {"mass", 0.2},    {"friction", 0.3},         {"slip", 2.0},
                             {"spin", -5.0},   {"gravity", 1.6}, {"spin_deceleration", 4.0}};

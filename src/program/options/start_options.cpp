@@ -164,6 +164,9 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Star
   if (overrides.contains(si::patch_radius.name) && overrides.contains(si::spin_deceleration.name)) {
     throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
   }
+  if (overrides.contains(si::gravity.name) && overrides.contains(si::load.name)) {
+    throw BadInput("--gravity and --load exclude each other: give one of them");
+  }
   try {
     const BallText& text = read_text();
     const si::Experiment experiment = text.parsed(overrides, start);

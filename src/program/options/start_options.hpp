@@ -104,7 +104,7 @@ class StartOptions {
   /// What single options can change of a ball.
   static constexpr std::array quantities{
       &si::radius,  &si::mass, &si::friction, &si::patch_radius, &si::spin_deceleration,
-      &si::gravity, &si::slip, &si::spin};
+      &si::gravity, &si::load, &si::slip,     &si::spin};
 
   /// The ball's run file, also of one that is built in.
   struct BallText {

@@ -60,7 +60,7 @@ std::string files() {
         {si::spin, "; or"},
         {si::velocity, ", as [vx, vy]"},
         {si::angular_velocity, ", as [wx, wy, wz]"}}},
-      {"[environment]", {{si::gravity, " (default 9.80665)"}}}};
+      {"[environment]", {{si::gravity, " (default 9.80665); or"}, {si::load, ""}}}};
   for (const auto& [section, quantities] : sections) {
     text += fmt::format("{}\n", section);
     for (const auto& [quantity, more] : quantities) {

@@ -31,6 +31,7 @@ class Ball:
 
     Its patch is given by one of patch_radius (m), spin_deceleration (rad/s^2, measured without slip), or Young's moduli
     (Pa) and Poisson's ratios of ball and plane. slip (m/s, along x) and spin (rad/s about the vertical) are the start.
+    Gravity acts through the load alone: a ball pressed on the plane with N newtons has gravity=N / mass.
     `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
     """
 

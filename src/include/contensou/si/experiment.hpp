@@ -61,7 +61,9 @@ struct Velocities {
 using Start = std::variant<SlipAndSpin, Velocities>;
 
 struct Environment {
-  double gravity = 9.80665;  ///< m/s^2
+  /// m/s^2, the load over the mass: nothing else of a ball on a horizontal plane depends on it. A ball that something
+  /// presses on the plane with N newtons has N/mass.
+  double gravity = 9.80665;
 };
 
 /// Everything that decides one motion of a ball on a horizontal plane.

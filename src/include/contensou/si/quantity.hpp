@@ -34,6 +34,8 @@ inline constexpr Quantity velocity{"velocity", "m/s", "velocity of the centre, x
 inline constexpr Quantity angular_velocity{"angular_velocity", "rad/s", "angular velocity, x, y and z (up)",
                                            Quantity::Range::any};
 inline constexpr Quantity gravity{"gravity", "m/s^2", "acceleration of gravity", Quantity::Range::positive};
+inline constexpr Quantity load{"load", "N", "force that presses the ball on the plane, in place of its weight",
+                               Quantity::Range::positive};
 
 /// A unit that may stand behind a number: one of it is factor/divisor SI units.
 struct Unit {
