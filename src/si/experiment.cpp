@@ -1,5 +1,6 @@
 #include "contensou/si/experiment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -116,6 +117,21 @@ void require_experiment(const Experiment& experiment) {
         fmt::format("the velocity of the contact point must be finite: radius {} m and these velocities overflow",
                     experiment.ball.radius));
   }
+}
+
+void require_finite_motion(const Experiment& experiment, double braked, double last) {
+  constexpr double largest = std::numeric_limits<double>::max() / 100;
+  const Velocities start = velocities_of(experiment.start);
+  // m/s and 1/s; nothing moves or turns faster.
+  const double speed =
+      start.velocity.stableNorm() + std::max(1.0, experiment.ball.radius) * start.angular_velocity.stableNorm();
+  const double allowed = std::min({std::sqrt(largest / std::max(1.0, experiment.ball.mass)),
+                                   std::sqrt(largest) * std::sqrt(speed / braked), largest / last});
+  if (speed == 0 || speed <= allowed) return;
+  throw std::domain_error(
+      fmt::format("at speeds of {:.2g} (m/s, 1/s) lengths, angles or energies exceed the largest double; up to "
+                  "{:.2g} is allowed",
+                  speed, allowed));
 }
 
 }  // namespace contensou::si

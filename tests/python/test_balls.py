@@ -132,6 +132,7 @@ def test_a_ball_changes():
     (lambda: ct.Ball.pool().roll(velocity=(1, 0), spin=1), "exclude each other"),
     (lambda: ct.Ball.pool().roll(rolling_friction=-1), "deceleration > 0 is required"),
     (lambda: ct.Ball.pool().roll(rolling_below=-1), "speed >= 0 is required"),
+    (lambda: ct.Ball.pool().roll(strike=1e300), "exceed the largest double"),
     (lambda: ct.Ball.pool().roll()(-1), "t must be >= 0, in s; got -1"),
 ])
 def test_rejected_in_the_librarys_own_words(ask, words):

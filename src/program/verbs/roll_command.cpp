@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <stdexcept>
 
@@ -216,25 +214,6 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
   return picture;
 }
 
-/// Rejects a motion whose lengths, angles or energies may exceed the largest double.
-/// @param stop  s, when slip and spin end
-/// @param last  s, the last instant, if one is asked for
-void require_finite(const si::Experiment& experiment, double stop, double rolling_friction,
-                    std::optional<double> last = {}) {
-  constexpr double largest = std::numeric_limits<double>::max() / 100;
-  const auto [velocity, angular_velocity] = si::velocities_of(experiment.start);
-  // m/s and 1/s; nothing moves or turns faster.
-  const double speed = velocity.stableNorm() + std::max(1.0, experiment.ball.radius) * angular_velocity.stableNorm();
-  const double end = stop + (rolling_friction > 0 ? speed / (rolling_friction * experiment.environment.gravity) : 0);
-  const double allowed = std::min({std::sqrt(largest / std::max(1.0, experiment.ball.mass)),
-                                   std::sqrt(largest) * std::sqrt(speed / end), largest / last.value_or(1)});
-  if (speed == 0 || speed <= allowed) return;
-  throw BadInput(
-      fmt::format("at speeds of {:.2g} (m/s, 1/s) lengths, angles or energies exceed the largest double; up to "
-                  "{:.2g} is allowed",
-                  speed, allowed));
-}
-
 double not_negative(double value) {
   if (value < 0) throw NotAllowed("0 or more is needed");
   return value;
@@ -318,8 +297,8 @@ class RollCommand final : public Verb {
     const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
                     rolling_friction_.value_or(0)};
     const auto* at = instants_.at();
-    const auto last = at != nullptr && at->values.size() > 0 ? std::optional(at->values.maxCoeff()) : until_.optional();
-    require_finite(roll.experiment, roll.stop_time(), roll.rolling_friction, last);
+    const double last = at != nullptr && at->values.size() > 0 ? at->values.maxCoeff() : until_.value_or(0);
+    si::require_finite_motion(roll.experiment, roll.stop_time(), last);
     const double end = until_.value_or(roll.standard_end());
     if (output.picture()) {
       const bool moves = output.picture() == portraits::PictureFormat::gif;
@@ -397,7 +376,6 @@ class RollCommand final : public Verb {
     const double friction = rolling_friction_.value_or(0);
     const si::Course<si::BallMotion> course(experiment, {experiment, flow}, rolling_below_.value_or(si::rolling_slip),
                                             friction);
-    require_finite(experiment, course.motion.stop_time(), friction);
     const auto [rolls, spin_ends, rest, slip_length, turns, path] = events_of(course);
     auto place = results.begin();
     const auto add = [&](const si::Event& event) {

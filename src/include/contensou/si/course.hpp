@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -25,11 +26,15 @@ struct Course {
 
   /// @param rolling_below     m/s, >= 0: a ball that slips no faster rolls
   /// @param rolling_friction  u_r; 0: none
-  /// @throws std::domain_error  as slip_time and RollingFriction
+  /// @throws std::domain_error  as slip_time, RollingFriction and require_finite_motion
   Course(const Experiment& experiment, Motion of_shot, double rolling_below, double rolling_friction)
       : motion(std::move(of_shot)), rolls(motion.slip_time(rolling_below)) {
+    double braked = std::max(rolls, motion.spin_end());
+    require_finite_motion(experiment, braked);
     if (rolling_friction != 0) {
       friction.emplace(experiment.ball, motion.at_time(rolls), rolling_friction * experiment.environment.gravity);
+      braked = std::max(braked, friction->rest_time());
+      require_finite_motion(experiment, braked);
     }
   }
 

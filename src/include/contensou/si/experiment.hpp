@@ -113,4 +113,10 @@ double spin_at_start(const Experiment& experiment);
 ///                            patch_radius_of, where no law decides the patch
 void require_experiment(const Experiment& experiment);
 
+/// Rejects a motion whose lengths, angles or energies may exceed the largest double.
+/// @param braked  s, when friction has ended
+/// @param last    s, the last instant that is asked for, if one is
+/// @throws std::domain_error  with the greatest speed that is allowed
+void require_finite_motion(const Experiment& experiment, double braked, double last = 0);
+
 }  // namespace contensou::si
