@@ -1,10 +1,10 @@
-# One HTML file from the template, the style, the compiled library and the bundled modules; and that file as a string of
+# One HTML file from the template, the style and the bundle of modules and compiled library; and that file as a string of
 # C++.
-#   cmake -D TEMPLATE= -D STYLE= -D LIBRARY= -D BUNDLE= -D VERSION= -D PAGE= -D EMBEDDED= -P assemble.cmake
+#   cmake -D TEMPLATE= -D STYLE= -D BUNDLE= -D VERSION= -D PAGE= -D EMBEDDED= -P assemble.cmake
 cmake_minimum_required(VERSION 3.25)
 
 file(READ ${TEMPLATE} html)
-foreach(part IN ITEMS STYLE LIBRARY BUNDLE)
+foreach(part IN ITEMS STYLE BUNDLE)
   file(READ ${${part}} text)
   if(text MATCHES "</(script|style)")
     message(FATAL_ERROR "${${part}} holds an end tag and cannot stand inside a page")

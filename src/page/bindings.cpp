@@ -25,15 +25,13 @@
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
-#include "contensou/si/uncoupled_motion.hpp"
 #include "javascript.hpp"
+#include "program/options/body.hpp"
 #include "program/options/portrait_spec.hpp"
 
 namespace contensou::page {
@@ -74,11 +72,9 @@ class Plane {
       // Of the motions that slide and pivot at one speed, if it depends on the start.
       const auto end = flow().terminal().end_of(1);
       val facts = val::object();
-      facts.set("r", system().r());
       facts.set("regime", static_cast<int>(end.regime));
       facts.set("terminalRatio", end.k);
       facts.set("slidingLimit", system().sliding_limit(1));
-      facts.set("pivotingLimit", system().pivoting_limit(1));
       return facts;
     });
   }
@@ -89,17 +85,11 @@ class Plane {
     return *flow_;
   }
 
-  /// The stop time of one start, its bounds and its limits.
+  /// The stop time of one start.
   val stop(double u, double v) const {
     return answer([&] {
-      const State start{.u = u, .v = v};
-      const auto bounds = system().stop_time_bounds(start);
       val result = val::object();
-      result.set("tau", flow().orbit(start).stop_time());
-      result.set("lower", bounds.lower);
-      result.set("upper", bounds.upper);
-      result.set("slidingOnly", system().sliding_limit(v));
-      result.set("pivotingOnly", system().pivoting_limit(u));
+      result.set("tau", flow().orbit({.u = u, .v = v}).stop_time());
       return result;
     });
   }
@@ -129,7 +119,7 @@ class Plane {
     });
   }
 
-  /// One instant of the motion from one start.
+  /// One instant of the motion from one start, and the friction there as a share of f N.
   val instant(double u, double v, double tau) const {
     return answer([&] {
       const auto point = flow().orbit({.u = u, .v = v}).at_time(tau);
@@ -139,6 +129,41 @@ class Plane {
       result.set("v", point.v);
       result.set("lnV", point.ln_v);
       result.set("k", point.k);
+      const double pivoting = system().mu() * std::abs(point.u);
+      const bool moves = point.v > 0 || pivoting > 0;
+      result.set("force", moves ? system().law()({.sliding = point.v, .pivoting = pivoting}).force : 0);
+      return result;
+    });
+  }
+
+  /// When the slip of one start has fallen to `least`, and how long the path is that it slides until it stops.
+  val slide(double u, double v, double least) const {
+    return answer([&] {
+      const Orbit orbit = flow().orbit({.u = u, .v = v});
+      double faster = 0;
+      double slower = v > least ? orbit.stop_time() : 0;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = (faster + slower) / 2;
+        (orbit.at_time(middle).v > least ? faster : slower) = middle;
+      }
+      val result = val::object();
+      result.set("end", slower);
+      result.set("length", orbit.slip_length(orbit.stop_time()));
+      return result;
+    });
+  }
+
+  /// In equal times until `end`: the path that one start has slid, and its spin.
+  val course(double u, double v, double end) const {
+    return answer([&] {
+      const Orbit orbit = flow().orbit({.u = u, .v = v});
+      constexpr Eigen::Index pieces = 400;
+      const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(pieces + 1, 0, end);
+      std::vector<double> slid;
+      for (const double tau : times) slid.push_back(orbit.slip_length(tau));
+      val result = val::object();
+      result.set("slid", column(slid));
+      result.set("u", column(orbit.at_times(times).u));
       return result;
     });
   }
@@ -221,13 +246,46 @@ class Plane {
   std::optional<Flow> flow_;
 };
 
-/// Of the laws pressure:P.
-double largest_exponent() { return reduction::PressureLaw::max_p; }
+/// {name, meaning} of each law, and of each family also what its number is: {letter, allowed, example}.
+val laws() {
+  val all = val::array();
+  const auto add = [&](std::string_view name, std::string_view meaning) {
+    val law = val::object();
+    law.set("name", std::string(name));
+    law.set("meaning", std::string(meaning));
+    all.call<void>("push", law);
+    return law;
+  };
+  for (const Law& law : reduction::named_laws()) add(law.name(), reduction::meaning_of_law(law.name()));
+  for (const reduction::LawFamily& family : reduction::law_families()) {
+    val law = add(family.name, family.meaning);
+    law.set("letter", std::string(family.letter));
+    law.set("example", family.example);
+  }
+  return all;
+}
 
-val names_of_laws() {
-  val names = val::array();
-  for (const Law& law : reduction::named_laws()) names.call<void>("push", law.name());
-  return names;
+/// The name of the law that is called so, as the library writes it.
+val law_name(const std::string& called) {
+  return answer([&] {
+    val result = val::object();
+    result.set("name", law_of(called).name());
+    return result;
+  });
+}
+
+/// {name, chi, gamma} of each body, and `mu` of one that decides it.
+val bodies() {
+  val all = val::array();
+  for (const auto& [name, body] : program::bodies()) {
+    val value = val::object();
+    value.set("name", name);
+    value.set("chi", body.inertia.chi);
+    value.set("gamma", body.inertia.gamma);
+    if (body.patch_ratio) value.set("mu", *body.patch_ratio);
+    all.call<void>("push", value);
+  }
+  return all;
 }
 
 /// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2.
@@ -344,52 +402,14 @@ val contact(const std::string& law, const val& fields) {
     const si::Experiment experiment = experiment_of(fields);
     val result = val::object();
     result.set("mu", si::patch_ratio(experiment, law_of(law)));
-    result.set("patchRadius", si::patch_radius_of(experiment, law_of(law)));
+    const double radius = si::patch_radius_of(experiment, law_of(law));
+    result.set("patchRadius", radius);
+    // The one is proportional to the other.
+    const double per_deceleration =
+        si::patch_radius_of_deceleration(experiment.ball.radius, 1, experiment.contact.friction,
+                                         experiment.environment.gravity, law_of(law).pivoting_moment());
+    result.set("spinDeceleration", radius / per_deceleration);
     result.set("secondsPerTau", si::seconds(experiment, 1));
-    return result;
-  });
-}
-
-/// The whole motion of a ball on the table, until it rolls and a little on; beside the textbook's, in which sliding and
-/// spinning do not know of each other.
-val roll(const std::string& law, const val& fields) {
-  return answer([&] {
-    const si::Experiment experiment = experiment_of(fields);
-    const si::BallMotion motion(experiment, law_of(law));
-    constexpr int instants = 240;
-    const si::UncoupledMotion textbook(experiment, law_of(law));
-    const double rolls = motion.slip_time(si::rolling_slip);
-    const double end = rolls > 0 ? 1.6 * rolls : motion.stop_time();
-    const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(instants + 1, 0, end);
-    const auto columns = motion.at_times(times);
-    const auto textbook_columns = textbook.at_times(times);
-    const si::FinalMotion final = si::final_motion(experiment);
-    val result = val::object();
-    result.set("t", column(columns.t));
-    result.set("x", column(columns.x));
-    result.set("y", column(columns.y));
-    result.set("textbookX", column(textbook_columns.x));
-    result.set("textbookY", column(textbook_columns.y));
-    result.set("textbookRollsAfter", textbook.slip_time(si::rolling_slip));
-    result.set("rollsAfter", rolls);
-    result.set("stop", motion.stop_time());
-    result.set("slipLength", motion.slip_length());
-    result.set("finalX", final.velocity.x());
-    result.set("finalY", final.velocity.y());
-    const auto there = motion.at_time(rolls);
-    result.set("rollsAtX", there.position.x());
-    result.set("rollsAtY", there.position.y());
-    return result;
-  });
-}
-
-/// Where a ball is at one instant.
-val place(const std::string& law, const val& fields, double t) {
-  return answer([&] {
-    const auto point = si::BallMotion(experiment_of(fields), law_of(law)).at_time(t);
-    val result = val::object();
-    result.set("x", point.position.x());
-    result.set("y", point.position.y());
     return result;
   });
 }
@@ -407,14 +427,16 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .function("stop", &Plane::stop)
       .function("motion", &Plane::motion)
       .function("instant", &Plane::instant)
+      .function("slide", &Plane::slide)
+      .function("course", &Plane::course)
       .function("isochrone", &Plane::isochrone)
       .function("checks", &Plane::checks);
   emscripten::function("portrait", &contensou::page::portrait);
   emscripten::function("portraitFile", &contensou::page::portrait_file);
-  emscripten::function("largestExponent", &contensou::page::largest_exponent);
-  emscripten::function("namesOfLaws", &contensou::page::names_of_laws);
+  emscripten::function("laws", &contensou::page::laws);
+  emscripten::function("lawName", &contensou::page::law_name);
+  emscripten::function("bodies", &contensou::page::bodies);
   emscripten::function("catalogue", &contensou::page::catalogue);
   emscripten::function("contact", &contensou::page::contact);
-  emscripten::function("roll", &contensou::page::roll);
-  emscripten::function("place", &contensou::page::place);
+  emscripten::constant("rollingSlip", contensou::si::rolling_slip);
 }

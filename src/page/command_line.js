@@ -1,28 +1,33 @@
 // The command line of the program that draws what the page shows.
-import { bodyOf } from "./page_state.js";
 
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
 
 /**
+ * {portrait, roll}: the latter of a real ball that moves.
+ *
  * @param request  of portrait_request.js
+ * @param body     {mu} of one that decides it
  * @param builtIn  the state's ball as the program knows it, if there is one
  */
-export function commandLine(state, request, builtIn) {
-  const words = ["contensou", "portrait"];
+export function commandLine(state, request, body, builtIn) {
   const { ball, start } = request;
+  const ofBall = [];
   if (ball) {
-    words.push("--ball", ball.name);
+    ofBall.push("--ball", ball.name);
     const options = { radius: "--radius", mass: "--mass", friction: "--friction", gravity: "--gravity" };
     for (const [key, option] of Object.entries(options)) {
-      if (ball[key] !== builtIn[key]) words.push(option, ball[key]);
+      if (ball[key] !== builtIn[key]) ofBall.push(option, ball[key]);
     }
     if (ball.patchBy !== builtIn.patchBy || ball.patch !== builtIn.patch) {
-      words.push(ball.patchBy === "patch_radius" ? "--patch-radius" : "--spin-deceleration", ball.patch);
+      ofBall.push(ball.patchBy === "patch_radius" ? "--patch-radius" : "--spin-deceleration", ball.patch);
     }
+  }
+  const words = ["contensou", "portrait", ...ofBall];
+  if (ball) {
     words.push("--slip", ball.velocityX, "--spin", ball.omegaZ);
   } else {
     if (state.body !== "ball") words.push("--body", state.body === "own" ? `${state.chi},${state.gamma}` : state.body);
-    if (bodyOf(state).mu === undefined) words.push("--mu", state.mu);
+    if (body.mu === undefined) words.push("--mu", state.mu);
     if (start) words.push("--u0", start.u, "--v0", start.v);
   }
   words.push("--law", request.law);
@@ -34,5 +39,12 @@ export function commandLine(state, request, builtIn) {
   if (request.field !== "none") words.push("--field", request.field);
   if (request.screen) words.push("--style", "screen");
   words.push("-o", "portrait.svg");
-  return words.map((word) => quoted(String(word))).join(" ");
+  const line = (all) => all.map((word) => quoted(String(word))).join(" ");
+  return { portrait: line(words), roll: ball ? line(["contensou", "roll", ...ofBall, ...startOf(state.ball, start), "--law", request.law]) : null };
+}
+
+/** The start of a roll: slip along x at v, spin u/R, and what the reader says of the centre. */
+function startOf({ radius, velocityX, velocityY }, { u, v }) {
+  if (velocityX === v && velocityY === 0) return ["--slip", v, "--spin", u / radius];
+  return ["--velocity", `${velocityX},${velocityY}`, "--angular-velocity", [-velocityY / radius, (velocityX - v) / radius, u / radius].join(",")];
 }

@@ -10,9 +10,9 @@ export function save(name, blob) {
 
 export const textFile = (text, type) => new Blob([text], { type });
 
-/** A figure as PNG, twice as fine as on the screen. */
+/** A figure as PNG, twice as fine as CSS pixels, or as the screen. */
 export async function pngOf(svg) {
-  const scale = 2;
+  const scale = Math.max(2, devicePixelRatio);
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
   await image.decode();
@@ -21,13 +21,17 @@ export async function pngOf(svg) {
   return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
 }
 
-/** The orbits of the reader as CSV, all digits; infinities as the program writes them. */
-export function csvOf(orbits) {
+/**
+ * The orbits of the reader as CSV, all digits; infinities as the program writes them.
+ *
+ * @param secondsPerTau  of a real ball: then with a column of seconds
+ */
+export function csvOf(orbits, secondsPerTau) {
   const number = (value) => (value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value));
-  const rows = ["orbit,tau,u,v,ln_v,k"];
+  const rows = [`orbit,${secondsPerTau ? "t," : ""}tau,u,v,ln_v,k`];
   orbits.forEach((motion, index) => {
     motion.tau.forEach((tau, i) => {
-      rows.push([index + 1, tau, motion.u[i], motion.v[i], motion.lnV[i], motion.k[i]].map(number).join(","));
+      rows.push([index + 1, ...(secondsPerTau ? [tau * secondsPerTau] : []), tau, motion.u[i], motion.v[i], motion.lnV[i], motion.k[i]].map(number).join(","));
     });
   });
   return `${rows.join("\n")}\n`;

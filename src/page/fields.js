@@ -1,4 +1,5 @@
 // A field for a number: what is wrong with it is said beside it, and only what is right is used.
+import { make } from "./dom.js";
 import { parseNumber } from "./numbers.js";
 
 /**
@@ -21,12 +22,20 @@ export function numberField(input, output, use) {
       say(error.message);
     }
   };
+  let last = input.value;
+  output.setAttribute("aria-live", "off");  // it is the field's description; each key would be announced
   input.addEventListener("input", read);
+  // What cannot be used does not stay.
+  input.addEventListener("change", () => {
+    if (output.textContent === "") return;
+    input.value = last;
+    say("");
+  });
   return {
     /** Shows a value that came from elsewhere, unless the reader is typing. */
     show(value) {
+      const text = last = String(value);
       if (document.activeElement === input) return;
-      const text = String(value);
       if (input.value !== text) input.value = text;
       say("");
     },
@@ -36,19 +45,17 @@ export function numberField(input, output, use) {
 
 /** A labelled number field with its place for a problem, in `parent`. */
 export function addNumberField(parent, { key, label, use }) {
-  const wrapper = document.createElement("label");
-  const input = Object.assign(document.createElement("input"), { className: "number", inputMode: "decimal", autocomplete: "off", name: key });
-  const output = Object.assign(document.createElement("output"), { className: "error", id: `${key}-error` });
+  const input = make("input", { className: "number", inputMode: "decimal", autocomplete: "off", name: key });
+  const output = make("output", { className: "error", id: `${key}-error` });
   input.setAttribute("aria-describedby", output.id);
-  wrapper.append(label, input, output);
-  parent.append(wrapper);
+  parent.append(make("label", {}, label, input, output));
   return numberField(input, output, use);
 }
 
 /** Buttons of which one is chosen; arrow keys go round. */
 export function choiceButtons(parent, choices, choose) {
   const buttons = choices.map(({ name, title }) => {
-    const button = Object.assign(document.createElement("button"), { type: "button", textContent: title });
+    const button = make("button", { type: "button", textContent: title });
     button.setAttribute("role", "radio");
     button.dataset.name = name;
     button.addEventListener("click", () => choose(name));

@@ -1,4 +1,6 @@
 // The C++ library, compiled to WebAssembly; bindings.cpp says what each function answers.
+import loadContensou from "contensou";
+import compressed from "contensou.wasm.gz";
 
 /** What the library says against a question, in its own words. */
 export class Rejected extends Error {}
@@ -14,15 +16,14 @@ function checking(object, names) {
 }
 
 export async function loadLibrary() {
-  const module = await globalThis.loadContensou();
+  const wasm = new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const module = await loadContensou({ wasmBinary: await new Response(wasm).arrayBuffer() });
   const plane = new module.Plane();
   return {
-    laws: module.namesOfLaws(),
-    largestExponent: module.largestExponent(),
-    balls: module.catalogue(),
-    plane: checking(plane, ["choose", "inside", "stop", "motion", "instant", "isochrone", "checks"]),
+    laws: module.laws(), bodies: module.bodies(), balls: module.catalogue(), rollingSlip: module.rollingSlip,
+    plane: checking(plane, ["choose", "inside", "stop", "motion", "instant", "slide", "course", "isochrone", "checks"]),
     // Of the system that the plane has chosen.
     portrait: (request) => checked(module.portrait(request, plane)),
-    ...checking(module, ["contact", "roll", "place", "portraitFile"]),
+    ...checking(module, ["contact", "lawName", "portraitFile"]),
   };
 }

@@ -1,19 +1,12 @@
 // Everything that a link has to reproduce, and its text after the # of the address.
-import { isLaw } from "./law_field.js";
-
-export const bodies = {
-  "ball": { title: "ball", chi: 3.5, gamma: 2.5, largestMu: 1 },
-  "hollow-ball": { title: "hollow ball", chi: 2.5, gamma: 1.5, largestMu: 1 },
-  "disc": { title: "disc that cannot roll", chi: 1, gamma: 2, mu: 1 },
-  "ring": { title: "ring that cannot roll", chi: 1, gamma: 1, mu: 1 },
-  "own": { title: "your own χ and γ" },
-};
 
 const largestOwnMu = 10;
 
 /** chi, gamma and the largest mu of the state's body; and mu itself where the body decides it. */
-export function bodyOf(state) {
-  return state.body === "own" ? { chi: state.chi, gamma: state.gamma, largestMu: largestOwnMu } : bodies[state.body];
+export function bodyOf(state, { bodies }) {
+  return state.body === "own"
+    ? { chi: state.chi, gamma: state.gamma, largestMu: largestOwnMu }
+    : { largestMu: 1, ...bodies.find(({ name }) => name === state.body) };
 }
 
 export const fields = ["none", "motion", "regularised"];
@@ -42,12 +35,19 @@ export function initialState() {
   };
 }
 
-/** A real ball with the start that the library has for it; its centre moves across the slip, so that its path curves. */
+/** What the page opens with: a gel ball whose spin lets it slide seven times as far. */
+export function firstState({ balls }) {
+  const state = initialState();
+  const gel = balls.find(({ name }) => name === "gel");
+  if (gel) takeBall(state, { ...gel, spin: 300 });
+  return state;
+}
+
+/** A real ball with the start that the library has for it: its centre moves along the slip, so that it does not turn forward. */
 export function takeBall(state, ball) {
-  const start = { u: ball.radius * ball.spin, v: ball.slip };
   Object.assign(state, {
-    ball: { ...ball, velocityX: 0, velocityY: ball.slip / 2 },
-    body: "ball", orbits: [start], chosen: 0, share: 0, isochrone: 0,
+    ball: { ...ball, velocityX: ball.slip, velocityY: 0 },
+    body: "ball", orbits: [{ u: ball.radius * ball.spin, v: ball.slip }], chosen: 0, share: 0, isochrone: 0, part: "sliding",
     window: null,
   });
 }
@@ -71,7 +71,7 @@ export function toFragment(state) {
   query.set("orbits", state.orbits.map(({ u, v }) => `${u},${v}`).join(";"));
   query.set("chosen", state.chosen);
   if (state.share) query.set("at", Number(state.share.toFixed(4)));
-  if (state.part !== "whole") query.set("part", state.part);
+  if (state.part !== (state.ball ? "sliding" : "whole")) query.set("part", state.part);
   if (state.isochrone) query.set("isochrone", state.isochrone);
   if (state.theme !== "auto") query.set("theme", state.theme);
   return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":");
@@ -80,12 +80,13 @@ export function toFragment(state) {
 /**
  * The state of a fragment; what cannot be read in it keeps its first value.
  *
- * @param known  {laws, largestExponent, views, balls}
+ * @param known  of library.js, with the names of the views
  */
 export function fromFragment(fragment, known) {
   const { views, balls } = known;
-  const state = initialState();
   const query = new URLSearchParams(fragment.replace(/^#/, ""));
+  if ([...query].length === 0) return firstState(known);
+  const state = initialState();
   const choice = (key, allowed, use) => allowed.includes(query.get(key)) && use(query.get(key));
   const number = (key, use, allowed = () => true) => {
     const value = Number(query.get(key));
@@ -97,18 +98,22 @@ export function fromFragment(fragment, known) {
   };
 
   for (const key of ["law", "against"]) {
-    if (isLaw(query.get(key), known)) state[key] = query.get(key);
+    try {
+      if (query.get(key)) state[key] = known.lawName(query.get(key)).name;
+    } catch {
+      // Not a law.
+    }
   }
   choice("field", fields, (field) => (state.field = field));
   number("isochrones", (count) => (state.isochrones = count), (count) => count === 0 || count === 7);
   choice("view", views, (view) => (state.view = view));
   choice("theme", ["light", "dark"], (theme) => (state.theme = theme));
-  choice("part", ["sliding"], (part) => (state.part = part));
-  choice("body", Object.keys(bodies), (body) => (state.body = body));
+  choice("body", known.bodies.map(({ name }) => name), (body) => (state.body = body));
   const inertia = numbers(query.get("body") ?? "", 2, ([chi, gamma]) => chi > 0 && gamma > 0);
   if (inertia) Object.assign(state, { body: "own", chi: inertia[0], gamma: inertia[1] });
   number("mu", (mu) => (state.mu = mu), (mu) => mu > 0);
-  state.mu = bodyOf(state).mu ?? Math.min(state.mu, bodyOf(state).largestMu);
+  const { mu, largestMu } = bodyOf(state, known);
+  state.mu = mu ?? Math.min(state.mu, largestMu);
   choice("ball", balls.map((ball) => ball.name), (name) => {
     takeBall(state, balls.find((entry) => entry.name === name));
     choice("patchBy", ["patch_radius", "spin_deceleration"], (by) => (state.ball.patchBy = by));
@@ -116,6 +121,7 @@ export function fromFragment(fragment, known) {
       number(key, (value) => (state.ball[key] = value), (value) => key.startsWith("velocity") || value > 0);
     }
   });
+  choice("part", ["whole", "sliding"], (part) => (state.part = part));
   state.window = numbers(query.get("window") ?? "", 2, ([U, V]) => U > 0 && V > 0) ?? state.window;
   if (query.has("orbits")) {
     state.orbits = query.get("orbits").split(";").map((text) => numbers(text, 2, ([, v]) => v >= 0))

@@ -22,6 +22,7 @@ export function drawPanes(surface, scene, theme) {
   const highestV = Math.max(...extreme((motion) => motion.v[0]), Number.MIN_VALUE);
   const us = extreme((motion) => motion.u[0]);
   const [lowestU, highestU] = [Math.min(0, ...us), Math.max(0, ...us)];
+  const rangeU = { low: 1.06 * lowestU, high: 1.06 * highestU || (lowestU === 0 ? 1 : 0) };
   // Without the last instant: at rest there is no k.
   const logs = scene.motions.map((motion) => motion.k.slice(0, -1).map(Math.log10));
   const starts = logs.map((column) => column[0]).filter(Number.isFinite);
@@ -30,7 +31,7 @@ export function drawPanes(surface, scene, theme) {
 
   const panes = [
     { frame: new Frame(place(0), x(undefined), { low: 0, high: 1.06 * highestV, label: `{/:Italic v}${scene.speedUnit}` }), column: (m) => m.v, now: (n) => n.v },
-    { frame: new Frame(place(1), x(undefined), { low: 1.06 * lowestU, high: 1.06 * highestU || 1, label: `{/:Italic u}${scene.speedUnit}` }), column: (m) => m.u, now: (n) => n.u },
+    { frame: new Frame(place(1), x(undefined), { ...rangeU, label: `{/:Italic u}${scene.speedUnit}` }), column: (m) => m.u, now: (n) => n.u },
     {
       frame: new Frame(place(2), x(scene.timeLabel), { low: lowestK, high: highestK, label: "{/:Italic k}", tick: (value) => `10${superscript(Math.round(value))}` }),
       column: (m, i) => logs[i], now: (n) => Math.log10(n.k),

@@ -8,7 +8,7 @@ const lineWidth = 0.9;  // pixels of a line of width 1
 const dash = [5, 4];
 
 /**
- * @param scene  {figure, view, context, own: [{orbit, index, chosen, start}], isochrone: {u, v} or null,
+ * @param scene  {figure, view, context, own: [{orbit, index, chosen, start, stop}], isochrone: {u, v} or null,
  *               marker: {state, index} or null, cross: {panel, x, y} or null}
  * @returns the frames of the panels
  */
@@ -127,8 +127,8 @@ function drawOwn(surface, scene, index, frame, theme) {
       surface.lines([frame.line(places.map(([x]) => x), places.map(([, y]) => y))], { colour: figure.ink, width: 2, dash: [2, 3] });
     }
   }
-  for (const { orbit, index: colour, chosen, start } of scene.own) {
-    const [xs, ys] = placesOf(orbit, panel, context);
+  for (const { orbit, index: colour, chosen, start, stop } of scene.own) {
+    const [xs, ys] = placesOf(orbit, panel, context, stop);
     const line = frame.line(xs, ys);
     const swatch = theme.swatch(colour);
     surface.lines([line], { colour: figure.ground, width: chosen ? 6 : 4 });
@@ -136,7 +136,7 @@ function drawOwn(surface, scene, index, frame, theme) {
     drawHeadAlong(surface, frame, line, swatch);
     if (!panel.state) continue;
     const [x, y] = panel.place(stateOf(start.u, start.v, context.mu), context);
-    surface.disc(frame.px(x), frame.py(y), chosen ? 4 : 3, { fill: swatch, stroke: figure.ground, width: 1 });
+    surface.disc(frame.px(x), frame.py(y), chosen ? 5 : 4, { fill: swatch, stroke: figure.ground, width: 1 });
   }
 }
 

@@ -1,18 +1,17 @@
 // What the page asks the library to draw. command_line.js writes the same request as options of the program.
-import { bodyOf } from "./page_state.js";
 
 /** A ball that slides along x at v and spins with u = R omega, and nothing else. */
 const shotOf = (ball, { u, v }) => ({ ...ball, velocityX: v, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: u / ball.radius });
 
 /**
  * @param plane   of the library, with the state's law and body chosen
+ * @param body    {chi, gamma}
  * @param screen  light on dark
  * @returns {law, mu, chi, gamma, ball, start, view, window, through: [{u, v}], isochrones, field, against, screen}; null
  *          for what is not asked for
  */
-export function portraitRequest(state, plane, screen) {
+export function portraitRequest(state, plane, { chi, gamma }, screen) {
   const start = state.orbits[state.chosen] ?? null;
-  const { chi, gamma } = bodyOf(state);
   return {
     law: state.law, mu: state.mu, chi, gamma, start,
     // Without a motion there is no ball in the program's sense: only the mu of one.

@@ -136,10 +136,11 @@ export function stateOf(u, v, mu) {
   return { u, v, lnV: Math.log(v), lnK: Math.log(v / (mu * Math.abs(u))) };
 }
 
-/** Where the rows of an orbit of the library lie in a panel: columns. */
-export function placesOf(orbit, panel, context) {
+/** Where the rows of an orbit of the library lie in a panel: columns, from where the time `from` is left. */
+export function placesOf(orbit, panel, context, from = Infinity) {
   const row = (i, start) => ({ u: orbit.u[i], v: orbit.v[i], lnV: orbit.lnV[i], lnK: orbit.lnK[i], left: orbit.left[i], start });
   const start = row(0);
-  const places = Array.from(orbit.u, (_, i) => panel.place(row(i, start), context));
+  const first = Math.max(0, orbit.left.findIndex((left) => left <= from * (1 + 1e-12)));
+  const places = Array.from(orbit.u.slice(first), (_, i) => panel.place(row(first + i, start), context));
   return [places.map(([x]) => x), places.map(([, y]) => y)];
 }

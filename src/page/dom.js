@@ -1,0 +1,17 @@
+// Elements of the page.
+
+export const $ = (id) => document.getElementById(id);
+
+/** An element with properties, and what is in it. */
+export function make(tag, properties = {}, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  return element;
+}
+
+/** Makes `parent` have one child for each entry, and shows the entry in it: children stay, and with them the focus. */
+export function showList(parent, entries, child, show) {
+  while (parent.children.length > entries.length) parent.lastChild.remove();
+  while (parent.children.length < entries.length) parent.append(child());
+  entries.forEach((entry, index) => show(parent.children[index], entry, index));
+}

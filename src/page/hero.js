@@ -1,0 +1,104 @@
+// The top of the page: what the ball does, beside one that does not spin.
+import { $, make } from "./dom.js";
+import { drawLanes, drawPatch, length } from "./hero_figure.js";
+import { shown } from "./numbers.js";
+import { CanvasSurface } from "./surface.js";
+import { rideOn } from "./turning.js";
+
+const fastest = 9;  // rad/s on the screen; a faster spin is drawn in a part of its size, so that its marks turn one way to the eye
+
+export class Hero {
+  /** @param player  whose `seconds` are what the motion lasts on the screen */
+  constructor(store, player) {
+    Object.assign(this, { store, player });
+    this.bars = ["this", "plain"].map((name) => {
+      const [title, bar, number] = ["span", "div", "b"].map((tag) => make(tag, { className: tag === "div" ? "bar-of" : "" }));
+      bar.append(make("i"));
+      $("bars").append(make("div", { id: `slid-${name}` }, title, number, bar));
+      return { title, bar: bar.firstChild, number };
+    });
+  }
+
+  /** Everything but the moment. */
+  show() {
+    const { store, store: { state, ride, orbit, timeFactor } } = this;
+    for (const id of ["lanes", "patch", "bars"]) $(id).hidden = !ride;
+    if (!ride) {
+      $("headline").textContent = "Click the plane: a motion starts there";
+      $("story").textContent = "Up is sliding, sideways is spinning.";
+      return;
+    }
+    const ball = state.ball;
+    this.unit = ball ? "m" : "";
+    const slid = (slide) => slide.length * timeFactor;
+    const duration = ride.end * timeFactor;
+    // Without units a ball may have any size.
+    const radius = ball?.radius ?? Math.max(slid(ride.own), slid(ride.plain)) / 4;
+    const spin = Math.abs(orbit.u) / radius;
+    this.spinShown = Math.min(1, (fastest * this.player.seconds) / (spin * duration) || 1);
+    const { chi } = store.body;
+    const start = { v: orbit.v, x: ball?.velocityX ?? orbit.v, y: ball?.velocityY ?? 0 };
+    // A path that curves is seen from where it leads to the right.
+    start.heading = start.y === 0 ? 0 : Math.atan2(start.y * duration, (start.x - start.v / chi) * duration + slid(ride.own) / chi);
+    this.rides = store.keep("rides", [ride.own, start, duration, chi, radius, state.law, state.mu, orbit], () => ride.courses.map((course) =>
+      rideOn({ ...course, slid: Array.from(course.slid, (path) => path * timeFactor) }, start, { duration, chi, radius, spinShown: this.spinShown })));
+    this.radius = radius;
+    this.say(ride, spin, slid);
+  }
+
+  /** The headline and what it rests on: live numbers. */
+  say({ own, plain, rolls }, spin, slid) {
+    const { store: { state, orbit, timeFactor }, unit } = this;
+    const [far, farPlain] = [own, plain].map((slide) => length(slid(slide), unit));
+    const times = own.length / plain.length;
+    const more = (ratio, word) => (ratio >= 1.5 ? `${shown(ratio, 2)} times as ${word}` : `${shown(100 * (ratio - 1), 2)} % ${{ far: "farther", long: "longer" }[word]}`);
+    const thing = rolls ? "ball" : "puck";
+    const what = state.ball ? state.ball.title.replace(/ (on|of) .*/, "") : thing;
+    const name = what.endsWith(thing) ? what : `${what} ${thing}`;
+    const turns = state.ball ? `${shown(spin / 2 / Math.PI, 2)} times a second` : `with u = ${shown(orbit.u, 3)}`;
+    const speed = state.ball ? `${shown(orbit.v, 3)} m/s` : `v = ${shown(orbit.v, 3)}`;
+    const leave = !state.ball || (state.ball.velocityX === orbit.v && state.ball.velocityY === 0) ? "leave" : "touch down, slipping";
+    const until = rolls ? "then it rolls" : "then it stops";
+    $("headline").textContent = spin === 0 ? `This ${thing} does not spin: friction holds it at once`
+      : orbit.v === 0 ? `A ${thing} that spins in place`
+        : times > 1.5 ? `Spin a ${thing}, and it slides ${shown(times, 2)} times as far` : times > 1.005
+          ? `Spin makes this ${thing} slide ${shown(100 * (times - 1), 2)} % farther` : `Here spin changes little: the patch is small`;
+    $("story").textContent = spin === 0
+      ? `This ${name} slips at ${speed} and does not spin: it slides ${farPlain}, ${until}. Textbooks say the same of one that spins: give it spin, and see.`
+      : orbit.v === 0 ? `Nothing slides: only the rim of the patch rubs, and the ${thing} turns ever slower.`
+        : `Two equal ${name}s ${leave} at ${speed}. One does not spin: it slides ${farPlain}, ${until}. The other spins ${turns}: it slides ${far}, ` +
+          `${more(times, "far")} and ${more(own.end / plain.end, "long")}. Textbooks say ${farPlain} both times.`;
+    this.most = Math.max(own.length, plain.length) * timeFactor;
+    this.titles = [
+      `spinning${state.ball ? ` ${shown(orbit.u / this.radius, 3)} rad/s` : ""}`,
+      "without spin; and in textbooks, spin or not",
+    ];
+    this.ends = [own, plain].map((slide) => slide.end * timeFactor);
+    const seconds = state.ball ? " s" : "";
+    this.barTitles = [own, plain].map((slide, i) => `${["This one slides", "Without spin"][i]} for ${shown(slide.end * timeFactor, 3)}${seconds}`);
+    $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${$("story").textContent}`);
+  }
+
+  draw(theme) {
+    const { store: { state, ride, now, timeFactor, end }, rides, unit, radius } = this;
+    if (!ride) return;
+    const duration = end * timeFactor;
+    const lane = (i, own) => ({
+      title: `${this.titles[own]}: ${state.share * duration < this.ends[own] ? "slides" : ride.rolls ? "rolls" : "stands"}`,
+      xs: rides[i].xs, ys: rides[i].ys, at: rides[i].at(state.share),
+      slidesTo: (this.ends[own] / duration) * (rides[i].xs.length - 1), ...theme.lane(own === 0 ? state.chosen : "plain"),
+    });
+    const lanes = [lane(0, 1), lane(1, 0)];
+    drawLanes(new CanvasSurface($("lanes")), { lanes, radius, unit }, theme);
+    drawPatch(new CanvasSurface($("patch")), { k: now.k, spin: Math.sign(now.u), force: now.force }, theme);
+    $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +
+      (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
+    this.bars.forEach(({ title, bar, number }, own) => {
+      const { slid } = lanes[1 - own].at;
+      title.textContent = this.barTitles[own];
+      number.textContent = length(slid, unit);
+      bar.style.width = `${(100 * slid) / this.most || 0}%`;
+      bar.style.background = lanes[1 - own].colour;
+    });
+  }
+}

@@ -1,0 +1,250 @@
+// The plane under the reader's hand: pointing, starting and choosing orbits, zooming.
+import { $ } from "./dom.js";
+import { listen } from "./gestures.js";
+import { plain } from "./markup.js";
+import { shown } from "./numbers.js";
+import { drawPortrait } from "./portrait_figure.js";
+import { rowsOf } from "./portrait_layout.js";
+import { CanvasSurface } from "./surface.js";
+import { placesOf, stateOf, viewNamed } from "./views.js";
+
+const reach = { touch: 24, mouse: 10 };  // pixels from which a start or an orbit is taken hold of
+
+export class Plane {
+  /** @param act  {ask(edit), removeOrbit(index), stopText(tau)} */
+  constructor(store, act) {
+    Object.assign(this, { store, act, cross: null, before: undefined });
+    listen($("plane"), {
+      hold: (x, y, kind) => this.startAt(x, y, kind),
+      pull: (x, y, index) => this.moveStart(x, y, index),
+      tap: (x, y, kind) => {
+        this.cross = null;
+        this.choose(x, y, kind);
+      },
+      drag: (x, y) => this.drawIsochrone(x, y),
+      point: (x, y) => this.describe(this.pointed(x, y)),
+      leave: () => {
+        if (!this.cross) return;
+        this.cross = null;
+        this.draw();
+      },
+      move: (dx, dy) => this.moveCross(dx, dy),
+      panel: () => this.nextPanel(),
+      enter: () => this.atCross((x, y) => this.choose(x, y, "key")),
+      isochrone: () => this.atCross((x, y) => this.drawIsochrone(x, y)),
+      clear: () => this.clear(),
+      zoom: (factor) => this.zoom(factor),
+      remove: () => store.motion && act.removeOrbit(store.state.chosen),
+    });
+    $("zoom-in").addEventListener("click", () => this.zoom(0.7));
+    $("zoom-out").addEventListener("click", () => this.zoom(1 / 0.7));
+    $("clear-isochrone").addEventListener("click", () => this.clear());
+  }
+
+  // --- drawing -----------------------------------------------------------------------------------------------------
+
+  scene() {
+    const { state, portrait, context, motions, motion, orbit, now, unitIsochrone } = this.store;
+    // The library answers with the chosen orbit by itself, and with the others that are none of the axes.
+    const entry = (start, index, drawn, chosen) => ({ orbit: drawn, start, index, chosen, stop: motions[index].stop });
+    const others = state.orbits.map((start, index) => ({ start, index }))
+      .filter(({ start, index }) => index !== state.chosen && start.u !== 0 && start.v !== 0)
+      .map(({ start, index }, i) => entry(start, index, portrait.through[i], false));
+    const chosen = portrait.highlight ? [entry(orbit, state.chosen, portrait.highlight, true)] : [];
+    return {
+      figure: portrait.figure, view: viewNamed(state.view), context,
+      own: [...others, ...chosen],
+      isochrone: state.isochrone ? { u: unitIsochrone.u.map((u) => u * state.isochrone), v: unitIsochrone.v.map((v) => v * state.isochrone) } : null,
+      marker: now && now.tau < motion.stop
+        ? { index: state.chosen, state: { ...now, lnK: Math.log(now.k), left: motion.stop - now.tau, start: { ...orbit, left: motion.stop } } }
+        : null,
+      cross: this.cross,
+    };
+  }
+
+  draw(theme = this.theme) {
+    this.theme = theme;
+    const canvas = $("plane");
+    const rows = String(rowsOf(this.store.portrait.figure.panels.length, canvas.clientWidth));
+    if (canvas.dataset.rows !== rows) {
+      canvas.dataset.rows = rows;
+      canvas.style.setProperty("--rows", rows);
+    }
+    this.planeScene = this.scene();
+    this.frames = drawPortrait(new CanvasSurface(canvas), this.planeScene, theme);
+    $("clear-isochrone").hidden = !this.store.state.isochrone;
+  }
+
+  /** What a screen reader says of the plane; nothing that changes with the moment. */
+  label() {
+    const { portrait, state, motion } = this.store;
+    const legend = portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
+    const count = state.orbits.length;
+    $("plane").setAttribute("aria-label",
+      `Phase portrait, view ${viewNamed(state.view).title}: ${plain(portrait.figure.title)}; drawn are ` +
+      `${[...new Set(legend)].join(", ") || "orbits"}; ${count} ${count === 1 ? "orbit" : "orbits"} of yours` +
+      (motion ? `; the chosen one stops at ${this.act.stopText(motion.stop)}` : ""));
+  }
+
+  // --- what lies under a pixel ---------------------------------------------------------------------------------------
+
+  /** The panel under a pixel, with the numbers there; none beside and between them. */
+  panelAt(x, y) {
+    const index = this.frames.findIndex((frame) => frame.contains(x, y));
+    return index < 0 ? null : { index, panel: this.planeScene.view.panels[index], ...this.frames[index].at(x, y) };
+  }
+
+  pointed(x, y) {
+    const at = this.panelAt(x, y);
+    const state = at?.panel.state?.(at.x, at.y, this.store.context);
+    return state && Math.hypot(state.u, state.v) > 0 && Number.isFinite(state.u) && Number.isFinite(state.v) ? state : null;
+  }
+
+  /** The number of the orbit whose start lies under a pixel; the chosen one first. */
+  startAt(x, y, kind) {
+    const at = this.panelAt(x, y);
+    if (!at?.panel.state) return null;
+    const frame = this.frames[at.index];
+    const near = this.planeScene.own.filter(({ start }) => {
+      const [px, py] = at.panel.place(stateOf(start.u, start.v, this.store.context.mu), this.store.context);
+      return Math.hypot(frame.px(px) - x, frame.py(py) - y) <= reach[kind];
+    });
+    return near.at(-1)?.index ?? null;
+  }
+
+  /** The number of the orbit that passes under a pixel. */
+  orbitAt(x, y, kind) {
+    const at = this.panelAt(x, y);
+    if (!at) return null;
+    const frame = this.frames[at.index];
+    let [nearest, least] = [null, reach[kind] ** 2];
+    for (const { orbit, index, stop } of this.planeScene.own) {
+      const line = frame.line(...placesOf(orbit, at.panel, this.store.context, stop));
+      for (let i = 0; i + 3 < line.length; i += 2) {
+        const [dx, dy] = [line[i + 2] - line[i], line[i + 3] - line[i + 1]];
+        const share = Math.max(0, Math.min(1, ((x - line[i]) * dx + (y - line[i + 1]) * dy) / (dx * dx + dy * dy || 1)));
+        const distance = (line[i] + share * dx - x) ** 2 + (line[i + 1] + share * dy - y) ** 2;
+        if (distance <= least) [nearest, least] = [index, distance];
+      }
+    }
+    return nearest;
+  }
+
+  // --- what the reader does --------------------------------------------------------------------------------------------
+
+  choose(x, y, kind) {
+    const { store } = this;
+    const at = this.panelAt(x, y);
+    if (at?.panel.moment && store.motion) return store.move({ share: Math.min(1, (at.panel.moment(at.x) * store.motion.stop) / store.end) });
+    const index = kind === "key" ? null : this.startAt(x, y, kind) ?? this.orbitAt(x, y, kind);
+    const start = this.pointed(x, y);
+    if (index !== null) this.act.ask((state) => Object.assign(state, { chosen: index, share: 0 }));
+    else if (start) this.startOrbit(rounded(start, store.context));
+    else this.announce("Nothing is here.");
+  }
+
+  startOrbit(start, ask = this.act.ask) {
+    const { store } = this;
+    ask((state) => {
+      // What is pointed at stays where it is.
+      if (Math.abs(start.u) <= store.context.window[0] && start.v <= store.context.window[1]) this.freeze(state);
+      state.orbits.push(start);
+      Object.assign(state, { chosen: state.orbits.length - 1, share: 0, isochrone: 0 });
+    }, () => this.announce(`Orbit from u = ${shown(start.u, 4)}, v = ${shown(start.v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`));
+  }
+
+  moveStart(x, y, index) {
+    const to = this.pointed(x, y);
+    if (!to) return;
+    this.act.ask((state) => {
+      this.freeze(state);
+      const from = state.orbits[index];
+      const start = rounded(to, this.store.context);
+      // The ball turns forward as before.
+      if (state.ball && index === state.chosen) state.ball.velocityX += start.v - from.v;
+      state.orbits[index] = start;
+      Object.assign(state, { chosen: index, share: 0, isochrone: 0 });
+    });
+  }
+
+  drawIsochrone(x, y) {
+    const at = this.pointed(x, y);
+    if (!at) return;
+    const { tau } = this.store.library.plane.stop(at.u, at.v);
+    this.store.move({ isochrone: tau });
+    this.announce(`All states on the dotted line stop at ${this.act.stopText(tau)}. Esc clears it.`);
+  }
+
+  clear() {
+    this.cross = null;
+    this.announce("");
+    this.store.move({ isochrone: 0 });
+  }
+
+  /** Keeps the window as it is, in this view. */
+  freeze(state) {
+    if (this.before === undefined) this.before = state.window;
+    state.window ??= this.store.context.window;
+  }
+
+  zoom(factor) {
+    this.act.ask((state) => {
+      this.freeze(state);
+      state.window = this.store.context.window.map((side) => Number((side * factor).toPrecision(4)));
+    });
+  }
+
+  /** Another view, in a window of its own. */
+  view(name) {
+    this.cross = null;
+    this.act.ask((state) => {
+      if (this.before !== undefined) state.window = this.before;
+      this.before = undefined;
+      state.view = name;
+    });
+  }
+
+  // --- the cross that keys move -------------------------------------------------------------------------------------
+
+  moveCross(dx, dy) {
+    const panel = Math.min(this.cross?.panel ?? 0, this.frames.length - 1);
+    const frame = this.frames[panel];
+    const { x, y } = this.cross ?? { x: (frame.x.low + 2 * frame.x.high) / 3, y: (frame.y.low + frame.y.high) / 2 };
+    const moved = frame.at(frame.px(x) + dx * frame.width / 40, frame.py(y) - dy * frame.height / 40);
+    this.cross = { panel, ...moved };
+    this.draw();
+    this.describe(this.pointed(frame.px(moved.x), frame.py(moved.y)), "Nothing is here.");
+  }
+
+  nextPanel() {
+    this.cross = { panel: ((this.cross?.panel ?? -1) + 1) % this.frames.length };
+    const { x, y } = this.frames[this.cross.panel];
+    Object.assign(this.cross, { x: (x.low + 2 * x.high) / 3, y: (y.low + y.high) / 2 });
+    this.moveCross(0, 0);
+  }
+
+  atCross(action) {
+    if (!this.cross) return;
+    const frame = this.frames[this.cross.panel];
+    action(frame.px(this.cross.x), frame.py(this.cross.y));
+  }
+
+  describe(at, otherwise = "") {
+    if (!at) return this.announce(otherwise);
+    const { tau } = this.store.library.plane.stop(at.u, at.v);
+    this.announce(`u = ${shown(at.u, 4)}, v = ${shown(at.v, 4)}, k = ${shown(at.v / (this.store.context.mu * Math.abs(at.u)), 4)}: stops at ${this.act.stopText(tau)}`);
+  }
+
+  announce(text) {
+    $("pointed").textContent = text || "\u00a0";
+  }
+}
+
+/** A start as people would write it: no more digits than a pixel is worth. */
+function rounded({ u, v }, { window: [U, V] }) {
+  const to = (value, side) => {
+    const digits = Math.max(3, 4 - Math.floor(Math.log10(side / Math.max(Math.abs(value), 1e-300))));
+    return Number(value.toPrecision(Math.min(4, digits)));
+  };
+  return { u: to(u, U), v: to(v, V) };
+}

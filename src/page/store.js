@@ -1,0 +1,115 @@
+// The state of the page, and all that follows from it: each value is computed once for what it depends on.
+import { bodyOf, initialState } from "./page_state.js";
+import { portraitRequest } from "./portrait_request.js";
+import { isDark } from "./theme.js";
+
+const slow = 1 / 500;  // of the first slip: without units, what slides no faster counts as rolling
+
+export class Store {
+  /** @param library  of library.js */
+  constructor(library, state) {
+    Object.assign(this, { library, state, kept: new Map(), listeners: [], redraws: [] });
+  }
+
+  /** Calls `listener` after each change; with {moment: true} where only the moment or the isochrone has changed. */
+  listen(listener) {
+    this.listeners.push(listener);
+  }
+
+  /** Changes the state; if the library rejects the new one, the old one stays and the reason is thrown. */
+  change(edit) {
+    const before = this.state;
+    const next = structuredClone(before);
+    edit(next);
+    next.chosen = Math.max(0, Math.min(next.chosen, next.orbits.length - 1));
+    const started = performance.now();
+    try {
+      this.compute(next);
+    } catch (error) {
+      if (this.settled) this.compute(before);
+      else {
+        this.state = initialState();
+        this.change(() => {});
+      }
+      throw error;
+    }
+    this.state = next;
+    this.settled = true;
+    for (const listener of this.listeners) listener({ moment: false });
+    this.redraws.push(performance.now() - started);
+    if (this.redraws.length > 200) this.redraws.shift();
+  }
+
+  /** Changes the moment or the isochrone, from which nothing else follows. */
+  move(values) {
+    Object.assign(this.state, values);
+    for (const listener of this.listeners) listener({ moment: true });
+  }
+
+  /** The value of that name: computed again only where what it depends on, the key, has changed. */
+  keep(name, key, make) {
+    const text = JSON.stringify(key);
+    if (this.kept.get(name)?.text !== text) {
+      this.kept.delete(name);
+      this.kept.set(name, { text, value: make() });
+    }
+    return this.kept.get(name).value;
+  }
+
+  /** Everything that depends on law, body, patch and starts, but not on the moment. */
+  compute(state) {
+    const { library, library: { plane } } = this;
+    this.contact = state.ball
+      ? this.keep("contact", [state.law, state.ball], () => library.contact(state.law, { ...state.ball, velocityX: 0, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: 0 }))
+      : null;
+    if (state.ball) state.mu = this.contact.mu;
+    const { chi, gamma } = this.body = bodyOf(state, library);
+    const system = [state.law, state.mu, chi, gamma];
+    const ofSystem = (name, key, make) => this.keep(name, [...system, ...key], make);
+    this.facts = ofSystem("facts", [], () => plane.choose(...system));
+    this.request = portraitRequest(state, plane, this.body, isDark(state.theme));
+    this.portrait = this.keep("portrait", this.request, () => library.portrait(this.request));
+    this.context = { mu: state.mu, window: [this.portrait.windowU, this.portrait.windowV], exponent: this.portrait.exponent };
+    this.unitIsochrone = ofSystem("isochrone", [], () => plane.isochrone());
+    this.motions = state.orbits.map(({ u, v }, i) => ofSystem(`motion ${i}`, [u, v], () => plane.motion(u, v)));
+    const orbit = state.orbits[state.chosen];
+    this.motion = this.motions[state.chosen];
+    this.ride = orbit ? this.rideOf(state, orbit, ofSystem) : null;
+  }
+
+  /** How the body of an orbit slides over the table, and beside it one that does not spin: times in tau. */
+  rideOf(state, { u, v }, ofSystem) {
+    const { library, library: { plane }, body: { chi }, motion: { stop } } = this;
+    const rolls = chi !== 1;
+    const slides = (name, spin) => {
+      if (spin === 0 && v === 0) return { end: 0, length: 0 };
+      const least = state.ball ? library.rollingSlip : slow * v;
+      const slide = ofSystem(name, [spin, v, least], () => plane.slide(spin, v, least));
+      return rolls ? slide : { ...slide, end: plane.stop(spin, v).tau };
+    };
+    const [own, plain] = [slides("slide", u), slides("plain slide", 0)];
+    const end = state.part === "whole" || v === 0 ? stop : Math.min(stop, 1.3 * own.end);
+    const course = (name, spin) => (spin === 0 && v === 0
+      ? { slid: [0, 0], u: [0, 0] }
+      : ofSystem(name, [spin, v, end], () => plane.course(spin, v, end)));
+    return { own, plain, end, rolls, courses: [course("plain course", 0), course("course", u)] };
+  }
+
+  get timeFactor() {
+    return this.contact ? this.contact.secondsPerTau : 1;
+  }
+
+  /** The time at the end of the slider, in tau. */
+  get end() {
+    return this.ride ? this.ride.end : 1;
+  }
+
+  get orbit() {
+    return this.state.orbits[this.state.chosen];
+  }
+
+  get now() {
+    if (!this.motion) return null;
+    return this.library.plane.instant(this.orbit.u, this.orbit.v, this.state.share * this.end);
+  }
+}
