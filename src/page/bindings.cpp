@@ -31,7 +31,6 @@
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
-#include "program/options/body.hpp"
 #include "program/options/portrait_spec.hpp"
 
 namespace contensou::page {
@@ -277,9 +276,9 @@ val law_name(const std::string& called) {
 /// {name, chi, gamma} of each body, and `mu` of one that decides it.
 val bodies() {
   val all = val::array();
-  for (const auto& [name, body] : program::bodies()) {
+  for (const si::Body& body : si::bodies()) {
     val value = val::object();
-    value.set("name", name);
+    value.set("name", std::string(body.name));
     value.set("chi", body.inertia.chi);
     value.set("gamma", body.inertia.gamma);
     if (body.patch_ratio) value.set("mu", *body.patch_ratio);
@@ -288,7 +287,8 @@ val bodies() {
   return all;
 }
 
-/// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2.
+/// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2, or nothing
+/// where a body rests on its whole face.
 si::Experiment experiment_of(const val& fields) {
   const auto number = [&](const char* key) { return fields[key].as<double>(); };
   const double patch = number("patch");
@@ -297,8 +297,10 @@ si::Experiment experiment_of(const val& fields) {
                             .start = si::Velocities{{number("velocityX"), number("velocityY")},
                                                     {number("omegaX"), number("omegaY"), number("omegaZ")}},
                             .environment = {.gravity = number("gravity")}};
-  if (fields["patchBy"].as<std::string>() == "spin_deceleration")
-    experiment.contact.patch = si::SpinDeceleration{patch};
+  const auto known_by = fields["patchBy"].as<std::string>();
+  if (known_by == "spin_deceleration") experiment.contact.patch = si::SpinDeceleration{patch};
+  if (known_by == "whole_face") experiment.contact.patch = si::WholeFace{};
+  experiment.ball.body = *std::ranges::find(si::bodies(), fields["body"].as<std::string>(), &si::Body::name);
   si::require_experiment(experiment);
   return experiment;
 }
@@ -377,7 +379,6 @@ val portrait_file(const val& asked, const std::string& ending) {
 val catalogue() {
   val balls = val::array();
   for (const si::CatalogueEntry& entry : si::catalogue()) {
-    if (entry.experiment.ball.body.lies_flat()) continue;  // the page has balls
     const auto* by_spin = std::get_if<si::SpinDeceleration>(&entry.experiment.contact.patch);
     val ball = val::object();
     ball.set("name", entry.name);
@@ -386,7 +387,10 @@ val catalogue() {
     ball.set("radius", entry.experiment.ball.radius);
     ball.set("friction", entry.experiment.contact.friction);
     ball.set("gravity", entry.experiment.environment.gravity);
-    ball.set("patchBy", std::string(by_spin ? "spin_deceleration" : "patch_radius"));
+    ball.set("body", std::string(entry.experiment.ball.body.name));
+    ball.set("law", si::law_of(entry.experiment));
+    const bool whole = std::holds_alternative<si::WholeFace>(entry.experiment.contact.patch);
+    ball.set("patchBy", std::string(whole ? "whole_face" : by_spin ? "spin_deceleration" : "patch_radius"));
     ball.set("patch", by_spin ? by_spin->value : si::patch_radius_of(entry.experiment, reduction::HertzLaw{}));
     ball.set("slip", si::slip_at_start(entry.experiment));
     ball.set("spin", si::spin_at_start(entry.experiment));
@@ -405,9 +409,9 @@ val contact(const std::string& law, const val& fields) {
     const double radius = si::patch_radius_of(experiment, law_of(law));
     result.set("patchRadius", radius);
     // The one is proportional to the other.
-    const double per_deceleration =
-        si::patch_radius_of_deceleration(experiment.ball.radius, 1, experiment.contact.friction,
-                                         experiment.environment.gravity, law_of(law).pivoting_moment());
+    const double per_deceleration = si::patch_radius_of_deceleration(
+        experiment.ball.radius, 1, experiment.contact.friction, experiment.environment.gravity,
+        law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);
     result.set("spinDeceleration", radius / per_deceleration);
     result.set("secondsPerTau", si::seconds(experiment, 1));
     return result;

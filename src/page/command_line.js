@@ -3,10 +3,10 @@
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
 
 /**
- * {portrait, roll}: the latter of a real ball that moves.
+ * {portrait, roll}: the latter of a real ball that moves and can roll.
  *
  * @param request  of portrait_request.js
- * @param body     {mu} of one that decides it
+ * @param body     {chi}, and mu of one that decides it
  * @param builtIn  the state's ball as the program knows it, if there is one
  */
 export function commandLine(state, request, body, builtIn) {
@@ -40,7 +40,7 @@ export function commandLine(state, request, body, builtIn) {
   if (request.screen) words.push("--style", "screen");
   words.push("-o", "portrait.svg");
   const line = (all) => all.map((word) => quoted(String(word))).join(" ");
-  return { portrait: line(words), roll: ball ? line(["contensou", "roll", ...ofBall, ...startOf(state.ball, start), "--law", request.law]) : null };
+  return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...startOf(state.ball, start), "--law", request.law]) : null };
 }
 
 /** The start of a roll: slip along x at v, spin u/R, and what the reader says of the centre. */

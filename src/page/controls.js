@@ -134,12 +134,12 @@ export class Controls {
     const add = (key, label) => [key, addNumberField($("ball-fields"), { key, label, use: use(key) })];
     this.ballFields = [["radius", "radius R (m)"], ["mass", "mass m (kg)"], ["friction", "friction f"], ["gravity", "gravity g (m/s²)"]].map((field) => add(...field));
     this.patchBy = make("select");
-    fillSelect(this.patchBy, [{ name: "patch_radius", title: "its radius ε (m)" }, { name: "spin_deceleration", title: "spin deceleration (rad/s²)" }]);
+    fillSelect(this.patchBy, [{ name: "patch_radius", title: "its radius ε (m)" }, { name: "spin_deceleration", title: "spin deceleration (rad/s²)" }, { name: "whole_face", title: "its whole face" }]);
     $("ball-fields").append(make("label", {}, "patch known by", this.patchBy));
     this.patchBy.addEventListener("change", () => this.ask((state) => {
       const { patchRadius, spinDeceleration } = store.contact;
       const by = this.patchBy.value;
-      Object.assign(state.ball, { patchBy: by, patch: Number((by === "patch_radius" ? patchRadius : spinDeceleration).toPrecision(12)) });
+      Object.assign(state.ball, { patchBy: by, patch: Number((by === "spin_deceleration" ? spinDeceleration : patchRadius).toPrecision(12)) });
     }));
     this.ballFields.push(add("patch", "patch"), add("velocityX", "centre: along the slip (m/s)"), add("velocityY", "across it (m/s)"));
   }
@@ -159,7 +159,7 @@ export class Controls {
     $("inertia").hidden = state.body !== "own";
     for (const [key, field] of this.inertiaFields) field.show(state[key]);
     $("mu-slider").value = muToSlider(state.mu, body.largestMu);
-    $("mu-slider").disabled = $("mu").disabled = body.mu !== undefined;
+    $("mu-slider").disabled = $("mu").disabled = ball ? ball.patchBy === "whole_face" : body.mu !== undefined;
     const patch = ball ? `${shown(1000 * contact.patchRadius, 3)} mm` : "";
     $("patch-size").textContent = patch;
     $("mu-slider").setAttribute("aria-valuetext", `${patch ? `${patch}, ` : ""}mu ${shown(state.mu)}`);
@@ -182,6 +182,9 @@ export class Controls {
     $("ball-title").textContent = ball.title;
     for (const [key, field] of this.ballFields) field.show(ball[key]);
     this.patchBy.value = ball.patchBy;
+    // A puck rests on its whole face, a stone on a band, and neither rolls.
+    this.patchBy.lastChild.disabled = body.mu === undefined;
+    for (const [key, field] of this.ballFields) field.hide((key === "patch" && ball.patchBy === "whole_face") || (key.startsWith("velocity") && body.chi === 1));
     $("ball-facts").textContent = `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(state.mu, 5)}. ${ball.sources}`;
   }
 }

@@ -48,8 +48,9 @@ export function addNumberField(parent, { key, label, use }) {
   const input = make("input", { className: "number", inputMode: "decimal", autocomplete: "off", name: key });
   const output = make("output", { className: "error", id: `${key}-error` });
   input.setAttribute("aria-describedby", output.id);
-  parent.append(make("label", {}, label, input, output));
-  return numberField(input, output, use);
+  const wrapper = make("label", {}, label, input, output);
+  parent.append(wrapper);
+  return { ...numberField(input, output, use), hide: (hidden) => (wrapper.hidden = hidden) };
 }
 
 /** Buttons of which one is chosen; arrow keys go round. */

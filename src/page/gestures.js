@@ -37,7 +37,11 @@ export function listen(canvas, on) {
       spread = now;
       return;
     }
-    if (start && !start.dragged) start.dragged = Math.hypot(x - start.at[0], y - start.at[1]) > slack;
+    if (start && !start.dragged) {
+      const [dx, dy] = [Math.abs(x - start.at[0]), Math.abs(y - start.at[1])];
+      // A finger that goes up or down scrolls.
+      start.dragged = Math.hypot(dx, dy) > slack && (kindOf(event) === "mouse" || start.held !== null || dx > dy);
+    }
     if (!start?.dragged) on.point(x, y);
     else if (start.held === null) on.drag(x, y);
     else on.pull(x, y, start.held);

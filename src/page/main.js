@@ -102,7 +102,7 @@ function start(library) {
   // A link to a moment shows that moment.
   if (player.moves && store.state.share === 0) player.toggle(true);
   return {
-    store, player, hero, library,
+    store, player, hero, plane, library,
     get state() { return store.state; },
     get request() { return store.request; },
     get frames() { return plane.frames; },

@@ -47,7 +47,7 @@ export function firstState({ balls }) {
 export function takeBall(state, ball) {
   Object.assign(state, {
     ball: { ...ball, velocityX: ball.slip, velocityY: 0 },
-    body: "ball", orbits: [{ u: ball.radius * ball.spin, v: ball.slip }], chosen: 0, share: 0, isochrone: 0, part: "sliding",
+    law: ball.law, body: ball.body, orbits: [{ u: ball.radius * ball.spin, v: ball.slip }], chosen: 0, share: 0, isochrone: 0, part: "sliding",
     window: null,
   });
 }
@@ -97,13 +97,6 @@ export function fromFragment(fragment, known) {
     return values.length === count && values.every(Number.isFinite) && allowed(values) ? values : null;
   };
 
-  for (const key of ["law", "against"]) {
-    try {
-      if (query.get(key)) state[key] = known.lawName(query.get(key)).name;
-    } catch {
-      // Not a law.
-    }
-  }
   choice("field", fields, (field) => (state.field = field));
   number("isochrones", (count) => (state.isochrones = count), (count) => count === 0 || count === 7);
   choice("view", views, (view) => (state.view = view));
@@ -116,11 +109,18 @@ export function fromFragment(fragment, known) {
   state.mu = mu ?? Math.min(state.mu, largestMu);
   choice("ball", balls.map((ball) => ball.name), (name) => {
     takeBall(state, balls.find((entry) => entry.name === name));
-    choice("patchBy", ["patch_radius", "spin_deceleration"], (by) => (state.ball.patchBy = by));
+    choice("patchBy", [state.ball.patchBy, "patch_radius", "spin_deceleration"], (by) => (state.ball.patchBy = by));
     for (const key of ballKeys) {
       number(key, (value) => (state.ball[key] = value), (value) => key.startsWith("velocity") || value > 0);
     }
   });
+  for (const key of ["law", "against"]) {
+    try {
+      if (query.get(key)) state[key] = known.lawName(query.get(key)).name;
+    } catch {
+      // Not a law.
+    }
+  }
   choice("part", ["whole", "sliding"], (part) => (state.part = part));
   state.window = numbers(query.get("window") ?? "", 2, ([U, V]) => U > 0 && V > 0) ?? state.window;
   if (query.has("orbits")) {

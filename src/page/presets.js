@@ -6,8 +6,8 @@ export const presets = [
   ["Massé", "ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4"],
   ["Pool break", "ball=pool&orbits=5.7,2"],
   ["Bowling hook", "ball=bowling&velocityX=3&velocityY=7&orbits=3,7"],
-  ["Puck", "law=uniform&body=puck&orbits=0.8,0.7;0.3,0.9;0.9,0.1&view=disc"],
-  ["Ring", "law=ring&body=ring&orbits=0.8,0.7;0.3,0.9&view=patch"],
+  ["Puck", "ball=puck&view=disc"],
+  ["Curling stone", "ball=curling-stone"],
 ].map(([title, fragment]) => ({ title, fragment }));
 
 const rays = "0.8,3.5;-0.5,1;0.2,0.4";

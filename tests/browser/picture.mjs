@@ -1,21 +1,37 @@
-// Draws the picture of the page that README.md shows.
-//   CONTENSOU_PROGRAM=.../contensou CONTENSOU_CHROMIUM=/usr/bin/chromium node picture.mjs ../../src/page/page.png
+// Draws the pictures of the page that its README shows: page.png, and strip.png of three states side by side.
+//   CONTENSOU_PROGRAM=.../contensou CONTENSOU_CHROMIUM=/usr/bin/chromium node picture.mjs ../../src/page
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-const state = "#law=exact&mu=0.4&view=uv&window=1,4&orbits=0.8,3.2;-0.6,2;0.35,1.1&chosen=0&at=0.24&isochrone=8";
-
-const folder = mkdtempSync(join(tmpdir(), "contensou-page-"));
+const [folder, out] = [mkdtempSync(join(tmpdir(), "contensou-page-")), process.argv[2]];
 const file = join(folder, "page.html");
 execFileSync(process.env.CONTENSOU_PROGRAM, ["explore", "-o", file]);
 const browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"] });
-const page = await browser.newPage({ viewport: { width: 1240, height: 1010 }, colorScheme: "light" });
-await page.goto(pathToFileURL(file).href + state);
-await page.waitForSelector("#checks tbody tr");
-await page.screenshot({ path: process.argv[2] });
+
+async function shot(fragment, share, options) {
+  const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", ...options });
+  await page.goto(pathToFileURL(file).href + fragment);
+  await page.waitForSelector("#orbits li");
+  await page.evaluate((share) => globalThis.page.store.move({ share }), share);
+  const picture = await page.screenshot();
+  await page.close();
+  return picture;
+}
+
+writeFileSync(join(out, "page.png"), await shot("", 0.3, { colorScheme: "light" }));
+const pictures = await Promise.all([
+  shot("", 0.15, { viewport: { width: 390, height: 844 }, colorScheme: "dark" }),
+  shot("#ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4", 0.5, { colorScheme: "light" }),
+  shot("#law=uniform&body=puck&orbits=0.8,0.7;0.3,0.9;0.9,0.1&view=disc", 0.6, { colorScheme: "light" }),
+]);
+const strip = await browser.newPage({ viewport: { width: 1600, height: 440 } });
+await strip.setContent(`<body style="margin:0;display:flex;gap:12px;background:#888">${
+  pictures.map((picture) => `<img height="440" src="data:image/png;base64,${picture.toString("base64")}">`).join("")}</body>`);
+await strip.evaluate(() => Promise.all([...document.images].map((image) => image.decode())));
+await strip.screenshot({ path: join(out, "strip.png") });
 await browser.close();
 rmSync(folder, { recursive: true });

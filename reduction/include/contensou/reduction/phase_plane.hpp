@@ -49,7 +49,7 @@ struct SingularPoint {
 };
 
 /// The half-line along which orbits enter the origin.
-struct Tangent {
+struct EndTangent {
   InvariantDirection direction;
   double k;
   /// The angular coordinate goes to 0 (on a ray: to q*) like this power of the speed: angular/radial eigenvalue; 0
@@ -64,7 +64,7 @@ struct PhasePlane {
   /// By direction from v = 0 to u = 0, at each the origin first. Every half-line is an orbit from infinity to the
   /// origin and joins a saddle to a node.
   std::vector<SingularPoint> points;
-  std::vector<Tangent> tangents;  ///< of the orbits of each of terminal.ends
+  std::vector<EndTangent> tangents;  ///< of the orbits of each of terminal.ends
 };
 
 /// Solves for the singular points and linearises there (README (R15) to (R17)).
