@@ -83,7 +83,7 @@ export class Controls {
       chosen(state).u = (chosen(state).u < 0 ? -1 : 1) * spin * (state.ball?.radius ?? 1);
       this.plane.freeze(state);
     });
-    this.friction = slider("friction", "friction f", (state, share) => (state.ball.friction = round(Math.max(share, 0.01) * 1.2)));
+    this.friction = slider("friction", "friction f", (state, share) => (state.ball.friction = round(Math.max(share, 0.002) * 1.2)));
   }
 
   /** What the sliders of slip and spin go to: they do not move under the reader's hand. */

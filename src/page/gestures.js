@@ -59,7 +59,7 @@ export function listen(canvas, on) {
   // A finger scrolls the page up and down, unless it takes hold of something.
   canvas.addEventListener("touchstart", (event) => {
     const [x, y] = place(event.touches[0]);
-    if (event.touches.length > 1 || on.hold(x, y, "touch") !== null) event.preventDefault();
+    if (event.cancelable && (event.touches.length > 1 || on.hold(x, y, "touch") !== null)) event.preventDefault();
   }, { passive: false });
   // Two fingers on a trackpad, or Ctrl and the wheel; the wheel alone scrolls the page.
   canvas.addEventListener("wheel", (event) => {

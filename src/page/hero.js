@@ -52,9 +52,8 @@ export class Hero {
     const [far, farPlain] = [own, plain].map((slide) => length(slid(slide), unit));
     const times = own.length / plain.length;
     const more = (ratio, word) => (ratio >= 1.5 ? `${shown(ratio, 2)} times as ${word}` : `${shown(100 * (ratio - 1), 2)} % ${{ far: "farther", long: "longer" }[word]}`);
-    const thing = rolls ? "ball" : "puck";
-    const what = state.ball ? state.ball.title.replace(/ (on|of) .*/, "") : thing;
-    const name = what.endsWith(thing) ? what : `${what} ${thing}`;
+    const name = state.ball ? state.ball.title.replace(/ (on|of) .*/, "") : rolls ? "ball" : "puck";
+    const thing = name.split(" ").at(-1);
     const turns = state.ball ? `${shown(spin / 2 / Math.PI, 2)} times a second` : `with u = ${shown(orbit.u, 3)}`;
     const speed = state.ball ? `${shown(orbit.v, 3)} m/s` : `v = ${shown(orbit.v, 3)}`;
     const leave = !state.ball || (state.ball.velocityX === orbit.v && state.ball.velocityY === 0) ? "leave" : "touch down, slipping";
@@ -62,7 +61,7 @@ export class Hero {
     $("headline").textContent = spin === 0 ? `This ${thing} does not spin: friction holds it at once`
       : orbit.v === 0 ? `A ${thing} that spins in place`
         : times > 1.5 ? `Spin a ${thing}, and it slides ${shown(times, 2)} times as far` : times > 1.005
-          ? `Spin makes this ${thing} slide ${shown(100 * (times - 1), 2)} % farther` : `Here spin changes little: the patch is small`;
+          ? `Spin makes this ${thing} slide ${shown(100 * (times - 1), 2)} % farther` : "Here spin changes little";
     $("story").textContent = spin === 0
       ? `This ${name} slips at ${speed} and does not spin: it slides ${farPlain}, ${until}. Textbooks say the same of one that spins: give it spin, and see.`
       : orbit.v === 0 ? `Nothing slides: only the rim of the patch rubs, and the ${thing} turns ever slower.`

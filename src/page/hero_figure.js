@@ -72,7 +72,7 @@ export function drawLanes(surface, { lanes, radius, unit }, theme) {
   const bar = roundDown((surface.width * 0.22) / scale);
   const [end, base] = [surface.width - 6, surface.height - 5];
   surface.lines([[end - bar * scale, base - 4, end - bar * scale, base, end, base, end, base - 4]], { colour: theme.soft, width: 1.5 });
-  const caption = `${length(bar, unit)}${larger > 1.05 ? `; balls ${shown(larger, 2)} times as large` : ""}`;
+  const caption = `${length(bar, unit)}${larger > 1.05 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
   surface.text(end - bar * scale - 6, base - 1, caption, { colour: theme.soft, size: 0.95 * size, align: "right" });
 }
 
@@ -124,5 +124,5 @@ export function drawPatch(surface, { k, spin, force }, theme) {
   };
   arrow(1, theme.line, 5);
   if (force > 0.02) arrow(force, accent, 5);
-  surface.text(x0, base + 1.2 * size, `friction left: ${shown(100 * force, force < 0.1 ? 1 : 2)} %`, { ...style, colour: accent });
+  surface.text(x0, base + 1.2 * size, `friction left: ${force < 0.001 ? "none" : `${shown(100 * force, force < 0.1 ? 1 : 2)} %`}`, { ...style, colour: accent });
 }

@@ -233,7 +233,7 @@ test("presets and the tour show what they speak of", async () => {
     assert.ok(after.orbits.length > 0);
     if ((await link.textContent()) !== "Gel ball") assert.notDeepEqual(after.orbits, before.orbits);
   }
-  assert.ok((await page.textContent("#story")).includes("pucks"));
+  assert.ok((await page.textContent("#story")).includes("Two equal curling stones leave at 2 m/s"));
   const steps = await page.$$eval("#steps li", (items) => items.map((item) => item.textContent));
   assert.equal(steps.length, 6);
   const seen = new Set();
@@ -411,6 +411,20 @@ test("a real ball is handed out in seconds, and its motion as the program's roll
   const { slip_length } = JSON.parse(execFileSync(program, [...words.slice(1), "--format", "json"], { encoding: "utf8" }));
   assertClose(await page.evaluate(() => globalThis.page.store.ride.own.length * globalThis.page.store.timeFactor), slip_length, 1e-11, "length of slip");
   await close();
+});
+
+test("pucks and stones lie flat: in seconds, as the program has them, and none rolls", async () => {
+  for (const ball of ["puck", "curling-stone"]) {
+    await open(`#ball=${ball}`);
+    const wanted = JSON.parse(execFileSync(program, ["stop", "--ball", ball, "--format", "json"], { encoding: "utf8" }));
+    assertClose((await stopTimes())[0], wanted.tau_stop, 1e-12, ball);
+    const { length, factor } = await page.evaluate(() => ({ length: globalThis.page.store.ride.own.length, factor: globalThis.page.store.timeFactor }));
+    assertClose(length * factor, wanted.slip_length, 1e-10, `${ball}: how far`);
+    assert.match(await page.textContent("#story"), /then it stops/);
+    assert.ok(!(await page.isVisible("#roll-line")));
+    await assertSamePicture(ball);
+    await close();
+  }
 });
 
 test("the page travels: a strict policy, a page inside a page, no path of the machine that built it", async () => {

@@ -13,7 +13,7 @@ execFileSync(process.env.CONTENSOU_PROGRAM, ["explore", "-o", file]);
 const browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"] });
 
 async function shot(fragment, share, options) {
-  const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", ...options });
+  const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, deviceScaleFactor: 0.75, reducedMotion: "reduce", ...options });
   await page.goto(pathToFileURL(file).href + fragment);
   await page.waitForSelector("#orbits li");
   await page.evaluate((share) => globalThis.page.store.move({ share }), share);
@@ -24,13 +24,13 @@ async function shot(fragment, share, options) {
 
 writeFileSync(join(out, "page.png"), await shot("", 0.3, { colorScheme: "light" }));
 const pictures = await Promise.all([
-  shot("", 0.15, { viewport: { width: 390, height: 844 }, colorScheme: "dark" }),
+  shot("", 0.15, { viewport: { width: 390, height: 844 }, deviceScaleFactor: 1, colorScheme: "dark" }),
   shot("#ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4", 0.5, { colorScheme: "light" }),
-  shot("#law=uniform&body=puck&orbits=0.8,0.7;0.3,0.9;0.9,0.1&view=disc", 0.6, { colorScheme: "light" }),
+  shot("#ball=puck&view=disc", 0.6, { colorScheme: "light" }),
 ]);
-const strip = await browser.newPage({ viewport: { width: 1600, height: 440 } });
+const strip = await browser.newPage({ viewport: { width: 1342, height: 360 } });
 await strip.setContent(`<body style="margin:0;display:flex;gap:12px;background:#888">${
-  pictures.map((picture) => `<img height="440" src="data:image/png;base64,${picture.toString("base64")}">`).join("")}</body>`);
+  pictures.map((picture) => `<img height="360" src="data:image/png;base64,${picture.toString("base64")}">`).join("")}</body>`);
 await strip.evaluate(() => Promise.all([...document.images].map((image) => image.decode())));
 await strip.screenshot({ path: join(out, "strip.png") });
 await browser.close();
