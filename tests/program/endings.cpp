@@ -26,6 +26,8 @@ const std::vector<Output> outputs{
     {"law --k 1", "a law", of_answers},
     {"check --mu 0.3 --u0 1 --v0 1", "a table of checks", of_answers},
     {"terminal --mu 0.3", "a terminal ratio", of_answers},
+    {"fit - --ball pool --noise slip=0.1,spin=1 --free slip,spin", "a fit", {"txt", "csv", "json", "toml"}},
+    {"fit --plan --ball pool --fps 100 --until 0.5 --noise slip=0.01,spin=1", "a plan", of_answers},
     {"roll --ball pool --samples 3", "a motion", of_answers},
     {"roll --ball pool --batch -", "a table of motions", {"csv"}},
     {"balls", "a list of balls", of_answers},
@@ -37,7 +39,7 @@ const std::vector<Output> outputs{
     {"portrait --mu 0.3 --facts", "a table of facts", of_answers},
 };
 
-constexpr const char* start_table = "mu,u0,v0,slip,spin\n0.1,1,1,1,1\n";
+constexpr const char* start_table = "mu,u0,v0,slip,spin,t\n0.1,1,1,1,1,0\n";
 
 }  // namespace
 

@@ -56,15 +56,25 @@ void LawOption::add(CLI::App& app, const std::string& name, const std::string& v
 }
 
 reduction::Law LawOption::read(const std::string& standard) const {
-  if (!law_.given()) return *reduction::find_law(standard);
+  return law_.given() ? read_one(law_.text()) : *reduction::find_law(standard);
+}
+
+std::vector<reduction::Law> LawOption::read_several(const std::string& standard) const {
+  if (!law_.given()) return {read(standard)};
+  std::vector<reduction::Law> laws;
+  for (const std::string& name : split(law_.text(), ',')) laws.push_back(read_one(name));
+  return laws;
+}
+
+reduction::Law LawOption::read_one(const std::string& typed) const {
   try {
-    if (auto law = reduction::find_law(law_.text() == "hertz" ? "exact" : law_.text())) return *law;
+    if (auto law = reduction::find_law(typed == "hertz" ? "exact" : typed)) return *law;
   } catch (const std::domain_error& error) {
     law_.reject(error.what());
   }
-  if (names_a_file(law_.text(), {".csv"})) return read_pressure_profile(law_.text());
+  if (names_a_file(typed, {".csv"})) return read_pressure_profile(typed);
   const std::vector<std::string> forms = names_of_forms();
-  law_.reject(fmt::format("no such law{}; laws: {}", suggestion(law_.text(), forms), fmt::join(forms, ", ")));
+  law_.reject(fmt::format("no such law{}; laws: {}", suggestion(typed, forms), fmt::join(forms, ", ")));
 }
 
 }  // namespace contensou::program

@@ -31,7 +31,12 @@ class LawOption {
   /// @throws std::system_error  if the file cannot be read
   reduction::Law read(const std::string& standard = std::string(si::Body{}.law)) const;
 
+  /// Those of several names between commas. Throws as read.
+  std::vector<reduction::Law> read_several(const std::string& standard) const;
+
  private:
+  reduction::Law read_one(const std::string& typed) const;
+
   Argument law_;
 };
 

@@ -1,0 +1,442 @@
+#include "fit/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <Eigen/QR>
+#include <unsupported/Eigen/NonLinearOptimization>
+
+#include "contensou/si/scaling.hpp"
+
+namespace contensou::fit {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr Index fewest_of_unknown_noise = 10;
+constexpr Index most_of_guess = 60, most_of_first_solution = 5000;
+constexpr double accuracy_of_guess = 1e-6, tolerance_of_guess = 1e-5;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// The standard deviation that normal errors of this median of their sizes have.
+double sd_by_median(std::vector<double> sizes) { return median(std::move(sizes)) / 0.6744897501960817; }
+
+/// What Huber's loss makes of a residual, so that half the square of the result is the loss; and its derivative.
+double softened(double residual) {
+  const double size = std::abs(residual);
+  return size <= huber_bend ? residual
+                            : std::copysign(std::sqrt(2 * huber_bend * size - huber_bend * huber_bend), residual);
+}
+double softened_slope(double residual) {
+  return std::abs(residual) <= huber_bend ? 1 : huber_bend / std::abs(softened(residual));
+}
+
+/// Errors of a series by how far values are off the line between their neighbours.
+std::vector<double> local_errors(const Track& track, const Series& series) {
+  std::vector<Index> known;
+  for (Index i = 0; i < track.t.size(); ++i) {
+    if (!std::isnan(series.value[i])) known.push_back(i);
+  }
+  std::vector<double> errors;
+  for (std::size_t i = 1; i + 1 < known.size(); ++i) {
+    const Index before = known[i - 1], at = known[i], after = known[i + 1];
+    const double share = (track.t[at] - track.t[before]) / (track.t[after] - track.t[before]);
+    const double error = series.value[at] - (1 - share) * series.value[before] - share * series.value[after];
+    errors.push_back(std::abs(error) / std::sqrt(1 + share * share + (1 - share) * (1 - share)));
+  }
+  return errors;
+}
+
+const Series* find(const Track& track, Observable observable) {
+  const auto found = std::ranges::find(track.series, observable, &Series::observable);
+  return found == track.series.end() ? nullptr : &*found;
+}
+
+/// The first values of a series, and their times.
+struct Beginning {
+  double value = NAN;
+  double slope = NAN;
+};
+Beginning beginning(const Track& track, Observable observable) {
+  const Series* series = find(track, observable);
+  if (series == nullptr) return {};
+  const Index wanted = std::clamp<Index>(track.t.size() / 30, 3, 30);
+  std::vector<double> t, y;
+  for (Index i = 0; i < track.t.size() && static_cast<Index>(t.size()) < wanted; ++i) {
+    if (std::isnan(series->value[i])) continue;
+    t.push_back(track.t[i] - track.start);
+    y.push_back(series->value[i]);
+  }
+  if (y.empty()) return {};
+  return {median(y), t.size() > 1 ? (y.back() - y.front()) / (t.back() - t.front()) : NAN};
+}
+
+struct Functor {
+  using Scalar = double;
+  using InputType = VectorXd;
+  using ValueType = VectorXd;
+  using JacobianType = Eigen::MatrixXd;
+  static constexpr int InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic;
+
+  const Search& search;
+  std::vector<Index> free;
+  VectorXd start;
+
+  int inputs() const { return static_cast<int>(free.size()); }
+  int values() const { return std::max(inputs(), static_cast<int>(search.data.size())); }
+
+  VectorXd whole(const VectorXd& x) const {
+    VectorXd parameters = start;
+    for (std::size_t i = 0; i < free.size(); ++i) parameters[free[i]] = x[static_cast<Index>(i)];
+    return parameters;
+  }
+
+  int operator()(const VectorXd& x, VectorXd& f) const {
+    if (!x.allFinite()) return -1;
+    f.setZero();
+    const VectorXd residuals = search.residuals(whole(x));
+    f.head(residuals.size()) = residuals;
+    if (search.request.robust) f = f.unaryExpr(&softened);
+    return 0;
+  }
+
+  int df(const VectorXd& x, Eigen::MatrixXd& jacobian) const {
+    const VectorXd parameters = whole(x);
+    jacobian.setZero();
+    VectorXd weight = search.weight;
+    if (search.request.robust) weight.array() *= search.residuals(parameters).unaryExpr(&softened_slope).array();
+    jacobian.topRows(search.data.size()).noalias() = weight.asDiagonal() * search.model.derivatives(parameters, free);
+    return 0;
+  }
+};
+
+}  // namespace
+
+std::vector<Track> thinned(const std::vector<Track>& tracks, Index most) {
+  std::vector<Track> result = tracks;
+  for (Track& track : result) {
+    const Index step = (track.t.size() + most - 1) / most;
+    if (step <= 1) continue;
+    const Index count = (track.t.size() + step - 1) / step;
+    const auto take = [&](Eigen::ArrayXd& values) {
+      if (values.size() == 0) return;
+      const Eigen::ArrayXd taken = values(Eigen::seqN(0, count, step));
+      values = taken;
+    };
+    take(track.t);
+    for (Series& series : track.series) {
+      take(series.value);
+      take(series.sd);
+    }
+  }
+  return result;
+}
+
+Search::Search(const FitRequest& asked, double accuracy)
+    : request(asked), model(asked.ball, asked.law, asked.tracks, accuracy), data(model.rows()), weight(model.rows()) {
+  // A standard deviation that is not known begins as that of the values about their neighbours.
+  std::vector<double> errors[7];
+  double largest[7] = {};
+  Index row = 0;
+  for (const Track& track : request.tracks) {
+    for (const Series& series : track.series) {
+      const auto place = static_cast<std::size_t>(series.observable);
+      for (Index i = 0; i < track.t.size(); ++i, ++row) {
+        const bool measured = !std::isnan(series.value[i]);
+        data[row] = measured ? series.value[i] : 0;
+        weight[row] = !measured ? 0 : series.sd.size() == 0 ? 1 : 1 / series.sd[i];
+        if (!measured) continue;
+        rows_of[place].push_back(row);
+        largest[place] = std::max(largest[place], std::abs(series.value[i]));
+        ++values;
+      }
+      if (series.sd.size() != 0) continue;
+      estimated[place] = true;
+      const std::vector<double> more = local_errors(track, series);
+      errors[place].insert(errors[place].end(), more.begin(), more.end());
+    }
+    if (track.stop_time) {
+      data[row] = track.stop_time->value;
+      weight[row++] = 1 / track.stop_time->sd;
+      ++values;
+    }
+  }
+  for (const auto& [observable, name, unit, meaning] : observable_kinds()) {
+    const auto place = static_cast<std::size_t>(observable);
+    if (!estimated[place]) continue;
+    const auto count = static_cast<Index>(rows_of[place].size());
+    if (count < fewest_of_unknown_noise || errors[place].empty()) {
+      throw std::domain_error(fmt::format(
+          "fit: {} has {} values and no standard deviations; from fewer than {} values they cannot be estimated", name,
+          count, fewest_of_unknown_noise));
+    }
+    const double sd = std::max(sd_by_median(errors[place]), 1e-9 * largest[place]);
+    for (Index at : rows_of[place]) weight[at] = sd > 0 ? 1 / sd : 1;
+  }
+
+  if (request.free.friction) free.push_back(TrackModel::place(Parameter::friction));
+  if (request.free.patch_radius) free.push_back(TrackModel::place(Parameter::patch_radius));
+  for (std::size_t i = 0; i < request.tracks.size(); ++i) {
+    const auto has = [&](Observable observable) { return find(request.tracks[i], observable) != nullptr; };
+    const bool along_x = has(Observable::x) || has(Observable::vx), along_y = has(Observable::y) || has(Observable::vy);
+    const auto add = [&](Parameter parameter, bool is_free) {
+      if (is_free) free.push_back(TrackModel::place(parameter, i));
+    };
+    add(Parameter::slip, request.free.slip);
+    add(Parameter::spin, request.free.spin);
+    add(Parameter::direction, along_x && along_y);
+    add(Parameter::vx, along_x);
+    add(Parameter::vy, along_y);
+    add(Parameter::x, has(Observable::x));
+    add(Parameter::y, has(Observable::y));
+    add(Parameter::angle, has(Observable::angle));
+  }
+  if (free.empty()) throw std::domain_error("fit: nothing is free, so there is nothing to be found");
+}
+
+bool Search::any_estimated() const {
+  return std::ranges::any_of(estimated, [](bool each) { return each; });
+}
+
+VectorXd Search::residuals(const VectorXd& parameters) const {
+  VectorXd result = model.values(parameters);
+  result.array() = (result.array() - data.array()) * weight.array();
+  return result;
+}
+
+double Search::cost(const VectorXd& parameters) const {
+  const VectorXd all = residuals(parameters);
+  return request.robust ? all.unaryExpr(&softened).squaredNorm() : all.squaredNorm();
+}
+
+VectorXd Search::improved(VectorXd parameters, std::optional<Index> held, double tolerance) const {
+  Functor functor{*this, free, parameters};
+  if (held) std::erase(functor.free, *held);
+  if (functor.free.empty()) return parameters;
+  VectorXd x(functor.inputs());
+  for (std::size_t i = 0; i < functor.free.size(); ++i) x[static_cast<Index>(i)] = parameters[functor.free[i]];
+  Eigen::LevenbergMarquardt<Functor> method(functor);
+  method.parameters.ftol = method.parameters.xtol = tolerance;
+  method.parameters.maxfev = 300;
+  method.parameters.factor = 1;
+  method.minimize(x);
+  if (!x.allFinite()) throw std::runtime_error("fit: the search for the parameters did not converge");
+  return functor.whole(x);
+}
+
+double Search::estimate_noise(const VectorXd& parameters) {
+  const VectorXd all = model.values(parameters) - data;
+  const double share =
+      std::max(1.0, static_cast<double>(values) - static_cast<double>(free.size())) / static_cast<double>(values);
+  double largest = 0;
+  for (std::size_t place = 0; place < std::size(rows_of); ++place) {
+    if (!estimated[place]) continue;
+    const std::vector<Index>& rows = rows_of[place];
+    double sd = 0, scale = 0;
+    if (request.robust) {
+      std::vector<double> sizes;
+      for (Index row : rows) sizes.push_back(std::abs(all[row]));
+      sd = sd_by_median(std::move(sizes)) / std::sqrt(share);
+    } else {
+      for (Index row : rows) sd += all[row] * all[row];
+      sd = std::sqrt(sd / (share * static_cast<double>(rows.size())));
+    }
+    for (Index row : rows) scale = std::max(scale, std::abs(data[row]));
+    sd = std::max({sd, 1e-9 * scale, std::numeric_limits<double>::min()});
+    largest = std::max(largest, std::abs(sd * weight[rows.front()] - 1));
+    for (Index row : rows) weight[row] = 1 / sd;
+  }
+  return largest;
+}
+
+VectorXd Search::given() const {
+  VectorXd parameters = VectorXd::Zero(model.parameters());
+  const si::Experiment& ball = request.ball;
+  parameters[0] = std::log(ball.contact.friction);
+  parameters[1] = std::log(si::patch_radius_of(ball, request.law));
+  const Eigen::Vector2d slip = si::slip_velocity_at_start(ball);
+  const si::Velocities start = si::velocities_of(ball.start);
+  for (std::size_t i = 0; i < request.tracks.size(); ++i) {
+    const auto set = [&](Parameter parameter, double value) { parameters[TrackModel::place(parameter, i)] = value; };
+    const auto has = [&](Observable observable) { return find(request.tracks[i], observable) != nullptr; };
+    const bool along_x = has(Observable::x) || has(Observable::vx), along_y = has(Observable::y) || has(Observable::vy);
+    set(Parameter::slip, slip.norm());
+    set(Parameter::spin, si::spin_at_start(ball));
+    set(Parameter::direction, along_y && !along_x ? std::numbers::pi / 2 : std::atan2(slip.y(), slip.x()));
+    if (along_x) set(Parameter::vx, start.velocity.x());
+    if (along_y) set(Parameter::vy, start.velocity.y());
+  }
+  return parameters;
+}
+
+VectorXd Search::solve() {
+  // Of a long film first a part, then all of it.
+  std::vector<Track> part = with_noise(thinned(request.tracks, most_of_first_solution));
+  FitRequest smaller = request;
+  smaller.tracks = std::move(part);
+  VectorXd parameters = Search(smaller, accuracy_of_guess).improved_from_guesses();
+  constexpr int most_rounds = 30;
+  for (int round = 0; round < most_rounds; ++round) {
+    parameters = improved(parameters);
+    if (!any_estimated() || estimate_noise(parameters) < 1e-3) break;
+  }
+  return parameters;
+}
+
+std::vector<Track> Search::with_noise(std::vector<Track> tracks) const {
+  for (Track& track : tracks) {
+    for (Series& series : track.series) {
+      if (series.sd.size() != 0) continue;
+      const Index row = rows_of[static_cast<std::size_t>(series.observable)].front();
+      series.sd = Eigen::ArrayXd::Constant(track.t.size(), 1 / weight[row]);
+    }
+  }
+  return tracks;
+}
+
+VectorXd Search::placed(VectorXd parameters) const {
+  const Index direction = TrackModel::place(Parameter::direction);
+  std::vector<Index> linear;
+  for (Index place : free) {
+    if (place > direction) linear.push_back(place);
+  }
+  VectorXd still = parameters;
+  for (Index place : linear) still[place] = 0;
+  Eigen::MatrixXd matrix = model.derivatives(parameters, linear);
+  const auto solved = [&](const Eigen::MatrixXd& columns, const VectorXd& right, const VectorXd& weights) {
+    return VectorXd(
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(weights.asDiagonal() * columns).solve(weights.cwiseProduct(right)));
+  };
+  if (std::ranges::find(free, direction) != free.end()) {
+    // Along any direction, what friction takes of x and y is this times its cosine, and that times its sine.
+    VectorXd weights = VectorXd::Zero(weight.size());
+    for (Observable observable : {Observable::x, Observable::y, Observable::vx, Observable::vy}) {
+      for (Index row : rows_of[static_cast<std::size_t>(observable)]) weights[row] = weight[row];
+    }
+    Eigen::MatrixXd columns(matrix.rows(), matrix.cols() + 2);
+    columns.leftCols(matrix.cols()) = matrix;
+    still[direction] = 0;
+    columns.col(matrix.cols()) = model.values(still);
+    still[direction] = std::numbers::pi / 2;
+    columns.col(matrix.cols() + 1) = model.values(still);
+    const VectorXd found = solved(columns, data, weights);
+    still[direction] = std::atan2(found[matrix.cols() + 1], found[matrix.cols()]);
+  }
+  if (linear.empty()) return still;
+  const VectorXd found = solved(matrix, data - model.values(still), weight);
+  for (std::size_t i = 0; i < linear.size(); ++i) still[linear[i]] = found[static_cast<Index>(i)];
+  return still;
+}
+
+VectorXd Search::improved_from_guesses() const {
+  constexpr std::size_t most_improved = 4;
+  const VectorXd given = this->given();
+  const double radius = request.ball.ball.radius;
+  std::vector<double> frictions{given[0]}, patches{given[1]};
+  if (request.free.friction) {
+    for (double friction : {0.01, 0.03, 0.06, 0.1, 0.15, 0.22, 0.35, 0.6, 1.0}) frictions.push_back(std::log(friction));
+  }
+  if (request.free.patch_radius) {
+    for (double ratio : {1e-3, 4e-3, 0.015, 0.05, 0.15, 0.5}) patches.push_back(std::log(ratio * radius));
+  }
+  // Each track by itself, of few instants.
+  const std::vector<Track> few = with_noise(thinned(request.tracks, most_of_guess));
+  std::vector<FitRequest> requests;
+  for (const Track& track : few) {
+    requests.push_back({request.ball, request.law, {track}, request.free, true});
+  }
+  std::vector<std::pair<double, VectorXd>> guesses;
+  for (double patch : patches) {
+    for (double friction : frictions) {
+      guesses.emplace_back(0, given);
+      guesses.back().second.head<shared_parameters>() << friction, patch;
+    }
+  }
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    const Search alone(requests[i], accuracy_of_guess);
+    for (auto& [cost, parameters] : guesses) {
+      double least = std::numeric_limits<double>::infinity();
+      VectorXd best;
+      for (const auto& [slip, spin] : starts_of(few[i], given)) {
+        VectorXd guess(alone.model.parameters());
+        guess << parameters.head(shared_parameters),
+            given.segment(TrackModel::place(Parameter::slip, i), start_parameters);
+        guess[TrackModel::place(Parameter::slip)] = slip;
+        guess[TrackModel::place(Parameter::spin)] = spin;
+        guess = alone.placed(guess);
+        const double loss = alone.cost(guess);
+        if (loss < least || best.size() == 0) {
+          least = loss;
+          best = guess;
+        }
+      }
+      cost += least;
+      parameters.segment(TrackModel::place(Parameter::slip, i), start_parameters) = best.tail(start_parameters);
+    }
+  }
+  const VectorXd given_placed = guesses.front().second;
+  std::ranges::sort(guesses, {}, [](const auto& guess) { return guess.first; });
+  // The ball's own values are the first to be improved, and kept where others are no better to speak of.
+  constexpr double no_better = 0.1;
+  VectorXd best = improved(given_placed, {}, tolerance_of_guess);
+  double least = cost(best) - no_better;
+  for (std::size_t i = 0; i < std::min(most_improved, guesses.size()); ++i) {
+    const VectorXd parameters = improved(guesses[i].second, {}, tolerance_of_guess);
+    if (const double loss = cost(parameters); loss < least) {
+      least = loss;
+      best = parameters;
+    }
+  }
+  return best;
+}
+
+std::vector<std::pair<double, double>> Search::starts_of(const Track& track, const VectorXd& given) const {
+  const double slip_of_ball = given[TrackModel::place(Parameter::slip)];
+  const double spin_of_ball = given[TrackModel::place(Parameter::spin)];
+  const double radius = request.ball.ball.radius;
+  std::vector<double> slips{slip_of_ball}, spins{spin_of_ball};
+  if (request.free.slip) {
+    const auto first = [&](Observable place, Observable velocity) {
+      const double by_velocity = beginning(track, velocity).value;
+      if (!std::isnan(by_velocity)) return by_velocity;
+      const double by_place = beginning(track, place).slope;
+      return std::isnan(by_place) ? 0 : by_place;
+    };
+    const double speed = std::hypot(first(Observable::x, Observable::vx), first(Observable::y, Observable::vy));
+    if (const double seen = beginning(track, Observable::slip).value; !std::isnan(seen)) {
+      slips = {seen};
+    } else if (speed > 0) {
+      slips = {speed / 2, speed, 2 * speed};
+    }
+  }
+  if (request.free.spin) {
+    if (const double seen = beginning(track, Observable::spin).value; !std::isnan(seen)) {
+      spins = {seen};
+    } else if (const double turning = beginning(track, Observable::angle).slope; !std::isnan(turning)) {
+      spins = {turning};
+    } else if (spin_of_ball == 0) {
+      spins = {slips[slips.size() / 2] / radius};
+    }
+  }
+  std::vector<std::pair<double, double>> starts;
+  for (double slip : slips) {
+    for (double spin : spins) {
+      if (slip != 0 || spin != 0) starts.emplace_back(slip, spin);
+    }
+  }
+  if (starts.empty()) starts.emplace_back(slip_of_ball, spin_of_ball);
+  return starts;
+}
+
+}  // namespace contensou::fit

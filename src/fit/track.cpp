@@ -1,0 +1,78 @@
+#include "contensou/fit/track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace contensou::fit {
+
+const std::vector<ObservableKind>& observable_kinds() {
+  static const std::vector<ObservableKind> all{
+      {Observable::slip, "slip", "m/s", "sliding speed of the contact point"},
+      {Observable::spin, "spin", "rad/s", "angular velocity about the vertical"},
+      {Observable::x, "x", "m", "place of the centre"},
+      {Observable::y, "y", "m", "place of the centre"},
+      {Observable::vx, "vx", "m/s", "velocity of the centre"},
+      {Observable::vy, "vy", "m/s", "velocity of the centre"},
+      {Observable::angle, "angle", "rad", "turned about the vertical"},
+  };
+  return all;
+}
+
+const ObservableKind& kind_of(Observable observable) {
+  return observable_kinds()[static_cast<std::size_t>(observable)];
+}
+
+namespace {
+
+[[noreturn]] void reject(const Track& track, const std::string& message) {
+  throw std::domain_error(fmt::format("fit: track {}: {}", track.name, message));
+}
+
+}  // namespace
+
+Track checked(Track track) {
+  bool any = track.stop_time.has_value();
+  for (Eigen::Index i = 0; i < track.t.size(); ++i) {
+    const double t = track.t[i];
+    if (!std::isfinite(t) || t < track.start) {
+      reject(track, fmt::format("t >= {}, where the motion begins, is required, in s; got {}", track.start, t));
+    }
+    if (i > 0 && t <= track.t[i - 1]) reject(track, fmt::format("t must increase; {} follows {}", t, track.t[i - 1]));
+  }
+  if (track.stop_time && !(track.stop_time->value > 0 && std::isfinite(track.stop_time->value))) {
+    reject(track, fmt::format("a stop time > 0 is required, in s; got {}", track.stop_time->value));
+  }
+  if (track.stop_time && !(track.stop_time->sd > 0 && std::isfinite(track.stop_time->sd))) {
+    reject(track, fmt::format("a stop time needs a standard deviation > 0, in s; got {}", track.stop_time->sd));
+  }
+  for (Series& series : track.series) {
+    const std::string_view name = kind_of(series.observable).name;
+    if (series.value.size() != track.t.size())
+      reject(track, fmt::format("{} has {} values and t has {}", name, series.value.size(), track.t.size()));
+    if (series.sd.size() != 0 && series.sd.size() != track.t.size())
+      reject(track, fmt::format("{} has {} values and {} standard deviations", name, track.t.size(), series.sd.size()));
+    double last = NAN;
+    for (Eigen::Index i = 0; i < track.t.size(); ++i) {
+      double& value = series.value[i];
+      if (std::isnan(value)) continue;
+      if (std::isinf(value)) reject(track, fmt::format("{} must be finite", name));
+      if (series.sd.size() != 0 && !(series.sd[i] > 0 && std::isfinite(series.sd[i]))) {
+        reject(track, fmt::format("a standard deviation of {} must be finite and > 0; got {}", name, series.sd[i]));
+      }
+      if (series.observable == Observable::angle && !std::isnan(last)) {
+        constexpr double turn = 2 * std::numbers::pi;
+        value -= turn * std::round((value - last) / turn);
+      }
+      last = value;
+      any = true;
+    }
+  }
+  if (!any) reject(track, "it has no value and no stop time");
+  return track;
+}
+
+}  // namespace contensou::fit

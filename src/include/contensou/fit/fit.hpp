@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/fit/track.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/experiment.hpp"
+
+namespace contensou::fit {
+
+/// The numbers that a motion may be asked for, those of the contact first, which all tracks share, then those of the
+/// start of each track.
+enum class Parameter { friction, patch_radius, slip, spin, direction, vx, vy, x, y, angle };
+inline constexpr int shared_parameters = 2;
+inline constexpr int start_parameters = 8;
+
+struct ParameterKind {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view meaning;
+};
+const ParameterKind& kind_of(Parameter parameter);
+
+/// Which numbers the data decide; the others keep the ball's values. What only places a track on the plane (direction,
+/// velocity, position and angle at the start) is always free where the data have it.
+struct Free {
+  bool friction = true;
+  bool patch_radius = true;
+  bool slip = true;
+  bool spin = true;
+};
+
+struct FitRequest {
+  si::Experiment ball;  ///< radius, gravity, and the values of what is not free
+  reduction::Law law;
+  std::vector<Track> tracks;
+  Free free = {};
+  bool robust = false;  ///< Huber's loss: values far off count for less
+};
+
+/// A range of a number.
+struct Interval {
+  double low;
+  double high;
+};
+
+/// What the data say of one parameter.
+struct Estimate {
+  Parameter parameter;
+  std::size_t track;      ///< of a number of a start: of which track
+  double value;           ///< SI
+  double standard_error;  ///< infinite where the data do not decide it; 0 where it is not free
+  Interval interval;      ///< of 95 % confidence
+  bool free;
+};
+
+/// The noise of an observable.
+struct Noise {
+  Observable observable;
+  Eigen::Index values;  ///< how many were measured
+  double rms;           ///< of the residuals, SI
+  double sd;            ///< that the weights have, of their root mean square
+  bool estimated;       ///< from the residuals
+};
+
+/// The only combination f^a eps^b that the data decide.
+struct Combination {
+  double friction_power, patch_power;  ///< the larger one 1
+  double value;                        ///< SI
+  double relative_error;               ///< standard error over value
+
+  /// "the product friction patch_radius", "friction", ...
+  std::string name() const;
+};
+
+/// What a fit has found.
+struct Fit {
+  std::string law;
+  si::Experiment ball;              ///< with the fitted contact and the start of the first track
+  std::vector<Estimate> estimates;  ///< friction, patch_radius, then slip, spin and the placing ones of each track
+  Eigen::MatrixXd correlation;      ///< of those that are free, in that order
+  std::vector<Noise> noise;
+  Eigen::Index values = 0;  ///< measured ones
+  double chi2 = 0;
+  double degrees_of_freedom = 0;
+  double aic = 0;                                      ///< Akaike's criterion: the smaller, the better the law
+  std::optional<Combination> only = {};                ///< where the data do not decide friction and patch radius each
+  bool profiled = false;                               ///< whether the intervals of these two are by profile likelihood
+  bool at_limit = false;                               ///< whether a value ran into what it may be
+  std::vector<std::vector<Eigen::ArrayXd>> predicted;  ///< of each track, each series: what the fitted motion gives
+
+  const Estimate& estimate(Parameter parameter, std::size_t track = 0) const;
+  std::vector<const Estimate*> free_estimates() const;
+  double correlation_of_contact() const;  ///< of friction and patch radius; 0 unless both are free
+  double reduced_chi2() const { return chi2 / degrees_of_freedom; }
+};
+
+/// Weighted least squares: the motion that the data are most probably of, where their errors are independent and normal.
+///
+/// A start for the search is found from the data. Standard deviations that a series does not have are estimated from its
+/// residuals. The model is the closed orbit, to 1e-9 of its speeds.
+///
+/// @throws std::domain_error   for a track as checked, where fewer values than 10 have no standard deviations, or
+///                             where nothing is free
+/// @throws std::runtime_error  if the search does not converge
+Fit fit(const FitRequest& request);
+
+/// The same by several laws, the best by Akaike's criterion first.
+std::vector<Fit> fit_laws(const FitRequest& request, const std::vector<reduction::Law>& laws);
+
+/// What a film would give of the ball's own motion (Cramer and Rao's bound): the estimates with the errors that tracks
+/// with these times and standard deviations have; their values are not read.
+/// @throws std::domain_error  as fit, and for a series without standard deviations
+Fit plan(const FitRequest& request);
+
+}  // namespace contensou::fit

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contensou/fit/track.hpp"
+
+namespace contensou::program {
+
+/// Standard deviations by the name of an observable, or "stop" of a stop time; SI.
+using NoiseByName = std::map<std::string, double>;
+
+/// How a track is read.
+struct TrackRequest {
+  NoiseByName noise = {};            ///< of columns that do not say it themselves
+  std::optional<double> from = {};   ///< s, where the motion begins; else the first row's time
+  std::optional<double> until = {};  ///< s
+};
+
+/// The names of what a table may say of a ball.
+std::vector<std::string> observable_names();
+
+/// A track from a CSV file with a column t and others of observables, in SI units or in those behind their names, as in
+/// "spin [rpm]"; NAME_sd is the standard deviation of NAME. An empty field was not measured. Other columns are not read,
+/// which standard error says.
+///
+/// @param path  a file, or "-" for standard input
+/// @throws BadLine            naming the line: of a header without t or an observable, with what there is; of a number
+///                            that is none, a time that does not increase, a standard deviation that is not positive
+/// @throws std::system_error  if the file cannot be read
+fit::Track read_track(const std::string& path, const TrackRequest& request);
+
+}  // namespace contensou::program

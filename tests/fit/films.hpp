@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "contensou/fit/fit.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/si/ball_motion.hpp"
+
+/// A film of a ball as it would be without errors: what BallMotion says, with its standard deviations.
+struct Film {
+  contensou::si::Experiment ball;
+  contensou::reduction::Law law = contensou::reduction::HertzLaw{};
+
+  double value(contensou::fit::Observable observable, double t) const {
+    using enum contensou::fit::Observable;
+    const contensou::si::BallMotion motion(ball, law);
+    const contensou::si::MotionPoint at = motion.at_time(t);
+    switch (observable) {
+      case slip:
+        return at.slip;
+      case spin:
+        return at.angular_velocity.z();
+      case x:
+        return at.position.x();
+      case y:
+        return at.position.y();
+      case vx:
+        return at.velocity.x();
+      case vy:
+        return at.velocity.y();
+      case angle:
+        break;
+    }
+    // Simpson's rule, from the start.
+    constexpr int steps = 2000;
+    double sum = 0;
+    for (int i = 0; i <= steps; ++i) {
+      sum += (i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2) * motion.at_time(t * i / steps).angular_velocity.z();
+    }
+    return sum * t / (3 * steps);
+  }
+};
+
+/// The pool ball of the tables in src/fit/README.md.
+inline contensou::si::Experiment pool_ball() {
+  return {.ball = {.name = "pool", .mass = 0.17, .radius = 0.028575},
+          .contact = {.friction = 0.2, .patch = contensou::si::PatchRadius{2.827e-3}},
+          .start = contensou::si::SlipAndSpin{.slip = 1, .spin = 100}};
+}
+
+struct Seen {
+  contensou::fit::Observable observable;
+  double sd;
+};
+
+/// A track of a ball without errors.
+/// @param with_sd  whether it says its standard deviations
+inline contensou::fit::Track track_of(const Film& film, const Eigen::ArrayXd& t, const std::vector<Seen>& seen,
+                                      bool with_sd = true) {
+  contensou::fit::Track track{.name = "film", .t = t};
+  for (const auto& [observable, sd] : seen) {
+    Eigen::ArrayXd values(t.size());
+    for (Eigen::Index i = 0; i < t.size(); ++i) values[i] = film.value(observable, t[i]);
+    track.series.push_back({observable, values, with_sd ? Eigen::ArrayXd::Constant(t.size(), sd) : Eigen::ArrayXd()});
+  }
+  return track;
+}
+
+/// The same track with normal errors.
+inline contensou::fit::Track noisy(contensou::fit::Track track, const std::vector<Seen>& seen,
+                                   std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    for (double& value : track.series[i].value) value += seen[i].sd * normal(random);
+  }
+  return track;
+}

@@ -1,0 +1,102 @@
+#include "contensou/fit/fit.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/laws.hpp"
+#include "films.hpp"
+
+using namespace contensou;
+using namespace contensou::fit;
+using Catch::Matchers::Contains;
+using Eigen::ArrayXd;
+
+namespace {
+
+const std::vector<Seen> slip_and_spin{{Observable::slip, 0.01}, {Observable::spin, 1}};
+
+/// A ball of somebody who knows neither friction nor patch.
+si::Experiment unknown_ball() {
+  si::Experiment ball = pool_ball();
+  ball.contact = {.friction = 0.5, .patch = si::PatchRadius{1e-3}};
+  ball.start = si::SlipAndSpin{.slip = 0, .spin = 0};
+  return ball;
+}
+
+Fit fit_of(const std::vector<Track>& tracks, const reduction::Law& law = reduction::HertzLaw{}) {
+  return fit::fit({.ball = unknown_ball(), .law = law, .tracks = tracks});
+}
+
+}  // namespace
+
+TEST_CASE("a track without errors gives the ball that it is of, under every law", "[route]") {
+  for (const reduction::Law& law : reduction::named_laws()) {
+    INFO(law.name());
+    const Film film{pool_ball(), law};
+    const Fit found = fit_of({track_of(film, ArrayXd::LinSpaced(60, 0, 0.5), slip_and_spin)}, law);
+    CHECK(found.estimate(Parameter::friction).value == Approx(0.2).epsilon(1e-6));
+    CHECK(found.estimate(Parameter::patch_radius).value == Approx(2.827e-3).epsilon(1e-6));
+    CHECK(found.estimate(Parameter::slip).value == Approx(1).epsilon(1e-7));
+    CHECK(found.estimate(Parameter::spin).value == Approx(100).epsilon(1e-7));
+    CHECK(found.chi2 < 1e-8);
+  }
+}
+
+TEST_CASE("positions and the angle alone give the ball, in any axes", "[route]") {
+  si::Experiment ball = pool_ball();
+  ball.start = si::Velocities{{0.8, -0.5}, {30, 5, -60}};
+  const Film film{ball};
+  const ArrayXd t = ArrayXd::LinSpaced(50, 0, 0.6);
+  for (const std::vector<Seen>& seen :
+       {std::vector<Seen>{{Observable::x, 1e-4}, {Observable::y, 1e-4}, {Observable::angle, 1e-3}},
+        std::vector<Seen>{{Observable::vx, 1e-3}, {Observable::vy, 1e-3}, {Observable::spin, 1e-2}}}) {
+    Track track = track_of(film, t, seen);
+    for (Series& series : track.series) {
+      if (series.observable == Observable::x) series.value += 7;  // the corner of the picture
+      // A mark shows its angle up to whole turns.
+      if (series.observable == Observable::angle) {
+        series.value = series.value.unaryExpr([](double angle) { return std::remainder(angle, 2 * std::numbers::pi); });
+      }
+    }
+    const Fit found = fit_of({track});
+    INFO(static_cast<int>(seen.back().observable));
+    CHECK(found.chi2 < 1e-6);
+    CHECK(found.estimate(Parameter::friction).value == Approx(0.2).epsilon(1e-5));
+    CHECK(found.estimate(Parameter::patch_radius).value == Approx(2.827e-3).epsilon(1e-4));
+    CHECK(found.estimate(Parameter::slip).value == Approx(si::slip_at_start(ball)).epsilon(1e-5));
+    const Eigen::Vector2d slip = si::slip_velocity_at_start(ball);
+    CHECK(found.estimate(Parameter::direction).value == Approx(std::atan2(slip.y(), slip.x())).epsilon(1e-5));
+    const auto& start = std::get<si::Velocities>(found.ball.start);
+    CHECK(start.velocity.x() == Approx(0.8).epsilon(1e-5));
+    CHECK(start.velocity.y() == Approx(-0.5).epsilon(1e-5));
+    CHECK(start.angular_velocity.x() == Approx(30).epsilon(1e-4));
+    CHECK(start.angular_velocity.y() == Approx(5).epsilon(1e-3));
+    CHECK(start.angular_velocity.z() == Approx(-60).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("standard errors are Cramer and Rao's bound, for films of every kind", "[table]") {
+  // By another program: the exact law, f = 0.2, eps = 2.827 mm, v0 = 1 m/s, 100 rad/s, errors 1 cm/s and 1 rad/s.
+  struct Row {
+    double end, rate;
+    bool slip, spin;
+    double friction, patch, correlation;
+  };
+  for (const Row& row : {Row{0.5, 250, true, true, 0.008, 0.031, 0.66}, Row{9, 50, true, true, 0.011, 0.011, -0.99},
+                         Row{0.1, 250, true, true, 0.029, 0.58, 2}, Row{0.5, 250, false, true, 1.75, 1.79, -0.998},
+                         Row{0.5, 250, true, false, 0.011, 9.9, 2}}) {
+    const auto rows = static_cast<Eigen::Index>(row.end * row.rate) + 1;
+    Track track{.name = "plan", .t = ArrayXd::LinSpaced(rows, 0, row.end)};
+    if (row.slip) track.series.push_back({Observable::slip, {}, ArrayXd::Constant(rows, 0.01)});
+    if (row.spin) track.series.push_back({Observable::spin, {}, ArrayXd::Constant(rows, 1)});
+    const Fit planned = plan({.ball = pool_ball(), .law = reduction::HertzLaw{}, .tracks = {track}});
+    INFO(row.end << " s, slip " << row.slip << ", spin " << row.spin);
+    CHECK(planned.estimate(Parameter::friction).standard_error / 0.2 == Approx(row.friction).epsilon(0.07));
+    CHECK(planned.estimate(Parameter::patch_radius).standard_error / 2.827e-3 == Approx(row.patch).epsilon(0.07));
+    if (row.correlation < 1) CHECK(planned.correlation_of_contact() == Approx(row.correlation).margin(0.02));
+  }
+}

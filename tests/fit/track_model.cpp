@@ -1,0 +1,44 @@
+#include "fit/track_model.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/laws.hpp"
+#include "films.hpp"
+#include "fit/scaled_orbit.hpp"
+
+using namespace contensou;
+using namespace contensou::fit;
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+TEST_CASE("derivatives of all that is seen are those of differences", "[route]") {
+  Track track{.name = "model", .t = ArrayXd::LinSpaced(30, 0.3, 1.3), .start = 0.3};
+  for (const ObservableKind& kind : observable_kinds()) track.series.push_back({kind.observable, track.t, {}});
+  track.stop_time = Measured{9, 0.1};
+  const std::vector<Track> tracks{track, track};
+  for (const reduction::Law& law : reduction::paper_laws()) {
+    for (const auto& [slip, spin] :
+         std::vector<std::pair<double, double>>{{1, 100}, {-0.4, -70}, {0.02, 60}, {1, 0.5}}) {
+      const TrackModel model(pool_ball(), law, tracks, ScaledOrbit::standard_accuracy);
+      VectorXd parameters(model.parameters());
+      parameters << std::log(0.2), std::log(2e-3), slip, spin, 0.7, 0.3, -0.2, 4, 5, 6, 0.5, 50, -2, 0.1, 0.2, 0.3, 0.4,
+          0.5;
+      std::vector<Index> all(static_cast<std::size_t>(model.parameters()));
+      std::iota(all.begin(), all.end(), 0);
+      const Eigen::MatrixXd derivatives = model.derivatives(parameters, all);
+      for (Index place : all) {
+        const double step = 1e-4 * std::max(1.0, std::abs(parameters[place]));
+        const VectorXd more = parameters + step * VectorXd::Unit(parameters.size(), place);
+        const VectorXd less = parameters - step * VectorXd::Unit(parameters.size(), place);
+        const VectorXd expected = (model.values(more) - model.values(less)) / (2 * step);
+        INFO(law.name() << ", slip " << slip << ", spin " << spin << ", parameter " << place);
+        CHECK((derivatives.col(place) - expected).norm() <= 2e-5 * expected.norm() + 1e-9);
+      }
+    }
+  }
+}

@@ -1,0 +1,232 @@
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A film of the pool ball, with errors: columns t, slip and spin, after a `roll` of the program.
+std::string film(double slip_sd, double spin_sd, double rate = 100) {
+  std::string instants;
+  for (int i = 0; i <= 60; ++i) instants += fmt::format("{}{}", i == 0 ? "" : ",", i / rate);
+  const auto roll = json_of("roll --ball pool --format json --at " + instants);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  std::string text = "t,slip,spin\n";
+  for (std::size_t i = 0; i < roll["t"].size(); ++i) {
+    text +=
+        fmt::format("{},{},{}\n", roll["t"][i].get<double>(), roll["slip"][i].get<double>() + slip_sd * normal(random),
+                    roll["wz"][i].get<double>() + spin_sd * normal(random));
+  }
+  return text;
+}
+
+/// The JSON of a fit to that text.
+nlohmann::json fit_of(const std::string& text, const std::string& options = "") {
+  const Run run = run_program("fit - --ball pool --format json " + options, text);
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  return nlohmann::json::parse(run.out);
+}
+
+double value(const nlohmann::json& fit, const char* name) { return fit.at(name).at("value"); }
+
+}  // namespace
+
+TEST_CASE("a film without errors gives back the ball and its start, whatever ball it begins from", "[cli]") {
+  const auto pool = json_of("balls --format json")["balls"][0];
+  for (const char* start : {"", "--friction 0.9 --patch-radius 1e-4 --slip 0 --spin 0"}) {
+    const auto fit = fit_of(film(0, 0), start);
+    CHECK(fit["schema"] == 1);
+    CHECK(fit["law"] == "exact");
+    CHECK(value(fit, "friction") == Approx(pool["friction"].get<double>()).epsilon(1e-6));
+    CHECK(value(fit, "patch_radius") == Approx(pool["patch_radius"].get<double>()).epsilon(1e-6));
+    CHECK(value(fit, "slip") == Approx(1).epsilon(1e-7));
+    CHECK(value(fit, "spin") == Approx(100).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("units stand behind the names of columns, standard deviations in columns or in --noise", "[cli]") {
+  const auto plain = fit_of(film(0.01, 1), "--noise slip=0.01,spin=1");
+  CHECK(plain["noise"]["slip"]["estimated"] == false);
+  CHECK(plain["noise"]["slip"]["sd"].get<double>() == Approx(0.01).epsilon(1e-14));
+  CHECK(plain["reduced_chi2"].get<double>() == Approx(1).margin(0.3));
+
+  std::string in_other_units = "t [ms],slip (cm/s),spin[deg/s],slip_sd [mm/s],spin_sd\n";
+  for (const auto& row : rows_of(film(0.01, 1))) {
+    if (row[0] == "t") continue;
+    in_other_units += fmt::format("{},{},{},10,1\n", 1e3 * std::stod(row[0]), 100 * std::stod(row[1]),
+                                  std::stod(row[2]) * 180 / M_PI);
+  }
+  const auto converted = fit_of(in_other_units);
+  for (const char* name : {"friction", "patch_radius", "slip", "spin"}) {
+    INFO(name);
+    CHECK(value(converted, name) == Approx(value(plain, name)).epsilon(1e-6));
+    CHECK(converted[name]["standard_error"].get<double>() ==
+          Approx(plain[name]["standard_error"].get<double>()).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("the fitted ball is a run file, ready for roll", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("track.csv"), film(0.01, 1));
+  const std::string command = "fit " + scratch.file("track.csv") + " --ball pool";
+  const auto fit = json_of(command + " --format json");
+  CHECK(run_program(command + " -o " + scratch.file("ball.toml")).status == 0);
+  const auto roll = json_of("roll --at 0 --format json --ball " + scratch.file("ball.toml"));
+  CHECK(roll["slip"][0].get<double>() == Approx(value(fit, "slip")).epsilon(1e-14));
+  CHECK(roll["wz"][0].get<double>() == Approx(value(fit, "spin")).epsilon(1e-14));
+  CHECK(roll["mu"].get<double>() == Approx(value(fit, "patch_radius") / 0.028575).epsilon(1e-14));
+  CHECK_THAT(read_file(scratch.file("ball.toml")), Contains("# fitted to 122 values, law exact: friction +- "));
+}
+
+TEST_CASE("fit says when data determine one combination of friction and patch radius only", "[cli]") {
+  const auto both = fit_of(film(0.01, 1));
+  CHECK_FALSE(both.contains("only"));
+  std::string spin_alone = "t,spin\n";
+  for (const auto& row : rows_of(film(0.01, 1, 10))) {
+    if (row[0] != "t") spin_alone += row[0] + "," + row[2] + "\n";
+  }
+  const auto product = fit_of(spin_alone);
+  REQUIRE(product.contains("only"));
+  CHECK(product["only"]["friction_power"] == 1);
+  CHECK(product["only"]["patch_power"] == 1);
+  CHECK(product["only"]["value"].get<double>() == Approx(0.2 * 2.827e-3).epsilon(0.2));
+  CHECK_THAT(run_program("fit - --ball pool", spin_alone).out,
+             Contains("These data determine the product friction patch_radius only: "));
+
+  // One stop time of a ball that spins in place: 16 R omega/(5 f g mu) times 2/(3 pi).
+  const auto stop = json_of("fit --stop-time 9 --noise stop=0.1 --ball pool --slip 0 --spin 90 --format json");
+  CHECK(stop["only"]["name"] == "the product friction patch_radius");
+  const double expected = 32 * 0.028575 * 0.028575 * 90 / (15 * M_PI * 9.80665 * 9);
+  CHECK(stop["only"]["value"].get<double>() == Approx(expected).epsilon(1e-6));
+  CHECK(stop["only"]["standard_error"].get<double>() == Approx(expected * 0.1 / 9).epsilon(1e-6));
+  CHECK(stop["friction"]["standard_error"] == "inf");
+}
+
+TEST_CASE("laws are ranked, the one that the film is of before those that it is not", "[cli]") {
+  const auto fit = fit_of(film(0.003, 0.3), "--law pade,ring,exact");
+  CHECK(fit["law"] == "exact");
+  REQUIRE(fit["laws"].size() == 3);
+  CHECK(fit["laws"][1]["aic"].get<double>() > fit["laws"][0]["aic"].get<double>() + 4);
+  CHECK_THAT(run_program("fit - --ball pool --law pade,ring,exact", film(0.003, 0.3)).out,
+             Contains("exact fits better than all others"));
+}
+
+TEST_CASE("what is not free keeps the ball's value", "[cli]") {
+  const auto fit = fit_of(film(0.01, 1), "--free friction,spin --slip 1.1 --patch-radius 3e-3");
+  CHECK(value(fit, "slip") == 1.1);
+  CHECK(value(fit, "patch_radius") == Approx(3e-3).epsilon(1e-14));
+  CHECK(fit["slip"]["standard_error"] == 0);
+  CHECK(fit["correlation"] == 0);
+}
+
+TEST_CASE("rows before --from and after --until are left out", "[cli]") {
+  std::string with_strike = film(0, 0);
+  with_strike.insert(with_strike.find('\n') + 1, "-0.02,5,5\n-0.01,4,80\n");
+  const auto cut = fit_of(with_strike, "--from 0 --until 0.4");
+  CHECK(value(cut, "friction") == Approx(0.2).epsilon(1e-6));
+  CHECK(cut["noise"]["slip"]["values"] == 41);
+  check_rejected("fit - --ball pool --from 7", "no row has a time between --from and --until", film(0, 0));
+}
+
+TEST_CASE("outliers count for little with --robust", "[cli]") {
+  std::string text = "t,slip,spin\n";
+  int place = 0;
+  for (const auto& row : rows_of(film(0.01, 1))) {
+    if (row[0] == "t") continue;
+    text += fmt::format("{},{},{}\n", row[0], std::stod(row[1]) + (place % 9 == 4 ? 0.5 : 0), row[2]);
+    ++place;
+  }
+  const double plain = std::abs(value(fit_of(text), "friction") - 0.2);
+  const double robust = std::abs(value(fit_of(text, "--robust"), "friction") - 0.2);
+  CHECK(plain > 0.02);
+  CHECK(robust < 0.01);
+}
+
+TEST_CASE("a plan gives the errors that a fit then has", "[cli]") {
+  const auto plan = json_of("fit --plan --ball pool --fps 100 --until 0.6 --noise slip=0.01,spin=1 --format json");
+  const auto fit = fit_of(film(0.01, 1), "--noise slip=0.01,spin=1");
+  for (const char* name : {"friction", "patch_radius", "slip", "spin"}) {
+    INFO(name);
+    CHECK(plan[name]["standard_error"].get<double>() ==
+          Approx(fit[name]["standard_error"].get<double>()).epsilon(0.15));
+  }
+}
+
+TEST_CASE("fit draws data, fit, residuals and confidence", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("track.csv"), film(0.01, 1));
+  CHECK(run_program("fit " + scratch.file("track.csv") + " --ball pool -o " + scratch.file("fit.gp")).status == 0);
+  const std::string script = read_file(scratch.file("fit.gp"));
+  for (const char* words :
+       {"slip, m/s", "spin, rad/s", "spin: residual / sd", "patch radius, mm", "measured", "fitted motion"})
+    CHECK_THAT(script, Contains(words));
+}
+
+TEST_CASE("several files are tracks of one ball", "[cli]") {
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("a.csv"), film(0.01, 1));
+  write_file(scratch.file("b.csv"), film(0.01, 1));
+  const auto one = json_of("fit " + scratch.file("a.csv") + " --ball pool --format json");
+  const auto two = json_of("fit " + scratch.file("a.csv") + " " + scratch.file("b.csv") + " --ball pool --format json");
+  CHECK(two["tracks"].size() == 2);
+  CHECK(value(two, "friction") == Approx(value(one, "friction")).epsilon(1e-5));
+  CHECK(two["friction"]["standard_error"].get<double>() ==
+        Approx(one["friction"]["standard_error"].get<double>() / std::sqrt(2)).epsilon(0.02));
+}
+
+TEST_CASE("fit says what is wrong with a track, and where, and writes nothing", "[cli]") {
+  const std::string fit = "fit - --ball pool";
+  check_rejected("fit", "--ball missing");
+  check_rejected("fit --ball pool", "FILE missing");
+  check_rejected("fit - --ball puck", "lies flat", "t,slip\n0,1\n");
+  check_rejected(fit, "<stdin>:1: a track has a column t and one or more of slip, spin, x, y, vx, vy, angle",
+                 "a,b\n1,2\n");
+  check_rejected(fit, "did you mean 'slip'?", "t,slp\n1,2\n");
+  check_rejected(fit, "no t is here", "slip,spin\n1,2\n");
+  check_rejected(fit, "two columns are called 'slip'", "t,slip,slip [m/s]\n1,2,3\n");
+  check_rejected(fit, "'furlong' is no unit of it: use m/s, cm/s", "t,slip [furlong]\n1,2\n");
+  check_rejected(fit, "spin_sd is the standard deviation of spin, which is not there", "t,slip,spin_sd\n1,2,3\n");
+  check_rejected(fit, "<stdin>:3: slip: 'x' is not a number", "t,slip\n0,1\n1,x\n");
+  check_rejected(fit, "<stdin>:3: 2 fields where the header has 3", "t,slip,spin\n0,1,2\n1,2\n");
+  check_rejected(fit, "<stdin>:3: t must increase: 0 follows 0", "t,slip\n0,1\n0,1\n");
+  check_rejected(fit, "<stdin>:2: slip_sd: a standard deviation > 0 is required, got 0", "t,slip,slip_sd\n0,1,0\n");
+  check_rejected(fit, "slip has 3 values and no standard deviations", "t,slip\n0,1\n1,0.5\n2,0.1\n");
+  check_rejected(fit + " --noise slap=1", "did you mean 'slip'", "t,slip\n0,1\n");
+  check_rejected(fit + " --noise slip=0", "a standard deviation is > 0", "t,slip\n0,1\n");
+  check_rejected(fit + " --noise slip", "NAME=SD", "t,slip\n0,1\n");
+  check_rejected(fit + " --free sleep", "did you mean 'slip'", "t,slip\n0,1\n");
+  check_rejected(fit + " --law exact,pdae", "did you mean 'pade'", "t,slip\n0,1\n");
+  check_rejected(fit + " --fps 9", "add --plan", "t,slip\n0,1\n");
+  check_rejected("fit --stop-time 9 --ball pool", "add --noise stop=SD");
+  check_rejected("fit --plan --ball pool", "--plan needs --fps N and --noise");
+  check_rejected("fit --plan --ball pool --fps 1e9 --noise slip=1", "pictures; 2 to 1e+07 are allowed");
+  const TemporaryDirectory scratch;
+  check_rejected(fit + " -o " + scratch.file("fit.json"), "<stdin>:3", "t,slip\n0,1\n0,1\n");
+  CHECK(scratch.names().empty());
+}
+
+TEST_CASE("columns that are not read are named, an empty field was not measured", "[cli]") {
+  std::string text = "frame," + film(0.01, 1);
+  std::size_t place = text.find('\n') + 1;
+  for (int i = 0; place < text.size(); ++i) {
+    text.insert(place, fmt::format("{},", i));
+    const std::size_t end = text.find('\n', place);
+    if (i % 3 == 1) text.erase(text.rfind(',', end) + 1, end - text.rfind(',', end) - 1);
+    place = text.find('\n', place) + 1;
+  }
+  const Run run = run_program("fit - --ball pool --format json", text);
+  CHECK(run.status == 0);
+  CHECK_THAT(run.err, Contains("column 'frame' is not read"));
+  const auto fit = nlohmann::json::parse(run.out);
+  CHECK(fit["noise"]["slip"]["values"] == 61);
+  CHECK(fit["noise"]["spin"]["values"] == 41);
+  CHECK(value(fit, "friction") == Approx(0.2).epsilon(0.05));
+}
