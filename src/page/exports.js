@@ -36,3 +36,19 @@ export function csvOf(orbits, secondsPerTau) {
   });
   return `${rows.join("\n")}\n`;
 }
+
+/**
+ * A film of a canvas, WebM.
+ *
+ * @param run  plays what is to be seen, and calls back at its end
+ */
+export function filmOf(canvas, run) {
+  const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: "video/webm" });
+  const parts = [];
+  recorder.ondataavailable = ({ data }) => parts.push(data);
+  return new Promise((resolve) => {
+    recorder.onstop = () => resolve(new Blob(parts, { type: "video/webm" }));
+    recorder.start();
+    run(() => recorder.stop());
+  });
+}

@@ -49,8 +49,8 @@ function start(library) {
   const orbits = new Orbits(store, plane, { ask, stopText });
   const checks = new Checks(store);
   const address = new Address(store, known, (asked) => ask((state) => Object.assign(state, asked)));
-  const share = new Share(store, plane, address);
-  const go = (fragment) => ask((state) => Object.assign(state, fromFragment(fragment, known), { theme: state.theme }), () => player.toggle(player.moves));
+  const share = new Share(store, plane, player, address);
+  const go = (fragment) => ask((state) => Object.assign(state, fromFragment(fragment, known), { theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
   $("presets").append(...presets.map(({ title, fragment }) => {
     const link = make("a", { href: `#${fragment}`, textContent: title });
     link.addEventListener("click", (event) => {
@@ -62,12 +62,14 @@ function start(library) {
   new Tour(go);
 
   let theme;
-  const drawMoment = () => {
+  const seen = (id) => $(id).clientWidth >= smallestWidth;
+  const draw = () => {
+    if (!store.settled) return;
     const { contact, now, motion, motions, state, end, timeFactor } = store;
-    plane.draw(theme);
-    hero.draw(theme);
+    if (seen("plane")) plane.draw(theme);
+    if (seen("lanes")) hero.draw(theme);
     player.show();
-    drawPanes(new CanvasSurface($("panes")), {
+    if (seen("panes")) drawPanes(new CanvasSurface($("panes")), {
       motions: motions.map((motion, index) => ({ ...motion, chosen: index === state.chosen })),
       end, now, timeFactor, chosenIndex: state.chosen, speedUnit: contact ? " (m/s)" : "",
       timeLabel: contact ? "t (s)" : "τ",
@@ -77,12 +79,10 @@ function start(library) {
         `${shown(motion.stop * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}, k = ${shown(now.k, 4)}`
       : "No orbit yet: click the plane.";
   };
-  const draw = () => {
-    if (store.settled && $("plane").clientWidth >= smallestWidth) drawMoment();
-  };
   store.listen(({ moment }) => {
     if (!moment) {
       theme = themeOf(store.state.theme);
+      document.documentElement.classList.toggle("embed", store.state.embed);
       plane.announce("");
       hero.show();
       controls.show();

@@ -32,6 +32,7 @@ export function initialState() {
     isochrone: 0,   // stop time of the isochrone the reader has drawn; 0 for none
     ball: null,     // SI values of a real ball; then speeds are m/s
     theme: "auto",
+    embed: false,   // only the balls are shown, for a page around this one
   };
 }
 
@@ -74,6 +75,7 @@ export function toFragment(state) {
   if (state.part !== (state.ball ? "sliding" : "whole")) query.set("part", state.part);
   if (state.isochrone) query.set("isochrone", state.isochrone);
   if (state.theme !== "auto") query.set("theme", state.theme);
+  if (state.embed) query.set("embed", "1");
   return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":");
 }
 
@@ -85,8 +87,8 @@ export function toFragment(state) {
 export function fromFragment(fragment, known) {
   const { views, balls } = known;
   const query = new URLSearchParams(fragment.replace(/^#/, ""));
-  if ([...query].length === 0) return firstState(known);
-  const state = initialState();
+  const state = [...query.keys()].every((key) => key === "embed") ? firstState(known) : initialState();
+  state.embed = query.has("embed");
   const choice = (key, allowed, use) => allowed.includes(query.get(key)) && use(query.get(key));
   const number = (key, use, allowed = () => true) => {
     const value = Number(query.get(key));

@@ -44,7 +44,7 @@ export class Plane {
   // --- drawing -----------------------------------------------------------------------------------------------------
 
   scene() {
-    const { state, portrait, context, motions, motion, orbit, now, unitIsochrone } = this.store;
+    const { state, portrait, context, motions, motion, orbit, now } = this.store;
     // The library answers with the chosen orbit by itself, and with the others that are none of the axes.
     const entry = (start, index, drawn, chosen) => ({ orbit: drawn, start, index, chosen, stop: motions[index].stop });
     const others = state.orbits.map((start, index) => ({ start, index }))
@@ -54,7 +54,7 @@ export class Plane {
     return {
       figure: portrait.figure, view: viewNamed(state.view), context,
       own: [...others, ...chosen],
-      isochrone: state.isochrone ? { u: unitIsochrone.u.map((u) => u * state.isochrone), v: unitIsochrone.v.map((v) => v * state.isochrone) } : null,
+      isochrone: state.isochrone ? this.store.isochroneOf(state.isochrone) : null,
       marker: now && now.tau < motion.stop
         ? { index: state.chosen, state: { ...now, lnK: Math.log(now.k), left: motion.stop - now.tau, start: { ...orbit, left: motion.stop } } }
         : null,

@@ -36,7 +36,17 @@ export class Player {
     return this.store.contact ? `${(tau * this.store.timeFactor).toFixed(3)} s` : `τ = ${shown(tau, 3)}`;
   }
 
+  /** Plays from the beginning, and says when the end is reached or the reader pauses. */
+  once(done) {
+    this.store.move({ share: 0 });
+    this.toggle(true);
+    this.done = done;
+  }
+
   toggle(playing = !this.playing) {
+    this.done?.();
+    this.done = null;
+
     this.playing = playing && Boolean(this.store.motion);
     $("play").textContent = this.playing ? "❚❚" : "▶";
     $("play").setAttribute("aria-label", this.playing ? "Pause" : "Play");
@@ -55,7 +65,11 @@ export class Player {
       if (state.share < 1) {
         ended = null;
         this.store.move({ share: Math.min(1, state.share + passed / 1000 / this.seconds) });
-      } else if (ended === null) ended = time;
+      } else if (ended === null) {
+        ended = time;
+        this.done?.();
+        this.done = null;
+      }
       else if (time - ended > rest) this.store.move({ share: 0 });
     };
     requestAnimationFrame(step);

@@ -1,14 +1,14 @@
 // What the reader takes along: a link, a command line, files.
 import { commandLine } from "./command_line.js";
 import { $ } from "./dom.js";
-import { csvOf, pngOf, save, textFile } from "./exports.js";
+import { csvOf, filmOf, pngOf, save, textFile } from "./exports.js";
 import { plain } from "./markup.js";
 import { toFragment } from "./page_state.js";
 import { drawPortrait } from "./portrait_figure.js";
 import { SvgSurface } from "./surface.js";
 
 export class Share {
-  constructor(store, plane, address) {
+  constructor(store, plane, player, address) {
     Object.assign(this, { store, plane });
     const copy = async (text, what) => {
       try {
@@ -22,10 +22,19 @@ export class Share {
       if (!address.link) $("copied").textContent = `This page has no address of its own here. What follows # in a link to it: ${toFragment(store.state)}`;
       else copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
     });
+    $("copy-embed").addEventListener("click", () => {
+      const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
+      copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
+    });
     $("copy-command").addEventListener("click", () => copy($("command").textContent, "Command"));
     $("copy-roll").addEventListener("click", () => copy($("roll-command").textContent, "Command"));
     $("save-svg").addEventListener("click", () => save("portrait.svg", textFile(this.svg(), "image/svg+xml")));
     $("save-png").addEventListener("click", async () => save("portrait.png", await pngOf(this.svg())));
+    $("save-film").addEventListener("click", async () => {
+      $("copied").textContent = `The film is being taken: ${Math.ceil(player.seconds)} s.`;
+      save("balls.webm", await filmOf($("lanes"), (done) => player.once(done)));
+      $("copied").textContent = "The film is saved.";
+    });
     for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
       $(`save-${ending}`).addEventListener("click", () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending).text, type)));
     }

@@ -70,7 +70,10 @@ export class Store {
     this.request = portraitRequest(state, plane, this.body, isDark(state.theme));
     this.portrait = this.keep("portrait", this.request, () => library.portrait(this.request));
     this.context = { mu: state.mu, window: [this.portrait.windowU, this.portrait.windowV], exponent: this.portrait.exponent };
-    this.unitIsochrone = ofSystem("isochrone", [], () => plane.isochrone());
+    this.isochroneOf = (tau) => {
+      const unit = ofSystem("isochrone", [], () => plane.isochrone());
+      return { u: unit.u.map((u) => u * tau), v: unit.v.map((v) => v * tau) };
+    };
     this.motions = state.orbits.map(({ u, v }, i) => ofSystem(`motion ${i}`, [u, v], () => plane.motion(u, v)));
     const orbit = state.orbits[state.chosen];
     this.motion = this.motions[state.chosen];

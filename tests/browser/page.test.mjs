@@ -38,7 +38,7 @@ async function open(fragment = "", options = {}, orbits = true) {
   page.on("pageerror", (error) => complaints.push(error.message));
   page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks for ${request.url()}`));
   await page.goto(address + fragment);
-  await (orbits ? page.waitForSelector("#orbits li") : page.waitForFunction(() => globalThis.page?.planeScene));
+  await (orbits ? page.waitForSelector("#orbits li") : page.waitForFunction(() => globalThis.page?.store.settled));
 }
 
 async function close() {
@@ -406,6 +406,10 @@ test("a real ball is handed out in seconds, and its motion as the program's roll
   assert.equal(header, "orbit,t,tau,u,v,ln_v,k");
   const [, t, tau] = rows.at(-1).split(",").map(Number);
   assertClose(t / tau, await page.evaluate(() => globalThis.page.store.timeFactor), 1e-14, "seconds");
+  const [film] = await Promise.all([page.waitForEvent("download"), page.click("#save-film")]);
+  const webm = readFileSync(await film.path());
+  assert.equal(webm.subarray(0, 4).toString("hex"), "1a45dfa3");
+  assert.ok(webm.length > 10000, `${webm.length} bytes`);
   const words = (await page.textContent("#roll-command")).split(" ");
   assert.deepEqual(words.slice(0, 2), ["contensou", "roll"]);
   const { slip_length } = JSON.parse(execFileSync(program, [...words.slice(1), "--format", "json"], { encoding: "utf8" }));
@@ -448,6 +452,19 @@ test("the page travels: a strict policy, a page inside a page, no path of the ma
   await inner.locator("#presets a", { hasText: "Puck" }).click();
   await inner.locator("#copy-link").click();
   assert.match(await inner.locator("#copied").textContent(), /#|copied/);
+  await close();
+});
+
+test("for a page around it only the balls are shown", async () => {
+  await open("#embed", {}, false);
+  assert.ok(await page.isVisible("#lanes"));
+  for (const id of ["plane", "columns", "tour", "presets"]) assert.ok(!(await page.isVisible(`#${id}`)), id);
+  await page.click("#play");
+  await page.waitForFunction(() => globalThis.page.state.share > 0.05);
+  await close();
+  await open("#ball=pool");
+  await page.click("#copy-embed");
+  await page.waitForFunction(() => document.getElementById("copied").textContent !== "");
   await close();
 });
 
