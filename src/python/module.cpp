@@ -4,4 +4,5 @@ PYBIND11_MODULE(_core, module) {
   contensou::python::bind_reduction(module);
   contensou::python::bind_si(module);
   contensou::python::bind_portraits(module);
+  contensou::python::bind_fit(module);
 }

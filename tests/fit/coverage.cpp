@@ -15,7 +15,6 @@ using Eigen::ArrayXd;
 namespace {
 
 constexpr int trials = CONTENSOU_FULL_TESTS ? 1000 : 100;
-const std::vector<Seen> slip_and_spin{{Observable::slip, 0.01}, {Observable::spin, 1}};
 
 /// Of a parameter over many films: how often the 95 % interval has its true value, the error over the standard error on
 /// the average, and its root mean square.

@@ -55,6 +55,9 @@ struct Seen {
   double sd;
 };
 
+inline const std::vector<Seen> slip_and_spin{{contensou::fit::Observable::slip, 0.01},
+                                             {contensou::fit::Observable::spin, 1}};
+
 /// A track of a ball without errors.
 /// @param with_sd  whether it says its standard deviations
 inline contensou::fit::Track track_of(const Film& film, const Eigen::ArrayXd& t, const std::vector<Seen>& seen,

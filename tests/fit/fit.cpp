@@ -17,8 +17,6 @@ using Eigen::ArrayXd;
 
 namespace {
 
-const std::vector<Seen> slip_and_spin{{Observable::slip, 0.01}, {Observable::spin, 1}};
-
 /// A ball of somebody who knows neither friction nor patch.
 si::Experiment unknown_ball() {
   si::Experiment ball = pool_ball();

@@ -22,12 +22,6 @@ namespace {
 constexpr std::size_t block_size = 1 << 15;
 constexpr std::size_t max_record = std::size_t{1} << 26;
 
-std::string_view without_spaces(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 /// The name that iconv has for the encoding of a text in which each letter takes two bytes; empty for other texts.
 std::string_view utf16(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return "UTF-16";
@@ -45,6 +39,12 @@ std::string separator_hint(std::string_view name) {
 }
 
 }  // namespace
+
+std::string_view without_spaces(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
 
 void CsvParser::add(std::string_view piece, CsvBlock& block) {
   const auto is_plain = [](char letter) { return letter != ',' && letter != '"' && letter != '\n' && letter != '\r'; };

@@ -14,6 +14,9 @@
 
 namespace contensou::program {
 
+/// A field without the spaces and tabs around it.
+std::string_view without_spaces(std::string_view text);
+
 class CsvRow;
 
 /// Consecutive records of a table, kept in a few arrays.

@@ -19,11 +19,6 @@ namespace {
 
 constexpr std::string_view deviation = "_sd";
 
-std::string_view without_spaces(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 /// A name of the header, with the unit in brackets behind it.
 struct Heading {
   std::string name, unit;

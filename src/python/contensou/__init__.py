@@ -4,6 +4,7 @@
     ct.stop_time(u=1, v=1, mu=0.1)              # the paper's time until slip and spin end
     ct.Flow(mu=0.3).orbit(u=1, v=1).at(tau=2)   # the state at an instant
     ct.Ball.pool().roll(slip=1, spin=100)       # a real ball, in SI units
+    ct.fit(t, slip=v, spin=w, ball=ct.Ball.pool())  # friction and patch radius, from a film
     ct.portrait(mu=1).plot()                    # a phase portrait
 
 u = R omega_z is the speed of pivoting, v >= 0 that of sliding, mu the radius of the contact patch over that of the
@@ -13,10 +14,11 @@ Numbers may be arrays of any shapes that broadcast. What the library rejects is 
 
 from ._balls import Ball, Event, Roll
 from ._engine import engine, engines
+from ._fit import Estimate, Fit, fit
 from ._flow import Check, Checks, End, Flow, Law, Orbit, Ray, Terminal, check, law, stop_time
 from ._portrait import Portrait, portrait
 
 __all__ = [
-    "Ball", "Check", "Checks", "End", "Event", "Flow", "Law", "Orbit", "Portrait", "Ray", "Roll", "Terminal",
-    "check", "engine", "engines", "law", "portrait", "stop_time",
+    "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "Law", "Orbit", "Portrait", "Ray", "Roll", "Terminal",
+    "check", "engine", "engines", "fit", "law", "portrait", "stop_time",
 ]

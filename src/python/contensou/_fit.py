@@ -1,0 +1,112 @@
+"""Friction and patch radius from a film."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, Optional, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._balls import Ball
+from ._flow import LawLike, law as law_of
+
+
+class Estimate(NamedTuple):
+    """What a film says of one number: in SI units, with its standard error (inf: not determined, 0: it was given) and the
+    interval of 95 % confidence."""
+
+    value: float
+    standard_error: float
+    interval: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What a film says of a ball; `fit` makes one.
+
+    ball:         with the fitted friction, patch radius, slip and spin
+    estimates:    of friction, patch_radius, slip, spin, and what places the film: direction, vx, vy, x, y, angle at the start
+    names, correlation_matrix:  of those that were free
+    correlation:  of friction and patch_radius
+    noise:        the standard deviation of each observable, given or estimated
+    only:         (name, value, standard error) of the one combination of friction and patch_radius that the film
+                  determines, where it does no more
+    aic:          Akaike's criterion, to compare laws on the same film: the smaller the better
+    predicted:    what the fitted motion gives, by observable
+    """
+
+    ball: Ball
+    law: str
+    estimates: dict[str, Estimate]
+    names: list[str]
+    correlation_matrix: NDArray[np.float64]
+    correlation: float
+    noise: dict[str, float]
+    reduced_chi2: float
+    aic: float
+    profiled: bool
+    only: Optional[tuple[str, float, float]]
+    predicted: dict[str, NDArray[np.float64]]
+
+    @property
+    def friction(self) -> Estimate:
+        return self.estimates["friction"]
+
+    @property
+    def patch_radius(self) -> Estimate:
+        return self.estimates["patch_radius"]
+
+    @property
+    def slip(self) -> Estimate:
+        return self.estimates["slip"]
+
+    @property
+    def spin(self) -> Estimate:
+        return self.estimates["spin"]
+
+
+def fit(
+    t: ArrayLike,
+    *,
+    ball: Ball,
+    slip: Optional[ArrayLike] = None,
+    spin: Optional[ArrayLike] = None,
+    x: Optional[ArrayLike] = None,
+    y: Optional[ArrayLike] = None,
+    vx: Optional[ArrayLike] = None,
+    vy: Optional[ArrayLike] = None,
+    angle: Optional[ArrayLike] = None,
+    sd: Optional[dict[str, ArrayLike]] = None,
+    law: LawLike = "exact",
+    free: Sequence[str] = ("friction", "patch_radius", "slip", "spin"),
+    robust: bool = False,
+) -> Fit:
+    """Friction and patch radius of a ball, with its slip and spin at t[0], from what a film shows at the times t in s, which
+    increase: any of slip (m/s), spin (rad/s about the vertical), place x, y (m) and velocity vx, vy (m/s) of the centre, and
+    the angle turned about the vertical (rad, up to whole turns). NaN was not measured. src/fit/README.md says how to film it.
+
+    ball:    its radius and gravity; the values of what is not free
+    sd:      standard deviations by observable, numbers or arrays; of others they are estimated, from 10 values or more
+    robust:  Huber's loss: values that are far off count for less
+    """
+    t = np.asarray(t, float)
+    given = {"slip": slip, "spin": spin, "x": x, "y": y, "vx": vx, "vy": vy, "angle": angle}
+    seen = {name: np.asarray(values, float) for name, values in given.items() if values is not None}
+    sd = sd or {}
+    if not sd.keys() <= seen.keys():
+        raise ValueError(f"sd: of {', '.join(sorted(sd.keys() - seen.keys()))} there are no values")
+    for name, values in (("t", t), *seen.items()):
+        if values.shape != t.shape or t.ndim != 1:
+            raise ValueError(f"{name}: one value for each time is needed, shape {t.shape}; got {values.shape}")
+    none = np.empty(0)
+    series = [(name, values, np.broadcast_to(np.asarray(sd[name], float), t.shape) if name in sd else none)
+              for name, values in seen.items()]
+    known_law = law_of(law)
+    found = _core.fit(_core.Experiment(ball, None, None), known_law._core, t, series, list(free), robust)
+    estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
+    fitted = ball.but(friction=estimates["friction"].value, patch_radius=estimates["patch_radius"].value,
+                      slip=max(0.0, estimates["slip"].value), spin=estimates["spin"].value)
+    predicted = dict(zip(seen, found.pop("predicted")))
+    return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted, **found)

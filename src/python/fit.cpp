@@ -1,0 +1,80 @@
+// contensou::fit in Python: one film.
+#include "contensou/fit/fit.hpp"
+
+#include "contensou/si/scaling.hpp"
+#include "values.hpp"
+
+namespace contensou::python {
+
+namespace {
+
+Eigen::ArrayXd array_of(const Numbers& numbers) {
+  return Eigen::Map<const Eigen::ArrayXd>(numbers.data(), numbers.size());
+}
+
+py::dict found_of(const fit::Fit& found) {
+  py::dict estimates, noise, result;
+  for (const fit::Estimate& estimate : found.estimates) {
+    estimates[py::str(std::string(fit::kind_of(estimate.parameter).name))] = py::make_tuple(
+        estimate.value, estimate.standard_error, py::make_tuple(estimate.interval.low, estimate.interval.high));
+  }
+  for (const fit::Noise& each : found.noise) noise[py::str(std::string(fit::kind_of(each.observable).name))] = each.sd;
+  py::list names, predicted;
+  for (const fit::Estimate* estimate : found.free_estimates())
+    names.append(std::string(fit::kind_of(estimate->parameter).name));
+  for (const Eigen::ArrayXd& values : found.predicted.front()) {
+    predicted.append(py::array_t<double>(values.size(), values.data()));
+  }
+  py::array_t<double> matrix({found.correlation.rows(), found.correlation.cols()});
+  for (Eigen::Index i = 0; i < found.correlation.rows(); ++i) {
+    for (Eigen::Index j = 0; j < found.correlation.cols(); ++j) matrix.mutable_at(i, j) = found.correlation(i, j);
+  }
+  result["estimates"] = estimates;
+  result["names"] = names;
+  result["correlation_matrix"] = matrix;
+  result["correlation"] = found.correlation_of_contact();
+  result["noise"] = noise;
+  result["reduced_chi2"] = found.reduced_chi2();
+  result["aic"] = found.aic;
+  result["profiled"] = found.profiled;
+  result["predicted"] = predicted;
+  if (found.only) {
+    result["only"] =
+        py::make_tuple(found.only->name(), found.only->value, found.only->value * found.only->relative_error);
+  } else {
+    result["only"] = py::none();
+  }
+  return result;
+}
+
+}  // namespace
+
+void bind_fit(py::module_& module) {
+  module.def("fit", [](const si::Experiment& ball, const reduction::Law& law, const Numbers& t,
+                       const std::vector<std::tuple<std::string, Numbers, Numbers>>& series,
+                       const std::vector<std::string>& free, bool robust) {
+    std::vector<std::pair<std::string, fit::Observable>> kinds;
+    for (const fit::ObservableKind& kind : fit::observable_kinds())
+      kinds.emplace_back(std::string(kind.name), kind.observable);
+    fit::Track track;
+    track.name = "t";
+    track.t = array_of(t);
+    track.start = track.t.size() > 0 ? track.t[0] : 0;
+    for (const auto& [name, values, sd] : series)
+      track.series.push_back({one_of("observable", "observables", kinds, name), array_of(values), array_of(sd)});
+    fit::FitRequest request{.ball = ball, .law = law, .tracks = {track}, .free = {false, false, false, false}};
+    const std::vector<std::pair<std::string, bool fit::Free::*>> parameters{{"friction", &fit::Free::friction},
+                                                                            {"patch_radius", &fit::Free::patch_radius},
+                                                                            {"slip", &fit::Free::slip},
+                                                                            {"spin", &fit::Free::spin}};
+    for (const std::string& name : free) request.free.*one_of("parameter", "parameters", parameters, name) = true;
+    request.robust = robust;
+    const fit::Fit found = [&] {
+      const py::gil_scoped_release released;
+      return fit::fit(request);
+    }();
+    return found_of(found);
+  });
+}
+
+}  // namespace contensou::python

@@ -1,0 +1,85 @@
+"""Fits of films: against SciPy's least_squares on the equations of motion by solve_ivp, and against the program."""
+
+import json
+import os
+import subprocess
+
+import contensou as ct
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import least_squares
+
+PROGRAM = os.environ.get("CONTENSOU")
+BALL = ct.Ball.pool(patch_radius=2.8e-3)
+T = np.linspace(0, 0.5, 60)
+SD = {"slip": 0.01, "spin": 1.0}
+
+
+def film(seed=1):
+    random = np.random.default_rng(seed)
+    at = BALL.roll(slip=1, spin=100)(T)
+    return {"slip": at["slip"] + random.normal(0, SD["slip"], T.size), "spin": at["wz"] + random.normal(0, SD["spin"], T.size)}
+
+
+def by_scipy(seen):
+    """Friction, patch radius, slip and spin by Newton's equations, with their standard errors."""
+    law = ct.law("exact")
+
+    def motion(parameters):
+        friction, patch, slip, spin = parameters
+
+        def rate(t, state):
+            ln_v, omega = state
+            force, moment = law(np.exp(ln_v) / (patch * omega))
+            return [-3.5 * friction * BALL.gravity * force / np.exp(ln_v),
+                    -2.5 * friction * BALL.gravity * patch * moment / BALL.radius**2]
+
+        run = solve_ivp(rate, (0, T[-1]), [np.log(slip), spin], t_eval=T, method="LSODA", rtol=1e-10, atol=1e-10)
+        return np.exp(run.y[0]), run.y[1]
+
+    def residuals(parameters):
+        slip, spin = motion(parameters)
+        return np.concatenate([(slip - seen["slip"]) / SD["slip"], (spin - seen["spin"]) / SD["spin"]])
+
+    found = least_squares(residuals, [0.3, 2e-3, 0.9, 95], x_scale=[0.2, 3e-3, 1, 100], jac="3-point", xtol=1e-12, ftol=1e-12)
+    return found.x, np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac)))
+
+
+def test_estimates_are_those_of_least_squares_on_the_equations_of_motion():
+    seen = film()
+    values, errors = by_scipy(seen)
+    found = ct.fit(T, ball=BALL.but(friction=0.5, patch_radius=1e-3), sd=SD, **seen)
+    for name, value, error in zip(("friction", "patch_radius", "slip", "spin"), values, errors):
+        estimate = found.estimates[name]
+        assert abs(estimate.value - value) < 1e-4 * error
+        assert estimate.standard_error == pytest.approx(error, rel=1e-3)
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_a_fit_is_the_programs(tmp_path):
+    seen = film()
+    table = np.column_stack([T, seen["slip"], seen["spin"]])
+    np.savetxt(tmp_path / "film.csv", table, delimiter=",", header="t,slip,spin", comments="", fmt="%.17g")
+    told = json.loads(subprocess.run([PROGRAM, "fit", tmp_path / "film.csv", "--ball", "pool", "--patch-radius", "2.8e-3",
+                                      "--format", "json"], capture_output=True, check=True).stdout)
+    found = ct.fit(T, ball=BALL, **seen)
+    for name in ("friction", "patch_radius", "slip", "spin"):
+        estimate = found.estimates[name]
+        assert [estimate.value, estimate.standard_error, *estimate.interval] == list(told[name].values())
+    assert found.correlation == told["correlation"]
+    assert found.noise["slip"] == told["noise"]["slip"]["sd"]
+
+
+def test_the_fitted_ball_moves_as_predicted_and_what_is_wrong_is_said():
+    seen = film()
+    found = ct.fit(T, ball=BALL, **seen)
+    at = found.ball.roll()(T)
+    np.testing.assert_allclose(found.predicted["slip"], at["slip"], atol=1e-8)
+    np.testing.assert_allclose(found.predicted["spin"], at["wz"], rtol=1e-8)
+    assert found.only is None and found.names == ["friction", "patch_radius", "slip", "spin"]
+    assert ct.fit(T, ball=BALL, spin=seen["spin"]).only[0] != ""
+    for wrong, words in (({"slip": seen["slip"][1:]}, "one value for each time"), ({**seen, "sd": {"x": 1}}, "no values"),
+                         ({**seen, "free": ["fricton"]}, "did you mean 'friction'"), ({}, "no value and no stop time")):
+        with pytest.raises(ValueError, match=words):
+            ct.fit(T, ball=BALL, **wrong)
