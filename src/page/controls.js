@@ -71,7 +71,7 @@ export class Controls {
     };
     const round = (value) => Number(value.toPrecision(3));
     const chosen = (state) => state.orbits[state.chosen];
-    this.slip = slider("slip", "slip at the start", (state, share) => {
+    this.slip = slider("slip", "slip", (state, share) => {
       const { v } = chosen(state);
       chosen(state).v = round(Math.max(share, 0.01) * this.largest(state).v);
       // The ball turns forward as before.

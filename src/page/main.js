@@ -96,6 +96,13 @@ function start(library) {
   });
   new ResizeObserver(draw).observe($("app"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => ask(() => {}));
+  // Paper is light.
+  let screen;
+  addEventListener("beforeprint", () => {
+    screen = store.state.theme;
+    ask((state) => (state.theme = "light"));
+  });
+  addEventListener("afterprint", () => ask((state) => (state.theme = screen)));
   $("app").hidden = false;
   ask(() => {});
   player.moves = !matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -455,6 +455,20 @@ test("the page travels: a strict policy, a page inside a page, no path of the ma
   await close();
 });
 
+test("a dark page is printed light, in one piece", async () => {
+  await open("", { colorScheme: "dark" });
+  const ground = () => page.evaluate(() => globalThis.page.planeScene.figure.ground);
+  const dark = await ground();
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.notEqual(await ground(), dark);
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), "light");
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal(await ground(), dark);
+  const pages = (await page.pdf()).toString("latin1").match(/\/Type \/Page\b/g).length;
+  assert.ok(pages <= 2, `${pages} pages`);
+  await close();
+});
+
 test("for a page around it only the balls are shown", async () => {
   await open("#embed", {}, false);
   assert.ok(await page.isVisible("#lanes"));
