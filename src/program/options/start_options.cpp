@@ -223,7 +223,8 @@ void StartOptions::tell_new_patch(const BallText& text, si::Overrides overrides,
                                   const reduction::Law& law) const {
   const auto* measured = std::get_if<si::SpinDeceleration>(&experiment.contact.patch);
   if (measured == nullptr || overrides.contains(si::spin_deceleration.name)) return;
-  for (const si::Quantity* changing : {&si::radius, &si::friction, &si::gravity, &si::load}) overrides.erase(changing->name);
+  for (const si::Quantity* changing : {&si::radius, &si::friction, &si::gravity, &si::load})
+    overrides.erase(changing->name);
   double own = 0;
   try {
     const si::Experiment before = text.parsed(overrides, {});
