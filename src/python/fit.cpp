@@ -8,7 +8,7 @@ namespace contensou::python {
 
 namespace {
 
-Eigen::ArrayXd array_of(const Numbers& numbers) {
+Eigen::ArrayXd column_of(const Numbers& numbers) {
   return Eigen::Map<const Eigen::ArrayXd>(numbers.data(), numbers.size());
 }
 
@@ -58,10 +58,10 @@ void bind_fit(py::module_& module) {
       kinds.emplace_back(std::string(kind.name), kind.observable);
     fit::Track track;
     track.name = "t";
-    track.t = array_of(t);
+    track.t = column_of(t);
     track.start = track.t.size() > 0 ? track.t[0] : 0;
     for (const auto& [name, values, sd] : series)
-      track.series.push_back({one_of("observable", "observables", kinds, name), array_of(values), array_of(sd)});
+      track.series.push_back({one_of("observable", "observables", kinds, name), column_of(values), column_of(sd)});
     fit::FitRequest request{.ball = ball, .law = law, .tracks = {track}, .free = {false, false, false, false}};
     const std::vector<std::pair<std::string, bool fit::Free::*>> parameters{{"friction", &fit::Free::friction},
                                                                             {"patch_radius", &fit::Free::patch_radius},
