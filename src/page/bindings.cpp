@@ -77,7 +77,6 @@ class Plane {
       val facts = val::object();
       facts.set("regime", static_cast<int>(end.regime));
       facts.set("terminalRatio", end.k);
-      facts.set("slidingLimit", system().sliding_limit(1));
       return facts;
     });
   }

@@ -11,6 +11,7 @@ const spots = (() => {
   return corners.map(([x, y, z]) => [x / length, (y * cos - z * sin) / length, (y * sin + z * cos) / length]);
 })();
 const spotSize = 0.36;  // rad
+const smallest = 11;    // pixels, radius of a ball
 
 /** A ball with spots, turned by a matrix; a flat body shows the same spots on its face. */
 function drawBall(surface, x, y, radius, turn, colour, theme) {
@@ -45,17 +46,13 @@ export function drawLanes(surface, { lanes, radius, unit }, theme) {
   const [left, right, low, high] = [Math.min(...flat("xs")), Math.max(...flat("xs")), Math.min(...flat("ys")), Math.max(...flat("ys"))];
   const laneHeight = (surface.height - 1.6 * size) / lanes.length;
   const most = laneHeight / 2 - 0.95 * size;
+  /** Pixels of a metre, with a rim of `metres` and of `rim` pixels around the paths. */
+  const scaleWith = (metres, rim) => Math.min((surface.width - 8 - 2 * rim) / (right - left + 2 * metres), (2 * most - 2 * rim) / (high - low + 2 * metres));
   // A ball too small to be seen is drawn larger than it is.
-  const scaleOf = (ball) => Math.min((surface.width - 2 * ball - 8) / Math.max(right - left, 1e-12), (2 * (most - ball) + 1) / Math.max(high - low, 1e-12));
-  let pixels = Math.min(most, Math.max(8, (radius * surface.width) / (right - left + 2 * radius)));
-  let scale = pixels / radius;
-  const fits = () => scale * (right - left) <= surface.width - 2 * pixels - 8 && scale * (high - low) <= 2 * (most - pixels) + 1;
-  while (pixels > 11 && !fits()) {
-    pixels *= 0.97;
-    scale = pixels / radius;
-  }
-  const larger = fits() ? 1 : pixels / radius / scaleOf(pixels);
-  scale /= larger;
+  const seen = radius * scaleWith(radius, 0) >= smallest;
+  const scale = seen ? scaleWith(radius, 0) : scaleWith(0, smallest);
+  const pixels = seen ? radius * scale : smallest;
+  const larger = pixels / (radius * scale);
   const px = (x) => pixels + 4 + (x - left) * scale;
   lanes.forEach((lane, row) => {
     const middle = laneHeight * row + size + most;
