@@ -69,7 +69,7 @@ export class Hero {
           `${more(times, "far")} and ${more(own.end / plain.end, "long")}. Textbooks say ${farPlain} both times.`;
     this.most = Math.max(own.length, plain.length) * timeFactor;
     this.titles = [
-      `spinning${state.ball ? ` ${shown(orbit.u / this.radius, 3)} rad/s` : ""}`,
+      spin === 0 ? "this one" : `spinning${state.ball ? ` ${shown(orbit.u / this.radius, 3)} rad/s` : ""}`,
       "without spin; and in textbooks, spin or not",
     ];
     this.ends = [own, plain].map((slide) => slide.end * timeFactor);
@@ -89,7 +89,7 @@ export class Hero {
     });
     const lanes = [lane(0, 1), lane(1, 0)];
     drawLanes(new CanvasSurface($("lanes")), { lanes, radius, unit }, theme);
-    drawPatch(new CanvasSurface($("patch")), { k: now.k, spin: Math.sign(now.u), force: now.force }, theme);
+    drawPatch(new CanvasSurface($("patch")), { still: now.u === 0 && now.v === 0, k: now.k, spin: Math.sign(now.u), force: now.force }, theme);
     $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
     this.bars.forEach(({ title, bar, number }, own) => {

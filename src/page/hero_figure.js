@@ -82,9 +82,9 @@ export function length(metres, unit, digits = 3) {
 const arrowShare = 0.06;  // of the patch's radius, the longest slip in it
 
 /**
- * @param scene  {k, spin: sign of the spin, force: share of f N}; k is the slip of the centre over that of the rim
+ * @param scene  {still: no point slips, k, spin: sign of the spin, force: share of f N}; k is the slip of the centre over that of the rim
  */
-export function drawPatch(surface, { k, spin, force }, theme) {
+export function drawPatch(surface, { still, k, spin, force }, theme) {
   const size = theme.textSize;
   surface.fill(0, 0, surface.width, surface.height, theme.card);
   const radius = Math.min(surface.width / 2 - 4, (surface.height - 4.4 * size) / 2);
@@ -92,7 +92,7 @@ export function drawPatch(surface, { k, spin, force }, theme) {
   surface.text(x0, 0.7 * size, "the patch, from below", { colour: theme.soft, size, align: "center", baseline: "middle" });
   surface.disc(x0, y0, radius, { fill: theme.paper, stroke: theme.soft });
   // From below, a ball that spins to the left when seen from above turns to the right.
-  const [sliding, turning] = spin === 0 || k === Infinity ? [1, 0] : [k / (1 + k), -spin / (1 + k)];
+  const [sliding, turning] = still ? [0, 0] : spin === 0 || k === Infinity ? [1, 0] : [k / (1 + k), -spin / (1 + k)];
   const step = radius / 5.5;
   for (let i = -5; i <= 5; ++i) {
     for (let j = -5; j <= 5; ++j) {

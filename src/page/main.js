@@ -65,7 +65,7 @@ function start(library) {
   const seen = (id) => $(id).clientWidth >= smallestWidth;
   const draw = () => {
     if (!store.settled) return;
-    const { contact, now, motion, motions, state, end, timeFactor } = store;
+    const { contact, now, motions, state, end, timeFactor } = store;
     if (seen("plane")) plane.draw(theme);
     if (seen("lanes")) hero.draw(theme);
     player.show();
@@ -76,7 +76,7 @@ function start(library) {
     }, theme);
     $("instant").textContent = now
       ? `${contact ? `t = ${shown(now.tau * timeFactor, 5)} s` : `τ = ${shown(now.tau, 5)}`} of ` +
-        `${shown(motion.stop * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}, k = ${shown(now.k, 4)}`
+        `${shown(end * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}${now.u === 0 && now.v === 0 ? ", no slip" : `, k = ${shown(now.k, 4)}`}`
       : "No orbit yet: click the plane.";
   };
   store.listen(({ moment }) => {

@@ -3,6 +3,7 @@ import { bodyOf, initialState } from "./page_state.js";
 import { portraitRequest } from "./portrait_request.js";
 import { isDark } from "./theme.js";
 
+const longest = 10;    // s that a ball is let roll
 const slow = 1 / 500;  // of the first slip: without units, what slides no faster counts as rolling
 
 export class Store {
@@ -91,7 +92,10 @@ export class Store {
       return rolls ? slide : { ...slide, end: plane.stop(spin, v).tau };
     };
     const [own, plain] = [slides("slide", u), slides("plain slide", 0)];
-    const end = state.part === "whole" || v === 0 ? stop : Math.min(stop, 1.3 * own.end);
+    // Also what rolls soon is seen to roll.
+    const speed = state.ball && rolls ? Math.hypot(state.ball.velocityX - v / chi, state.ball.velocityY) : 0;
+    const rolling = speed > 0 ? Math.min(longest, (6 * state.ball.radius) / speed) / this.timeFactor : 0;
+    const end = Math.max(rolling, state.part === "whole" || v === 0 ? stop : Math.min(stop, 1.3 * own.end));
     const course = (name, spin) => (spin === 0 && v === 0
       ? { slid: [0, 0], u: [0, 0] }
       : ofSystem(name, [spin, v, end], () => plane.course(spin, v, end)));

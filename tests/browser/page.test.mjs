@@ -417,6 +417,15 @@ test("a real ball is handed out in seconds, and its motion as the program's roll
   await close();
 });
 
+test("a ball that does not spin is seen to roll, and nothing of its patch slips", async () => {
+  await open("#ball=gel&orbits=0,0.5");
+  await page.evaluate(() => globalThis.page.store.move({ share: 0.7 }));
+  assert.match(await page.textContent("#instant"), /no slip/);
+  const [{ x }, radius] = await page.evaluate(() => [globalThis.page.hero.rides[1].at(1), globalThis.page.state.ball.radius]);
+  assert.ok(x > 5.9 * radius && x < 6.5 * radius, `${x} m`);
+  await close();
+});
+
 test("pucks and stones lie flat: in seconds, as the program has them, and none rolls", async () => {
   for (const ball of ["puck", "curling-stone"]) {
     await open(`#ball=${ball}`);
