@@ -103,6 +103,7 @@ std::optional<Combination> only_combination(const MatrixXd& information, double 
 double profile_reach(const Search& search, const VectorXd& best, Index place, const VectorXd& tangent, double sign,
                      double standard_error, double rise) {
   constexpr double farthest = 6;  // of a logarithm
+  constexpr double tolerance = 1e-5;
   const double least = search.cost(best);
   VectorXd last = best;
   const auto excess = [&](double reach) {
@@ -110,11 +111,12 @@ double profile_reach(const Search& search, const VectorXd& best, Index place, co
     by_last[place] = best[place] + sign * reach;
     double lowest = infinity;
     for (const VectorXd& start : {by_last, VectorXd(best + sign * reach * tangent)}) {
-      const VectorXd found = search.improved(start, place);
+      const VectorXd found = search.improved(start, place, tolerance);
       if (const double cost = search.cost(found); cost < lowest) {
         lowest = cost;
         last = found;
       }
+      if (lowest < least + rise) break;
     }
     return std::sqrt(std::max(0.0, lowest - least)) - std::sqrt(rise);
   };
@@ -128,7 +130,7 @@ double profile_reach(const Search& search, const VectorXd& best, Index place, co
     if (high > farthest || limit != best[place] + sign * high) return infinity;
     high_excess = excess(high);
   }
-  for (int i = 0; i < 20 && high - low > 1e-3 * high; ++i) {
+  for (int i = 0; i < 20 && high - low > 1e-2 * high; ++i) {
     const double share = std::clamp(-low_excess / (high_excess - low_excess), 0.1, 0.9);
     const double middle = low + share * (high - low);
     const double at = excess(middle);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr Index fewest_of_unknown_noise = 10;
 constexpr Index most_of_guess = 60, most_of_first_solution = 5000;
-constexpr double accuracy_of_guess = 1e-6, tolerance_of_guess = 1e-5;
+constexpr double accuracy_of_score = 1e-4, accuracy_of_guess = 1e-6, tolerance_of_guess = 1e-5;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -87,7 +87,7 @@ struct Functor {
   using InputType = VectorXd;
   using ValueType = VectorXd;
   using JacobianType = Eigen::MatrixXd;
-  static constexpr int InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic;
+  enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
   const Search& search;
   std::vector<Index> free;
@@ -311,14 +311,16 @@ VectorXd Search::placed(VectorXd parameters) const {
   for (Index place : free) {
     if (place > direction) linear.push_back(place);
   }
+  const bool turns = std::ranges::find(free, direction) != free.end();
+  if (linear.empty() && !turns) return parameters;
   VectorXd still = parameters;
   for (Index place : linear) still[place] = 0;
-  Eigen::MatrixXd matrix = model.derivatives(parameters, linear);
+  const Eigen::MatrixXd matrix = model.derivatives(parameters, linear);
   const auto solved = [&](const Eigen::MatrixXd& columns, const VectorXd& right, const VectorXd& weights) {
     return VectorXd(
         Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(weights.asDiagonal() * columns).solve(weights.cwiseProduct(right)));
   };
-  if (std::ranges::find(free, direction) != free.end()) {
+  if (turns) {
     // Along any direction, what friction takes of x and y is this times its cosine, and that times its sine.
     VectorXd weights = VectorXd::Zero(weight.size());
     for (Observable observable : {Observable::x, Observable::y, Observable::vx, Observable::vy}) {
@@ -340,7 +342,7 @@ VectorXd Search::placed(VectorXd parameters) const {
 }
 
 VectorXd Search::improved_from_guesses() const {
-  constexpr std::size_t most_improved = 4;
+  constexpr std::size_t most_improved = 2;
   const VectorXd given = this->given();
   const double radius = request.ball.ball.radius;
   std::vector<double> frictions{given[0]}, patches{given[1]};
@@ -364,7 +366,7 @@ VectorXd Search::improved_from_guesses() const {
     }
   }
   for (std::size_t i = 0; i < few.size(); ++i) {
-    const Search alone(requests[i], accuracy_of_guess);
+    const Search alone(requests[i], accuracy_of_score);
     for (auto& [cost, parameters] : guesses) {
       double least = std::numeric_limits<double>::infinity();
       VectorXd best;
