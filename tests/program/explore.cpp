@@ -20,7 +20,8 @@ TEST_CASE("explore writes one whole page", "[cli]") {
   CHECK_THAT(page, StartsWith("<!doctype html>") && EndsWith("</html>\n"));
   CHECK(run_program("explore -o -").out == page);
   // Every place for a part is filled, and no part is elsewhere.
-  for (const std::string absent : {"/*STYLE*/", "/*LIBRARY*/", "/*BUNDLE*/", "@VERSION@", "href=\"http", "src=\"http", "<script src"}) {
+  for (const std::string absent :
+       {"/*STYLE*/", "/*LIBRARY*/", "/*BUNDLE*/", "@VERSION@", "href=\"http", "src=\"http", "<script src"}) {
     INFO(absent);
     CHECK(page.find(absent) == std::string::npos);
   }

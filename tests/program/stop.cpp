@@ -64,9 +64,10 @@ TEST_CASE("the law is exact, or that of the body's own pressure", "[cli]") {
       CHECK(json_of(verb + " --format json" + what).at("law") == law);
     }
     const json checks = json_of("check --format json" + start).at("checks");
-    CHECK(std::ranges::any_of(checks, [&](const json& row) { return row.at("law") == law; }));
+    const auto of_law = [law = std::string(law)](const json& row) { return row.at("law") == law; };
+    CHECK(std::ranges::any_of(checks, of_law));
     if (std::string(law) != "exact") {
-      CHECK(std::ranges::all_of(checks, [&](const json& row) { return row.at("law") == law; }));
+      CHECK(std::ranges::all_of(checks, of_law));
     }
     const double tau = json_of("stop --format json" + start).at("tau_stop").get<double>();
     const auto batch = rows_of(run_program(fmt::format("stop --batch - {}", body), "mu,u0,v0\n1,1,1\n").out);
