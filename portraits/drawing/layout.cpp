@@ -190,16 +190,16 @@ PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked) {
   const double width = asked.width_mm.value_or(usual.width_mm);
   if (asked.height_mm || !asked.width_mm) return {width, asked.height_mm.value_or(usual.height_mm)};
   constexpr double around = 25, highest = 0.62;
-  const int columns = panel_columns(width, panels);
+  const int columns = panel_columns(width, panels), rows = panels / columns;
   const double shape = std::min(highest, (usual.height_mm - around) / (usual.width_mm / panels));
-  return {width, shape * width / columns * (panels / columns) + around * letter_mm(width) / letter_mm(170)};
+  return {width, shape * width / columns * rows + around * letter_mm(width) / letter_mm(170)};
 }
 
-Point panel_size(const PaperSize& size, int panels) {
-  const double letter = letter_mm(size.width_mm);
-  const int columns = panel_columns(size.width_mm, panels), rows = panels / columns;
-  return {std::max(size.width_mm / columns - 9 * letter, 10.0),
-          std::max((size.height_mm - 7 * letter) / rows - 6 * letter, 10.0)};
+Point panel_size(const PaperSize& figure, int panels) {
+  const double letter = letter_mm(figure.width_mm);
+  const int columns = panel_columns(figure.width_mm, panels), rows = panels / columns;
+  return {std::max(figure.width_mm / columns - 9 * letter, 10.0),
+          std::max((figure.height_mm - 7 * letter) / rows - 6 * letter, 10.0)};
 }
 
 namespace {
@@ -370,7 +370,8 @@ class Compositor {
         }
       }
       for (int i = column; i < count; i += columns) {
-        const double row_top = top_ - (top_ - bottom_) * (i / columns) / rows - above;
+        const int row = i / columns;
+        const double row_top = top_ - (top_ - bottom_) * row / rows - above;
         panel(i, {strip * column + before, row_top - height, strip - before - after, height}, strip * column, strip);
       }
     }

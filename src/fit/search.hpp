@@ -18,9 +18,9 @@ inline constexpr double huber_bend = 1.345;
 /// The weighted residuals of tracks, and the parameters that are free in them.
 class Search {
  public:
-  /// @param request  with checked tracks; kept by reference
+  /// @param asked     with checked tracks; kept by reference
   /// @param accuracy  as TrackModel
-  explicit Search(const FitRequest& request, double accuracy = ScaledOrbit::standard_accuracy);
+  explicit Search(const FitRequest& asked, double accuracy = ScaledOrbit::standard_accuracy);
 
   const FitRequest& request;
   TrackModel model;

@@ -34,11 +34,11 @@ class TrackModel {
   }
 
   /// What the motion gives, row by row: the series of the first track, its stop time, then the next.
-  Eigen::VectorXd values(const Eigen::VectorXd& parameters) const;
+  Eigen::VectorXd values(const Eigen::VectorXd& free) const;
 
   /// Derivatives of the values by these of the parameters, a column each. By friction and by the size of the start they
   /// are exact, by scaling; by the patch radius and by the ratio of slip to spin central differences of orbits.
-  Eigen::MatrixXd derivatives(const Eigen::VectorXd& parameters, const std::vector<Eigen::Index>& wanted) const;
+  Eigen::MatrixXd derivatives(const Eigen::VectorXd& free, const std::vector<Eigen::Index>& wanted) const;
 
   /// The parameters within what they may be: eps <= R.
   Eigen::VectorXd limited(Eigen::VectorXd parameters) const;

@@ -109,7 +109,7 @@ struct Fit {
 /// @throws std::domain_error   for a track as checked, where fewer values than 10 have no standard deviations, or
 ///                             where nothing is free
 /// @throws std::runtime_error  if the search does not converge
-Fit fit(const FitRequest& request);
+Fit fit(const FitRequest& asked);
 
 /// The same by several laws, the best by Akaike's criterion first.
 std::vector<Fit> fit_laws(const FitRequest& request, const std::vector<reduction::Law>& laws);
@@ -117,6 +117,6 @@ std::vector<Fit> fit_laws(const FitRequest& request, const std::vector<reduction
 /// What a film would give of the ball's own motion (Cramer and Rao's bound): the estimates with the errors that tracks
 /// with these times and standard deviations have; their values are not read.
 /// @throws std::domain_error  as fit, and for a series without standard deviations
-Fit plan(const FitRequest& request);
+Fit plan(const FitRequest& asked);
 
 }  // namespace contensou::fit
