@@ -9,7 +9,7 @@ namespace contensou::fit {
 namespace {
 
 constexpr int pieces = 8;
-constexpr int most_halvings = 40;
+constexpr int max_halvings = 40;
 
 }  // namespace
 
@@ -49,9 +49,8 @@ ScaledOrbit::ScaledOrbit(const reduction::Flow& flow, reduction::State start, do
     const Node left = nodes_.back();
     const double width = right.T - left.T;
     const Node middle = node_at(left.T + width / 2);
-    if (halvings < most_halvings &&
-        (far_off(left.v, left.dv, middle.v, middle.dv, right.v, right.dv, width, v_scale) ||
-         far_off(left.u, left.du, middle.u, middle.du, right.u, right.du, width, u_scale))) {
+    if (halvings < max_halvings && (far_off(left.v, left.dv, middle.v, middle.dv, right.v, right.dv, width, v_scale) ||
+                                    far_off(left.u, left.du, middle.u, middle.du, right.u, right.du, width, u_scale))) {
       ahead.back().second = halvings + 1;
       ahead.emplace_back(middle, halvings + 1);
       continue;

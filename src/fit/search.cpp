@@ -19,8 +19,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr Index fewest_of_unknown_noise = 10;
-constexpr Index most_of_guess = 60, most_of_first_solution = 5000;
+constexpr Index min_of_unknown_noise = 10;
+constexpr Index max_of_guess = 60, max_of_first_solution = 5000;
 constexpr double accuracy_of_score = 1e-4, accuracy_of_guess = 1e-6, tolerance_of_guess = 1e-5;
 
 double median(std::vector<double> values) {
@@ -51,9 +51,9 @@ std::vector<double> local_errors(const Track& track, const Series& series) {
   std::vector<double> errors;
   for (std::size_t i = 1; i + 1 < known.size(); ++i) {
     const Index before = known[i - 1], at = known[i], after = known[i + 1];
-    const double share = (track.t[at] - track.t[before]) / (track.t[after] - track.t[before]);
-    const double error = series.value[at] - (1 - share) * series.value[before] - share * series.value[after];
-    errors.push_back(std::abs(error) / std::sqrt(1 + share * share + (1 - share) * (1 - share)));
+    const double fraction = (track.t[at] - track.t[before]) / (track.t[after] - track.t[before]);
+    const double error = series.value[at] - (1 - fraction) * series.value[before] - fraction * series.value[after];
+    errors.push_back(std::abs(error) / std::sqrt(1 + fraction * fraction + (1 - fraction) * (1 - fraction)));
   }
   return errors;
 }
@@ -176,10 +176,10 @@ Search::Search(const FitRequest& asked, double accuracy)
     const auto place = static_cast<std::size_t>(observable);
     if (!estimated[place]) continue;
     const auto count = static_cast<Index>(rows_of[place].size());
-    if (count < fewest_of_unknown_noise || errors[place].empty()) {
+    if (count < min_of_unknown_noise || errors[place].empty()) {
       throw std::domain_error(fmt::format(
           "fit: {} has {} values and no standard deviations; from fewer than {} values they cannot be estimated", name,
-          count, fewest_of_unknown_noise));
+          count, min_of_unknown_noise));
     }
     const double sd = std::max(sd_by_median(errors[place]), 1e-9 * largest[place]);
     for (Index at : rows_of[place]) weight[at] = sd > 0 ? 1 / sd : 1;
@@ -282,7 +282,7 @@ VectorXd Search::given() const {
 
 VectorXd Search::solve() {
   // Of a long film first a part, then all of it.
-  std::vector<Track> part = with_noise(thinned(request.tracks, most_of_first_solution));
+  std::vector<Track> part = with_noise(thinned(request.tracks, max_of_first_solution));
   FitRequest smaller = request;
   smaller.tracks = std::move(part);
   VectorXd parameters = Search(smaller, accuracy_of_guess).improved_from_guesses();
@@ -353,7 +353,7 @@ VectorXd Search::improved_from_guesses() const {
     for (double ratio : {1e-3, 4e-3, 0.015, 0.05, 0.15, 0.5}) patches.push_back(std::log(ratio * radius));
   }
   // Each track by itself, of few instants.
-  const std::vector<Track> few = with_noise(thinned(request.tracks, most_of_guess));
+  const std::vector<Track> few = with_noise(thinned(request.tracks, max_of_guess));
   std::vector<FitRequest> requests;
   for (const Track& track : few) {
     requests.push_back({request.ball, request.law, {track}, request.free, true});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fit/scaled_orbit.hpp"
 
@@ -17,10 +18,10 @@ namespace {
 constexpr double ratio_step = 1e-3;
 constexpr double angle_step = 1e-4;
 
-constexpr double least_ln_friction = -9.2, most_ln_friction = 2.3, least_ln_ratio = -14;
+constexpr double min_ln_friction = -9.2, max_ln_friction = 2.3, min_ln_ratio = -14;
 
 /// What friction takes of the velocity of the centre for each m/s of slip (Zh98 after (2.5)).
-constexpr double share = 2.0 / 7;
+constexpr double velocity_for_slip = 2.0 / 7;
 
 double number(const VectorXd& parameters, Parameter parameter, std::size_t track) {
   return parameters[TrackModel::place(parameter, track)];
@@ -67,77 +68,55 @@ struct TrackModel::Motion {
     return result;
   }
 
-  /// The columns of every series, from those of the orbit.
-  ArrayXd value(Observable observable, const Columns& now) const {
-    const double cosine = std::cos(of(Parameter::direction)), sine = std::sin(of(Parameter::direction));
-    switch (observable) {
-      case Observable::slip:
-        return now.v;
-      case Observable::spin:
-        return now.u / radius;
-      case Observable::x:
-        return of(Parameter::x) + of(Parameter::vx) * t - share * cosine * (v0() * t - now.slid);
-      case Observable::y:
-        return of(Parameter::y) + of(Parameter::vy) * t - share * sine * (v0() * t - now.slid);
-      case Observable::vx:
-        return of(Parameter::vx) - share * cosine * (v0() - now.v);
-      case Observable::vy:
-        return of(Parameter::vy) - share * sine * (v0() - now.v);
-      case Observable::angle:
-        break;
-    }
-    return of(Parameter::angle) + now.turned / radius;
-  }
-
-  /// What a change of the orbit's columns, and of v0, changes of a series.
-  ArrayXd change(Observable observable, const Columns& by, double v0_by) const {
-    const double cosine = std::cos(of(Parameter::direction)), sine = std::sin(of(Parameter::direction));
+  /// What the orbit, with the slip v0 at the start, makes of a series with that direction of the slip: linear in both, so
+  /// also what changes of them do.
+  ArrayXd of_orbit(Observable observable, const Columns& by, double v0_by, double direction) const {
+    const double cosine = std::cos(direction), sine = std::sin(direction);
     switch (observable) {
       case Observable::slip:
         return by.v;
       case Observable::spin:
         return by.u / radius;
       case Observable::x:
-        return share * cosine * (by.slid - v0_by * t);
+        return velocity_for_slip * cosine * (by.slid - v0_by * t);
       case Observable::y:
-        return share * sine * (by.slid - v0_by * t);
+        return velocity_for_slip * sine * (by.slid - v0_by * t);
       case Observable::vx:
-        return share * cosine * (by.v - v0_by);
+        return velocity_for_slip * cosine * (by.v - v0_by);
       case Observable::vy:
-        return share * sine * (by.v - v0_by);
+        return velocity_for_slip * sine * (by.v - v0_by);
       case Observable::angle:
         break;
     }
     return by.turned / radius;
   }
+  ArrayXd of_orbit(Observable observable, const Columns& by, double v0_by) const {
+    return of_orbit(observable, by, v0_by, of(Parameter::direction));
+  }
+
+  /// A series, from the columns of the orbit.
+  ArrayXd value(Observable observable, const Columns& now) const {
+    ArrayXd result = of_orbit(observable, now, v0());
+    if (observable == Observable::x) result += of(Parameter::x) + of(Parameter::vx) * t;
+    if (observable == Observable::y) result += of(Parameter::y) + of(Parameter::vy) * t;
+    if (observable == Observable::vx) result += of(Parameter::vx);
+    if (observable == Observable::vy) result += of(Parameter::vy);
+    if (observable == Observable::angle) result += of(Parameter::angle);
+    return result;
+  }
 
   /// The derivative of a series by a number that only places the track.
   ArrayXd placing(Observable observable, Parameter parameter, const Columns& now) const {
-    const double cosine = std::cos(of(Parameter::direction)), sine = std::sin(of(Parameter::direction));
-    const ArrayXd one = ArrayXd::Ones(t.size());
     using enum Observable;
-    switch (parameter) {
-      case Parameter::direction:
-        if (observable == x) return share * sine * (v0() * t - now.slid);
-        if (observable == y) return -share * cosine * (v0() * t - now.slid);
-        if (observable == vx) return share * sine * (v0() - now.v);
-        if (observable == vy) return -share * cosine * (v0() - now.v);
-        break;
-      case Parameter::vx:
-        if (observable == vx) return one;
-        if (observable == x) return t;
-        break;
-      case Parameter::vy:
-        if (observable == vy) return one;
-        if (observable == y) return t;
-        break;
-      default:
-        if ((parameter == Parameter::x && observable == x) || (parameter == Parameter::y && observable == y) ||
-            (parameter == Parameter::angle && observable == angle)) {
-          return one;
-        }
-    }
-    return ArrayXd::Zero(t.size());
+    const bool turns = observable != slip && observable != spin && observable != angle;
+    if (parameter == Parameter::direction && turns)
+      return of_orbit(observable, now, v0(), of(Parameter::direction) + std::numbers::pi / 2);
+    if ((parameter == Parameter::vx && observable == x) || (parameter == Parameter::vy && observable == y)) return t;
+    const bool itself =
+        (parameter == Parameter::x && observable == x) || (parameter == Parameter::y && observable == y) ||
+        (parameter == Parameter::vx && observable == vx) || (parameter == Parameter::vy && observable == vy) ||
+        (parameter == Parameter::angle && observable == angle);
+    return ArrayXd::Constant(t.size(), itself ? 1 : 0);
   }
 };
 
@@ -150,8 +129,8 @@ TrackModel::TrackModel(const si::Experiment& ball, const reduction::Law& law, co
 }
 
 VectorXd TrackModel::limited(VectorXd parameters) const {
-  parameters[0] = std::clamp(parameters[0], least_ln_friction, most_ln_friction);
-  parameters[1] = std::clamp(parameters[1], least_ln_ratio + std::log(radius_), std::log(radius_));
+  parameters[0] = std::clamp(parameters[0], min_ln_friction, max_ln_friction);
+  parameters[1] = std::clamp(parameters[1], min_ln_ratio + std::log(radius_), std::log(radius_));
   return parameters;
 }
 
@@ -228,7 +207,7 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
           static_cast<Parameter>(shared ? at : shared_parameters + (at - shared_parameters) % start_parameters);
       Columns by;
       double v0_by = 0;
-      bool of_orbit = true;
+      bool is_of_orbit = true;
       switch (parameter) {
         case Parameter::friction:
           by = by_friction;
@@ -244,16 +223,16 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
           by = by_start(0, radius_);
           break;
         default:
-          of_orbit = false;
+          is_of_orbit = false;
       }
       Index row = first_row;
       for (const Series& series : track.series) {
         result.col(static_cast<Index>(column)).segment(row, T.size()) =
-            of_orbit ? motion.change(series.observable, by, v0_by).matrix()
-                     : motion.placing(series.observable, parameter, now).matrix();
+            is_of_orbit ? motion.of_orbit(series.observable, by, v0_by).matrix()
+                        : motion.placing(series.observable, parameter, now).matrix();
         row += T.size();
       }
-      if (track.stop_time && of_orbit) result(row, static_cast<Index>(column)) = by.stop;
+      if (track.stop_time && is_of_orbit) result(row, static_cast<Index>(column)) = by.stop;
     }
     first_row += T.size() * static_cast<Index>(track.series.size()) + (track.stop_time ? 1 : 0);
   }

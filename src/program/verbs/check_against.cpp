@@ -55,7 +55,7 @@ ModelBeside beside(std::string name, const Motion& motion, const std::vector<Ins
     const si::SlipAndSpin modelled = motion(t - instants.front().t);
     const auto take = [&, at = t](Deviation& deviation, double error, double unit) {
       if (error > deviation.error || std::isinf(deviation.t)) {
-        deviation = {.error = error, .share = error / unit, .t = at, .leaves = deviation.leaves};
+        deviation = {.error = error, .relative = error / unit, .t = at, .leaves = deviation.leaves};
       }
       if (error / unit > tolerance) deviation.leaves = std::min(deviation.leaves, at);
     };
@@ -67,7 +67,7 @@ ModelBeside beside(std::string name, const Motion& motion, const std::vector<Ins
 
 }  // namespace
 
-double ModelBeside::worst() const { return std::max(slip.share, spin.share); }
+double ModelBeside::worst() const { return std::max(slip.relative, spin.relative); }
 
 const ModelBeside& MotionsBeside::nearest() const {
   constexpr double as_close = 1e-9;

@@ -13,7 +13,7 @@ namespace contensou::program {
 /// How far slip or spin of a table is from that of a model.
 struct Deviation {
   double error = 0;                                         ///< the worst, in m/s or rad/s
-  double share = 0;                                         ///< the same, of the start
+  double relative = 0;                                      ///< the same, of the start
   double t = std::numeric_limits<double>::infinity();       ///< s in the table, of the worst row
   double leaves = std::numeric_limits<double>::infinity();  ///< s in the table, of the first row beyond the tolerance
 };
@@ -23,7 +23,7 @@ struct ModelBeside {
   std::string name;
   Deviation slip, spin;
 
-  double worst() const;  ///< share
+  double worst() const;  ///< relative
 };
 
 /// A table of t, slip and spin beside the motions of a ball that starts as it does.

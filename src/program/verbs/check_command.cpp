@@ -133,7 +133,7 @@ std::string text_beside(const MotionsBeside& motions, const Digits& digits) {
     text += fmt::format("{:<{}}{:>{}}{:>{}}\n", name, width, slip, digits.width(), spin, digits.width());
   };
   add(heading, "slip", "spin");
-  for (const auto& [name, slip, spin] : motions.models) add(label(name), digits(slip.share), digits(spin.share));
+  for (const auto& [name, slip, spin] : motions.models) add(label(name), digits(slip.relative), digits(spin.relative));
   return text + fmt::format("\nnearest: {}\n", label(motions.nearest().name));
 }
 
@@ -192,7 +192,7 @@ class CheckCommand final : public Verb {
     const MotionsBeside motions = compare_with_motions(against_, start_, law, tolerance_.value_or(standard_tolerance));
     const auto row = [&](const std::string& name, const Deviation& off) {
       return Row{law.name(),
-                 {name, off.share, tolerance_.value_or(standard_tolerance)},
+                 {name, off.relative, tolerance_.value_or(standard_tolerance)},
                  {{"error", off.error}, {"t", off.t}, {"leaves", off.leaves}}};
     };
     const auto& [own, slip, spin] = motions.models.front();
@@ -205,7 +205,7 @@ class CheckCommand final : public Verb {
     answer.members["models"] = Json::array();
     for (const ModelBeside& model : motions.models) {
       answer.members["models"].push_back(
-          {{"model", model.name}, {"slip", model.slip.share}, {"spin", model.spin.share}});
+          {{"model", model.name}, {"slip", model.slip.relative}, {"spin", model.spin.relative}});
     }
     answer.members["nearest"] = motions.nearest().name;
     answer.text = [&](const Digits& digits) { return as_text(rows, digits) + text_beside(motions, digits); };
