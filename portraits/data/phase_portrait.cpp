@@ -166,39 +166,43 @@ class OrbitTracer {
 
   std::vector<Seed> seeds(int count) const {
     struct Step {
-      Seed at;
-      double across;
+      double place, across;
     };
-    std::vector<Step> border;
-    constexpr int steps = 2000;
-    double across = 0;
-    const auto walk = [&](auto place, bool along_top) {
-      for (int i = 0; i < steps; ++i) {
-        const Seed at = place((i + 0.5) / steps);
-        // Rates over their speeds depend on k alone, and below this one no more.
-        const double k = std::exp(std::max(ln_k(at), -20.0));
-        const auto rate = system_.field({1 / system_.mu(), k});
-        const double du = rate.u * system_.mu() * at.u / window_.u;
-        const double dv = rate.v / k * scale_.slope(at.ln_v);
-        across += std::abs(along_top ? dv : du) / std::hypot(du, dv) / steps;
-        border.push_back({at, across});
-      }
+    // Places 0 to 1 are on the upper border, from there to 2 on the right one, downwards.
+    const auto on_border = [this](double place) {
+      return place < 1 ? Seed{place * window_.u, std::log(window_.v)} : Seed{window_.u, scale_.ln_v(2 - place)};
     };
-    walk([&](double fraction) { return Seed{fraction * window_.u, std::log(window_.v)}; }, true);
-    walk([&](double fraction) { return Seed{window_.u, scale_.ln_v(1 - fraction)}; }, false);
+    std::vector<Step> border{{0, 0}};
+    constexpr int steps = 500;  // of a side
+    for (int i = 0; i < 2 * steps; ++i) {
+      const Seed at = on_border((i + 0.5) / steps);
+      // Rates over their speeds depend on k alone, and below this one no more.
+      const double k = std::exp(std::max(ln_k(at), -20.0));
+      const auto rate = system_.field({1 / system_.mu(), k});
+      const double du = rate.u * system_.mu() * at.u / window_.u;
+      const double dv = rate.v / k * scale_.slope(at.ln_v);
+      const double across = std::abs(i < steps ? dv : du) / std::hypot(du, dv) / steps;
+      border.push_back({static_cast<double>(i + 1) / steps, border.back().across + across});
+    }
 
     std::vector<Seed> result;
     for (int i = 0; i < count; ++i) {
-      const double wanted = across * (i + 0.5) / count;
-      result.push_back(std::ranges::lower_bound(border, wanted, {}, &Step::across)->at);
+      const double wanted = border.back().across * (i + 0.5) / count;
+      const auto after = std::ranges::lower_bound(border, wanted, {}, &Step::across), before = after - 1;
+      const double fraction = (wanted - before->across) / (after->across - before->across);
+      result.push_back(on_border(std::lerp(before->place, after->place, fraction)));
     }
     if (count == 0) return result;
     for (const auto& curve : flow_.solution().curves()) {
       // A sector between two rays that is too narrow for any of these has one in its middle.
       const auto inside = [&](const Seed& at) { return flow_.solution().through(ln_k(at)) == curve; };
       if (std::ranges::any_of(result, inside)) continue;
-      const auto first = std::ranges::find_if(border, inside, &Step::at);
-      result.push_back(first[std::ranges::count_if(border, inside, &Step::at) / 2].at);
+      std::vector<Seed> sector;
+      for (int i = 0; i < 2 * steps; ++i) {
+        const Seed at = on_border((i + 0.5) / steps);
+        if (inside(at)) sector.push_back(at);
+      }
+      result.push_back(sector.at(sector.size() / 2));
     }
     return result;
   }
@@ -209,13 +213,16 @@ class OrbitTracer {
     const double factor = system_.mu() * start.u * std::exp(-ln_w(ln_k_start));
     const double v = speed(start);
     Track track{{start.u, v, start.ln_v, ln_k_start, flow_.orbit({start.u, v}).stop_time()}};
+    double last_height = scale_.height(start.ln_v);
     for (Eigen::Index row = 0; row < curve.rows(); ++row) {
       if (!(curve.ln_k[row] < ln_k_start)) continue;
       const Instant here = curve.at(row, factor), &last = track.back();
       const double u = std::abs(here.u - last.u) / window_.u;
-      const double height = std::abs(scale_.height(here.ln_v) - scale_.height(last.ln_v));
+      const double height = scale_.height(here.ln_v);
       constexpr double near = 0.006;
-      if (std::max({u, height, turn(here, last) / 20}) > near) track.push_back(here);
+      if (std::max({u, std::abs(height - last_height), turn(here, last) / 20}) <= near) continue;
+      track.push_back(here);
+      last_height = height;
     }
     track.push_back(curve.at(curve.rows() - 1, factor));
     return columns(track);

@@ -1,5 +1,6 @@
 #include "contensou/portraits/speed_scale.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace contensou::portraits {
@@ -15,13 +16,17 @@ double SpeedScale::slope(double ln_v) const {
 }
 
 double SpeedScale::ln_v(double height) const {
-  // x^s is between h and 2h, or less where h > 1/2; halved in ln x^s.
-  double low = std::log(height) - 1, high = std::log(2 * height);
+  if (linear()) return std::log(top) + std::log(height);
+  // Newton's method in l = ln x^s, from above: the height is convex in l, so each step falls and none falls too far.
+  const double twice = std::log(2 * height);
+  double l = std::min(twice, exponent * twice);
   for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    ((std::exp(middle / exponent) + std::exp(middle)) / 2 < height ? low : high) = middle;
+    const double x = std::exp(l / exponent), power = std::exp(l);
+    const double step = (x + power - 2 * height) / (x / exponent + power);
+    l -= step;
+    if (!(step > 1e-15)) break;
   }
-  return std::log(top) + (low + high) / 2 / exponent;
+  return std::log(top) + l / exponent;
 }
 
 }  // namespace contensou::portraits

@@ -54,8 +54,8 @@ class LabelPlace {
     for (auto other = std::ranges::lower_bound(points, at.x - reach, {}, &Point::x);
          other != points.end() && other->x < at.x + reach; ++other) {
       room = std::min(room, distance(at, *other));
+      if (!is_more(room, best_)) return;
     }
-    if (!is_more(room, best_)) return;
     best_ = room;
     where_ = at;
   }
@@ -334,22 +334,23 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
   using Style = PortraitStyle::Arrows;
   std::vector<TimedArrow> result;
   if (drawing_.style.arrows == Style::none) return result;
-  const auto add = [&](const Arrow& arrow, double left) {
+  const auto has_room = [&](const Arrow& arrow) {
     const Point at = on_paper(panel_, arrow.at);
-    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !inside(at, 0.03)) return;
+    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !inside(at, 0.03)) return false;
     const auto crowds = [&](Point other) {
       return std::hypot((other.x - at.x) * drawing_.panel_mm.x, (other.y - at.y) * drawing_.panel_mm.y) <
              keep_off_ * drawing_.letter;
     };
-    if (std::ranges::any_of(heads_, crowds)) return;
+    if (std::ranges::any_of(heads_, crowds)) return false;
     heads_.push_back(at);
-    result.push_back({arrow, left});
+    return true;
   };
   // With the time of the nearest row.
   const auto add_there = [&](const Arrow& arrow) {
+    if (!has_room(arrow)) return;
     const auto nearest =
         std::ranges::min_element(line, {}, [&](Point point) { return paper_distance(panel_, point, arrow.at); });
-    add(arrow, copy.factor * copy.orbit.tau_left[nearest - line.begin()]);
+    result.push_back({arrow, copy.factor * copy.orbit.tau_left[nearest - line.begin()]});
   };
   if (drawing_.style.arrows == Style::time) {
     for (Eigen::Index i = 1; i < copy.orbit.rows(); ++i) {
@@ -357,7 +358,8 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
       const Point from = line[static_cast<std::size_t>(i) - 1], to = line[static_cast<std::size_t>(i)];
       for (double time : drawing_.bands.arrows) {
         if (!(now <= time && time < before)) continue;
-        add({between(from, to, (before - time) / (before - now)), {to.x - from.x, to.y - from.y}}, time);
+        const Arrow arrow{between(from, to, (before - time) / (before - now)), {to.x - from.x, to.y - from.y}};
+        if (has_room(arrow)) result.push_back({arrow, time});
       }
     }
   }
