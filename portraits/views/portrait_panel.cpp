@@ -92,10 +92,10 @@ Colour viridis(double fraction, double white) {
 Palette palette(bool screen) {
   std::vector<Colour> times;
   constexpr int steps = 64;
-  // Near the stop: on paper the darkest, on a dark screen the lightest.
+  // Near the stop: on paper the darkest, on a dark screen the lightest. All have 3:1 to the ground, regions included.
   for (int i = 0; i <= steps; ++i) {
     const double fraction = static_cast<double>(i) / steps;
-    times.push_back(viridis(screen ? 1 - 0.65 * fraction : 0.8 * fraction));
+    times.push_back(viridis(screen ? 1 - 0.6 * fraction : 0.55 * fraction));
   }
   if (screen) {
     return {{{0x10141c}, {0xe3e8f0}, {0x9aa5b8}, 1.25, 1.15},

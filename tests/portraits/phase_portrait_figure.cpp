@@ -73,6 +73,16 @@ class Clock {
   portraits::SpeedScale scale_;
 };
 
+/// Relative luminance of WCAG 2.
+double luminance(portraits::Colour colour) {
+  double sum = 0;
+  for (const auto& [shift, weight] : {std::pair{16, 0.2126}, {8, 0.7152}, {0, 0.0722}}) {
+    const double part = ((colour.rgb >> shift) & 0xFF) / 255.0;
+    sum += weight * (part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+
 /// Heads of arrows on orbits: those on the axes have the axes' colour.
 std::vector<portraits::Arrow> heads_on_orbits(const Panel& panel) {
   std::vector<portraits::Arrow> heads;
@@ -163,12 +173,32 @@ TEST_CASE("Colours by time cut orbits into pieces and lose none", "[invariant]")
     // As many colours as bands, from dark to light: legible in grey.
     double before = -1;
     for (portraits::Colour colour : figure.colour_bar->colours) {
-      const double grey =
-          0.2126 * ((colour.rgb >> 16) & 0xFF) + 0.7152 * ((colour.rgb >> 8) & 0xFF) + 0.0722 * (colour.rgb & 0xFF);
-      CHECK(grey > before);
-      before = grey;
+      CHECK(luminance(colour) > before);
+      before = luminance(colour);
     }
-    CHECK(before < 200);  // and still seen on white
+  }
+}
+
+TEST_CASE("Every colour of an orbit has a contrast of 3:1 to what it is drawn on", "[table]") {
+  const auto contrast = [](portraits::Colour one, portraits::Colour other) {
+    const double ratio = (luminance(one) + 0.05) / (luminance(other) + 0.05);
+    return std::max(ratio, 1 / ratio);
+  };
+  for (bool screen : {false, true}) {
+    for (double mu : {0.9, 0.3, 0.05, 0.0035}) {
+      const Figure figure = draw(portrait_of(mu, {.highlight = {{0.8, 3.5}}}), {}, {.screen = screen});
+      const Panel& panel = figure.panels.front();
+      std::vector<portraits::Colour> grounds{figure.theme.ground};
+      for (const auto& region : panel.regions) grounds.push_back(region.colour);
+      std::vector<portraits::Colour> colours = figure.colour_bar.value().colours;
+      for (const auto& layer : panel.lines) {
+        const bool halo = layer.stroke.colour.rgb == figure.theme.ground.rgb;
+        if (!halo) colours.push_back(layer.stroke.colour);
+      }
+      for (portraits::Colour ground : grounds) {
+        for (portraits::Colour colour : colours) CHECK(contrast(colour, ground) >= 3);
+      }
+    }
   }
 }
 
