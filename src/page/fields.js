@@ -34,7 +34,7 @@ export function numberField(input, output, use) {
   return {
     /** Shows a value that came from elsewhere, unless the reader is typing. */
     show(value) {
-      const text = last = String(value);
+      const text = last = Math.abs(value) >= 1e6 ? value.toExponential() : String(value);
       if (document.activeElement === input) return;
       if (input.value !== text) input.value = text;
       say("");

@@ -2,84 +2,12 @@
 //   CONTENSOU_PROGRAM=.../contensou node page.test.mjs
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
-import { chromium } from "playwright-core";
-
-const program = process.env.CONTENSOU_PROGRAM;
-const folder = mkdtempSync(join(tmpdir(), "contensou-page-"));
-const file = join(folder, "page.html");
-const address = pathToFileURL(file).href;
-
-let browser;
-let page;
-let complaints;
-
-before(async () => {
-  execFileSync(program, ["explore", "-o", file]);
-  browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"] });
-});
-
-after(async () => {
-  await browser?.close();
-  rmSync(folder, { recursive: true });
-});
-
-async function open(fragment = "", options = {}, orbits = true) {
-  // Without motion, unless a test asks for it.
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, reducedMotion: "reduce", ...options });
-  page = await context.newPage();
-  complaints = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
-  page.on("pageerror", (error) => complaints.push(error.message));
-  page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks for ${request.url()}`));
-  await page.goto(address + fragment);
-  await (orbits ? page.waitForSelector("#orbits li") : page.waitForFunction(() => globalThis.page?.store.settled));
-}
-
-async function close() {
-  assert.deepEqual(complaints, []);
-  await page.context().close();
-}
-
-const stopTimes = () => page.$$eval("#orbits li", (items) => items.map((item) => Number(item.dataset.tau)));
-const state = () => page.evaluate(() => globalThis.page.state);
-
-function programStop(...words) {
-  return JSON.parse(execFileSync(program, ["stop", ...words.map(String), "--format", "json"], { encoding: "utf8" })).tau_stop;
-}
-
-function assertClose(measured, wanted, tolerance, what) {
-  const error = Math.abs(measured / wanted - 1);
-  assert.ok(error <= tolerance, `${what}: got ${measured}, wanted ${wanted}, relative error ${error}`);
-}
-
-/** Clicks where u and v are in a panel of the view. */
-async function clickPlane(u, v, panel = 0) {
-  const { x, y } = await page.evaluate(([u, v, panel]) => {
-    const { frames, planeScene: { view, context } } = globalThis.page;
-    const [x, y] = view.panels[panel].place({ u, v, lnV: Math.log(v), lnK: Math.log(v / (context.mu * Math.abs(u))) }, context);
-    const box = document.getElementById("plane").getBoundingClientRect();
-    return { x: box.left + frames[panel].px(x), y: box.top + frames[panel].py(y) };
-  }, [u, v, panel]);
-  await page.mouse.click(x, y);
-}
-
-async function dragSlider(id, from, to, steps) {
-  const box = await page.locator(`#${id}`).boundingBox();
-  const y = box.y + box.height / 2;
-  await page.mouse.move(box.x + from * box.width, y);
-  await page.mouse.down();
-  for (let i = 1; i <= steps; ++i) {
-    await page.mouse.move(box.x + (from + ((to - from) * i) / steps) * box.width, y);
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
-  }
-  await page.mouse.up();
-}
+import { assertClose, clickPlane, close, dragSlider, file, folder, open, page, pixelOf, program, programStop, saved, state, stopTimes } from "./browser.mjs";
 
 const help = execFileSync(program, ["help", "views"], { encoding: "utf8" });
 const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name);
@@ -261,14 +189,6 @@ test("Back takes a change back", async () => {
   await close();
 });
 
-/** The pixel of a state in the plane. */
-const pixelOf = (u, v) => page.evaluate(([u, v]) => {
-  const { frames: [frame], planeScene: { view, context } } = globalThis.page;
-  const [x, y] = view.panels[0].place({ u, v, lnV: Math.log(v), lnK: Math.log(v / (context.mu * Math.abs(u))) }, context);
-  const box = document.getElementById("plane").getBoundingClientRect();
-  return [box.left + frame.px(x), box.top + frame.py(y)];
-}, [u, v]);
-
 test("a start is dragged, a click chooses the nearest orbit, Escape clears the isochrone, and all are cleared", async () => {
   await open("#law=exact&mu=0.3&window=1,4&orbits=0.8,3.5;-0.5,1&chosen=0");
   await page.mouse.move(...await pixelOf(-0.5, 1));
@@ -401,13 +321,11 @@ test("what is wrong with a start is said beside it", async () => {
 
 test("a real ball is handed out in seconds, and its motion as the program's roll", async () => {
   await open("#ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4");
-  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-csv")]);
-  const [header, ...rows] = readFileSync(await download.path(), "utf8").trim().split("\n");
+  const [header, ...rows] = (await saved("#save-csv")).toString().trim().split("\n");
   assert.equal(header, "orbit,t,tau,u,v,ln_v,k");
   const [, t, tau] = rows.at(-1).split(",").map(Number);
   assertClose(t / tau, await page.evaluate(() => globalThis.page.store.timeFactor), 1e-14, "seconds");
-  const [film] = await Promise.all([page.waitForEvent("download"), page.click("#save-film")]);
-  const webm = readFileSync(await film.path());
+  const webm = await saved("#save-film");
   assert.equal(webm.subarray(0, 4).toString("hex"), "1a45dfa3");
   assert.ok(webm.length > 10000, `${webm.length} bytes`);
   const words = (await page.textContent("#roll-command")).split(" ");
@@ -803,8 +721,7 @@ test("another law is drawn against the first, and leaves again", async () => {
   assert.ok((await legend()).includes("law pade") && (await legend()).includes("law exact"));
   assert.match(await page.getAttribute("#plane", "aria-label"), /exact against pade/);
   assert.match(await page.textContent("#command"), / --against pade /);
-  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-svg")]);
-  assert.match(readFileSync(await download.path(), "utf8"), />law pade</);
+  assert.match((await saved("#save-svg")).toString(), />law pade</);
   await page.click("#copy-link");
   assert.match(page.url(), /against=pade/);
   assert.ok(await page.evaluate(() => document.querySelector("#against option[value=exact]").disabled));
@@ -875,10 +792,6 @@ test("a click in the view of time is a moment", async () => {
 
 test("figures and numbers are handed out", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5;-0.5,1");
-  const saved = async (button) => {
-    const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
-    return readFileSync(await download.path());
-  };
   const svg = (await saved("#save-svg")).toString();
   assert.ok(svg.startsWith("<svg xmlns=") && svg.endsWith("</svg>\n"));
   assert.ok(!/NaN|Infinity|undefined/.test(svg));

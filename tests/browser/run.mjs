@@ -7,4 +7,4 @@ try {
   console.log("The page is not tested in a browser: playwright-core is missing; npm ci --prefix tests/browser installs it");
   process.exit(skipped);
 }
-await import("./page.test.mjs");
+for (const file of ["page", "mended"]) await import(`./${file}.test.mjs`);

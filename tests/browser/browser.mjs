@@ -1,0 +1,92 @@
+// What the tests of the page share: a browser, the page in it, what it shows.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before } from "node:test";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+export const program = process.env.CONTENSOU_PROGRAM;
+export const folder = mkdtempSync(join(tmpdir(), "contensou-page-"));
+export const file = join(folder, "page.html");
+const address = pathToFileURL(file).href;
+
+let browser;
+export let page;
+let complaints;
+
+before(async () => {
+  execFileSync(program, ["explore", "-o", file]);
+  browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"] });
+});
+
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+/**
+ * @param ready   what the page is ready with: true, an orbit; false, a state; null, nothing
+ * @param before  runs in the page before its own scripts
+ */
+export async function open(fragment = "", options = {}, ready = true, before = null) {
+  // Without motion, unless a test asks for it.
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, reducedMotion: "reduce", ...options });
+  page = await context.newPage();
+  complaints = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks for ${request.url()}`));
+  if (before) await page.addInitScript(before);
+  await page.goto(address + fragment);
+  if (ready) await page.waitForSelector("#orbits li");
+  else if (ready === false) await page.waitForFunction(() => globalThis.page?.store.settled);
+}
+
+/** @param expected  what the console may say */
+export async function close(expected = []) {
+  assert.deepEqual(complaints.filter((complaint) => !expected.some((pattern) => pattern.test(complaint))), []);
+  await page.context().close();
+}
+
+export const stopTimes = () => page.$$eval("#orbits li", (items) => items.map((item) => Number(item.dataset.tau)));
+export const state = () => page.evaluate(() => globalThis.page.state);
+
+export function programStop(...words) {
+  return JSON.parse(execFileSync(program, ["stop", ...words.map(String), "--format", "json"], { encoding: "utf8" })).tau_stop;
+}
+
+export function assertClose(measured, wanted, tolerance, what) {
+  const error = Math.abs(measured / wanted - 1);
+  assert.ok(error <= tolerance, `${what}: got ${measured}, wanted ${wanted}, relative error ${error}`);
+}
+
+/** The pixel of a state in a panel of the plane. */
+export const pixelOf = (u, v, panel = 0) => page.evaluate(([u, v, panel]) => {
+  const { frames: { [panel]: frame }, planeScene: { view, context } } = globalThis.page;
+  const [x, y] = view.panels[panel].place({ u, v, lnV: Math.log(v), lnK: Math.log(v / (context.mu * Math.abs(u))) }, context);
+  const box = document.getElementById("plane").getBoundingClientRect();
+  return [box.left + frame.px(x), box.top + frame.py(y)];
+}, [u, v, panel]);
+
+export const clickPlane = async (u, v, panel) => page.mouse.click(...await pixelOf(u, v, panel));
+
+export async function dragSlider(id, from, to, steps) {
+  const box = await page.locator(`#${id}`).boundingBox();
+  const y = box.y + box.height / 2;
+  await page.mouse.move(box.x + from * box.width, y);
+  await page.mouse.down();
+  for (let i = 1; i <= steps; ++i) {
+    await page.mouse.move(box.x + (from + ((to - from) * i) / steps) * box.width, y);
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
+  }
+  await page.mouse.up();
+}
+
+/** What a button hands out. */
+export async function saved(button) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+  return readFileSync(await download.path());
+}
