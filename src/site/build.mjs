@@ -77,7 +77,8 @@ function parse(path) {
   texts.set(path, { tokens, env, headings, title: headings[0].title });
 }
 const plain = (token) => token.children.map((each) => (["text", "code_inline"].includes(each.type) ? each.content : "")).join("");
-const html = (tokens, env) => markdown.renderer.render(tokens, markdown.options, env).replaceAll("<th></th>", "<td></td>");
+const html = (tokens, env) => markdown.renderer.render(tokens, markdown.options, env).replaceAll("<th></th>", "<td></td>")
+  .replaceAll('<span class="katex-display">', '<span class="katex-display" role="group" aria-label="Formula" tabindex="0">');
 
 function page(path, title, body) {
   const root = relative(dirname(path), ".") || ".";
