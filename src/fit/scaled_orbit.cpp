@@ -3,108 +3,244 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+
+#include <Eigen/LU>
 
 namespace contensou::fit {
 
 namespace {
 
-constexpr int pieces = 8;
-constexpr int max_halvings = 40;
+constexpr double near_axis = 1e-12;  ///< of k or 1/k: from there on the smaller speed goes in proportion to its start
+constexpr double at_rest = 1e-12;    ///< of w at the start
+constexpr double first_width = 0.5, min_width = 1e-4;
 
 }  // namespace
 
-ScaledOrbit::ScaledOrbit(const reduction::Flow& flow, reduction::State start, double end, double accuracy) {
-  const double tolerance = 4 * accuracy;  // a last halving makes it up to 16 times smaller
-  constexpr double tau_of_one = 3 * std::numbers::pi / 2;
-  const double sign = start.v < 0 ? -1 : 1;
-  start.v = std::abs(start.v);
-  const reduction::Orbit orbit = flow.orbit(start);
-  stop_ = orbit.stop_time() / tau_of_one;
-  const double v_scale = start.v > 0 ? start.v : std::abs(start.u),
-               u_scale = start.u != 0 ? std::abs(start.u) : start.v;
+Speeds operator+(const Speeds& a, const Speeds& b) {
+  return {a.v + b.v, a.u + b.u, a.slid + b.slid, a.turned + b.turned};
+}
 
-  const auto node_at = [&](double T) {
-    const double tau = std::min(tau_of_one * T, orbit.stop_time());
-    reduction::OrbitPoint point = orbit.at_time(tau);
-    const Node speeds{T, sign * point.v, point.u, 0, 0};
-    // The rates depend on k alone, and have a limit at the stop.
-    if (point.u == 0 && point.v == 0) point = orbit.at_time_left(1e-9 * orbit.stop_time());
-    const reduction::Rate rate = flow.system().field({point.u, point.v});
-    return Node{speeds.T, speeds.v, speeds.u, sign * tau_of_one * rate.v, tau_of_one * rate.u};
-  };
-  nodes_.push_back({0, sign * start.v, start.u, 0, 0});
-  const double last = std::min(end, stop_);
-  if (!(last > 0)) return;
-  nodes_.front() = node_at(0);
+Speeds operator*(double c, const Speeds& a) { return {c * a.v, c * a.u, c * a.slid, c * a.turned}; }
 
-  const auto far_off = [&](double y0, double d0, double y, double d, double y1, double d1, double width, double scale) {
-    const double value = (y0 + y1) / 2 + width * (d0 - d1) / 8;
-    const double slope = 1.5 * (y1 - y0) - width * (d0 + d1) / 4;
-    return std::abs(value - y) > tolerance * scale || std::abs(slope - width * d) > 8 * tolerance * scale;
-  };
-  std::vector<std::pair<Node, int>> ahead;  // right ends that are still to be reached, the next one last
-  for (int i = pieces; i > 0; --i) ahead.emplace_back(node_at(i == pieces ? last : last * i / pieces), 0);
-  while (!ahead.empty()) {
-    const auto [right, halvings] = ahead.back();
-    const Node left = nodes_.back();
-    const double width = right.T - left.T;
-    const Node middle = node_at(left.T + width / 2);
-    if (halvings < max_halvings && (far_off(left.v, left.dv, middle.v, middle.dv, right.v, right.dv, width, v_scale) ||
-                                    far_off(left.u, left.du, middle.u, middle.du, right.u, right.du, width, u_scale))) {
-      ahead.back().second = halvings + 1;
-      ahead.emplace_back(middle, halvings + 1);
+/// Polynomials through values at Chebyshev's points of [-1, 1].
+struct ScaledOrbit::Basis {
+  using Values = Eigen::Array<double, nodes, 1>;
+  using Powers = Eigen::Array<double, nodes + 1, 1>;
+
+  Values z;
+  Eigen::Matrix<double, nodes, nodes> powers_of_values;
+  Eigen::Matrix<double, 2, nodes> last_coefficients;  ///< of the Chebyshev series
+  Eigen::Matrix<double, nodes, nodes + 1> values_of_powers;
+
+  Basis() {
+    for (int j = 0; j < nodes; ++j) {
+      const double angle = std::numbers::pi * (j + 0.5) / nodes;
+      z[j] = std::cos(angle);
+      for (int i = 0; i <= nodes; ++i) values_of_powers(j, i) = std::pow(z[j], i);
+      for (int i : {0, 1}) last_coefficients(i, j) = 2.0 / nodes * std::cos((nodes - 2 + i) * angle);
+    }
+    powers_of_values = values_of_powers.leftCols<nodes>().inverse();
+  }
+
+  /// The integral from -1.
+  Powers integral(const Values& values, double at_left) const {
+    const Eigen::Array<double, nodes, 1> powers = powers_of_values.lazyProduct(values.matrix());
+    Powers result;
+    result[0] = 0;
+    for (int i = 0; i < nodes; ++i) result[i + 1] = powers[i] / (i + 1);
+    double there = 0;
+    for (int i = nodes; i >= 0; --i) there = result[i] - there;
+    result[0] = at_left - there;
+    return result;
+  }
+
+  Values at_nodes(const Powers& powers) const { return values_of_powers.lazyProduct(powers.matrix()); }
+
+  /// What a polynomial leaves of its values.
+  double error(const Values& values) const { return (last_coefficients * values.matrix()).cwiseAbs().sum(); }
+
+  static const Basis& only() {
+    static const Basis basis;
+    return basis;
+  }
+};
+
+ScaledOrbit::Integrals ScaledOrbit::Cell::at(double z) const {
+  Integrals result = powers.col(nodes);
+  for (int i = nodes - 1; i >= 0; --i) result = result * z + powers.col(i);
+  return result;
+}
+
+ScaledOrbit::ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy)
+    : law_(law), mu_(mu), accuracy_(accuracy), width_(first_width), v0_(start.v), u0_(start.u) {
+  double v = std::abs(v0_), w = mu * std::abs(u0_);
+  if (v == 0 && w == 0) return;
+  by_[0] = {.x = -1, .ln_w = 1, .ln_mu = 1};
+  by_[1] = {.x = 1, .ln_w = 0, .ln_mu = 0};
+  by_[2] = {.x = -1, .ln_w = 1, .ln_mu = 0};
+  if (w < near_axis * v) {  // w follows v
+    w = near_axis * v;
+    by_[0] = {.x = 0, .ln_w = 0, .ln_mu = 1};
+    by_[1] = {.x = 0, .ln_w = 1, .ln_mu = 0};
+    by_[2] = {};
+  } else if (v < near_axis * w) {  // v follows w
+    v = near_axis * w;
+    by_[0].x = by_[1].x = by_[2].x = 0;
+  }
+  orbit_v0_ = v;
+  orbit_w0_ = w;
+  x_ = x0_ = std::log(v / w);
+  now_[ln_w] = ln_w0_ = std::log(w);
+  const auto [A, B] = rates(x0_);
+  q0_ = B / (A - B);
+  dT0_ = -w / (A - B);
+  for (double k : law.kinks()) kinks_.push_back(std::log(k));
+  std::ranges::sort(kinks_);
+  reach(0);
+}
+
+std::pair<double, double> ScaledOrbit::rates(double x) const {
+  constexpr double smallest = 1e-12;  // below it Phi/k and Psi do not change
+  const double k = std::max(std::exp(x), smallest);
+  const auto [force, moment] = law_(k <= 1 ? reduction::Slip{k, 1} : reduction::Slip{1, 1 / k});
+  const double A = 3.5 * force / k, B = 2.5 * mu_ * mu_ * moment;
+  if (!(A > B)) throw std::domain_error("fit: the law has an invariant ray there: a smaller patch is required");
+  return {A, B};
+}
+
+void ScaledOrbit::reach(double T) {
+  if (v0_ == 0 && u0_ == 0) return;
+  const Basis& basis = Basis::only();
+  while (now_[T_] <= T && now_[ln_w] > ln_w0_ + std::log(at_rest)) {
+    while (!kinks_.empty() && kinks_.back() > x_ - 1e-9) kinks_.pop_back();
+    const double whole = kinks_.empty() ? width_ : std::min(width_, x_ - kinks_.back());
+    Cell cell{};
+    cell.x = x_;
+    cell.half_width = whole / 2;
+    Basis::Values q, step;
+    for (int j = 0; j < nodes; ++j) {
+      const auto [A, B] = rates(x_ - cell.half_width * (1 + basis.z[j]));
+      q[j] = B / (A - B);
+      step[j] = 1 / (A - B);
+    }
+    const auto add = [&](int which, const Basis::Values& slope) -> Basis::Values {
+      const Basis::Powers powers = basis.integral(slope, now_[which]);
+      cell.powers.row(which) = powers.transpose();
+      return basis.at_nodes(powers);
+    };
+    const Basis::Values w = add(ln_w, -cell.half_width * q).exp();
+    const Basis::Values dT = cell.half_width * step * w;
+    const double error = std::max(basis.error(cell.half_width * q), basis.error(dT) / dT.maxCoeff()) / accuracy_;
+    const double factor = std::clamp(0.8 * std::pow(std::max(error, 1e-30), -1.0 / nodes), 0.3, 4.0);
+    if (error > 1 && whole > min_width) {
+      width_ = factor * whole;
       continue;
     }
-    nodes_.push_back(middle);
-    nodes_.push_back(right);
-    ahead.pop_back();
-  }
-  for (std::size_t i = 1; i < nodes_.size(); ++i) {
-    const Node& left = nodes_[i - 1];
-    Node& right = nodes_[i];
-    const double h = right.T - left.T;
-    right.slid = left.slid + h * ((left.v + right.v) / 2 + h * (left.dv - right.dv) / 12);
-    right.turned = left.turned + h * ((left.u + right.u) / 2 + h * (left.du - right.du) / 12);
+    const Basis::Values by = add(E, -cell.half_width * 2 * q * (1 + q));
+    const Basis::Values v = w * (x_ - cell.half_width * (1 + basis.z)).exp();
+    add(T_, dT);
+    add(G, dT * (by + 2 * q));
+    add(slid, dT * v);
+    add(slid_by, dT * v * 2 * (by + q));
+    add(turned, dT * w);
+    add(turned_by, dT * w * 2 * (by + q));
+    cell.T_left = now_[T_];
+    now_ = cell.at(1);
+    cell.T_end = now_[T_];
+    // dT/dz at an end is that of x there.
+    const auto bend = [&](double at_x, double ln_w_there) {
+      const auto [A, B] = rates(at_x);
+      return (cell.T_end - cell.T_left) * (A - B) * std::exp(-ln_w_there) / cell.half_width - 2;
+    };
+    cell.bend_left = bend(x_, cell.at(-1)[ln_w]);
+    cell.bend_end = bend(x_ - whole, now_[ln_w]);
+    cells_.push_back(cell);
+    x_ -= whole;
+    width_ = factor * whole;
   }
 }
 
-OrbitColumns ScaledOrbit::operator()(const Eigen::ArrayXd& at) const {
-  const Eigen::Index rows = at.size();
-  OrbitColumns columns{Eigen::ArrayXd::Zero(rows), Eigen::ArrayXd::Zero(rows), Eigen::ArrayXd(rows),
-                       Eigen::ArrayXd(rows),       Eigen::ArrayXd::Zero(rows), Eigen::ArrayXd::Zero(rows)};
-  std::size_t cell = 1;
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    const double T = at[row];
-    if (T >= nodes_.back().T) {  // past the stop; without a motion, at the start
-      columns.slid[row] = nodes_.back().slid;
-      columns.turned[row] = nodes_.back().turned;
-      if (T < stop_ || T == 0) {
-        columns.v[row] = nodes_.back().v;
-        columns.u[row] = nodes_.back().u;
-        columns.dv[row] = nodes_.back().dv;
-        columns.du[row] = nodes_.back().du;
+ScaledOrbit::Stop ScaledOrbit::stop() const {
+  if (u0_ == 0) return {std::abs(v0_) / 3.5, 0, v0_ < 0 ? -1 / 3.5 : 1 / 3.5, 0};  // what is left of w is not its own
+  const auto change = [&](const Direction& by) { return change_of_T(by, now_); };
+  return {now_[T_] + std::exp(now_[ln_w]) / rates(x_).second, change(by_[0]), v0_ == 0 ? 0 : change(by_[1]) / v0_,
+          change(by_[2]) / u0_};
+}
+
+double ScaledOrbit::change_of_T(const Direction& by, const Integrals& here) const {
+  return -dT0_ * by.x + (by.ln_w - q0_ * by.x) * here[T_] + by.ln_mu * here[G];
+}
+
+ScaledOrbit::Place ScaledOrbit::place_of(double T, std::size_t& cell) const {
+  if (cell > 0 && T < cells_[cell - 1].T_end) cell = 0;
+  while (cell + 1 < cells_.size() && T > cells_[cell].T_end) ++cell;
+  const Cell& found = cells_[cell];
+  const bool moves = T <= found.T_end;
+  double z = 1;
+  if (moves) {
+    // Newton's method, from the cubic through the ends.
+    const double s = (T - found.T_left) / (found.T_end - found.T_left);
+    z = -1 + s * (2 + (1 - s) * ((1 - s) * found.bend_left - s * found.bend_end));
+    for (int i = 0; i < 50; ++i) {
+      double value = 0, slope = 0;
+      for (int n = nodes; n >= 0; --n) {
+        slope = slope * z + value;
+        value = value * z + found.powers(T_, n);
       }
-      continue;
+      const double last = z;
+      z = std::clamp(z - (value - T) / slope, -1.0, 1.0);
+      if (std::abs(z - last) < 1e-6) break;  // the error now is of its square
     }
-    if (T < nodes_[cell - 1].T) cell = 1;
-    while (T >= nodes_[cell].T) ++cell;
-    const Node& left = nodes_[cell - 1];
-    const Node& right = nodes_[cell];
-    const double h = right.T - left.T;
-    const double s = (T - left.T) / h;
-    const auto cubic = [&](double y0, double d0, double y1, double d1, double& y, double& d, double& integral) {
-      const double c2 = 3 * (y1 - y0) - h * (2 * d0 + d1);
-      const double c3 = h * (d0 + d1) - 2 * (y1 - y0);
-      y = y0 + s * (h * d0 + s * (c2 + s * c3));
-      d = d0 + s * (2 * c2 + 3 * s * c3) / h;
-      integral = h * s * (y0 + s * (h * d0 / 2 + s * (c2 / 3 + s * c3 / 4)));
-    };
-    cubic(left.v, left.dv, right.v, right.dv, columns.v[row], columns.dv[row], columns.slid[row]);
-    cubic(left.u, left.du, right.u, right.du, columns.u[row], columns.du[row], columns.turned[row]);
-    columns.slid[row] += left.slid;
-    columns.turned[row] += left.turned;
   }
-  return columns;
+  const double x = found.x - found.half_width * (1 + z);
+  const Integrals here = found.at(z);
+  const double w = moves ? std::exp(here[ln_w] - ln_w0_) : 0;
+  return {&found, z, moves, x, here, {w * std::exp(x - x0_), w, here[slid] / orbit_v0_, here[turned] / orbit_w0_}};
+}
+
+Speeds ScaledOrbit::now(const Place& place) const {
+  const Speeds& unit = place.unit;
+  return {v0_ * unit.v, u0_ * unit.u, v0_ * unit.slid, u0_ * unit.turned};
+}
+
+Speeds ScaledOrbit::speeds_at(double T, std::size_t& cell) const {
+  return cells_.empty() ? Speeds{} : now(place_of(T, cell));
+}
+
+ScaledOrbit::Moment ScaledOrbit::at(double T, std::size_t& cell) const {
+  Moment result{};
+  if (cells_.empty()) {  // at rest
+    if (T == 0) result.by_v.v = result.by_u.u = 1;
+    return result;
+  }
+  const auto [in, z, moves, x, here, unit] = place_of(T, cell);
+  Eigen::Array2d slopes = Eigen::Array2d::Zero();
+  for (int n = nodes; n > 0; --n) slopes = slopes * z + n * in->powers.col(n).head<2>();
+  const double dT = -slopes[T_] / in->half_width, q = -slopes[ln_w] / in->half_width;
+  result.now = {v0_ * unit.v, u0_ * unit.u, v0_ * unit.slid, u0_ * unit.turned};
+  if (moves) {
+    result.dv = result.now.v * (1 + q) / dT;
+    result.du = result.now.u * q / dT;
+  }
+
+  // How all four, over what they are of 1 m/s at the start, change with a number at this T; at rest the integrals do.
+  const auto change = [&](double factor, const Direction& by) -> Speeds {
+    if (factor == 0) return {};
+    const double of_ln_w = by.ln_w - q0_ * by.x;
+    const double of_x = moves ? -change_of_T(by, here) / dT : 0;
+    const double of_ratio = of_ln_w + by.ln_mu * here[E] + q * of_x - by.ln_w;
+    const double of_slid = -dT0_ * by.x + (2 * of_ln_w - by.x - by.ln_w) * unit.slid +
+                           by.ln_mu * here[slid_by] / orbit_v0_ + unit.v * dT * of_x;
+    const double of_turned = -dT0_ * by.x + (2 * of_ln_w - by.ln_w) * unit.turned +
+                             by.ln_mu * here[turned_by] / orbit_w0_ + unit.u * dT * of_x;
+    const double v = factor * v0_, u = factor * u0_;
+    return {v * unit.v * (of_x + of_ratio - by.x), u * unit.u * of_ratio, v * of_slid, u * of_turned};
+  };
+  result.by_ln_mu = change(1, by_[0]);
+  result.by_v = change(v0_ == 0 ? 0 : 1 / v0_, by_[1]) + Speeds{unit.v, 0, unit.slid, 0};
+  result.by_u = change(u0_ == 0 ? 0 : 1 / u0_, by_[2]) + Speeds{0, unit.u, 0, unit.turned};
+  return result;
 }
 
 }  // namespace contensou::fit

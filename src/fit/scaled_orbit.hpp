@@ -1,43 +1,111 @@
 #pragma once
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::fit {
 
-/// Columns over instants T = f g t, a speed.
-struct OrbitColumns {
-  Eigen::ArrayXd v, u;          ///< sliding and pivoting, m/s
-  Eigen::ArrayXd slid, turned;  ///< their integrals over T
-  Eigen::ArrayXd dv, du;        ///< their derivatives by T
+/// Sliding and pivoting speeds, m/s, and their integrals over T = f g t; or a derivative of all four.
+struct Speeds {
+  double v, u, slid, turned;
 };
 
-/// An orbit of the reduced system in T = f g t, where friction is in no equation, for many instants at once: nodes of
-/// the closed orbit, as dense as cubics between them need to be.
+Speeds operator+(const Speeds& a, const Speeds& b);
+Speeds operator*(double c, const Speeds& a);
+
+/// An orbit of the ball's reduced system in T = f g t, where friction is in no equation, with its exact derivatives.
+///
+/// Everything is a quadrature over x = ln k, since k decreases all the time. With A = (7/2) Phi/k, B = (5/2) mu^2 Psi,
+/// w = mu |u| and q = B/(A - B):
+///   d ln w/dx = q,   dT/dx = -w/(A - B),   v = e^x w,
+/// and by ln mu at one x:  d(d ln w)/dx = 2 q (1 + q) =: dE/dx,   d(dT)/dx = dT/dx (E + 2 q).
+/// Cells of x are as wide as polynomials of degree 9 allow.
 class ScaledOrbit {
  public:
-  /// @param start  v of either sign: the motion of -v is that of v, mirrored
-  /// @param end       T up to which it is asked for
-  /// @param accuracy  in speeds at the start
-  ScaledOrbit(const reduction::Flow& flow, reduction::State start, double end, double accuracy = standard_accuracy);
+  /// @param law       without an invariant ray below k0: A > B
+  /// @param start     v of either sign: the motion of -v is that of v, mirrored
+  /// @param accuracy  of T and ln w, relative
+  /// @throws std::domain_error  if the start is on an invariant ray
+  ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy = standard_accuracy);
 
-  static constexpr double standard_accuracy = 1e-9;
+  /// Computes it up to that T, or to the stop.
+  /// @throws std::domain_error  if it meets an invariant ray
+  void reach(double T);
 
-  /// T of the stop.
-  double stop() const { return stop_; }
+  static constexpr double standard_accuracy = 1e-10;
 
-  /// @param at  T >= 0; quick where it increases
-  OrbitColumns operator()(const Eigen::ArrayXd& at) const;
+  /// A moment of the orbit, with the derivatives there.
+  struct Moment {
+    Speeds now;
+    double dv, du;  ///< by T
+    Speeds by_ln_mu, by_v, by_u;
+  };
+
+  /// @param T     >= 0, up to where it was computed
+  /// @param cell  where the last moment was found: begin with 0, with T in increasing order
+  Moment at(double T, std::size_t& cell) const;
+
+  /// The same without derivatives.
+  Speeds speeds_at(double T, std::size_t& cell) const;
+
+  /// T of the stop, or its derivatives in the places of Moment; after reach(infinity).
+  struct Stop {
+    double T, by_ln_mu, by_v, by_u;
+  };
+  Stop stop() const;
 
  private:
-  struct Node {
-    double T, v, u, dv, du, slid = 0, turned = 0;
+  static constexpr int nodes = 10;  ///< of a cell
+  /// What is integrated over x: T, ln w, their derivatives by ln mu (G, E), and the integrals of v and w over T with theirs.
+  enum { T_, ln_w, E, G, slid, slid_by, turned, turned_by, integrals };
+  using Integrals = Eigen::Array<double, integrals, 1>;
+  /// In powers of z, which goes from -1 at the left end, where x is largest, to 1.
+  struct Cell {
+    double x, half_width;
+    Eigen::Array<double, integrals, nodes + 1> powers;
+    Integrals at(double z) const;
+    double T_left, T_end;
+    double bend_left, bend_end;  ///< slopes of z over (T - T_left)/(T_end - T_left), less 2
   };
-  std::vector<Node> nodes_;
-  double stop_;
+  struct Basis;
+
+  /// How x and ln w at the start change with one of the numbers, and whether mu itself does.
+  struct Direction {
+    double x, ln_w, ln_mu;
+  };
+  double change_of_T(const Direction& by, const Integrals& here) const;
+
+  /// Where a T lies.
+  struct Place {
+    const Cell* cell;
+    double z;
+    bool moves;
+    double x;
+    Integrals here;
+    Speeds unit;  ///< v, slid of a v of 1 m/s at the start, u, turned of such a u
+  };
+  Place place_of(double T, std::size_t& cell) const;
+  Speeds now(const Place& place) const;
+
+  std::pair<double, double> rates(double x) const;  ///< A and B
+
+  reduction::Law law_;
+  double mu_, accuracy_;
+  std::vector<Cell> cells_;
+  std::vector<double> kinks_;  ///< ln k of those ahead, the next one last
+  double x_, width_;           ///< of the next cell
+  Integrals now_ = Integrals::Zero();
+  double v0_, u0_;     ///< of the start
+  double x0_, ln_w0_;  ///< of the orbit, which no axis is
+  double orbit_v0_, orbit_w0_;
+  double q0_, dT0_;  ///< q and dT/dx at the start
+  Direction by_[3];  ///< ln mu, ln v, ln u
 };
 
 }  // namespace contensou::fit

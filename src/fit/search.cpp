@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr Index min_of_unknown_noise = 10;
-constexpr Index max_of_guess = 60, max_of_first_solution = 5000;
+constexpr Index max_of_guess = 30, max_of_first_solution = 5000;
 constexpr double accuracy_of_score = 1e-4, accuracy_of_guess = 1e-6, tolerance_of_guess = 1e-5;
 
 double median(std::vector<double> values) {
@@ -286,6 +286,7 @@ VectorXd Search::solve() {
   FitRequest smaller = request;
   smaller.tracks = std::move(part);
   VectorXd parameters = Search(smaller, accuracy_of_guess).improved_from_guesses();
+  if (any_estimated()) estimate_noise(parameters);
   constexpr int most_rounds = 30;
   for (int round = 0; round < most_rounds; ++round) {
     parameters = improved(parameters);

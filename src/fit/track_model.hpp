@@ -1,13 +1,12 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "contensou/fit/fit.hpp"
-#include "contensou/reduction/flow.hpp"
+#include "fit/scaled_orbit.hpp"
 
 namespace contensou::fit {
 
@@ -18,7 +17,7 @@ namespace contensou::fit {
 class TrackModel {
  public:
   /// @param tracks    checked; they are kept by reference
-  /// @param accuracy  of orbits, in speeds at their start
+  /// @param accuracy  of orbits, as ScaledOrbit
   TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks, double accuracy);
 
   Eigen::Index parameters() const {
@@ -36,23 +35,25 @@ class TrackModel {
   /// What the motion gives, row by row: the series of the first track, its stop time, then the next.
   Eigen::VectorXd values(const Eigen::VectorXd& free) const;
 
-  /// Derivatives of the values by these of the parameters, a column each. By friction and by the size of the start they
-  /// are exact, by scaling; by the patch radius and by the ratio of slip to spin central differences of orbits.
+  /// Derivatives of the values by these of the parameters, a column each: exact, by scaling and by ScaledOrbit.
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& free, const std::vector<Eigen::Index>& wanted) const;
 
-  /// The parameters within what they may be: eps <= R.
+  /// The parameters within what they may be: eps <= R, and no invariant ray.
   Eigen::VectorXd limited(Eigen::VectorXd parameters) const;
 
  private:
-  struct Motion;
-  reduction::Flow solved_flow(double ln_patch_radius) const;
-  const reduction::Flow& flow(double ln_patch_radius) const;
+  /// The orbit of a track, up to its last instant: the last one where only the friction has changed since.
+  const ScaledOrbit& orbit_of(std::size_t track, const Eigen::VectorXd& parameters) const;
 
-  double radius_, gravity_, accuracy_;
+  double radius_, gravity_, accuracy_, max_ln_patch_radius_;
   reduction::Law law_;
   const std::vector<Track>& tracks_;
   Eigen::Index rows_ = 0;
-  mutable std::optional<std::pair<double, reduction::Flow>> last_;  ///< values and derivatives are asked for in turn
+  struct Known {
+    double ln_patch_radius, slip, spin;
+    ScaledOrbit orbit;
+  };
+  mutable std::vector<std::optional<Known>> orbits_;
 };
 
 }  // namespace contensou::fit

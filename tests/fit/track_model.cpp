@@ -8,7 +8,6 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "films.hpp"
-#include "fit/scaled_orbit.hpp"
 
 using namespace contensou;
 using namespace contensou::fit;
@@ -23,7 +22,9 @@ TEST_CASE("derivatives of all that is seen are those of differences", "[route]")
   const std::vector<Track> tracks{track, track};
   for (const reduction::Law& law : reduction::paper_laws()) {
     for (const auto& [slip, spin] :
-         std::vector<std::pair<double, double>>{{1, 100}, {-0.4, -70}, {0.02, 60}, {1, 0.5}}) {
+         std::vector<std::pair<double, double>>{{1, 100}, {-0.4, -70}, {0.02, 60}, {1, 0.5}, {1, 0}, {0, 60}}) {
+      // On an axis the step crosses a kink of |u| or |v|.
+      const double tolerance = slip == 0 || spin == 0 ? 1e-4 : 3e-6;
       const TrackModel model(pool_ball(), law, tracks, ScaledOrbit::standard_accuracy);
       VectorXd parameters(model.parameters());
       parameters << std::log(0.2), std::log(2e-3), slip, spin, 0.7, 0.3, -0.2, 4, 5, 6, 0.5, 50, -2, 0.1, 0.2, 0.3, 0.4,
@@ -37,7 +38,14 @@ TEST_CASE("derivatives of all that is seen are those of differences", "[route]")
         const VectorXd less = parameters - step * VectorXd::Unit(parameters.size(), place);
         const VectorXd expected = (model.values(more) - model.values(less)) / (2 * step);
         INFO(law.name() << ", slip " << slip << ", spin " << spin << ", parameter " << place);
-        CHECK((derivatives.col(place) - expected).norm() <= 2e-5 * expected.norm() + 1e-9);
+        // Series by series: what one says of the patch is small beside what another does.
+        for (Index first = 0; first < model.rows();) {
+          const Index count = first % (7 * track.t.size() + 1) == 7 * track.t.size() ? 1 : track.t.size();
+          INFO("rows from " << first);
+          const VectorXd part = expected.segment(first, count);
+          CHECK((derivatives.col(place).segment(first, count) - part).norm() <= tolerance * part.norm() + 1e-8);
+          first += count;
+        }
       }
     }
   }
