@@ -96,9 +96,12 @@ function page(path, title, body) {
 
 // The gallery: the pictures of portraits/README.md, each with the command and the words that stand above it.
 function gallery() {
-  const shown = [...read("portraits/README.md").matchAll(/^`(contensou [^`]+)` ?(.*)\n\n!\[(.*)\]\((.+)\)$/gm)];
-  const figures = shown.map(([, command, words, name, picture]) => `<figure id="${slug(name)}"><a href="portraits/${picture}"><img src="portraits/${picture}" alt="${escape(name)}"></a>
-<figcaption>${markdown.renderInline(words)}<pre tabindex="0"><code>${escape(command)}</code></pre></figcaption></figure>`);
+  const shown = [...read("portraits/README.md").matchAll(/^`(contensou [^`]+)`\n\n([^]+?)\n\n!\[(.*)\]\((.+)\)$/gm)];
+  const figures = shown.map(([, command, words, title, picture]) => {
+    const [, width, height] = /viewBox="0 0 (\d+) (\d+)"/.exec(read(`portraits/${picture}`));
+    return `<figure${width > 1.8 * height ? ' class="broad"' : ""}><a href="portraits/${picture}"><img src="portraits/${picture}" alt="${escape(title)}" width="${width}" height="${height}"></a>
+<figcaption>${markdown.renderInline(words)}<pre tabindex="0"><code>${escape(command)}</code></pre></figcaption></figure>`;
+  });
   page("gallery.html", "Gallery", `<h1>Gallery</h1>\n<p>Every picture is drawn by the command below it.</p>\n<div class="gallery">${figures.join("\n")}</div>`);
 }
 
