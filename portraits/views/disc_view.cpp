@@ -91,7 +91,7 @@ void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
   panel.arrows.push_back(std::move(arrows));
 }
 
-Panel polar_panel(const Drawing& drawing, double hole) {
+MappedPanel polar_panel(const Drawing& drawing, double hole) {
   const PhasePortrait& portrait = drawing.portrait;
   const double mu = portrait.system().mu();
   const PolarMap map{portrait.window.v, hole};
@@ -104,11 +104,20 @@ Panel polar_panel(const Drawing& drawing, double hole) {
   panel.regions.push_back({half_circle(1), drawing.palette.region});
   if (hole > 0) panel.regions.push_back({half_circle(hole), drawing.palette.theme.ground});
 
-  PortraitPanel layers(drawing, std::move(panel), [mu, map](const Instant& at) {
+  const auto place = [mu, map](const Instant& at, const Instant& start) {
     const double rho = std::hypot(mu * at.u, at.v);
     const double theta = at.ln_k > 0 ? pi / 2 - std::atan(std::exp(-at.ln_k)) : std::atan(std::exp(at.ln_k));
-    return map.at(rho, theta, std::copysign(1, at.u));
-  });
+    return map.at(rho, theta, std::copysign(1, start.u));
+  };
+  const auto state = [mu, map](Point at) -> std::optional<Instant> {
+    const double radius = std::hypot(at.x, at.y);
+    if (radius <= map.hole || radius >= 1 || at.y <= 0) return std::nullopt;
+    const double rho = map.rho(radius);
+    Instant there = instant_at_logarithms(mu, std::log(at.y / std::abs(at.x)), std::log(rho * at.y / radius));
+    there.u = rho * at.x / radius / mu;
+    return there;
+  };
+  PortraitPanel layers(drawing, std::move(panel), {place, state});
   layers.set_arrows(0.4, 1);
   const auto copies = [&](const PortraitOrbit& curve) {
     // Across k = 1 at even steps of the radius.
@@ -122,13 +131,7 @@ Panel polar_panel(const Drawing& drawing, double hole) {
     }
     return result;
   };
-  const auto state = [&](Point at) {
-    const double radius = std::hypot(at.x, at.y);
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (radius <= hole || radius >= 1 || at.y <= 0) return LogState{none, none};
-    return LogState{std::log(at.y / std::abs(at.x)), std::log(map.rho(radius) * at.y / radius)};
-  };
-  layers.add_copies(copies, state, true);
+  layers.add_copies(copies, true);
   const auto half_line = [&](double theta, double sign) {
     return Polyline{map.at(std::numeric_limits<double>::infinity(), theta, sign), map.at(0, theta, sign)};
   };
@@ -137,7 +140,8 @@ Panel polar_panel(const Drawing& drawing, double hole) {
     return std::vector{half_line(theta, 1), half_line(theta, -1)};
   });
   layers.add_highlights();
-  panel = std::move(layers).finished();
+  MappedPanel finished = std::move(layers).finished();
+  panel = std::move(finished.panel);
   panel.lines.push_back({{half_circle(1)}, {drawing.palette.invariant, 1.2, false}, ""});
   if (hole > 0) panel.lines.push_back({{half_circle(hole)}, {drawing.palette.invariant, 2.2, false}, ""});
   add_turning(panel, drawing, map);
@@ -151,20 +155,21 @@ Panel polar_panel(const Drawing& drawing, double hole) {
   } else {
     panel.marks.push_back({{{0, 0}}, drawing.palette.invariant, 1.4, Marks::Shape::dot, "the stop"});
   }
-  return panel;
+  finished.panel = std::move(panel);
+  return finished;
 }
 
 }  // namespace
 
-std::vector<Panel> disc_view(const Drawing& drawing) { return {polar_panel(drawing, 0)}; }
+std::vector<MappedPanel> disc_view(const Drawing& drawing) { return {polar_panel(drawing, 0)}; }
 
-std::vector<Panel> blowup_view(const Drawing& drawing) {
+std::vector<MappedPanel> blowup_view(const Drawing& drawing) {
   constexpr double hole = 0.35;
-  Panel polar = polar_panel(drawing, hole);
-  polar.title = "inner half-circle: the origin; outer: infinity";
+  MappedPanel polar = polar_panel(drawing, hole);
+  polar.panel.title = "inner half-circle: the origin; outer: infinity";
 
-  Panel chart = contact_panel(drawing, true);
-  chart.title = "the chart {/:Italic u}, ln {/:Italic k}; {/:Italic u} = 0 is the origin";
+  MappedPanel chart = contact_panel(drawing, true);
+  chart.panel.title = "the chart {/:Italic u}, ln {/:Italic k}; {/:Italic u} = 0 is the origin";
   return {std::move(polar), std::move(chart)};
 }
 

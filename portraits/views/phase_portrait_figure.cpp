@@ -58,6 +58,10 @@ std::string law_names(const PhasePortrait& portrait) {
 }
 
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, PortraitStyle style) {
+  return draw_mapped(portrait, caption, style).figure;
+}
+
+MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& caption, PortraitStyle style) {
   const ViewLayout& layout = layout_of(portrait.view);
   const PaperSize size = fitted({layout.width_mm, layout.height_mm}, layout.panels_across, style.size);
   Drawing drawing{portrait, caption, style, palette(style.screen), {}, panel_size(size, layout.panels_across), 0};
@@ -69,16 +73,20 @@ Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, Portr
     style.colour_by_time = style.colour_by_time && shortest < longest;
     drawing.bands = logarithmic_bands(shortest, 2 * longest, caption.time_unit, drawing.palette);
   }
-  Figure figure;
+  MappedFigure mapped;
+  Figure& figure = mapped.figure;
   figure.title = caption.title.empty() ? title(portrait) : caption.title;
   figure.subtitle = !caption.subtitle.empty() ? caption.subtitle
                     : portrait.scale.linear() ? std::string(layout.shows)
                                               : std::string(bent_shows);
   figure.size = size;
   figure.theme = drawing.palette.theme;
-  figure.panels = layout.panels(drawing);
+  for (MappedPanel& shown : layout.panels(drawing)) {
+    figure.panels.push_back(std::move(shown.panel));
+    mapped.maps.push_back(std::move(shown.map));
+  }
   if (drawing.coloured() && portrait.view != View::time) figure.colour_bar = colour_bar(drawing.bands, caption);
-  return figure;
+  return mapped;
 }
 
 }  // namespace contensou::portraits

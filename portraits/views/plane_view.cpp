@@ -32,7 +32,7 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
 }
 
 /// The half-plane with the sides of the window in units of u and v.
-Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
+MappedPanel half_plane(const Drawing& drawing, double unit, const std::string& name) {
   Panel panel;
   const auto [U, V] = drawing.portrait.window;
   const SpeedScale scale = drawing.portrait.scale;
@@ -44,14 +44,18 @@ Panel half_plane(const Drawing& drawing, double unit, const std::string& name) {
     panel.y.ticks = speed_ticks(scale);
     panel.regions.push_back({{{-x, 0}, {x, 0}, {x, 0.5}, {-x, 0.5}}, drawing.palette.region});
   }
-  PortraitPanel layers(drawing, std::move(panel), [unit, scale](const Instant& at) {
-    return Point{unit * at.u, scale.linear() ? at.v : scale.height(at.ln_v)};
-  });
+  const PanelMap map{.place =
+                         [unit, scale](const Instant& at, const Instant&) {
+                           return Point{unit * at.u, scale.linear() ? at.v : scale.height(at.ln_v)};
+                         },
+                     .state = [unit, scale, mu = drawing.portrait.system().mu()](Point at) -> std::optional<Instant> {
+                       if (at.y < 0 || (at.x == 0 && at.y == 0)) return std::nullopt;
+                       return instant_at(mu, at.x / unit, scale.linear() ? std::log(at.y) : scale.ln_v(at.y));
+                     }};
+  PortraitPanel layers(drawing, std::move(panel), map);
   layers.add_orbits();
   layers.add_isochrones();
-  layers.add_field([unit, scale](Point at) {
-    return reduction::State{at.x / unit, scale.linear() ? at.y : std::exp(scale.ln_v(at.y))};
-  });
+  layers.add_field();
   layers.add_invariant({{{-x, 0}, {0, 0}}, {{x, 0}, {0, 0}}, {{0, top}, {0, 0}}}, [&](double ln_k) {
     const double slope = std::exp(ln_k) * drawing.portrait.system().mu() / unit;  // v over x
     return std::vector<Polyline>{{{x, slope * x}, {0, 0}}, {{-x, slope * x}, {0, 0}}};
@@ -71,7 +75,7 @@ void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double 
 
 }  // namespace
 
-Panel contact_panel(const Drawing& drawing, bool right_half) {
+MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
   const double U = portrait.window.u;
@@ -117,17 +121,17 @@ Panel contact_panel(const Drawing& drawing, bool right_half) {
     return result;
   };
   const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // -infinity is below the border
-  PortraitPanel layers(drawing, std::move(panel), [low](const Instant& at) {
-    return Point{at.u, std::clamp(at.ln_k, low, 1e300)};
-  });
+  const PanelMap map{.place =
+                         [low](const Instant& at, const Instant&) {
+                           return Point{at.u, std::clamp(at.ln_k, low, 1e300)};
+                         },
+                     .state = [mu = portrait.system().mu()](Point at) -> std::optional<Instant> {
+                       if (at.x == 0) return std::nullopt;
+                       return instant_at(mu, at.x, at.y + std::log(mu * std::abs(at.x)));
+                     }};
+  PortraitPanel layers(drawing, std::move(panel), map);
   layers.set_arrows(0.3, 2.5);
-  const double ln_mu = std::log(portrait.system().mu());
-  layers.add_copies(
-      copies,
-      [=](Point at) {
-        return LogState{at.y, at.y + ln_mu + std::log(std::abs(at.x))};
-      },
-      !right_half);
+  layers.add_copies(copies, !right_half);
   layers.add_highlights();
   layers.add_invariant({}, [U](double ln_k) {
     return std::vector<Polyline>{{{-U, ln_k}, {0, ln_k}}, {{U, ln_k}, {0, ln_k}}};
@@ -135,21 +139,23 @@ Panel contact_panel(const Drawing& drawing, bool right_half) {
   return std::move(layers).finished();
 }
 
-std::vector<Panel> plane_view(const Drawing& drawing) {
+std::vector<MappedPanel> plane_view(const Drawing& drawing) {
   return {half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}")};
 }
 
-std::vector<Panel> patch_view(const Drawing& drawing) {
+std::vector<MappedPanel> patch_view(const Drawing& drawing) {
   return {half_plane(drawing, drawing.portrait.system().mu(), "{/:Italic μ u},  rim speed of the patch")};
 }
 
-std::vector<Panel> pair_view(const Drawing& drawing) {
-  std::vector<Panel> panels{half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}"), contact_panel(drawing, false)};
-  panels.front().title = drawing.portrait.scale.linear() ? "the plane of Zh98, Fig. 4" : "the plane, {/:Italic v} bent";
+std::vector<MappedPanel> pair_view(const Drawing& drawing) {
+  std::vector<MappedPanel> panels{half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}"),
+                                  contact_panel(drawing, false)};
+  panels.front().panel.title =
+      drawing.portrait.scale.linear() ? "the plane of Zh98, Fig. 4" : "the plane, {/:Italic v} bent";
   return panels;
 }
 
-std::vector<Panel> log_view(const Drawing& drawing) {
+std::vector<MappedPanel> log_view(const Drawing& drawing) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
   const double mu = portrait.system().mu(), V = portrait.window.v;
@@ -178,9 +184,15 @@ std::vector<Panel> log_view(const Drawing& drawing) {
   // Minus infinity is a point far beyond the borders.
   const Point nowhere{11 * panel.x.low - 10 * panel.x.high, 11 * panel.y.low - 10 * panel.y.high};
   const auto log_u = [=](double u) { return std::log(mu * std::abs(u) / V); };
-  PortraitPanel layers(drawing, panel, [=](const Instant& at) {
-    return Point{at.u == 0 ? nowhere.x : log_u(at.u), std::max(at.ln_v - std::log(V), nowhere.y)};
-  });
+  const PanelMap map{
+      .place =
+          [=](const Instant& at, const Instant&) {
+            return Point{at.u == 0 ? nowhere.x : log_u(at.u), std::max(at.ln_v - std::log(V), nowhere.y)};
+          },
+      .state = [=](Point at) -> std::optional<Instant> {
+        return instant_at_logarithms(mu, at.y - at.x, at.y + std::log(V));
+      }};
+  PortraitPanel layers(drawing, panel, map);
   const auto copies = [&](const PortraitOrbit& curve) {
     // Translates along the diagonal, evenly across the panel.
     const int count = drawing.crowd(14);
@@ -193,12 +205,7 @@ std::vector<Panel> log_view(const Drawing& drawing) {
     }
     return result;
   };
-  layers.add_copies(
-      copies,
-      [V](Point at) {
-        return LogState{at.y - at.x, at.y + std::log(V)};
-      },
-      false);
+  layers.add_copies(copies, false);
   const double low = std::min(panel.x.low, panel.y.low), high = std::max(panel.x.high, panel.y.high);
   layers.panel().lines.push_back(
       {{{{low, low}, {high, high}}}, {drawing.palette.isochrone, 1.1, true}, "{/:Italic k} = 1"});

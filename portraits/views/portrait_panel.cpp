@@ -187,14 +187,28 @@ Instant at_log_ratio(const PortraitOrbit& curve, double ln_k) {
   return curve.at(curve.rows() - 2);
 }
 
-Polyline PortraitPanel::line_of(const Copy& copy) const {
+Instant instant_at(double mu, double u, double ln_v) {
+  return {u, std::exp(ln_v), ln_v, ln_v - std::log(mu * std::abs(u)), 0};
+}
+
+Instant instant_at_logarithms(double mu, double ln_k, double ln_v) {
+  return {std::exp(ln_v - ln_k) / mu, std::exp(ln_v), ln_v, ln_k, 0};
+}
+
+Polyline PanelMap::line(const PortraitOrbit& orbit) const {
   Polyline line;
-  for (Eigen::Index i = 0; i < copy.orbit.rows(); ++i) {
-    Instant instant = copy.orbit.at(i, copy.factor);
-    // Also at rest, where u is 0, the side that the orbit comes from.
-    instant.u = std::copysign(instant.u, copy.sign * copy.orbit.u[0]);
-    line.push_back(place_(instant));
-  }
+  for (Eigen::Index i = 0; i < orbit.rows(); ++i) line.push_back(place(orbit.at(i), orbit.at(0)));
+  return line;
+}
+
+Polyline PortraitPanel::line_of(const Copy& copy) const {
+  const auto row = [&](Eigen::Index i) {
+    Instant at = copy.orbit.at(i, copy.factor);
+    at.u *= copy.sign;
+    return at;
+  };
+  Polyline line;
+  for (Eigen::Index i = 0; i < copy.orbit.rows(); ++i) line.push_back(map_.place(row(i), row(0)));
   return line;
 }
 
@@ -205,7 +219,8 @@ Polyline PortraitPanel::line_of(const Isochrone& isochrone) const {
 }
 
 Point PortraitPanel::place(double u, double v) const {
-  return place_({u, v, std::log(v), std::log(v / (drawing_.portrait.system().mu() * std::abs(u))), 0});
+  const Instant at{u, v, std::log(v), std::log(v / (drawing_.portrait.system().mu() * std::abs(u))), 0};
+  return map_.place(at, at);
 }
 
 void PortraitPanel::add_orbits() {
@@ -217,23 +232,22 @@ void PortraitPanel::add_orbits() {
 }
 
 void PortraitPanel::add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies,
-                               const std::function<LogState(Point)>& state, bool mirrored) {
+                               bool mirrored) {
   const bool has_rays = !drawing_.portrait.plane.terminal.rays.empty();
   add_layers([&](const PhasePortrait& of) {
-    if (has_rays || !of.plane.terminal.rays.empty()) return filling(of.flow, state, mirrored);
+    if (has_rays || !of.plane.terminal.rays.empty()) return filling(of.flow, mirrored);
     // From so steep that it passes the whole window.
     const double steepest = std::log(of.window.v / (of.system().mu() * of.window.u)) + 7;
     return copies(traced_.emplace_back(orbit_through(of.flow, 0, 0, std::max(14.0, steepest))));
   });
 }
 
-std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& flow,
-                                                        const std::function<LogState(Point)>& state, bool mirrored) {
+std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& flow, bool mirrored) {
   constexpr double gap_mm = 4, first = 1e3;
   constexpr std::size_t max_count = 60;
   struct Seed {
     Point at;  ///< on paper
-    LogState state;
+    Instant state;
     const reduction::SimilarityCurve* sector;  ///< between two invariant half-lines, which no orbit crosses
     double border = first;                     ///< mm to another sector, twice
     double gap = first;                        ///< mm to the nearest line of its sector, or to the border
@@ -246,9 +260,9 @@ std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& f
   for (int i = mirrored ? columns / 2 : 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
       const Point at{(i + 0.5) / columns, (j + 0.5) / rows};
-      const LogState there = state(from_paper(panel_, at));
-      if (!std::isfinite(there.ln_k) || !std::isfinite(there.ln_v)) continue;
-      seeds.push_back({at, there, flow.solution().through(there.ln_k).get()});
+      if (const auto there = map_.state(from_paper(panel_, at))) {
+        seeds.push_back({at, *there, flow.solution().through(there->ln_k).get()});
+      }
     }
   }
   for (Seed& seed : seeds) {
@@ -391,7 +405,7 @@ void PortraitPanel::add_highlights() {
   if (portrait.highlight) {
     heads_.clear();
     add_plain({{*portrait.highlight}}, stroke, drawing_.caption.highlight);
-    panel_.marks.push_back({{place_(portrait.highlight->at(0))}, stroke.colour});
+    panel_.marks.push_back({{map_.line(*portrait.highlight).front()}, stroke.colour});
   }
 }
 
@@ -484,7 +498,7 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
   }
 }
 
-void PortraitPanel::add_field(const std::function<reduction::State(Point)>& state) {
+void PortraitPanel::add_field() {
   using Field = PortraitStyle::Field;
   if (drawing_.style.field == Field::none) return;
   const reduction::ReducedSystem& system = drawing_.portrait.system();
@@ -500,8 +514,9 @@ void PortraitPanel::add_field(const std::function<reduction::State(Point)>& stat
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
       const Point at{(i + 0.5) / columns, (j + 0.5) / rows};
-      const reduction::State here = state(from_paper(panel_, at));
-      if (here.u == 0 && here.v == 0) continue;
+      const auto there = map_.state(from_paper(panel_, at));
+      if (!there) continue;
+      const reduction::State here{there->u, there->v};
       const reduction::Rate rate =
           drawing_.style.field == Field::regularised ? system.regularised_field(here) : system.field(here);
       // A step that is small beside both speeds.

@@ -63,8 +63,10 @@ struct Drawing {
 };
 
 using Instant = PortraitOrbit::Instant;
-/// Where a state lies in a panel.
-using Place = std::function<Point(const Instant&)>;
+
+/// The state by u and ln v, or by both logarithms where u > 0.
+Instant instant_at(double mu, double u, double ln_v);
+Instant instant_at_logarithms(double mu, double ln_k, double ln_v);
 
 /// The legend of a portrait's orbits where two laws are compared.
 std::string law_legend(const PhasePortrait& portrait);
@@ -75,16 +77,17 @@ std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 /// The state at which an orbit has that ln k, interpolated between its rows; the last before the stop if it has none.
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 
-/// A state by logarithms, which do not underflow; one of them not finite: none.
-struct LogState {
-  double ln_k, ln_v;
+/// A panel with its map.
+struct MappedPanel {
+  Panel panel;
+  PanelMap map;
 };
 
-/// A panel that fills with layers of the phase plane, placed by one function of the state.
+/// A panel that fills with layers of the phase plane, placed by its map.
 class PortraitPanel {
  public:
-  PortraitPanel(const Drawing& drawing, Panel axes, Place place)
-      : drawing_(drawing), panel_(std::move(axes)), place_(std::move(place)) {}
+  PortraitPanel(const Drawing& drawing, Panel axes, PanelMap map)
+      : drawing_(drawing), panel_(std::move(axes)), map_(std::move(map)) {}
 
   /// Where the arrow of an orbit that has none at equal times is: at that fraction of its length on paper; and how far
   /// heads are apart at least, in sizes of letters.
@@ -107,21 +110,18 @@ class PortraitPanel {
   /// with rays orbits fill the panel one by one, each through the middle of the widest gap.
   ///
   /// @param copies    some of a curve that passes k = 1 at v = 1
-  /// @param state     at a point of the panel
   /// @param mirrored  whether the left half of the panel is the mirror image of the right one
-  void add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies,
-                  const std::function<LogState(Point)>& state, bool mirrored);
+  void add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies, bool mirrored);
   void add_highlights();
   /// Isochrones, labelled where orbits leave room; those of the other law without labels.
   void add_isochrones();
   /// @param axes  and
   /// @param ray   the lines of an invariant ray, by its ln k: orbits, in the way of the motion
   void add_invariant(std::vector<Polyline> axes, const std::function<std::vector<Polyline>(double ln_k)>& ray);
-  /// @param state  the state at a point of the panel; u = v = 0 where there is none
-  void add_field(const std::function<reduction::State(Point)>& state);
+  void add_field();
 
   Panel& panel() { return panel_; }
-  Panel finished() && { return std::move(panel_); }
+  MappedPanel finished() && { return {std::move(panel_), std::move(map_)}; }
 
  private:
   struct TimedArrow {
@@ -130,7 +130,7 @@ class PortraitPanel {
   };
 
   void add_layers(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies);
-  std::vector<Copy> filling(const reduction::Flow& flow, const std::function<LogState(Point)>& state, bool mirrored);
+  std::vector<Copy> filling(const reduction::Flow& flow, bool mirrored);
   void add_coloured(const std::vector<Copy>& copies);
   void add_plain(const std::vector<Copy>& copies, Stroke stroke, const std::string& legend);
   Polyline line_of(const Copy& copy) const;
@@ -142,7 +142,7 @@ class PortraitPanel {
 
   const Drawing& drawing_;
   Panel panel_;
-  Place place_;
+  PanelMap map_;
   double arrow_fraction_ = 0.3;
   double keep_off_ = 2;
   std::deque<PortraitOrbit> traced_;  ///< that copies refer to

@@ -12,17 +12,17 @@
 namespace contensou::portraits {
 
 /// The panels of each view.
-std::vector<Panel> plane_view(const Drawing& drawing);
-std::vector<Panel> patch_view(const Drawing& drawing);
-std::vector<Panel> log_view(const Drawing& drawing);
-std::vector<Panel> similarity_view(const Drawing& drawing);
-std::vector<Panel> blowup_view(const Drawing& drawing);
-std::vector<Panel> disc_view(const Drawing& drawing);
-std::vector<Panel> time_view(const Drawing& drawing);
-std::vector<Panel> pair_view(const Drawing& drawing);
+std::vector<MappedPanel> plane_view(const Drawing& drawing);
+std::vector<MappedPanel> patch_view(const Drawing& drawing);
+std::vector<MappedPanel> log_view(const Drawing& drawing);
+std::vector<MappedPanel> similarity_view(const Drawing& drawing);
+std::vector<MappedPanel> blowup_view(const Drawing& drawing);
+std::vector<MappedPanel> disc_view(const Drawing& drawing);
+std::vector<MappedPanel> time_view(const Drawing& drawing);
+std::vector<MappedPanel> pair_view(const Drawing& drawing);
 
 /// How orbits near the origin: (u, ln k), where even a contact of order 10^5 with an axis has a shape.
-Panel contact_panel(const Drawing& drawing, bool right_half);
+MappedPanel contact_panel(const Drawing& drawing, bool right_half);
 
 /// By how many powers of e the speed that outlives the other falls in the log view: where that outlives it by far, both
 /// are seen next to k = 1, and the times left there hardly differ.
@@ -37,7 +37,7 @@ struct ViewLayout {
   View view;
   std::string_view name;
   std::string_view axes;  ///< in words
-  std::vector<Panel> (*panels)(const Drawing&);
+  std::vector<MappedPanel> (*panels)(const Drawing&);
   int panels_across;
   double width_mm;
   double height_mm;

@@ -14,14 +14,20 @@ constexpr double step = 0.8;       // between translates, or more where k hardly
 constexpr int max_count = 24;      // translates of a curve
 
 /// One panel: translates of each curve, with the arrow of the symmetry.
-Panel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
-                 const std::function<double(double x)>& ln_k_at) {
+MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
+                       const std::function<double(double x)>& ln_k_at) {
   const double middle = std::log(drawing.portrait.window.v);
   axes.y = {"{/:Italic p} = ln {/:Italic v}", middle - half_height, middle + half_height, false, {}};
   const double below = middle - 100 * half_height;
-  PortraitPanel layers(drawing, std::move(axes), [abscissa, below](const Instant& at) {
-    return Point{abscissa(at.ln_k), std::max(at.ln_v, below)};
-  });
+  const PanelMap map{.place =
+                         [abscissa, below](const Instant& at, const Instant&) {
+                           return Point{abscissa(at.ln_k), std::max(at.ln_v, below)};
+                         },
+                     .state = [ln_k_at, mu = drawing.portrait.system().mu()](Point at) -> std::optional<Instant> {
+                       const double ln_k = ln_k_at(at.x);
+                       return std::isfinite(ln_k) ? std::optional(instant_at_logarithms(mu, ln_k, at.y)) : std::nullopt;
+                     }};
+  PortraitPanel layers(drawing, std::move(axes), map);
   const auto copies = [&](const PortraitOrbit& curve) {
     const Instant at = at_log_ratio(curve, 0);
     // From the one that only touches the lower border to the one that only touches the upper, but next to an axis,
@@ -42,12 +48,7 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
     for (int i = first; i <= last; ++i) result.push_back({curve, std::exp(middle + i * apart - at.ln_v)});
     return result;
   };
-  layers.add_copies(
-      copies,
-      [&](Point at) {
-        return LogState{ln_k_at(at.x), at.y};
-      },
-      false);
+  layers.add_copies(copies, false);
   const Axis& y = layers.panel().y;
   layers.add_invariant({}, [&](double ln_k) {
     const double x = abscissa(ln_k);
@@ -55,18 +56,19 @@ Panel translates(const Drawing& drawing, Panel axes, const std::function<double(
   });
   layers.add_highlights();
   // What the symmetry does.
-  Panel panel = std::move(layers).finished();
+  MappedPanel finished = std::move(layers).finished();
+  Panel& panel = finished.panel;
   const double x = panel.x.low + 0.82 * (panel.x.high - panel.x.low);
   const double low = middle - half_height + 0.12 * 2 * half_height, high = low + 2 * step;
   panel.lines.push_back(
       {{{{x, low}, {x, high}}}, {drawing.palette.highlight, 2, false}, "symmetry {/:Italic p → p} + ln {/:Italic c}"});
   panel.arrows.push_back({{{{x, high}, {0, 1}}}, drawing.palette.highlight});
-  return panel;
+  return finished;
 }
 
 }  // namespace
 
-std::vector<Panel> similarity_view(const Drawing& drawing) {
+std::vector<MappedPanel> similarity_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
   const double mu = portrait.system().mu();
   const std::vector<double> rays = ray_log_ratios(portrait);
@@ -79,7 +81,7 @@ std::vector<Panel> similarity_view(const Drawing& drawing) {
       "{/:Italic q = μk}", 0, mu * std::max(rays.empty() ? 4 : 3 * std::exp(high), 1.2 * std::exp(start)), false, {}};
   by_ratio.title = "the same against ln {/:Italic k}";
   by_ratio.x = {"ln {/:Italic k}", low - 4, std::max(high + 4, start + 1), false, {}};
-  std::vector<Panel> panels;
+  std::vector<MappedPanel> panels;
   panels.push_back(translates(
       drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); },
       [mu](double q) { return std::log(q / mu); }));

@@ -1,5 +1,8 @@
 // u, v and k against the fraction of the stop time that has passed: by scaling, only k at the start matters.
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,28 +13,22 @@ namespace contensou::portraits {
 
 namespace {
 
-/// A motion from one ratio, every quantity over its start.
-struct Course {
-  Polyline u, v, ln_k;
-};
+/// A panel of one quantity, over its start or by itself, against the fraction of the stop time.
+PanelMap over_time(double (*quantity)(const Instant& at, const Instant& start)) {
+  return {[quantity](const Instant& at, const Instant& start) {
+    return Point{1 - at.tau_left / start.tau_left, quantity(at, start)};
+  }};
+}
 
-Course course(const PortraitOrbit& orbit) {
+/// ln k; at rest it is only a limit, that the last rows of an orbit are next to.
+double clamped_ln_k(const Instant& at, const Instant&) {
   constexpr double lowest = -60;
-  Course course;
-  for (Eigen::Index i = 0; i < orbit.rows(); ++i) {
-    const double passed = 1 - orbit.tau_left[i] / orbit.tau_left[0];
-    course.u.push_back({passed, orbit.u[i] / orbit.u[0]});
-    course.v.push_back({passed, orbit.v[i] / orbit.v[0]});
-    course.ln_k.push_back({passed, std::clamp(orbit.ln_k[i], lowest, -lowest)});
-  }
-  // At rest k is only a limit, that the last rows are next to.
-  course.ln_k.back().y = course.ln_k[course.ln_k.size() - 2].y;
-  return course;
+  return at.tau_left == 0 ? std::numeric_limits<double>::quiet_NaN() : std::clamp(at.ln_k, lowest, -lowest);
 }
 
 }  // namespace
 
-std::vector<Panel> time_view(const Drawing& drawing) {
+std::vector<MappedPanel> time_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
   const reduction::ReducedSystem& system = portrait.system();
   // About where sliding alone takes as long as pivoting alone, half-decades to both sides: 1, 3, 10, ...
@@ -41,7 +38,10 @@ std::vector<Panel> time_view(const Drawing& drawing) {
   for (double half = middle - 2; half <= middle + 2; ++half) {
     k_start.push_back((std::fmod(half, 2) == 0 ? 1 : 3) * std::pow(10, std::floor(half / 2)));
   }
-  Panel u, v, k;
+  MappedPanel spinning{{}, over_time([](const Instant& at, const Instant& start) { return at.u / start.u; })};
+  MappedPanel sliding{{}, over_time([](const Instant& at, const Instant& start) { return at.v / start.v; })};
+  MappedPanel ratio{{}, over_time(clamped_ln_k)};
+  Panel &u = spinning.panel, &v = sliding.panel, &k = ratio.panel;
   const std::string time = "{/:Italic τ}/{/:Italic τ}*";
   u.title = "spinning  {/:Italic u}/{/:Italic u}_0";
   v.title = "sliding  {/:Italic v}/{/:Italic v}_0";
@@ -62,10 +62,12 @@ std::vector<Panel> time_view(const Drawing& drawing) {
     k.y.high = highest + 6;
   }
 
-  const auto add = [&](const Course& line, Stroke stroke, const std::string& legend) {
-    u.lines.push_back({{line.u}, stroke, legend});
-    v.lines.push_back({{line.v}, stroke, legend});
-    k.lines.push_back({{line.ln_k}, stroke, legend});
+  const auto add = [&](const PortraitOrbit& orbit, Stroke stroke, const std::string& legend) {
+    for (MappedPanel* mapped : {&spinning, &sliding, &ratio}) {
+      Polyline line = mapped->map.line(orbit);
+      if (std::isnan(line.back().y)) line.pop_back();
+      mapped->panel.lines.push_back({{std::move(line)}, stroke, legend});
+    }
   };
   const auto add_courses = [&](const PhasePortrait& of, bool compared) {
     const std::vector<Colour>& times = drawing.palette.times;
@@ -75,7 +77,7 @@ std::vector<Panel> time_view(const Drawing& drawing) {
                                      : Stroke{times[i * (times.size() - 1) / (k_start.size() - 1)], 1.8, false};
       const std::string legend =
           compared ? law_legend(of) : fmt::format("{{/:Italic k}}_0 = {}", number(std::exp(ln_k), 3));
-      add(course(orbit_through(of.flow, ln_k, 0, 0)), stroke, legend);
+      add(orbit_through(of.flow, ln_k, 0, 0), stroke, legend);
     }
   };
   add_courses(portrait, false);
@@ -85,16 +87,16 @@ std::vector<Panel> time_view(const Drawing& drawing) {
     for (double ln_k : rays) lines.lines.push_back({{0, ln_k}, {1, ln_k}});
     k.lines.push_back(std::move(lines));
   }
-  if (!drawing.style.asked) return {std::move(u), std::move(v), std::move(k)};
+  if (!drawing.style.asked) return {std::move(spinning), std::move(sliding), std::move(ratio)};
   std::vector<const PortraitOrbit*> asked;
   for (const PortraitOrbit& orbit : portrait.through) asked.push_back(&orbit);
   if (portrait.highlight) asked.push_back(&*portrait.highlight);
   for (const PortraitOrbit* orbit : asked) {
     if (orbit->u[0] == 0 || orbit->v[0] == 0) continue;
-    add(course(*orbit), {drawing.palette.highlight, 2.6, false},
+    add(*orbit, {drawing.palette.highlight, 2.6, false},
         portrait.highlight && orbit == &*portrait.highlight ? drawing.caption.highlight : "through the points given");
   }
-  return {std::move(u), std::move(v), std::move(k)};
+  return {std::move(spinning), std::move(sliding), std::move(ratio)};
 }
 
 }  // namespace contensou::portraits

@@ -359,6 +359,54 @@ TEST_CASE("The panel in ln k is filled to its corners", "[invariant]") {
   }
 }
 
+TEST_CASE("The state at a point of a panel lies there, in every view", "[invariant]") {
+  for (double mu : patch_ratios) {
+    for (View view : portraits::views()) {
+      const auto [figure, maps] = draw_mapped(portrait_of(mu, {.view = view, .highlight = State{0.8, 1.5}}));
+      REQUIRE(maps.size() == figure.panels.size());
+      for (std::size_t i = 0; i < maps.size(); ++i) {
+        INFO(portraits::name(view) << " at mu = " << mu << ", panel " << i);
+        CHECK((maps[i].state == nullptr) == (view == View::time));
+        if (!maps[i].state) continue;
+        int states = 0;
+        constexpr int steps = 24;
+        for (int row = 0; row < steps; ++row) {
+          for (int column = 0; column < steps; ++column) {
+            const Panel& panel = figure.panels[i];
+            const portraits::Point point = portraits::from_paper(panel, {(column + 0.5) / steps, (row + 0.5) / steps});
+            const auto at = maps[i].state(point);
+            if (!at) continue;
+            ++states;
+            const portraits::Point again = maps[i].place(*at, *at);
+            // Rounding is that of the coordinates, and small mu shows a narrow slice of them.
+            const double rounding = 1e-15 / std::min(panel.x.high - panel.x.low, panel.y.high - panel.y.low);
+            REQUIRE(portraits::paper_distance(panel, again, point) < 1e-11 + rounding);
+            REQUIRE(at->ln_v == Approx(at->ln_k + std::log(mu * std::abs(at->u))).epsilon(1e-12).margin(1e-9));
+            REQUIRE(at->v == Approx(std::exp(at->ln_v)).epsilon(1e-12));
+          }
+        }
+        CHECK(states > steps * steps / 3);
+      }
+    }
+  }
+}
+
+TEST_CASE("Where a panel's map puts an orbit the figure draws it", "[route]") {
+  for (View view : portraits::views()) {
+    const auto portrait = portrait_of(0.3, {.view = view, .highlight = State{-0.8, 1.5}});
+    const auto [figure, maps] = draw_mapped(portrait, {.highlight = "this one"});
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      INFO(portraits::name(view) << ", panel " << i);
+      const auto drawn = layer(figure.panels[i], "this one").lines.front();
+      const auto line = maps[i].line(*portrait.highlight);
+      REQUIRE(line.size() >= drawn.size());
+      for (std::size_t j = 0; j < drawn.size(); ++j) {
+        CHECK((drawn[j].x == line[j].x && drawn[j].y == line[j].y));
+      }
+    }
+  }
+}
+
 TEST_CASE("In (ln k, p) orbits are translates of one curve along p", "[symmetry]") {
   const Figure figure = draw(portrait_of(0.3, {.view = View::similarity}), {}, plain);
   REQUIRE(figure.panels.size() == 2);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
@@ -33,7 +35,27 @@ struct PortraitStyle {
 /// The law, and the one that it is compared with, in the words of a title.
 std::string law_names(const PhasePortrait& portrait);
 
+/// How a panel shows the half-plane: states as points of its axes, and back.
+struct PanelMap {
+  using Instant = PortraitOrbit::Instant;
+
+  /// Where a state lies of an orbit that begins at `start`, which tells the side of u = 0 also at rest.
+  std::function<Point(const Instant& at, const Instant& start)> place;
+  /// The state at a point, with no time left; nothing where there is none. Empty where points are moments: x is the
+  /// fraction of the stop time that has passed.
+  std::function<std::optional<Instant>(Point)> state = {};
+
+  Polyline line(const PortraitOrbit& orbit) const;
+};
+
 /// The portrait as a drawing in its view. A pure function: all numbers come from the portrait.
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {}, PortraitStyle style = {});
+
+/// The drawing, and the map of each of its panels.
+struct MappedFigure {
+  Figure figure;
+  std::vector<PanelMap> maps;
+};
+MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& caption = {}, PortraitStyle style = {});
 
 }  // namespace contensou::portraits
