@@ -47,7 +47,7 @@ Window default_window(const ReducedSystem& system, View view, const std::vector<
 SpeedScale scale_of(const reduction::PhasePlane& plane, View view, Window window, bool linear) {
   constexpr double comb = 12;
   const auto& [direction, k, order] = plane.tangents.front();
-  const bool bends = (view == View::uv || view == View::patch || view == View::pair) && plane.terminal.rays.empty() &&
+  const bool bends = shows_window(view) && plane.terminal.rays.empty() &&
                      direction == reduction::InvariantDirection::pivoting && 1 + order > comb;
   return {window.v, bends && !linear ? 1 / (1 + order) : 1};
 }
@@ -352,7 +352,7 @@ PhasePortrait portrait_in(const Flow& flow, View view, Window window, const Port
   const SpeedScale scale = scale_of(plane, view, window, request.linear || request.stepped);
   const OrbitTracer tracer(flow, window, scale, request.stepped);
   PhasePortrait portrait{flow, plane, view, window, scale, {}, {}, {}, {}, {}};
-  if (!request.drawn_only || view == View::uv || view == View::patch || view == View::pair) {
+  if (!request.drawn_only || shows_window(view)) {
     portrait.isochrones = isochrones(flow, {{-window.u, 0}, {window.u, window.v}}, times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
     portrait.orbits = tracer.orbits(request.orbits_per_side.value_or(with_room_for_labels));

@@ -1,8 +1,7 @@
-// What the page asks of the library, as functions of JavaScript.
-//
-// Every function answers with an object, and with {error: message} for what the library rejects: an exception of C++
-// would reach JavaScript without its message. Columns are Float64Array.
+// What the page asks of the library, as functions of JavaScript. What the library rejects is thrown as an Error with its
+// words. Columns are Float64Array.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -21,8 +20,10 @@
 
 #include <fmt/format.h>
 
+#include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -38,23 +39,22 @@ namespace contensou::page {
 
 namespace {
 
-using emscripten::val;
 using reduction::Flow;
 using reduction::Law;
 using reduction::Orbit;
 using reduction::ReducedSystem;
 using reduction::State;
 
-/// The answer of a function, or what the library says against the question.
+/// The answer of a function; an exception of C++ would reach JavaScript without its message.
 template <class Function>
-val answer(Function function) {
+auto answer(Function function) {
+  std::string problem;
   try {
     return function();
   } catch (const std::exception& error) {
-    val rejected = val::object();
-    rejected.set("error", std::string(error.what()));
-    return rejected;
+    problem = error.what();
   }
+  val::global("Error").new_(problem).throw_();
 }
 
 /// Laws are kept: some of them begin with a table.
@@ -65,229 +65,29 @@ Law law_of(const std::string& name) {
   throw std::domain_error(fmt::format("no such law: {}", name));
 }
 
-/// The plane that the page shows. A plane that was rejected leaves the last good one in place.
-class Plane {
- public:
-  /// Changes law, patch and body.
-  val choose(const std::string& law, double mu, double chi, double gamma) {
-    return answer([&] {
-      flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
-      // Of the motions that slide and pivot at one speed, if it depends on the start.
-      const auto end = flow().terminal().end_of(1);
-      val facts = val::object();
-      facts.set("regime", static_cast<int>(end.regime));
-      facts.set("terminalRatio", end.k);
-      return facts;
-    });
+std::vector<State> states_of(const val& points) {
+  std::vector<State> states;
+  for (const val& point : emscripten::vecFromJSArray<val>(points)) {
+    states.push_back({point["u"].as<double>(), point["v"].as<double>()});
   }
-
-  /// Of the law and body that were chosen.
-  const Flow& flow() const {
-    if (!flow_) throw std::domain_error("no law and body were chosen yet");
-    return *flow_;
-  }
-
-  /// The stop time of one start.
-  val stop(double u, double v) const {
-    return answer([&] {
-      val result = val::object();
-      result.set("tau", flow().orbit({.u = u, .v = v}).stop_time());
-      return result;
-    });
-  }
-
-  /// The motion from one start to its stop: dense while it slides, and in equal times.
-  val motion(double u, double v) const {
-    return answer([&] {
-      const Orbit orbit = flow().orbit({.u = u, .v = v});
-      const double stop = orbit.stop_time();
-      constexpr int instants = 120;
-      std::vector<double> times;
-      for (int i = 0; i <= instants; ++i) times.push_back(stop * i / instants);
-      // Sliding may be over long before the stop: also in steps of the time that sliding alone takes.
-      const double sliding = std::min(stop, 2 * system().sliding_limit(v));
-      for (int i = 1; i < instants; ++i) times.push_back(sliding * i / instants);
-      std::ranges::sort(times);
-      const auto columns =
-          orbit.at_times(Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())));
-      val result = val::object();
-      result.set("stop", stop);
-      result.set("tau", column(columns.tau));
-      result.set("u", column(columns.u));
-      result.set("v", column(columns.v));
-      result.set("lnV", column(columns.ln_v));
-      result.set("k", column(columns.k));
-      return result;
-    });
-  }
-
-  /// One instant of the motion from one start, and the friction there as a share of f N.
-  val instant(double u, double v, double tau) const {
-    return answer([&] {
-      const auto point = flow().orbit({.u = u, .v = v}).at_time(tau);
-      val result = val::object();
-      result.set("tau", point.tau);
-      result.set("u", point.u);
-      result.set("v", point.v);
-      result.set("lnV", point.ln_v);
-      result.set("k", point.k);
-      const double pivoting = system().mu() * std::abs(point.u);
-      const bool moves = point.v > 0 || pivoting > 0;
-      result.set("force", moves ? system().law()({.sliding = point.v, .pivoting = pivoting}).force : 0);
-      return result;
-    });
-  }
-
-  /// When the slip of one start has fallen to `least`, and how long the path is that it slides until it stops.
-  val slide(double u, double v, double least) const {
-    return answer([&] {
-      const Orbit orbit = flow().orbit({.u = u, .v = v});
-      double faster = 0;
-      double slower = v > least ? orbit.stop_time() : 0;
-      for (int i = 0; i < 60; ++i) {
-        const double middle = (faster + slower) / 2;
-        (orbit.at_time(middle).v > least ? faster : slower) = middle;
-      }
-      val result = val::object();
-      result.set("end", slower);
-      result.set("length", orbit.slip_length(orbit.stop_time()));
-      return result;
-    });
-  }
-
-  /// In equal times until `end`: the path that one start has slid, and its spin.
-  val course(double u, double v, double end) const {
-    return answer([&] {
-      const Orbit orbit = flow().orbit({.u = u, .v = v});
-      constexpr Eigen::Index pieces = 160;
-      const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(pieces + 1, 0, end);
-      std::vector<double> slid;
-      for (const double tau : times) slid.push_back(orbit.slip_length(tau));
-      val result = val::object();
-      result.set("slid", column(slid));
-      result.set("u", column(orbit.at_times(times).u));
-      return result;
-    });
-  }
-
-  /// A state of the motion from one start that lies in the window: the start itself, or where it comes in.
-  val inside(double u, double v, double window_u, double window_v) const {
-    return answer([&] {
-      const auto is_inside = [&](State state) { return std::abs(state.u) <= window_u && state.v <= window_v; };
-      State state{.u = u, .v = v};
-      if (!is_inside(state)) {
-        const Orbit orbit = flow().orbit(state);
-        double outside = 0;
-        double inside = orbit.stop_time();
-        for (int i = 0; i < 60; ++i) {
-          const double middle = (outside + inside) / 2;
-          const auto point = orbit.at_time(middle);
-          (is_inside({point.u, point.v}) ? inside : outside) = middle;
-        }
-        // Next to an axis a speed may underflow; the orbit is not the axis.
-        constexpr double least = std::numeric_limits<double>::min();
-        const auto point = orbit.at_time(inside);
-        state.u = u == 0 ? 0 : std::copysign(std::max(std::abs(point.u), least), u);
-        state.v = v == 0 ? 0 : std::max(point.v, least);
-      }
-      val result = val::object();
-      result.set("u", state.u);
-      result.set("v", state.v);
-      return result;
-    });
-  }
-
-  /// All states with u >= 0 that stop after the time 1; another isochrone is this one times its time.
-  val isochrone() const {
-    return answer([&] {
-      std::vector<double> us;
-      std::vector<double> vs;
-      const auto add = [&](State direction) {
-        const double scale = 1 / flow().orbit(direction).stop_time();
-        us.push_back(scale * direction.u);
-        vs.push_back(scale * direction.v);
-      };
-      add({.u = 1, .v = 0});
-      // Even in angle where both speeds take the same time to stop, and down to small k.
-      for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
-      const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
-      constexpr int pieces = 96;
-      for (int i = 1; i < pieces; ++i) {
-        const double angle = std::numbers::pi / 2 * i / pieces;
-        add({.u = std::cos(angle), .v = aspect * std::sin(angle)});
-      }
-      add({.u = 0, .v = 1});
-      val result = val::object();
-      result.set("u", column(us));
-      result.set("v", column(vs));
-      return result;
-    });
-  }
-
-  /// The table of checks of one start.
-  val checks(double u, double v) const {
-    return answer([&] {
-      val rows = val::array();
-      for (const auto& check : reduction::verify(flow(), State{.u = u, .v = v})) {
-        val row = val::object();
-        row.set("name", check.name);
-        row.set("measured", check.measured);
-        row.set("allowed", check.allowed);
-        row.set("passed", check.passed());
-        rows.call<void>("push", row);
-      }
-      val result = val::object();
-      result.set("rows", rows);
-      return result;
-    });
-  }
-
- private:
-  const ReducedSystem& system() const { return flow().system(); }
-
-  std::optional<Flow> flow_;
-};
-
-/// {name, meaning} of each law, and of each family also what its number is: {letter, allowed, example}.
-val laws() {
-  val all = val::array();
-  const auto add = [&](std::string_view name, std::string_view meaning) {
-    val law = val::object();
-    law.set("name", std::string(name));
-    law.set("meaning", std::string(meaning));
-    all.call<void>("push", law);
-    return law;
-  };
-  for (const Law& law : reduction::named_laws()) add(law.name(), reduction::meaning_of_law(law.name()));
-  for (const reduction::LawFamily& family : reduction::law_families()) {
-    val law = add(family.name, family.meaning);
-    law.set("letter", std::string(family.letter));
-    law.set("example", family.example);
-  }
-  return all;
+  return states;
 }
 
-/// The name of the law that is called so, as the library writes it.
-val law_name(const std::string& called) {
-  return answer([&] {
-    val result = val::object();
-    result.set("name", law_of(called).name());
-    return result;
-  });
-}
-
-/// {name, chi, gamma} of each body, and `mu` of one that decides it.
-val bodies() {
-  val all = val::array();
-  for (const si::Body& body : si::bodies()) {
-    val value = val::object();
-    value.set("name", std::string(body.name));
-    value.set("chi", body.inertia.chi);
-    value.set("gamma", body.inertia.gamma);
-    if (body.patch_ratio) value.set("mu", *body.patch_ratio);
-    all.call<void>("push", value);
+/// A state of the motion from one start that lies in the window: the start itself, or where it comes in.
+State inside(const Flow& flow, State start, const portraits::Window& window) {
+  const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= window.u && state.v <= window.v; };
+  if (is_inside(start)) return start;
+  const Orbit orbit = flow.orbit(start);
+  double outside = 0;
+  double within = orbit.stop_time();
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (outside + within) / 2;
+    (is_inside(orbit.at_time(middle)) ? within : outside) = middle;
   }
-  return all;
+  // Next to an axis a speed may underflow; the orbit is not the axis.
+  constexpr double least = std::numeric_limits<double>::min();
+  const auto point = orbit.at_time(within);
+  return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};
 }
 
 /// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2, or nothing
@@ -312,7 +112,6 @@ si::Experiment experiment_of(const val& fields) {
 /// @param known  the flow, where it is known
 program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr) {
   const auto has = [&](const char* key) { return !asked[key].isNull(); };
-  const auto state = [](const val& point) { return State{point["u"].as<double>(), point["v"].as<double>()}; };
   std::optional<si::Experiment> experiment;
   if (has("ball")) {
     experiment = experiment_of(asked["ball"]);
@@ -325,17 +124,19 @@ program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr)
                          {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()});
   };
   program::PortraitSpec question{.flow = flow(), .experiment = experiment};
-  if (experiment) {
-    question.start = si::reduced_start(*experiment);
-  } else if (has("start")) {
-    question.start = state(asked["start"]);
-  }
   portraits::PortraitRequest& request = question.request;
   request.view = portraits::find_view(asked["view"].as<std::string>());
   if (has("window")) {
     request.window = portraits::Window{asked["window"][0].as<double>(), asked["window"][1].as<double>()};
   }
-  for (const val& point : emscripten::vecFromJSArray<val>(asked["through"])) request.through.push_back(state(point));
+  const std::vector<State> orbits = states_of(asked["orbits"]);
+  const auto chosen = static_cast<std::size_t>(asked["chosen"].as<int>());
+  if (chosen < orbits.size()) question.start = experiment ? si::reduced_start(*experiment) : orbits[chosen];
+  for (std::size_t i = 0; i < orbits.size(); ++i) {
+    // The axes are drawn anyway.
+    if (i == chosen || orbits[i].u == 0 || orbits[i].v == 0) continue;
+    request.through.push_back(request.window ? inside(question.flow, orbits[i], *request.window) : orbits[i]);
+  }
   request.isochrones = asked["isochrones"].as<int>();
   if (has("against")) request.comparison = law_of(asked["against"].as<std::string>());
   const auto field = asked["field"].as<std::string>();
@@ -345,79 +146,305 @@ program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr)
   return question;
 }
 
-/// What the program draws when asked so of the plane's system; but the orbits that were asked for come by themselves,
-/// for the page to draw.
-val portrait(const val& asked, const Plane& plane) {
-  return answer([&] {
-    program::PortraitSpec question = question_of(asked, &plane.flow());
-    question.request.drawn_only = true;
-    question.style.asked = false;
-    const portraits::PhasePortrait portrait = question.portrait();
-    val through = val::array();
-    for (const portraits::PortraitOrbit& orbit : portrait.through) through.call<void>("push", orbit_value(orbit));
-    val result = val::object();
-    result.set("figure", figure_value(question.figure(portrait)));
-    result.set("windowU", portrait.window.u);
-    result.set("windowV", portrait.window.v);
-    result.set("exponent", portrait.scale.exponent);
-    result.set("through", through);
-    result.set("highlight", portrait.highlight ? orbit_value(*portrait.highlight) : val::null());
+/// The plane that the page shows. A plane that was rejected leaves the last good one in place.
+class Plane {
+ public:
+  /// Changes law, patch and body: what k tends to, and what that means.
+  val choose(const std::string& law, double mu, double chi, double gamma) {
+    return answer([&] {
+      flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
+      // Of the motions that slide and pivot at one speed, if it depends on the start.
+      const auto end = flow().terminal().end_of(1);
+      return object("terminalRatio", end.k, "meaning", reduction::meaning(end.regime));
+    });
+  }
+
+  /// What the program draws when asked so of the plane's system; but the orbits that were asked for come by themselves,
+  /// for the page to draw: their motions from start to stop, and in each panel the line and where its arrow is.
+  val portrait(const val& asked) {
+    return answer([&] {
+      program::PortraitSpec question = question_of(asked, &flow());
+      question.request.drawn_only = true;
+      question.style.asked = false;
+      const portraits::PhasePortrait portrait = question.portrait();
+      drawn_ = question.mapped_figure(portrait);
+      val own = val::array();
+      auto through = portrait.through.begin();
+      for (const State& start : states_of(asked["orbits"])) {
+        const int index = own["length"].as<int>();
+        const bool chosen = index == asked["chosen"].as<int>(), on_axis = start.u == 0 || start.v == 0;
+        const portraits::PortraitOrbit* orbit = chosen && portrait.highlight ? &*portrait.highlight
+                                                : chosen || on_axis          ? nullptr
+                                                                             : &*through++;
+        own.set(index, own_orbit(start, orbit, portrait.window));
+      }
+      const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
+      return object("figure", figure_value(drawn_.figure), "window",
+                    list(std::array{portrait.window.u, portrait.window.v}, [](double side) { return val(side); }),
+                    "own", own, "moments", drawn_.maps.front().state == nullptr, "through",
+                    list(question.request.through, point));
+    });
+  }
+
+  /// The stop time of one start.
+  double stop(double u, double v) const {
+    return answer([&] { return flow().orbit({.u = u, .v = v}).stop_time(); });
+  }
+
+  /// The motion from one start to its stop: dense while it slides, and in equal times.
+  val motion(double u, double v) const {
+    return answer([&] {
+      const auto columns = instants(flow().orbit({.u = u, .v = v}));
+      return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
+    });
+  }
+
+  /// One instant of the motion from one start, the friction there as a fraction of f N, and where it is in each panel.
+  val instant(double u, double v, double tau) const {
+    return answer([&] {
+      const Orbit orbit = flow().orbit({.u = u, .v = v});
+      const auto point = orbit.at_time(tau);
+      const double pivoting = system().mu() * std::abs(point.u);
+      const bool moves = point.v > 0 || pivoting > 0;
+      const double force = moves ? system().law()({.sliding = point.v, .pivoting = pivoting}).force : 0;
+      const double left = std::max(0.0, orbit.stop_time() - point.tau);
+      const Instant now{point.u, point.v, point.ln_v, std::log(point.k), left};
+      return object("tau", point.tau, "u", point.u, "v", point.v, "k", point.k, "force", force, "places",
+                    places(now, state({u, v}, orbit.stop_time())));
+    });
+  }
+
+  /// Where a state is in each panel: x and y in turn.
+  val place(double u, double v) const {
+    return answer([&] {
+      const Instant at = state({u, v}, 1);
+      return column(places(at, at));
+    });
+  }
+
+  /// The state at a point of a panel; null where there is none.
+  val at(int panel, double x, double y) const {
+    const auto& map = drawn_.maps.at(static_cast<std::size_t>(panel));
+    const auto there = map.state ? map.state({x, y}) : std::nullopt;
+    return there && std::isfinite(there->u) && std::isfinite(there->v) ? object("u", there->u, "v", there->v)
+                                                                       : val::null();
+  }
+
+  /// When the slip of one start has fallen to `least`, and how long the path is that it slides until it stops.
+  val slide(double u, double v, double least) const {
+    return answer([&] {
+      const Orbit orbit = flow().orbit({.u = u, .v = v});
+      double faster = 0;
+      double slower = v > least ? orbit.stop_time() : 0;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = (faster + slower) / 2;
+        (orbit.at_time(middle).v > least ? faster : slower) = middle;
+      }
+      return object("end", slower, "length", orbit.slip_length(orbit.stop_time()));
+    });
+  }
+
+  /// In equal times until `end`: the path that one start has slid, and its spin.
+  val course(double u, double v, double end) const {
+    return answer([&] {
+      const Orbit orbit = flow().orbit({.u = u, .v = v});
+      constexpr Eigen::Index pieces = 160;
+      const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(pieces + 1, 0, end);
+      std::vector<double> slid;
+      for (const double tau : times) slid.push_back(orbit.slip_length(tau));
+      return object("slid", slid, "u", orbit.at_times(times).u);
+    });
+  }
+
+  /// All states that stop after that time: those with u >= 0, and in each panel the lines of both signs.
+  val isochrone(double tau) const {
+    return answer([&] {
+      std::vector<double> us, vs;
+      const auto add = [&](State direction) {
+        const double scale = tau / flow().orbit(direction).stop_time();
+        us.push_back(scale * direction.u);
+        vs.push_back(scale * direction.v);
+      };
+      add({.u = 1, .v = 0});
+      // Even in angle where both speeds take the same time to stop, and down to small k.
+      for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
+      const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
+      constexpr int pieces = 96;
+      for (int i = 1; i < pieces; ++i) {
+        const double angle = std::numbers::pi / 2 * i / pieces;
+        add({.u = std::cos(angle), .v = aspect * std::sin(angle)});
+      }
+      add({.u = 0, .v = 1});
+      std::size_t panel = 0;
+      const auto lines = [&](const portraits::PanelMap& map) {
+        std::vector<portraits::Polyline> both(2);
+        for (std::size_t i = 0; map.state && i < us.size(); ++i) {
+          for (const int side : {0, 1}) {
+            const Instant at = state({side == 0 ? us[i] : -us[i], vs[i]}, tau);
+            both[static_cast<std::size_t>(side)].push_back(map.place(at, at));
+          }
+        }
+        return column(portraits::visible(drawn_.figure.panels[panel++], both));
+      };
+      return object("u", us, "v", vs, "lines", list(drawn_.maps, lines));
+    });
+  }
+
+  /// The table of checks of one start.
+  val checks(double u, double v) const {
+    return answer([&] {
+      return list(reduction::verify(flow(), State{.u = u, .v = v}), [](const reduction::Check& check) {
+        return object("name", check.name, "measured", check.measured, "allowed", check.allowed, "passed",
+                      check.passed());
+      });
+    });
+  }
+
+ private:
+  using Instant = portraits::PortraitOrbit::Instant;
+
+  /// Of the law and body that were chosen.
+  const Flow& flow() const {
+    if (!flow_) throw std::domain_error("no law and body were chosen yet");
+    return *flow_;
+  }
+  const ReducedSystem& system() const { return flow().system(); }
+
+  Instant state(State at, double left) const {
+    return {at.u, at.v, std::log(at.v), std::log(at.v / (system().mu() * std::abs(at.u))), left};
+  }
+
+  std::vector<double> places(const Instant& at, const Instant& start) const {
+    std::vector<double> result;
+    for (const portraits::PanelMap& map : drawn_.maps) {
+      const auto [x, y] = map.place(at, start);
+      result.insert(result.end(), {x, y});
+    }
     return result;
+  }
+
+  reduction::OrbitColumns instants(const Orbit& orbit) const {
+    const double stop = orbit.stop_time();
+    constexpr int count = 120;
+    std::vector<double> times;
+    for (int i = 0; i <= count; ++i) times.push_back(stop * i / count);
+    // Sliding may be over long before the stop: also in steps of the time that sliding alone takes.
+    const double sliding = std::min(stop, 2 * system().sliding_limit(orbit.at_time(0).v));
+    for (int i = 1; i < count; ++i) times.push_back(sliding * i / count);
+    std::ranges::sort(times);
+    return orbit.at_times(Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())));
+  }
+
+  /// @param drawn  the portrait's orbit through the start, if there is one: it may begin before, or in the window
+  val own_orbit(State start, const portraits::PortraitOrbit* drawn, const portraits::Window& window) const {
+    const Orbit orbit = flow().orbit(start);
+    const double stop = orbit.stop_time();
+    portraits::PortraitOrbit rows;
+    if (drawn) {
+      const auto after = (drawn->tau_left < stop * (1 - 1e-12)).count();
+      const Instant first = state(start, stop);
+      const auto from_start = [&](double value, const Eigen::ArrayXd& column) {
+        return (Eigen::ArrayXd(after + 1) << value, column.tail(after)).finished();
+      };
+      rows = {from_start(first.u, drawn->u), from_start(first.v, drawn->v), from_start(first.ln_v, drawn->ln_v),
+              from_start(first.ln_k, drawn->ln_k), from_start(stop, drawn->tau_left)};
+    }
+    const bool is_seen = drawn && std::abs(start.u) <= window.u && start.v <= window.v;
+    const auto motion = is_seen ? reduction::OrbitColumns() : instants(orbit);
+    std::size_t panel = 0;
+    const auto in_panel = [&](const portraits::PanelMap& map) {
+      const portraits::Panel& axes = drawn_.figure.panels[panel++];
+      const auto line = drawn ? portraits::visible(axes, {map.line(rows)}) : std::vector<portraits::Polyline>();
+      constexpr double shortest = 0.06;  // of a side
+      const auto length = [&](const portraits::Polyline& part) { return portraits::paper_length(axes, part); };
+      const auto longest = std::ranges::max_element(line, {}, length);
+      std::vector<double> arrow;
+      if (longest != line.end() && length(*longest) > shortest) {
+        const auto [tip, direction] = portraits::arrow_along(axes, *longest, 0.4);
+        arrow = {tip.x, tip.y, direction.x, direction.y};
+      }
+      return object("line", line, "arrow", arrow);
+    };
+    return is_seen ? object("stop", stop, "tau", Eigen::ArrayXd(stop - rows.tau_left), "u", rows.u, "v", rows.v, "k",
+                            Eigen::ArrayXd(rows.ln_k.exp()), "panels", list(drawn_.maps, in_panel))
+                   : object("stop", stop, "tau", motion.tau, "u", motion.u, "v", motion.v, "k", motion.k, "panels",
+                            list(drawn_.maps, in_panel));
+  }
+
+  std::optional<Flow> flow_;
+  portraits::MappedFigure drawn_;  ///< the last portrait
+};
+
+/// {name, meaning} of each law, and of each family also what its number is: {letter, example}.
+val laws() {
+  val all = list(reduction::named_laws(), [](const Law& law) {
+    return object("name", law.name(), "meaning", reduction::meaning_of_law(law.name()));
+  });
+  for (const reduction::LawFamily& family : reduction::law_families()) {
+    all.call<void>("push", object("name", family.name, "meaning", family.meaning, "letter", family.letter, "example",
+                                  family.example));
+  }
+  return all;
+}
+
+/// The name of the law that is called so, as the library writes it.
+std::string law_name(const std::string& called) {
+  return answer([&] { return law_of(called).name(); });
+}
+
+/// {name, chi, gamma} of each body, and `mu` of one that decides it.
+val bodies() {
+  return list(si::bodies(), [](const si::Body& body) {
+    val value = object("name", body.name, "chi", body.inertia.chi, "gamma", body.inertia.gamma);
+    if (body.patch_ratio) value.set("mu", *body.patch_ratio);
+    return value;
   });
 }
 
-/// The file that the program writes when asked so.
-val portrait_file(const val& asked, const std::string& ending) {
+/// {name, layered}: whether isochrones and a field are drawn in it.
+val views() {
+  return list(portraits::views(), [](portraits::View view) {
+    return object("name", portraits::name(view), "layered", portraits::shows_window(view));
+  });
+}
+
+/// The file that the program writes when asked so, ending in tex or json.
+std::string portrait_file(const val& asked, const std::string& ending) {
   return answer([&] {
     const program::PortraitSpec question = question_of(asked);
     const portraits::PhasePortrait portrait = question.portrait();
-    val result = val::object();
-    result.set("text", ending == "tex"    ? portraits::pgfplots(question.figure(portrait))
-                       : ending == "json" ? portraits::to_json(portrait, question.source())
-                                          : portraits::to_csv(portrait, question.source()));
-    return result;
+    return ending == "tex" ? portraits::pgfplots(question.figure(portrait))
+                           : portraits::to_json(portrait, question.source());
   });
 }
 
 val catalogue() {
-  val balls = val::array();
-  for (const si::CatalogueEntry& entry : si::catalogue()) {
-    const auto* by_spin = std::get_if<si::SpinDeceleration>(&entry.experiment.contact.patch);
-    val ball = val::object();
-    ball.set("name", entry.name);
-    ball.set("title", entry.experiment.ball.name);
-    ball.set("mass", entry.experiment.ball.mass);
-    ball.set("radius", entry.experiment.ball.radius);
-    ball.set("friction", entry.experiment.contact.friction);
-    ball.set("gravity", entry.experiment.environment.gravity);
-    ball.set("body", std::string(entry.experiment.ball.body.name));
-    ball.set("law", si::law_of(entry.experiment));
-    const bool whole = std::holds_alternative<si::WholeFace>(entry.experiment.contact.patch);
-    ball.set("patchBy", std::string(whole ? "whole_face" : by_spin ? "spin_deceleration" : "patch_radius"));
-    ball.set("patch", by_spin ? by_spin->value : si::patch_radius_of(entry.experiment, reduction::HertzLaw{}));
-    ball.set("slip", si::slip_at_start(entry.experiment));
-    ball.set("spin", si::spin_at_start(entry.experiment));
-    ball.set("sources", entry.sources);
-    balls.call<void>("push", ball);
-  }
-  return balls;
+  return list(si::catalogue(), [](const si::CatalogueEntry& entry) {
+    const auto& [ball, contact, start, environment] = entry.experiment;
+    const auto* by_spin = std::get_if<si::SpinDeceleration>(&contact.patch);
+    const bool whole = std::holds_alternative<si::WholeFace>(contact.patch);
+    return object(
+        "name", entry.name, "title", ball.name, "mass", ball.mass, "radius", ball.radius, "friction", contact.friction,
+        "gravity", environment.gravity, "body", ball.body.name, "law", si::law_of(entry.experiment), "patchBy",
+        whole     ? "whole_face"
+        : by_spin ? "spin_deceleration"
+                  : "patch_radius",
+        "patch", by_spin ? by_spin->value : si::patch_radius_of(entry.experiment, reduction::HertzLaw{}), "slip",
+        si::slip_at_start(entry.experiment), "spin", si::spin_at_start(entry.experiment), "sources", entry.sources);
+  });
 }
 
 /// What the plane needs to know of a ball.
 val contact(const std::string& law, const val& fields) {
   return answer([&] {
     const si::Experiment experiment = experiment_of(fields);
-    val result = val::object();
-    result.set("mu", si::patch_ratio(experiment, law_of(law)));
     const double radius = si::patch_radius_of(experiment, law_of(law));
-    result.set("patchRadius", radius);
     // The one is proportional to the other.
     const double per_deceleration = si::patch_radius_of_deceleration(
         experiment.ball.radius, 1, experiment.contact.friction, experiment.environment.gravity,
         law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);
-    result.set("spinDeceleration", radius / per_deceleration);
-    result.set("secondsPerTau", si::seconds(experiment, 1));
-    return result;
+    return object("mu", si::patch_ratio(experiment, law_of(law)), "patchRadius", radius, "spinDeceleration",
+                  radius / per_deceleration, "secondsPerTau", si::seconds(experiment, 1));
   });
 }
 
@@ -426,24 +453,27 @@ val contact(const std::string& law, const val& fields) {
 }  // namespace contensou::page
 
 EMSCRIPTEN_BINDINGS(contensou) {
-  using contensou::page::Plane;
+  using namespace contensou::page;
+  using emscripten::function;
   emscripten::class_<Plane>("Plane")
       .constructor<>()
       .function("choose", &Plane::choose)
-      .function("inside", &Plane::inside)
+      .function("portrait", &Plane::portrait)
       .function("stop", &Plane::stop)
       .function("motion", &Plane::motion)
       .function("instant", &Plane::instant)
+      .function("place", &Plane::place)
+      .function("at", &Plane::at)
       .function("slide", &Plane::slide)
       .function("course", &Plane::course)
       .function("isochrone", &Plane::isochrone)
       .function("checks", &Plane::checks);
-  emscripten::function("portrait", &contensou::page::portrait);
-  emscripten::function("portraitFile", &contensou::page::portrait_file);
-  emscripten::function("laws", &contensou::page::laws);
-  emscripten::function("lawName", &contensou::page::law_name);
-  emscripten::function("bodies", &contensou::page::bodies);
-  emscripten::function("catalogue", &contensou::page::catalogue);
-  emscripten::function("contact", &contensou::page::contact);
+  function("portraitFile", &portrait_file);
+  function("laws", &laws);
+  function("lawName", &law_name);
+  function("bodies", &bodies);
+  function("views", &views);
+  function("catalogue", &catalogue);
+  function("contact", &contact);
   emscripten::constant("rollingSlip", contensou::si::rolling_slip);
 }

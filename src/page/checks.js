@@ -27,7 +27,7 @@ export class Checks {
     $("checks").removeAttribute("aria-busy");
     let rows;
     try {
-      rows = orbit ? this.store.library.plane.checks(orbit.u, orbit.v).rows.map(row) : [];
+      rows = orbit ? this.store.library.plane.checks(orbit.u, orbit.v).map(row) : [];
     } catch (error) {
       rows = [make("tr", {}, cell(error.message, { colSpan: 4 }))];
     }

@@ -6,11 +6,13 @@ const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
  * {portrait, roll}: the latter of a real ball that moves and can roll.
  *
  * @param request  of portrait_request.js
+ * @param through  points that the orbits of the others pass
  * @param body     {chi}, and mu of one that decides it
  * @param builtIn  the state's ball as the program knows it, if there is one
  */
-export function commandLine(state, request, body, builtIn) {
-  const { ball, start } = request;
+export function commandLine(state, request, through, body, builtIn) {
+  const { ball } = request;
+  const start = request.orbits[request.chosen];
   const ofBall = [];
   if (ball) {
     ofBall.push("--ball", ball.name);
@@ -34,7 +36,7 @@ export function commandLine(state, request, body, builtIn) {
   if (request.against) words.push("--against", request.against);
   words.push("--view", request.view);
   if (request.window) words.push("--window", request.window.join(","));
-  for (const { u, v } of request.through) words.push("--through", `${u},${v}`);
+  for (const { u, v } of through) words.push("--through", `${u},${v}`);
   if (request.isochrones !== 7) words.push("--isochrones", request.isochrones);
   if (request.field !== "none") words.push("--field", request.field);
   if (request.screen) words.push("--style", "screen");

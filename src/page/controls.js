@@ -5,9 +5,8 @@ import { lawField } from "./law_field.js";
 import { shown } from "./numbers.js";
 import { bodyOf, fields, initialState, takeBall } from "./page_state.js";
 import { isDark } from "./theme.js";
-import { viewNamed, views } from "./views.js";
+import { described } from "./views.js";
 
-const regimes = ["k → 0: towards the stop only spin is left", "k → k*: sliding and spin die out together", "k → ∞: towards the stop only sliding is left"];
 const fieldTitles = { none: "none", motion: "of the motion (2.6)", regularised: "regularised (2.7)" };
 const smallestMu = 1e-3;
 const sliderToMu = (value, largest) => Number((largest * (smallestMu / largest) ** (1 - value / 1000)).toPrecision(3));
@@ -24,7 +23,7 @@ export class Controls {
   }
 
   makeChoices() {
-    const { store, store: { library: { balls, bodies, laws } }, ask, attempt } = this;
+    const { store, store: { library: { balls, bodies, laws, views } }, ask, attempt } = this;
     fillSelect($("ball"), [{ name: "", title: "any size, any unit" }, ...balls]);
     $("ball").addEventListener("change", () => ask((state) => {
       const ball = balls.find(({ name }) => name === $("ball").value);
@@ -37,13 +36,13 @@ export class Controls {
       const { mu, largestMu } = bodyOf(state, store.library);
       state.mu = mu ?? Math.min(state.mu, largestMu);
     }));
-    const use = (key) => (name) => store.change((state) => (state[key] = name && store.library.lawName(name).name));
+    const use = (key) => (name) => store.change((state) => (state[key] = name && store.library.lawName(name)));
     this.lawField = lawField($("law"), $("law-exponent"), { laws, key: "exponent", attempt, use: use("law") });
     this.againstField = lawField($("against"), $("against-exponent"), { laws, key: "against-exponent", none: "no other law", attempt, use: use("against") });
     fillSelect($("field"), fields.map((name) => ({ name, title: fieldTitles[name] })));
     $("field").addEventListener("change", () => ask((state) => (state.field = $("field").value)));
     $("isochrones").addEventListener("change", () => ask((state) => (state.isochrones = $("isochrones").checked ? initialState().isochrones : 0)));
-    this.viewButtons = choiceButtons($("views"), views, (name) => this.plane.view(name));
+    this.viewButtons = choiceButtons($("views"), views.map(described), (name) => this.plane.view(name));
     $("fit").addEventListener("click", () => {
       this.plane.before = undefined;
       ask((state) => (state.window = null));
@@ -105,7 +104,7 @@ export class Controls {
       key: `window-${name}`, label: name,
       use: positive((state, value) => {
         this.plane.before = undefined;
-        state.window = store.context.window.map((shown, i) => (i === side ? value : shown));
+        state.window = store.portrait.window.map((shown, i) => (i === side ? value : shown));
       }),
     }));
     this.muField = numberField($("mu"), $("mu-error"), (mu) => store.change((state) => this.setMu(state, mu)));
@@ -145,7 +144,7 @@ export class Controls {
   }
 
   show() {
-    const { store, store: { state, body, facts, contact, context, orbit } } = this;
+    const { store, store: { state, body, facts, contact, portrait, orbit, view } } = this;
     const { ball } = state;
     $("ball").value = ball?.name ?? "";
     this.lawField.show(state.law);
@@ -153,7 +152,7 @@ export class Controls {
     for (const option of $("against").options) option.disabled = option.value === state.law;
     $("field").value = state.field;
     $("isochrones").checked = state.isochrones > 0;
-    for (const control of [$("field"), $("isochrones")]) control.disabled = !viewNamed(state.view).layered;
+    for (const control of [$("field"), $("isochrones")]) control.disabled = !view.layered;
     $("body").value = state.body;
     $("body-label").hidden = Boolean(ball);
     $("inertia").hidden = state.body !== "own";
@@ -164,10 +163,10 @@ export class Controls {
     $("patch-size").textContent = patch;
     $("mu-slider").setAttribute("aria-valuetext", `${patch ? `${patch}, ` : ""}mu ${shown(state.mu)}`);
     this.muField.show(ball ? Number(state.mu.toPrecision(6)) : state.mu);
-    this.windowFields.forEach((field, side) => field.show(Number(context.window[side].toPrecision(6))));
+    this.windowFields.forEach((field, side) => field.show(Number(portrait.window[side].toPrecision(6))));
     this.viewButtons.show(state.view);
-    $("view-hint").textContent = viewNamed(state.view).hint;
-    $("terminal").textContent = regimes[facts.regime] + (facts.regime === 1 ? `, k* = ${shown(facts.terminalRatio, 6)}` : "");
+    $("view-hint").textContent = view.hint;
+    $("terminal").textContent = `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}`;
     $("theme").setAttribute("aria-label", `Theme: ${state.theme === "auto" ? "as the system" : state.theme}`);
     $("slip-control").hidden = $("spin-control").hidden = !orbit;
     $("friction-control").hidden = $("ball-card").hidden = !ball;

@@ -34,48 +34,23 @@ export class Frame {
     };
   }
 
-  /** The line through a flat column of points x0, y0, x1, y1, ...; what lies beyond one side is left out. */
-  path(points) {
-    const { left, top, width, height } = this;
-    const [perX, perY] = [width / (this.x.high - this.x.low), height / (this.y.high - this.y.low)];
-    const sideOf = (x, y) => (x < left ? 1 : x > left + width ? 2 : 0) | (y < top ? 4 : y > top + height ? 8 : 0);
-    const line = [];
-    let [lastX, lastY, lastSide] = [NaN, NaN, 0];
-    let waiting = false;  // whether the last point was left out
+  /** The lines through a flat column of points x0, y0, x1, y1, ..., NaN between them, in pixels. */
+  lines(points) {
+    const lines = [[]];
     for (let i = 0; i < points.length; i += 2) {
-      const x = this.bounded(left + (points[i] - this.x.low) * perX, left, width);
-      const y = this.bounded(top + (this.y.high - points[i + 1]) * perY, top, height);
-      if (Number.isNaN(x) || Number.isNaN(y)) continue;
-      const side = sideOf(x, y);
-      const leftOut = i + 2 < points.length && line.length > 0 &&
-        ((side !== 0 && side === lastSide) || (Math.abs(x - line.at(-2)) < 0.3 && Math.abs(y - line.at(-1)) < 0.3));
-      // The line comes back from where it was last, not from where it went out.
-      if (!leftOut && waiting && side !== lastSide) line.push(lastX, lastY);
-      if (!leftOut) line.push(x, y);
-      waiting = leftOut;
-      [lastX, lastY, lastSide] = [x, y, side];
+      if (Number.isNaN(points[i])) lines.push([]);
+      else lines.at(-1).push(this.px(points[i]), this.py(points[i + 1]));
     }
-    return line;
+    return lines;
   }
 
-  /** The line through columns of numbers, as long as the shorter one, without points that nobody would see. */
+  /** The line through columns of numbers, as long as the shorter one; without those that are not finite. */
   line(xs, ys) {
     const line = [];
-    let [lastX, lastY] = [NaN, NaN];
-    const count = Math.min(xs.length, ys.length);
-    for (let i = 0; i < count; ++i) {
-      const [x, y] = [this.bounded(this.px(xs[i]), this.left, this.width), this.bounded(this.py(ys[i]), this.top, this.height)];
-      if (Number.isNaN(x) || Number.isNaN(y)) continue;
-      if (Math.abs(x - lastX) < 0.3 && Math.abs(y - lastY) < 0.3 && i + 1 < count) continue;
-      line.push(x, y);
-      [lastX, lastY] = [x, y];
+    for (let i = 0; i < Math.min(xs.length, ys.length); ++i) {
+      if (Number.isFinite(ys[i])) line.push(this.px(xs[i]), this.py(ys[i]));
     }
     return line;
-  }
-
-  /** Far outside the frame is as good as farther, and pixels stay small numbers. */
-  bounded(pixel, start, size) {
-    return Math.min(start + 50 * size, Math.max(start - 49 * size, pixel));
   }
 
   /** The texts of the ticks: {at, text} of each, about `wanted` of them. */

@@ -17,13 +17,11 @@ import { Store } from "./store.js";
 import { CanvasSurface } from "./surface.js";
 import { themeOf } from "./theme.js";
 import { Tour } from "./tour.js";
-import { views } from "./views.js";
 
 const smallestWidth = 120;  // pixels; a hidden or minimised page has none
 
 function start(library) {
-  const known = { ...library, views: views.map(({ name }) => name) };
-  const store = new Store(library, fromFragment(location.hash, known));
+  const store = new Store(library, fromFragment(location.hash, library));
   /** Runs what may be rejected, and tells the reader. */
   const attempt = (action) => {
     try {
@@ -48,9 +46,9 @@ function start(library) {
   const controls = new Controls(store, plane, { ask, attempt });
   const orbits = new Orbits(store, plane, { ask, stopText });
   const checks = new Checks(store);
-  const address = new Address(store, known, (asked) => ask((state) => Object.assign(state, asked)));
+  const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
   const share = new Share(store, plane, player, address);
-  const go = (fragment) => ask((state) => Object.assign(state, fromFragment(fragment, known), { theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
+  const go = (fragment) => ask((state) => Object.assign(state, fromFragment(fragment, library), { theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
   $("presets").append(...presets.map(({ title, fragment }) => {
     const link = make("a", { href: `#${fragment}`, textContent: title });
     link.addEventListener("click", (event) => {

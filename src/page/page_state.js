@@ -82,7 +82,7 @@ export function toFragment(state) {
 /**
  * The state of a fragment; what cannot be read in it keeps its first value.
  *
- * @param known  of library.js, with the names of the views
+ * @param known  of library.js
  */
 export function fromFragment(fragment, known) {
   const { views, balls } = known;
@@ -101,7 +101,7 @@ export function fromFragment(fragment, known) {
 
   choice("field", fields, (field) => (state.field = field));
   number("isochrones", (count) => (state.isochrones = count), (count) => count === 0 || count === 7);
-  choice("view", views, (view) => (state.view = view));
+  choice("view", views.map(({ name }) => name), (view) => (state.view = view));
   choice("theme", ["light", "dark"], (theme) => (state.theme = theme));
   choice("body", known.bodies.map(({ name }) => name), (body) => (state.body = body));
   const inertia = numbers(query.get("body") ?? "", 2, ([chi, gamma]) => chi > 0 && gamma > 0);
@@ -118,7 +118,7 @@ export function fromFragment(fragment, known) {
   });
   for (const key of ["law", "against"]) {
     try {
-      if (query.get(key)) state[key] = known.lawName(query.get(key)).name;
+      if (query.get(key)) state[key] = known.lawName(query.get(key));
     } catch {
       // Not a law.
     }

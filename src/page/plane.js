@@ -6,7 +6,6 @@ import { shown } from "./numbers.js";
 import { drawPortrait } from "./portrait_figure.js";
 import { rowsOf } from "./portrait_layout.js";
 import { CanvasSurface } from "./surface.js";
-import { placesOf, stateOf, viewNamed } from "./views.js";
 
 const reach = { touch: 24, mouse: 10 };  // pixels from which a start or an orbit is taken hold of
 
@@ -44,20 +43,15 @@ export class Plane {
   // --- drawing -----------------------------------------------------------------------------------------------------
 
   scene() {
-    const { state, portrait, context, motions, motion, orbit, now } = this.store;
-    // The library answers with the chosen orbit by itself, and with the others that are none of the axes.
-    const entry = (start, index, drawn, chosen) => ({ orbit: drawn, start, index, chosen, stop: motions[index].stop });
-    const others = state.orbits.map((start, index) => ({ start, index }))
-      .filter(({ start, index }) => index !== state.chosen && start.u !== 0 && start.v !== 0)
-      .map(({ start, index }, i) => entry(start, index, portrait.through[i], false));
-    const chosen = portrait.highlight ? [entry(orbit, state.chosen, portrait.highlight, true)] : [];
+    const { state, portrait, motion, now, isochrone, library } = this.store;
+    const own = portrait.own.map((orbit, index) => {
+      const { u, v } = state.orbits[index];
+      return { ...orbit, index, chosen: index === state.chosen, start: portrait.moments ? null : library.plane.place(u, v) };
+    });
     return {
-      figure: portrait.figure, view: viewNamed(state.view), context,
-      own: [...others, ...chosen],
-      isochrone: state.isochrone ? this.store.isochroneOf(state.isochrone) : null,
-      marker: now && now.tau < motion.stop
-        ? { index: state.chosen, state: { ...now, lnK: Math.log(now.k), left: motion.stop - now.tau, start: { ...orbit, left: motion.stop } } }
-        : null,
+      figure: portrait.figure, isochrone,
+      own: [...own.filter(({ chosen }) => !chosen), ...own.filter(({ chosen }) => chosen)],
+      marker: now && now.tau < motion.stop ? { index: state.chosen, places: now.places } : null,
       cross: this.cross,
     };
   }
@@ -81,7 +75,7 @@ export class Plane {
     const legend = portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
     const count = state.orbits.length;
     $("plane").setAttribute("aria-label",
-      `Phase portrait, view ${viewNamed(state.view).title}: ${plain(portrait.figure.title)}; drawn are ` +
+      `Phase portrait, view ${this.store.view.title}: ${plain(portrait.figure.title)}; drawn are ` +
       `${[...new Set(legend)].join(", ") || "orbits"}; ${count} ${count === 1 ? "orbit" : "orbits"} of yours` +
       (motion ? `; the chosen one stops at ${this.act.stopText(motion.stop)}` : ""));
   }
@@ -91,24 +85,20 @@ export class Plane {
   /** The panel under a pixel, with the numbers there; none beside and between them. */
   panelAt(x, y) {
     const index = this.frames.findIndex((frame) => frame.contains(x, y));
-    return index < 0 ? null : { index, panel: this.planeScene.view.panels[index], ...this.frames[index].at(x, y) };
+    return index < 0 ? null : { index, frame: this.frames[index], ...this.frames[index].at(x, y) };
   }
 
   pointed(x, y) {
     const at = this.panelAt(x, y);
-    const state = at?.panel.state?.(at.x, at.y, this.store.context);
-    return state && Math.hypot(state.u, state.v) > 0 && Number.isFinite(state.u) && Number.isFinite(state.v) ? state : null;
+    return at && this.store.library.plane.at(at.index, at.x, at.y);
   }
 
   /** The number of the orbit whose start lies under a pixel; the chosen one first. */
   startAt(x, y, kind) {
     const at = this.panelAt(x, y);
-    if (!at?.panel.state) return null;
-    const frame = this.frames[at.index];
-    const near = this.planeScene.own.filter(({ start }) => {
-      const [px, py] = at.panel.place(stateOf(start.u, start.v, this.store.context.mu), this.store.context);
-      return Math.hypot(frame.px(px) - x, frame.py(py) - y) <= reach[kind];
-    });
+    if (!at) return null;
+    const near = this.planeScene.own.filter(({ start }) =>
+      start && Math.hypot(at.frame.px(start[2 * at.index]) - x, at.frame.py(start[2 * at.index + 1]) - y) <= reach[kind]);
     return near.at(-1)?.index ?? null;
   }
 
@@ -116,11 +106,9 @@ export class Plane {
   orbitAt(x, y, kind) {
     const at = this.panelAt(x, y);
     if (!at) return null;
-    const frame = this.frames[at.index];
     let [nearest, least] = [null, reach[kind] ** 2];
-    for (const { orbit, index, stop } of this.planeScene.own) {
-      const line = frame.line(...placesOf(orbit, at.panel, this.store.context, stop));
-      for (let i = 0; i + 3 < line.length; i += 2) {
+    for (const { panels, index } of this.planeScene.own) {
+      for (const line of at.frame.lines(panels[at.index].line)) for (let i = 0; i + 3 < line.length; i += 2) {
         const [dx, dy] = [line[i + 2] - line[i], line[i + 3] - line[i + 1]];
         const share = Math.max(0, Math.min(1, ((x - line[i]) * dx + (y - line[i + 1]) * dy) / (dx * dx + dy * dy || 1)));
         const distance = (line[i] + share * dx - x) ** 2 + (line[i + 1] + share * dy - y) ** 2;
@@ -135,11 +123,11 @@ export class Plane {
   choose(x, y, kind) {
     const { store } = this;
     const at = this.panelAt(x, y);
-    if (at?.panel.moment && store.motion) return store.move({ share: Math.min(1, (at.panel.moment(at.x) * store.motion.stop) / store.end) });
+    if (at && store.portrait.moments && store.motion) return store.move({ share: Math.min(1, (at.x * store.motion.stop) / store.end) });
     const index = kind === "key" ? null : this.startAt(x, y, kind) ?? this.orbitAt(x, y, kind);
     const start = this.pointed(x, y);
     if (index !== null) this.act.ask((state) => Object.assign(state, { chosen: index, share: 0 }));
-    else if (start) this.startOrbit(rounded(start, store.context));
+    else if (start) this.startOrbit(rounded(start, store.portrait));
     else this.announce("Nothing is here.");
   }
 
@@ -147,7 +135,7 @@ export class Plane {
     const { store } = this;
     ask((state) => {
       // What is pointed at stays where it is.
-      if (Math.abs(start.u) <= store.context.window[0] && start.v <= store.context.window[1]) this.freeze(state);
+      if (Math.abs(start.u) <= store.portrait.window[0] && start.v <= store.portrait.window[1]) this.freeze(state);
       state.orbits.push(start);
       Object.assign(state, { chosen: state.orbits.length - 1, share: 0, isochrone: 0 });
     }, () => this.announce(`Orbit from u = ${shown(start.u, 4)}, v = ${shown(start.v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`));
@@ -159,7 +147,7 @@ export class Plane {
     this.act.ask((state) => {
       this.freeze(state);
       const from = state.orbits[index];
-      const start = rounded(to, this.store.context);
+      const start = rounded(to, this.store.portrait);
       // The ball turns forward as before.
       if (state.ball && index === state.chosen) state.ball.velocityX += start.v - from.v;
       state.orbits[index] = start;
@@ -170,7 +158,7 @@ export class Plane {
   drawIsochrone(x, y) {
     const at = this.pointed(x, y);
     if (!at) return;
-    const { tau } = this.store.library.plane.stop(at.u, at.v);
+    const tau = this.store.library.plane.stop(at.u, at.v);
     this.store.move({ isochrone: tau });
     this.announce(`All states on the dotted line stop at ${this.act.stopText(tau)}. Esc clears it.`);
   }
@@ -184,13 +172,13 @@ export class Plane {
   /** Keeps the window as it is, in this view. */
   freeze(state) {
     if (this.before === undefined) this.before = state.window;
-    state.window ??= this.store.context.window;
+    state.window ??= this.store.portrait.window;
   }
 
   zoom(factor) {
     this.act.ask((state) => {
       this.freeze(state);
-      state.window = this.store.context.window.map((side) => Number((side * factor).toPrecision(4)));
+      state.window = this.store.portrait.window.map((side) => Number((side * factor).toPrecision(4)));
     });
   }
 
@@ -231,8 +219,8 @@ export class Plane {
 
   describe(at, otherwise = "") {
     if (!at) return this.announce(otherwise);
-    const { tau } = this.store.library.plane.stop(at.u, at.v);
-    this.announce(`u = ${shown(at.u, 4)}, v = ${shown(at.v, 4)}, k = ${shown(at.v / (this.store.context.mu * Math.abs(at.u)), 4)}: stops at ${this.act.stopText(tau)}`);
+    const tau = this.store.library.plane.stop(at.u, at.v);
+    this.announce(`u = ${shown(at.u, 4)}, v = ${shown(at.v, 4)}, k = ${shown(at.v / (this.store.state.mu * Math.abs(at.u)), 4)}: stops at ${this.act.stopText(tau)}`);
   }
 
   announce(text) {

@@ -2,14 +2,13 @@
 // orbits in colours of their own, the moving point, the isochrone that is dragged.
 import { layOut } from "./portrait_layout.js";
 import { widthOf } from "./surface.js";
-import { placesOf, stateOf } from "./views.js";
 
 const lineWidth = 0.9;  // pixels of a line of width 1
 const dash = [5, 4];
 
 /**
- * @param scene  {figure, view, context, own: [{orbit, index, chosen, start, stop}], isochrone: {u, v} or null,
- *               marker: {state, index} or null, cross: {panel, x, y} or null}
+ * @param scene  {figure, own: [{panels: [{line, arrow}], index, chosen, start}], isochrone: {lines} or null,
+ *               marker: {places, index} or null, cross: {panel, x, y} or null}; start and places have x and y of each panel
  * @returns the frames of the panels
  */
 export function drawPortrait(surface, scene, theme) {
@@ -61,27 +60,26 @@ function drawColourBar(surface, figure, { bar }) {
 }
 
 function drawLayers(surface, figure, panel, frame) {
-  for (const { border, colour } of panel.regions) surface.polygon(frame.path(border), colour);
+  for (const { border, colour } of panel.regions) surface.polygon(frame.lines(border)[0], colour);
   for (const layer of panel.lines) {
-    surface.lines(layer.lines.map((points) => frame.path(points)),
+    surface.lines(frame.lines(layer.lines),
       { colour: layer.colour, width: lineWidth * figure.line * layer.width, dash: layer.dashed ? dash : [] });
   }
-  const [perX, perY] = [frame.width / (frame.x.high - frame.x.low), frame.height / (frame.y.high - frame.y.low)];
-  for (const { arrows, colour } of panel.arrows) {
-    for (let i = 0; i < arrows.length; i += 4) {
-      const [dx, dy] = [arrows[i + 2] * perX, -arrows[i + 3] * perY];
-      drawHead(surface, frame.px(arrows[i]), frame.py(arrows[i + 1]), dx, dy, colour);
-    }
-  }
+  for (const { arrows, colour } of panel.arrows) drawHeads(surface, frame, arrows, colour);
 }
 
-/** The head of an arrow whose tip is at (x, y). */
-function drawHead(surface, x, y, dx, dy, colour, length = 7.5) {
-  const long = Math.hypot(dx, dy);
-  if (!(long > 0)) return;
-  const [ex, ey] = [dx / long, dy / long];
-  const [left, half] = [length, 0.36 * length];
-  surface.polygon([x, y, x - left * ex - half * ey, y - left * ey + half * ex, x - left * ex + half * ey, y - left * ey - half * ex], colour);
+/** The heads of arrows, x and y of the tip and of the direction in turn. */
+function drawHeads(surface, frame, arrows, colour, length = 7.5) {
+  const half = 0.36 * length;
+  for (let i = 0; i < arrows.length; i += 4) {
+    const [x, y] = [frame.px(arrows[i]), frame.py(arrows[i + 1])];
+    const [dx, dy] = [frame.px(arrows[i] + arrows[i + 2]) - x, frame.py(arrows[i + 1] + arrows[i + 3]) - y];
+    const long = Math.hypot(dx, dy);
+    if (!(long > 0)) continue;
+    const [ex, ey] = [dx / long, dy / long];
+    const [backX, backY] = [x - length * ex, y - length * ey];
+    surface.polygon([x, y, backX - half * ey, backY + half * ex, backX + half * ey, backY - half * ex], colour);
+  }
 }
 
 function drawMarks(surface, figure, panel, frame) {
@@ -118,51 +116,24 @@ function drawLegend(surface, figure, { legend, legendTop, lineHeight, sample, ma
 }
 
 /** The orbits of the reader and the isochrone that is dragged. */
-function drawOwn(surface, scene, index, frame, theme) {
-  const panel = scene.view.panels[index];
-  const { context, figure } = scene;
-  if (scene.isochrone && panel.state) {
-    for (const sign of [1, -1]) {
-      const places = Array.from(scene.isochrone.u, (u, i) => panel.place(stateOf(sign * u, scene.isochrone.v[i], context.mu), context));
-      surface.lines([frame.line(places.map(([x]) => x), places.map(([, y]) => y))], { colour: figure.ink, width: 2, dash: [2, 3] });
-    }
-  }
-  for (const { orbit, index: colour, chosen, start, stop } of scene.own) {
-    const [xs, ys] = placesOf(orbit, panel, context, stop);
-    const line = frame.line(xs, ys);
+function drawOwn(surface, { figure, own, isochrone }, index, frame, theme) {
+  if (isochrone) surface.lines(frame.lines(isochrone.lines[index]), { colour: figure.ink, width: 2, dash: [2, 3] });
+  for (const { panels, index: colour, chosen, start } of own) {
+    const lines = frame.lines(panels[index].line);
     const swatch = theme.swatch(colour);
-    surface.lines([line], { colour: figure.ground, width: chosen ? 6 : 4 });
-    surface.lines([line], { colour: swatch, width: chosen ? 3.2 : 2 });
-    drawHeadAlong(surface, frame, line, swatch);
-    if (!panel.state) continue;
-    const [x, y] = panel.place(stateOf(start.u, start.v, context.mu), context);
-    surface.disc(frame.px(x), frame.py(y), chosen ? 5 : 4, { fill: swatch, stroke: figure.ground, width: 1 });
-  }
-}
-
-/** An arrow head at two fifths of what is seen of a line. */
-function drawHeadAlong(surface, frame, line, colour) {
-  const seen = (i) => frame.contains(line[i], line[i + 1]) && frame.contains(line[i + 2], line[i + 3]);
-  const piece = (i) => (seen(i) ? Math.hypot(line[i + 2] - line[i], line[i + 3] - line[i + 1]) : 0);
-  let length = 0;
-  for (let i = 0; i + 3 < line.length; i += 2) length += piece(i);
-  if (length < 40) return;
-  let wanted = 0.4 * length;
-  for (let i = 0; i + 3 < line.length; i += 2) {
-    const here = piece(i);
-    if (here > 0 && wanted <= here) {
-      const [dx, dy] = [(line[i + 2] - line[i]) / here, (line[i + 3] - line[i + 1]) / here];
-      drawHead(surface, line[i] + dx * (wanted + 5), line[i + 1] + dy * (wanted + 5), dx, dy, colour, 11);
-      return;
-    }
-    wanted -= here;
+    surface.lines(lines, { colour: figure.ground, width: chosen ? 6 : 4 });
+    surface.lines(lines, { colour: swatch, width: chosen ? 3.2 : 2 });
+    drawHeads(surface, frame, panels[index].arrow, swatch, 11);
+    if (!start) continue;
+    const [x, y] = [frame.px(start[2 * index]), frame.py(start[2 * index + 1])];
+    surface.disc(x, y, chosen ? 5 : 4, { fill: swatch, stroke: figure.ground, width: 1 });
   }
 }
 
 function drawMarker(surface, scene, index, frame, theme) {
   const { figure, marker, cross } = scene;
   if (marker) {
-    const [x, y] = scene.view.panels[index].place(marker.state, scene.context);
+    const [x, y] = [marker.places[2 * index], marker.places[2 * index + 1]];
     if (frame.contains(frame.px(x), frame.py(y))) {
       surface.disc(frame.px(x), frame.py(y), 6.5, { fill: theme.swatch(marker.index), stroke: figure.ground, width: 2 });
     }

@@ -4,22 +4,18 @@
 const shotOf = (ball, { u, v }) => ({ ...ball, velocityX: v, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: u / ball.radius });
 
 /**
- * @param plane   of the library, with the state's law and body chosen
  * @param body    {chi, gamma}
  * @param screen  light on dark
- * @returns {law, mu, chi, gamma, ball, start, view, window, through: [{u, v}], isochrones, field, against, screen}; null
- *          for what is not asked for
+ * @returns {law, mu, chi, gamma, ball, orbits, chosen, view, window, isochrones, field, against, screen}; null for what
+ *          is not asked for
  */
-export function portraitRequest(state, plane, { chi, gamma }, screen) {
-  const start = state.orbits[state.chosen] ?? null;
+export function portraitRequest(state, { chi, gamma }, screen) {
+  const { law, mu, ball, orbits, chosen, view, window, isochrones, field, against } = state;
   return {
-    law: state.law, mu: state.mu, chi, gamma, start,
+    law, mu, chi, gamma, orbits, chosen, view, window, isochrones, field, screen,
     // Without a motion there is no ball in the program's sense: only the mu of one.
-    ball: state.ball && start ? shotOf(state.ball, start) : null,
-    view: state.view, window: state.window,
-    through: state.orbits.filter((orbit, index) => index !== state.chosen && orbit.u !== 0 && orbit.v !== 0)
-      .map(({ u, v }) => (state.window ? plane.inside(u, v, ...state.window) : { u, v })),
+    ball: ball && orbits[chosen] ? shotOf(ball, orbits[chosen]) : null,
     // A law is not compared with itself.
-    isochrones: state.isochrones, field: state.field, against: state.against === state.law ? null : state.against, screen,
+    against: against === law ? null : against,
   };
 }

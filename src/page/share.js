@@ -36,9 +36,9 @@ export class Share {
       $("copied").textContent = "The film is saved.";
     });
     for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
-      $(`save-${ending}`).addEventListener("click", () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending).text, type)));
+      $(`save-${ending}`).addEventListener("click", () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending), type)));
     }
-    $("save-csv").addEventListener("click", () => save("orbits.csv", textFile(csvOf(store.motions, store.contact?.secondsPerTau), "text/csv")));
+    $("save-csv").addEventListener("click", () => save("orbits.csv", textFile(csvOf(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)), store.contact?.secondsPerTau), "text/csv")));
   }
 
   svg() {
@@ -49,8 +49,8 @@ export class Share {
   }
 
   show() {
-    const { store: { state, request, body, library } } = this;
-    const { portrait, roll } = commandLine(state, request, body, library.balls.find((ball) => ball.name === state.ball?.name));
+    const { store: { state, request, portrait: { through }, body, library } } = this;
+    const { portrait, roll } = commandLine(state, request, through, body, library.balls.find((ball) => ball.name === state.ball?.name));
     $("command").textContent = portrait;
     $("roll-command").textContent = roll ?? "";
     $("roll-line").hidden = !roll;

@@ -2,6 +2,7 @@
 import { bodyOf, initialState } from "./page_state.js";
 import { portraitRequest } from "./portrait_request.js";
 import { isDark } from "./theme.js";
+import { described } from "./views.js";
 
 const longest = 10;    // s that a ball is let roll
 const slow = 1 / 500;  // of the first slip: without units, what slides no faster counts as rolling
@@ -68,14 +69,9 @@ export class Store {
     const system = [state.law, state.mu, chi, gamma];
     const ofSystem = (name, key, make) => this.keep(name, [...system, ...key], make);
     this.facts = ofSystem("facts", [], () => plane.choose(...system));
-    this.request = portraitRequest(state, plane, this.body, isDark(state.theme));
-    this.portrait = this.keep("portrait", this.request, () => library.portrait(this.request));
-    this.context = { mu: state.mu, window: [this.portrait.windowU, this.portrait.windowV], exponent: this.portrait.exponent };
-    this.isochroneOf = (tau) => {
-      const unit = ofSystem("isochrone", [], () => plane.isochrone());
-      return { u: unit.u.map((u) => u * tau), v: unit.v.map((v) => v * tau) };
-    };
-    this.motions = state.orbits.map(({ u, v }, i) => ofSystem(`motion ${i}`, [u, v], () => plane.motion(u, v)));
+    this.request = portraitRequest(state, this.body, isDark(state.theme));
+    this.portrait = this.keep("portrait", this.request, () => plane.portrait(this.request));
+    this.motions = this.portrait.own;
     const orbit = state.orbits[state.chosen];
     this.motion = this.motions[state.chosen];
     this.ride = orbit ? this.rideOf(state, orbit, ofSystem) : null;
@@ -89,7 +85,7 @@ export class Store {
       if (spin === 0 && v === 0) return { end: 0, length: 0 };
       const least = state.ball ? library.rollingSlip : slow * v;
       const slide = ofSystem(name, [spin, v, least], () => plane.slide(spin, v, least));
-      return rolls ? slide : { ...slide, end: plane.stop(spin, v).tau };
+      return rolls ? slide : { ...slide, end: plane.stop(spin, v) };
     };
     const [own, plain] = [slides("slide", u), slides("plain slide", 0)];
     // Also what rolls soon is seen to roll.
@@ -111,8 +107,18 @@ export class Store {
     return this.ride ? this.ride.end : 1;
   }
 
+  get view() {
+    return described(this.library.views.find(({ name }) => name === this.state.view));
+  }
+
   get orbit() {
     return this.state.orbits[this.state.chosen];
+  }
+
+  /** All states that stop after the time that the reader has asked for. */
+  get isochrone() {
+    const { state: { isochrone }, request, library } = this;
+    return isochrone ? this.keep("isochrone", [isochrone, request], () => library.plane.isochrone(isochrone)) : null;
   }
 
   get now() {

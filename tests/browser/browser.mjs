@@ -65,8 +65,8 @@ export function assertClose(measured, wanted, tolerance, what) {
 
 /** The pixel of a state in a panel of the plane. */
 export const pixelOf = (u, v, panel = 0) => page.evaluate(([u, v, panel]) => {
-  const { frames: { [panel]: frame }, planeScene: { view, context } } = globalThis.page;
-  const [x, y] = view.panels[panel].place({ u, v, lnV: Math.log(v), lnK: Math.log(v / (context.mu * Math.abs(u))) }, context);
+  const { frames: { [panel]: frame }, library } = globalThis.page;
+  const [x, y] = library.plane.place(u, v).slice(2 * panel);
   const box = document.getElementById("plane").getBoundingClientRect();
   return [box.left + frame.px(x), box.top + frame.py(y)];
 }, [u, v, panel]);

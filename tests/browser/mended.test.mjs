@@ -57,7 +57,7 @@ test("what was said of an orbit goes when the orbit does", async () => {
   await open("#law=exact&mu=0.3&window=1,4&orbits=0.8,3.5");
   const said = async () => (await page.textContent("#pointed")).trim();
   for (const change of [() => page.selectOption("#ball", "pool"), () => page.fill("#mu", "0.05")]) {
-    await page.mouse.click(...await pixelOf(...await page.evaluate(() => globalThis.page.store.context.window.map((side) => -0.4 * side).map(Math.abs))));
+    await page.mouse.click(...await pixelOf(...await page.evaluate(() => globalThis.page.store.portrait.window.map((side) => -0.4 * side).map(Math.abs))));
     assert.match(await said(), /it stops at/);
     await change();
     assert.equal(await said(), "");

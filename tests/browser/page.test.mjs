@@ -36,37 +36,55 @@ async function assertSamePicture(what) {
     return readFileSync(name, "utf8");
   };
   for (const ending of ["json", "tex"]) {
-    const text = await page.evaluate((ending) => globalThis.page.library.portraitFile(globalThis.page.request, ending).text, ending);
+    const text = await page.evaluate((ending) => globalThis.page.library.portraitFile(globalThis.page.request, ending), ending);
     assertSameText(text, written(ending), `${what}, ${words.join(" ")}: ${ending}`);
   }
   // Of what the page itself draws: the orbits of its list, and those that fill a plane, begin where the program's do.
   const portrait = JSON.parse(written("json"));
-  const { state, own, drawn, mu, exponent, isochrones } = await page.evaluate(() => {
-    const { state, planeScene: { own, figure, context } } = globalThis.page;
+  const { state, own, drawn, placed, isochrones } = await page.evaluate((V) => {
+    const { state, library: { plane }, planeScene: { own, figure } } = globalThis.page;
     return {
-      state, mu: context.mu, exponent: context.exponent,
-      own: own.map(({ orbit, chosen }) => ({ chosen, u: [...orbit.u], v: [...orbit.v] })),
-      drawn: figure.panels[0].lines.flatMap(({ lines }) => lines.map((line) => [line[0], line[1]])),
+      state, placed: [...plane.place(1, 1e-300 * V)],
+      own: own.map(({ index, stop, u, v, panels }) => ({ ...state.orbits[index], chosen: index === state.chosen, stop, us: [...u], vs: [...v], line: [...panels[0].line] })),
+      drawn: figure.panels[0].lines.flatMap(({ lines }) => Array.from({ length: lines.length / 2 }, (_, i) => i)
+        .filter((i) => i === 0 || Number.isNaN(lines[2 * i - 1])).map((i) => [lines[2 * i], lines[2 * i + 1]])),
       isochrones: figure.panels[0].lines.some(({ legend }) => legend.startsWith("time left")),
     };
-  });
+  }, portrait.window[1]);
   assert.equal(portrait.view, state.view);
-  const axes = state.orbits.filter(({ u, v }, index) => index !== state.chosen && (u === 0 || v === 0)).length;
-  assert.equal(own.length, state.orbits.length - axes, `${what}: orbits of the list`);
+  const orbits = own.filter(({ u, v, chosen }) => chosen || (u !== 0 && v !== 0));
   const listed = [...(portrait.through ?? []), ...(portrait.highlight ? [portrait.highlight] : [])];
-  assert.equal(listed.length, own.length, `${what}: --through and the start`);
+  assert.equal(listed.length, orbits.length, `${what}: --through and the start`);
   const near = (a, b) => Math.abs(a - b) <= 1e-9 * (1 + Math.abs(b));
+  const [U, V] = portrait.window;
   listed.forEach((orbit, i) => {
-    assert.equal(orbit.u.length, own[i].u.length, `${what}: points of orbit ${i}`);
-    orbit.u.forEach((u, j) => assert.ok(near(own[i].u[j], u) && near(own[i].v[j], orbit.v[j]), `${what}: point ${j} of orbit ${i}`));
+    const { u, v, stop, us, vs } = orbits[i];
+    if (Math.abs(u) > U || v > V) return;
+    const rows = orbit.tau_left.flatMap((left, row) => (left < stop * (1 - 1e-12) ? [row] : []));
+    assert.equal(us.length, rows.length + 1, `${what}: points of orbit ${i}`);
+    rows.forEach((row, j) => assert.ok(near(us[j + 1], orbit.u[row]) && near(vs[j + 1], orbit.v[row]), `${what}: point ${j} of orbit ${i}`));
   });
-  const speeds = { uv: 1, pair: 1, patch: mu }[state.view];
+  const speeds = { uv: 1, pair: 1, patch: placed[0] }[state.view];
   if (!speeds) return;
   assert.equal(isochrones, portrait.isochrones.length > 0, `${what}: isochrones`);
-  const height = (lnX) => (exponent === 1 ? portrait.window[1] * Math.exp(lnX) : (Math.exp(lnX) + Math.exp(exponent * lnX)) / 2);
+  // The axis of v is linear, or bent: h = (x + x^s)/2 with x = v/V.
+  const linear = placed[1] < 1e-200 * V;
+  const exponent = Math.log(2 * placed[1]) / Math.log(1e-300);
+  const height = (lnX) => (linear ? V * Math.exp(lnX) : (Math.exp(lnX) + Math.exp(exponent * lnX)) / 2);
+  const placeOf = (orbit, row) => [speeds * orbit.u[row], height(orbit.tau_left[row] === 0 ? -Infinity : orbit.ln_v[row] - Math.log(V))];
+  const isNear = ([x, y]) => ([px, py]) => near(px, x) && near(py, y);
   for (const orbit of [...portrait.orbits, ...(portrait.against?.orbits ?? [])]) {
-    assert.ok(drawn.some(([x, y]) => near(x, speeds * orbit.u[0]) && near(y, height(orbit.ln_v[0] - Math.log(portrait.window[1])))), `${what}: an orbit from ${orbit.u[0]}, ${orbit.v[0]}`);
+    assert.ok(drawn.some(isNear(placeOf(orbit, 0))), `${what}: an orbit from ${orbit.u[0]}, ${orbit.v[0]}`);
   }
+  listed.forEach((orbit, i) => {
+    const { u, v, line } = orbits[i];
+    const rows = [[speeds * u, height(Math.log(v / V))], ...orbit.u.map((_, row) => placeOf(orbit, row))];
+    const onBorder = (x, y) => near(Math.abs(x), speeds * U) || near(y, height(0));
+    for (let at = 0; at < line.length; at += 2) {
+      const [x, y] = line.slice(at, at + 2);
+      assert.ok(Number.isNaN(x) || onBorder(x, y) || rows.some(isNear([x, y])), `${what}: ${x}, ${y} of the line of orbit ${i}`);
+    }
+  });
 }
 
 test("opens from disk and asks the network for nothing", async () => {
@@ -274,7 +292,7 @@ test("another view has a window of its own", async () => {
 test("an orbit that begins far outside the window has no more points than others", async () => {
   for (const fragment of ["#window=0.00001,0.00005&orbits=0.8,3.5", "#window=1,5&orbits=1e20,1"]) {
     await open(fragment);
-    assert.ok(await page.evaluate(() => globalThis.page.planeScene.own.every(({ orbit }) => orbit.u.length < 2000)));
+    assert.ok(await page.evaluate(() => globalThis.page.planeScene.own.every(({ u, panels }) => u.length < 2000 && panels[0].line.length < 4000)));
     await close();
   }
 });
@@ -495,11 +513,8 @@ test("the page places its own orbits where the program draws them", async () => 
       execFileSync(program, words.map((word) => (word === "portrait.svg" ? name : word)));
       const drawn = highlightedLines(readFileSync(name, "utf8"));
       const own = await page.evaluate(() => {
-        const { view, context, own } = globalThis.page.planeScene;
-        const { orbit } = own.find(({ chosen }) => chosen);
-        const row = (i) => ({ u: orbit.u[i], v: orbit.v[i], lnV: orbit.lnV[i], lnK: orbit.lnK[i], left: orbit.left[i], start: null });
-        const rows = Array.from(orbit.u, (_, i) => ({ ...row(i), start: row(0) }));
-        return view.panels.map((panel) => rows.map((state) => panel.place(state, context)).filter((point) => point.every(Number.isFinite)));
+        const { panels } = globalThis.page.planeScene.own.find(({ chosen }) => chosen);
+        return panels.map(({ line }) => [...line].map((x, i) => [x, line[i + 1]]).filter(([x], i) => i % 2 === 0 && !Number.isNaN(x)));
       });
       assert.equal(drawn.length, own.length, `panels of ${view}`);
       drawn.forEach((line, panel) => {
@@ -521,8 +536,7 @@ test("all views are drawn, and a click in each starts the orbit that it points a
     assert.equal(await page.getAttribute(`#views [data-name=${view}]`, "aria-checked"), "true");
     const picture = await page.evaluate(() => document.getElementById("plane").toDataURL());
     pictures.add(picture);
-    const panels = await page.evaluate(() => globalThis.page.planeScene.view.panels.map((panel) => Boolean(panel.state)));
-    assert.equal(panels.length, await page.evaluate(() => globalThis.page.frames.length));
+    const panels = await page.evaluate(() => globalThis.page.frames.map(() => !globalThis.page.store.portrait.moments));
     for (const panel of panels.keys()) {
       if (!panels[panel]) continue;
       // Where no orbit is near, which a click would choose.
@@ -561,10 +575,8 @@ test("a drag shows the isochrone through the pointer", async () => {
   await page.mouse.up();
   assert.equal(orbits.length, 1);
   const at = await page.evaluate(([x, y]) => {
-    const { frames: [frame], planeScene: { view, context } } = globalThis.page;
     const corner = document.getElementById("plane").getBoundingClientRect();
-    const numbers = frame.at(x - corner.left, y - corner.top);
-    return view.panels[0].state(numbers.x, numbers.y, context);
+    return globalThis.page.plane.pointed(x - corner.left, y - corner.top);
   }, end);
   assertClose(isochrone, programStop("--mu", 0.3, "--u0", at.u, "--v0", at.v, "--law", "pade"), 1e-12, "its time");
   // Each of its points has that stop time.
@@ -898,7 +910,7 @@ test("every control has a name", async () => {
 
 test("bodies that end on a ray, or with k growing, are explored like balls", async () => {
   const cases = [
-    ["#law=uniform&body=disc&window=1,1&orbits=0.8,0.7;0.3,0.9;0.9,0.1", ["--body", "disc", "--law", "uniform"], /k\* = 0\.653/],
+    ["#law=uniform&body=disc&window=1,1&orbits=0.8,0.7;0.3,0.9;0.9,0.1", ["--body", "disc", "--law", "uniform"], /k → 0\.653/],
     ["#law=exact&body=1,6&mu=1&window=1,1&orbits=0.8,0.7;0.3,0.9", ["--body", "1,6", "--mu", 1, "--law", "exact"], /k → ∞/],
   ];
   for (const [fragment, words, limit] of cases) {
@@ -907,7 +919,7 @@ test("bodies that end on a ray, or with k growing, are explored like balls", asy
     for (const view of views) {
       await page.click(`#views [data-name=${view}]`);
       assert.ok(await page.evaluate(() => globalThis.page.planeScene.figure.panels.every((panel) =>
-        panel.lines.reduce((sum, { lines }) => sum + lines.length, 0) >= 5)), view);
+        panel.lines.reduce((sum, { lines }) => sum + (lines.length > 0) + [...lines].filter(Number.isNaN).length / 2, 0) >= 5)), view);
     }
     const times = await stopTimes();
     (await state()).orbits.forEach(({ u, v }, i) => {

@@ -21,7 +21,11 @@ portraits::PhasePortrait PortraitSpec::portrait() const {
 }
 
 portraits::Figure PortraitSpec::figure(const portraits::PhasePortrait& portrait) const {
-  return portraits::draw(portrait, caption(portrait), style);
+  return mapped_figure(portrait).figure;
+}
+
+portraits::MappedFigure PortraitSpec::mapped_figure(const portraits::PhasePortrait& portrait) const {
+  return portraits::draw_mapped(portrait, caption(portrait), style);
 }
 
 portraits::PortraitSource PortraitSpec::source() const {

@@ -30,8 +30,6 @@ std::string_view text_of(const std::array<std::string_view, 3>& texts, Enumerati
 
 /// In the order of TerminalRegime.
 constexpr std::array<std::string_view, 3> limits{"zero", "ray", "infinity"};
-constexpr std::array<std::string_view, 3> sentences{
-    "sliding dies out first", "sliding and spinning die out together, on an invariant ray", "spinning dies out first"};
 /// In the order of InvariantDirection: what tends to what along an orbit that enters the origin.
 constexpr std::array<std::string_view, 3> approaches{"along v = 0: k falls", "along the ray: k - k* falls",
                                                      "along u = 0: 1/k falls"};
@@ -85,12 +83,12 @@ std::string as_text(const ReducedSystem& system, const TerminalRatios& ratios, c
   std::string text;
   if (ratios.ends.size() == 1) {
     const TerminalRatio& end = ratios.ends.front();
-    text = fmt::format("k = v/(mu |u|) tends to {}: {}\n", digits(end.k), text_of(sentences, end.regime));
+    text = fmt::format("k = v/(mu |u|) tends to {}: {}\n", digits(end.k), meaning(end.regime));
   } else {
     text = "k = v/(mu |u|) tends to one of several ratios; the k of the start tells which\n";
     for (const TerminalRatio& end : ratios.ends) {
-      text += fmt::format("{} < k < {}: to {}, {}\n", digits(end.from), digits(end.to), digits(end.k),
-                          text_of(sentences, end.regime));
+      text +=
+          fmt::format("{} < k < {}: to {}, {}\n", digits(end.from), digits(end.to), digits(end.k), meaning(end.regime));
     }
   }
   text += "\n" + heading(system, ratios, "", digits) + "\n";

@@ -28,6 +28,9 @@ std::string_view name(View view);
 std::string_view axes(View view);
 std::optional<View> find_view(std::string_view name);
 
+/// Whether it shows the window itself: there isochrones and a field are drawn, and v may have a SpeedScale.
+constexpr bool shows_window(View view) { return view == View::uv || view == View::patch || view == View::pair; }
+
 /// In the order in which they are listed.
 const std::vector<View>& views();
 
@@ -62,7 +65,7 @@ struct PhasePortrait {
   reduction::PhasePlane plane;
   View view;
   Window window;
-  SpeedScale scale;                        ///< of v, in the views uv, patch and pair
+  SpeedScale scale;                        ///< of v, in views that show the window
   std::vector<PortraitOrbit> orbits;       ///< from the border of the window to the origin
   std::vector<Isochrone> isochrones;       ///< in the window
   std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
@@ -86,7 +89,7 @@ struct PortraitRequest {
   /// The axis of v is linear also where the plane is then a comb of verticals: where orbits enter the origin along v =
   /// 0 with v falling faster than |u|^12, for the ball mu < 0.48. There, if orbits are not stepped, it is a SpeedScale.
   bool linear = false;
-  /// Keep only what the view is drawn from: orbits and isochrones for uv, patch and pair.
+  /// Keep only what the view is drawn from: orbits and isochrones where it shows the window.
   bool drawn_only = false;
   double time_unit = 1;  ///< isochrones are at round multiples of this many tau
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "contensou/reduction/friction_law.hpp"
@@ -13,6 +14,13 @@ enum class TerminalRegime {
   ray,       ///< both die out together: k tends to that of an invariant ray
   infinity,  ///< pivoting dies out first: k -> infinity
 };
+
+/// The same in words.
+constexpr std::string_view meaning(TerminalRegime regime) {
+  return regime == TerminalRegime::zero  ? "sliding dies out first"
+         : regime == TerminalRegime::ray ? "sliding and spinning die out together, on an invariant ray"
+                                         : "spinning dies out first";
+}
 
 /// One end of motions, and which motions end there.
 struct TerminalRatio {
