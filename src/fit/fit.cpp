@@ -32,8 +32,8 @@ constexpr double undecided = 1e-10;
 /// A relative error from which on a number counts as unknown: catalogues are better.
 constexpr double unknown = 0.5;
 /// Where friction and patch radius depend on each other more than that, and are known worse than that, a parabola is no
-/// good model of the sum of squares.
-constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01;
+/// good model of the sum of squares; nor where they are known worse than the last.
+constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01, nonlinear = 0.1;
 
 bool is_of_contact(Parameter parameter) { return static_cast<int>(parameter) < shared_parameters; }
 
@@ -142,7 +142,7 @@ double profile_reach(const Search& search, const VectorXd& best, Index place, co
 
 /// The report on a solution.
 /// @param planned  the film is not made yet: no values, no interval by profile
-Fit report(const Search& search, const VectorXd& parameters, bool planned) {
+Fit report(const Search& search, const VectorXd& solution, bool planned) {
   const FitRequest& request = search.request;
   const auto count = static_cast<Index>(search.free.size());
   Fit result;
@@ -150,11 +150,12 @@ Fit report(const Search& search, const VectorXd& parameters, bool planned) {
   result.ball = request.ball;
   result.values = search.values;
   result.degrees_of_freedom = static_cast<double>(search.values - count);
+  const VectorXd parameters = search.model.limited(solution);
+  result.at_limit = parameters != solution;
   VectorXd values = search.model.values(parameters);
   const VectorXd residuals =
       planned ? VectorXd::Zero(values.size()) : VectorXd((values - search.data).cwiseProduct(search.weight));
   result.chi2 = residuals.squaredNorm();
-  result.at_limit = search.model.limited(parameters) != parameters;
 
   const MatrixXd derivatives = search.weight.asDiagonal() * search.model.derivatives(parameters, search.free);
   const MatrixXd information = derivatives.transpose() * derivatives;
@@ -222,7 +223,8 @@ Fit report(const Search& search, const VectorXd& parameters, bool planned) {
   if (request.free.friction && request.free.patch_radius) {
     result.only = only_combination(information, variance, parameters);
     const double worst = std::max(deviation[0], deviation[1]);
-    if (!planned && std::abs(result.correlation(0, 1)) > strongly_correlated && worst > hardly_nonlinear) {
+    const bool correlated = std::abs(result.correlation(0, 1)) > strongly_correlated;
+    if (!planned && worst > (correlated ? hardly_nonlinear : nonlinear)) {
       result.profiled = true;
       for (Index place : {0, 1}) {
         Interval& interval = result.estimates[static_cast<std::size_t>(place)].interval;
@@ -337,7 +339,10 @@ std::string Combination::name() const {
   if (friction_power == patch_power) return "the product friction patch_radius";
   if (friction_power == -patch_power)
     return friction_power == 1 ? "the ratio friction/patch_radius" : "the ratio patch_radius/friction";
-  return fmt::format("friction^{:.2g} patch_radius^{:.2g}", friction_power, patch_power);
+  const auto power = [](const char* name, double exponent) {
+    return exponent == 1 ? std::string(name) : fmt::format("{}^{:.2g}", name, exponent);
+  };
+  return power("friction", friction_power) + " " + power("patch_radius", patch_power);
 }
 
 const Estimate& Fit::estimate(Parameter parameter, std::size_t track) const {

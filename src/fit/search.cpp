@@ -221,6 +221,8 @@ double Search::cost(const VectorXd& parameters) const {
 }
 
 VectorXd Search::improved(VectorXd parameters, std::optional<Index> held, double tolerance) const {
+  // Beyond a limit nothing changes: no way back would be found.
+  parameters = model.limited(std::move(parameters));
   Functor functor{*this, free, parameters};
   if (held) std::erase(functor.free, *held);
   if (functor.free.empty()) return parameters;
