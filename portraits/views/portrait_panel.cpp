@@ -395,7 +395,7 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
 void PortraitPanel::add_highlights() {
   if (!drawing_.style.asked) return;
   const PhasePortrait& portrait = drawing_.portrait;
-  Stroke stroke{drawing_.palette.highlight, 2.6, false};
+  Stroke stroke{drawing_.palette.highlight, 3.4, false};
   if (!portrait.through.empty()) {
     std::vector<Copy> copies;
     for (const PortraitOrbit& orbit : portrait.through) copies.push_back({orbit});
@@ -462,7 +462,7 @@ void PortraitPanel::add_isochrones() {
   }
   panel_.lines.insert(panel_.lines.begin(), lines);
   for (const PhasePortrait& other : drawing_.portrait.comparisons) {
-    Lines its_lines{{}, {drawing_.palette.comparison, 0.8, true}, lines.legend + ", " + law_legend(other)};
+    Lines its_lines{{}, {drawing_.palette.comparison, 0.9, true, true}, lines.legend + ", " + law_legend(other)};
     for (const Isochrone& isochrone : other.isochrones) its_lines.lines.push_back(line_of(isochrone));
     panel_.lines.insert(panel_.lines.begin(), std::move(its_lines));
   }
@@ -482,10 +482,10 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
     panel_.arrows.push_back(std::move(arrows));
   };
   if (!axes.empty()) {
-    panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 2.2, false}, "invariant axes"});
+    panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 1.8, false}, "invariant axes"});
     add_arrows(panel_.lines.back());
   }
-  Lines attracting{{}, {drawing_.palette.comparison, 2.2, false}, "invariant ray {/:Italic k} = {/:Italic k}*"};
+  Lines attracting{{}, {drawing_.palette.comparison, 3, false}, "invariant ray {/:Italic k} = {/:Italic k}*"};
   Lines repelling{{}, {drawing_.palette.comparison, 2.2, true}, "invariant ray that orbits leave"};
   for (const reduction::InvariantRay& of : drawing_.portrait.plane.terminal.rays) {
     Lines& lines = of.attracts_above || of.attracts_below ? attracting : repelling;
