@@ -1,6 +1,8 @@
 #include <cmath>
 #include <random>
+#include <regex>
 #include <string>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -168,6 +170,22 @@ TEST_CASE("fit draws data, fit, residuals and confidence", "[cli]") {
   for (const char* words :
        {"slip, m/s", "spin, rad/s", "spin: residual / sd", "patch radius, mm", "measured", "fitted motion"})
     CHECK_THAT(script, Contains(words));
+}
+
+TEST_CASE("the drawing of a fit is no higher than a page, in a column as across it", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string track = scratch.file("track.csv"), drawing = scratch.file("fit.gp");
+  write_file(track, run_program("roll --ball pool --samples 61 --equidistant --until 0.5").out);
+  for (const auto& [size, width, residuals] : {std::tuple{"single", 85, false}, std::tuple{"double", 170, true}}) {
+    INFO(size);
+    REQUIRE(run_program("fit " + track + " --ball pool -o " + drawing + " --size " + size).status == 0);
+    const std::string script = read_file(drawing);
+    std::smatch found;
+    REQUIRE(std::regex_search(script, found, std::regex(" size ([0-9.]+),([0-9.]+) ")));
+    CHECK(std::stod(found[2]) / std::stod(found[1]) * width < 240);
+    for (const char* name : {"slip", "x", "y", "vx", "vy"}) CHECK_THAT(script, Contains(std::string(name) + ", m"));
+    CHECK((script.find("residual") != std::string::npos) == residuals);
+  }
 }
 
 TEST_CASE("several files are tracks of one ball", "[cli]") {

@@ -20,7 +20,7 @@ using portraits::Point;
 constexpr Colour fit_colour{0x8c0f35};
 constexpr Colour inner_colour{0xd3dff0}, outer_colour{0xeef2f8};
 /// Of the tracks, one after the other; told apart in grey, too.
-constexpr Colour data_colours[]{{0x2f7fc1}, {0x333333}, {0xe0a030}, {0x8fb8de}};
+constexpr Colour data_colours[]{{0x5b9fd6}, {0x777777}, {0xe0a030}, {0xb48fde}};
 
 /// So many values are shown of a track; more would be one blot.
 constexpr Eigen::Index most_marks = 250;
@@ -50,7 +50,7 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
   const auto& [observable, name, unit, meaning] = fit::kind_of(noise.observable);
   Pair pair{empty("", fmt::format("{}, {}", name, unit)), empty("", fmt::format("{}: residual / sd", name))};
   double last = 0, first = INFINITY;
-  portraits::Lines curves{{}, {fit_colour, 2}, "fitted motion"};
+  portraits::Lines curves{{}, {fit_colour, 3}, "fitted motion"};
   portraits::Axis& y = pair.data.y;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const fit::Track& track = tracks[i];
@@ -59,7 +59,7 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
       if (series.observable != noise.observable) continue;
       const Colour colour = data_colours[i % std::size(data_colours)];
       const Eigen::Index step = std::max<Eigen::Index>(1, (track.t.size() + most_marks - 1) / most_marks);
-      portraits::Marks data{{}, colour, 0.5, portraits::Marks::Shape::dot, i == 0 ? "measured" : ""}, residuals = data;
+      portraits::Marks data{{}, colour, 0.38, portraits::Marks::Shape::dot, i == 0 ? "measured" : ""}, residuals = data;
       residuals.legend = "";
       portraits::Polyline curve;
       for (Eigen::Index row = 0; row < track.t.size(); row += step) {
@@ -90,6 +90,7 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
   widen(y, 0.06);
   pair.residuals.y.low = -1.1 * residual_border;
   pair.residuals.y.high = 1.1 * residual_border;
+  pair.residuals.y.ticks = {{-3, "−3"}, {0, "0"}, {3, "3"}};
   pair.residuals.lines.push_back({{{{pair.residuals.x.low, 0}, {pair.residuals.x.high, 0}}}, {fit_colour, 1.2}, ""});
   return pair;
 }
@@ -169,7 +170,7 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>&
   figure.subtitle = fmt::format("friction {}, patch radius {} mm", with_error(fit.estimates[0], 1),
                                 with_error(fit.estimates[1], 1e3));
   if (fit.only) figure.subtitle = fmt::format("these data determine {} only", portraits::literal(fit.only->name()));
-  std::vector<Panel> below;
+  std::vector<Panel> below;  // residuals, and the words
   for (const fit::Noise& noise : fit.noise) {
     Pair pair = panels_of(fit, tracks, noise);
     figure.panels.push_back(std::move(pair.data));
@@ -182,10 +183,21 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>&
     below.push_back(numbers_panel(fit, tracks.size()));
   }
   const auto columns = static_cast<int>(figure.panels.size());
-  figure.panels.insert(figure.panels.end(), std::make_move_iterator(below.begin()),
-                       std::make_move_iterator(below.end()));
   figure.max_columns = columns;
-  figure.size = portraits::fitted({85.0 * columns + 10, 150}, 2 * columns, size);
+  portraits::PaperSize usual{85.0 * columns + 10, 150};
+  const double width = size.width_mm.value_or(usual.width_mm);
+  if (portraits::panel_columns(width, columns) == columns) {
+    figure.panels.insert(figure.panels.end(), std::make_move_iterator(below.begin()),
+                         std::make_move_iterator(below.end()));
+  } else {
+    // A page is not high enough for as many rows of the usual panels: flat ones, what is below beside, or left out.
+    const bool beside = portraits::panel_columns(width, 2) == 2;
+    figure.max_columns = beside ? 2 : 1;
+    for (int i = columns - 1; beside && i >= 0; --i)
+      figure.panels.insert(figure.panels.begin() + i + 1, std::move(below[static_cast<std::size_t>(i)]));
+    usual = {100.0 * static_cast<double>(figure.panels.size()), 67};
+  }
+  figure.size = portraits::fitted(usual, static_cast<int>(figure.panels.size()), size);
   return figure;
 }
 
