@@ -7,7 +7,7 @@ const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
  *
  * @param request  of portrait_request.js
  * @param through  points that the orbits of the others pass
- * @param body     {chi}, and mu of one that decides it
+ * @param body     with its chi, and mu if it decides it
  * @param builtIn  the state's ball as the program knows it, if there is one
  */
 export function commandLine(state, request, through, body, builtIn) {

@@ -1,8 +1,9 @@
 // Elements of the page.
 
-export const $ = (id) => document.getElementById(id);
+/** @returns {any} the element of that id, of whatever kind */
+export const $ = (/** @type {string} */ id) => document.getElementById(id);
 
-/** An element with properties, and what is in it. */
+/** An element with properties, and what is in it. @returns {any} */
 export function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   element.append(...children);

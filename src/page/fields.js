@@ -1,5 +1,5 @@
 // A field for a number: what is wrong with it is said beside it, and only what is right is used.
-import { make } from "./dom.js";
+import { $, make } from "./dom.js";
 import { parseNumber } from "./numbers.js";
 
 /**
@@ -78,6 +78,22 @@ export function choiceButtons(parent, choices, choose) {
         button.setAttribute("aria-checked", String(chosen));
         button.tabIndex = chosen ? 0 : -1;
       }
+    },
+  };
+}
+
+/** A slider above the patch's; `use` takes a fraction of its length. */
+export function slider(name, label, use) {
+  const input = make("input", { type: "range", min: 0, max: 1000, id: `${name}-slider` });
+  const output = make("output", { htmlFor: input.id });
+  const title = make("label", { htmlFor: input.id, textContent: label });
+  $("mu-control").before(make("div", { className: "slider", id: `${name}-control` }, title, output, input));
+  input.addEventListener("input", () => use(Number(input.value) / 1000));
+  return {
+    show(fraction, text) {
+      if (document.activeElement !== input) input.value = Math.round(1000 * fraction);
+      output.textContent = text;
+      input.setAttribute("aria-valuetext", text);
     },
   };
 }

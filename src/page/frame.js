@@ -4,12 +4,20 @@ import { widthOf } from "./surface.js";
 
 export class Frame {
   /**
-   * @param place  {left, top, width, height} in pixels
-   * @param x, y   {low, high, label, tick, ticks}: the range; tick, if given, turns a tick into its text; ticks, if given
-   *               and not empty, are {at, text}. A label of undefined: nothing is written below the axis
+   * @typedef {{left: number, top: number, width: number, height: number}} Box  in pixels
+   * @typedef {{low: number, high: number, label?: string, tick?: (value: number) => string, ticks?: Tick[]}} Range
+   *   tick turns a tick into its text; ticks count if there are any; without a label nothing is written below the axis
+   * @param {Box} place
+   * @param {Range} x
+   * @param {Range} y
    */
   constructor(place, x, y) {
-    Object.assign(this, place, { x, y });
+    this.left = place.left;
+    this.top = place.top;
+    this.width = place.width;
+    this.height = place.height;
+    this.x = x;
+    this.y = y;
   }
 
   px(value) {
@@ -27,7 +35,7 @@ export class Frame {
 
   /** The numbers at a pixel, kept inside the frame. */
   at(pixelX, pixelY) {
-    const within = (share) => Math.min(1, Math.max(0, share));
+    const within = (fraction) => Math.min(1, Math.max(0, fraction));
     return {
       x: this.x.low + within((pixelX - this.left) / this.width) * (this.x.high - this.x.low),
       y: this.y.high - within((pixelY - this.top) / this.height) * (this.y.high - this.y.low),
@@ -35,11 +43,12 @@ export class Frame {
   }
 
   /** The lines through a flat column of points x0, y0, x1, y1, ..., NaN between them, in pixels. */
-  lines(points) {
+  lines(/** @type {ArrayLike<number>} */ points) {
+    /** @type {number[][]} */
     const lines = [[]];
     for (let i = 0; i < points.length; i += 2) {
       if (Number.isNaN(points[i])) lines.push([]);
-      else lines.at(-1).push(this.px(points[i]), this.py(points[i + 1]));
+      else lines[lines.length - 1].push(this.px(points[i]), this.py(points[i + 1]));
     }
     return lines;
   }

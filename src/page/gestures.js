@@ -3,8 +3,8 @@
 const slack = 6;  // pixels that a finger may move and still tap
 
 /**
- * @param on  {hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held), tap(x, y, kind), drag(x, y),
- *            point(x, y), leave(), move(dx, dy), panel(), enter(), isochrone(), clear(), remove(), zoom(factor)}; kind is
+ * @param on  hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held), tap(x, y, kind), drag(x, y),
+ *            point(x, y), leave(), move(dx, dy), panel(), enter(), isochrone(), clear(), remove(), zoom(factor); kind is
  *            "mouse" or "touch", and move has steps of 1
  */
 export function listen(canvas, on) {

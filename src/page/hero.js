@@ -10,7 +10,10 @@ const fastest = 9;  // rad/s on the screen; a faster spin is drawn in a part of 
 export class Hero {
   /** @param player  whose `seconds` are what the motion lasts on the screen */
   constructor(store, player) {
-    Object.assign(this, { store, player });
+    this.store = store;
+    /** @type {any} what is said, and what moves */
+    this.titles = this.rides = this.ends = this.barTitles = this.most = null;
+    this.player = player;
     this.bars = ["this", "plain"].map((name) => {
       const [title, bar, number] = ["span", "div", "b"].map((tag) => make(tag, { className: tag === "div" ? "bar-of" : "" }));
       bar.append(make("i"));
@@ -80,11 +83,11 @@ export class Hero {
 
   draw(theme) {
     const { store: { state, ride, now, timeFactor, end }, rides, unit, radius } = this;
-    if (!ride) return;
+    if (!ride || !rides || !now) return;
     const duration = end * timeFactor;
     const lane = (i, own) => ({
-      title: `${this.titles[own]}: ${state.share * duration < this.ends[own] ? "slides" : ride.rolls ? "rolls" : "stands"}`,
-      xs: rides[i].xs, ys: rides[i].ys, at: rides[i].at(state.share),
+      title: `${this.titles[own]}: ${state.fraction * duration < this.ends[own] ? "slides" : ride.rolls ? "rolls" : "stands"}`,
+      xs: rides[i].xs, ys: rides[i].ys, at: rides[i].at(state.fraction),
       slidesTo: (this.ends[own] / duration) * (rides[i].xs.length - 1), ...theme.lane(own === 0 ? state.chosen : "plain"),
     });
     const lanes = [lane(0, 1), lane(1, 0)];

@@ -37,7 +37,7 @@ function drawBall(surface, x, y, radius, turn, colour, theme) {
 }
 
 /**
- * @param scene  {lanes: [{title, xs, ys, slidesTo, at: {x, y, turn}, colour}], radius, unit: "m" or ""}: lengths in m
+ * @param scene  lanes: title, xs, ys, slidesTo, at (x, y, turn), colour; radius; unit: "m" or "", lengths in m
  */
 export function drawLanes(surface, { lanes, radius, unit }, theme) {
   const size = theme.textSize;
@@ -82,7 +82,7 @@ export function length(metres, unit, digits = 3) {
 const arrowShare = 0.06;  // of the patch's radius, the longest slip in it
 
 /**
- * @param scene  {still: no point slips, k, spin: sign of the spin, force: share of f N}; k is the slip of the centre over that of the rim
+ * @param scene  still: no point slips; k, the slip of the centre over that of the rim; spin: its sign; force: fraction of f N
  */
 export function drawPatch(surface, { still, k, spin, force }, theme) {
   const size = theme.textSize;

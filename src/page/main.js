@@ -1,7 +1,7 @@
 // The page: what the reader does changes the state, and the state is drawn.
 import { Address } from "./address.js";
 import { Checks } from "./checks.js";
-import { Controls } from "./controls.js";
+import { makeControls } from "./controls.js";
 import { $, make } from "./dom.js";
 import { Hero } from "./hero.js";
 import { loadLibrary } from "./library.js";
@@ -28,7 +28,7 @@ function start(library) {
       action();
       $("problem").textContent = "";
     } catch (error) {
-      controls.show();
+      showControls();
       $("problem").textContent = error.message;
     }
   };
@@ -43,7 +43,7 @@ function start(library) {
   const player = new Player(store, ask);
   const hero = new Hero(store, player);
   const plane = new Plane(store, { ask, stopText, removeOrbit: (index) => orbits.remove(index) });
-  const controls = new Controls(store, plane, { ask, attempt });
+  const showControls = makeControls(store, plane, { ask, attempt });
   const orbits = new Orbits(store, plane, { ask, stopText });
   const checks = new Checks(store);
   const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
@@ -83,7 +83,7 @@ function start(library) {
       document.documentElement.classList.toggle("embed", store.state.embed);
       plane.announce("");
       hero.show();
-      controls.show();
+      showControls();
       orbits.show(theme);
       share.show();
       plane.label();
@@ -105,7 +105,7 @@ function start(library) {
   ask(() => {});
   player.moves = !matchMedia("(prefers-reduced-motion: reduce)").matches;
   // A link to a moment shows that moment.
-  if (player.moves && store.state.share === 0) player.toggle(true);
+  if (player.moves && store.state.fraction === 0) player.toggle(true);
   return {
     store, player, hero, plane, library,
     get state() { return store.state; },

@@ -1,12 +1,12 @@
 // Numbers as people type and read them.
 
-/** A number from a field, or a sentence that says why it is none. */
+/** A number from a field, or a sentence that says why it is none. @returns {{value: number, problem?: string}} */
 export function parseNumber(text) {
   const trimmed = text.trim().replace("−", "-");
-  if (trimmed === "") return { problem: "a number is needed" };
-  if (/^[-+]?\d+,\d+$/.test(trimmed)) return { problem: `write ${trimmed.replace(",", ".")} with a point` };
+  if (trimmed === "") return { value: NaN, problem: "a number is needed" };
+  if (/^[-+]?\d+,\d+$/.test(trimmed)) return { value: NaN, problem: `write ${trimmed.replace(",", ".")} with a point` };
   const value = Number(trimmed);
-  if (!Number.isFinite(value)) return { problem: `'${trimmed}' is not a finite number` };
+  if (!Number.isFinite(value)) return { value, problem: `'${trimmed}' is not a finite number` };
   return { value };
 }
 

@@ -3,17 +3,21 @@ import { $, make, showList } from "./dom.js";
 import { parseNumber, shown } from "./numbers.js";
 
 export class Orbits {
+  /** @param {import("./store.js").Store} store @param {import("./plane.js").Plane} plane */
   constructor(store, plane, { ask, stopText }) {
-    Object.assign(this, { store, plane, ask, stopText });
+    this.store = store;
+    this.plane = plane;
+    this.ask = ask;
+    this.stopText = stopText;
     $("add-orbit").addEventListener("submit", (event) => {
       event.preventDefault();
       this.addTyped(event.target);
     });
-    $("clear-orbits").addEventListener("click", () => ask((state) => Object.assign(state, { orbits: [], isochrone: 0, share: 0 })));
+    $("clear-orbits").addEventListener("click", () => ask((state) => Object.assign(state, { orbits: [], isochrone: 0, fraction: 0 })));
   }
 
   show(theme) {
-    const { state, motions, contact } = this.store;
+    const { state, motions } = this.store;
     $("clear-orbits").hidden = motions.length < 2;
     showList($("orbits"), motions, () => this.item(), (item, motion, index) => {
       const { u, v } = state.orbits[index];
@@ -23,7 +27,7 @@ export class Orbits {
       const [choose, remove] = item.children;
       choose.setAttribute("aria-pressed", String(index === state.chosen));
       choose.children[0].textContent = `u₀ = ${shown(u, 4)}, v₀ = ${shown(v, 4)}` +
-        (contact ? `: spin ${shown(u / state.ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : "");
+        (state.ball ? `: spin ${shown(u / state.ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : "");
       choose.children[1].textContent = `stops at ${this.stopText(motion.stop)}`;
       remove.setAttribute("aria-label", `Remove orbit ${index + 1}`);
     });
@@ -34,7 +38,7 @@ export class Orbits {
     const remove = make("button", { type: "button", textContent: "✕", className: "remove" });
     const item = make("li", {}, choose, remove);
     const index = () => [...item.parentElement.children].indexOf(item);
-    choose.addEventListener("click", () => this.ask((state) => Object.assign(state, { chosen: index(), share: 0 })));
+    choose.addEventListener("click", () => this.ask((state) => Object.assign(state, { chosen: index(), fraction: 0 })));
     remove.addEventListener("click", () => {
       const removed = index();
       this.remove(removed);
@@ -49,7 +53,7 @@ export class Orbits {
     this.ask((state) => {
       state.orbits.splice(index, 1);
       if (state.chosen >= index) state.chosen -= 1;
-      state.share = 0;
+      state.fraction = 0;
     });
   }
 

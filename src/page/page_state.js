@@ -2,17 +2,21 @@
 
 const largestOwnMu = 10;
 
-/** chi, gamma and the largest mu of the state's body; and mu itself where the body decides it. */
+/**
+ * chi, gamma and the largest mu of the state's body; and mu itself where the body decides it.
+ * @returns {{chi: number, gamma: number, largestMu: number, mu: number | undefined}}
+ */
 export function bodyOf(state, { bodies }) {
   return state.body === "own"
-    ? { chi: state.chi, gamma: state.gamma, largestMu: largestOwnMu }
-    : { largestMu: 1, ...bodies.find(({ name }) => name === state.body) };
+    ? { chi: state.chi, gamma: state.gamma, largestMu: largestOwnMu, mu: undefined }
+    : { ...bodies.find(({ name }) => name === state.body), largestMu: 1 };
 }
 
 export const fields = ["none", "motion", "regularised"];
 
 export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "velocityX", "velocityY"];
 
+/** @returns {State} */
 export function initialState() {
   return {
     law: "exact",
@@ -27,7 +31,7 @@ export function initialState() {
     isochrones: 7,  // of the stop time, about so many
     orbits: [{ u: 0.8, v: 3.5 }],
     chosen: 0,
-    share: 0,       // of the stop time (or of the part that is shown) that the moving point has reached
+    fraction: 0,       // of the stop time (or of the part that is shown) that the moving point has reached
     part: "whole",  // of the motion: "whole", or "sliding"
     isochrone: 0,   // stop time of the isochrone the reader has drawn; 0 for none
     ball: null,     // SI values of a real ball; then speeds are m/s
@@ -48,34 +52,27 @@ export function firstState({ balls }) {
 export function takeBall(state, ball) {
   Object.assign(state, {
     ball: { ...ball, velocityX: ball.slip, velocityY: 0 },
-    law: ball.law, body: ball.body, orbits: [{ u: ball.radius * ball.spin, v: ball.slip }], chosen: 0, share: 0, isochrone: 0, part: "sliding",
+    law: ball.law, body: ball.body, orbits: [{ u: ball.radius * ball.spin, v: ball.slip }], chosen: 0, fraction: 0, isochrone: 0, part: "sliding",
     window: null,
   });
+  return state.ball;
 }
 
-export function toFragment(state) {
-  const query = new URLSearchParams();
-  query.set("law", state.law);
-  if (state.ball) {
-    query.set("ball", state.ball.name);
-    query.set("patchBy", state.ball.patchBy);
-    for (const key of ballKeys) query.set(key, state.ball[key]);
-  } else {
-    query.set("body", state.body === "own" ? `${state.chi},${state.gamma}` : state.body);
-    query.set("mu", state.mu);
-  }
-  query.set("view", state.view);
-  if (state.window) query.set("window", state.window.join(","));
-  if (state.against) query.set("against", state.against);
-  if (state.field !== "none") query.set("field", state.field);
-  if (state.isochrones !== 7) query.set("isochrones", state.isochrones);
-  query.set("orbits", state.orbits.map(({ u, v }) => `${u},${v}`).join(";"));
-  query.set("chosen", state.chosen);
-  if (state.share) query.set("at", Number(state.share.toFixed(4)));
-  if (state.part !== (state.ball ? "sliding" : "whole")) query.set("part", state.part);
-  if (state.isochrone) query.set("isochrone", state.isochrone);
-  if (state.theme !== "auto") query.set("theme", state.theme);
-  if (state.embed) query.set("embed", "1");
+export function toFragment(/** @type {State} */ state) {
+  const { ball } = state;
+  const unless = (usual, value) => (value === usual ? null : value);
+  const parts = {
+    law: state.law,
+    ...(ball
+      ? { ball: ball.name, patchBy: ball.patchBy, ...Object.fromEntries(ballKeys.map((key) => [key, ball[key]])) }
+      : { body: state.body === "own" ? `${state.chi},${state.gamma}` : state.body, mu: state.mu }),
+    view: state.view, window: state.window?.join(","), against: state.against, field: unless("none", state.field),
+    isochrones: unless(initialState().isochrones, state.isochrones),
+    orbits: state.orbits.map(({ u, v }) => `${u},${v}`).join(";"), chosen: state.chosen,
+    at: unless(0, Number(state.fraction.toFixed(4))), part: unless(ball ? "sliding" : "whole", state.part),
+    isochrone: unless(0, state.isochrone), theme: unless("auto", state.theme), embed: state.embed ? "1" : null,
+  };
+  const query = new URLSearchParams(Object.entries(parts).flatMap(([key, value]) => (value == null ? [] : [[key, String(value)]])));
   return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":");
 }
 
@@ -90,12 +87,13 @@ export function fromFragment(fragment, known) {
   const state = [...query.keys()].every((key) => key === "embed") ? firstState(known) : initialState();
   state.embed = query.has("embed");
   const choice = (key, allowed, use) => allowed.includes(query.get(key)) && use(query.get(key));
-  const number = (key, use, allowed = () => true) => {
+  const number = (key, use, allowed = (/** @type {number} */ _) => true) => {
     const value = Number(query.get(key));
     if (query.has(key) && query.get(key) !== "" && Number.isFinite(value) && allowed(value)) use(value);
   };
+  /** @param {(values: number[]) => boolean} allowed */
   const numbers = (text, count, allowed) => {
-    const values = text.split(",").map(Number);
+    const values = (text ?? "").split(",").map(Number);
     return values.length === count && values.every(Number.isFinite) && allowed(values) ? values : null;
   };
 
@@ -104,16 +102,16 @@ export function fromFragment(fragment, known) {
   choice("view", views.map(({ name }) => name), (view) => (state.view = view));
   choice("theme", ["light", "dark"], (theme) => (state.theme = theme));
   choice("body", known.bodies.map(({ name }) => name), (body) => (state.body = body));
-  const inertia = numbers(query.get("body") ?? "", 2, ([chi, gamma]) => chi > 0 && gamma > 0);
+  const inertia = numbers(query.get("body"), 2, ([chi, gamma]) => chi > 0 && gamma > 0);
   if (inertia) Object.assign(state, { body: "own", chi: inertia[0], gamma: inertia[1] });
   number("mu", (mu) => (state.mu = mu), (mu) => mu > 0);
   const { mu, largestMu } = bodyOf(state, known);
   state.mu = mu ?? Math.min(state.mu, largestMu);
   choice("ball", balls.map((ball) => ball.name), (name) => {
-    takeBall(state, balls.find((entry) => entry.name === name));
-    choice("patchBy", [state.ball.patchBy, "patch_radius", "spin_deceleration"], (by) => (state.ball.patchBy = by));
+    const ball = takeBall(state, balls.find((entry) => entry.name === name));
+    choice("patchBy", [ball.patchBy, "patch_radius", "spin_deceleration"], (by) => (ball.patchBy = by));
     for (const key of ballKeys) {
-      number(key, (value) => (state.ball[key] = value), (value) => key.startsWith("velocity") || value > 0);
+      number(key, (value) => (ball[key] = value), (value) => key.startsWith("velocity") || value > 0);
     }
   });
   for (const key of ["law", "against"]) {
@@ -124,14 +122,15 @@ export function fromFragment(fragment, known) {
     }
   }
   choice("part", ["whole", "sliding"], (part) => (state.part = part));
-  state.window = numbers(query.get("window") ?? "", 2, ([U, V]) => U > 0 && V > 0) ?? state.window;
-  if (query.has("orbits")) {
-    state.orbits = query.get("orbits").split(";").map((text) => numbers(text, 2, ([, v]) => v >= 0))
-      .filter(Boolean).map(([u, v]) => ({ u, v }));
+  state.window = numbers(query.get("window"), 2, ([U, V]) => U > 0 && V > 0) ?? state.window;
+  const orbits = query.get("orbits");
+  if (orbits !== null) {
+    state.orbits = orbits.split(";").map((text) => numbers(text, 2, ([, v]) => v >= 0))
+        .flatMap((start) => (start ? [{ u: start[0], v: start[1] }] : []));
   }
   number("chosen", (chosen) => (state.chosen = chosen), Number.isInteger);
   state.chosen = Math.max(0, Math.min(state.orbits.length - 1, state.chosen));
-  number("at", (share) => (state.share = share), (share) => share >= 0 && share <= 1);
+  number("at", (fraction) => (state.fraction = fraction), (fraction) => fraction >= 0 && fraction <= 1);
   number("isochrone", (tau) => (state.isochrone = tau), (tau) => tau > 0);
   return state;
 }

@@ -5,7 +5,7 @@ import { superscript } from "./numbers.js";
 const deepest = -6;  // decades of k that are shown below 1, at least
 
 /**
- * @param scene  {motions: [{tau, u, v, k, chosen}], end, now: {tau, u, v, k}, timeFactor, timeLabel, speedUnit, chosenIndex}
+ * @param scene  motions (tau, u, v, k, chosen), end, now (tau, u, v, k), timeFactor, timeLabel, speedUnit, chosenIndex;
  *               end: the time at the right border, in tau
  */
 export function drawPanes(surface, scene, theme) {

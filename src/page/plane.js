@@ -10,9 +10,18 @@ import { CanvasSurface } from "./surface.js";
 const reach = { touch: 24, mouse: 10 };  // pixels from which a start or an orbit is taken hold of
 
 export class Plane {
-  /** @param act  {ask(edit), removeOrbit(index), stopText(tau)} */
+  /** @type {import("./frame.js").Frame[]} */
+  frames = [];
+  planeScene = /** @type {ReturnType<Plane["scene"]>} */ ({});
+  /** @type {{panel: number, x: number, y: number} | null} */
+  cross = null;
+  /** @type {number[] | null | undefined} the window before the reader zoomed */
+  before = undefined;
+
+  /** @param {import("./store.js").Store} store @param act  ask(edit), removeOrbit(index), stopText(tau) */
   constructor(store, act) {
-    Object.assign(this, { store, act, cross: null, before: undefined });
+    this.store = store;
+    this.act = act;
     listen($("plane"), {
       hold: (x, y, kind) => this.startAt(x, y, kind),
       pull: (x, y, index) => this.moveStart(x, y, index),
@@ -106,12 +115,14 @@ export class Plane {
   orbitAt(x, y, kind) {
     const at = this.panelAt(x, y);
     if (!at) return null;
-    let [nearest, least] = [null, reach[kind] ** 2];
+    /** @type {number | null} */
+    let nearest = null;
+    let least = reach[kind] ** 2;
     for (const { panels, index } of this.planeScene.own) {
       for (const line of at.frame.lines(panels[at.index].line)) for (let i = 0; i + 3 < line.length; i += 2) {
         const [dx, dy] = [line[i + 2] - line[i], line[i + 3] - line[i + 1]];
-        const share = Math.max(0, Math.min(1, ((x - line[i]) * dx + (y - line[i + 1]) * dy) / (dx * dx + dy * dy || 1)));
-        const distance = (line[i] + share * dx - x) ** 2 + (line[i + 1] + share * dy - y) ** 2;
+        const along = Math.max(0, Math.min(1, ((x - line[i]) * dx + (y - line[i + 1]) * dy) / (dx * dx + dy * dy || 1)));
+        const distance = (line[i] + along * dx - x) ** 2 + (line[i + 1] + along * dy - y) ** 2;
         if (distance <= least) [nearest, least] = [index, distance];
       }
     }
@@ -123,10 +134,10 @@ export class Plane {
   choose(x, y, kind) {
     const { store } = this;
     const at = this.panelAt(x, y);
-    if (at && store.portrait.moments && store.motion) return store.move({ share: Math.min(1, (at.x * store.motion.stop) / store.end) });
+    if (at && store.portrait.moments && store.motion) return store.move({ fraction: Math.min(1, (at.x * store.motion.stop) / store.end) });
     const index = kind === "key" ? null : this.startAt(x, y, kind) ?? this.orbitAt(x, y, kind);
     const start = this.pointed(x, y);
-    if (index !== null) this.act.ask((state) => Object.assign(state, { chosen: index, share: 0 }));
+    if (index !== null) this.act.ask((state) => Object.assign(state, { chosen: index, fraction: 0 }));
     else if (start) this.startOrbit(rounded(start, store.portrait));
     else this.announce("Nothing is here.");
   }
@@ -137,7 +148,7 @@ export class Plane {
       // What is pointed at stays where it is.
       if (Math.abs(start.u) <= store.portrait.window[0] && start.v <= store.portrait.window[1]) this.freeze(state);
       state.orbits.push(start);
-      Object.assign(state, { chosen: state.orbits.length - 1, share: 0, isochrone: 0 });
+      Object.assign(state, { chosen: state.orbits.length - 1, fraction: 0, isochrone: 0 });
     }, () => this.announce(`Orbit from u = ${shown(start.u, 4)}, v = ${shown(start.v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`));
   }
 
@@ -151,7 +162,7 @@ export class Plane {
       // The ball turns forward as before.
       if (state.ball && index === state.chosen) state.ball.velocityX += start.v - from.v;
       state.orbits[index] = start;
-      Object.assign(state, { chosen: index, share: 0, isochrone: 0 });
+      Object.assign(state, { chosen: index, fraction: 0, isochrone: 0 });
     });
   }
 
@@ -194,10 +205,9 @@ export class Plane {
 
   // --- the cross that keys move -------------------------------------------------------------------------------------
 
-  moveCross(dx, dy) {
-    const panel = Math.min(this.cross?.panel ?? 0, this.frames.length - 1);
+  moveCross(dx, dy, panel = Math.min(this.cross?.panel ?? 0, this.frames.length - 1)) {
     const frame = this.frames[panel];
-    const { x, y } = this.cross ?? { x: (frame.x.low + 2 * frame.x.high) / 3, y: (frame.y.low + frame.y.high) / 2 };
+    const { x, y } = this.cross?.panel === panel ? this.cross : { x: (frame.x.low + 2 * frame.x.high) / 3, y: (frame.y.low + frame.y.high) / 2 };
     const moved = frame.at(frame.px(x) + dx * frame.width / 40, frame.py(y) - dy * frame.height / 40);
     this.cross = { panel, ...moved };
     this.draw();
@@ -205,10 +215,7 @@ export class Plane {
   }
 
   nextPanel() {
-    this.cross = { panel: ((this.cross?.panel ?? -1) + 1) % this.frames.length };
-    const { x, y } = this.frames[this.cross.panel];
-    Object.assign(this.cross, { x: (x.low + 2 * x.high) / 3, y: (y.low + y.high) / 2 });
-    this.moveCross(0, 0);
+    this.moveCross(0, 0, ((this.cross?.panel ?? -1) + 1) % this.frames.length);
   }
 
   atCross(action) {

@@ -10,10 +10,11 @@ const rest = 1500;   // ms at the end, before the motion begins again
 export class Player {
   constructor(store, ask) {
     this.store = store;
+    this.moves = true;  // it plays by itself
     this.partButtons = choiceButtons($("span"), [{ name: "sliding", title: "while it slides" }, { name: "whole", title: "until rest" }],
-      (name) => ask((state) => Object.assign(state, { part: name, share: 0 })));
+      (name) => ask((state) => Object.assign(state, { part: name, fraction: 0 })));
     $("play").addEventListener("click", () => this.toggle());
-    $("time").addEventListener("input", () => store.move({ share: Number($("time").value) / 1000 }));
+    $("time").addEventListener("input", () => store.move({ fraction: Number($("time").value) / 1000 }));
   }
 
   /** What the motion lasts on the screen: its own time, if that is neither too short to see nor too long to wait for. */
@@ -27,7 +28,7 @@ export class Player {
     this.partButtons.show(state.part);
     const factor = this.seconds / (end * timeFactor);
     $("pace").textContent = !contact ? "" : factor > 1.05 ? `slowed ${shown(factor, 2)} times` : factor < 0.95 ? `${shown(1 / factor, 2)} times as fast` : "in real time";
-    $("time").value = Math.round(1000 * state.share);
+    $("time").value = Math.round(1000 * state.fraction);
     $("time").setAttribute("aria-valuetext", now ? this.timeText(now.tau) : "no motion");
     $("clock").textContent = now ? this.timeText(now.tau) : "";
   }
@@ -38,7 +39,7 @@ export class Player {
 
   /** Plays from the beginning, and says when the end is reached or the reader pauses. */
   once(done) {
-    this.store.move({ share: 0 });
+    this.store.move({ fraction: 0 });
     this.toggle(true);
     this.done = done;
   }
@@ -51,7 +52,7 @@ export class Player {
     $("play").textContent = this.playing ? "❚❚" : "▶";
     $("play").setAttribute("aria-label", this.playing ? "Pause" : "Play");
     if (!this.playing) return;
-    if (this.store.state.share >= 1) this.store.move({ share: 0 });
+    if (this.store.state.fraction >= 1) this.store.move({ fraction: 0 });
     const run = this.run = {};
     let last = null;
     let ended = null;
@@ -62,15 +63,15 @@ export class Player {
       requestAnimationFrame(step);
       const passed = last === null ? 0 : Math.max(0, time - last);
       last = time;
-      if (state.share < 1) {
+      if (state.fraction < 1) {
         ended = null;
-        this.store.move({ share: Math.min(1, state.share + passed / 1000 / this.seconds) });
+        this.store.move({ fraction: Math.min(1, state.fraction + passed / 1000 / this.seconds) });
       } else if (ended === null) {
         ended = time;
         this.done?.();
         this.done = null;
       }
-      else if (time - ended > rest) this.store.move({ share: 0 });
+      else if (time - ended > rest) this.store.move({ fraction: 0 });
     };
     requestAnimationFrame(step);
   }

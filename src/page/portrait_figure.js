@@ -7,8 +7,9 @@ const lineWidth = 0.9;  // pixels of a line of width 1
 const dash = [5, 4];
 
 /**
- * @param scene  {figure, own: [{panels: [{line, arrow}], index, chosen, start}], isochrone: {lines} or null,
- *               marker: {places, index} or null, cross: {panel, x, y} or null}; start and places have x and y of each panel
+ * @typedef {OwnOrbit & {index: number, chosen: boolean, start: Float64Array | null}} Drawn  start: x and y in each panel
+ * @param {{figure: Figure, own: Drawn[], isochrone: Isochrone | null, marker: {places: Float64Array, index: number} | null,
+ *   cross: {panel: number, x: number, y: number} | null}} scene
  * @returns the frames of the panels
  */
 export function drawPortrait(surface, scene, theme) {

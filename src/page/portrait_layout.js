@@ -10,6 +10,7 @@ export const rowsOf = (panels, width) => (width / panels < narrowest ? panels : 
 
 /** Texts set in lines of at most that width, each {text, left}; `gap` between those of one line. */
 function setLines(texts, width, widthOfText, gap) {
+  /** @type {{text: any, left: number}[][]} */
   const lines = [];
   let left = Infinity;
   for (const text of texts) {
@@ -18,7 +19,7 @@ function setLines(texts, width, widthOfText, gap) {
       lines.push([]);
       left = 0;
     }
-    lines.at(-1).push({ text, left });
+    lines[lines.length - 1].push({ text, left });
     left += wide + gap;
   }
   return lines;
@@ -55,7 +56,8 @@ export function layOut(figure, width, height, size) {
   if (figure.colourBar) {
     const name = widthOf(figure.colourBar.name, { size });
     const strip = Math.min(18 * size, inner - name - 3 * size);
-    const beside = title.length === 1 && title[0].at(-1).left + widthOf(title[0].at(-1).text, bold) + name + strip + 4 * size < inner;
+    const end = title[0]?.[title[0].length - 1];
+    const beside = title.length === 1 && end.left + widthOf(end.text, bold) + name + strip + 4 * size < inner;
     const barTop = beside ? margin : top;
     bar = { left: margin + inner - strip - size, top: barTop + 0.35 * size, width: strip, height: 0.7 * size, size: 0.9 * size };
     top = Math.max(top, barTop + 2.5 * size);

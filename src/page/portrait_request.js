@@ -4,10 +4,10 @@
 const shotOf = (ball, { u, v }) => ({ ...ball, velocityX: v, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: u / ball.radius });
 
 /**
- * @param body    {chi, gamma}
- * @param screen  light on dark
- * @returns {law, mu, chi, gamma, ball, orbits, chosen, view, window, isochrones, field, against, screen}; null for what
- *          is not asked for
+ * @param {State} state
+ * @param {{chi: number, gamma: number}} body
+ * @param {boolean} screen  light on dark
+ * @returns {PortraitRequest} null for what is not asked for
  */
 export function portraitRequest(state, { chi, gamma }, screen) {
   const { law, mu, ball, orbits, chosen, view, window, isochrones, field, against } = state;

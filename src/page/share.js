@@ -9,7 +9,8 @@ import { SvgSurface } from "./surface.js";
 
 export class Share {
   constructor(store, plane, player, address) {
-    Object.assign(this, { store, plane });
+    this.store = store;
+    this.plane = plane;
     const copy = async (text, what) => {
       try {
         await navigator.clipboard.writeText(text);

@@ -8,9 +8,25 @@ const longest = 10;    // s that a ball is let roll
 const slow = 1 / 500;  // of the first slip: without units, what slides no faster counts as rolling
 
 export class Store {
-  /** @param library  of library.js */
+  /** @type {((change: {moment: boolean}) => void)[]} */
+  listeners = [];
+  redraws = [];
+  kept = new Map();
+  settled = false;
+  /** @type {Contact | null} */
+  contact = null;
+  request = /** @type {PortraitRequest} */ ({});
+  portrait = /** @type {Portrait} */ ({});
+  body = { chi: 1, gamma: 1, largestMu: 1, mu: /** @type {number | undefined} */ (undefined) };
+  /** @type {OwnOrbit[]} */
+  motions = [];
+  /** @type {any} the chosen one */
+  motion;
+
+  /** @param {Library} library @param {State} state */
   constructor(library, state) {
-    Object.assign(this, { library, state, kept: new Map(), listeners: [], redraws: [] });
+    this.library = library;
+    this.state = state;
   }
 
   /** Calls `listener` after each change; with {moment: true} where only the moment or the isochrone has changed. */
@@ -59,13 +75,15 @@ export class Store {
   }
 
   /** Everything that depends on law, body, patch and starts, but not on the moment. */
-  compute(state) {
+  compute(/** @type {State} */ state) {
     const { library, library: { plane } } = this;
     this.contact = state.ball
       ? this.keep("contact", [state.law, state.ball], () => library.contact(state.law, { ...state.ball, velocityX: 0, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: 0 }))
       : null;
-    if (state.ball) state.mu = this.contact.mu;
-    const { chi, gamma } = this.body = bodyOf(state, library);
+    if (this.contact) state.mu = this.contact.mu;
+    this.body = bodyOf(state, library);
+    const { chi, gamma } = this.body;
+    /** @type {[string, number, number, number]} */
     const system = [state.law, state.mu, chi, gamma];
     const ofSystem = (name, key, make) => this.keep(name, [...system, ...key], make);
     this.facts = ofSystem("facts", [], () => plane.choose(...system));
@@ -123,6 +141,6 @@ export class Store {
 
   get now() {
     if (!this.motion) return null;
-    return this.library.plane.instant(this.orbit.u, this.orbit.v, this.state.share * this.end);
+    return this.library.plane.instant(this.orbit.u, this.orbit.v, this.state.fraction * this.end);
   }
 }

@@ -23,10 +23,11 @@ function setRuns(context, text, style) {
   });
 }
 
-const measuring = document.createElement("canvas").getContext("2d");
+let measuring;
 
 /** How wide a text is, in pixels. */
 export function widthOf(text, style) {
+  measuring ??= document.createElement("canvas").getContext("2d");
   return setRuns(measuring, text, style).reduce((sum, { width }) => sum + width, 0);
 }
 
@@ -122,7 +123,9 @@ const escaped = (text) => text.replace(/[&<>"]/g, (character) => `&#${character.
 
 export class SvgSurface {
   constructor(width, height, title) {
-    Object.assign(this, { width, height, clips: 0 });
+    this.width = width;
+    this.height = height;
+    this.clips = 0;
     this.parts = [`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" ` +
       `viewBox="0 0 ${width} ${height}" role="img"><title>${escaped(title)}</title>`];
   }

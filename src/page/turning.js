@@ -16,13 +16,13 @@ export function rotation([x, y, z]) {
   ];
 }
 
-export const turnedBy = (matrix, [x, y, z]) => matrix.map((row) => row[0] * x + row[1] * y + row[2] * z);
+export const turnedBy = (matrix, /** @type {number[]} */ [x, y, z]) => matrix.map((row) => row[0] * x + row[1] * y + row[2] * z);
 
 /**
- * A ball on the table in equal times: {xs, ys, at(share)}, at with the place and the rotation at a share of the time.
+ * A ball on the table in equal times: xs, ys, and at(share) with the place and the rotation at a share of the time.
  *
- * @param course  {slid, u}: columns, the path that the contact point has slid and R times the spin
- * @param start   {v, x, y, heading}: slip along x, velocity of the centre; the direction that is to the right
+ * @param course  columns slid and u: the path that the contact point has slid and R times the spin
+ * @param start   v, x, y, heading: slip along x, velocity of the centre; the direction that is to the right
  * @param duration, chi, radius  of the course, and of the body: the centre loses 1/chi of what the slip loses
  * @param spinShown  the share of the spin that is drawn
  */

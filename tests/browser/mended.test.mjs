@@ -21,7 +21,7 @@ const textsOf = (svg) => page.evaluate((svg) => {
 test("the ball is seen until the motion ends, also long after it has ceased to slide", async () => {
   await open("#ball=pool&part=whole");
   for (const share of [0.02, 0.3, 0.9, 1]) {
-    await page.evaluate((share) => globalThis.page.store.move({ share }), share);
+    await page.evaluate((share) => globalThis.page.store.move({ fraction: share }), share);
     const pixels = await page.evaluate(() => {
       const lanes = document.getElementById("lanes");
       const canvas = new OffscreenCanvas(lanes.width, lanes.height);

@@ -117,9 +117,9 @@ test("the page opens with two gel balls, and what it says of them is what the pr
 test("it opens moving, and the dot of the plane moves with the balls; who asks for less motion finds it at rest", async () => {
   const pictures = () => page.evaluate(() => ["lanes", "patch", "plane", "panes"].map((id) => document.getElementById(id).toDataURL()));
   await open("", { reducedMotion: "no-preference" });
-  await page.waitForFunction(() => globalThis.page.state.share > 0.05);
+  await page.waitForFunction(() => globalThis.page.state.fraction > 0.05);
   const before = await pictures();
-  await page.waitForFunction(() => globalThis.page.state.share > 0.1);
+  await page.waitForFunction(() => globalThis.page.state.fraction > 0.1);
   await page.click("#play");
   (await pictures()).forEach((picture, i) => assert.notEqual(picture, before[i]));
   assert.match(await page.textContent("#pace"), /slowed 8\.6 times/);
@@ -127,7 +127,7 @@ test("it opens moving, and the dot of the plane moves with the balls; who asks f
   await close();
   await open();
   await page.waitForTimeout(300);
-  assert.equal((await state()).share, 0);
+  assert.equal((await state()).fraction, 0);
   assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
   await close();
 });
@@ -355,7 +355,7 @@ test("a real ball is handed out in seconds, and its motion as the program's roll
 
 test("a ball that does not spin is seen to roll, and nothing of its patch slips", async () => {
   await open("#ball=gel&orbits=0,0.5");
-  await page.evaluate(() => globalThis.page.store.move({ share: 0.7 }));
+  await page.evaluate(() => globalThis.page.store.move({ fraction: 0.7 }));
   assert.match(await page.textContent("#instant"), /no slip/);
   const [{ x }, radius] = await page.evaluate(() => [globalThis.page.hero.rides[1].at(1), globalThis.page.state.ball.radius]);
   assert.ok(x > 5.9 * radius && x < 6.5 * radius, `${x} m`);
@@ -419,7 +419,7 @@ test("for a page around it only the balls are shown", async () => {
   assert.ok(await page.isVisible("#lanes"));
   for (const id of ["plane", "columns", "tour", "presets"]) assert.ok(!(await page.isVisible(`#${id}`)), id);
   await page.click("#play");
-  await page.waitForFunction(() => globalThis.page.state.share > 0.05);
+  await page.waitForFunction(() => globalThis.page.state.fraction > 0.05);
   await close();
   await open("#ball=pool");
   await page.click("#copy-embed");
@@ -601,8 +601,8 @@ test("a link reproduces the page", async () => {
   await close();
   await open(link.slice(link.indexOf("#")));
   const after = await state();
-  assert.ok(Math.abs(after.share - before.share) < 1e-3);
-  assert.deepEqual({ ...after, share: 0 }, { ...before, share: 0 });
+  assert.ok(Math.abs(after.fraction - before.fraction) < 1e-3);
+  assert.deepEqual({ ...after, fraction: 0 }, { ...before, fraction: 0 });
   assert.deepEqual(await stopTimes(), times);
   await close();
 });
@@ -797,7 +797,7 @@ test("a click in the view of time is a moment", async () => {
     return [box.left + frame.px(0.25), box.top + frame.py(0.5)];
   });
   await page.mouse.click(x, y);
-  assert.ok(Math.abs((await state()).share - 0.25) < 0.01);
+  assert.ok(Math.abs((await state()).fraction - 0.25) < 0.01);
   assert.equal((await stopTimes()).length, 1);
   await close();
 });
@@ -830,13 +830,13 @@ test("orbits are chosen and removed, and time is played", async () => {
   await page.click("#orbits li:nth-child(2) button");
   assert.equal((await state()).chosen, 1);
   await page.click("#play");
-  await page.waitForFunction(() => globalThis.page.state.share > 0.02);
+  await page.waitForFunction(() => globalThis.page.state.fraction > 0.02);
   await page.click("#play");
-  const { share } = await state();
+  const { fraction } = await state();
   const [, tau] = (await page.textContent("#instant")).match(/^τ = ([\d.]+) /);
-  assertClose(Number(tau), share * times[2], 1e-4, "the time of the moving point");
+  assertClose(Number(tau), fraction * times[2], 1e-4, "the time of the moving point");
   await page.waitForTimeout(100);
-  assert.equal((await state()).share, share);
+  assert.equal((await state()).fraction, fraction);
   for (let i = 0; i < 2; ++i) await page.click("#orbits li:nth-child(1) .remove");
   assert.deepEqual(await stopTimes(), []);
   assert.match(await page.textContent("#instant"), /No orbit/);

@@ -16,7 +16,7 @@ async function shot(fragment, share, options) {
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, deviceScaleFactor: 0.75, reducedMotion: "reduce", ...options });
   await page.goto(pathToFileURL(file).href + fragment);
   await page.waitForSelector("#orbits li");
-  await page.evaluate((share) => globalThis.page.store.move({ share }), share);
+  await page.evaluate((share) => globalThis.page.store.move({ fraction: share }), share);
   const picture = await page.screenshot();
   await page.close();
   return picture;

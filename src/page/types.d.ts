@@ -1,0 +1,80 @@
+// What the modules hand to each other; the functions of the library are those of bindings.cpp.
+
+interface Start { u: number; v: number }
+
+/** page_state.js says what each means. */
+interface State {
+  law: string; body: string; chi: number; gamma: number; mu: number;
+  view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
+  orbits: Start[]; chosen: number; fraction: number; part: string; isochrone: number;
+  ball: Ball | null; theme: string; embed: boolean;
+}
+
+interface Ball {
+  name: string; title: string; body: string; law: string; sources: string; patchBy: string;
+  radius: number; mass: number; friction: number; gravity: number; patch: number;
+  slip: number; spin: number; velocityX: number; velocityY: number;
+}
+
+interface Law { name: string; meaning: string; letter?: string; example?: number }
+interface Body { name: string; chi: number; gamma: number; mu?: number }
+interface View { name: string; layered: boolean }
+interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number }
+
+/** What one portrait is asked for by: portrait_request.js. */
+interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "orbits" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
+  screen: boolean; ball: object & Ball & { omegaZ: number } | null;
+}
+
+/** Columns. */
+interface Motion { tau: Float64Array; u: Float64Array; v: Float64Array; k: Float64Array; lnV: Float64Array }
+interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
+interface Instant extends Start { tau: number; k: number; force: number; places: Float64Array }
+interface Isochrone { u: Float64Array; v: Float64Array; lines: Float64Array[] }
+interface Slide { end: number; length: number }
+interface Course { slid: ArrayLike<number>; u: ArrayLike<number> }
+interface Check { name: string; measured: number; allowed: number; passed: boolean }
+
+interface Tick { at: number; text: string }
+interface Axis { name: string; low: number; high: number; ticks: Tick[] }
+interface Lines { lines: Float64Array; colour: string; width: number; dashed: boolean; legend: string; shape?: undefined }
+interface Marks { points: Float64Array; colour: string; size: number; shape: string; legend: string }
+interface Label { x: number; y: number; text: string; colour: string; align: string }
+interface Panel {
+  title: string; x: Axis; y: Axis; lines: Lines[]; marks: Marks[]; labels: Label[]; bare: boolean; toScale: boolean;
+  arrows: { arrows: Float64Array; colour: string }[]; regions: { border: Float64Array; colour: string }[];
+}
+interface Figure {
+  title: string; panels: Panel[]; ground: string; ink: string; faint: string; line: number;
+  colourBar?: { name: string; colours: string[]; ticks: Tick[] };
+}
+interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; moments: boolean; through: Start[] }
+
+interface Library {
+  laws: Law[]; bodies: Body[]; balls: Ball[]; views: View[]; rollingSlip: number; plane: LibraryPlane;
+  contact(law: string, ball: object): Contact;
+  lawName(called: string): string;
+  portraitFile(request: PortraitRequest, ending: string): string;
+}
+interface LibraryPlane {
+  choose(law: string, mu: number, chi: number, gamma: number): { terminalRatio: number; meaning: string };
+  portrait(request: PortraitRequest): Portrait;
+  stop(u: number, v: number): number;
+  motion(u: number, v: number): Motion;
+  instant(u: number, v: number, tau: number): Instant;
+  place(u: number, v: number): Float64Array;
+  at(panel: number, x: number, y: number): Start | null;
+  slide(u: number, v: number, least: number): Slide;
+  course(u: number, v: number, end: number): Course;
+  isochrone(tau: number): Isochrone;
+  checks(u: number, v: number): Check[];
+}
+
+declare module "contensou" {
+  const load: (options: { wasmBinary: ArrayBuffer }) => Promise<any>;
+  export default load;
+}
+declare module "contensou.wasm.gz" {
+  const bytes: Uint8Array<ArrayBuffer>;
+  export default bytes;
+}

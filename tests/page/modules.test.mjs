@@ -1,0 +1,204 @@
+// The page's modules that need no browser.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { commandLine } from "../../src/page/command_line.js";
+import { csvOf } from "../../src/page/exports.js";
+import { Frame } from "../../src/page/frame.js";
+import { plain, runsOf } from "../../src/page/markup.js";
+import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
+import { bodyOf, firstState, fromFragment, initialState, takeBall, toFragment } from "../../src/page/page_state.js";
+import { layOut, rowsOf } from "../../src/page/portrait_layout.js";
+import { portraitRequest } from "../../src/page/portrait_request.js";
+import { presets, tour } from "../../src/page/presets.js";
+import { Store } from "../../src/page/store.js";
+import { rideOn, rotation, turnedBy } from "../../src/page/turning.js";
+import { described } from "../../src/page/views.js";
+
+// Letters of one width, where a browser would measure them.
+const context = { measureText: (text) => ({ width: 7 * text.length }) };
+globalThis.document = /** @type {any} */ ({ createElement: () => ({ getContext: () => context }) });
+
+/** As much of the library as a state needs. */
+const gel = {
+  name: "gel", title: "gel ball on a rigid plane", body: "ball", law: "exact", sources: "", patchBy: "patch_radius",
+  radius: 0.03, mass: 0.1, friction: 0.5, gravity: 9.8, patch: 0.007, slip: 0.5, spin: 300,
+};
+const known = {
+  balls: [gel, { ...gel, name: "puck", body: "disc", law: "uniform", patchBy: "whole_face" }],
+  bodies: [{ name: "ball", chi: 3.5, gamma: 2.5 }, { name: "disc", chi: 1, gamma: 2, mu: 1 }],
+  views: ["uv", "patch", "pair", "time"].map((name) => ({ name, layered: name !== "time" })),
+  lawName(called) {
+    if (!/^(exact|pade|uniform|pressure:-?[\d.]+)$/.test(called)) throw new Error(`no such law: ${called}`);
+    return called;
+  },
+};
+
+test("numbers are read as people type them, and a reason is given for what is none", () => {
+  assert.deepEqual(["1.5", " −2e-3 ", "-0"].map((text) => parseNumber(text)), [{ value: 1.5 }, { value: -0.002 }, { value: -0 }]);
+  for (const [text, reason] of [["", /needed/], ["0,5", /write 0\.5/], ["abc", /'abc' is not/], ["1e999", /finite/]]) assert.match(parseNumber(text).problem, reason);
+});
+
+test("numbers are shown with a few digits, in signs that people write", () => {
+  const cases = { 0: "0", 0.1: "0.1", "-2.5": "−2.5", 1234567: "1.2346·10⁶", 0.00001234: "1.234·10⁻⁵", Infinity: "∞", "-Infinity": "−∞", 99999: "99999" };
+  for (const [value, text] of Object.entries(cases)) assert.equal(shown(Number(value)), text);
+  assert.equal(shown(Math.PI, 3), "3.14");
+  assert.equal(superscript(-120), "⁻¹²⁰");
+});
+
+test("ticks are round, inside, and as many as are wanted", () => {
+  for (const [low, high] of [[0, 1], [-3, 7], [0, 0.00042], [1e6, 5e6], [-1, -0.3], [0.96, 1.04]]) {
+    for (const wanted of [2, 4, 8]) {
+      const all = ticks(low, high, wanted);
+      assert.ok(all.length >= 2 && all.length <= 2.6 * wanted, `${low} to ${high}: ${all}`);
+      const step = all[1] - all[0];
+      const [digit] = step.toExponential(6).split("e").map(Number);
+      assert.ok([1, 2, 5].includes(digit), `step ${step}`);
+      for (const at of all) assert.ok(at >= low - 1e-9 * step && at <= high + 1e-9 * step && Math.abs(at / step - Math.round(at / step)) < 1e-9);
+    }
+  }
+  assert.deepEqual([99, 20, 0.07].map(roundDown).map((value) => Number(value.toPrecision(12))), [50, 20, 0.05]);
+  assert.deepEqual([tickText(0.30000000000000004, 0.1), tickText(-5, 5), tickText(1e-17, 0.1), tickText(2e6, 1e6)], ["0.3", "−5", "0", "2·10⁶"]);
+});
+
+test("markup becomes runs with their level, and text without them", () => {
+  assert.deepEqual(runsOf("{/:Italic u}_0 = 10^{-3}"), [
+    { text: "u", italic: true, level: 0 }, { text: "0", italic: false, level: -1 }, { text: " = 10", italic: false, level: 0 }, { text: "-3", italic: false, level: 1 },
+  ]);
+  assert.equal(plain("a\\_b, {/*0.85 law {/:Italic k}*}"), "a_b, law k*");
+  for (const text of ["{", "_", "^", "\\", "a}b", "{/:Italic "]) assert.equal(typeof plain(text), "string");
+});
+
+test("every state comes back from its link", () => {
+  const states = [
+    {}, { law: "pressure:-0.25", against: "pade", body: "own", chi: 1.5, gamma: 2.25, mu: 0.125 }, { body: "disc", mu: 1 },
+    { view: "pair", window: [2, 3e-7], field: "regularised", isochrones: 0, theme: "dark" },
+    { orbits: [{ u: -1e-5, v: 0 }, { u: 1e20, v: 3 }], chosen: 1, fraction: 0.25, part: "sliding", isochrone: 1.5 }, { orbits: [], chosen: 0 },
+  ].map((part) => ({ ...initialState(), ...part }));
+  const ball = initialState();
+  Object.assign(takeBall(ball, gel), { velocityX: -1, velocityY: 0.25, friction: 0.125, patchBy: "spin_deceleration", patch: 12.5 });
+  for (const state of [...states, ball, { ...ball, part: "whole", embed: true }]) assert.deepEqual(fromFragment(`#${toFragment(state)}`, known), state);
+});
+
+test("what cannot be read in a link keeps its first value", () => {
+  const first = initialState();
+  for (const part of ["law=nonsense", "mu=-1", "mu=x", "view=none", "window=1", "window=0,1", "orbits=x", "at=2", "ball=golf", "body=1", "isochrones=3", "theme=red", "part=none"]) {
+    const state = fromFragment(part, known);
+    assert.deepEqual({ ...state, orbits: part.startsWith("orbits") ? first.orbits : state.orbits }, first, part);
+  }
+  assert.deepEqual(fromFragment("orbits=x;1,-1;0.5,1&chosen=7", known).orbits, [{ u: 0.5, v: 1 }]);
+  assert.equal(fromFragment("body=disc&mu=0.2", known).mu, 1, "a puck's mu is its own");
+  assert.equal(fromFragment("mu=7", known).mu, 1, "at most 1 for a ball");
+  assert.deepEqual(fromFragment("", known), firstState(known));
+  assert.ok(fromFragment("#embed", known).embed);
+});
+
+test("chi and gamma are the library's, or the reader's own", () => {
+  assert.deepEqual(bodyOf(initialState(), known), { name: "ball", chi: 3.5, gamma: 2.5, largestMu: 1 });
+  assert.deepEqual(bodyOf({ ...initialState(), body: "own", chi: 2, gamma: 3 }, known), { chi: 2, gamma: 3, largestMu: 10, mu: undefined });
+});
+
+test("presets and steps of the tour are links that are understood", () => {
+  const balls = ["gel", "pool", "bowling", "puck", "curling-stone"].map((name) => ({ ...gel, name }));
+  const views = ["uv", "patch", "log", "similarity", "blowup", "disc", "time", "pair"].map((name) => ({ name }));
+  for (const { fragment } of [...presets, ...tour]) {
+    const state = fromFragment(fragment, { ...known, balls, views });
+    const query = new URLSearchParams(fragment);
+    for (const [key, value] of query) assert.equal(new URLSearchParams(toFragment(state)).get(key) ?? "sliding", value, `${fragment}: ${key}`);
+  }
+});
+
+const requestOf = (state) => portraitRequest(state, bodyOf(state, known), false);
+
+test("a request is what the state asks the library for", () => {
+  const state = { ...initialState(), against: "exact", orbits: [{ u: 1, v: 2 }, { u: 3, v: 4 }], chosen: 1 };
+  const { against, ball, chi } = requestOf(state);
+  assert.deepEqual([against, ball, chi], [null, null, 3.5], "a law is not compared with itself");
+  takeBall(state, gel);
+  const { velocityX, omegaZ } = requestOf(state).ball;
+  assert.deepEqual([velocityX, omegaZ], [0.5, 300]);
+  assert.equal(requestOf({ ...state, orbits: [] }).ball, null, "without a motion only the mu of a ball");
+});
+
+test("the command line names what differs from what the program would do", () => {
+  const line = (state, through = []) => commandLine(state, requestOf(state), through, bodyOf(state, known), gel);
+  const state = { ...initialState(), orbits: [{ u: 0.8, v: 3.5 }], window: [1, 2], against: "pade", isochrones: 0, field: "motion" };
+  assert.deepEqual(line(state, [{ u: -1, v: 0.5 }]), {
+    portrait: "contensou portrait --mu 0.3 --u0 0.8 --v0 3.5 --law exact --against pade --view uv --window 1,2 --through -1,0.5 --isochrones 0 --field motion -o portrait.svg",
+    roll: null,
+  });
+  const ball = initialState();
+  Object.assign(takeBall(ball, gel), { friction: 0.25, velocityY: 1.5 });
+  assert.deepEqual(line(ball), {
+    portrait: "contensou portrait --ball gel --friction 0.25 --slip 0.5 --spin 300 --law exact --view uv -o portrait.svg",
+    roll: "contensou roll --ball gel --friction 0.25 --velocity 0.5,1.5 --angular-velocity -50,0,300 --law exact",
+  });
+});
+
+test("a table of orbits has the program's words for infinity, and seconds for a ball", () => {
+  const motion = { tau: [0, 1], u: [1, 0], v: [2, 0], lnV: [0.5, -Infinity], k: [2, Infinity] };
+  assert.equal(csvOf([motion]), "orbit,tau,u,v,ln_v,k\n1,0,1,2,0.5,2\n1,1,0,0,-inf,inf\n");
+  assert.match(csvOf([motion], 0.5), /^orbit,t,tau.*\n1,0,0,1.*\n1,0\.5,1,/);
+});
+
+test("a frame leads from numbers to pixels and back, and a column breaks where it says", () => {
+  const frame = new Frame({ left: 10, top: 20, width: 100, height: 50 }, { low: -1, high: 1 }, { low: 0, high: 5 });
+  assert.deepEqual([frame.px(0), frame.py(5)], [60, 20]);
+  assert.deepEqual(frame.at(60, 20), { x: 0, y: 5 });
+  assert.deepEqual(frame.at(-100, 1000), { x: -1, y: 0 });
+  assert.deepEqual(frame.lines(Float64Array.of(0, 0, 1, 5, NaN, NaN, -1, 0)), [[60, 70, 110, 20], [10, 70]]);
+  assert.deepEqual(frame.line([0, 1, 1], [0, -Infinity, 5]), [60, 70, 110, 20]);
+  assert.ok(frame.contains(10, 20) && !frame.contains(10, 72));
+});
+
+test("panels stand side by side where there is room, to scale where they are, and nothing overlaps", () => {
+  const axis = { name: "", low: -1, high: 1, ticks: [] };
+  const panel = { title: "", x: axis, y: { ...axis, low: 0 }, lines: [{ legend: "orbits" }], marks: [], bare: true, toScale: true };
+  const figure = { title: "one,  two", panels: [panel, panel], colourBar: { name: "time left", colours: ["#000000"], ticks: [] } };
+  assert.deepEqual([rowsOf(2, 500), rowsOf(2, 400)], [1, 2]);
+  for (const [width, height] of [[900, 500], [320, 700]]) {
+    const { frames, legend, legendTop } = layOut(figure, width, height, 13);
+    for (const { left, top, width: wide, height: tall } of frames) {
+      assert.ok(left >= 0 && left + wide <= width && top > 13 && top + tall <= legendTop);
+      assert.ok(Math.abs(wide / tall - 2) < 1e-9);
+    }
+    const [first, second] = frames;
+    assert.ok(first.left + first.width <= second.left || first.top + first.height <= second.top);
+    assert.equal(legend.flat().length, 1, "each legend once");
+  }
+});
+
+test("rotations keep lengths and angles, and turn the right way", () => {
+  const near = (a, b) => a.forEach((value, i) => assert.ok(Math.abs(value - b[i]) < 1e-12, `${a} is not ${b}`));
+  near(turnedBy(rotation([0, 0, Math.PI / 2]), [1, 0, 0]), [0, 1, 0]);
+  near(turnedBy(rotation([Math.PI / 2, 0, 0]), [0, 1, 0]), [0, 0, 1]);
+  near(turnedBy(rotation([0, 0, 0]), [1, 2, 3]), [1, 2, 3]);
+  near([Math.hypot(...turnedBy(rotation([1, -2, 0.5]), [3, 4, 12]))], [13]);
+});
+
+test("a ball that only slides does not turn, one that rolls turns by its path", () => {
+  const [v, radius, duration, chi] = [2, 0.5, 3, 3.5];
+  // Without friction: it slides at v.
+  const slides = rideOn({ slid: [0, 3, 6], u: [0, 0, 0] }, { v: v / chi * chi, x: v, y: 0, heading: 0 }, { duration, chi: 1, radius, spinShown: 1 });
+  assert.deepEqual(slides.at(1).turn, rotation([0, 0, 0]));
+  assert.equal(slides.at(0.5).x, 3);
+  // Rolling: no slip.
+  const rolls = rideOn({ slid: [0, 0], u: [0, 0] }, { v: 0, x: v, y: 0, heading: 0 }, { duration, chi, radius, spinShown: 1 });
+  assert.ok(Math.abs(rolls.at(1).x - v * duration) < 1e-12);
+  const turn = rotation([0, (v * duration) / radius, 0]);
+  rolls.at(1).turn.flat().forEach((value, i) => assert.ok(Math.abs(value - turn.flat()[i]) < 1e-12));
+});
+
+test("a value is computed again only when what it depends on changes", () => {
+  const store = new Store(/** @type {any} */ ({}), initialState());
+  let computed = 0;
+  const keep = (key) => store.keep("name", key, () => (computed += 1));
+  assert.deepEqual([keep([1, { a: 2 }]), keep([1, { a: 2 }]), keep([1, { a: 3 }]), keep([1, { a: 2 }])], [1, 1, 2, 3]);
+  assert.equal(keep([1, { a: 2 }]), 3);
+  assert.throws(() => store.keep("name", "x", () => { throw new Error("rejected"); }), /rejected/);
+  assert.deepEqual([keep([1, { a: 2 }]), keep("x")], [4, 5], "after a rejection nothing is kept");
+});
+
+test("every view has a title and a hint, and one that is not known its name", () => {
+  for (const name of ["uv", "patch", "log", "similarity", "blowup", "disc", "time", "pair"]) assert.ok(described({ name }).hint.length > 20, name);
+  assert.deepEqual(described({ name: "new" }), { name: "new", title: "new", hint: "" });
+});
