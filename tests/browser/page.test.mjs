@@ -485,7 +485,7 @@ function highlightedLines(script) {
   return script.split(/^plot (?='-')/m).slice(2).map((panel) => {
     const [entries, ...blocks] = panel.split(/(?<!\\)\n/);
     const data = blocks.join("\n").split(/^e$/m);
-    const line = entries.split("\n").findIndex((entry) => /with lines lc rgb '#c2185b' lw 2.6/.test(entry));
+    const line = entries.split("\n").findIndex((entry) => /with lines lc rgb '#c2185b' lw (2\.6|3\.4)/.test(entry));
     return line < 0 ? [] : data[line].trim().split(/\n+/).map((row) => row.trim().split(/\s+/).map(Number));
   });
 }
