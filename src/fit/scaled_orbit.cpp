@@ -196,7 +196,7 @@ ScaledOrbit::Place ScaledOrbit::place_of(double T, std::size_t& cell) const {
   const double x = found.x - found.half_width * (1 + z);
   const Integrals here = found.at(z);
   const double w = moves ? std::exp(here[ln_w] - ln_w0_) : 0;
-  return {&found, z, moves, x, here, {w * std::exp(x - x0_), w, here[slid] / orbit_v0_, here[turned] / orbit_w0_}};
+  return {&found, z, moves, here, {w * std::exp(x - x0_), w, here[slid] / orbit_v0_, here[turned] / orbit_w0_}};
 }
 
 Speeds ScaledOrbit::now(const Place& place) const {
@@ -214,12 +214,16 @@ ScaledOrbit::Moment ScaledOrbit::at(double T, std::size_t& cell) const {
     if (T == 0) result.by_v.v = result.by_u.u = 1;
     return result;
   }
-  const auto [in, z, moves, x, here, unit] = place_of(T, cell);
+  const Place place = place_of(T, cell);
+  const Integrals& here = place.here;
+  const Speeds& unit = place.unit;
+  const Cell& in = *place.cell;
+  const double z = place.z;
   Eigen::Array2d slopes = Eigen::Array2d::Zero();
-  for (int n = nodes; n > 0; --n) slopes = slopes * z + n * in->powers.col(n).head<2>();
-  const double dT = -slopes[T_] / in->half_width, q = -slopes[ln_w] / in->half_width;
-  result.now = {v0_ * unit.v, u0_ * unit.u, v0_ * unit.slid, u0_ * unit.turned};
-  if (moves) {
+  for (int n = nodes; n > 0; --n) slopes = slopes * z + n * in.powers.col(n).head<2>();
+  const double dT = -slopes[T_] / in.half_width, q = -slopes[ln_w] / in.half_width;
+  result.now = now(place);
+  if (place.moves) {
     result.dv = result.now.v * (1 + q) / dT;
     result.du = result.now.u * q / dT;
   }
@@ -228,7 +232,7 @@ ScaledOrbit::Moment ScaledOrbit::at(double T, std::size_t& cell) const {
   const auto change = [&](double factor, const Direction& by) -> Speeds {
     if (factor == 0) return {};
     const double of_ln_w = by.ln_w - q0_ * by.x;
-    const double of_x = moves ? -change_of_T(by, here) / dT : 0;
+    const double of_x = place.moves ? -change_of_T(by, here) / dT : 0;
     const double of_ratio = of_ln_w + by.ln_mu * here[E] + q * of_x - by.ln_w;
     const double of_slid = -dT0_ * by.x + (2 * of_ln_w - by.x - by.ln_w) * unit.slid +
                            by.ln_mu * here[slid_by] / orbit_v0_ + unit.v * dT * of_x;

@@ -54,7 +54,7 @@ class ScaledOrbit {
   /// The same without derivatives.
   Speeds speeds_at(double T, std::size_t& cell) const;
 
-  /// T of the stop, or its derivatives in the places of Moment; after reach(infinity).
+  /// T of the stop and its derivatives; after reach(infinity).
   struct Stop {
     double T, by_ln_mu, by_v, by_u;
   };
@@ -86,7 +86,6 @@ class ScaledOrbit {
     const Cell* cell;
     double z;
     bool moves;
-    double x;
     Integrals here;
     Speeds unit;  ///< v, slid of a v of 1 m/s at the start, u, turned of such a u
   };
@@ -99,13 +98,13 @@ class ScaledOrbit {
   double mu_, accuracy_;
   std::vector<Cell> cells_;
   std::vector<double> kinks_;  ///< ln k of those ahead, the next one last
-  double x_, width_;           ///< of the next cell
+  double x_ = 0, width_;       ///< of the next cell
   Integrals now_ = Integrals::Zero();
-  double v0_, u0_;     ///< of the start
-  double x0_, ln_w0_;  ///< of the orbit, which no axis is
-  double orbit_v0_, orbit_w0_;
-  double q0_, dT0_;  ///< q and dT/dx at the start
-  Direction by_[3];  ///< ln mu, ln v, ln u
+  double v0_, u0_;             ///< of the start
+  double x0_ = 0, ln_w0_ = 0;  ///< of the orbit, which no axis is
+  double orbit_v0_ = 0, orbit_w0_ = 0;
+  double q0_ = 0, dT0_ = 0;  ///< q and dT/dx at the start
+  Direction by_[3] = {};     ///< ln mu, ln v, ln u
 };
 
 }  // namespace contensou::fit

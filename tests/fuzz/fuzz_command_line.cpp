@@ -71,6 +71,7 @@ void write_files() {
   write("p.csv", "rho,pressure\n0,1\n0.5,0.75\n1,0\n");
   write("s.csv", "mu,u0,v0\n0.1,1,1\n0.2,1,bad\n");
   write("k.csv", "k\n0\n1\ninf\n");
+  write("f.csv", "t,slip,spin,spin_sd\n0,1,100,1\n0.05,0.7,99,1\n0.1,0.4,99,1\n0.2,,98,1\n0.4,0.01,97,1\n");
   write("b.toml",
         "[ball]\nmass = 0.17\nradius = 0.0286\n[contact]\nfriction = 0.2\nspin_deceleration = 10\n[start]\nslip = 1\n"
         "spin = 100\n");

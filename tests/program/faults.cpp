@@ -51,6 +51,8 @@ const std::vector<Writer> writers{
     {"sweep --mu 0.1 --u0 0:1:30 --v0 0:1:30", {"sweep.svg"}},
     {"roll --ball pool --until 0.001", {"roll.gif"}},
     {"balls pool", {"pool.toml"}},
+    {"fit table --ball pool --noise slip=0.01,spin=1 --free slip,spin", {"ball.toml"}},
+    {"fit table --ball pool --noise slip=0.01,spin=1 --free slip,spin", {"fit.svg"}},
 #ifdef CONTENSOU_HAS_PAGE
     {"explore", {"page.html"}},
 #endif
@@ -94,7 +96,7 @@ class Bench {
     write_gnuplot(
         "cat >\"$0.$$\"; for drawn in \"$0\".*.drawn; do cmp -s \"$0.$$\" \"${drawn%.drawn}\" && exec cat "
         "\"$drawn\"; done; PATH=$OLD_PATH gnuplot \"$@\" <\"$0.$$\" | tee \"$0.$$.drawn\"");
-    write_file(tools_.file("table"), "mu,u0,v0\n0.1,1,1\n0.2,1,1\n");
+    write_file(tools_.file("table"), "mu,u0,v0,t,slip,spin\n0.1,1,1,0,1,100\n0.2,1,1,0.3,0,97\n");
     path_ = tools_.file("bin") + ":" + std::getenv("PATH");
     refresh(false);
     const Run ended = run([] {});

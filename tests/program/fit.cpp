@@ -54,6 +54,14 @@ TEST_CASE("a film without errors gives back the ball and its start, whatever bal
   }
 }
 
+TEST_CASE("a standard deviation has a unit, too: that of an angle is the radian unless it is named", "[cli]") {
+  const std::string plan = "fit --plan --ball pool --fps 60 --until 0.5 --format csv --noise ";
+  CHECK(run_program(plan + "slip=1cm/s,angle=1deg").out ==
+        run_program(plan + "slip=0.01,angle=0.017453292519943295").out);
+  CHECK(run_program(plan + "angle=1rad").out == run_program(plan + "angle=1").out);
+  CHECK(run_program(plan + "angle=1").out != run_program(plan + "angle=1deg").out);
+}
+
 TEST_CASE("units stand behind the names of columns, standard deviations in columns or in --noise", "[cli]") {
   const auto plain = fit_of(film(0.01, 1), "--noise slip=0.01,spin=1");
   CHECK(plain["noise"]["slip"]["estimated"] == false);

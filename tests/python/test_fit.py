@@ -77,6 +77,7 @@ def test_the_fitted_ball_moves_as_predicted_and_what_is_wrong_is_said():
     at = found.ball.roll()(T)
     np.testing.assert_allclose(found.predicted["slip"], at["slip"], atol=1e-8)
     np.testing.assert_allclose(found.predicted["spin"], at["wz"], rtol=1e-8)
+    assert repr(found).startswith(f"Fit(law='exact', friction={found.friction.value:.6g} +- ") and len(repr(found)) < 250
     assert found.only is None and found.names == ["friction", "patch_radius", "slip", "spin"]
     assert ct.fit(T, ball=BALL, spin=seen["spin"]).only[0] != ""
     for wrong, words in (({"slip": seen["slip"][1:]}, "one value for each time"), ({**seen, "sd": {"x": 1}}, "no values"),

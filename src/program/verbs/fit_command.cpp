@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -40,7 +42,11 @@ NoiseByName parse_noise(const std::string& typed) {
     if (found == names.end()) throw no_such("observable", name, names);
     const auto place = static_cast<std::size_t>(found - names.begin());
     const std::string_view unit = name == stop ? "s" : fit::observable_kinds()[place].unit;
-    const double sd = parse_quantity(each.substr(sign + 1), unit);  // an angle is in radians
+    const std::string value = each.substr(sign + 1);
+    // A plain angle is in radians, which angles elsewhere are not.
+    const bool has_unit = !value.empty() && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
+    const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
+                                                : parse_quantity(value, unit);
     if (!(sd > 0)) throw NotAllowed(fmt::format("a standard deviation is > 0, in {}", unit));
     noise[name] = sd;
   }

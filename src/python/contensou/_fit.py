@@ -50,6 +50,10 @@ class Fit:
     only: Optional[tuple[str, float, float]]
     predicted: dict[str, NDArray[np.float64]]
 
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={each.value:.6g} +- {each.standard_error:.2g}" for name, each in self.estimates.items())
+        return f"Fit(law={self.law!r}, {values}, reduced_chi2={self.reduced_chi2:.4g})"
+
     @property
     def friction(self) -> Estimate:
         return self.estimates["friction"]
