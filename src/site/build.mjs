@@ -2,7 +2,7 @@
 //   node build.mjs PROJECT OUT DOXYGEN VERSION [PAGE]
 // PAGE is the page of `contensou explore`. A link to a file that is not there is an error.
 import { execFileSync } from "node:child_process";
-import { copyFileSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, extname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -21,11 +21,6 @@ const escape = (text) => text.replace(/[&<>"]/g, (letter) => ({ "&": "&amp;", "<
 function write(path, content) {
   mkdirSync(dirname(join(out, path)), { recursive: true });
   writeFileSync(join(out, path), content);
-}
-
-function copy(path) {
-  mkdirSync(dirname(join(out, path)), { recursive: true });
-  copyFileSync(join(project, path), join(out, path));
 }
 
 // A text or a source becomes a page, a picture stays what it is. Some hosts serve no file whose name begins with a dot.
@@ -96,7 +91,9 @@ function page(path, title, body) {
 
 // The gallery: the pictures of portraits/README.md, each with the command and the words that stand above it.
 function gallery() {
-  const shown = [...read("portraits/README.md").matchAll(/^`(contensou [^`]+)`\n\n([^]+?)\n\n!\[(.*)\]\((.+)\)$/gm)];
+  const text = read("portraits/README.md");
+  const shown = [...text.matchAll(/^`(contensou [^`]+)`\n\n([^`!]+?)\n\n!\[(.*)\]\((.+)\)$/gm)];
+  if (shown.length !== text.match(/^!\[/gm).length) throw new Error("portraits/README.md: a picture stands below its command and its words, a paragraph each");
   const figures = shown.map(([, command, words, title, picture]) => {
     const [, width, height] = /viewBox="0 0 (\d+) (\d+)"/.exec(read(`portraits/${picture}`));
     return `<figure${width > 1.8 * height ? ' class="broad"' : ""}><a href="portraits/${picture}"><img src="portraits/${picture}" alt="${escape(title)}" width="${width}" height="${height}"></a>
@@ -109,12 +106,13 @@ function gallery() {
 function reference() {
   const folder = mkdtempSync(join(tmpdir(), "contensou-reference-"));
   const roots = ["reduction", "portraits", "src"].map((part) => join(project, part, "include"));
+  const quoted = (...paths) => paths.map((path) => `"${path}"`).join(" ");
   const headers = roots.flatMap((root) => readdirSync(root, { recursive: true }).filter((path) => /\.hp*$/.test(path)).sort());
   // A page for each header, too.
   const contents = headers.map((path) => `- @ref ${path}`).join("\n");
   writeFileSync(join(folder, "headers.dox"), `/**\n${headers.map((path) => `@file ${path}\n`).join("*//**")}*/\n/** @page headers Headers\n${contents}\n*/\n`);
-  const settings = [readFileSync(join(here, "Doxyfile"), "utf8"), `OUTPUT_DIRECTORY = ${folder}`, `INPUT = ${roots.join(" ")} ${join(here, "reference.dox")} ${folder}/headers.dox`,
-    `STRIP_FROM_PATH = ${roots.join(" ")}`, `STRIP_FROM_INC_PATH = ${roots.join(" ")}`];
+  const settings = [readFileSync(join(here, "Doxyfile"), "utf8"), `OUTPUT_DIRECTORY = ${quoted(folder)}`, `STRIP_FROM_PATH = ${quoted(...roots)}`,
+    `STRIP_FROM_INC_PATH = ${quoted(...roots)}`, `INPUT = ${quoted(...roots, join(here, "reference.dox"), join(folder, "headers.dox"))}`];
   execFileSync(doxygen, ["-"], { input: settings.join("\n"), stdio: ["pipe", "inherit", "inherit"] });
 
   const unused = /^(annotated|classes|concepts|dir_.*|files|functions.*|globals.*|hierarchy|inherits|namespaces|namespacemembers.*|pages|.*-members)\.html$/;
@@ -129,7 +127,7 @@ function reference() {
     const body = text.slice(text.indexOf('<div class="header">'), text.indexOf("<!-- contents -->"))
       .replace(/<div class="title">(.*)<\/div><\/div>/, "<h1>$1</h1></div>")
       .replaceAll('<pre class="fragment">', '<pre tabindex="0">')
-      .replaceAll('<div class="fragment">', '<div class="fragment" role="region" aria-label="Source" tabindex="0">')
+      .replaceAll('<div class="fragment">', '<div class="fragment" role="group" aria-label="Source" tabindex="0">')
       .replace(/<hr\/>The documentation for this[^]*?<\/ul>/, "")
       .replace(/ onclick="[^"]*"><img src="closed.png" alt="-"\/>/g, ">")
       .replace(/<a id="(a[0-9a-f]+)" name="\1"><\/a>/g, (anchor, id) => {
@@ -149,8 +147,9 @@ for (const first of ["README.md", ".github/CONTRIBUTING.md", ".github/CHANGELOG.
 const readme = texts.get("README.md");
 for (const [path, { tokens, env, title }] of texts) page(pageOf(path), title, html(tokens, env));
 for (const path of others) {
-  if (isPicture(path)) copy(path);
-  else page(pageOf(path), path, `<h1>${path}</h1><pre tabindex="0"><code>${highlight(read(path), { "": "bash", ".cmake": "cmake" }[extname(path)])}</code></pre>`);
+  const language = path.startsWith(".ci/") ? "bash" : extname(path).slice(1);
+  if (isPicture(path)) write(path, readFileSync(join(project, path)));
+  else page(pageOf(path), path, `<h1>${path}</h1><pre tabindex="0"><code>${highlight(read(path), language)}</code></pre>`);
 }
 gallery();
 reference();
@@ -171,8 +170,8 @@ ${ball ? '<li><a href="explore.html">Play</a>: change slip, spin, friction and p
 <li><a href="reference/index.html">Look up</a>: every public header</li>
 </ul>`);
 
-if (ball) copyFileSync(ball, join(out, "explore.html"));
-copyFileSync(join(here, "style.css"), join(out, "style.css"));
+if (ball) write("explore.html", readFileSync(ball));
+write("style.css", readFileSync(join(here, "style.css")));
 // Every browser reads woff2.
 const typesetting = join(here, "node_modules/katex/dist");
 cpSync(join(typesetting, "fonts"), join(out, "katex/fonts"), { recursive: true, filter: (path) => !/\.(woff|ttf)$/.test(path) });
