@@ -74,6 +74,7 @@ struct Label {
 
 /// An interval with its name; ticks only where the default ones do not serve.
 struct Axis {
+  /// A mark on the axis and its words.
   struct Tick {
     double at;
     std::string text;

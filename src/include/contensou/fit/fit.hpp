@@ -20,6 +20,7 @@ enum class Parameter { friction, patch_radius, slip, spin, direction, vx, vy, x,
 inline constexpr int shared_parameters = 2;
 inline constexpr int start_parameters = 8;
 
+/// What a parameter is called, its unit, and what it is.
 struct ParameterKind {
   std::string_view name;
   std::string_view unit;
@@ -36,6 +37,7 @@ struct Free {
   bool spin = true;
 };
 
+/// What is fitted to which films.
 struct FitRequest {
   si::Experiment ball;  ///< radius, gravity, and the values of what is not free
   reduction::Law law;

@@ -39,6 +39,7 @@ struct WholeFace {};
 /// change.
 using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli, WholeFace>;
 
+/// The patch where ball and plane touch, and its friction.
 struct Contact {
   double friction;  ///< coefficient of dry friction
   PatchSource patch;
@@ -60,6 +61,7 @@ struct Velocities {
 /// How the ball is set going, in the way in which it was given.
 using Start = std::variant<SlipAndSpin, Velocities>;
 
+/// What presses the ball on the plane.
 struct Environment {
   /// m/s^2, the load over the mass: nothing else of a ball on a horizontal plane depends on it. A ball that something
   /// presses on the plane with N newtons has N/mass.
