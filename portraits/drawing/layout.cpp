@@ -29,6 +29,8 @@ double value(const Axis& axis, double fraction) {
 bool clip(Point a, Point b, double& from, double& to) {
   from = 0;
   to = 1;
+  if (std::max(a.x, b.x) < 0 || std::min(a.x, b.x) > 1 || std::max(a.y, b.y) < 0 || std::min(a.y, b.y) > 1)
+    return false;
   for (const auto& [start, way] : {std::pair{a.x, b.x - a.x}, std::pair{a.y, b.y - a.y}}) {
     if (way == 0) {
       if (start < 0 || start > 1) return false;
@@ -69,8 +71,9 @@ double paper_distance(const Panel& panel, Point a, Point b) {
 std::vector<Polyline> clipped(const Panel& panel, const Polyline& line) {
   std::vector<Polyline> parts;
   bool open = false;
+  Point a{}, b = line.empty() ? a : on_paper(panel, line.front());
   for (std::size_t i = 1; i < line.size(); ++i) {
-    const Point a = on_paper(panel, line[i - 1]), b = on_paper(panel, line[i]);
+    a = std::exchange(b, on_paper(panel, line[i]));
     double from = 0, to = 1;
     const bool finite = std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(b.x) && std::isfinite(b.y);
     if (!finite || !clip(a, b, from, to)) {

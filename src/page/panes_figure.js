@@ -18,9 +18,8 @@ export function drawPanes(surface, scene, theme) {
   const x = (label) => ({ low: 0, high: scene.end * scene.timeFactor, label });
   const place = (row) => ({ left, top: 0.5 * size + row * (height + gap), width, height });
 
-  const extreme = (choose) => scene.motions.flatMap((motion) => [choose(motion)]);
-  const highestV = Math.max(...extreme((motion) => motion.v[0]), Number.MIN_VALUE);
-  const us = extreme((motion) => motion.u[0]);
+  const highestV = Math.max(...scene.motions.map(({ v }) => v[0]), Number.MIN_VALUE);
+  const us = scene.motions.map(({ u }) => u[0]);
   const [lowestU, highestU] = [Math.min(0, ...us), Math.max(0, ...us)];
   const rangeU = { low: 1.06 * lowestU, high: 1.06 * highestU || (lowestU === 0 ? 1 : 0) };
   // Without the last instant: at rest there is no k.

@@ -9,26 +9,34 @@ const mathematics = '"STIX Two Text", "Cambria Math", "DejaVu Serif", Georgia, s
 const scriptSize = 0.72;
 const scriptShift = { 1: -0.38, 0: 0, "-1": 0.24 };  // of an index or a power, in sizes of the text
 
+let measuring;
+const known = new Map();  // texts that were measured
+
 /** The runs of a text with their fonts, widths and places from the text's left end. */
-function setRuns(context, text, style) {
+function setRuns(text, style) {
+  const key = `${style.size} ${style.bold} ${style.italic} ${text}`;
+  if (known.size > 2000) known.clear();
+  if (!known.has(key)) known.set(key, measured(text, style));
+  return known.get(key);
+}
+
+function measured(text, style) {
+  measuring ??= document.createElement("canvas").getContext("2d");
   let left = 0;
   return runsOf(text, style.italic).map((run) => {
     const size = style.size * (run.level === 0 ? 1 : scriptSize);
     const font = `${run.italic ? "italic " : ""}${style.bold ? "600 " : ""}${size}px ${run.italic ? mathematics : fonts}`;
-    context.font = font;
-    const width = context.measureText(run.text).width;
+    measuring.font = font;
+    const width = measuring.measureText(run.text).width;
     const set = { ...run, font, size, left, width, down: scriptShift[run.level] * style.size };
     left += width;
     return set;
   });
 }
 
-let measuring;
-
 /** How wide a text is, in pixels. */
 export function widthOf(text, style) {
-  measuring ??= document.createElement("canvas").getContext("2d");
-  return setRuns(measuring, text, style).reduce((sum, { width }) => sum + width, 0);
+  return setRuns(text, style).reduce((sum, { width }) => sum + width, 0);
 }
 
 export class CanvasSurface {
@@ -90,8 +98,8 @@ export class CanvasSurface {
     context.translate(x, y);
     if (style.turned) context.rotate(-Math.PI / 2);
     context.textBaseline = style.baseline ?? "alphabetic";
-    const runs = setRuns(context, text, style);
-    const whole = runs.reduce((sum, { width }) => sum + width, 0);
+    const runs = setRuns(text, style);
+    const whole = widthOf(text, style);
     const start = -whole * { left: 0, center: 0.5, right: 1 }[style.align ?? "left"];
     const each = (draw) => runs.forEach((run) => {
       context.font = run.font;
