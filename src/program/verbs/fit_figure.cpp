@@ -20,7 +20,7 @@ using portraits::Point;
 constexpr Colour fit_colour{0x8c0f35};
 constexpr Colour inner_colour{0xd3dff0}, outer_colour{0xeef2f8};
 /// Of the tracks, one after the other; told apart in grey, too.
-constexpr Colour data_colours[]{{0x5b9fd6}, {0x777777}, {0xe0a030}, {0xb48fde}};
+constexpr Colour data_colours[]{{0x4a90cc}, {0x3a3a3a}, {0xe0a030}, {0x8050a0}};
 
 /// So many values are shown of a track; more would be one blot.
 constexpr Eigen::Index most_marks = 250;
