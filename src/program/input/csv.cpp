@@ -121,6 +121,16 @@ CsvReader::CsvReader(const std::string& path)
   if (file_ < 0) fail();
   struct stat status {};
   if (::fstat(file_, &status) == 0 && S_ISREG(status.st_mode)) bytes_ = static_cast<double>(status.st_size);
+  read_header();
+}
+
+CsvReader::CsvReader(std::string text, const std::string& source) : file_(-1), parser_(escaped(source)) {
+  buffer_ = std::move(text);
+  at_end_ = true;
+  read_header();
+}
+
+void CsvReader::read_header() {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   constexpr std::size_t telling = 4;
   while (!at_end_ && buffer_.size() < telling) read_some();
@@ -168,7 +178,7 @@ bool CsvReader::next(CsvBlock& block) {
   block = std::exchange(first_, {});
   while (block.size() == 0) {
     if (fault_) throw BadLine(*fault_);
-    if (at_end_) return false;
+    if (at_end_ && buffer_.empty()) return false;
     if (buffer_.empty()) read_some();
     while (!at_end_ && buffer_.size() < block_size && ready_to_read()) read_some();
     try {

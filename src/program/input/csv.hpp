@@ -118,6 +118,11 @@ class CsvReader {
   /// @throws std::system_error  if it cannot be read
   /// @throws BadLine            if there is no header, or it is not CSV; with a way out for UTF-16
   explicit CsvReader(const std::string& path);
+
+  /// Reads text that is there already.
+  /// @param source  what messages call it
+  /// @throws BadLine  as above
+  CsvReader(std::string text, const std::string& source);
   ~CsvReader();
   CsvReader(const CsvReader&) = delete;
   CsvReader& operator=(const CsvReader&) = delete;
@@ -157,6 +162,7 @@ class CsvReader {
  private:
   CsvReader(int file, const std::string& path);
 
+  void read_header();
   [[noreturn]] void fail() const;
 
   /// Appends to the buffer what one read gives.

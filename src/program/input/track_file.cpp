@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <set>
 
@@ -10,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "contensou/si/quantity.hpp"
-#include "input/csv.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::program {
@@ -62,8 +60,8 @@ std::vector<std::string> observable_names() {
   return names;
 }
 
-fit::Track read_track(const std::string& path, const TrackRequest& request) {
-  CsvReader table(path);
+fit::Track read_track(CsvReader& table, const std::string& track_name, const TrackRequest& request,
+                      const std::function<void(const std::string&)>& note) {
   std::vector<std::string> known{"t"};
   for (const std::string& name : observable_names()) known.push_back(name);
   std::set<std::string> unread;
@@ -113,9 +111,9 @@ fit::Track read_track(const std::string& path, const TrackRequest& request) {
                     separator ? "; a comma must separate columns" : ""));
   }
   for (const std::string& name : unread)
-    fmt::print(stderr, "contensou: {}: column {} is not read\n", escaped(path), quotation(name));
+    note(fmt::format("{}: column {} is not read", escaped(track_name), quotation(name)));
 
-  fit::Track track{.name = path};
+  fit::Track track{.name = track_name};
   std::vector<double> t;
   std::vector<std::vector<double>> values(columns.size()), deviations(columns.size());
   double last = -INFINITY;
@@ -140,7 +138,7 @@ fit::Track read_track(const std::string& path, const TrackRequest& request) {
       if (sd) deviations[i].push_back(error);
     }
   });
-  if (t.empty()) throw BadInput(fmt::format("{}: no row has a time between --from and --until", escaped(path)));
+  if (t.empty()) throw BadInput(fmt::format("{}: no row has a time between --from and --until", escaped(track_name)));
   const auto array = [](const std::vector<double>& numbers) {
     return Eigen::ArrayXd(Eigen::Map<const Eigen::ArrayXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size())));
   };

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "contensou/fit/track.hpp"
+#include "input/csv.hpp"
 
 namespace contensou::program {
 
@@ -22,14 +24,15 @@ struct TrackRequest {
 /// The names of what a table may say of a ball.
 std::vector<std::string> observable_names();
 
-/// A track from a CSV file with a column t and others of observables, in SI units or in those behind their names, as in
-/// "spin [rpm]"; NAME_sd is the standard deviation of NAME. An empty field was not measured. Other columns are not read,
-/// which standard error says.
+/// A track from a CSV table with a column t and others of observables, in SI units or in those behind their names, as in
+/// "spin [rpm]"; NAME_sd is the standard deviation of NAME. An empty field was not measured. Other columns are not read.
 ///
-/// @param path  a file, or "-" for standard input
+/// @param name  of the track
+/// @param note  called with a sentence for each column that is not read
 /// @throws BadLine            naming the line: of a header without t or an observable, with what there is; of a number
 ///                            that is none, a time that does not increase, a standard deviation that is not positive
-/// @throws std::system_error  if the file cannot be read
-fit::Track read_track(const std::string& path, const TrackRequest& request);
+/// @throws std::system_error  if the table cannot be read
+fit::Track read_track(CsvReader& table, const std::string& name, const TrackRequest& request,
+                      const std::function<void(const std::string&)>& note);
 
 }  // namespace contensou::program
