@@ -29,7 +29,9 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
+#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/course.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
@@ -37,33 +39,36 @@
 
 namespace contensou::page {
 
-namespace {
-
 using reduction::Flow;
 using reduction::Law;
 using reduction::Orbit;
 using reduction::ReducedSystem;
 using reduction::State;
 
-/// The answer of a function; an exception of C++ would reach JavaScript without its message.
-template <class Function>
-auto answer(Function function) {
-  std::string problem;
-  try {
-    return function();
-  } catch (const std::exception& error) {
-    problem = error.what();
-  }
-  val::global("Error").new_(problem).throw_();
-}
-
-/// Laws are kept: some of them begin with a table.
 Law law_of(const std::string& name) {
   static std::map<std::string, Law> known;
   if (const auto found = known.find(name); found != known.end()) return found->second;
   if (auto law = reduction::find_law(name)) return known.emplace(name, *law).first->second;
   throw std::domain_error(fmt::format("no such law: {}", name));
 }
+
+si::Experiment experiment_of(const val& fields) {
+  const auto number = [&](const char* key) { return fields[key].as<double>(); };
+  const double patch = number("patch");
+  si::Experiment experiment{.ball = {.name = "ball", .mass = number("mass"), .radius = number("radius")},
+                            .contact = {.friction = number("friction"), .patch = si::PatchRadius{patch}},
+                            .start = si::Velocities{{number("velocityX"), number("velocityY")},
+                                                    {number("omegaX"), number("omegaY"), number("omegaZ")}},
+                            .environment = {.gravity = number("gravity")}};
+  const auto known_by = fields["patchBy"].as<std::string>();
+  if (known_by == "spin_deceleration") experiment.contact.patch = si::SpinDeceleration{patch};
+  if (known_by == "whole_face") experiment.contact.patch = si::WholeFace{};
+  experiment.ball.body = *std::ranges::find(si::bodies(), fields["body"].as<std::string>(), &si::Body::name);
+  si::require_experiment(experiment);
+  return experiment;
+}
+
+namespace {
 
 std::vector<State> states_of(const val& points) {
   std::vector<State> states;
@@ -88,24 +93,6 @@ State inside(const Flow& flow, State start, const portraits::Window& window) {
   constexpr double least = std::numeric_limits<double>::min();
   const auto point = orbit.at_time(within);
   return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};
-}
-
-/// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2, or nothing
-/// where a body rests on its whole face.
-si::Experiment experiment_of(const val& fields) {
-  const auto number = [&](const char* key) { return fields[key].as<double>(); };
-  const double patch = number("patch");
-  si::Experiment experiment{.ball = {.name = "ball", .mass = number("mass"), .radius = number("radius")},
-                            .contact = {.friction = number("friction"), .patch = si::PatchRadius{patch}},
-                            .start = si::Velocities{{number("velocityX"), number("velocityY")},
-                                                    {number("omegaX"), number("omegaY"), number("omegaZ")}},
-                            .environment = {.gravity = number("gravity")}};
-  const auto known_by = fields["patchBy"].as<std::string>();
-  if (known_by == "spin_deceleration") experiment.contact.patch = si::SpinDeceleration{patch};
-  if (known_by == "whole_face") experiment.contact.patch = si::WholeFace{};
-  experiment.ball.body = *std::ranges::find(si::bodies(), fields["body"].as<std::string>(), &si::Body::name);
-  si::require_experiment(experiment);
-  return experiment;
 }
 
 /// The question of portrait_request.js.
@@ -244,15 +231,35 @@ class Plane {
     });
   }
 
-  /// In equal times until `end`: the path that one start has slid, and its spin.
-  val course(double u, double v, double end) const {
+  /// The motion over the table until `end`, in s, as columns in times that are dense at its beginning: those of `contensou
+  /// roll`, and `slid`, m. And {t, x, y} of where it rests, if there is rolling friction.
+  /// @param fields  a ball whose patch the plane knows better
+  val ride(const val& fields, double rolling_friction, double end) const {
     return answer([&] {
-      const Orbit orbit = flow().orbit({.u = u, .v = v});
+      si::Experiment experiment = experiment_of(fields);
+      experiment.ball.body.inertia = system().inertia();
+      const si::Course<si::BallMotion> course(experiment, {experiment, flow()}, si::rolling_slip, rolling_friction);
+      const Orbit orbit = flow().orbit(si::reduced_start(experiment));
+      const double scale = 1 / si::seconds(experiment, 1);
       constexpr Eigen::Index pieces = 160;
-      const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(pieces + 1, 0, end);
-      std::vector<double> slid;
-      for (const double tau : times) slid.push_back(orbit.slip_length(tau));
-      return object("slid", slid, "u", orbit.at_times(times).u);
+      si::MotionColumns motion(pieces + 1);
+      Eigen::ArrayXd slid(pieces + 1);
+      for (Eigen::Index i = 0; i <= pieces; ++i) {
+        const double part = static_cast<double>(i) / pieces, t = end * part * part;
+        const double tau = std::min(t * scale, orbit.stop_time());
+        const reduction::OrbitPoint point = orbit.at_time(tau);
+        slid[i] = si::seconds(experiment, orbit.slip_length(tau));
+        const auto free = si::motion_by_slip(experiment, t, point.v, slid[i], point.u / experiment.ball.radius);
+        motion.set(i, course.friction ? (*course.friction)(free) : free);
+      }
+      val result =
+          object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx", motion.wx, "wy",
+                 motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy, "slid", slid);
+      if (course.friction) {
+        const Eigen::Vector2d rest = course.friction->rest_position();
+        result.set("rest", object("t", course.friction->rest_time(), "x", rest.x(), "y", rest.y()));
+      }
+      return result;
     });
   }
 
@@ -465,7 +472,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .function("place", &Plane::place)
       .function("at", &Plane::at)
       .function("slide", &Plane::slide)
-      .function("course", &Plane::course)
+      .function("ride", &Plane::ride)
       .function("isochrone", &Plane::isochrone)
       .function("checks", &Plane::checks);
   function("portraitFile", &portrait_file);

@@ -1,4 +1,5 @@
 // The command line of the program that draws what the page shows.
+import { angularVelocity } from "./portrait_request.js";
 
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
 
@@ -45,8 +46,10 @@ export function commandLine(state, request, through, body, builtIn) {
   return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...startOf(state.ball, start), "--law", request.law]) : null };
 }
 
-/** The start of a roll: slip along x at v, spin u/R, and what the reader says of the centre. */
-function startOf({ radius, velocityX, velocityY }, { u, v }) {
-  if (velocityX === v && velocityY === 0) return ["--slip", v, "--spin", u / radius];
-  return ["--velocity", `${velocityX},${velocityY}`, "--angular-velocity", [-velocityY / radius, (velocityX - v) / radius, u / radius].join(",")];
+/** The start of a roll, and what slows it down: slip along x at v, spin u/R, and what the reader says of the centre. */
+function startOf(ball, start) {
+  const { omegaX, omegaY, omegaZ } = angularVelocity(ball, start);
+  const rolling = ball.rollingFriction > 0 ? ["--rolling-friction", ball.rollingFriction] : [];
+  if (ball.velocityX === start.v && ball.velocityY === 0) return ["--slip", start.v, "--spin", omegaZ, ...rolling];
+  return ["--velocity", `${ball.velocityX},${ball.velocityY}`, "--angular-velocity", [omegaX, omegaY, omegaZ].join(","), ...rolling];
 }

@@ -93,10 +93,10 @@ export function makeControls(store, plane, { ask, attempt }) {
   muSlider.addEventListener("input", () => ask((state) => setMu(state, fractionToMu(muSlider.value / 1000, store.body.largestMu))));
   const muField = numberField($("mu"), $("mu-error"), (mu) => store.change((state) => setMu(state, mu)));
 
-  const number = (parent, key, label, edit, any = false) => addNumberField(parent, {
+  const number = (parent, key, label, edit, allowed = (value) => value > 0) => addNumberField(parent, {
     key, label,
     use(value) {
-      if (!(value > 0 || any)) throw new Error("a positive number is needed");
+      if (!allowed(value)) throw new Error("a positive number is needed");
       store.change((state) => edit(state, value));
     },
   });
@@ -110,12 +110,12 @@ export function makeControls(store, plane, { ask, attempt }) {
   // --- the card of a ball ----------------------------------------------------------------------------------------------
 
   const ofBall = (labels) => Object.entries(labels).map(([key, label]) => ({
-    key, moves: key.startsWith("velocity"),
+    key, moves: /^(velocity|rolling)/.test(key),
     field: number($("ball-fields"), key, label, (state, value) => {
       // The spin in rad/s stays.
       if (key === "radius") for (const orbit of state.orbits) orbit.u *= value / state.ball.radius;
       state.ball[key] = value;
-    }, key.startsWith("velocity")),
+    }, (value) => key.startsWith("velocity") || value > 0 || (value === 0 && key === "rollingFriction")),
   }));
   const ballFields = ofBall({ radius: "radius R (m)", mass: "mass m (kg)", friction: "friction f", gravity: "gravity g (m/s²)" });
   const patchBy = make("select", { id: "patch-by" });
@@ -125,7 +125,7 @@ export function makeControls(store, plane, { ask, attempt }) {
     const patch = Number((by === "spin_deceleration" ? spinDeceleration : patchRadius).toPrecision(12));
     Object.assign(state.ball, { patchBy: by, patch });
   });
-  ballFields.push(...ofBall({ patch: "patch", velocityX: "centre: along the slip (m/s)", velocityY: "across it (m/s)" }));
+  ballFields.push(...ofBall({ patch: "patch", velocityX: "centre: along the slip (m/s)", velocityY: "across it (m/s)", rollingFriction: "rolling friction (pool: 0.01)" }));
 
   function showBall(ball, { body, contact, state }) {
     friction.show(ball.friction / mostFriction, shown(ball.friction, 3));

@@ -10,32 +10,31 @@ export function save(name, blob) {
 
 export const textFile = (text, type) => new Blob([text], { type });
 
-/** A figure as PNG, twice as fine as CSS pixels, or as the screen. */
-export async function pngOf(svg) {
-  const scale = Math.max(2, devicePixelRatio);
+/** A figure as PNG of so many pixels across. */
+export async function pngOf(svg, width) {
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
   await image.decode();
-  const canvas = Object.assign(document.createElement("canvas"), { width: image.width * scale, height: image.height * scale });
+  const canvas = Object.assign(document.createElement("canvas"), { width, height: Math.round((image.height * width) / image.width) });
   canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
   return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
 }
 
-/**
- * The orbits of the reader as CSV, all digits; infinities as the program writes them.
- *
- * @param secondsPerTau  of a real ball: then with a column of seconds
- */
-export function csvOf(orbits, secondsPerTau) {
+/** Columns of numbers as CSV, all digits; infinities as the program writes them. */
+function csv(columns) {
   const number = (value) => (value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value));
-  const rows = [`orbit,${secondsPerTau ? "t," : ""}tau,u,v,ln_v,k`];
-  orbits.forEach((motion, index) => {
-    motion.tau.forEach((tau, i) => {
-      rows.push([index + 1, ...(secondsPerTau ? [tau * secondsPerTau] : []), tau, motion.u[i], motion.v[i], motion.lnV[i], motion.k[i]].map(number).join(","));
-    });
-  });
-  return `${rows.join("\n")}\n`;
+  const [names, values] = [Object.keys(columns), Object.values(columns)];
+  return `${[names, ...Array.from(values[0], (_, row) => values.map((column) => number(column[row])))].map((row) => row.join(",")).join("\n")}\n`;
 }
+
+/** The reader's orbits one after the other. */
+export function csvOfOrbits(motions) {
+  const all = (column) => motions.flatMap((motion, index) => Array.from(motion.tau, (_, row) => column(motion, row, index)));
+  return csv({ orbit: all((m, row, index) => index + 1), tau: all((m, row) => m.tau[row]), u: all((m, row) => m.u[row]), v: all((m, row) => m.v[row]), ln_v: all((m, row) => m.lnV[row]), k: all((m, row) => m.k[row]) });
+}
+
+/** The motion of a real ball in SI units, with the columns of `contensou roll`. */
+export const csvOfRide = ({ t, x, y, vx, vy, wx, wy, wz, slip, energy }) => csv({ t, x, y, vx, vy, wx, wy, wz, slip, energy });
 
 /**
  * A film of a canvas, WebM.

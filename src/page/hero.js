@@ -24,7 +24,7 @@ export class Hero {
 
   /** Everything but the moment. */
   show() {
-    const { store, store: { state, ride, orbit, timeFactor } } = this;
+    const { store: { state, ride, orbit, timeFactor } } = this;
     for (const id of ["lanes", "patch", "bars"]) $(id).hidden = !ride;
     if (!ride) {
       $("headline").textContent = "Click the plane: a motion starts there";
@@ -35,22 +35,19 @@ export class Hero {
     this.unit = ball ? "m" : "";
     const slid = (slide) => slide.length * timeFactor;
     const duration = ride.end * timeFactor;
-    // Without units a ball may have any size.
-    const radius = ball?.radius ?? Math.max(slid(ride.own), slid(ride.plain)) / 4;
+    const { radius } = ride;
     const spin = Math.abs(orbit.u) / radius;
     this.spinShown = Math.min(1, (fastest * this.player.seconds) / (spin * duration) || 1);
-    const { chi } = store.body;
-    const start = { v: orbit.v, x: ball?.velocityX ?? orbit.v, y: ball?.velocityY ?? 0 };
     // A path that curves is seen from where it leads to the right.
-    start.heading = start.y === 0 ? 0 : Math.atan2(start.y * duration, (start.x - start.v / chi) * duration + slid(ride.own) / chi);
-    this.rides = store.keep("rides", [ride.own, start, duration, chi, radius, state.law, state.mu, orbit], () => ride.courses.map((course) =>
-      rideOn({ ...course, slid: Array.from(course.slid, (path) => path * timeFactor) }, start, { duration, chi, radius, spinShown: this.spinShown })));
+    const [x, y] = ["x", "y"].map((key) => ride.courses[1][key].at(-1));
+    const heading = Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0;
+    this.rides = ride.courses.map((course) => rideOn(course, heading, this.spinShown));
     this.radius = radius;
     this.say(ride, spin, slid);
   }
 
   /** The headline and what it rests on: live numbers. */
-  say({ own, plain, rolls }, spin, slid) {
+  say({ own, plain, rolls, rest }, spin, slid) {
     const { store: { state, orbit, timeFactor }, unit } = this;
     const [far, farPlain] = [own, plain].map((slide) => length(slid(slide), unit));
     const times = own.length / plain.length;
@@ -70,6 +67,7 @@ export class Hero {
       : orbit.v === 0 ? `Nothing slides: only the rim of the patch rubs, and the ${thing} turns ever slower.`
         : `Two equal ${name}s ${leave} at ${speed}. One does not spin: it slides ${farPlain}, ${until}. The other spins ${turns}: it slides ${far}, ` +
           `${more(times, "far")} and ${more(own.end / plain.end, "long")}. Textbooks say ${farPlain} both times.`;
+    if (rest) $("story").append(` It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), unit)} from its start.`);
     this.most = Math.max(own.length, plain.length) * timeFactor;
     this.titles = [
       spin === 0 ? "this one" : `spinning${state.ball ? ` ${shown(orbit.u / this.radius, 3)} rad/s` : ""}`,
@@ -81,18 +79,31 @@ export class Hero {
     $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${$("story").textContent}`);
   }
 
-  draw(theme) {
-    const { store: { state, ride, now, timeFactor, end }, rides, unit, radius } = this;
-    if (!ride || !rides || !now) return;
+  drawPatch(surface, theme) {
+    const { now } = this.store;
+    if (now) drawPatch(surface, { still: now.u === 0 && now.v === 0, k: now.k, spin: Math.sign(now.u), force: now.force }, theme);
+  }
+
+  /** @returns what is drawn, the ball without spin first */
+  drawBalls(surface, theme) {
+    const { store: { state, ride, timeFactor, end }, rides, unit, radius } = this;
+    if (!ride) return [];
     const duration = end * timeFactor;
     const lane = (i, own) => ({
-      title: `${this.titles[own]}: ${state.fraction * duration < this.ends[own] ? "slides" : ride.rolls ? "rolls" : "stands"}`,
+      title: `${this.titles[own]}: ${state.fraction * duration < this.ends[own] ? "slides" : !ride.rolls ? "stands" : state.fraction * duration < (rides[i].rest?.t ?? Infinity) ? "rolls" : "rests"}`,
       xs: rides[i].xs, ys: rides[i].ys, at: rides[i].at(state.fraction),
-      slidesTo: (this.ends[own] / duration) * (rides[i].xs.length - 1), ...theme.lane(own === 0 ? state.chosen : "plain"),
+      slidesTo: Math.sqrt(this.ends[own] / duration) * (rides[i].xs.length - 1), ...theme.lane(own === 0 ? state.chosen : "plain"),
     });
     const lanes = [lane(0, 1), lane(1, 0)];
-    drawLanes(new CanvasSurface($("lanes")), { lanes, radius, unit }, theme);
-    drawPatch(new CanvasSurface($("patch")), { still: now.u === 0 && now.v === 0, k: now.k, spin: Math.sign(now.u), force: now.force }, theme);
+    drawLanes(surface, { lanes, radius, unit }, theme);
+    return lanes;
+  }
+
+  draw(theme) {
+    const { store: { ride, now }, unit } = this;
+    if (!ride) return;
+    const lanes = this.drawBalls(new CanvasSurface($("lanes")), theme);
+    this.drawPatch(new CanvasSurface($("patch")), theme);
     $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
     this.bars.forEach(({ title, bar, number }, own) => {

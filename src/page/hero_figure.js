@@ -60,7 +60,7 @@ export function drawLanes(surface, { lanes, radius, unit }, theme) {
     const line = (from, to) => Array.from({ length: Math.max(0, to - from) }, (_, i) => [px(lane.xs[from + i]), py(lane.ys[from + i])]).flat();
     const count = lane.xs.length;
     const slides = Math.min(count - 1, lane.slidesTo);
-    if (slides < count - 1) surface.lines([line(Math.floor(slides), count)], { colour: theme.line, width: 3 });
+    if (slides < count - 1) surface.lines([line(Math.floor(slides), count)], { colour: theme.soft, width: 1.5 });
     const slid = [...line(0, Math.floor(slides) + 1)];
     if (slid.length > 2) surface.lines([slid], { colour: lane.faint, width: Math.min(16, pixels / 2) });
     drawBall(surface, px(lane.at.x), py(lane.at.y), pixels, lane.at.turn, lane.colour, theme);

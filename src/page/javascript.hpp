@@ -1,7 +1,8 @@
-// Values of the library as values of JavaScript.
+// Values of the library as values of JavaScript, and back.
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,10 +13,32 @@
 #include <Eigen/Core>
 
 #include "contensou/portraits/figure.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/experiment.hpp"
 
 namespace contensou::page {
 
 using emscripten::val;
+
+/// The answer of a function; an exception of C++ would reach JavaScript without its message.
+template <class Function>
+auto answer(Function function) {
+  std::string problem;
+  try {
+    return function();
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  val::global("Error").new_(problem).throw_();
+}
+
+/// Laws are kept: some of them begin with a table.
+/// @throws std::domain_error  if there is no such law
+reduction::Law law_of(const std::string& name);
+
+/// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2, or nothing
+/// where a body rests on its whole face.
+si::Experiment experiment_of(const val& fields);
 
 /// Float64Array.
 val column(const double* data, std::size_t size);

@@ -3,6 +3,7 @@ import { Address } from "./address.js";
 import { Checks } from "./checks.js";
 import { makeControls } from "./controls.js";
 import { $, make } from "./dom.js";
+import { Film } from "./film.js";
 import { Hero } from "./hero.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
@@ -47,7 +48,7 @@ function start(library) {
   const orbits = new Orbits(store, plane, { ask, stopText });
   const checks = new Checks(store);
   const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
-  const share = new Share(store, plane, player, address);
+  const share = new Share(store, plane, hero, player, address);
   const go = (fragment) => ask((state) => Object.assign(state, fromFragment(fragment, library), { theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
   $("presets").append(...presets.map(({ title, fragment }) => {
     const link = make("a", { href: `#${fragment}`, textContent: title });
@@ -58,20 +59,17 @@ function start(library) {
     return link;
   }));
   new Tour(go);
+  new Film(store, player, ask);
 
   let theme;
   const seen = (id) => $(id).clientWidth >= smallestWidth;
   const draw = () => {
     if (!store.settled) return;
-    const { contact, now, motions, state, end, timeFactor } = store;
+    const { contact, now, end, timeFactor } = store;
     if (seen("plane")) plane.draw(theme);
     if (seen("lanes")) hero.draw(theme);
     player.show();
-    if (seen("panes")) drawPanes(new CanvasSurface($("panes")), {
-      motions: motions.map((motion, index) => ({ ...motion, chosen: index === state.chosen })),
-      end, now, timeFactor, chosenIndex: state.chosen, speedUnit: contact ? " (m/s)" : "",
-      timeLabel: contact ? "t (s)" : "τ",
-    }, theme);
+    if (seen("panes")) drawPanes(new CanvasSurface($("panes")), store, theme);
     $("instant").textContent = now
       ? `${contact ? `t = ${shown(now.tau * timeFactor, 5)} s` : `τ = ${shown(now.tau, 5)}`} of ` +
         `${shown(end * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}${now.u === 0 && now.v === 0 ? ", no slip" : `, k = ${shown(now.k, 4)}`}`
@@ -116,8 +114,4 @@ function start(library) {
   };
 }
 
-loadLibrary().then((library) => (globalThis.page = start(library)), (error) => {
-  $("failure").hidden = false;
-  $("failure").textContent = `The library could not be started: ${error.message ?? error}. The page needs a browser of 2023 or later, ` +
-    "and a host that allows WebAssembly ('wasm-unsafe-eval' where it sends a content security policy).";
-});
+loadLibrary().then((library) => (globalThis.page = start(library)), globalThis.contensouFailed);

@@ -14,7 +14,7 @@ export function bodyOf(state, { bodies }) {
 
 export const fields = ["none", "motion", "regularised"];
 
-export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "velocityX", "velocityY"];
+export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "velocityX", "velocityY", "rollingFriction"];
 
 /** @returns {State} */
 export function initialState() {
@@ -51,7 +51,7 @@ export function firstState({ balls }) {
 /** A real ball with the start that the library has for it: its centre moves along the slip, so that it does not turn forward. */
 export function takeBall(state, ball) {
   Object.assign(state, {
-    ball: { ...ball, velocityX: ball.slip, velocityY: 0 },
+    ball: { ...ball, velocityX: ball.slip, velocityY: 0, rollingFriction: 0 },
     law: ball.law, body: ball.body, orbits: [{ u: ball.radius * ball.spin, v: ball.slip }], chosen: 0, fraction: 0, isochrone: 0, part: "sliding",
     window: null,
   });
@@ -111,7 +111,7 @@ export function fromFragment(fragment, known) {
     const ball = takeBall(state, balls.find((entry) => entry.name === name));
     choice("patchBy", [ball.patchBy, "patch_radius", "spin_deceleration"], (by) => (ball.patchBy = by));
     for (const key of ballKeys) {
-      number(key, (value) => (ball[key] = value), (value) => key.startsWith("velocity") || value > 0);
+      number(key, (value) => (ball[key] = value), (value) => key.startsWith("velocity") || value > 0 || (value === 0 && key === "rollingFriction"));
     }
   });
   for (const key of ["law", "against"]) {

@@ -1,6 +1,9 @@
 // What the page asks the library to draw. command_line.js writes the same request as options of the program.
 
-/** A ball that slides along x at v and spins with u = R omega, and nothing else. */
+/** How a ball turns that moves with its velocity, slides along x at v and spins with u = R omega. */
+export const angularVelocity = ({ radius, velocityX, velocityY }, { u, v }) => ({ omegaX: -velocityY / radius, omegaY: (velocityX - v) / radius, omegaZ: u / radius });
+
+/** A ball that does not turn but for its spin. */
 const shotOf = (ball, { u, v }) => ({ ...ball, velocityX: v, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: u / ball.radius });
 
 /**

@@ -3,10 +3,11 @@
 export const presets = [
   ["Gel ball", ""],
   ["No spin", "ball=gel&orbits=0,0.5"],
-  ["Massé", "ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4"],
-  ["Pool break", "ball=pool&orbits=5.7,2"],
+  ["Massé", "ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4&rollingFriction=0.01"],
+  ["Pool break", "ball=pool&orbits=5.7,2&rollingFriction=0.01&part=whole"],
   ["Bowling hook", "ball=bowling&velocityX=3&velocityY=7&orbits=3,7"],
   ["Puck", "ball=puck&view=disc"],
+  ["Floor polisher", "body=disc&law=uniform&orbits=6,0.5"],
   ["Curling stone", "ball=curling-stone"],
 ].map(([title, fragment]) => ({ title, fragment }));
 

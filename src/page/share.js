@@ -1,16 +1,33 @@
 // What the reader takes along: a link, a command line, files.
 import { commandLine } from "./command_line.js";
 import { $ } from "./dom.js";
-import { csvOf, filmOf, pngOf, save, textFile } from "./exports.js";
+import { csvOfOrbits, csvOfRide, filmOf, pngOf, save, textFile } from "./exports.js";
+import { fillSelect, numberField } from "./fields.js";
 import { plain } from "./markup.js";
 import { toFragment } from "./page_state.js";
+import { drawPanes } from "./panes_figure.js";
 import { drawPortrait } from "./portrait_figure.js";
 import { SvgSurface } from "./surface.js";
 
+const widest = 12000;  // pixels; browsers have no larger canvas
+
 export class Share {
-  constructor(store, plane, player, address) {
+  constructor(store, plane, hero, player, address) {
     this.store = store;
-    this.plane = plane;
+    const figures = {
+      plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, plane.theme)],
+      lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface, plane.theme)],
+      patch: ["the patch", "patch", (surface) => hero.drawPatch(surface, plane.theme)],
+      panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store, plane.theme)],
+    };
+    fillSelect($("picture"), Object.entries(figures).map(([name, [title]]) => ({ name, title })));
+    const picture = () => {
+      const [title, name, draw] = figures[$("picture").value];
+      const { width, height } = $($("picture").value).getBoundingClientRect();
+      const surface = new SvgSurface(Math.round(width), Math.round(height), `${title}: ${plain(store.portrait.figure.title)}`);
+      draw(surface);
+      return [name, surface.toString()];
+    };
     const copy = async (text, what) => {
       try {
         await navigator.clipboard.writeText(text);
@@ -29,8 +46,19 @@ export class Share {
     });
     $("copy-command").addEventListener("click", () => copy($("command").textContent, "Command"));
     $("copy-roll").addEventListener("click", () => copy($("roll-command").textContent, "Command"));
-    $("save-svg").addEventListener("click", () => save("portrait.svg", textFile(this.svg(), "image/svg+xml")));
-    $("save-png").addEventListener("click", async () => save("portrait.png", await pngOf(this.svg())));
+    $("save-svg").addEventListener("click", () => {
+      const [name, svg] = picture();
+      save(`${name}.svg`, textFile(svg, "image/svg+xml"));
+    });
+    let pngWidth = Math.max(2000, screen.width * devicePixelRatio);
+    numberField($("png-width"), $("png-width-error"), (width) => {
+      if (!(width >= 100 && width <= widest)) throw new Error(`100 to ${widest} pixels`);
+      pngWidth = Math.round(width);
+    }).show(pngWidth);
+    $("save-png").addEventListener("click", async () => {
+      const [name, svg] = picture();
+      save(`${name}.png`, await pngOf(svg, pngWidth));
+    });
     $("save-film").addEventListener("click", async () => {
       $("copied").textContent = `The film is being taken: ${Math.ceil(player.seconds)} s.`;
       save("balls.webm", await filmOf($("lanes"), (done) => player.once(done)));
@@ -39,14 +67,11 @@ export class Share {
     for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
       $(`save-${ending}`).addEventListener("click", () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending), type)));
     }
-    $("save-csv").addEventListener("click", () => save("orbits.csv", textFile(csvOf(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)), store.contact?.secondsPerTau), "text/csv")));
-  }
-
-  svg() {
-    const { width, height } = $("plane").getBoundingClientRect();
-    const surface = new SvgSurface(Math.round(width), Math.round(height), plain(this.store.portrait.figure.title));
-    drawPortrait(surface, { ...this.plane.scene(), cross: null }, this.plane.theme);
-    return surface.toString();
+    $("save-csv").addEventListener("click", () => {
+      const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
+        : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
+      save(`${name}.csv`, textFile(text, "text/csv"));
+    });
   }
 
   show() {

@@ -1,6 +1,6 @@
 // The state of the page, and all that follows from it: each value is computed once for what it depends on.
 import { bodyOf, initialState } from "./page_state.js";
-import { portraitRequest } from "./portrait_request.js";
+import { angularVelocity, portraitRequest } from "./portrait_request.js";
 import { isDark } from "./theme.js";
 import { described } from "./views.js";
 
@@ -106,14 +106,21 @@ export class Store {
       return rolls ? slide : { ...slide, end: plane.stop(spin, v) };
     };
     const [own, plain] = [slides("slide", u), slides("plain slide", 0)];
+    // Without units a ball may have any size, and a second is a unit of tau.
+    const radius = state.ball?.radius ?? (Math.max(own.length, plain.length) / 4 || 1);
+    const unitless = { velocityX: v, velocityY: 0, mass: 1, radius, friction: 2 / (3 * Math.PI), gravity: 1, patchBy: "patch_radius", patch: radius, body: "ball", rollingFriction: 0 };
+    const ball = state.ball ?? unitless;
+    const moving = rolls ? ball : { ...ball, velocityX: v, velocityY: 0 };
+    const ride = (name, spin, end) => {
+      const shot = { ...moving, ...angularVelocity(moving, { u: spin, v }) };
+      return ofSystem(name, [shot, end], () => plane.ride(shot, rolls ? ball.rollingFriction : 0, end * this.timeFactor));
+    };
+    const rest = rolls && ball.rollingFriction > 0 ? ride("rest", u, 0).rest : null;
     // Also what rolls soon is seen to roll.
-    const speed = state.ball && rolls ? Math.hypot(state.ball.velocityX - v / chi, state.ball.velocityY) : 0;
-    const rolling = speed > 0 ? Math.min(longest, (6 * state.ball.radius) / speed) / this.timeFactor : 0;
-    const end = Math.max(rolling, state.part === "whole" || v === 0 ? stop : Math.min(stop, 1.3 * own.end));
-    const course = (name, spin) => (spin === 0 && v === 0
-      ? { slid: [0, 0], u: [0, 0] }
-      : ofSystem(name, [spin, v, end], () => plane.course(spin, v, end)));
-    return { own, plain, end, rolls, courses: [course("plain course", 0), course("course", u)] };
+    const speed = state.ball && rolls ? Math.hypot(ball.velocityX - v / chi, ball.velocityY) : 0;
+    const rolling = speed > 0 ? Math.min(longest, (6 * radius) / speed) / this.timeFactor : 0;
+    const end = Math.max(rolling, state.part === "whole" || v === 0 ? Math.max(stop, (rest?.t ?? 0) / this.timeFactor) : Math.min(stop, 1.3 * own.end));
+    return { own, plain, end, rolls, rest, radius, courses: [ride("plain ride", 0, end), ride("ride", u, end)] };
   }
 
   get timeFactor() {

@@ -19,34 +19,28 @@ export function rotation([x, y, z]) {
 export const turnedBy = (matrix, /** @type {number[]} */ [x, y, z]) => matrix.map((row) => row[0] * x + row[1] * y + row[2] * z);
 
 /**
- * A ball on the table in equal times: xs, ys, and at(share) with the place and the rotation at a share of the time.
+ * What is seen of a ride of the library: {xs, ys, at(share)}, at with the place and the rotation at a share of the time.
  *
- * @param course  columns slid and u: the path that the contact point has slid and R times the spin
- * @param start   v, x, y, heading: slip along x, velocity of the centre; the direction that is to the right
- * @param duration, chi, radius  of the course, and of the body: the centre loses 1/chi of what the slip loses
+ * @param heading    the direction that is to the right
  * @param spinShown  the share of the spin that is drawn
  */
-export function rideOn(course, start, { duration, chi, radius, spinShown }) {
-  const pieces = course.slid.length - 1;
-  const step = duration / pieces;
-  const alongs = Array.from(course.slid, (slid, i) => (start.x - start.v / chi) * i * step + slid / chi);
-  const back = rotation([0, 0, -start.heading]);
-  const places = alongs.map((x, i) => turnedBy(back, [x, start.y * i * step, 0]));
+export function rideOn({ t, x, y, wx, wy, wz, slid, rest }, heading, spinShown) {
+  const back = rotation([0, 0, -heading]);
+  const places = Array.from(x, (x, i) => turnedBy(back, [x, y[i], 0]));
   const [xs, ys] = [0, 1].map((k) => places.map((place) => place[k]));
-  const turns = alongs.slice(1).map((x, i) => turnedBy(back, [
-    -(start.y * step) / radius, (x - alongs[i] - (course.slid[i + 1] - course.slid[i])) / radius,
-    (spinShown * step * (course.u[i] + course.u[i + 1])) / 2 / radius,
-  ]));
+  const drawn = [wx, wy, wz.map((w) => spinShown * w)];
+  const turns = Array.from(t.subarray(1), (end, i) => turnedBy(back, drawn.map((w) => ((end - t[i]) * (w[i] + w[i + 1])) / 2)));
   const matrices = [rotation([0, 0, 0])];
   for (const turn of turns) matrices.push(product(rotation(turn), matrices.at(-1)));
   return {
-    xs, ys,
+    xs, ys, rest,
     at(share) {
-      const place = Math.min(1, share) * pieces;
-      const i = Math.min(pieces - 1, Math.floor(place));
-      const part = place - i;
+      // Times grow as squares.
+      const place = Math.sqrt(Math.min(1, share)) * turns.length;
+      const i = Math.min(turns.length - 1, Math.floor(place));
+      const part = (share * t.at(-1) - t[i]) / (t[i + 1] - t[i]);
       const between = (column) => column[i] + part * (column[i + 1] - column[i]);
-      return { x: between(xs), y: between(ys), slid: between(course.slid), turn: product(rotation(turns[i].map((w) => part * w)), matrices[i]) };
+      return { x: between(xs), y: between(ys), slid: between(slid), turn: product(rotation(turns[i].map((w) => part * w)), matrices[i]) };
     },
   };
 }

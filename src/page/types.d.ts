@@ -13,7 +13,7 @@ interface State {
 interface Ball {
   name: string; title: string; body: string; law: string; sources: string; patchBy: string;
   radius: number; mass: number; friction: number; gravity: number; patch: number;
-  slip: number; spin: number; velocityX: number; velocityY: number;
+  slip: number; spin: number; velocityX: number; velocityY: number; rollingFriction: number;
 }
 
 interface Law { name: string; meaning: string; letter?: string; example?: number }
@@ -32,7 +32,11 @@ interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: F
 interface Instant extends Start { tau: number; k: number; force: number; places: Float64Array }
 interface Isochrone { u: Float64Array; v: Float64Array; lines: Float64Array[] }
 interface Slide { end: number; length: number }
-interface Course { slid: ArrayLike<number>; u: ArrayLike<number> }
+/** Columns, SI. */
+interface Ride {
+  t: Float64Array; x: Float64Array; y: Float64Array; vx: Float64Array; vy: Float64Array; wx: Float64Array; wy: Float64Array; wz: Float64Array;
+  slip: Float64Array; energy: Float64Array; slid: Float64Array; rest?: { t: number; x: number; y: number };
+}
 interface Check { name: string; measured: number; allowed: number; passed: boolean }
 
 interface Tick { at: number; text: string }
@@ -53,9 +57,11 @@ interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; 
 interface Library {
   laws: Law[]; bodies: Body[]; balls: Ball[]; views: View[]; rollingSlip: number; plane: LibraryPlane;
   contact(law: string, ball: object): Contact;
+  fit(film: string, name: string, ball: object, laws: string): Fitted;
   lawName(called: string): string;
   portraitFile(request: PortraitRequest, ending: string): string;
 }
+interface Fitted { report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number }
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number): { terminalRatio: number; meaning: string };
   portrait(request: PortraitRequest): Portrait;
@@ -65,7 +71,7 @@ interface LibraryPlane {
   place(u: number, v: number): Float64Array;
   at(panel: number, x: number, y: number): Start | null;
   slide(u: number, v: number, least: number): Slide;
-  course(u: number, v: number, end: number): Course;
+  ride(ball: object, rollingFriction: number, end: number): Ride;
   isochrone(tau: number): Isochrone;
   checks(u: number, v: number): Check[];
 }
@@ -74,7 +80,7 @@ declare module "contensou" {
   const load: (options: { wasmBinary: ArrayBuffer }) => Promise<any>;
   export default load;
 }
-declare module "contensou.wasm.gz" {
+declare module "*.gz" {
   const bytes: Uint8Array<ArrayBuffer>;
   export default bytes;
 }

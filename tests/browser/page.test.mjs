@@ -340,14 +340,20 @@ test("what is wrong with a start is said beside it", async () => {
 test("a real ball is handed out in seconds, and its motion as the program's roll", async () => {
   await open("#ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4");
   const [header, ...rows] = (await saved("#save-csv")).toString().trim().split("\n");
-  assert.equal(header, "orbit,t,tau,u,v,ln_v,k");
-  const [, t, tau] = rows.at(-1).split(",").map(Number);
-  assertClose(t / tau, await page.evaluate(() => globalThis.page.store.timeFactor), 1e-14, "seconds");
+  assert.equal(header, "t,x,y,vx,vy,wx,wy,wz,slip,energy");
+  const words = (await page.textContent("#roll-command")).split(" ");
+  assert.deepEqual(words.slice(0, 2), ["contensou", "roll"]);
+  const times = join(folder, "times.csv");
+  writeFileSync(times, `t\n${rows.map((row) => row.split(",")[0]).join("\n")}\n`);
+  const wanted = execFileSync(program, [...words.slice(1), "--at", times, "--format", "csv"], { encoding: "utf8" }).split("\n").filter((line) => /^[-\d]/.test(line));
+  assert.equal(rows.length, wanted.length);
+  rows.forEach((row, i) => row.split(",").forEach((value, column) => {
+    const other = Number(wanted[i].split(",")[column]);
+    assert.ok(Math.abs(value - other) <= 1e-10 * (1 + Math.abs(other)), `row ${i}, column ${column}: ${value}, not ${other}`);
+  }));
   const webm = await saved("#save-film");
   assert.equal(webm.subarray(0, 4).toString("hex"), "1a45dfa3");
   assert.ok(webm.length > 10000, `${webm.length} bytes`);
-  const words = (await page.textContent("#roll-command")).split(" ");
-  assert.deepEqual(words.slice(0, 2), ["contensou", "roll"]);
   const { slip_length } = JSON.parse(execFileSync(program, [...words.slice(1), "--format", "json"], { encoding: "utf8" }));
   assertClose(await page.evaluate(() => globalThis.page.store.ride.own.length * globalThis.page.store.timeFactor), slip_length, 1e-11, "length of slip");
   await close();
@@ -428,11 +434,25 @@ test("for a page around it only the balls are shown", async () => {
 });
 
 test("axe finds nothing to complain of", async () => {
-  for (const [fragment, options] of [["", {}], ["", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" }],
-    ["#law=pressure:2&body=own&mu=0.3&view=pair&orbits=0.8,3.5;0.5,1&isochrone=3&against=pade", {}]]) {
-    await open(fragment, options);
-    await page.click("#checks-card summary");
-    await page.waitForFunction(() => document.querySelectorAll("#checks tbody tr").length >= 8);
+  const film = async () => {
+    await page.setInputFiles("#film", { name: "film.csv", mimeType: "text/csv", buffer: Buffer.from(`t,spin\n${Array.from({ length: 30 }, (_, i) => `${i / 20},${100 - 0.5 * i + Math.sin(99 * i)}`).join("\n")}\n`) });
+    await page.locator("#film-report").filter({ visible: true }).waitFor();
+  };
+  const wrong = async () => {
+    await page.setInputFiles("#film", { name: "film.csv", mimeType: "text/csv", buffer: Buffer.from("t,slip\n0,x\n") });
+    await page.fill("#mu", "7");
+    await page.fill("#png-width", "7");
+  };
+  for (const [fragment, options, act] of [["", {}], ["", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" }],
+    ["#law=pressure:2&body=own&mu=0.3&view=pair&orbits=0.8,3.5;0.5,1&isochrone=3&against=pade", {}],
+    ["#ball=pool&rollingFriction=0.01&part=whole", { colorScheme: "dark" }, film], ["#ball=pool", { viewport: { width: 390, height: 844 } }, film], ["#ball=puck", {}], ["#ball=pool", {}, wrong],
+    ["#law=exact&mu=0.3&orbits=", {}, null], ["#embed", {}, null], ["#embed", { colorScheme: "dark", viewport: { width: 390, height: 844 } }, null]]) {
+    await open(fragment, options, act !== null);
+    await act?.();
+    if (act !== null) {
+      await page.click("#checks-card summary");
+      await page.waitForFunction(() => document.querySelectorAll("#checks tbody tr").length >= 8);
+    }
     await page.addScriptTag({ content: readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8") });
     const { violations } = await page.evaluate(() => globalThis.axe.run());
     assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`), []);

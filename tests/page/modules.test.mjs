@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commandLine } from "../../src/page/command_line.js";
-import { csvOf } from "../../src/page/exports.js";
+import { csvOfOrbits, csvOfRide } from "../../src/page/exports.js";
 import { Frame } from "../../src/page/frame.js";
 import { plain, runsOf } from "../../src/page/markup.js";
 import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
@@ -134,10 +134,11 @@ test("the command line names what differs from what the program would do", () =>
   });
 });
 
-test("a table of orbits has the program's words for infinity, and seconds for a ball", () => {
+test("a table of orbits has the program's words for infinity, that of a ride the program's columns", () => {
   const motion = { tau: [0, 1], u: [1, 0], v: [2, 0], lnV: [0.5, -Infinity], k: [2, Infinity] };
-  assert.equal(csvOf([motion]), "orbit,tau,u,v,ln_v,k\n1,0,1,2,0.5,2\n1,1,0,0,-inf,inf\n");
-  assert.match(csvOf([motion], 0.5), /^orbit,t,tau.*\n1,0,0,1.*\n1,0\.5,1,/);
+  assert.equal(csvOfOrbits([motion]), "orbit,tau,u,v,ln_v,k\n1,0,1,2,0.5,2\n1,1,0,0,-inf,inf\n");
+  const names = ["t", "x", "y", "vx", "vy", "wx", "wy", "wz", "slip", "energy"];
+  assert.equal(csvOfRide(Object.fromEntries([...names, "slid"].map((name, i) => [name, [i, -i]]))), `${names}\n0,1,2,3,4,5,6,7,8,9\n0,-1,-2,-3,-4,-5,-6,-7,-8,-9\n`);
 });
 
 test("a frame leads from numbers to pixels and back, and a column breaks where it says", () => {
@@ -176,14 +177,19 @@ test("rotations keep lengths and angles, and turn the right way", () => {
 });
 
 test("a ball that only slides does not turn, one that rolls turns by its path", () => {
-  const [v, radius, duration, chi] = [2, 0.5, 3, 3.5];
-  // Without friction: it slides at v.
-  const slides = rideOn({ slid: [0, 3, 6], u: [0, 0, 0] }, { v: v / chi * chi, x: v, y: 0, heading: 0 }, { duration, chi: 1, radius, spinShown: 1 });
+  const [v, radius, duration] = [2, 0.5, 3];
+  /** At v along x, in times that grow as squares. */
+  const ride = (wy, wz = 0) => {
+    const t = Float64Array.of(0, duration / 4, duration);
+    const always = (value) => t.map(() => value);
+    return { t, x: t.map((time) => v * time), y: always(0), wx: always(0), wy: always(wy), wz: always(wz), slid: t };
+  };
+  const slides = rideOn(ride(0), 0, 1);
   assert.deepEqual(slides.at(1).turn, rotation([0, 0, 0]));
   assert.equal(slides.at(0.5).x, 3);
-  // Rolling: no slip.
-  const rolls = rideOn({ slid: [0, 0], u: [0, 0] }, { v: 0, x: v, y: 0, heading: 0 }, { duration, chi, radius, spinShown: 1 });
-  assert.ok(Math.abs(rolls.at(1).x - v * duration) < 1e-12);
+  assert.ok(Math.abs(rideOn(ride(0), Math.PI / 2, 1).at(1).y + v * duration) < 1e-12, "what leads up is seen to lead to the right");
+  assert.deepEqual(rideOn(ride(0, 8), 0, 0.25).at(1).turn, rideOn(ride(0, 2), 0, 1).at(1).turn);
+  const rolls = rideOn(ride(v / radius), 0, 1);
   const turn = rotation([0, (v * duration) / radius, 0]);
   rolls.at(1).turn.flat().forEach((value, i) => assert.ok(Math.abs(value - turn.flat()[i]) < 1e-12));
 });

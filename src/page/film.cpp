@@ -1,0 +1,50 @@
+// A film that the reader gives to the page: friction and patch of the ball that is chosen, as `contensou fit` finds them.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <emscripten/bind.h>
+
+#include "contensou/fit/fit.hpp"
+#include "contensou/si/experiment.hpp"
+#include "input/csv.hpp"
+#include "input/track_file.hpp"
+#include "javascript.hpp"
+#include "verbs/fit_answer.hpp"
+
+namespace contensou::page {
+
+namespace {
+
+/// What the best law has found: {report, notes on columns that are not read, law, friction, patch, slip, spin, velocityX
+/// and velocityY of the centre, along the slip and across it}.
+/// @param laws  between commas
+val fit(const std::string& text, const std::string& name, const val& ball, const std::string& laws) {
+  return answer([&] {
+    si::Experiment experiment = experiment_of(ball);
+    experiment.ball.name = ball["title"].as<std::string>();
+    if (experiment.ball.body.lies_flat()) throw std::domain_error("a film is fitted for a ball: choose one that rolls");
+    std::vector<reduction::Law> tried;
+    for (const std::string& law : program::split(laws, ',')) tried.push_back(law_of(law));
+    program::CsvReader table(text, name);
+    std::string notes;
+    fit::FitRequest request{.ball = experiment, .law = tried.front(), .tracks = {}};
+    request.tracks.push_back(
+        program::read_track(table, name, {}, [&](const std::string& note) { notes += note + "\n"; }));
+    const std::vector<fit::Fit> fits = fit::fit_laws(request, tried);
+    const auto& start = fits.front().ball;
+    const Eigen::Vector2d slip = si::slip_velocity_at_start(start), velocity = si::velocities_of(start.start).velocity;
+    const Eigen::Vector2d along = slip.norm() > 0 ? Eigen::Vector2d(slip.normalized()) : Eigen::Vector2d(1, 0);
+    const auto value = [&](fit::Parameter parameter) { return fits.front().estimate(parameter).value; };
+    return object("notes", notes, "report", program::report_on(fits, request.tracks, false, {6}), "law",
+                  fits.front().law, "friction", value(fit::Parameter::friction), "patch",
+                  value(fit::Parameter::patch_radius), "slip", slip.norm(), "spin", si::spin_at_start(start),
+                  "velocityX", velocity.dot(along), "velocityY", along.x() * velocity.y() - along.y() * velocity.x());
+  });
+}
+
+}  // namespace
+
+}  // namespace contensou::page
+
+EMSCRIPTEN_BINDINGS(film) { emscripten::function("fit", &contensou::page::fit); }

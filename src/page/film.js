@@ -1,0 +1,54 @@
+// A film of a ball that the reader gives to the page: the library finds its friction and its patch, and the ball takes them.
+import { $ } from "./dom.js";
+
+export class Film {
+  constructor(store, player, ask) {
+    this.store = store;
+    this.player = player;
+    this.ask = ask;
+    $("film").addEventListener("change", ({ target }) => this.read(target.files[0]));
+    addEventListener("dragover", (event) => event.preventDefault());
+    addEventListener("drop", (event) => {
+      event.preventDefault();
+      const file = event.dataTransfer?.files[0];
+      if (file) this.read(file);
+    });
+  }
+
+  async read(file) {
+    const say = (status, problem = "", report = "") => {
+      $("film-status").textContent = status;
+      $("film-problem").textContent = problem;
+      $("film-report").textContent = report;
+      $("film-report").hidden = !report;
+      $("film-card").scrollIntoView({ block: "nearest" });
+    };
+    try {
+      say(`${file.name} is fitted...`);
+      const text = await file.text();
+      // What is said is seen before the work begins.
+      await new Promise((seen) => setTimeout(seen, 50));
+      const report = this.fit(file.name, text);
+      say(`${file.name} is fitted: the ball above has its friction, patch, slip and spin now.`, "", report);
+    } catch (error) {
+      say("", error.message);
+    }
+    // The same file may be chosen again.
+    $("film").value = "";
+  }
+
+  /** What the library finds, in words; the ball is then as it was found. */
+  fit(name, text) {
+    const { store: { library, request, state } } = this;
+    if (!state.ball) throw new Error("A film is of a real ball: choose one above, its radius is needed.");
+    const laws = [request.law, request.against].filter(Boolean).join();
+    const ball = request.ball ?? { ...state.ball, omegaX: 0, omegaY: 0, omegaZ: 0 };
+    const found = library.fit(text, name, ball, laws);
+    this.ask((next) => Object.assign(next, {
+      law: found.law, window: null, chosen: 0, fraction: 0, orbits: [{ u: found.spin * ball.radius, v: found.slip }],
+      ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch, velocityX: found.velocityX, velocityY: found.velocityY },
+    }));
+    this.player.toggle(this.player.moves);
+    return `${found.notes}${found.report}`;
+  }
+}

@@ -1,0 +1,19 @@
+// What the page's file begins with: it unpacks the other modules and the library, which are a third of their size in it.
+import { $ } from "./dom.js";
+import modules from "page.js.gz";
+import wasm from "contensou.wasm.gz";
+
+const unpacked = (bytes) => new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")));
+
+globalThis.contensouFailed = (error) => {
+  $("failure").hidden = false;
+  $("failure").textContent = `The library could not be started: ${error.message ?? error}. The page needs a browser of 2023 or later, ` +
+    "and a host that allows WebAssembly ('wasm-unsafe-eval' where it sends a content security policy).";
+};
+
+try {
+  globalThis.contensouWasm = unpacked(wasm).arrayBuffer();
+  unpacked(modules).text().then((text) => document.body.append(Object.assign(document.createElement("script"), { textContent: text })));
+} catch (error) {
+  globalThis.contensouFailed(error);
+}

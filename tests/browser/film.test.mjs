@@ -1,0 +1,175 @@
+// A film of a ball, given to the page, and what the page gives out.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { assertClose, close, folder, open, page, program, saved, state } from "./browser.mjs";
+
+/** A film of a ball as CSV, with normal errors that are always the same. */
+function filmOf(ball, rows, until, slip, spin) {
+  const times = join(folder, "film-times.csv");
+  writeFileSync(times, `t\n${Array.from({ length: rows }, (_, i) => (i * until) / (rows - 1)).join("\n")}\n`);
+  const words = ["roll", "--ball", ball, "--slip", slip, "--spin", spin, "--law", "exact", "--at", times, "--format", "csv"];
+  const motion = execFileSync(program, words, { encoding: "utf8", maxBuffer: 1e9 }).split("\n").filter((line) => /^[-\d]/.test(line));
+  let seed = 1;
+  const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+  const normal = () => Math.sqrt(-2 * Math.log(random())) * Math.cos(2 * Math.PI * random());
+  return `t,slip,spin,slip_sd,spin_sd\n${motion.map((line) => {
+    const [t, , , , , , , wz, speed] = line.split(",").map(Number);
+    return `${t},${speed + 0.01 * normal()},${wz + normal()},0.01,1`;
+  }).join("\n")}\n`;
+}
+
+const file = (name, text) => ({ name, mimeType: "text/csv", buffer: Buffer.from(text) });
+const report = () => page.textContent("#film-report");
+const fitted = () => page.waitForFunction(() => /fitted:/.test(document.getElementById("film-status").textContent));
+
+test("a film is fitted as the program fits it, and the ball takes what was found", async () => {
+  const text = filmOf("gel", 60, 0.5, "0.6", "200");
+  const path = join(folder, "film.csv");
+  writeFileSync(path, text);
+  const words = ["fit", path, "--ball", "gel", "--law", "exact,pade"];
+  const wanted = JSON.parse(execFileSync(program, [...words, "--format", "json"], { encoding: "utf8" }));
+  const wantedText = execFileSync(program, words, { encoding: "utf8" });
+  await open("#ball=gel&against=pade");
+  await page.setInputFiles("#film", file("film.csv", text));
+  await fitted();
+  const { ball, law, orbits: [{ u, v }] } = await state();
+  assert.deepEqual([law, ball.patchBy], [wanted.law, "patch_radius"]);
+  for (const [value, name] of [[ball.friction, "friction"], [ball.patch, "patch_radius"], [v, "slip"], [u / ball.radius, "spin"]]) assertClose(value, wanted[name].value, 1e-6, name);
+  // The report is the program's, word for word; its numbers have six digits.
+  const number = /-?\d+(\.\d+)?(e[-+]?\d+)?/g;
+  const said = await report();
+  assert.equal(said.replace(number, "0").replace(/ +/g, " "), wantedText.replace(number, "0").replace(/ +/g, " "));
+  const [numbers, wantedNumbers] = [said, wantedText].map((all) => all.match(number).map(Number));
+  numbers.forEach((value, i) => assert.ok(Math.abs(value - wantedNumbers[i]) <= 2e-5 * Math.abs(wantedNumbers[i]) + 1e-3, `number ${i}: ${value}, not ${wantedNumbers[i]}`));
+  for (const part of [/friction +0\.50/, /95 % confidence/, /pade/, /exact fits better than all others/]) assert.match(said, part);
+  assert.match(await page.textContent("#story"), /leave at 0\.[56]/);
+  await close();
+});
+
+test("a film of the spin alone determines a product, and says so; one of the centre gives its velocity", async () => {
+  await open("#ball=pool");
+  const text = filmOf("pool", 40, 2, "0.2", "100");
+  await page.evaluate((text) => {
+    const data = new DataTransfer();
+    data.items.add(new File([text], "spin.csv"));
+    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+  }, text.split("\n").map((line) => line.split(",").filter((_, i) => i === 0 || i === 2).join(",")).join("\n"));
+  await fitted();
+  assert.match(await report(), /These data determine .*friction.* patch_radius.* only/);
+  const times = Array.from({ length: 60 }, (_, i) => i / 120);
+  const words = ["roll", "--ball", "pool", "--velocity", "0.9,0.9", "--angular-velocity", "-31,-108,105", "--law", "exact", "--at", times.join(","), "--format", "csv"];
+  const rows = execFileSync(program, words, { encoding: "utf8" }).split("\n").filter((line) => /^[-\d]/.test(line)).map((line) => line.split(","));
+  await page.setInputFiles("#film", file("centre.csv", `t,x,y,spin\n${rows.map((row) => [row[0], row[1], row[2], row[7]].join(",")).join("\n")}\n`));
+  await page.waitForFunction(() => /centre\.csv is fitted:/.test(document.getElementById("film-status").textContent));
+  const { ball } = await state();
+  assertClose(Math.hypot(ball.velocityX, ball.velocityY), 0.9 * Math.SQRT2, 1e-4, "speed of the centre");
+  assertClose(ball.friction, 0.2, 1e-3, "friction");
+  await close();
+});
+
+test("what is wrong with a film is said where it is read, with its line", async () => {
+  await open("#ball=gel");
+  const before = (await state()).ball;
+  for (const [text, complaint] of [
+    ["t,slip,spin\n0,1,2\n0.1,x,2\n", /^track\.csv:3: .*'x' is not a number/],
+    ["t,slip\n0,1\n0,2\n", /^track\.csv:3: t must increase/],
+    ["t,slid,spn\n0,1,2\n", /^track\.csv:1: .*did you mean 'spin'/],
+    ["t,slip\n0,1,2\n", /^track\.csv:2: 3 fields where the header has 2/],
+    ["", /^track\.csv:1: empty input/],
+    ["t,slip\n0,1\n0.1,0.8\n", /fit: /],
+  ]) {
+    await page.setInputFiles("#film", file("track.csv", text));
+    await page.waitForFunction(() => document.getElementById("film-problem").textContent !== "");
+    assert.match(await page.textContent("#film-problem"), complaint);
+    const { top, bottom } = await page.evaluate(() => document.getElementById("film-problem").getBoundingClientRect());
+    assert.ok(top >= 0 && bottom <= 900, `said at ${top}`);
+    assert.ok(!(await page.isVisible("#film-report")));
+    assert.deepEqual((await state()).ball, before);
+    await page.evaluate(() => (document.getElementById("film-problem").textContent = ""));
+  }
+  for (const [ball, complaint] of [["", /choose one above/], ["puck", /choose one that rolls/]]) {
+    await page.selectOption("#ball", ball);
+    await page.setInputFiles("#film", file("track.csv", "t,slip,spin\n0,1,2\n"));
+    await page.waitForFunction(() => document.getElementById("film-problem").textContent !== "");
+    assert.match(await page.textContent("#film-problem"), complaint);
+  }
+  await close();
+});
+
+test("a film of 100 000 pictures is fitted in a moment", async (t) => {
+  await open("#ball=gel");
+  const text = filmOf("gel", 100000, 0.5, "0.6", "200");
+  await page.evaluate(() => {
+    globalThis.longest = 0;
+    let last = performance.now();
+    setInterval(() => {
+      globalThis.longest = Math.max(globalThis.longest, performance.now() - last);
+      last = performance.now();
+    }, 5);
+  });
+  await page.setInputFiles("#film", file("long.csv", text));
+  await fitted();
+  assert.match(await report(), /200000 measured values/);
+  const longest = await page.evaluate(() => globalThis.longest);
+  t.diagnostic(`${(text.length / 1e6).toFixed(1)} MB, 200 000 values: the page stands still for ${longest.toFixed(0)} ms`);
+  assert.ok(longest < 15000, `${longest} ms`);
+  await close();
+});
+
+test("pictures are of any width, and of the plane, the balls, the patch and the motion in time", async () => {
+  await open("#ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4&part=whole&rollingFriction=0.01");
+  await page.evaluate(() => globalThis.page.store.move({ fraction: 0.3 }));
+  const words = { plane: /time left/, lanes: /spinning 105 rad\/s/, patch: /friction left/, panes: /t \(s\)/ };
+  for (const [picture, text] of Object.entries(words)) {
+    await page.selectOption("#picture", picture);
+    const svg = String(await saved("#save-svg"));
+    const parsed = await page.evaluate((svg) => {
+      const { documentElement: root } = new DOMParser().parseFromString(svg, "image/svg+xml");
+      return { name: root.nodeName, text: root.textContent, shapes: root.querySelectorAll("path, circle").length, width: Number(root.getAttribute("width")), height: Number(root.getAttribute("height")) };
+    }, svg);
+    assert.equal(parsed.name, "svg");
+    assert.match(parsed.text, text);
+    assert.ok(parsed.shapes > 10 && !/NaN|Infinity|undefined/.test(svg), `${picture}: ${parsed.shapes} shapes`);
+    for (const width of [640, 5000]) {
+      await page.fill("#png-width", String(width));
+      const png = await saved("#save-png");
+      assert.deepEqual([png.subarray(1, 4).toString(), png.readUInt32BE(16), png.readUInt32BE(20)], ["PNG", width, Math.round((width * parsed.height) / parsed.width)], picture);
+      assert.ok(png.length > 5000, `${png.length} bytes`);
+    }
+  }
+  for (const [width, complaint] of [["99", /100 to 12000/], ["20000", /100 to 12000/], ["wide", /not a finite number/]]) {
+    await page.fill("#png-width", width);
+    assert.match(await page.textContent("#png-width-error"), complaint);
+    assert.equal(await page.getAttribute("#png-width", "aria-invalid"), "true");
+  }
+  assert.equal((await saved("#save-png")).readUInt32BE(16), 5000, "the last good width");
+  await close();
+});
+
+test("with rolling friction the ball comes to rest, when and where the program says", async () => {
+  await open("#ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4&part=whole");
+  assert.doesNotMatch(await page.textContent("#story"), /rests/);
+  await page.fill("#ball-fields [name=rollingFriction]", "0.01");
+  const words = (await page.textContent("#roll-command")).split(" ");
+  assert.deepEqual(words.slice(-4), ["--rolling-friction", "0.01", "--law", "exact"]);
+  const { rest } = JSON.parse(execFileSync(program, [...words.slice(1), "--format", "json"], { encoding: "utf8" }));
+  const { end, factor, own } = await page.evaluate(() => ({ end: globalThis.page.store.end, factor: globalThis.page.store.timeFactor, own: globalThis.page.store.ride.rest }));
+  for (const key of ["t", "x", "y"]) assertClose(own[key], rest[key], 1e-10, key);
+  assert.ok(end * factor >= rest.t);
+  assert.ok((await page.textContent("#story")).includes(`It rests after ${rest.t.toPrecision(3)} s, ${Math.hypot(rest.x, rest.y).toPrecision(3)} m from its start.`));
+  const at = (share) => page.evaluate((share) => globalThis.page.hero.rides[1].at(share), share);
+  const [last, before, rolling] = await Promise.all([at(1), at(rest.t / (end * factor)), at(0.5)]);
+  assertClose(Math.hypot(last.x, last.y), Math.hypot(rest.x, rest.y), 1e-9, "where it rests");
+  assertClose(Math.hypot(before.x, before.y), Math.hypot(rest.x, rest.y), 1e-4, "when it rests");
+  assert.ok(Math.hypot(rolling.x, rolling.y) < 0.9 * Math.hypot(rest.x, rest.y));
+  await page.fill("#ball-fields [name=rollingFriction]", "-1");
+  assert.match(await page.textContent("#rollingFriction-error"), /≥ 0|positive/);
+  await page.click("#copy-link");
+  await page.waitForFunction(() => location.hash.includes("rollingFriction=0.01"));
+  await page.selectOption("#ball", "puck");
+  assert.ok(!(await page.isVisible("#ball-fields [name=rollingFriction]")));
+  await close();
+});
