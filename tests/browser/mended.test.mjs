@@ -180,3 +180,14 @@ test("every orbit has a contrast of 3:1 to its ground, in light and dark", async
     await close();
   }
 });
+
+test("spins to the left alone fill their pane", async () => {
+  await open("#law=exact&mu=0.3&orbits=-0.05,0.5");
+  await page.selectOption("#picture", "panes");
+  const svg = String(await saved("#save-svg"));
+  const frames = [...svg.matchAll(/<clipPath id="[^"]+"><rect x="[^"]+" y="([\d.]+)" width="[^"]+" height="([\d.]+)"/g)].map(([, top, height]) => [Number(top), Number(height)]);
+  const [, curve] = [...svg.matchAll(/<path d="([^"]+)" fill="none" stroke="#c22f5a"/g)].map(([, path]) => path.match(/[ML][\d.]+ ([\d.]+)/g).map((point) => Number(point.split(" ")[1])));
+  const [, [top, height]] = frames;
+  assert.ok(Math.max(...curve) - Math.min(...curve) > 0.9 * height, `from ${Math.min(...curve)} to ${Math.max(...curve)} in ${height} pixels from ${top}`);
+  await close();
+});
