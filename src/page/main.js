@@ -7,7 +7,7 @@ import { Film } from "./film.js";
 import { Hero } from "./hero.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
-import { Orbits } from "./orbits.js";
+import { makeOrbits } from "./orbits.js";
 import { fromFragment } from "./page_state.js";
 import { drawPanes } from "./panes_figure.js";
 import { Plane } from "./plane.js";
@@ -45,7 +45,7 @@ function start(library) {
   const hero = new Hero(store, player);
   const plane = new Plane(store, { ask, stopText, removeOrbit: (index) => orbits.remove(index) });
   const showControls = makeControls(store, plane, { ask, attempt });
-  const orbits = new Orbits(store, plane, { ask, stopText });
+  const orbits = makeOrbits(store, plane, { ask, stopText });
   const checks = new Checks(store);
   const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
   const share = new Share(store, plane, hero, player, address);
