@@ -42,8 +42,8 @@ class TrackModel {
   Eigen::VectorXd limited(Eigen::VectorXd parameters) const;
 
  private:
-  /// The orbit of a track, up to its last instant: the last one where only the friction has changed since.
-  const ScaledOrbit& orbit_of(std::size_t track, const Eigen::VectorXd& parameters) const;
+  /// The orbit of track i, up to its last instant: the last one where only the friction has changed since.
+  const ScaledOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
 
   double radius_, gravity_, accuracy_, max_ln_patch_radius_;
   reduction::Law law_;
