@@ -26,8 +26,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double two_sided = 0.975;  ///< of 95 % confidence
 
-/// An eigenvalue of the correlations of derivatives below which the data do not decide: differences of orbits have
-/// errors of some 1e-6.
+/// An eigenvalue of the correlations of derivatives below which the data do not decide.
 constexpr double undecided = 1e-10;
 /// A relative error from which on a number counts as unknown: catalogues are better.
 constexpr double unknown = 0.5;
@@ -75,7 +74,7 @@ Eigen::Matrix2d information_of_contact(const MatrixXd& information) {
 /// The combination that the data decide where they decide one only.
 std::optional<Combination> only_combination(const MatrixXd& information, double variance, const VectorXd& parameters) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information_of_contact(information) / variance);
-  constexpr double least_share = 1e-8;  // below which it is an error of the differences
+  constexpr double least_share = 1e-8;  // below which it counts as none
   const double strong = solver.eigenvalues()[1];
   const double weak = std::max(solver.eigenvalues()[0], least_share * strong);
   if (!(weak * unknown * unknown < 1) || !(strong * unknown * unknown > 1)) return std::nullopt;
@@ -315,6 +314,24 @@ FitRequest checked(const FitRequest& request) {
   return result;
 }
 
+/// Friction and patch radius of the ball count as they are where they are not only a start: then they must be what the
+/// model allows.
+void require_limits(const Search& search, bool planned) {
+  const VectorXd given = search.given(), limited = search.model.limited(given);
+  const auto bound = [&](double far, Index place) {
+    return std::exp(search.model.limited(VectorXd::Constant(given.size(), far))[place]);
+  };
+  for (Index place = 0; place < shared_parameters; ++place) {
+    const bool searched = !planned && std::ranges::find(search.free, place) != search.free.end();
+    if (searched || limited[place] == given[place]) continue;
+    const ParameterKind& kind = kind_of(static_cast<Parameter>(place));
+    throw std::domain_error(fmt::format("fit: {} from {:.3g} to {:.3g}{}{} is required under the law {}; got {:.6g}",
+                                        kind.name, bound(-infinity, place), bound(infinity, place),
+                                        kind.unit.empty() ? "" : " ", kind.unit, search.request.law.name(),
+                                        std::exp(given[place])));
+  }
+}
+
 }  // namespace
 
 const ParameterKind& kind_of(Parameter parameter) {
@@ -340,7 +357,8 @@ std::string Combination::name() const {
   if (friction_power == -patch_power)
     return friction_power == 1 ? "the ratio friction/patch_radius" : "the ratio patch_radius/friction";
   const auto power = [](const char* name, double exponent) {
-    return exponent == 1 ? std::string(name) : fmt::format("{}^{:.2g}", name, exponent);
+    const std::string text = fmt::format("{:.2g}", exponent);
+    return text == "1" ? std::string(name) : fmt::format("{}^{}", name, text);
   };
   return power("friction", friction_power) + " " + power("patch_radius", patch_power);
 }
@@ -368,6 +386,7 @@ double Fit::correlation_of_contact() const { return estimates[0].free && estimat
 Fit fit(const FitRequest& asked) {
   const FitRequest request = checked(asked);
   Search search(request);
+  require_limits(search, false);
   return report(search, with_positive_slips(request, search.solve()), false);
 }
 
@@ -394,6 +413,7 @@ Fit plan(const FitRequest& asked) {
   }
   request = checked(request);
   const Search search(request);
+  require_limits(search, true);
   return report(search, search.given(), true);
 }
 

@@ -11,6 +11,8 @@ namespace contensou::fit {
 
 namespace {
 
+using reduction::homogeneous_ball;
+
 constexpr double near_axis = 1e-12;  ///< of k or 1/k: from there on the smaller speed goes in proportion to its start
 constexpr double at_rest = 1e-12;    ///< of w at the start
 constexpr double first_width = 0.5, min_width = 1e-4;
@@ -103,8 +105,8 @@ ScaledOrbit::ScaledOrbit(const reduction::Law& law, double mu, reduction::State 
 std::pair<double, double> ScaledOrbit::rates(double x) const {
   constexpr double smallest = 1e-12;  // below it Phi/k and Psi do not change
   const double k = std::max(std::exp(x), smallest);
-  const auto [force, moment] = law_(k <= 1 ? reduction::Slip{k, 1} : reduction::Slip{1, 1 / k});
-  const double A = 3.5 * force / k, B = 2.5 * mu_ * mu_ * moment;
+  const auto [force, moment] = law_(reduction::slip_of_ratio(k));
+  const double A = homogeneous_ball.chi * force / k, B = homogeneous_ball.gamma * mu_ * mu_ * moment;
   if (!(A > B)) throw std::domain_error("fit: the law has an invariant ray there: a smaller patch is required");
   return {A, B};
 }
@@ -162,7 +164,9 @@ void ScaledOrbit::reach(double T) {
 }
 
 ScaledOrbit::Stop ScaledOrbit::stop() const {
-  if (u0_ == 0) return {std::abs(v0_) / 3.5, 0, v0_ < 0 ? -1 / 3.5 : 1 / 3.5, 0};  // what is left of w is not its own
+  if (u0_ == 0)
+    return {std::abs(v0_) / homogeneous_ball.chi, 0, (v0_ < 0 ? -1 : 1) / homogeneous_ball.chi,
+            0};  // what is left of w is not its own
   const auto change = [&](const Direction& by) { return change_of_T(by, now_); };
   return {now_[T_] + std::exp(now_[ln_w]) / rates(x_).second, change(by_[0]), v0_ == 0 ? 0 : change(by_[1]) / v0_,
           change(by_[2]) / u0_};

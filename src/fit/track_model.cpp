@@ -12,19 +12,21 @@ using Eigen::VectorXd;
 
 namespace {
 
+using reduction::homogeneous_ball;
+
 constexpr double min_ln_friction = -9.2, max_ln_friction = 2.3, min_ln_ratio = -14;
 
 /// What friction takes of the velocity of the centre for each m/s of slip (Zh98 after (2.5)).
-constexpr double velocity_for_slip = 2.0 / 7;
+constexpr double velocity_for_slip = 1 / homogeneous_ball.chi;
 
 /// The largest mu up to 1 under which the law has no invariant ray: (5/7) mu^2 k Psi < Phi for all k.
 double max_ratio(const reduction::Law& law) {
   double least = 1;
   for (double ln_k = -20; ln_k <= 20; ln_k += 0.1) {
     const double k = std::exp(ln_k);
-    const auto [force, moment] = law(k <= 1 ? reduction::Slip{k, 1} : reduction::Slip{1, 1 / k});
+    const auto [force, moment] = law(reduction::slip_of_ratio(k));
     constexpr double some = 0.99;
-    least = std::min(least, some * std::sqrt(1.4 * force / (k * moment)));
+    least = std::min(least, some * std::sqrt(homogeneous_ball.chi / homogeneous_ball.gamma * force / (k * moment)));
   }
   return least;
 }

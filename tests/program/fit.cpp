@@ -217,6 +217,15 @@ TEST_CASE("fit says what is wrong with a track, and where, and writes nothing", 
                  "a,b\n1,2\n");
   check_rejected(fit, "did you mean 'slip'?", "t,slp\n1,2\n");
   check_rejected(fit, "no t is here", "slip,spin\n1,2\n");
+  const std::string track = "t,slip,spin\n0,1,100\n0.1,0.4,99\n0.3,0,97\n";
+  const std::string given = fit + " --noise slip=0.01,spin=1 --free friction,slip,spin ";
+  check_rejected(given + "--law ring --patch-radius 28mm", "to 0.0237 m is required under the law ring; got 0.028",
+                 track);
+  check_rejected(given + "--patch-radius 1e-9", "patch_radius from 2.38e-08 to", track);
+  check_rejected("fit --plan --ball pool --friction 20 --fps 60 --until 0.3 --noise slip=0.01,spin=1",
+                 "friction from 0.000101 to 9.97 is required under the law exact; got 20");
+  CHECK(run_program(fit + " --noise slip=0.01,spin=1 --law ring --patch-radius 28mm", track).status ==
+        0);  // a start only
   check_rejected(fit, "two columns are called 'slip'", "t,slip,slip [m/s]\n1,2,3\n");
   check_rejected(fit, "'furlong' is no unit of it: use m/s, cm/s", "t,slip [furlong]\n1,2\n");
   check_rejected(fit, "spin_sd is the standard deviation of spin, which is not there", "t,slip,spin_sd\n1,2,3\n");

@@ -133,7 +133,11 @@ std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::
                         : noise.estimated ? " (estimated)"
                                           : fmt::format(" (given), residuals {:.3g}", noise.rms));
   }
-  if (best.at_limit) text += "a value ran into what it may be: the patch is not larger than the ball\n";
+  if (best.at_limit)
+    text +=
+        "a value ran into what it may be: friction 1e-4 to 10, a patch not larger than the ball, nor so large that the "
+        "law\n"
+        "has an invariant ray\n";
   if (fits.size() > 1) {
     text += fmt::format("\n{:<14}{:>12}{:>12}{:>16}\n", "law", "friction", "patch mm", "AIC less best");
     for (const fit::Fit& fit : fits) {

@@ -109,7 +109,9 @@ struct Fit {
 /// residuals. The model is the closed orbit, to 1e-9 of its speeds.
 ///
 /// @throws std::domain_error   for a track as checked, where fewer values than 10 have no standard deviations, or
-///                             where nothing is free
+///                             where nothing is free, or where a friction or patch radius that is not searched is
+///                             beyond what the model allows: friction 1e-4 to 10, patch radius 8.3e-7 R to R, and
+///                             none under which the law has an invariant ray
 /// @throws std::runtime_error  if the search does not converge
 Fit fit(const FitRequest& asked);
 
