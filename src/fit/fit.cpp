@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -223,7 +224,9 @@ Fit report(const Search& search, const VectorXd& solution, bool planned) {
     result.only = only_combination(information, variance, parameters);
     const double worst = std::max(deviation[0], deviation[1]);
     const bool correlated = std::abs(result.correlation(0, 1)) > strongly_correlated;
-    if (!planned && worst > (correlated ? hardly_nonlinear : nonlinear)) {
+    // Where something is not decided, a search along one number may not see how far the other lets it go.
+    const bool decided = std::ranges::none_of(inverse.undecided, std::identity());
+    if (!planned && (correlated ? worst > hardly_nonlinear : decided && worst > nonlinear)) {
       result.profiled = true;
       for (Index place : {0, 1}) {
         Interval& interval = result.estimates[static_cast<std::size_t>(place)].interval;

@@ -196,6 +196,14 @@ TEST_CASE("the drawing of a fit is no higher than a page, in a column as across 
   }
 }
 
+TEST_CASE("three values of slip decide no friction: no narrow interval is claimed", "[cli]") {
+  const auto found = nlohmann::json::parse(
+      run_program("fit - --ball pool --noise slip=0.01 --format json", "t,slip\n0,1\n0.1,0.3\n0.2,0\n").out);
+  CHECK(found["profiled"] == false);
+  CHECK(found["friction"]["standard_error"] == "inf");
+  CHECK(found["friction"]["high"] == "inf");
+}
+
 TEST_CASE("several files are tracks of one ball", "[cli]") {
   const TemporaryDirectory scratch;
   write_file(scratch.file("a.csv"), film(0.01, 1));
