@@ -28,6 +28,11 @@ export class Frame {
     return this.top + ((this.y.high - value) / (this.y.high - this.y.low)) * this.height;
   }
 
+  /** Where a point of a flat column is. */
+  pixel(/** @type {ArrayLike<number>} */ points, at = 0) {
+    return [this.px(points[at]), this.py(points[at + 1])];
+  }
+
   /** Whether a pixel is in the frame, its border included. */
   contains(pixelX, pixelY) {
     return pixelX >= this.left - 1 && pixelX <= this.left + this.width + 1 && pixelY >= this.top - 1 && pixelY <= this.top + this.height + 1;
@@ -42,24 +47,16 @@ export class Frame {
     };
   }
 
-  /** The lines through a flat column of points x0, y0, x1, y1, ..., NaN between them, in pixels. */
+  /** The lines through a flat column of points x0, y0, x1, y1, ..., in pixels; what is not finite lies between two lines. */
   lines(/** @type {ArrayLike<number>} */ points) {
-    /** @type {number[][]} */
-    const lines = [[]];
+    /** @type {number[]} */
+    let line = [];
+    const lines = [line];
     for (let i = 0; i < points.length; i += 2) {
-      if (Number.isNaN(points[i])) lines.push([]);
-      else lines[lines.length - 1].push(this.px(points[i]), this.py(points[i + 1]));
+      if (Number.isFinite(points[i] + points[i + 1])) line.push(this.px(points[i]), this.py(points[i + 1]));
+      else lines.push((line = []));
     }
     return lines;
-  }
-
-  /** The line through columns of numbers, as long as the shorter one; without those that are not finite. */
-  line(xs, ys) {
-    const line = [];
-    for (let i = 0; i < Math.min(xs.length, ys.length); ++i) {
-      if (Number.isFinite(ys[i])) line.push(this.px(xs[i]), this.py(ys[i]));
-    }
-    return line;
   }
 
   /** The texts of the ticks: {at, text} of each, about `wanted` of them. */
@@ -78,24 +75,24 @@ export class Frame {
   draw(surface, theme) {
     const size = theme.textSize;
     const style = { colour: theme.soft, size };
-    const bottom = this.top + this.height;
-    surface.lines([[this.left, this.top, this.left, bottom, this.left + this.width, bottom]], { colour: theme.soft });
+    const label = { colour: theme.ink, size: size + 1, align: "center" };
+    const [bottom, right] = [this.top + this.height, this.left + this.width];
+    const lines = [[this.left, this.top, this.left, bottom, right, bottom]];
     for (const { at, text } of this.ticksOf(this.x, this.width / 85)) {
       const x = this.px(at);
-      surface.lines([[x, bottom, x, bottom + 4]], { colour: theme.soft });
+      lines.push([x, bottom, x, bottom + 4]);
       if (this.x.label !== undefined) surface.text(x, bottom + 6, text, { ...style, align: "center", baseline: "top" });
     }
     for (const { at, text } of this.ticksOf(this.y, this.height / 55)) {
       const y = this.py(at);
-      surface.lines([[this.left - 4, y, this.left, y]], { colour: theme.soft });
+      lines.push([this.left - 4, y, this.left, y]);
       surface.text(this.left - 6, y, text, { ...style, align: "right", baseline: "middle" });
     }
-    const label = { colour: theme.ink, size: size + 1 };
-    if (this.x.label) {
-      surface.text(this.left + this.width / 2, bottom + 6 + 1.5 * size, this.x.label, { ...label, align: "center", baseline: "top" });
-    }
+    surface.shape(lines, { stroke: theme.soft });
+    if (this.x.label) surface.text(this.left + this.width / 2, bottom + 6 + 1.5 * size, this.x.label, { ...label, baseline: "top" });
     if (this.y.label) {
-      surface.text(this.left - Math.max(3.6 * size, this.roomForTicks(size) + size), this.top + this.height / 2, this.y.label, { ...label, align: "center", baseline: "middle", turned: true });
+      const beside = Math.max(3.6 * size, this.roomForTicks(size) + size);
+      surface.text(this.left - beside, this.top + this.height / 2, this.y.label, { ...label, baseline: "middle", turned: true });
     }
   }
 }

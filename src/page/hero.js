@@ -14,6 +14,8 @@ export class Hero {
     /** @type {any} what is said, and what moves */
     this.titles = this.rides = this.ends = this.barTitles = this.most = null;
     this.player = player;
+    this.lanes = new CanvasSurface($("lanes"), (surface) => this.drawBalls(surface));
+    this.patch = new CanvasSurface($("patch"), (surface) => this.drawPatch(surface));
     this.bars = ["this", "plain"].map((name) => {
       const [title, bar, number] = ["span", "div", "b"].map((tag) => make(tag, { className: tag === "div" ? "bar-of" : "" }));
       bar.append(make("i"));
@@ -79,39 +81,43 @@ export class Hero {
     $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${$("story").textContent}`);
   }
 
-  drawPatch(surface, theme) {
-    const { now } = this.store;
+  drawPatch(surface) {
+    const { now, theme } = this.store;
     if (now) drawPatch(surface, { still: now.u === 0 && now.v === 0, k: now.k, spin: Math.sign(now.u), force: now.force }, theme);
   }
 
-  /** @returns what is drawn, the ball without spin first */
-  drawBalls(surface, theme) {
-    const { store: { state, ride, timeFactor, end }, rides, unit, radius } = this;
-    if (!ride) return [];
+  drawBalls(surface) {
+    if (this.store.ride) drawLanes(surface, { lanes: this.balls(), radius: this.radius, unit: this.unit }, this.store.theme);
+  }
+
+  /** What is drawn, the ball without spin first. */
+  balls() {
+    const { store: { state, ride, timeFactor, end, theme }, rides } = this;
     const duration = end * timeFactor;
+    const time = state.fraction * duration;
+    const does = (i, own) => (time < this.ends[own] ? "slides" : !ride.rolls ? "stands" : time < (rides[i].rest?.t ?? Infinity) ? "rolls" : "rests");
     const lane = (i, own) => ({
-      title: `${this.titles[own]}: ${state.fraction * duration < this.ends[own] ? "slides" : !ride.rolls ? "stands" : state.fraction * duration < (rides[i].rest?.t ?? Infinity) ? "rolls" : "rests"}`,
+      title: `${this.titles[own]}: ${does(i, own)}`,
       xs: rides[i].xs, ys: rides[i].ys, at: rides[i].at(state.fraction),
       slidesTo: Math.sqrt(this.ends[own] / duration) * (rides[i].xs.length - 1), ...theme.lane(own === 0 ? state.chosen : "plain"),
     });
-    const lanes = [lane(0, 1), lane(1, 0)];
-    drawLanes(surface, { lanes, radius, unit }, theme);
-    return lanes;
+    return [lane(0, 1), lane(1, 0)];
   }
 
-  draw(theme) {
+  draw() {
     const { store: { ride, now }, unit } = this;
     if (!ride) return;
-    const lanes = this.drawBalls(new CanvasSurface($("lanes")), theme);
-    this.drawPatch(new CanvasSurface($("patch")), theme);
+    this.lanes.draw();
+    this.patch.draw();
+    const balls = this.balls();
     $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
     this.bars.forEach(({ title, bar, number }, own) => {
-      const { slid } = lanes[1 - own].at;
+      const { slid } = balls[1 - own].at;
       title.textContent = this.barTitles[own];
       number.textContent = length(slid, unit);
       bar.style.width = `${(100 * slid) / this.most || 0}%`;
-      bar.style.background = lanes[1 - own].colour;
+      bar.style.background = balls[1 - own].colour;
     });
   }
 }

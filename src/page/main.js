@@ -16,10 +16,7 @@ import { presets } from "./presets.js";
 import { Share } from "./share.js";
 import { Store } from "./store.js";
 import { CanvasSurface } from "./surface.js";
-import { themeOf } from "./theme.js";
 import { Tour } from "./tour.js";
-
-const smallestWidth = 120;  // pixels; a hidden or minimised page has none
 
 function start(library) {
   const store = new Store(library, fromFragment(location.hash, library));
@@ -61,15 +58,13 @@ function start(library) {
   new Tour(go);
   new Film(store, player, ask);
 
-  let theme;
-  const seen = (id) => $(id).clientWidth >= smallestWidth;
+  const panes = new CanvasSurface($("panes"), (surface) => drawPanes(surface, store, store.theme));
   const draw = () => {
-    if (!store.settled) return;
     const { contact, now, end, timeFactor } = store;
-    if (seen("plane")) plane.draw(theme);
-    if (seen("lanes")) hero.draw(theme);
+    plane.draw();
+    hero.draw();
+    panes.draw();
     player.show();
-    if (seen("panes")) drawPanes(new CanvasSurface($("panes")), store, theme);
     $("instant").textContent = now
       ? `${contact ? `t = ${shown(now.tau * timeFactor, 5)} s` : `τ = ${shown(now.tau, 5)}`} of ` +
         `${shown(end * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}${now.u === 0 && now.v === 0 ? ", no slip" : `, k = ${shown(now.k, 4)}`}`
@@ -77,12 +72,11 @@ function start(library) {
   };
   store.listen(({ moment }) => {
     if (!moment) {
-      theme = themeOf(store.state.theme);
       document.documentElement.classList.toggle("embed", store.state.embed);
       plane.announce("");
       hero.show();
       showControls();
-      orbits.show(theme);
+      orbits.show();
       share.show();
       plane.label();
       checks.show();
@@ -90,7 +84,6 @@ function start(library) {
     draw();
     if (!player.playing || !moment) address.rememberSoon();
   });
-  new ResizeObserver(draw).observe($("app"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => ask(() => {}));
   // Paper is light.
   let screen;

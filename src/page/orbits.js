@@ -6,7 +6,7 @@ import { parseNumber, shown } from "./numbers.js";
  * @param {import("./store.js").Store} store
  * @param {import("./plane.js").Plane} plane
  * @param act  ask(edit), which tells the reader what is rejected; stopText(tau)
- * @returns show(theme), and remove(index)
+ * @returns show(), and remove(index)
  */
 export function makeOrbits(store, plane, { ask, stopText }) {
   const list = $("orbits");
@@ -55,8 +55,8 @@ export function makeOrbits(store, plane, { ask, stopText }) {
 
   return {
     remove,
-    show(theme) {
-      const { state: { orbits, chosen, ball }, motions } = store;
+    show() {
+      const { state: { orbits, chosen, ball }, motions, theme } = store;
       $("clear-orbits").hidden = orbits.length < 2;
       showList(list, orbits, item, (entry, { u, v }, index) => {
         entry.className = index === chosen ? "chosen" : "";

@@ -22,6 +22,10 @@ export class Plane {
   constructor(store, act) {
     this.store = store;
     this.act = act;
+    this.surface = new CanvasSurface($("plane"), (surface) => {
+      this.planeScene = this.scene();
+      this.frames = drawPortrait(surface, this.planeScene, store.theme);
+    });
     listen($("plane"), {
       hold: (x, y, kind) => this.startAt(x, y, kind),
       pull: (x, y, index) => this.moveStart(x, y, index),
@@ -65,16 +69,15 @@ export class Plane {
     };
   }
 
-  draw(theme = this.theme) {
-    this.theme = theme;
-    const canvas = $("plane");
-    const rows = String(rowsOf(this.store.portrait.figure.panels.length, canvas.clientWidth));
+  draw() {
+    const { canvas } = this.surface;
+    const rows = String(rowsOf(this.store.portrait.figure.panels.length, this.surface.width));
     if (canvas.dataset.rows !== rows) {
       canvas.dataset.rows = rows;
       canvas.style.setProperty("--rows", rows);
+      this.surface.measure();
     }
-    this.planeScene = this.scene();
-    this.frames = drawPortrait(new CanvasSurface(canvas), this.planeScene, theme);
+    this.surface.draw();
     $("clear-isochrone").hidden = !this.store.state.isochrone;
   }
 

@@ -15,10 +15,10 @@ export class Share {
   constructor(store, plane, hero, player, address) {
     this.store = store;
     const figures = {
-      plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, plane.theme)],
-      lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface, plane.theme)],
-      patch: ["the patch", "patch", (surface) => hero.drawPatch(surface, plane.theme)],
-      panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store, plane.theme)],
+      plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store.theme)],
+      lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface)],
+      patch: ["the patch", "patch", (surface) => hero.drawPatch(surface)],
+      panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store, store.theme)],
     };
     fillSelect($("picture"), Object.entries(figures).map(([name, [title]]) => ({ name, title })));
     const picture = () => {

@@ -1,7 +1,7 @@
 // The state of the page, and all that follows from it: each value is computed once for what it depends on.
 import { bodyOf, initialState } from "./page_state.js";
 import { angularVelocity, portraitRequest } from "./portrait_request.js";
-import { isDark } from "./theme.js";
+import { isDark, themeOf } from "./theme.js";
 import { described } from "./views.js";
 
 const longest = 10;    // s that a ball is let roll
@@ -130,6 +130,10 @@ export class Store {
   /** The time at the end of the slider, in tau. */
   get end() {
     return this.ride ? this.ride.end : 1;
+  }
+
+  get theme() {
+    return themeOf(this.state.theme);
   }
 
   get view() {

@@ -8,118 +8,162 @@ const mathematics = '"STIX Two Text", "Cambria Math", "DejaVu Serif", Georgia, s
 
 const scriptSize = 0.72;
 const scriptShift = { 1: -0.38, 0: 0, "-1": 0.24 };  // of an index or a power, in sizes of the text
+const smallestWidth = 120;  // pixels; a hidden or minimised page has none
 
 let measuring;
 const known = new Map();  // texts that were measured
 
-/** The runs of a text with their fonts, widths and places from the text's left end. */
-function setRuns(text, style) {
-  const key = `${style.size} ${style.bold} ${style.italic} ${text}`;
+/** How wide a text is, and its runs with their fonts and places from the text's left end. */
+function setText(text, style) {
+  const key = `${style.size} ${style.bold} ${text}`;
   if (known.size > 2000) known.clear();
   if (!known.has(key)) known.set(key, measured(text, style));
   return known.get(key);
 }
 
-function measured(text, style) {
+function measured(text, { size, bold }) {
   measuring ??= document.createElement("canvas").getContext("2d");
-  let left = 0;
-  return runsOf(text, style.italic).map((run) => {
-    const size = style.size * (run.level === 0 ? 1 : scriptSize);
-    const font = `${run.italic ? "italic " : ""}${style.bold ? "600 " : ""}${size}px ${run.italic ? mathematics : fonts}`;
+  let width = 0;
+  const runs = runsOf(text).map((run) => {
+    const font = `${run.italic ? "italic " : ""}${bold ? "600 " : ""}${size * (run.level === 0 ? 1 : scriptSize)}px ${run.italic ? mathematics : fonts}`;
     measuring.font = font;
-    const width = measuring.measureText(run.text).width;
-    const set = { ...run, font, size, left, width, down: scriptShift[run.level] * style.size };
-    left += width;
-    return set;
+    const left = width;
+    width += measuring.measureText(run.text).width;
+    return { ...run, font, left, down: scriptShift[run.level] * size };
   });
+  return { runs, width };
 }
 
 /** How wide a text is, in pixels. */
-export function widthOf(text, style) {
-  return setRuns(text, style).reduce((sum, { width }) => sum + width, 0);
-}
+export const widthOf = (text, style) => setText(text, style).width;
+
+/** The border of a box, or of a whole surface. */
+export const borderOf = ({ left = 0, top = 0, width, height }) =>
+  [left, top, left + width, top, left + width, top + height, left, top + height];
 
 export class CanvasSurface {
-  /** Fits the canvas to its place on the page, sharp on any screen. */
-  constructor(canvas) {
+  width = 0;
+  height = 0;
+  kept = { keys: /** @type {any[]} */ ([]), value: /** @type {any} */ (null), picture: /** @type {HTMLCanvasElement | null} */ (null) };
+
+  /** @param picture  draws on the surface, also when the page gives the canvas another size */
+  constructor(canvas, picture) {
+    this.canvas = canvas;
+    this.picture = picture;
+    this.context = canvas.getContext("2d", { alpha: false });
+    new ResizeObserver(() => {
+      this.measure();
+      this.draw();
+    }).observe(canvas);
+  }
+
+  /** Asks the page for the size, which lays the page out. */
+  measure() {
+    const { clientWidth, clientHeight } = this.canvas;
+    [this.width, this.height] = [clientWidth, clientHeight];
+  }
+
+  draw() {
+    if (this.width === 0) this.measure();
+    if (this.width >= smallestWidth) this.picture(this);
+  }
+
+  /**
+   * Begins a picture with what stays while only the moment moves: where none of `keys` has changed, as a copy.
+   *
+   * @returns what `draw` has returned
+   */
+  still(keys, draw) {
+    const { canvas, context, width, height, kept } = this;
     const ratio = globalThis.devicePixelRatio || 1;
-    this.width = canvas.clientWidth;
-    this.height = canvas.clientHeight;
-    const [width, height] = [Math.round(this.width * ratio), Math.round(this.height * ratio)];
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    this.context = canvas.getContext("2d");
-    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const size = [width, height].map((side) => Math.round(side * ratio));
+    if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
+    const all = [...keys, ratio, ...size];
+    const again = all.length === kept.keys.length && all.every((key, i) => key === kept.keys[i]);
+    if (again && kept.picture) {
+      context.setTransform(1, 0, 0, 1, 0, 0);
+      context.drawImage(kept.picture, 0, 0);
+    }
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    if (again && kept.picture) return kept.value;
+    this.kept = { keys: all, value: draw(), picture: null };
+    // What changes at each drawing is not worth a copy.
+    if (again) {
+      this.kept.picture = Object.assign(document.createElement("canvas"), { width: size[0], height: size[1] });
+      this.kept.picture.getContext("2d")?.drawImage(canvas, 0, 0);
+    }
+    return this.kept.value;
   }
 
-  fill(x, y, width, height, colour) {
-    this.context.fillStyle = colour;
-    this.context.fillRect(x, y, width, height);
-  }
-
-  lines(lines, { colour, width = 1, dash = [] }) {
-    const context = this.context;
+  /** Areas within lines, or the lines themselves, or both. */
+  shape(lines, { fill = "", stroke = "", width = 1, dash = /** @type {number[]} */ ([]) }) {
+    const { context } = this;
     context.beginPath();
     for (const line of lines) {
       context.moveTo(line[0], line[1]);
       for (let i = 2; i < line.length; i += 2) context.lineTo(line[i], line[i + 1]);
     }
-    Object.assign(context, { strokeStyle: colour, lineWidth: width, lineJoin: "round", lineCap: "round" });
-    context.setLineDash(dash);
-    context.stroke();
-    context.setLineDash([]);
+    this.paint(fill, stroke, width, dash);
   }
 
-  polygon(points, colour) {
-    const context = this.context;
+  /** Discs of one radius around points x0, y0, x1, y1, ... */
+  discs(points, radius, { fill = "", stroke = "", width = 1.5 }) {
+    const { context } = this;
     context.beginPath();
-    for (let i = 0; i < points.length; i += 2) context.lineTo(points[i], points[i + 1]);
-    context.closePath();
-    context.fillStyle = colour;
-    context.fill();
+    for (let i = 0; i < points.length; i += 2) {
+      context.moveTo(points[i] + radius, points[i + 1]);
+      context.arc(points[i], points[i + 1], radius, 0, 2 * Math.PI);
+    }
+    this.paint(fill, stroke, width, []);
   }
 
-  disc(x, y, radius, { fill, stroke, width = 1.5 }) {
-    const context = this.context;
-    context.beginPath();
-    context.arc(x, y, radius, 0, 2 * Math.PI);
+  paint(fill, stroke, width, dash) {
+    const { context } = this;
     if (fill) {
       context.fillStyle = fill;
       context.fill();
     }
-    if (stroke) {
-      Object.assign(context, { strokeStyle: stroke, lineWidth: width });
-      context.stroke();
-    }
+    if (!stroke) return;
+    context.strokeStyle = stroke;
+    context.lineWidth = width;
+    context.lineJoin = context.lineCap = "round";
+    if (dash.length) context.setLineDash(dash);
+    context.stroke();
+    if (dash.length) context.setLineDash([]);
   }
 
-  text(x, y, text, style) {
-    const context = this.context;
-    context.save();
-    context.translate(x, y);
-    if (style.turned) context.rotate(-Math.PI / 2);
-    context.textBaseline = style.baseline ?? "alphabetic";
-    const runs = setRuns(text, style);
-    const whole = widthOf(text, style);
-    const start = -whole * { left: 0, center: 0.5, right: 1 }[style.align ?? "left"];
-    const each = (draw) => runs.forEach((run) => {
-      context.font = run.font;
-      draw(run.text, start + run.left, run.down);
-    });
-    if (style.halo) {
-      Object.assign(context, { strokeStyle: style.halo, lineWidth: 4, lineJoin: "round" });
+  text(x, y, text, { align = "left", baseline = "alphabetic", turned = false, halo = "", ...style }) {
+    const { context } = this;
+    const { runs, width } = setText(text, style);
+    const start = -width * { left: 0, center: 0.5, right: 1 }[align];
+    const [left, line] = turned ? [start, 0] : [x + start, y];
+    const each = (draw) => {
+      for (const run of runs) {
+        context.font = run.font;
+        draw(run.text, left + run.left, line + run.down);
+      }
+    };
+    if (turned) {
+      context.save();
+      context.translate(x, y);
+      context.rotate(-Math.PI / 2);
+    }
+    context.textBaseline = baseline;
+    if (halo) {
+      Object.assign(context, { strokeStyle: halo, lineWidth: 4, lineJoin: "round" });
       each((...run) => context.strokeText(...run));
     }
     context.fillStyle = style.colour;
     each((...run) => context.fillText(...run));
-    context.restore();
+    if (turned) context.restore();
   }
 
   /** Draws with everything outside the rectangle hidden. */
-  inside({ left, top, width, height }, draw) {
-    const context = this.context;
+  inside(box, draw) {
+    const { context } = this;
     context.save();
     context.beginPath();
-    context.rect(left, top, width, height);
+    context.rect(box.left, box.top, box.width, box.height);
     context.clip();
     draw();
     context.restore();
@@ -138,31 +182,25 @@ export class SvgSurface {
       `viewBox="0 0 ${width} ${height}" role="img"><title>${escaped(title)}</title>`];
   }
 
-  fill(x, y, width, height, colour) {
-    this.parts.push(`<rect x="${coordinate(x)}" y="${coordinate(y)}" width="${coordinate(width)}" ` +
-      `height="${coordinate(height)}" fill="${colour}"/>`);
+  still(_keys, draw) {
+    return draw();
   }
 
-  lines(lines, { colour, width = 1, dash = [] }) {
-    const path = lines.map((line) => this.path(line)).join("");
-    if (path === "") return;
-    this.parts.push(`<path d="${path}" fill="none" stroke="${colour}" stroke-width="${width}" stroke-linejoin="round" stroke-linecap="round"` +
-      (dash.length ? ` stroke-dasharray="${dash.join(" ")}"` : "") + "/>");
-  }
-
-  path(line) {
+  shape(lines, { fill = "none", stroke = "none", width = 1, dash = /** @type {number[]} */ ([]) }) {
     let path = "";
-    for (let i = 0; i < line.length; i += 2) path += `${i ? "L" : "M"}${coordinate(line[i])} ${coordinate(line[i + 1])}`;
-    return path;
+    for (const line of lines) {
+      for (let i = 0; i < line.length; i += 2) path += `${i ? "L" : "M"}${coordinate(line[i])} ${coordinate(line[i + 1])}`;
+    }
+    if (path === "") return;
+    const how = stroke === "none" ? "" : ` stroke-width="${width}" stroke-linejoin="round" stroke-linecap="round"`;
+    this.parts.push(`<path d="${path}" fill="${fill}" stroke="${stroke}"${how}${dash.length ? ` stroke-dasharray="${dash.join(" ")}"` : ""}/>`);
   }
 
-  polygon(points, colour) {
-    this.parts.push(`<path d="${this.path(points)}Z" fill="${colour}"/>`);
-  }
-
-  disc(x, y, radius, { fill = "none", stroke = "none", width = 1.5 }) {
-    this.parts.push(`<circle cx="${coordinate(x)}" cy="${coordinate(y)}" r="${radius}" fill="${fill}" ` +
-      `stroke="${stroke}" stroke-width="${width}"/>`);
+  discs(points, radius, { fill = "none", stroke = "none", width = 1.5 }) {
+    for (let i = 0; i < points.length; i += 2) {
+      this.parts.push(`<circle cx="${coordinate(points[i])}" cy="${coordinate(points[i + 1])}" r="${radius}" fill="${fill}" ` +
+        `stroke="${stroke}" stroke-width="${width}"/>`);
+    }
   }
 
   text(x, y, text, style) {
@@ -173,7 +211,7 @@ export class SvgSurface {
       : `x="${coordinate(x)}" y="${coordinate(y + lower)}"`;
     const halo = style.halo ? ` stroke="${style.halo}" stroke-width="4" stroke-linejoin="round" paint-order="stroke"` : "";
     let down = 0;
-    const runs = runsOf(text, style.italic).map((run) => {
+    const runs = runsOf(text).map((run) => {
       const shift = scriptShift[run.level] * style.size - down;
       down += shift;
       return `<tspan${shift ? ` dy="${coordinate(shift)}"` : ""}${run.level ? ` font-size="${coordinate(style.size * scriptSize)}"` : ""}` +
@@ -183,9 +221,9 @@ export class SvgSurface {
       `${style.bold ? ' font-weight="600"' : ""} text-anchor="${anchor}" fill="${style.colour}"${halo}>${runs.join("")}</text>`);
   }
 
-  inside({ left, top, width, height }, draw) {
+  inside(box, draw) {
     const id = `inside-${++this.clips}`;
-    this.parts.push(`<clipPath id="${id}"><rect x="${left}" y="${top}" width="${width}" height="${height}"/></clipPath>` +
+    this.parts.push(`<clipPath id="${id}"><rect x="${box.left}" y="${box.top}" width="${box.width}" height="${box.height}"/></clipPath>` +
       `<g clip-path="url(#${id})">`);
     draw();
     this.parts.push("</g>");

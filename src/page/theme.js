@@ -8,23 +8,40 @@ const swatches = {
   dark: ["#ff7aa2", "#56b4e9", "#f0a830", "#35c79b", "#d49be6", "#b9c2ca"],
 };
 
+/** @type {MediaQueryList} */
+let darkness;
+
 export function isDark(choice) {
-  return choice === "auto" ? matchMedia("(prefers-color-scheme: dark)").matches : choice === "dark";
+  if (choice === "auto") darkness ??= matchMedia("(prefers-color-scheme: dark)");
+  return choice === "auto" ? darkness.matches : choice === "dark";
 }
 
-/** @param choice  "auto", "light" or "dark" */
+/** @type {any} */
+let known = null;
+
+/**
+ * The same object until dark, light or the size of the window changes: reading the style sheet lays the page out.
+ *
+ * @param choice  "auto", "light" or "dark"
+ */
 export function themeOf(choice) {
   const kind = isDark(choice) ? "dark" : "light";
+  if (known?.kind !== kind) known = read(kind);
+  return known;
+}
+
+function read(kind) {
+  addEventListener("resize", () => (known = null), { once: true });
   document.documentElement.dataset.theme = kind;
   const style = getComputedStyle(document.documentElement);
-  const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+  const colours = ["ink", "soft", "line", "card", "paper"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]);
+  const swatch = (index) => swatches[kind][index % swatches[kind].length];
   return {
-    ink: colour("ink"), soft: colour("soft"), line: colour("line"), card: colour("card"), paper: colour("paper"), accent: colour("accent"),
-    swatch: (index) => swatches[kind][index % swatches[kind].length],
+    ...Object.fromEntries(colours), kind, swatch,
     /** Of a body that slides: the colour of an orbit, or another for the one beside it. */
     lane: (index) => {
-      const own = swatches[kind][index % swatches[kind].length] ?? plain[kind];
-      return { colour: own, faint: `${own}66` };
+      const colour = swatch(index) ?? plain[kind];
+      return { colour, faint: `${colour}66` };
     },
     textSize: parseFloat(style.fontSize) * 0.78,
   };

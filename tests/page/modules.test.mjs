@@ -147,7 +147,8 @@ test("a frame leads from numbers to pixels and back, and a column breaks where i
   assert.deepEqual(frame.at(60, 20), { x: 0, y: 5 });
   assert.deepEqual(frame.at(-100, 1000), { x: -1, y: 0 });
   assert.deepEqual(frame.lines(Float64Array.of(0, 0, 1, 5, NaN, NaN, -1, 0)), [[60, 70, 110, 20], [10, 70]]);
-  assert.deepEqual(frame.line([0, 1, 1], [0, -Infinity, 5]), [60, 70, 110, 20]);
+  assert.deepEqual(frame.lines([0, 0, 1, 5, 1, -Infinity]), [[60, 70, 110, 20], []]);
+  assert.deepEqual(frame.pixel([9, 9, 0, 5], 2), [60, 20]);
   assert.ok(frame.contains(10, 20) && !frame.contains(10, 72));
 });
 
