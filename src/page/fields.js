@@ -53,33 +53,12 @@ export function addNumberField(parent, { key, label, use }) {
   return { ...numberField(input, output, use), hide: (hidden) => (wrapper.hidden = hidden) };
 }
 
-/** Buttons of which one is chosen; arrow keys go round. */
+/** Choices side by side, of which one is chosen. */
 export function choiceButtons(parent, choices, choose) {
-  const buttons = choices.map(({ name, title }) => {
-    const button = make("button", { type: "button", textContent: title });
-    button.setAttribute("role", "radio");
-    button.dataset.name = name;
-    button.addEventListener("click", () => choose(name));
-    parent.append(button);
-    return button;
-  });
-  parent.addEventListener("keydown", (event) => {
-    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    const next = buttons[(buttons.indexOf(document.activeElement) + step + buttons.length) % buttons.length];
-    next.focus();
-    next.click();
-  });
-  return {
-    show(name) {
-      for (const button of buttons) {
-        const chosen = button.dataset.name === name;
-        button.setAttribute("aria-checked", String(chosen));
-        button.tabIndex = chosen ? 0 : -1;
-      }
-    },
-  };
+  const radio = ({ name }) => make("input", { type: "radio", name: parent.id, value: name, onchange: () => choose(name) });
+  const inputs = choices.map(radio);
+  parent.append(...choices.map(({ title }, i) => make("label", {}, inputs[i], title)));
+  return { show: (name) => inputs.forEach((input) => (input.checked = input.value === name)) };
 }
 
 /** A slider above the patch's; `use` takes a fraction of its length. */

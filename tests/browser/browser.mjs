@@ -63,6 +63,9 @@ export function assertClose(measured, wanted, tolerance, what) {
   assert.ok(error <= tolerance, `${what}: got ${measured}, wanted ${wanted}, relative error ${error}`);
 }
 
+/** Until the page is laid out and drawn as it is now. */
+export const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done))));
+
 /** The pixel of a state in a panel of the plane. */
 export const pixelOf = (u, v, panel = 0) => page.evaluate(([u, v, panel]) => {
   const { frames: { [panel]: frame }, library } = globalThis.page;
@@ -80,7 +83,7 @@ export async function dragSlider(id, from, to, steps) {
   await page.mouse.down();
   for (let i = 1; i <= steps; ++i) {
     await page.mouse.move(box.x + (from + ((to - from) * i) / steps) * box.width, y);
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
+    await drawn();
   }
   await page.mouse.up();
 }

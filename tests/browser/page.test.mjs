@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
-import { assertClose, clickPlane, close, dragSlider, file, folder, open, page, pixelOf, program, programStop, saved, state, stopTimes } from "./browser.mjs";
+import { assertClose, clickPlane, close, dragSlider, drawn, file, folder, open, page, pixelOf, program, programStop, saved, state, stopTimes } from "./browser.mjs";
 
 const help = execFileSync(program, ["help", "views"], { encoding: "utf8" });
 const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name);
@@ -284,7 +284,7 @@ test("another view has a window of its own", async () => {
   await open("#law=exact&mu=0.3&view=patch&orbits=0.8,3.5");
   await page.click("#zoom-in");
   assert.ok((await state()).window);
-  await page.click("#views [data-name=uv]");
+  await page.click("#views [value=uv]");
   assert.equal((await state()).window, null);
   await close();
 });
@@ -527,7 +527,7 @@ test("the page places its own orbits where the program draws them", async () => 
   for (const u0 of [0.8, -0.8]) {
     await open(`#law=exact&mu=0.3&window=1,5&orbits=${u0},3.5`);
     for (const view of views) {
-      await page.click(`#views [data-name=${view}]`);
+      await page.click(`#views [value=${view}]`);
       const words = (await page.textContent("#command")).split(" ").slice(1);
       const name = join(folder, "portrait.gp");
       execFileSync(program, words.map((word) => (word === "portrait.svg" ? name : word)));
@@ -552,8 +552,9 @@ test("all views are drawn, and a click in each starts the orbit that it points a
   const pictures = new Set();
   let clicks = 0;
   for (const view of views) {
-    await page.click(`#views [data-name=${view}]`);
-    assert.equal(await page.getAttribute(`#views [data-name=${view}]`, "aria-checked"), "true");
+    await page.click(`#views [value=${view}]`);
+    assert.ok(await page.isChecked(`#views [value=${view}]`));
+    await drawn();
     const picture = await page.evaluate(() => document.getElementById("plane").toDataURL());
     pictures.add(picture);
     const panels = await page.evaluate(() => globalThis.page.frames.map(() => !globalThis.page.store.portrait.moments));
@@ -613,7 +614,7 @@ test("a drag shows the isochrone through the pointer", async () => {
 test("a link reproduces the page", async () => {
   await open("#law=exact&mu=0.25&window=2,3&orbits=1,2");
   await clickPlane(0.7, 1.2);
-  await page.click("#views [data-name=patch]");
+  await page.click("#views [value=patch]");
   await page.fill("#mu", "0.125");
   await dragSlider("time", 0.02, 0.3, 5);
   await page.click("#copy-link");
@@ -779,9 +780,9 @@ test("fields and isochrones are switched where a view draws them", async () => {
   assert.match(await legend(), /direction of the regularised motion \(2\.7\)/);
   await page.click("#copy-link");
   assert.match(page.url(), /field=regularised&isochrones=0/);
-  await page.click("#views [data-name=disc]");
+  await page.click("#views [value=disc]");
   assert.ok((await page.isDisabled("#field")) && (await page.isDisabled("#isochrones")));
-  await page.click("#views [data-name=pair]");
+  await page.click("#views [value=pair]");
   assert.match(await legend(), /direction of the regularised motion \(2\.7\)/);
   await close();
 });
@@ -880,7 +881,7 @@ test("the keyboard alone is enough", async () => {
   assert.match(await page.textContent("#pointed"), /it stops at τ\* = /);
   await page.keyboard.press("Delete");
   assert.equal((await stopTimes()).length, 1);
-  await page.focus("#views [aria-checked=true]");
+  await page.focus("#views :checked");
   await page.keyboard.press("ArrowRight");
   assert.equal((await state()).view, "patch");
   await close();
@@ -937,7 +938,7 @@ test("bodies that end on a ray, or with k growing, are explored like balls", asy
     await open(fragment);
     assert.match(await page.textContent("#terminal"), limit);
     for (const view of views) {
-      await page.click(`#views [data-name=${view}]`);
+      await page.click(`#views [value=${view}]`);
       assert.ok(await page.evaluate(() => globalThis.page.planeScene.figure.panels.every((panel) =>
         panel.lines.reduce((sum, { lines }) => sum + (lines.length > 0) + [...lines].filter(Number.isNaN).length / 2, 0) >= 5)), view);
     }
