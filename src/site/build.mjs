@@ -170,7 +170,7 @@ ${ball ? '<li><a href="explore.html">Play</a>: change slip, spin, friction and p
 <li><a href="reference/index.html">Look up</a>: every public header</li>
 </ul>`);
 
-if (ball) write("explore.html", readFileSync(ball));
+if (ball) write("explore.html", readFileSync(ball, "utf8").replace("exactly.</p>", 'exactly. <a href="index.html">More about it</a></p>'));
 write("style.css", readFileSync(join(here, "style.css")));
 // Every browser reads woff2.
 const typesetting = join(here, "node_modules/katex/dist");

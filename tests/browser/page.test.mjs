@@ -426,6 +426,9 @@ test("for a page around it only the balls are shown", async () => {
   for (const id of ["plane", "columns", "tour", "presets"]) assert.ok(!(await page.isVisible(`#${id}`)), id);
   await page.click("#play");
   await page.waitForFunction(() => globalThis.page.state.fraction > 0.05);
+  // Its name, below the balls, leads to all of it.
+  await page.click("h1 a");
+  await page.locator("#plane").waitFor();
   await close();
   await open("#ball=pool");
   await page.click("#copy-embed");
