@@ -9,12 +9,11 @@
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/scaling.hpp"
 #include "fit/search.hpp"
+#include "fit/student.hpp"
 
 namespace contensou::fit {
 
@@ -25,7 +24,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double two_sided = 0.975;  ///< of 95 % confidence
 
 /// An eigenvalue of the correlations of derivatives below which the data do not decide.
 constexpr double undecided = 1e-10;
@@ -74,7 +72,7 @@ Eigen::Matrix2d information_of_contact(const MatrixXd& information) {
 
 /// The combination that the data decide where they decide one only.
 std::optional<Combination> only_combination(const MatrixXd& information, double variance, const VectorXd& parameters) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information_of_contact(information) / variance);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(information_of_contact(information) / variance);
   constexpr double least_share = 1e-8;  // below which it counts as none
   const double strong = solver.eigenvalues()[1];
   const double weak = std::max(solver.eigenvalues()[0], least_share * strong);
@@ -184,9 +182,7 @@ Fit report(const Search& search, const VectorXd& solution, bool planned) {
     throw std::domain_error(
         fmt::format("fit: {} values without standard deviations do not decide {} numbers", search.values, count));
   }
-  const double quantile = by_student
-                              ? boost::math::quantile(boost::math::students_t(result.degrees_of_freedom), two_sided)
-                              : boost::math::quantile(boost::math::normal(), two_sided);
+  const double quantile = by_student ? student_quantile(result.degrees_of_freedom) : normal_quantile;
 
   const VectorXd deviation = (variance * inverse.covariance.diagonal()).cwiseSqrt();
   result.correlation =
