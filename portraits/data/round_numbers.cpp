@@ -1,6 +1,7 @@
 #include "data/round_numbers.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -42,7 +43,8 @@ std::vector<double> round_ratios(double low, double high, double few_decades) {
 
 std::string number(double value, int digits) {
   if (value == 0) return "0";
-  value = std::stod(fmt::format("{:.{}g}", value, digits));
+  const std::string rounded = fmt::format("{:.{}g}", value, digits);
+  std::from_chars(rounded.data(), rounded.data() + rounded.size(), value);
   const double exponent = std::floor(std::log10(std::abs(value)) + 1e-9);
   if (exponent >= -3 && exponent < 5) return fmt::format("{:.{}g}", value, std::max(digits, 5));
   const double mantissa = value / std::pow(10, exponent);

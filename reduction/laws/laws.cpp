@@ -1,13 +1,14 @@
 #include "contensou/reduction/laws.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <limits>
-#include <locale>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -58,12 +59,10 @@ Law soft(double exponent) {
 }
 
 Law member(const LawFamily& family, std::string_view typed) {
-  // Not std::from_chars, which libc++ does not have for a double.
-  std::istringstream text{std::string(typed)};
-  text.imbue(std::locale::classic());
   double number = 0;
-  if (!(text >> std::noskipws >> number) || typed.starts_with("+-") ||
-      text.peek() != std::istringstream::traits_type::eof()) {
+  const std::size_t plus = typed.starts_with("+") && !typed.starts_with("+-") ? 1 : 0;
+  const auto [end, error] = std::from_chars(typed.data() + plus, typed.data() + typed.size(), number);
+  if (error != std::errc() || end != typed.data() + typed.size() || !std::isfinite(number)) {
     throw std::domain_error(fmt::format("'{}' is not a number; {} of {} is needed, as in {}:{}", typed, family.letter,
                                         family.meaning, family.name, family.example));
   }

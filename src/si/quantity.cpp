@@ -1,11 +1,12 @@
 #include "contensou/si/quantity.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <locale>
+#include <cstddef>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,12 +46,16 @@ std::string units_of(const Dimension& dimension) {
   return list;
 }
 
-std::optional<double> parse_quantity(const std::string& text, const Dimension& dimension) {
-  std::istringstream words(text);
-  words.imbue(std::locale::classic());
+std::optional<double> parse_quantity(std::string_view text, const Dimension& dimension) {
+  constexpr const char* spaces = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(spaces), text.size()));
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0;
-  std::string symbol, more;
-  if (!(words >> number >> symbol) || words >> more) return std::nullopt;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
+  std::string_view symbol = text.substr(static_cast<std::size_t>(end - text.data()));
+  symbol.remove_prefix(std::min(symbol.find_first_not_of(spaces), symbol.size()));
+  symbol = symbol.substr(0, symbol.find_last_not_of(spaces) + 1);
   if (symbol == dimension.symbol) return number;
   const auto unit = std::ranges::find(dimension.others, symbol, &Unit::symbol);
   if (unit == dimension.others.end()) return std::nullopt;

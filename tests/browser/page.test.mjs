@@ -2,7 +2,7 @@
 //   CONTENSOU_PROGRAM=.../contensou node page.test.mjs
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
@@ -87,7 +87,8 @@ async function assertSamePicture(what) {
   });
 }
 
-test("opens from disk and asks the network for nothing", async () => {
+test("opens from disk and asks the network for nothing; at most 600 kB", async () => {
+  assert.ok(statSync(file).size <= 600_000, `${statSync(file).size} bytes`);
   await open();
   assert.match(await page.title(), /contensou/);
   assert.equal((await stopTimes()).length, 1);

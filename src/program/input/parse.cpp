@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -13,27 +12,13 @@ namespace contensou::program {
 
 namespace {
 
-using std::from_chars;
-
-#ifdef _LIBCPP_VERSION
-/// libc++ has no std::from_chars of a double. It is used in the page, where the locale is that of C.
-std::from_chars_result from_chars(const char* begin, const char* end, double& value) {
-  const std::string text(begin, end);
-  char* last = nullptr;
-  value = std::strtod(text.c_str(), &last);
-  const bool other = text.find_first_of(" \t+") == 0 || text.find_first_of("xX") != std::string::npos;
-  const bool too_large = std::isinf(value) && text.find_first_of("iI") == std::string::npos;
-  return {other ? begin : begin + (last - text.c_str()), too_large ? std::errc::result_out_of_range : std::errc()};
-}
-#endif
-
 /// Reads a whole text, spaces around it and a leading plus aside, which std::from_chars does not know.
 template <class Value>
 std::errc read(std::string_view text, Value& value) {
   const auto first = std::min(text.find_first_not_of(" \t"), text.size());
   text = text.substr(first, text.find_last_not_of(" \t") + 1 - first);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return end == text.data() + text.size() ? error : std::errc::invalid_argument;
 }
 

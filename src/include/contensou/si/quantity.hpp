@@ -60,7 +60,7 @@ const Dimension* find_dimension(std::string_view symbol);
 std::string units_of(const Dimension& dimension);
 
 /// The value of a number with one of the units behind it, such as "2.25 in"; nothing for any other text.
-std::optional<double> parse_quantity(const std::string& text, const Dimension& dimension);
+std::optional<double> parse_quantity(std::string_view text, const Dimension& dimension);
 
 /// Rejects a value that the quantity cannot have. Infinity and NaN are never allowed.
 /// @throws std::domain_error  naming the quantity, what is allowed and the value
