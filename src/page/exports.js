@@ -22,15 +22,16 @@ export async function pngOf(svg, width) {
 
 /** Columns of numbers as CSV, all digits; infinities as the program writes them. */
 function csv(columns) {
-  const number = (value) => (value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value));
-  const [names, values] = [Object.keys(columns), Object.values(columns)];
-  return `${[names, ...Array.from(values[0], (_, row) => values.map((column) => number(column[row])))].map((row) => row.join(",")).join("\n")}\n`;
+  const values = Object.values(columns);
+  const rows = Array.from(values[0], (_, row) => values.map((column) => String(column[row]).replace("Infinity", "inf")));
+  return [Object.keys(columns), ...rows].map((row) => `${row.join(",")}\n`).join("");
 }
 
 /** The reader's orbits one after the other. */
 export function csvOfOrbits(motions) {
-  const all = (column) => motions.flatMap((motion, index) => Array.from(motion.tau, (_, row) => column(motion, row, index)));
-  return csv({ orbit: all((m, row, index) => index + 1), tau: all((m, row) => m.tau[row]), u: all((m, row) => m.u[row]), v: all((m, row) => m.v[row]), ln_v: all((m, row) => m.lnV[row]), k: all((m, row) => m.k[row]) });
+  const column = (key) => motions.flatMap((motion) => [...motion[key]]);
+  const orbit = motions.flatMap(({ tau }, index) => Array.from(tau, () => index + 1));
+  return csv({ orbit, tau: column("tau"), u: column("u"), v: column("v"), ln_v: column("lnV"), k: column("k") });
 }
 
 /** The motion of a real ball in SI units, with the columns of `contensou roll`. */

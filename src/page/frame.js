@@ -35,7 +35,8 @@ export class Frame {
 
   /** Whether a pixel is in the frame, its border included. */
   contains(pixelX, pixelY) {
-    return pixelX >= this.left - 1 && pixelX <= this.left + this.width + 1 && pixelY >= this.top - 1 && pixelY <= this.top + this.height + 1;
+    const near = (value, from, size) => value >= from - 1 && value <= from + size + 1;
+    return near(pixelX, this.left, this.width) && near(pixelY, this.top, this.height);
   }
 
   /** The numbers at a pixel, kept inside the frame. */

@@ -99,7 +99,7 @@ export class Hero {
     const lane = (i, own) => ({
       title: `${this.titles[own]}: ${does(i, own)}`,
       xs: rides[i].xs, ys: rides[i].ys, at: rides[i].at(state.fraction),
-      slidesTo: Math.sqrt(this.ends[own] / duration) * (rides[i].xs.length - 1), ...theme.lane(own === 0 ? state.chosen : "plain"),
+      slidesTo: Math.sqrt(this.ends[own] / duration) * (rides[i].xs.length - 1), colour: theme.swatch(own === 0 ? state.chosen : 1),
     });
     return [lane(0, 1), lane(1, 0)];
   }

@@ -3,36 +3,29 @@ import { shown, roundDown } from "./numbers.js";
 import { borderOf } from "./surface.js";
 import { rotation, turnedBy } from "./turning.js";
 
-const golden = (1 + Math.sqrt(5)) / 2;
-const spotSize = 0.36;  // rad
 const smallest = 11;    // pixels, radius of a ball
+const spotSize = 0.36;  // rad
+const ringed = Math.atan(2);  // rad, of the corners of an icosahedron around the one on top
+const circle = Array.from({ length: 24 }, (_, i) => rotation([0, 0, (i * Math.PI) / 12]))
+    .map((turn) => turnedBy(turn, [Math.sin(spotSize), 0, Math.cos(spotSize)]));
 
-/** Spots in the twelve corners of an icosahedron, one of them on top: the centre, and points of the border. */
-const spots = (() => {
-  const corners = [-1, 1].flatMap((a) => [-golden, golden].flatMap((b) => [[0, a, b], [a, b, 0], [b, 0, a]]));
-  const length = Math.hypot(1, golden);
-  const [cos, sin] = [golden / length, 1 / length];
-  const circle = Array.from({ length: 24 }, (_, i) => (i * Math.PI) / 12)
-      .map((angle) => [Math.sin(spotSize) * Math.cos(angle), Math.sin(spotSize) * Math.sin(angle), Math.cos(spotSize)]);
-  return corners.map(([x, y, z]) => [x / length, (y * cos - z * sin) / length, (y * sin + z * cos) / length]).map(([x, y, z]) => {
-    // From the top to the spot.
-    const across = Math.hypot(x, y);
-    const tilt = across > 1e-9 ? rotation([(-y / across) * Math.acos(z), (x / across) * Math.acos(z), 0]) : rotation([z > 0 ? 0 : Math.PI, 0, 0]);
-    return { centre: [x, y, z], border: circle.map((point) => turnedBy(tilt, point)) };
-  });
-})();
+/** Spots in the twelve corners of an icosahedron, one of them on top: the middle, then points of the border. */
+const spots = [0, 1, 2, 3, 4].flatMap((i) => [[ringed, i], [Math.PI - ringed, i + 2.5]]).concat([[0, 0], [Math.PI, 0]]).map(([tilt, fifths]) => {
+  const azimuth = (2 * Math.PI * fifths) / 5;
+  const tilted = rotation([tilt * Math.cos(azimuth), tilt * Math.sin(azimuth), 0]);
+  return [[0, 0, 1], ...circle].map((point) => turnedBy(tilted, point));
+});
 
 /** A ball with spots, turned by a matrix; a flat body shows the same spots on its face. */
 function drawBall(surface, x, y, radius, turn, colour, theme) {
-  surface.discs([x, y], radius, { fill: colour, stroke: theme.card, width: 2 });
-  const seen = spots.filter(({ centre }) => turnedBy(turn, centre)[2] > -0.3);
-  surface.shape(seen.map(({ border }) => border.flatMap((point) => {
-    const [px, py, pz] = turnedBy(turn, point);
+  surface.shape([[x, y]], { radius, fill: colour, stroke: theme.card, width: 2 });
+  const turned = spots.map((spot) => spot.map((point) => turnedBy(turn, point))).filter(([middle]) => middle[2] > -0.3);
+  surface.shape(turned.map(([, ...border]) => border.flatMap(([px, py, pz]) => {
     // Behind the horizon the border goes along it.
     const out = 0.985 * radius * (pz < 0 ? 1 / Math.hypot(px, py) : 1);
     return [x + out * px, y - out * py];
   })), { fill: theme.card });
-  surface.discs([x, y], radius, { stroke: theme.ink, width: 1.2 });
+  surface.shape([[x, y]], { radius, stroke: theme.ink, width: 1.2 });
 }
 
 /**
@@ -41,10 +34,10 @@ function drawBall(surface, x, y, radius, turn, colour, theme) {
 export function drawLanes(surface, { lanes, radius, unit }, theme) {
   const size = theme.textSize;
   const keys = [radius, unit, theme, ...lanes.flatMap(({ xs, slidesTo, colour }) => [xs, slidesTo, colour])];
-  const { px, pys, pixels, top } = surface.still(keys, () => drawPaths(surface, { lanes, radius, unit }, theme));
+  const { px, py, pixels, laneHeight } = surface.still(keys, () => drawPaths(surface, { lanes, radius, unit }, theme));
   lanes.forEach(({ at, title, colour }, row) => {
-    drawBall(surface, px(at.x), pys[row](at.y), pixels, at.turn, colour, theme);
-    surface.text(4, top(row), title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
+    drawBall(surface, px(at.x), py(at.y, row), pixels, at.turn, colour, theme);
+    surface.text(4, laneHeight * row + 0.5 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
   });
 }
 
@@ -65,12 +58,12 @@ function drawPaths(surface, { lanes, radius, unit }, theme) {
   const pixels = seen ? radius * scale : smallest;
   const larger = pixels / (radius * scale);
   const px = (x) => pixels + 4 + (x - left) * scale;
-  const pys = lanes.map((_, row) => (y) => laneHeight * row + size + most - (y - (low + high) / 2) * scale);
+  const py = (y, row) => laneHeight * row + size + most - (y - (low + high) / 2) * scale;
   lanes.forEach((lane, row) => {
-    const line = lane.xs.flatMap((x, i) => [px(x), pys[row](lane.ys[i])]);
+    const line = lane.xs.flatMap((x, i) => [px(x), py(lane.ys[i], row)]);
     const slides = Math.min(lane.xs.length - 1, Math.floor(lane.slidesTo));
     if (lane.slidesTo < lane.xs.length - 1) surface.shape([line.slice(2 * slides)], { stroke: theme.soft, width: 1.5 });
-    if (slides > 0) surface.shape([line.slice(0, 2 * slides + 2)], { stroke: lane.faint, width: Math.min(16, pixels / 2) });
+    if (slides > 0) surface.shape([line.slice(0, 2 * slides + 2)], { stroke: `${lane.colour}66`, width: Math.min(16, pixels / 2) });
   });
   const bar = roundDown((surface.width * 0.22) / scale);
   const [end, base] = [surface.width - 6, surface.height - 5];
@@ -78,7 +71,7 @@ function drawPaths(surface, { lanes, radius, unit }, theme) {
   surface.shape([[start, base - 4, start, base, end, base, end, base - 4]], { stroke: theme.soft, width: 1.5 });
   const caption = `${length(bar, unit)}${larger > 1.05 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
   surface.text(start - 6, base - 1, caption, { colour: theme.soft, size: 0.95 * size, align: "right" });
-  return { px, pys, pixels, top: (row) => laneHeight * row + 0.5 * size };
+  return { px, py, pixels, laneHeight };
 }
 
 /** A length in words, such as 52.9 mm. */
@@ -88,6 +81,10 @@ export function length(metres, unit, digits = 3) {
 }
 
 const arrowShare = 0.06;  // of the patch's radius, the longest slip in it
+const steps = Array.from({ length: 11 }, (_, i) => i - 5);
+/** Points of the patch whose slip is drawn, in radii. */
+const points = steps.flatMap((i) => steps.map((j) => [(i + (j % 2) / 2) / 5.5, (0.92 * j) / 5.5]))
+    .filter(([x, y]) => Math.hypot(x, y) <= 0.88);
 
 /**
  * @param scene  still: no point slips; k, the slip of the centre over that of the rim; spin: its sign; force: fraction of f N
@@ -105,32 +102,23 @@ export function drawPatch(surface, { still, k, spin, force }, theme) {
   surface.still([theme], () => {
     surface.shape([borderOf(surface)], { fill: theme.card });
     surface.text(x0, 0.7 * size, "the patch, from below", { colour: theme.soft, size, align: "center", baseline: "middle" });
-    surface.discs([x0, y0], radius, { fill: theme.paper, stroke: theme.soft });
+    surface.shape([[x0, y0]], { radius, fill: theme.paper, stroke: theme.soft, width: 1.5 });
     arrow(1, theme.line);
   });
   // From below, a ball that spins to the left when seen from above turns to the right.
   const [sliding, turning] = still ? [0, 0] : spin === 0 || k === Infinity ? [1, 0] : [k / (1 + k), -spin / (1 + k)];
-  /** @type {number[][]} */
-  const strokes = [];
-  /** @type {number[]} */
-  const heads = [];
-  for (let i = -5; i <= 5; ++i) {
-    for (let j = -5; j <= 5; ++j) {
-      const [x, y] = [(i + (j % 2) / 2) / 5.5, (j * 0.92) / 5.5];
-      if (Math.hypot(x, y) > 0.88) continue;
-      const [dx, dy] = [sliding - turning * y, -turning * x].map((slip) => slip * 2 * arrowShare * radius);
-      const [px, py] = [x0 + x * radius, y0 - y * radius];
-      strokes.push([px - dx, py - dy, px + dx, py + dy]);
-      heads.push(px + dx, py + dy);
-    }
-  }
+  const strokes = points.map(([x, y]) => {
+    const [dx, dy] = [sliding - turning * y, -turning * x].map((slip) => slip * 2 * arrowShare * radius);
+    const [px, py] = [x0 + x * radius, y0 - y * radius];
+    return [px - dx, py - dy, px + dx, py + dy];
+  });
   surface.shape(strokes, { stroke: theme.ink, width: 1.3 });
-  surface.discs(heads, 1.9, { fill: theme.ink });
+  surface.shape(strokes.map((stroke) => stroke.slice(2)), { radius: 1.9, fill: theme.ink });
   const accent = theme.swatch(0);
   const style = { colour: accent, size, align: "center", baseline: "middle", halo: theme.paper };
   if (spin !== 0 && k < 1) {
     const y = y0 - (sliding / turning) * radius;
-    surface.discs([x0, y], 5, { fill: accent, stroke: theme.card });
+    surface.shape([[x0, y]], { radius: 5, fill: accent, stroke: theme.card, width: 1.5 });
     surface.text(x0, y + (y > y0 ? -1 : 1) * 1.2 * size, "does not slip", style);
   }
   if (force > 0.02) arrow(force, accent);

@@ -63,7 +63,7 @@ function start(library) {
     const { contact, now, end, timeFactor } = store;
     plane.draw();
     hero.draw();
-    panes.draw();
+    panes.drawInSight();
     player.show();
     $("instant").textContent = now
       ? `${contact ? `t = ${shown(now.tau * timeFactor, 5)} s` : `τ = ${shown(now.tau, 5)}`} of ` +
@@ -90,6 +90,7 @@ function start(library) {
   addEventListener("beforeprint", () => {
     screen = store.state.theme;
     ask((state) => (state.theme = "light"));
+    panes.draw();
   });
   addEventListener("afterprint", () => ask((state) => (state.theme = screen)));
   $("app").hidden = false;

@@ -2,43 +2,27 @@
 // left to the style, and \ takes the next character as it is.
 
 /** The runs of a text: {text, italic, level}; level 1 is a power, -1 an index, 0 the line. */
-export function runsOf(markup, italic = false) {
+export function runsOf(markup) {
   const runs = [];
-  let at = 0;
-  const add = (text, slanted, level) => {
-    const last = runs.at(-1);
-    if (last && last.italic === slanted && last.level === level) last.text += text;
-    else runs.push({ text, italic: slanted, level });
-  };
-  const character = () => {
-    if (markup[at] === "\\" && at + 1 < markup.length) ++at;
-    const [first] = markup.slice(at);
-    at += first.length;
-    return first;
-  };
-  const group = (slanted, level) => {
-    at += 1;
-    const command = /^\/(\S*) /.exec(markup.slice(at));
-    if (command) at += command[0].length;
-    piece(slanted || command?.[1] === ":Italic", level);
-    at += 1;
-  };
-  function piece(slanted, level) {
-    while (at < markup.length && markup[at] !== "}") {
-      const sign = markup[at];
-      if (sign === "{") {
-        group(slanted, level);
-      } else if (sign === "_" || sign === "^") {
-        at += 1;
-        const script = sign === "^" ? 1 : -1;
-        if (markup[at] === "{") group(slanted, script);
-        else if (at < markup.length) add(character(), slanted, script);
-      } else {
-        add(character(), slanted, level);
-      }
+  const outer = [];  // what is around the groups that are open
+  let style = { italic: false, level: 0 };
+  let script = 0;    // the level of the character or the group that is next, if it is not the level here
+  for (const [token, command] of markup.matchAll(/\\.|\{(?:\/(\S*) )?|./gsu)) {
+    const { italic, level } = { ...style, ...(script && { level: script }) };
+    script = { "^": 1, _: -1 }[token] ?? 0;
+    if (script) continue;
+    if (token === "}") {
+      style = outer.pop() ?? style;
+    } else if (token.startsWith("{")) {
+      outer.push(style);
+      style = { italic: italic || command === ":Italic", level };
+    } else {
+      const text = token.replace(/^\\(.)/su, "$1");
+      const last = runs.at(-1);
+      if (last?.italic === italic && last.level === level) last.text += text;
+      else runs.push({ text, italic, level });
     }
   }
-  piece(italic, 0);
   return runs;
 }
 

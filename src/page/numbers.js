@@ -12,24 +12,15 @@ export function parseNumber(text) {
 
 /** A number with a few digits, without needless zeros. */
 export function shown(value, digits = 5) {
-  if (value === Infinity) return "∞";
-  if (value === -Infinity) return "−∞";
-  if (value === 0) return "0";
   const size = Math.abs(value);
-  const text = size >= 1e5 || size < 1e-4 ? exponential(value, digits) : String(Number(value.toPrecision(digits)));
-  return text.replace("-", "−");
+  const [mantissa, exponent] = size.toExponential(digits - 1).split("e").map(Number);
+  const text = size === Infinity ? "∞"
+    : size >= 1e5 || (size > 0 && size < 1e-4) ? `${mantissa}·10${superscript(exponent)}` : String(Number(size.toPrecision(digits)));
+  return value < 0 ? `−${text}` : text;
 }
 
-function exponential(value, digits) {
-  const [mantissa, exponent] = value.toExponential(Math.max(0, digits - 1)).split("e");
-  return `${Number(mantissa)}·10${superscript(Number(exponent))}`;
-}
-
-const superscripts = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
-
-export function superscript(integer) {
-  return [...String(integer)].map((character) => superscripts[character]).join("");
-}
+export const superscript = (integer) =>
+  [...String(integer)].map((sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)]).join("");
 
 /** The largest of 1, 2, 5 times a power of ten that is at most x. */
 export function roundDown(x) {
@@ -40,9 +31,9 @@ export function roundDown(x) {
 /** Round numbers in [low, high], about `wanted` of them, but two if more fit than one. */
 export function ticks(low, high, wanted) {
   const of = (step) => {
-    const values = [];
-    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) values.push(i * step);
-    return values;
+    const first = Math.ceil(low / step - 1e-9);
+    const count = Math.floor(high / step + 1e-9) - first + 1;
+    return Array.from({ length: Math.max(0, count) }, (_, i) => (first + i) * step);
   };
   const step = roundDown(((high - low) / wanted) * 1.4);
   const values = of(step);
@@ -53,7 +44,5 @@ export function ticks(low, high, wanted) {
 export function tickText(value, step) {
   if (Math.abs(value) < step / 1e6) return "0";
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  const size = Math.abs(value);
-  if (size >= 1e5 || decimals > 4) return shown(value, 3);
-  return value.toFixed(decimals).replace("-", "−");
+  return Math.abs(value) >= 1e5 || decimals > 4 ? shown(value, 3) : value.toFixed(decimals).replace("-", "−");
 }

@@ -14,37 +14,31 @@ export function drawPanes(surface, store, theme) {
       const at = frame.px(now.tau * timeFactor);
       surface.shape([[at, frame.top, at, frame.top + frame.height]], { stroke: theme.soft, dash: [3, 3] });
       const y = frame.py(scale(now[key]));
-      if (Number.isFinite(y)) surface.discs([at, y], 5, { fill: theme.swatch(chosen), stroke: theme.card });
+      if (Number.isFinite(y)) surface.shape([[at, y]], { radius: 5, fill: theme.swatch(chosen), stroke: theme.card, width: 1.5 });
     });
   }
 }
 
 function drawStill(surface, { motions, end, timeFactor, contact, state: { chosen } }, theme) {
-  const speedUnit = contact ? " (m/s)" : "";
   const size = theme.textSize;
   surface.shape([borderOf(surface)], { fill: theme.card });
-  const left = 4.9 * size;
-  const width = surface.width - left - size;
-  const gap = 0.8 * size;
-  const height = (surface.height - 3.4 * size - 2 * gap - 0.5 * size) / 3;
-
-  const highestV = Math.max(...motions.map(({ v }) => v[0]), Number.MIN_VALUE);
-  const us = motions.map(({ u }) => u[0]);
-  const [lowestU, highestU] = [Math.min(0, ...us), Math.max(0, ...us)];
-  const starts = motions.map(({ k }) => Math.log10(k[0])).filter(Number.isFinite);
-  const k = {
-    low: Math.floor(Math.min(deepest, ...starts) - 0.1), high: Math.ceil(Math.max(0, ...starts) + 0.1),
-    label: "{/:Italic k}", tick: (value) => `10${superscript(Math.round(value))}`,
-  };
-  const same = (value) => value;
+  const [left, gap] = [4.9 * size, 0.8 * size];
+  const height = (surface.height - 3.9 * size - 2 * gap) / 3;
+  const starts = (key) => motions.map((motion) => motion[key][0]);
+  const [lowestU, highestU] = [Math.min(0, ...starts("u")), Math.max(0, ...starts("u"))];
+  const decades = starts("k").map(Math.log10).filter(Number.isFinite);
+  const name = (letter) => `{/:Italic ${letter}}${letter !== "k" && contact ? " (m/s)" : ""}`;
   return [
-    { key: "v", scale: same, y: { low: 0, high: 1.06 * highestV, label: `{/:Italic v}${speedUnit}` } },
-    { key: "u", scale: same, y: { low: 1.06 * lowestU, high: 1.06 * highestU || (lowestU === 0 ? 1 : 0), label: `{/:Italic u}${speedUnit}` } },
-    { key: "k", scale: Math.log10, y: k },
-  ].map(({ key, scale, y }, row) => {
+    { key: "v", scale: Number, low: 0, high: 1.06 * Math.max(...starts("v"), Number.MIN_VALUE) },
+    { key: "u", scale: Number, low: 1.06 * lowestU, high: 1.06 * highestU || (lowestU === 0 ? 1 : 0) },
+    {
+      key: "k", scale: Math.log10, tick: (value) => `10${superscript(Math.round(value))}`,
+      low: Math.floor(Math.min(deepest, ...decades) - 0.1), high: Math.ceil(Math.max(0, ...decades) + 0.1),
+    },
+  ].map(({ key, scale, ...range }, row) => {
     const label = row < 2 ? undefined : contact ? "t (s)" : "τ";
-    const place = { left, top: 0.5 * size + row * (height + gap), width, height };
-    const frame = new Frame(place, { low: 0, high: end * timeFactor, label }, y);
+    const place = { left, top: 0.5 * size + row * (height + gap), width: surface.width - left - size, height };
+    const frame = new Frame(place, { low: 0, high: end * timeFactor, label }, { ...range, label: name(key) });
     frame.draw(surface, theme);
     surface.inside(frame, () => motions.forEach((motion, index) => {
       const points = [];

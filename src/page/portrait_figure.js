@@ -1,6 +1,6 @@
 // A figure of the library (portraits/figure.hpp) on any surface, and in it what the page draws itself: the reader's own
 // orbits in colours of their own, the moving point, the isochrone that is dragged.
-import { layOut } from "./portrait_layout.js";
+import { layOut, margin } from "./portrait_layout.js";
 import { borderOf, widthOf } from "./surface.js";
 
 const lineWidth = 0.9;  // pixels of a line of width 1
@@ -19,7 +19,7 @@ export function drawPortrait(surface, scene, theme) {
   frames.forEach((frame, i) => {
     if (marker) {
       const [x, y] = frame.pixel(marker.places, 2 * i);
-      if (frame.contains(x, y)) surface.discs([x, y], 6.5, { fill: theme.swatch(marker.index), stroke: figure.ground, width: 2 });
+      if (frame.contains(x, y)) surface.shape([[x, y]], { radius: 6.5, fill: theme.swatch(marker.index), stroke: figure.ground, width: 2 });
     }
     if (cross && cross.panel === i) {
       const [x, y] = frame.pixel([cross.x, cross.y]);
@@ -34,11 +34,9 @@ function drawStill(surface, scene, theme) {
   const size = theme.textSize;
   const layout = layOut(figure, surface.width, surface.height, size);
   surface.shape([borderOf(surface)], { fill: figure.ground });
-  layout.title.forEach((line, row) => {
-    for (const { text, left } of line) {
-      surface.text(layout.margin + left, layout.margin + (row + 0.75) * layout.lineHeight, text, { colour: figure.ink, size, bold: true });
-    }
-  });
+  for (const { thing, left, row } of layout.title) {
+    surface.text(left, margin + (row + 0.75) * layout.lineHeight, thing, { colour: figure.ink, size, bold: true });
+  }
   if (layout.bar) drawColourBar(surface, figure, layout.bar);
   figure.panels.forEach((panel, i) => {
     const frame = layout.frames[i];
@@ -75,7 +73,8 @@ function drawColourBar(surface, figure, bar) {
   }
 }
 
-const strokeOf = (figure, { colour, width, dashed }) => ({ stroke: colour, width: lineWidth * figure.line * width, dash: dashed ? dash : [] });
+const strokeOf = ({ line }, { colour, width, dashed }) =>
+  ({ stroke: colour, width: lineWidth * line * width, dash: dashed ? dash : [] });
 
 function drawLayers(surface, figure, panel, frame) {
   for (const { border, colour } of panel.regions) surface.shape(frame.lines(border), { fill: colour });
@@ -102,23 +101,18 @@ function headsOf(frame, arrows, length) {
 function drawMarks(surface, figure, { shape, colour, size }, points) {
   const radius = 3.6 * size;
   const style = { fill: shape === "dot" ? colour : figure.ground, stroke: colour, width: 1.8 };
-  if (shape !== "square") return surface.discs(points, radius, style);
-  for (let i = 0; i < points.length; i += 2) {
-    const square = borderOf({ left: points[i] - radius, top: points[i + 1] - radius, width: 2 * radius, height: 2 * radius });
-    surface.shape([[...square, ...square.slice(0, 2)]], style);
-  }
+  if (shape !== "square") return surface.shape([points], { ...style, radius });
+  const corners = [-1, -1, 1, -1, 1, 1, -1, 1, -1, -1].map((side) => side * radius);
+  for (let i = 0; i < points.length; i += 2) surface.shape([corners.map((corner, j) => points[i + (j % 2)] + corner)], style);
 }
 
-function drawLegend(surface, figure, { legend, legendTop, lineHeight, sample, margin }, size) {
-  legend.forEach((line, row) => {
+function drawLegend(surface, figure, { legend, legendTop, lineHeight, sample }, size) {
+  for (const { thing, left, row } of legend) {
     const y = legendTop + (row + 0.5) * lineHeight;
-    for (const { text: entry, left } of line) {
-      const x = margin + left;
-      if (entry.shape) drawMarks(surface, figure, entry, [x + sample / 2, y]);
-      else surface.shape([[x, y, x + sample, y]], strokeOf(figure, entry));
-      surface.text(x + sample + 0.4 * size, y, entry.legend, { colour: figure.ink, size, baseline: "middle" });
-    }
-  });
+    if (thing.shape) drawMarks(surface, figure, thing, [left + sample / 2, y]);
+    else surface.shape([[left, y, left + sample, y]], strokeOf(figure, thing));
+    surface.text(left + sample + 0.4 * size, y, thing.legend, { colour: figure.ink, size, baseline: "middle" });
+  }
 }
 
 /** The orbits of the reader and the isochrone that is dragged. */
@@ -130,6 +124,6 @@ function drawOwn(surface, { figure, own, isochrone }, panel, frame, theme) {
     surface.shape(lines, { stroke: figure.ground, width: chosen ? 6 : 4 });
     surface.shape(lines, { stroke: swatch, width: chosen ? 3.2 : 2 });
     surface.shape(headsOf(frame, panels[panel].arrow, 11), { fill: swatch });
-    if (start) surface.discs(frame.pixel(start, 2 * panel), chosen ? 5 : 4, { fill: swatch, stroke: figure.ground, width: 1 });
+    if (start) surface.shape([frame.pixel(start, 2 * panel)], { radius: chosen ? 5 : 4, fill: swatch, stroke: figure.ground });
   }
 }

@@ -14,24 +14,21 @@ let measuring;
 const known = new Map();  // texts that were measured
 
 /** How wide a text is, and its runs with their fonts and places from the text's left end. */
-function setText(text, style) {
-  const key = `${style.size} ${style.bold} ${text}`;
+function setText(text, { size, bold = false }) {
+  const key = `${size} ${bold} ${text}`;
   if (known.size > 2000) known.clear();
-  if (!known.has(key)) known.set(key, measured(text, style));
-  return known.get(key);
-}
-
-function measured(text, { size, bold }) {
+  if (known.has(key)) return known.get(key);
   measuring ??= document.createElement("canvas").getContext("2d");
-  let width = 0;
-  const runs = runsOf(text).map((run) => {
-    const font = `${run.italic ? "italic " : ""}${bold ? "600 " : ""}${size * (run.level === 0 ? 1 : scriptSize)}px ${run.italic ? mathematics : fonts}`;
+  const set = { width: 0, runs: /** @type {any[]} */ ([]) };
+  for (const run of runsOf(text)) {
+    const pixels = size * (run.level === 0 ? 1 : scriptSize);
+    const font = `${run.italic ? "italic " : ""}${bold ? "600 " : ""}${pixels}px ${run.italic ? mathematics : fonts}`;
     measuring.font = font;
-    const left = width;
-    width += measuring.measureText(run.text).width;
-    return { ...run, font, left, down: scriptShift[run.level] * size };
-  });
-  return { runs, width };
+    set.runs.push({ text: run.text, font, left: set.width, down: scriptShift[run.level] * size });
+    set.width += measuring.measureText(run.text).width;
+  }
+  known.set(key, set);
+  return set;
 }
 
 /** How wide a text is, in pixels. */
@@ -41,10 +38,19 @@ export const widthOf = (text, style) => setText(text, style).width;
 export const borderOf = ({ left = 0, top = 0, width, height }) =>
   [left, top, left + width, top, left + width, top + height, left, top + height];
 
+/**
+ * fill, stroke: colours; width, dash: of the stroke; radius: discs around the points instead of lines through them
+ * @typedef {{fill?: string, stroke?: string, width?: number, dash?: number[], radius?: number}} Style
+ */
+
 export class CanvasSurface {
   width = 0;
   height = 0;
-  kept = { keys: /** @type {any[]} */ ([]), value: /** @type {any} */ (null), picture: /** @type {HTMLCanvasElement | null} */ (null) };
+  inSight = true;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  late;
+  /** @type {{key: any[], value?: any, picture?: HTMLCanvasElement}} */
+  kept = { key: [] };
 
   /** @param picture  draws on the surface, also when the page gives the canvas another size */
   constructor(canvas, picture) {
@@ -55,12 +61,13 @@ export class CanvasSurface {
       this.measure();
       this.draw();
     }).observe(canvas);
+    new IntersectionObserver(([{ isIntersecting }]) => (this.inSight = isIntersecting), { rootMargin: "100px" }).observe(canvas);
   }
 
   /** Asks the page for the size, which lays the page out. */
   measure() {
-    const { clientWidth, clientHeight } = this.canvas;
-    [this.width, this.height] = [clientWidth, clientHeight];
+    this.width = this.canvas.clientWidth;
+    this.height = this.canvas.clientHeight;
   }
 
   draw() {
@@ -68,102 +75,82 @@ export class CanvasSurface {
     if (this.width >= smallestWidth) this.picture(this);
   }
 
+  /** Draws; where the reader has scrolled away from it, only five times a second. */
+  drawInSight() {
+    if (this.inSight) this.draw();
+    else this.late ??= setTimeout(() => {
+      this.late = undefined;
+      this.draw();
+    }, 200);
+  }
+
   /**
-   * Begins a picture with what stays while only the moment moves: where none of `keys` has changed, as a copy.
+   * Begins a picture with what stays while only the moment moves: where nothing in `keys` has changed, as a copy.
    *
    * @returns what `draw` has returned
    */
   still(keys, draw) {
-    const { canvas, context, width, height, kept } = this;
+    const { canvas, context, kept } = this;
     const ratio = globalThis.devicePixelRatio || 1;
-    const size = [width, height].map((side) => Math.round(side * ratio));
-    if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
-    const all = [...keys, ratio, ...size];
-    const again = all.length === kept.keys.length && all.every((key, i) => key === kept.keys[i]);
-    if (again && kept.picture) {
-      context.setTransform(1, 0, 0, 1, 0, 0);
-      context.drawImage(kept.picture, 0, 0);
-    }
+    const size = { width: Math.round(this.width * ratio), height: Math.round(this.height * ratio) };
+    if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    if (again && kept.picture) return kept.value;
-    this.kept = { keys: all, value: draw(), picture: null };
+    const key = [...keys, ratio, size.width, size.height];
+    const again = key.every((part, i) => part === kept.key[i]);
+    if (again && kept.picture) context.drawImage(kept.picture, 0, 0, size.width / ratio, size.height / ratio);
+    else this.kept = { key, value: draw() };
     // What changes at each drawing is not worth a copy.
-    if (again) {
-      this.kept.picture = Object.assign(document.createElement("canvas"), { width: size[0], height: size[1] });
+    if (again && !kept.picture) {
+      this.kept.picture = Object.assign(document.createElement("canvas"), size);
       this.kept.picture.getContext("2d")?.drawImage(canvas, 0, 0);
     }
     return this.kept.value;
   }
 
-  /** Areas within lines, or the lines themselves, or both. */
-  shape(lines, { fill = "", stroke = "", width = 1, dash = /** @type {number[]} */ ([]) }) {
+  /** @param {ArrayLike<number>[]} lines @param {Style} style */
+  shape(lines, { fill, stroke, width = 1, dash = [], radius = 0 }) {
     const { context } = this;
     context.beginPath();
     for (const line of lines) {
-      context.moveTo(line[0], line[1]);
-      for (let i = 2; i < line.length; i += 2) context.lineTo(line[i], line[i + 1]);
+      for (let i = 0; i < line.length; i += 2) {
+        if (i === 0 || radius) context.moveTo(line[i] + radius, line[i + 1]);
+        if (radius) context.arc(line[i], line[i + 1], radius, 0, 2 * Math.PI);
+        else if (i) context.lineTo(line[i], line[i + 1]);
+      }
     }
-    this.paint(fill, stroke, width, dash);
-  }
-
-  /** Discs of one radius around points x0, y0, x1, y1, ... */
-  discs(points, radius, { fill = "", stroke = "", width = 1.5 }) {
-    const { context } = this;
-    context.beginPath();
-    for (let i = 0; i < points.length; i += 2) {
-      context.moveTo(points[i] + radius, points[i + 1]);
-      context.arc(points[i], points[i + 1], radius, 0, 2 * Math.PI);
-    }
-    this.paint(fill, stroke, width, []);
-  }
-
-  paint(fill, stroke, width, dash) {
-    const { context } = this;
     if (fill) {
       context.fillStyle = fill;
       context.fill();
     }
     if (!stroke) return;
-    context.strokeStyle = stroke;
-    context.lineWidth = width;
-    context.lineJoin = context.lineCap = "round";
-    if (dash.length) context.setLineDash(dash);
+    Object.assign(context, { strokeStyle: stroke, lineWidth: width, lineJoin: "round", lineCap: "round" });
+    context.setLineDash(dash);
     context.stroke();
-    if (dash.length) context.setLineDash([]);
   }
 
-  text(x, y, text, { align = "left", baseline = "alphabetic", turned = false, halo = "", ...style }) {
+  text(x, y, text, { size, colour, bold = false, align = "left", baseline = "alphabetic", turned = false, halo = "" }) {
     const { context } = this;
-    const { runs, width } = setText(text, style);
-    const start = -width * { left: 0, center: 0.5, right: 1 }[align];
-    const [left, line] = turned ? [start, 0] : [x + start, y];
-    const each = (draw) => {
+    const { runs, width } = setText(text, { size, bold });
+    context.save();
+    context.translate(x, y);
+    if (turned) context.rotate(-Math.PI / 2);
+    context.translate(-width * { left: 0, center: 0.5, right: 1 }[align], 0);
+    Object.assign(context, { textBaseline: baseline, strokeStyle: halo, lineWidth: 4, lineJoin: "round", fillStyle: colour });
+    for (const draw of halo ? ["strokeText", "fillText"] : ["fillText"]) {
       for (const run of runs) {
         context.font = run.font;
-        draw(run.text, left + run.left, line + run.down);
+        context[draw](run.text, run.left, run.down);
       }
-    };
-    if (turned) {
-      context.save();
-      context.translate(x, y);
-      context.rotate(-Math.PI / 2);
     }
-    context.textBaseline = baseline;
-    if (halo) {
-      Object.assign(context, { strokeStyle: halo, lineWidth: 4, lineJoin: "round" });
-      each((...run) => context.strokeText(...run));
-    }
-    context.fillStyle = style.colour;
-    each((...run) => context.fillText(...run));
-    if (turned) context.restore();
+    context.restore();
   }
 
-  /** Draws with everything outside the rectangle hidden. */
-  inside(box, draw) {
+  /** Draws with everything outside the box hidden. */
+  inside({ left, top, width, height }, draw) {
     const { context } = this;
     context.save();
     context.beginPath();
-    context.rect(box.left, box.top, box.width, box.height);
+    context.rect(left, top, width, height);
     context.clip();
     draw();
     context.restore();
@@ -171,13 +158,13 @@ export class CanvasSurface {
 }
 
 const coordinate = (value) => String(Math.round(value * 100) / 100);
+const round = 'stroke-linejoin="round" stroke-linecap="round"';
 const escaped = (text) => text.replace(/[&<>"]/g, (character) => `&#${character.charCodeAt(0)};`);
 
 export class SvgSurface {
   constructor(width, height, title) {
     this.width = width;
     this.height = height;
-    this.clips = 0;
     this.parts = [`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" ` +
       `viewBox="0 0 ${width} ${height}" role="img"><title>${escaped(title)}</title>`];
   }
@@ -186,44 +173,37 @@ export class SvgSurface {
     return draw();
   }
 
-  shape(lines, { fill = "none", stroke = "none", width = 1, dash = /** @type {number[]} */ ([]) }) {
+  /** @param {ArrayLike<number>[]} lines @param {Style} style */
+  shape(lines, { fill = "none", stroke = "none", width = 1, dash = [], radius = 0 }) {
+    const disc = radius ? `a${radius} ${radius} 0 1 1 ${-2 * radius} 0a${radius} ${radius} 0 1 1 ${2 * radius} 0` : "";
     let path = "";
     for (const line of lines) {
-      for (let i = 0; i < line.length; i += 2) path += `${i ? "L" : "M"}${coordinate(line[i])} ${coordinate(line[i + 1])}`;
+      for (let i = 0; i < line.length; i += 2) {
+        path += `${i === 0 || radius ? "M" : "L"}${coordinate(line[i] + radius)} ${coordinate(line[i + 1])}${disc}`;
+      }
     }
-    if (path === "") return;
-    const how = stroke === "none" ? "" : ` stroke-width="${width}" stroke-linejoin="round" stroke-linecap="round"`;
-    this.parts.push(`<path d="${path}" fill="${fill}" stroke="${stroke}"${how}${dash.length ? ` stroke-dasharray="${dash.join(" ")}"` : ""}/>`);
+    const dashed = dash.length ? ` stroke-dasharray="${dash.join(" ")}"` : "";
+    if (path) this.parts.push(`<path d="${path}" fill="${fill}" stroke="${stroke}" stroke-width="${width}" ${round}${dashed}/>`);
   }
 
-  discs(points, radius, { fill = "none", stroke = "none", width = 1.5 }) {
-    for (let i = 0; i < points.length; i += 2) {
-      this.parts.push(`<circle cx="${coordinate(points[i])}" cy="${coordinate(points[i + 1])}" r="${radius}" fill="${fill}" ` +
-        `stroke="${stroke}" stroke-width="${width}"/>`);
-    }
-  }
-
-  text(x, y, text, style) {
-    const anchor = { left: "start", center: "middle", right: "end" }[style.align ?? "left"];
-    const lower = { alphabetic: 0, middle: 0.35, top: 0.8, bottom: -0.2 }[style.baseline ?? "alphabetic"] * style.size;
-    const place = style.turned
-      ? `transform="translate(${coordinate(x + lower)} ${coordinate(y)}) rotate(-90)"`
-      : `x="${coordinate(x)}" y="${coordinate(y + lower)}"`;
-    const halo = style.halo ? ` stroke="${style.halo}" stroke-width="4" stroke-linejoin="round" paint-order="stroke"` : "";
+  text(x, y, text, { size, colour, bold = false, align = "left", baseline = "alphabetic", turned = false, halo = "" }) {
+    const lower = { alphabetic: 0, middle: 0.35, top: 0.8, bottom: -0.2 }[baseline] * size;
     let down = 0;
     const runs = runsOf(text).map((run) => {
-      const shift = scriptShift[run.level] * style.size - down;
+      const shift = scriptShift[run.level] * size - down;
       down += shift;
-      return `<tspan${shift ? ` dy="${coordinate(shift)}"` : ""}${run.level ? ` font-size="${coordinate(style.size * scriptSize)}"` : ""}` +
+      return `<tspan${shift ? ` dy="${coordinate(shift)}"` : ""}${run.level ? ` font-size="${coordinate(size * scriptSize)}"` : ""}` +
         `${run.italic ? ` font-style="italic" font-family='${mathematics}'` : ""}>${escaped(run.text)}</tspan>`;
     });
-    this.parts.push(`<text ${place} font-family='${fonts}' font-size="${style.size}" xml:space="preserve"` +
-      `${style.bold ? ' font-weight="600"' : ""} text-anchor="${anchor}" fill="${style.colour}"${halo}>${runs.join("")}</text>`);
+    const place = `transform="translate(${coordinate(x)} ${coordinate(y)})${turned ? " rotate(-90)" : ""}" y="${coordinate(lower)}"`;
+    this.parts.push(`<text ${place} font-family='${fonts}' font-size="${size}"${bold ? ' font-weight="600"' : ""} fill="${colour}"` +
+      ` text-anchor="${{ left: "start", center: "middle", right: "end" }[align]}" xml:space="preserve"` +
+      `${halo ? ` stroke="${halo}" stroke-width="4" ${round} paint-order="stroke"` : ""}>${runs.join("")}</text>`);
   }
 
-  inside(box, draw) {
-    const id = `inside-${++this.clips}`;
-    this.parts.push(`<clipPath id="${id}"><rect x="${box.left}" y="${box.top}" width="${box.width}" height="${box.height}"/></clipPath>` +
+  inside({ left, top, width, height }, draw) {
+    const id = `inside-${this.parts.length}`;
+    this.parts.push(`<clipPath id="${id}"><rect x="${left}" y="${top}" width="${width}" height="${height}"/></clipPath>`,
       `<g clip-path="url(#${id})">`);
     draw();
     this.parts.push("</g>");

@@ -1,20 +1,14 @@
 // Colours: of the page from its style sheet, and of the reader's own orbits. Those of portraits are the library's.
 
-const plain = { light: "#0072b2", dark: "#56b4e9" };
-
 /** Okabe and Ito's colours for the reader's own orbits. */
 const swatches = {
   light: ["#c22f5a", "#0072b2", "#b45f06", "#007a59", "#8a4fa3", "#5c656e"],
   dark: ["#ff7aa2", "#56b4e9", "#f0a830", "#35c79b", "#d49be6", "#b9c2ca"],
 };
 
-/** @type {MediaQueryList} */
-let darkness;
+const darkness = globalThis.matchMedia?.("(prefers-color-scheme: dark)");
 
-export function isDark(choice) {
-  if (choice === "auto") darkness ??= matchMedia("(prefers-color-scheme: dark)");
-  return choice === "auto" ? darkness.matches : choice === "dark";
-}
+export const isDark = (choice) => (choice === "auto" ? darkness.matches : choice === "dark");
 
 /** @type {any} */
 let known = null;
@@ -26,23 +20,12 @@ let known = null;
  */
 export function themeOf(choice) {
   const kind = isDark(choice) ? "dark" : "light";
-  if (known?.kind !== kind) known = read(kind);
-  return known;
-}
-
-function read(kind) {
+  if (known?.kind === kind) return known;
   addEventListener("resize", () => (known = null), { once: true });
   document.documentElement.dataset.theme = kind;
   const style = getComputedStyle(document.documentElement);
   const colours = ["ink", "soft", "line", "card", "paper"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]);
-  const swatch = (index) => swatches[kind][index % swatches[kind].length];
-  return {
-    ...Object.fromEntries(colours), kind, swatch,
-    /** Of a body that slides: the colour of an orbit, or another for the one beside it. */
-    lane: (index) => {
-      const colour = swatch(index) ?? plain[kind];
-      return { colour, faint: `${colour}66` };
-    },
-    textSize: parseFloat(style.fontSize) * 0.78,
-  };
+  const textSize = parseFloat(style.fontSize) * 0.78;
+  known = { ...Object.fromEntries(colours), kind, textSize, swatch: (index) => swatches[kind][index % swatches[kind].length] };
+  return known;
 }

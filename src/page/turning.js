@@ -3,17 +3,12 @@
 const product = (a, b) => a.map((row) => [0, 1, 2].map((j) => row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j]));
 
 /** The rotation by an angle |w| about the axis w. */
-export function rotation([x, y, z]) {
-  const angle = Math.hypot(x, y, z);
-  if (angle === 0) return [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-  const [a, b, c] = [x / angle, y / angle, z / angle];
+export function rotation(w) {
+  const angle = Math.hypot(...w);
+  const [a, b, c] = w.map((component) => component / (angle || 1));
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-  const rest = 1 - cos;
-  return [
-    [cos + a * a * rest, a * b * rest - c * sin, a * c * rest + b * sin],
-    [b * a * rest + c * sin, cos + b * b * rest, b * c * rest - a * sin],
-    [c * a * rest - b * sin, c * b * rest + a * sin, cos + c * c * rest],
-  ];
+  const across = [[0, -c, b], [c, 0, -a], [-b, a, 0]];
+  return across.map((row, i) => row.map((value, j) => (i === j ? cos : 0) + sin * value + (1 - cos) * [a, b, c][i] * [a, b, c][j]));
 }
 
 export const turnedBy = (matrix, /** @type {number[]} */ [x, y, z]) => matrix.map((row) => row[0] * x + row[1] * y + row[2] * z);
