@@ -93,7 +93,7 @@ std::vector<MappedPanel> time_view(const Drawing& drawing) {
   if (portrait.highlight) asked.push_back(&*portrait.highlight);
   for (const PortraitOrbit* orbit : asked) {
     if (orbit->u[0] == 0 || orbit->v[0] == 0) continue;
-    add(*orbit, {drawing.palette.highlight, 2.6, false},
+    add(*orbit, {drawing.palette.highlight, 3.4, false},
         portrait.highlight && orbit == &*portrait.highlight ? drawing.caption.highlight : "through the points given");
   }
   return {std::move(spinning), std::move(sliding), std::move(ratio)};
