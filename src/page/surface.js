@@ -14,7 +14,7 @@ let measuring;
 const known = new Map();  // texts that were measured
 
 /** How wide a text is, and its runs with their fonts and places from the text's left end. */
-function setText(text, { size, bold = false }) {
+function setText(text, /** @type {any} */ { size, bold }) {
   const key = `${size} ${bold} ${text}`;
   if (known.size > 2000) known.clear();
   if (known.has(key)) return known.get(key);
@@ -128,21 +128,27 @@ export class CanvasSurface {
     context.stroke();
   }
 
-  text(x, y, text, { size, colour, bold = false, align = "left", baseline = "alphabetic", turned = false, halo = "" }) {
+  text(x, y, text, style) {
     const { context } = this;
-    const { runs, width } = setText(text, { size, bold });
-    context.save();
-    context.translate(x, y);
-    if (turned) context.rotate(-Math.PI / 2);
-    context.translate(-width * { left: 0, center: 0.5, right: 1 }[align], 0);
-    Object.assign(context, { textBaseline: baseline, strokeStyle: halo, lineWidth: 4, lineJoin: "round", fillStyle: colour });
+    const { turned, align = "left", baseline = "alphabetic", halo = "", colour } = style;
+    if (turned) {
+      context.save();
+      context.translate(x, y);
+      context.rotate(-Math.PI / 2);
+      this.text(0, 0, text, { ...style, turned: false });
+      return context.restore();
+    }
+    const { runs, width } = setText(text, style);
+    const left = x - width * { left: 0, center: 0.5, right: 1 }[align];
+    context.textBaseline = baseline;
+    context.fillStyle = colour;
+    if (halo) Object.assign(context, { strokeStyle: halo, lineWidth: 4, lineJoin: "round" });
     for (const draw of halo ? ["strokeText", "fillText"] : ["fillText"]) {
       for (const run of runs) {
         context.font = run.font;
-        context[draw](run.text, run.left, run.down);
+        context[draw](run.text, left + run.left, y + run.down);
       }
     }
-    context.restore();
   }
 
   /** Draws with everything outside the box hidden. */

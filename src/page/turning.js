@@ -24,18 +24,18 @@ export function rideOn({ t, x, y, wx, wy, wz, slid, rest }, heading, spinShown) 
   const places = Array.from(x, (x, i) => turnedBy(back, [x, y[i], 0]));
   const [xs, ys] = [0, 1].map((k) => places.map((place) => place[k]));
   const drawn = [wx, wy, wz.map((w) => spinShown * w)];
-  const turns = Array.from(t.subarray(1), (end, i) => turnedBy(back, drawn.map((w) => ((end - t[i]) * (w[i] + w[i + 1])) / 2)));
-  const matrices = [rotation([0, 0, 0])];
-  for (const turn of turns) matrices.push(product(rotation(turn), matrices.at(-1)));
+  /** How it turns in a part of a step. */
+  const turn = (i, part) => rotation(turnedBy(back, drawn.map((w) => (part * (t[i + 1] - t[i]) * (w[i] + w[i + 1])) / 2)));
+  const turned = [rotation([0, 0, 0])];  // before each step, as far as was asked for
   return {
     xs, ys, rest,
     at(share) {
       // Times grow as squares.
-      const place = Math.sqrt(Math.min(1, share)) * turns.length;
-      const i = Math.min(turns.length - 1, Math.floor(place));
+      const i = Math.min(t.length - 2, Math.floor(Math.sqrt(Math.min(1, share)) * (t.length - 1)));
       const part = (share * t.at(-1) - t[i]) / (t[i + 1] - t[i]);
       const between = (column) => column[i] + part * (column[i + 1] - column[i]);
-      return { x: between(xs), y: between(ys), slid: between(slid), turn: product(rotation(turns[i].map((w) => part * w)), matrices[i]) };
+      for (let j = turned.length - 1; j < i; ++j) turned.push(product(turn(j, 1), turned[j]));
+      return { x: between(xs), y: between(ys), slid: between(slid), turn: product(turn(i, part), turned[i]) };
     },
   };
 }
