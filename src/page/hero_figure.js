@@ -1,6 +1,5 @@
 // Two equal balls on the table, seen from above, one of which spins; and the patch on which a ball stands, from below.
 import { shown, roundDown } from "./numbers.js";
-import { borderOf } from "./surface.js";
 import { rotation, turnedBy } from "./turning.js";
 
 const smallest = 11;    // pixels, radius of a ball
@@ -34,7 +33,7 @@ function drawBall(surface, x, y, radius, turn, colour, theme) {
 export function drawLanes(surface, { lanes, radius, unit }, theme) {
   const size = theme.textSize;
   const keys = [radius, unit, theme, ...lanes.flatMap(({ xs, slidesTo, colour }) => [xs, slidesTo, colour])];
-  const { px, py, pixels, laneHeight } = surface.still(keys, () => drawPaths(surface, { lanes, radius, unit }, theme));
+  const { px, py, pixels, laneHeight } = surface.still(keys, theme.card, () => drawPaths(surface, { lanes, radius, unit }, theme));
   lanes.forEach(({ at, title, colour }, row) => {
     drawBall(surface, px(at.x), py(at.y, row), pixels, at.turn, colour, theme);
     surface.text(4, laneHeight * row + 0.5 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
@@ -44,7 +43,6 @@ export function drawLanes(surface, { lanes, radius, unit }, theme) {
 /** The table with the paths; returns where the balls go. */
 function drawPaths(surface, { lanes, radius, unit }, theme) {
   const size = theme.textSize;
-  surface.shape([borderOf(surface)], { fill: theme.card });
   const [xs, ys] = ["xs", "ys"].map((key) => lanes.flatMap((lane) => lane[key]));
   const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   const laneHeight = (surface.height - 1.6 * size) / lanes.length;
@@ -99,8 +97,7 @@ export function drawPatch(surface, { still, k, spin, force }, theme) {
     surface.shape([[x0, base, Math.min(x0, tip + 6), base]], { stroke: fill, width: 5 });
     surface.shape([[tip, base, tip + 9, base - 6, tip + 9, base + 6]], { fill });
   };
-  surface.still([theme], () => {
-    surface.shape([borderOf(surface)], { fill: theme.card });
+  surface.still([theme], theme.card, () => {
     surface.text(x0, 0.7 * size, "the patch, from below", { colour: theme.soft, size, align: "center", baseline: "middle" });
     surface.shape([[x0, y0]], { radius, fill: theme.paper, stroke: theme.soft, width: 1.5 });
     arrow(1, theme.line);

@@ -1,13 +1,12 @@
 // v, u and k against time, one above the other.
 import { Frame } from "./frame.js";
 import { superscript } from "./numbers.js";
-import { borderOf } from "./surface.js";
 
 const deepest = -6;  // decades of k that are shown below 1, at least
 
 export function drawPanes(surface, store, theme) {
   const { motions, end, now, timeFactor, contact, state: { chosen } } = store;
-  const panes = surface.still([motions, end, contact, theme], () => drawStill(surface, store, theme));
+  const panes = surface.still([motions, end, contact, theme], theme.card, () => drawStill(surface, store, theme));
   if (!now) return;
   for (const { frame, key, scale } of panes) {
     surface.inside(frame, () => {
@@ -21,7 +20,6 @@ export function drawPanes(surface, store, theme) {
 
 function drawStill(surface, { motions, end, timeFactor, contact, state: { chosen } }, theme) {
   const size = theme.textSize;
-  surface.shape([borderOf(surface)], { fill: theme.card });
   const [left, gap] = [4.9 * size, 0.8 * size];
   const height = (surface.height - 3.9 * size - 2 * gap) / 3;
   const starts = (key) => motions.map((motion) => motion[key][0]);

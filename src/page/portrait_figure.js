@@ -15,7 +15,7 @@ const dash = [5, 4];
 export function drawPortrait(surface, scene, theme) {
   const { figure, isochrone, marker, cross } = scene;
   // The orbits of the reader come with the figure.
-  const frames = surface.still([figure, isochrone, theme], () => drawStill(surface, scene, theme));
+  const frames = surface.still([figure, isochrone, theme], figure.ground, () => drawStill(surface, scene, theme));
   frames.forEach((frame, i) => {
     if (marker) {
       const [x, y] = frame.pixel(marker.places, 2 * i);
@@ -33,7 +33,6 @@ function drawStill(surface, scene, theme) {
   const { figure } = scene;
   const size = theme.textSize;
   const layout = layOut(figure, surface.width, surface.height, size);
-  surface.shape([borderOf(surface)], { fill: figure.ground });
   for (const { thing, left, row } of layout.title) {
     surface.text(left, margin + (row + 0.75) * layout.lineHeight, thing, { colour: figure.ink, size, bold: true });
   }

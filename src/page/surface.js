@@ -85,11 +85,12 @@ export class CanvasSurface {
   }
 
   /**
-   * Begins a picture with what stays while only the moment moves: where nothing in `keys` has changed, as a copy.
+   * Begins a picture with its ground and what stays while only the moment moves: a copy, unless something in `keys` has
+   * changed.
    *
    * @returns what `draw` has returned
    */
-  still(keys, draw) {
+  still(keys, ground, draw) {
     const { canvas, context, kept } = this;
     const ratio = globalThis.devicePixelRatio || 1;
     const size = { width: Math.round(this.width * ratio), height: Math.round(this.height * ratio) };
@@ -98,7 +99,10 @@ export class CanvasSurface {
     const key = [...keys, ratio, size.width, size.height];
     const again = key.every((part, i) => part === kept.key[i]);
     if (again && kept.picture) context.drawImage(kept.picture, 0, 0, size.width / ratio, size.height / ratio);
-    else this.kept = { key, value: draw() };
+    else {
+      this.shape([borderOf(this)], { fill: ground });
+      this.kept = { key, value: draw() };
+    }
     // What changes at each drawing is not worth a copy.
     if (again && !kept.picture) {
       this.kept.picture = Object.assign(document.createElement("canvas"), size);
@@ -123,9 +127,13 @@ export class CanvasSurface {
       context.fill();
     }
     if (!stroke) return;
-    Object.assign(context, { strokeStyle: stroke, lineWidth: width, lineJoin: "round", lineCap: "round" });
-    context.setLineDash(dash);
+    this.pen(stroke, width, dash);
     context.stroke();
+  }
+
+  pen(strokeStyle, lineWidth, dash) {
+    Object.assign(this.context, { strokeStyle, lineWidth, lineJoin: "round", lineCap: "round" });
+    this.context.setLineDash(dash);
   }
 
   text(x, y, text, style) {
@@ -142,7 +150,7 @@ export class CanvasSurface {
     const left = x - width * { left: 0, center: 0.5, right: 1 }[align];
     context.textBaseline = baseline;
     context.fillStyle = colour;
-    if (halo) Object.assign(context, { strokeStyle: halo, lineWidth: 4, lineJoin: "round" });
+    if (halo) this.pen(halo, 4, []);
     for (const draw of halo ? ["strokeText", "fillText"] : ["fillText"]) {
       for (const run of runs) {
         context.font = run.font;
@@ -175,7 +183,8 @@ export class SvgSurface {
       `viewBox="0 0 ${width} ${height}" role="img"><title>${escaped(title)}</title>`];
   }
 
-  still(_keys, draw) {
+  still(_keys, ground, draw) {
+    this.shape([borderOf(this)], { fill: ground });
     return draw();
   }
 

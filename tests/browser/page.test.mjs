@@ -122,6 +122,8 @@ test("it opens moving, and the dot of the plane moves with the balls; who asks f
   const before = await pictures();
   await page.waitForFunction(() => globalThis.page.state.fraction > 0.1);
   await page.click("#play");
+  // What is out of sight follows a little later.
+  await page.waitForTimeout(400);
   (await pictures()).forEach((picture, i) => assert.notEqual(picture, before[i]));
   assert.match(await page.textContent("#pace"), /slowed 8\.6 times/);
   assert.match(await page.textContent("#clock"), /0\.\d{3} s/);
