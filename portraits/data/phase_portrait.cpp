@@ -58,12 +58,15 @@ using Track = std::vector<Instant>;  // from first to stop
 /// How far apart two states may be that lie next to each other on an orbit: 1 and no more.
 using Distance = std::function<double(const Instant&, const Instant&)>;
 
-/// The state of an orbit that has so much time left.
 /// @param ln_k_stop  of the terminal ratio, which is taken for that of rest
+Instant instant(const Orbit::Remaining& at, double mu, double ln_k_stop) {
+  const double ln_k = at.u == 0 ? (at.v > 0 ? infinity : ln_k_stop) : at.ln_v - std::log(mu * std::abs(at.u));
+  return {at.u, at.v, at.ln_v, ln_k, at.tau_left};
+}
+
+/// The same of an orbit that has so much time left.
 Instant instant(const OrbitPoint& point, double left, double mu, double ln_k_stop) {
-  const double ln_k =
-      point.u == 0 ? (point.v > 0 ? infinity : ln_k_stop) : point.ln_v - std::log(mu * std::abs(point.u));
-  return {point.u, point.v, point.ln_v, ln_k, left};
+  return instant({point.u, point.v, point.ln_v, left}, mu, ln_k_stop);
 }
 
 /// By how much ln k differs where it is seen to change: beyond, orbits hug an axis.
@@ -242,14 +245,13 @@ class OrbitTracer {
   Track exact(State start) const {
     const Orbit orbit = flow_.orbit(start);
     const Distance distance = [this](const Instant& a, const Instant& b) { return on_window(a, b); };
-    const auto timed = [&, end = ln_k_stop(start)](const OrbitPoint& point, double left) {
-      return instant(point, left, system_.mu(), end);
-    };
+    const double end = ln_k_stop(start);
+    const auto timed = [&](const OrbitPoint& point, double left) { return instant(point, left, system_.mu(), end); };
     Track track{timed(orbit.at_time(0), orbit.stop_time())};
     if (!orbit.on_axis()) {
       constexpr double lowest = -20;
       const double first = orbit.start_coordinate();
-      const auto at = [&](double xi) { return timed(orbit.at_coordinate(xi), orbit.time_left_at_coordinate(xi)); };
+      const auto at = [&](double xi) { return instant(orbit.remaining_at_coordinate(xi), system_.mu(), end); };
       refine(track, first, {std::min(lowest, first + lowest)}, at, distance);
     }
     const double begin = std::log(track.back().tau_left);

@@ -367,14 +367,17 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
     result.push_back({arrow, copy.factor * copy.orbit.tau_left[nearest - line.begin()]});
   };
   if (drawing_.style.arrows == Style::time) {
-    for (Eigen::Index i = 1; i < copy.orbit.rows(); ++i) {
-      const double before = copy.factor * copy.orbit.tau_left[i - 1], now = copy.factor * copy.orbit.tau_left[i];
-      const Point from = line[static_cast<std::size_t>(i) - 1], to = line[static_cast<std::size_t>(i)];
-      for (double time : drawing_.bands.arrows) {
-        if (!(now <= time && time < before)) continue;
-        const Arrow arrow{between(from, to, (before - time) / (before - now)), {to.x - from.x, to.y - from.y}};
-        if (has_room(arrow)) result.push_back({arrow, time});
-      }
+    // In the order of the motion, along which the time left falls.
+    const double *first = copy.orbit.tau_left.data(), *last = first + copy.orbit.rows();
+    const auto is_before = [&](double left, double time) { return copy.factor * left > time; };
+    for (auto time = drawing_.bands.arrows.rbegin(); time != drawing_.bands.arrows.rend(); ++time) {
+      const double* row = std::lower_bound(first, last, *time, is_before);
+      if (row == first || row == last) continue;
+      const double before = copy.factor * row[-1], now = copy.factor * *row;
+      const Point from = line[static_cast<std::size_t>(row - first) - 1],
+                  to = line[static_cast<std::size_t>(row - first)];
+      const Arrow arrow{between(from, to, (before - *time) / (before - now)), {to.x - from.x, to.y - from.y}};
+      if (has_room(arrow)) result.push_back({arrow, *time});
     }
   }
   const std::vector<Polyline> parts = clipped(panel_, line);

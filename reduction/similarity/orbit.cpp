@@ -119,49 +119,50 @@ Orbit::Progress Orbit::progress(double xi, double left) const {
   return {ln_larger - change, ln_larger, larger * ratio, larger};
 }
 
-double Orbit::scaled_left(double xi) const {
-  const Progress now = progress(xi);
+double Orbit::scaled_left(double xi, const Progress& now) const {
   return pivoting_ * now.w + v_ * now.v * curve_->sliding_coefficient(xi);
 }
 
-double Orbit::scaled_elapsed(double xi) const {
-  const Progress now = progress(xi);
+double Orbit::scaled_elapsed(double xi, const Progress& now) const {
   return -pivoting_ * std::expm1(now.ln_w) + v_ * (m0_ - now.v * curve_->sliding_coefficient(xi));
 }
 
-double Orbit::slip_left(double xi) const {
-  const Progress now = progress(xi);
+double Orbit::slip_left(double xi, const Progress& now) const {
   return v_ * now.v * (v_ * now.v / 2 + curve_->slip_length_coefficient(xi) * w_ * now.w);
 }
 
-double Orbit::scaled_left_slope(double xi) const {
-  const Progress now = progress(xi);
+double Orbit::scaled_left_slope(double xi, const Progress& now) const {
   return curve_->time_rate(xi) * (w_ * now.w + v_ * now.v);
 }
 
 double Orbit::coordinate_at_left(double left) const {
   // Below the curve's limit the time left is a power of exp(xi).
   const double limit = std::min(curve_->limit(), xi0_);
-  const double at_limit = scaled_left(limit);
-  if (left <= at_limit) return limit + std::log(left / at_limit) * (at_limit / scaled_left_slope(limit));
+  const Progress last = progress(limit);
+  const double at_limit = scaled_left(limit, last);
+  if (left <= at_limit) return limit + std::log(left / at_limit) * (at_limit / scaled_left_slope(limit, last));
   const auto residual = [&](double xi) {
-    const double here = scaled_left(xi);
-    return std::pair{std::log(here / left), scaled_left_slope(xi) / here};
+    const Progress now = progress(xi);
+    const double here = scaled_left(xi, now);
+    return std::pair{std::log(here / left), scaled_left_slope(xi, now) / here};
   };
-  const double at_start = scaled_left(xi0_);
-  const double guess = xi0_ + std::log(left / at_start) * (at_start / scaled_left_slope(xi0_));
+  const double guess = xi0_ + std::log(left / whole()) * (whole() / scaled_left_slope(xi0_, at_start));
   return increasing_root(residual, guess, limit, xi0_);
 }
 
 double Orbit::coordinate_at_elapsed(double elapsed) const {
   const double limit = std::min(curve_->limit(), xi0_);
-  const double beyond = elapsed - scaled_elapsed(limit);
+  const Progress last = progress(limit);
+  const double beyond = elapsed - scaled_elapsed(limit, last);
   if (beyond >= 0) {
-    const double at_limit = scaled_left(limit);
-    return limit + std::log1p(-beyond / at_limit) * (at_limit / scaled_left_slope(limit));
+    const double at_limit = scaled_left(limit, last);
+    return limit + std::log1p(-beyond / at_limit) * (at_limit / scaled_left_slope(limit, last));
   }
-  const auto residual = [&](double xi) { return std::pair{elapsed - scaled_elapsed(xi), scaled_left_slope(xi)}; };
-  return increasing_root(residual, xi0_ - elapsed / scaled_left_slope(xi0_), limit, xi0_);
+  const auto residual = [&](double xi) {
+    const Progress now = progress(xi);
+    return std::pair{elapsed - scaled_elapsed(xi, now), scaled_left_slope(xi, now)};
+  };
+  return increasing_root(residual, xi0_ - elapsed / scaled_left_slope(xi0_, at_start), limit, xi0_);
 }
 
 OrbitPoint Orbit::rest(double tau) const {
@@ -236,7 +237,11 @@ double Orbit::slip_length(double tau) const {
     const double v = u0_ == 0 && tau < stop ? v_ * (1 - tau / stop) : 0;
     slip = (v_ - v) * (v_ + v) / 2;
   } else {
-    slip = slip_left(xi0_) - (tau < stop ? slip_left(coordinate_at_time(tau)) : 0);
+    slip = slip_left(xi0_, at_start);
+    if (tau < stop) {
+      const double xi = coordinate_at_time(tau);
+      slip -= slip_left(xi, progress(xi));
+    }
   }
   return std::ldexp(slip / system_.scaled_time_rate(), 2 * exponent_);
 }
@@ -260,14 +265,16 @@ void Orbit::require_coordinate(const char* function, double xi) const {
       "Orbit::{}: xi must be at most that of the start, {}, and the start not on an axis; got {}", function, xi0_, xi));
 }
 
-double Orbit::time_left_at_coordinate(double xi) const {
-  require_coordinate("time_left_at_coordinate", xi);
-  return tau_of(scaled_left(xi));
+Orbit::Remaining Orbit::remaining_at_coordinate(double xi) const {
+  require_coordinate("remaining_at_coordinate", xi);
+  const Progress now = progress(xi);
+  return {u0_ * now.w, v0_ * now.v, std::log(v0_) + now.ln_v, tau_of(scaled_left(xi, now))};
 }
 
 OrbitPoint Orbit::at_coordinate(double xi) const {
   require_coordinate("at_coordinate", xi);
-  return point(tau_of(scaled_elapsed(xi)), xi, progress(xi));
+  const Progress now = progress(xi);
+  return point(tau_of(scaled_elapsed(xi, now)), xi, now);
 }
 
 OrbitPoint Orbit::at_log_ratio(double ln_k) const {

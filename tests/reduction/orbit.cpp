@@ -343,7 +343,7 @@ TEST_CASE("an orbit is asked within its motion", "[orbit][domain]") {
   CHECK_THROWS_AS(orbit.at_time_left(orbit.stop_time() * 1.0001), std::domain_error);
   CHECK_THROWS_AS(orbit.at_log_ratio(orbit.start_log_ratio() + 1e-9), std::domain_error);
   CHECK_THROWS_AS(orbit.at_log_ratio(not_a_number), std::domain_error);
-  CHECK_THROWS_AS(orbit.time_left_at_coordinate(orbit.start_coordinate() + 1), std::domain_error);
+  CHECK_THROWS_AS(orbit.remaining_at_coordinate(orbit.start_coordinate() + 1), std::domain_error);
   CHECK_THROWS_AS(orbit.slip_length(-1), std::domain_error);
   CHECK_THROWS_AS(orbit.slip_length(not_a_number), std::domain_error);
   CHECK_THROWS_AS(orbit.sample(1), std::domain_error);

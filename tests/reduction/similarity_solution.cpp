@@ -84,8 +84,12 @@ TEST_CASE("a motion is what is left of it, in every regime", "[similarity_soluti
         for (double step : {0.0, 0.01, 0.5, 5.0}) {
           const double xi = orbit.start_coordinate() - step;
           const OrbitPoint there = orbit.at_coordinate(xi);
-          left.add(flow.orbit({there.u, there.v}).stop_time(), orbit.time_left_at_coordinate(xi),
+          const Orbit::Remaining remaining = orbit.remaining_at_coordinate(xi);
+          left.add(flow.orbit({there.u, there.v}).stop_time(), remaining.tau_left,
                    fmt::format("{}, r = {}, k = {}, step {}", name, r, k, step));
+          CHECK(remaining.u == Approx(there.u).epsilon(1e-13));
+          CHECK(remaining.v == Approx(there.v).epsilon(1e-13));
+          CHECK(remaining.ln_v == Approx(there.ln_v).epsilon(1e-13).margin(1e-13));
         }
         for (double share : {0.9, 0.5, 0.01, 1e-9}) {
           const OrbitPoint point = orbit.at_time_left(share * orbit.stop_time());

@@ -21,6 +21,12 @@ class Flow;
 ///           question: the speeds are proportional to stop_time() - tau, so ask at_time_left().
 class Orbit {
  public:
+  /// What is left of the speeds and of the time until the stop.
+  struct Remaining {
+    double u, v, ln_v;
+    double tau_left;
+  };
+
   double stop_time() const;
 
   /// Relative error of stop_time().
@@ -41,9 +47,9 @@ class Orbit {
   /// @throws std::domain_error  on an axis, or if xi is above the start's
   OrbitPoint at_coordinate(double xi) const;
 
-  /// The time left there, to the last digits also next to the stop, where stop_time() less its tau has none. Throws as
-  /// at_coordinate.
-  double time_left_at_coordinate(double xi) const;
+  /// What is left there: the time to its last digits also next to the stop, where stop_time() less tau has none. Takes
+  /// half the work of at_coordinate. Throws as at_coordinate.
+  Remaining remaining_at_coordinate(double xi) const;
 
   /// The state at which ln k has the given value. Not on the axes.
   /// @throws std::domain_error  on an axis, or if ln_k is not between the start's and the terminal ratio's
@@ -93,6 +99,7 @@ class Orbit {
     double ln_w, ln_v;
     double w, v;
   };
+  static constexpr Progress at_start{0, 0, 1, 1};
   Progress progress(double xi) const;
   Progress progress(double xi, double left) const;
   double beta(double xi, const Progress& now) const;
@@ -100,10 +107,10 @@ class Orbit {
   OrbitPoint point_with_left(double tau, double xi, double left) const;
 
   double whole() const { return pivoting_ + v_ * m0_; }  ///< the stop time, scaled
-  double slip_left(double xi) const;
-  double scaled_elapsed(double xi) const;
-  double scaled_left(double xi) const;
-  double scaled_left_slope(double xi) const;
+  double slip_left(double xi, const Progress& now) const;
+  double scaled_elapsed(double xi, const Progress& now) const;
+  double scaled_left(double xi, const Progress& now) const;
+  double scaled_left_slope(double xi, const Progress& now) const;
   double coordinate_at_time(double tau) const;
   double coordinate_at_elapsed(double elapsed) const;
   double coordinate_at_left(double left) const;
