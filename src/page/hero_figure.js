@@ -8,8 +8,10 @@ const ringed = Math.atan(2);  // rad, of the corners of an icosahedron around th
 const circle = Array.from({ length: 24 }, (_, i) => rotation([0, 0, (i * Math.PI) / 12]))
     .map((turn) => turnedBy(turn, [Math.sin(spotSize), 0, Math.cos(spotSize)]));
 
+const rings = [0, 1, 2, 3, 4].flatMap((i) => [[ringed, i], [Math.PI - ringed, i + 2.5]]);
+
 /** Spots in the twelve corners of an icosahedron, one of them on top: the middle, then points of the border. */
-const spots = [0, 1, 2, 3, 4].flatMap((i) => [[ringed, i], [Math.PI - ringed, i + 2.5]]).concat([[0, 0], [Math.PI, 0]]).map(([tilt, fifths]) => {
+const spots = [[0, 0], ...rings, [Math.PI, 0]].map(([tilt, fifths]) => {
   const azimuth = (2 * Math.PI * fifths) / 5;
   const tilted = rotation([tilt * Math.cos(azimuth), tilt * Math.sin(azimuth), 0]);
   return [[0, 0, 1], ...circle].map((point) => turnedBy(tilted, point));
