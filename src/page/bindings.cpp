@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -78,20 +75,25 @@ std::vector<State> states_of(const val& points) {
   return states;
 }
 
+/// Where a condition ends that holds at the first time, not at the second.
+template <class Condition>
+double end_of(double holds, double no_longer, Condition condition) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (holds + no_longer) / 2;
+    (condition(middle) ? holds : no_longer) = middle;
+  }
+  return no_longer;
+}
+
 /// A state of the motion from one start that lies in the window: the start itself, or where it comes in.
 State inside(const Flow& flow, State start, const portraits::Window& window) {
   const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= window.u && state.v <= window.v; };
   if (is_inside(start)) return start;
   const Orbit orbit = flow.orbit(start);
-  double outside = 0;
-  double within = orbit.stop_time();
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (outside + within) / 2;
-    (is_inside(orbit.at_time(middle)) ? within : outside) = middle;
-  }
+  const auto is_outside = [&](double tau) { return !is_inside(orbit.at_time(tau)); };
+  const auto point = orbit.at_time(end_of(0, orbit.stop_time(), is_outside));
   // Next to an axis a speed may underflow; the orbit is not the axis.
   constexpr double least = std::numeric_limits<double>::min();
-  const auto point = orbit.at_time(within);
   return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};
 }
 
@@ -178,14 +180,6 @@ class Plane {
     return answer([&] { return flow().orbit({.u = u, .v = v}).stop_time(); });
   }
 
-  /// The motion from one start to its stop: dense while it slides, and in equal times.
-  val motion(double u, double v) const {
-    return answer([&] {
-      const auto columns = instants(flow().orbit({.u = u, .v = v}));
-      return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
-    });
-  }
-
   /// One instant of the motion from one start, the friction there as a fraction of f N, and where it is in each panel.
   val instant(double u, double v, double tau) const {
     return answer([&] {
@@ -221,13 +215,9 @@ class Plane {
   val slide(double u, double v, double least) const {
     return answer([&] {
       const Orbit orbit = flow().orbit({.u = u, .v = v});
-      double faster = 0;
-      double slower = v > least ? orbit.stop_time() : 0;
-      for (int i = 0; i < 60; ++i) {
-        const double middle = (faster + slower) / 2;
-        (orbit.at_time(middle).v > least ? faster : slower) = middle;
-      }
-      return object("end", slower, "length", orbit.slip_length(orbit.stop_time()));
+      const double stop = v > least ? orbit.stop_time() : 0;
+      return object("end", end_of(0, stop, [&](double tau) { return orbit.at_time(tau).v > least; }), "length",
+                    orbit.slip_length(orbit.stop_time()));
     });
   }
 
@@ -263,14 +253,13 @@ class Plane {
     });
   }
 
-  /// All states that stop after that time: those with u >= 0, and in each panel the lines of both signs.
+  /// The lines in each panel of all states that stop after that time, u > 0 and u < 0.
   val isochrone(double tau) const {
     return answer([&] {
-      std::vector<double> us, vs;
+      std::vector<State> states;
       const auto add = [&](State direction) {
         const double scale = tau / flow().orbit(direction).stop_time();
-        us.push_back(scale * direction.u);
-        vs.push_back(scale * direction.v);
+        states.push_back({scale * direction.u, scale * direction.v});
       };
       add({.u = 1, .v = 0});
       // Even in angle where both speeds take the same time to stop, and down to small k.
@@ -285,15 +274,14 @@ class Plane {
       std::size_t panel = 0;
       const auto lines = [&](const portraits::PanelMap& map) {
         std::vector<portraits::Polyline> both(2);
-        for (std::size_t i = 0; map.state && i < us.size(); ++i) {
-          for (const int side : {0, 1}) {
-            const Instant at = state({side == 0 ? us[i] : -us[i], vs[i]}, tau);
-            both[static_cast<std::size_t>(side)].push_back(map.place(at, at));
-          }
+        for (std::size_t i = 0; map.state && i < 2 * states.size(); ++i) {
+          const State& right = states[i / 2];
+          const Instant at = state({i % 2 == 0 ? right.u : -right.u, right.v}, tau);
+          both[i % 2].push_back(map.place(at, at));
         }
         return column(portraits::visible(drawn_.figure.panels[panel++], both));
       };
-      return object("u", us, "v", vs, "lines", list(drawn_.maps, lines));
+      return list(drawn_.maps, lines);
     });
   }
 
@@ -357,7 +345,14 @@ class Plane {
               from_start(first.ln_k, drawn->ln_k), from_start(stop, drawn->tau_left)};
     }
     const bool is_seen = drawn && std::abs(start.u) <= window.u && start.v <= window.v;
-    const auto motion = is_seen ? reduction::OrbitColumns() : instants(orbit);
+    auto motion = is_seen ? reduction::OrbitColumns() : instants(orbit);
+    if (is_seen) {
+      motion.tau = stop - rows.tau_left;
+      motion.k = rows.ln_k.exp();
+      motion.u = rows.u;
+      motion.v = rows.v;
+      motion.ln_v = rows.ln_v;
+    }
     std::size_t panel = 0;
     const auto in_panel = [&](const portraits::PanelMap& map) {
       const portraits::Panel& axes = drawn_.figure.panels[panel++];
@@ -372,10 +367,8 @@ class Plane {
       }
       return object("line", line, "arrow", arrow);
     };
-    return is_seen ? object("stop", stop, "tau", Eigen::ArrayXd(stop - rows.tau_left), "u", rows.u, "v", rows.v, "k",
-                            Eigen::ArrayXd(rows.ln_k.exp()), "panels", list(drawn_.maps, in_panel))
-                   : object("stop", stop, "tau", motion.tau, "u", motion.u, "v", motion.v, "k", motion.k, "panels",
-                            list(drawn_.maps, in_panel));
+    return object("stop", stop, "tau", motion.tau, "u", motion.u, "v", motion.v, "lnV", motion.ln_v, "k", motion.k,
+                  "panels", list(drawn_.maps, in_panel));
   }
 
   std::optional<Flow> flow_;
@@ -467,7 +460,6 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .function("choose", &Plane::choose)
       .function("portrait", &Plane::portrait)
       .function("stop", &Plane::stop)
-      .function("motion", &Plane::motion)
       .function("instant", &Plane::instant)
       .function("place", &Plane::place)
       .function("at", &Plane::at)

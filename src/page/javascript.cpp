@@ -61,14 +61,6 @@ val panel_value(const Panel& panel) {
 
 }  // namespace
 
-val column(const double* data, std::size_t size) {
-  return val(emscripten::typed_memory_view(size, data)).call<val>("slice");
-}
-
-val column(const Eigen::ArrayXd& values) { return column(values.data(), static_cast<std::size_t>(values.size())); }
-
-val column(const std::vector<double>& values) { return column(values.data(), values.size()); }
-
 val column(const std::vector<Polyline>& lines) {
   std::vector<double> numbers;
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();

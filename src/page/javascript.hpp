@@ -41,9 +41,11 @@ reduction::Law law_of(const std::string& name);
 si::Experiment experiment_of(const val& fields);
 
 /// Float64Array.
-val column(const double* data, std::size_t size);
-val column(const Eigen::ArrayXd& values);
-val column(const std::vector<double>& values);
+template <class Numbers>
+val column(const Numbers& values) {
+  return val(emscripten::typed_memory_view(static_cast<std::size_t>(values.size()), values.data())).call<val>("slice");
+}
+
 /// Of lines one after the other, NaN between them: x0, y0, x1, y1, ...
 val column(const std::vector<portraits::Polyline>& lines);
 

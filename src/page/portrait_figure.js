@@ -8,7 +8,7 @@ const dash = [5, 4];
 
 /**
  * @typedef {OwnOrbit & {index: number, chosen: boolean, start: Float64Array | null}} Drawn  start: x and y in each panel
- * @param {{figure: Figure, own: Drawn[], isochrone: Isochrone | null, marker: {places: Float64Array, index: number} | null,
+ * @param {{figure: Figure, own: Drawn[], isochrone: Float64Array[] | null, marker: {places: Float64Array, index: number} | null,
  *   cross: {panel: number, x: number, y: number} | null}} scene
  * @returns the frames of the panels
  */
@@ -116,7 +116,7 @@ function drawLegend(surface, figure, { legend, legendTop, lineHeight, sample }, 
 
 /** The orbits of the reader and the isochrone that is dragged. */
 function drawOwn(surface, { figure, own, isochrone }, panel, frame, theme) {
-  if (isochrone) surface.shape(frame.lines(isochrone.lines[panel]), { stroke: figure.ink, width: 2, dash: [2, 3] });
+  if (isochrone) surface.shape(frame.lines(isochrone[panel]), { stroke: figure.ink, width: 2, dash: [2, 3] });
   for (const { panels, index, chosen, start } of own) {
     const lines = frame.lines(panels[panel].line);
     const swatch = theme.swatch(index);

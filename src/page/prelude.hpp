@@ -1,5 +1,5 @@
-// Forced into every file that is compiled for the page, and precompiled: what keeps the page small, and what the C++
-// library of Debian 12's emscripten (LLVM 14) lacks of C++20 and this library uses.
+// Forced into every file that is compiled for the page: what keeps the page small, and what the C++ library of Debian
+// 12's emscripten (LLVM 14) lacks of C++20 and this library uses.
 #pragma once
 
 // Nothing of streams and locales, a tenth of the page, nor of long doubles, which WebAssembly computes in software.
@@ -10,54 +10,27 @@
 #define FMT_USE_INT128 0
 #define BOOST_EXCEPTION_DISABLE
 #define BOOST_MATH_PROMOTE_DOUBLE_POLICY false
-#define BOOST_MATH_DOMAIN_ERROR_POLICY user_error
-#define BOOST_MATH_POLE_ERROR_POLICY user_error
-#define BOOST_MATH_OVERFLOW_ERROR_POLICY user_error
-#define BOOST_MATH_EVALUATION_ERROR_POLICY user_error
-#define BOOST_MATH_ROUNDING_ERROR_POLICY user_error
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
-#include <memory>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <Eigen/Core>
+#include <boost/math/policies/error_handling.hpp>
 #include <range/v3/algorithm.hpp>
 
-/// Boost's errors without the numbers in their messages.
-namespace boost::math::policies {
-
-template <class T>
-T user_domain_error(const char* /*function*/, const char* message, const T& /*value*/) {
-  throw std::domain_error(message);
+/// A number in a message of Boost's, which would write it to a stream.
+template <>
+inline std::string boost::math::policies::detail::prec_format(const double& value) {
+  return fmt::format("{}", value);
 }
-template <class T>
-T user_pole_error(const char* function, const char* message, const T& value) {
-  return user_domain_error(function, message, value);
+template <>
+inline std::string boost::math::policies::detail::prec_format(const long double& value) {
+  return fmt::format("{}", static_cast<double>(value));
 }
-template <class T>
-T user_overflow_error(const char* function, const char* message, const T& value) {
-  return user_domain_error(function, message ? message : "overflow", value);
-}
-template <class T>
-T user_evaluation_error(const char* function, const char* message, const T& value) {
-  return user_domain_error(function, message, value);
-}
-template <class T, class Target>
-T user_rounding_error(const char* function, const char* message, const T& value, const Target& /*target*/) {
-  return user_domain_error(function, message, value);
-}
-
-}  // namespace boost::math::policies
 
 namespace std {
 

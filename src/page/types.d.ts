@@ -28,9 +28,8 @@ interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "
 
 /** Columns. */
 interface Motion { tau: Float64Array; u: Float64Array; v: Float64Array; k: Float64Array; lnV: Float64Array }
-interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
+interface OwnOrbit extends Motion { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
 interface Instant extends Start { tau: number; k: number; force: number; places: Float64Array }
-interface Isochrone { u: Float64Array; v: Float64Array; lines: Float64Array[] }
 interface Slide { end: number; length: number }
 /** Columns, SI. */
 interface Ride {
@@ -66,13 +65,12 @@ interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number): { terminalRatio: number; meaning: string };
   portrait(request: PortraitRequest): Portrait;
   stop(u: number, v: number): number;
-  motion(u: number, v: number): Motion;
   instant(u: number, v: number, tau: number): Instant;
   place(u: number, v: number): Float64Array;
   at(panel: number, x: number, y: number): Start | null;
   slide(u: number, v: number, least: number): Slide;
   ride(ball: object, rollingFriction: number, end: number): Ride;
-  isochrone(tau: number): Isochrone;
+  isochrone(tau: number): Float64Array[];
   checks(u: number, v: number): Check[];
 }
 
