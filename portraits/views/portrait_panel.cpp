@@ -50,12 +50,15 @@ class LabelPlace {
     double room = std::min(max_room, std::abs(middle - at.x) / half_width_);
     for (const Point& other : labels) room = std::min(room, distance(at, other) / spare);
     if (!is_more(room, best_)) return;
-    const double reach = max_room * half_width_;
-    for (auto other = std::ranges::lower_bound(points, at.x - reach, {}, &Point::x);
-         other != points.end() && other->x < at.x + reach; ++other) {
+    // From the nearest along x on, both ways: what is farther along x than the room that is left does not matter.
+    const auto here = std::ranges::lower_bound(points, at.x, {}, &Point::x);
+    const auto matters = [&](Point other) {
+      return is_more(room, best_) && std::abs(other.x - at.x) < room * half_width_;
+    };
+    for (auto other = here; other != points.end() && matters(*other); ++other)
       room = std::min(room, distance(at, *other));
-      if (!is_more(room, best_)) return;
-    }
+    for (auto other = here; other != points.begin() && matters(*--other);) room = std::min(room, distance(at, *other));
+    if (!is_more(room, best_)) return;
     best_ = room;
     where_ = at;
   }
