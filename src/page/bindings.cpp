@@ -228,7 +228,12 @@ class Plane {
     return answer([&] {
       si::Experiment experiment = experiment_of(fields);
       experiment.ball.body.inertia = system().inertia();
-      const si::Course<si::BallMotion> course(experiment, {experiment, flow()}, si::rolling_slip, rolling_friction);
+      si::require_finite_motion(experiment, end);
+      std::optional<si::RollingFriction> friction;
+      if (rolling_friction > 0) {
+        friction =
+            si::Course<si::BallMotion>(experiment, {experiment, flow()}, si::rolling_slip, rolling_friction).friction;
+      }
       const Orbit orbit = flow().orbit(si::reduced_start(experiment));
       const double scale = 1 / si::seconds(experiment, 1);
       constexpr Eigen::Index pieces = 160;
@@ -240,14 +245,14 @@ class Plane {
         const reduction::OrbitPoint point = orbit.at_time(tau);
         slid[i] = si::seconds(experiment, orbit.slip_length(tau));
         const auto free = si::motion_by_slip(experiment, t, point.v, slid[i], point.u / experiment.ball.radius);
-        motion.set(i, course.friction ? (*course.friction)(free) : free);
+        motion.set(i, friction ? (*friction)(free) : free);
       }
       val result =
           object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx", motion.wx, "wy",
                  motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy, "slid", slid);
-      if (course.friction) {
-        const Eigen::Vector2d rest = course.friction->rest_position();
-        result.set("rest", object("t", course.friction->rest_time(), "x", rest.x(), "y", rest.y()));
+      if (friction) {
+        const Eigen::Vector2d rest = friction->rest_position();
+        result.set("rest", object("t", friction->rest_time(), "x", rest.x(), "y", rest.y()));
       }
       return result;
     });

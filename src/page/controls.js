@@ -1,5 +1,5 @@
 // The choices: ball, law, body, patch, what the plane shows; and the sliders.
-import { $, make } from "./dom.js";
+import { $, make, write } from "./dom.js";
 import { addNumberField, choiceButtons, fillSelect, numberField, slider } from "./fields.js";
 import { lawField } from "./law_field.js";
 import { shown } from "./numbers.js";
@@ -129,7 +129,7 @@ export function makeControls(store, plane, { ask, attempt }) {
 
   function showBall(ball, { body, contact, state }) {
     friction.show(ball.friction / mostFriction, shown(ball.friction, 3));
-    $("ball-title").textContent = ball.title;
+    write($("ball-title"), ball.title);
     patchBy.value = ball.patchBy;
     // A puck rests on its whole face, a stone on a band, and neither rolls.
     patchBy.lastChild.disabled = body.mu === undefined;
@@ -137,7 +137,7 @@ export function makeControls(store, plane, { ask, attempt }) {
       field.show(ball[key]);
       field.hide((key === "patch" && ball.patchBy === "whole_face") || (moves && body.chi === 1));
     }
-    $("ball-facts").textContent = `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(state.mu, 5)}. ${ball.sources}`;
+    write($("ball-facts"), `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(state.mu, 5)}. ${ball.sources}`);
   }
 
   return function show() {
@@ -155,13 +155,13 @@ export function makeControls(store, plane, { ask, attempt }) {
     muSlider.value = Math.round(1000 * muToFraction(state.mu, body.largestMu));
     muSlider.disabled = $("mu").disabled = ball ? ball.patchBy === "whole_face" : body.mu !== undefined;
     const patch = contact ? `${shown(1000 * contact.patchRadius, 3)} mm` : "";
-    $("patch-size").textContent = patch;
+    write($("patch-size"), patch);
     muSlider.setAttribute("aria-valuetext", `${patch ? `${patch}, ` : ""}mu ${shown(state.mu)}`);
     muField.show(ball ? Number(state.mu.toPrecision(6)) : state.mu);
     sides.forEach((field, side) => field.show(Number(portrait.window[side].toPrecision(6))));
     viewButtons.show(state.view);
-    $("view-hint").textContent = view.hint;
-    $("terminal").textContent = `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}`;
+    write($("view-hint"), view.hint);
+    write($("terminal"), `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}`);
     $("theme").setAttribute("aria-label", `Theme: ${state.theme === "auto" ? "as the system" : state.theme}`);
     $("slip-control").hidden = $("spin-control").hidden = !orbit;
     $("friction-control").hidden = $("ball-card").hidden = !ball;

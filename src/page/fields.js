@@ -1,5 +1,5 @@
 // A field for a number: what is wrong with it is said beside it, and only what is right is used.
-import { $, make } from "./dom.js";
+import { $, make, write } from "./dom.js";
 import { parseNumber } from "./numbers.js";
 
 /**
@@ -9,7 +9,7 @@ import { parseNumber } from "./numbers.js";
  */
 export function numberField(input, output, use) {
   const say = (problem) => {
-    output.textContent = problem;
+    write(output, problem);
     input.setAttribute("aria-invalid", problem ? "true" : "false");
   };
   const read = () => {
@@ -71,7 +71,7 @@ export function slider(name, label, use) {
   return {
     show(fraction, text) {
       if (document.activeElement !== input) input.value = Math.round(1000 * fraction);
-      output.textContent = text;
+      write(output, text);
       input.setAttribute("aria-valuetext", text);
     },
   };

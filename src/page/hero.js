@@ -1,5 +1,5 @@
 // The top of the page: what the ball does, beside one that does not spin.
-import { $, make } from "./dom.js";
+import { $, make, write } from "./dom.js";
 import { drawLanes, drawPatch, length } from "./hero_figure.js";
 import { shown } from "./numbers.js";
 import { CanvasSurface } from "./surface.js";
@@ -29,8 +29,8 @@ export class Hero {
     const { store: { state, ride, orbit, timeFactor } } = this;
     for (const id of ["lanes", "patch", "bars"]) $(id).hidden = !ride;
     if (!ride) {
-      $("headline").textContent = "Click the plane: a motion starts there";
-      $("story").textContent = "Up is sliding, sideways is spinning.";
+      write($("headline"), "Click the plane: a motion starts there");
+      write($("story"), "Up is sliding, sideways is spinning.");
       return;
     }
     const ball = state.ball;
@@ -60,15 +60,15 @@ export class Hero {
     const speed = state.ball ? `${shown(orbit.v, 3)} m/s` : `v = ${shown(orbit.v, 3)}`;
     const leave = !state.ball || (state.ball.velocityX === orbit.v && state.ball.velocityY === 0) ? "leave" : "touch down, slipping";
     const until = rolls ? "then it rolls" : "then it stops";
-    $("headline").textContent = spin === 0 ? `This ${thing} does not spin: friction holds it at once`
+    write($("headline"), spin === 0 ? `This ${thing} does not spin: friction holds it at once`
       : orbit.v === 0 ? `A ${thing} that spins in place`
         : times > 1.5 ? `Spin a ${thing}, and it slides ${shown(times, 2)} times as far` : times > 1.005
-          ? `Spin makes this ${thing} slide ${shown(100 * (times - 1), 2)} % farther` : "Here spin changes little";
-    $("story").textContent = spin === 0
+          ? `Spin makes this ${thing} slide ${shown(100 * (times - 1), 2)} % farther` : "Here spin changes little");
+    write($("story"), spin === 0
       ? `This ${name} slips at ${speed} and does not spin: it slides ${farPlain}, ${until}. Textbooks say the same of one that spins: give it spin, and see.`
       : orbit.v === 0 ? `Nothing slides: only the rim of the patch rubs, and the ${thing} turns ever slower.`
         : `Two equal ${name}s ${leave} at ${speed}. One does not spin: it slides ${farPlain}, ${until}. The other spins ${turns}: it slides ${far}, ` +
-          `${more(times, "far")} and ${more(own.end / plain.end, "long")}. Textbooks say ${farPlain} both times.`;
+          `${more(times, "far")} and ${more(own.end / plain.end, "long")}. Textbooks say ${farPlain} both times.`);
     if (rest) $("story").append(` It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), unit)} from its start.`);
     this.most = Math.max(own.length, plain.length) * timeFactor;
     this.titles = [
@@ -114,8 +114,8 @@ export class Hero {
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
     this.bars.forEach(({ title, bar, number }, own) => {
       const { slid } = balls[1 - own].at;
-      title.textContent = this.barTitles[own];
-      number.textContent = length(slid, unit);
+      write(title, this.barTitles[own]);
+      write(number, length(slid, unit));
       bar.style.width = `${(100 * slid) / this.most || 0}%`;
       bar.style.background = balls[1 - own].colour;
     });

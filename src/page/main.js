@@ -2,7 +2,7 @@
 import { Address } from "./address.js";
 import { Checks } from "./checks.js";
 import { makeControls } from "./controls.js";
-import { $, make } from "./dom.js";
+import { $, make, write } from "./dom.js";
 import { Film } from "./film.js";
 import { Hero } from "./hero.js";
 import { loadLibrary } from "./library.js";
@@ -24,10 +24,10 @@ function start(library) {
   const attempt = (action) => {
     try {
       action();
-      $("problem").textContent = "";
+      write($("problem"), "");
     } catch (error) {
       showControls();
-      $("problem").textContent = error.message;
+      write($("problem"), error.message);
     }
   };
   const ask = (edit, done = () => {}) => attempt(() => {
@@ -65,10 +65,10 @@ function start(library) {
     hero.draw();
     panes.drawInSight();
     player.show();
-    $("instant").textContent = now
+    write($("instant"), now
       ? `${contact ? `t = ${shown(now.tau * timeFactor, 5)} s` : `τ = ${shown(now.tau, 5)}`} of ` +
         `${shown(end * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}${now.u === 0 && now.v === 0 ? ", no slip" : `, k = ${shown(now.k, 4)}`}`
-      : "No orbit yet: click the plane.";
+      : "No orbit yet: click the plane.");
   };
   store.listen(({ moment }) => {
     if (!moment) {

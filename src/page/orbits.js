@@ -1,5 +1,5 @@
 // The list of the reader's orbits, and the form that starts one.
-import { $, make, showList } from "./dom.js";
+import { $, make, showList, write } from "./dom.js";
 import { parseNumber, shown } from "./numbers.js";
 
 /**
@@ -64,9 +64,9 @@ export function makeOrbits(store, plane, { ask, stopText }) {
         entry.dataset.tau = motions[index].stop;
         const [choose, discard] = entry.children;
         choose.setAttribute("aria-pressed", String(index === chosen));
-        choose.children[0].textContent = `u₀ = ${shown(u, 4)}, v₀ = ${shown(v, 4)}` +
-          (ball ? `: spin ${shown(u / ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : "");
-        choose.children[1].textContent = `stops at ${stopText(motions[index].stop)}`;
+        write(choose.children[0], `u₀ = ${shown(u, 4)}, v₀ = ${shown(v, 4)}` +
+          (ball ? `: spin ${shown(u / ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : ""));
+        write(choose.children[1], `stops at ${stopText(motions[index].stop)}`);
         discard.setAttribute("aria-label", `Remove orbit ${index + 1}`);
       });
     },

@@ -1,5 +1,5 @@
 // The plane under the reader's hand: pointing, starting and choosing orbits, zooming.
-import { $ } from "./dom.js";
+import { $, write } from "./dom.js";
 import { listen } from "./gestures.js";
 import { plain } from "./markup.js";
 import { shown } from "./numbers.js";
@@ -234,7 +234,7 @@ export class Plane {
   }
 
   announce(text) {
-    $("pointed").textContent = text || "\u00a0";
+    write($("pointed"), text || "\u00a0");
   }
 }
 

@@ -1,5 +1,5 @@
 // Time: play, pause, scrub; how fast the clock of the page goes.
-import { $ } from "./dom.js";
+import { $, write } from "./dom.js";
 import { choiceButtons } from "./fields.js";
 import { shown } from "./numbers.js";
 
@@ -27,10 +27,10 @@ export class Player {
     const { state, end, timeFactor, contact, now } = this.store;
     this.partButtons.show(state.part);
     const factor = this.seconds / (end * timeFactor);
-    $("pace").textContent = !contact ? "" : factor > 1.05 ? `slowed ${shown(factor, 2)} times` : factor < 0.95 ? `${shown(1 / factor, 2)} times as fast` : "in real time";
+    write($("pace"), !contact ? "" : factor > 1.05 ? `slowed ${shown(factor, 2)} times` : factor < 0.95 ? `${shown(1 / factor, 2)} times as fast` : "in real time");
     $("time").value = Math.round(1000 * state.fraction);
     $("time").setAttribute("aria-valuetext", now ? this.timeText(now.tau) : "no motion");
-    $("clock").textContent = now ? this.timeText(now.tau) : "";
+    write($("clock"), now ? this.timeText(now.tau) : "");
   }
 
   timeText(tau) {
@@ -49,7 +49,7 @@ export class Player {
     this.done = null;
 
     this.playing = playing && Boolean(this.store.motion);
-    $("play").textContent = this.playing ? "❚❚" : "▶";
+    write($("play"), this.playing ? "❚❚" : "▶");
     $("play").setAttribute("aria-label", this.playing ? "Pause" : "Play");
     if (!this.playing) return;
     if (this.store.state.fraction >= 1) this.store.move({ fraction: 0 });

@@ -1,6 +1,6 @@
 // What the reader takes along: a link, a command line, files.
 import { commandLine } from "./command_line.js";
-import { $ } from "./dom.js";
+import { $, write } from "./dom.js";
 import { csvOfOrbits, csvOfRide, filmOf, pngOf, save, textFile } from "./exports.js";
 import { fillSelect, numberField } from "./fields.js";
 import { plain } from "./markup.js";
@@ -31,9 +31,9 @@ export class Share {
     const copy = async (text, what) => {
       try {
         await navigator.clipboard.writeText(text);
-        $("copied").textContent = `${what} copied.`;
+        write($("copied"), `${what} copied.`);
       } catch {
-        $("copied").textContent = text;
+        write($("copied"), text);
       }
     };
     $("copy-link").addEventListener("click", () => {
@@ -60,9 +60,9 @@ export class Share {
       save(`${name}.png`, await pngOf(svg, pngWidth));
     });
     $("save-film").addEventListener("click", async () => {
-      $("copied").textContent = `The film is being taken: ${Math.ceil(player.seconds)} s.`;
+      write($("copied"), `The film is being taken: ${Math.ceil(player.seconds)} s.`);
       save("balls.webm", await filmOf($("lanes"), (done) => player.once(done)));
-      $("copied").textContent = "The film is saved.";
+      write($("copied"), "The film is saved.");
     });
     for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
       $(`save-${ending}`).addEventListener("click", () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending), type)));
@@ -77,8 +77,8 @@ export class Share {
   show() {
     const { store: { state, request, portrait: { through }, body, library } } = this;
     const { portrait, roll } = commandLine(state, request, through, body, library.balls.find((ball) => ball.name === state.ball?.name));
-    $("command").textContent = portrait;
-    $("roll-command").textContent = roll ?? "";
+    write($("command"), portrait);
+    write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
   }
 }
