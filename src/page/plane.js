@@ -70,14 +70,15 @@ export class Plane {
   }
 
   draw() {
-    const { canvas } = this.surface;
-    const rows = String(rowsOf(this.store.portrait.figure.panels.length, this.surface.width));
+    const { surface, surface: { canvas } } = this;
+    if (surface.width === 0) surface.measure();
+    const rows = String(rowsOf(this.store.portrait.figure.panels.length, surface.width));
     if (canvas.dataset.rows !== rows) {
       canvas.dataset.rows = rows;
       canvas.style.setProperty("--rows", rows);
-      this.surface.measure();
+      surface.measure();
     }
-    this.surface.draw();
+    surface.draw();
     $("clear-isochrone").hidden = !this.store.state.isochrone;
   }
 

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { test } from "node:test";
-import { close, file, open, page, pixelOf, saved, state } from "./browser.mjs";
+import { close, drawn, file, open, page, pixelOf, saved, state } from "./browser.mjs";
 
 /** The texts of an SVG file and where they are, in its pixels: {text, left, right, top, bottom}. */
 const textsOf = (svg) => page.evaluate((svg) => {
@@ -189,5 +189,25 @@ test("spins to the left alone fill their pane", async () => {
   const [, curve] = [...svg.matchAll(/<path d="([^"]+)" fill="none" stroke="#c22f5a"/g)].map(([, path]) => path.match(/[ML][\d.]+ ([\d.]+)/g).map((point) => Number(point.split(" ")[1])));
   const [, [top, height]] = frames;
   assert.ok(Math.max(...curve) - Math.min(...curve) > 0.9 * height, `from ${Math.min(...curve)} to ${Math.max(...curve)} in ${height} pixels from ${top}`);
+  await close();
+});
+
+test("what is copied while a motion plays is what would be drawn", async () => {
+  const link = "#ball=gel&view=pair&orbits=9,0.5;-4,0.5";
+  const pictures = async () => {
+    // Out of sight it is drawn now and then only.
+    await page.locator("#panes").scrollIntoViewIfNeeded();
+    await drawn();
+    return page.evaluate(() => ["lanes", "patch", "plane", "panes"].map((id) => document.getElementById(id).toDataURL()));
+  };
+  const to = (fraction) => page.evaluate((fraction) => globalThis.page.store.move({ fraction }), fraction);
+  await open(link);
+  const first = await pictures();
+  for (const fraction of [0.1, 0.2, 0.3, 0.4]) await to(fraction);
+  const copied = await pictures();
+  copied.forEach((picture, i) => assert.ok(picture !== first[i], `picture ${i} has moved`));
+  await close();
+  await open(`${link}&at=0.4`);
+  (await pictures()).forEach((picture, i) => assert.ok(picture === copied[i], `picture ${i}`));
   await close();
 });
