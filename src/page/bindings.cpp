@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -16,6 +17,7 @@
 #include <emscripten/val.h>
 
 #include <fmt/format.h>
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
@@ -215,9 +217,15 @@ class Plane {
   val slide(double u, double v, double least) const {
     return answer([&] {
       const Orbit orbit = flow().orbit({.u = u, .v = v});
-      const double stop = v > least ? orbit.stop_time() : 0;
-      return object("end", end_of(0, stop, [&](double tau) { return orbit.at_time(tau).v > least; }), "length",
-                    orbit.slip_length(orbit.stop_time()));
+      const double stop = orbit.stop_time();
+      double end = 0;
+      if (v > least) {
+        const auto faster = [&](double tau) { return orbit.at_time(tau).v - least; };
+        const boost::math::tools::eps_tolerance<double> to_the_last_digit;
+        std::uintmax_t most = 100;
+        end = boost::math::tools::toms748_solve(faster, 0.0, stop, v - least, -least, to_the_last_digit, most).second;
+      }
+      return object("end", end, "length", orbit.slip_length(stop));
     });
   }
 
