@@ -54,6 +54,7 @@ TEST_CASE("bad input is status 2, says what was typed and a way out", "[cli]") {
       {{"stop", "--ball", "pool", "--patch-radius", "1e-3", "--spin-deceleration", "3"}, {"exclude each other"}},
       {{"stop", "--ball", "pool", "--gravity", "9.8", "--load", "3"}, {"--gravity and --load exclude each other"}},
       {{"stop", "--ball", "pool", "--load", "3kg"}, {"--load: '3kg' has the unit 'kg'", "N, kN or lbf"}},
+      {{"stop", "--ball", "pool", "--load", "1e-400 N"}, {"--load: '1e-400' does not fit a double"}},
       {{"stop", "--ball", "pool", "--load", "0"}, {"--load 0: load must be finite and > 0, in N"}},
       {{"stop", "--ball", "pool", "--law", "pad"}, {"--law pad: no such law", "did you mean 'pade'", "exact"}},
       {{"stop", "--ball", "pool", "--law", "exact", "--route", "closed"},

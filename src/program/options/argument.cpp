@@ -72,8 +72,9 @@ double parse_quantity(const std::string& typed, std::string_view symbol) {
   const double value = si::parse_quantity(typed, *dimension).value_or(NAN);
   if (std::isfinite(value)) return value;
   std::size_t size = typed.size();
-  while (size > 0 && !is_number(typed.substr(0, size))) --size;
+  while (size > 0 && (typed[size - 1] == ' ' || !is_number(typed.substr(0, size)))) --size;
   if (size > 0 && decimal_hint(typed)[0] == '\0') {
+    parse_number(typed.substr(0, size));  // refuses what no double holds
     const std::string unit = typed.substr(std::min(typed.find_first_not_of(' ', size), typed.size()));
     throw BadInput(fmt::format("{} has the unit {}, which is none of {}", quotation(typed), quotation(unit),
                                si::units_of(*dimension)));
