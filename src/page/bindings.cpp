@@ -77,23 +77,17 @@ std::vector<State> states_of(const val& points) {
   return states;
 }
 
-/// Where a condition ends that holds at the first time, not at the second.
-template <class Condition>
-double end_of(double holds, double no_longer, Condition condition) {
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (holds + no_longer) / 2;
-    (condition(middle) ? holds : no_longer) = middle;
-  }
-  return no_longer;
-}
-
 /// A state of the motion from one start that lies in the window: the start itself, or where it comes in.
 State inside(const Flow& flow, State start, const portraits::Window& window) {
   const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= window.u && state.v <= window.v; };
   if (is_inside(start)) return start;
   const Orbit orbit = flow.orbit(start);
-  const auto is_outside = [&](double tau) { return !is_inside(orbit.at_time(tau)); };
-  const auto point = orbit.at_time(end_of(0, orbit.stop_time(), is_outside));
+  double outside = 0, within = orbit.stop_time();
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (outside + within) / 2;
+    (is_inside(orbit.at_time(middle)) ? within : outside) = middle;
+  }
+  const auto point = orbit.at_time(within);
   // Next to an axis a speed may underflow; the orbit is not the axis.
   constexpr double least = std::numeric_limits<double>::min();
   return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};
@@ -180,6 +174,14 @@ class Plane {
   /// The stop time of one start.
   double stop(double u, double v) const {
     return answer([&] { return flow().orbit({.u = u, .v = v}).stop_time(); });
+  }
+
+  /// The motion from one start to its stop: dense while it slides, and in equal times.
+  val motion(double u, double v) const {
+    return answer([&] {
+      const auto columns = instants(flow().orbit({.u = u, .v = v}));
+      return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
+    });
   }
 
   /// One instant of the motion from one start, the friction there as a fraction of f N, and where it is in each panel.
@@ -358,13 +360,14 @@ class Plane {
               from_start(first.ln_k, drawn->ln_k), from_start(stop, drawn->tau_left)};
     }
     const bool is_seen = drawn && std::abs(start.u) <= window.u && start.v <= window.v;
-    auto motion = is_seen ? reduction::OrbitColumns() : instants(orbit);
+    reduction::OrbitColumns motion;
     if (is_seen) {
       motion.tau = stop - rows.tau_left;
-      motion.k = rows.ln_k.exp();
       motion.u = rows.u;
       motion.v = rows.v;
-      motion.ln_v = rows.ln_v;
+      motion.k = rows.ln_k.exp();
+    } else {
+      motion = instants(orbit);
     }
     std::size_t panel = 0;
     const auto in_panel = [&](const portraits::PanelMap& map) {
@@ -380,8 +383,8 @@ class Plane {
       }
       return object("line", line, "arrow", arrow);
     };
-    return object("stop", stop, "tau", motion.tau, "u", motion.u, "v", motion.v, "lnV", motion.ln_v, "k", motion.k,
-                  "panels", list(drawn_.maps, in_panel));
+    return object("stop", stop, "tau", motion.tau, "u", motion.u, "v", motion.v, "k", motion.k, "panels",
+                  list(drawn_.maps, in_panel));
   }
 
   std::optional<Flow> flow_;
@@ -473,6 +476,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .function("choose", &Plane::choose)
       .function("portrait", &Plane::portrait)
       .function("stop", &Plane::stop)
+      .function("motion", &Plane::motion)
       .function("instant", &Plane::instant)
       .function("place", &Plane::place)
       .function("at", &Plane::at)

@@ -13,6 +13,8 @@ export class Hero {
     this.store = store;
     /** @type {any} what is said, and what moves */
     this.titles = this.rides = this.ends = this.barTitles = this.most = null;
+    /** @type {any[]} what is drawn, the ball without spin first */
+    this.balls = [];
     this.player = player;
     this.lanes = new CanvasSurface($("lanes"), (surface) => this.drawBalls(surface));
     this.patch = new CanvasSurface($("patch"), (surface) => this.drawPatch(surface));
@@ -87,11 +89,10 @@ export class Hero {
   }
 
   drawBalls(surface) {
-    if (this.store.ride) drawLanes(surface, { lanes: this.balls(), radius: this.radius, unit: this.unit }, this.store.theme);
+    if (this.store.ride) drawLanes(surface, { lanes: this.balls, radius: this.radius, unit: this.unit }, this.store.theme);
   }
 
-  /** What is drawn, the ball without spin first. */
-  balls() {
+  ballsNow() {
     const { store: { state, ride, timeFactor, end, theme }, rides } = this;
     const duration = end * timeFactor;
     const time = state.fraction * duration;
@@ -107,17 +108,17 @@ export class Hero {
   draw() {
     const { store: { ride, now }, unit } = this;
     if (!ride) return;
+    this.balls = this.ballsNow();
     this.lanes.draw();
     this.patch.draw();
-    const balls = this.balls();
     $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
     this.bars.forEach(({ title, bar, number }, own) => {
-      const { slid } = balls[1 - own].at;
+      const { slid } = this.balls[1 - own].at;
       write(title, this.barTitles[own]);
       write(number, length(slid, unit));
       bar.style.width = `${(100 * slid) / this.most || 0}%`;
-      bar.style.background = balls[1 - own].colour;
+      bar.style.background = this.balls[1 - own].colour;
     });
   }
 }

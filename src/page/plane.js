@@ -71,7 +71,6 @@ export class Plane {
 
   draw() {
     const { surface, surface: { canvas } } = this;
-    if (surface.width === 0) surface.measure();
     const rows = String(rowsOf(this.store.portrait.figure.panels.length, surface.width));
     if (canvas.dataset.rows !== rows) {
       canvas.dataset.rows = rows;

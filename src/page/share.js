@@ -69,7 +69,7 @@ export class Share {
     }
     $("save-csv").addEventListener("click", () => {
       const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
-        : ["orbits", csvOfOrbits(store.motions)];
+        : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
       save(`${name}.csv`, textFile(text, "text/csv"));
     });
   }

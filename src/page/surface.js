@@ -44,8 +44,7 @@ export const borderOf = ({ left = 0, top = 0, width, height }) =>
  */
 
 export class CanvasSurface {
-  width = 0;
-  height = 0;
+  size = { width: 0, height: 0 };
   inSight = true;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   late;
@@ -66,12 +65,19 @@ export class CanvasSurface {
 
   /** Asks the page for the size, which lays the page out. */
   measure() {
-    this.width = this.canvas.clientWidth;
-    this.height = this.canvas.clientHeight;
+    this.size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  get width() {
+    if (this.size.width === 0) this.measure();
+    return this.size.width;
+  }
+
+  get height() {
+    return this.size.height;
   }
 
   draw() {
-    if (this.width === 0) this.measure();
     if (this.width >= smallestWidth) this.picture(this);
   }
 

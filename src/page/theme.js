@@ -12,6 +12,7 @@ export const isDark = (choice) => (choice === "auto" ? darkness.matches : choice
 
 /** @type {any} */
 let known = null;
+globalThis.addEventListener?.("resize", () => (known = null));
 
 /**
  * The same object until dark, light or the size of the window changes: reading the style sheet lays the page out.
@@ -21,7 +22,6 @@ let known = null;
 export function themeOf(choice) {
   const kind = isDark(choice) ? "dark" : "light";
   if (known?.kind === kind) return known;
-  addEventListener("resize", () => (known = null), { once: true });
   document.documentElement.dataset.theme = kind;
   const style = getComputedStyle(document.documentElement);
   const colours = ["ink", "soft", "line", "card", "paper"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]);

@@ -28,7 +28,7 @@ interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "
 
 /** Columns. */
 interface Motion { tau: Float64Array; u: Float64Array; v: Float64Array; k: Float64Array; lnV: Float64Array }
-interface OwnOrbit extends Motion { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
+interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
 interface Instant extends Start { tau: number; k: number; force: number; places: Float64Array }
 interface Slide { end: number; length: number }
 /** Columns, SI. */
@@ -70,6 +70,7 @@ interface LibraryPlane {
   at(panel: number, x: number, y: number): Start | null;
   slide(u: number, v: number, least: number): Slide;
   ride(ball: object, rollingFriction: number, end: number): Ride;
+  motion(u: number, v: number): Motion;
   isochrone(tau: number): Float64Array[];
   checks(u: number, v: number): Check[];
 }

@@ -846,6 +846,8 @@ test("figures and numbers are handed out", async () => {
   assert.deepEqual(rows[0].split(",").slice(0, 4), ["1", "0", "0.8", "3.5"]);
   assert.ok(rows.some((row) => row.startsWith("2,0,-0.5,1,")));
   assert.ok(rows.at(-1).includes(",0,0,-inf,"), rows.at(-1));
+  // Not only as many instants as the picture needs.
+  for (const orbit of [1, 2]) assert.equal(rows.filter((row) => row.startsWith(`${orbit},`)).length, 240);
   await close();
 });
 
