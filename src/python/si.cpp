@@ -93,6 +93,7 @@ py::dict fields_of(const si::Experiment& experiment) {
   fields["gravity"] = experiment.environment.gravity;
   fields["slip"] = si::slip_at_start(experiment);
   fields["spin"] = si::spin_at_start(experiment);
+  fields["law"] = si::law_of(experiment);
   for (const auto& [quantity, values] : si::given_by(experiment.contact.patch)) {
     const py::str name(std::string(quantity->name));
     fields[name] = values.size() == 1 ? py::object(py::float_(values[0])) : py::make_tuple(values[0], values[1]);

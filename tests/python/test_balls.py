@@ -54,6 +54,24 @@ def test_the_balls_are_the_programs(tmp_path):
         assert ball.roll().stop_time == program("stop", "--ball", name)["t_stop"]
 
 
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_a_run_files_law_is_that_of_every_answer(tmp_path):
+    path = tmp_path / "mine.toml"
+    text = subprocess.run([PROGRAM, "balls", "pool"], capture_output=True, check=True, text=True).stdout
+    path.write_text(text.replace("[contact]", '[contact]\nlaw = "pade"'))
+    ball, pool = ct.Ball.read(path), ct.Ball.pool()
+    assert ball == pool.but(law="pade") and ball.law == ct.law("pade")
+    assert ball.roll().stop_time == program("stop", "--ball", str(path))["t_stop"] == pool.roll(law="pade").stop_time
+    assert ball.roll().stop_time != pool.roll().stop_time == ball.roll(law="exact").stop_time
+    assert ball.mu() == pool.mu("pade")
+    assert ct.engine("mujoco", ball) == ct.engine("mujoco", pool, law="pade")
+    assert ct.portrait(ball=ball, orbits=1).data["law"] == "pade"
+    t = np.linspace(0, 1, 50)
+    spin = ball.roll(slip=0, spin=50)(t)["wz"]
+    found = ct.fit(t, spin=spin, ball=ball, sd={"spin": 1e-3})
+    assert found.law == "pade" and found.ball.law == ct.law("pade")
+
+
 def newton(ball, law, velocity, angular_velocity, t):
     """V, omega and the way of the centre after t, from F = f N Phi against the slip and M = f N eps Psi against the spin."""
     law, eps = ct.law(law), ball.mu(law) * ball.radius

@@ -192,10 +192,10 @@ si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const 
                   experiment.ball.body.name));
 }
 
-std::string StartOptions::standard_law() const {
+std::string StartOptions::standard_law(const si::StartOverride& start) const {
   if (!ball_.given()) return std::string(body().law);
   try {
-    return si::law_of(read_text().parsed(overrides(), {}));
+    return si::law_of(read_text().parsed(overrides(), start));
   } catch (const std::domain_error&) {  // read_ball says what is wrong
     return std::string(Body{}.law);
   }

@@ -83,7 +83,8 @@ class StartOptions {
   bool overrides_start() const { return override_of(si::slip) || override_of(si::spin); }
 
   /// The name of the law that the body or the ball brings.
-  std::string standard_law() const;
+  /// @param start  velocities that take the place of those of [start]
+  std::string standard_law(const si::StartOverride& start = {}) const;
 
   /// The ball of --ball where it has to roll. Throws as read, and BadInput for a body that lies flat.
   si::Experiment read_rolling_ball(const reduction::Law& law, const si::StartOverride& start = {}) const;

@@ -129,7 +129,7 @@ class EngineCommand final : public Verb {
   }
 
   ExitStatus run() override {
-    const reduction::Law law = law_.read();
+    const reduction::Law law = law_.read(start_.standard_law());
     const Engine* const only = engine_.given() ? *engine_ : nullptr;
     output_.read().write(answer_of(engine_members(start_.read_rolling_ball(law), law, only), only));
     return ExitStatus::done;

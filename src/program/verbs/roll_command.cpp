@@ -293,7 +293,7 @@ class RollCommand final : public Verb {
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     figure_.require_picture(output);
-    const reduction::Law law = law_.read();
+    const reduction::Law law = law_.read(start_.standard_law(start_override()));
     const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
                     rolling_friction_.value_or(0)};
     const auto* at = instants_.at();
@@ -341,7 +341,8 @@ class RollCommand final : public Verb {
                                                      : "--slip, --spin"));
     }
     const Output out = output_.read(1);
-    const reduction::Law law = law_.read();
+    const reduction::Law law =
+        law_.read(start_.standard_law(si::StartOverride{Eigen::Vector2d::Zero(), Eigen::Vector3d::Zero()}));
     const si::Experiment still = start_.read_rolling_ball(law);
     const reduction::Flow flow(si::reduced_system(still, law));
     OutputFile output(out.path);
@@ -387,8 +388,10 @@ class RollCommand final : public Verb {
     if (rest) add(*rest);
   }
 
+  si::StartOverride start_override() const { return {velocity_.optional(), angular_velocity_.optional()}; }
+
   si::Experiment read_shot(const reduction::Law& law) const {
-    const si::StartOverride start{velocity_.optional(), angular_velocity_.optional()};
+    const si::StartOverride start = start_override();
     if ((start.velocity || start.angular_velocity) && start_.overrides_start()) {
       throw BadInput("--slip, --spin and --velocity, --angular-velocity exclude each other: give one pair of them");
     }

@@ -31,7 +31,8 @@ class Ball:
 
     Its patch is given by one of patch_radius (m), spin_deceleration (rad/s^2, measured without slip), or Young's moduli
     (Pa) and Poisson's ratios of ball and plane. slip (m/s, along x) and spin (rad/s about the vertical) are the start.
-    Gravity acts through the load alone: a ball pressed on the plane with N newtons has gravity=N / mass.
+    Gravity acts through the load alone: a ball pressed on the plane with N newtons has gravity=N / mass. law is that of
+    every question about the ball that names none: a name, a Law or a function.
     `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
     """
 
@@ -46,11 +47,13 @@ class Ball:
     slip: float = 0
     spin: float = 0
     name: str = "ball"
+    law: LawLike = "exact"
 
     def __post_init__(self) -> None:
         for key in ("youngs_modulus", "poisson_ratio"):
             if getattr(self, key) is not None:
                 object.__setattr__(self, key, tuple(getattr(self, key)))
+        object.__setattr__(self, "law", law_of(self.law))
         _core.Experiment(self, None, None)
 
     @classmethod
@@ -98,9 +101,13 @@ class Ball:
         """A gel ball on a rigid plane, where sliding and spinning are seen to be coupled."""
         return cls.named("gel", **changes)
 
-    def mu(self, law: LawLike = "exact") -> float:
+    def mu(self, law: Optional[LawLike] = None) -> float:
         """Patch radius over radius."""
-        return _solved(self, law_of(law)).mu
+        return _solved(self, self._law(law)).mu
+
+    def _law(self, asked: Optional[LawLike]) -> Law:
+        """The law that was asked for, or the ball's own."""
+        return law_of(self.law if asked is None else asked)
 
     def roll(
         self,
@@ -113,7 +120,7 @@ class Ball:
         tip: tuple[float, float] = (0, 0),
         elevation: float = 0,
         cue_mass: float = _core.standard_cue_mass,
-        law: LawLike = "exact",
+        law: Optional[LawLike] = None,
         rolling_below: float = _core.rolling_slip,
         rolling_friction: float = 0,
     ) -> Roll:
@@ -124,6 +131,7 @@ class Ball:
         strike:                      a cue of this speed in m/s strikes the ball at rest, along x; tip is where, to the
                                      right of and above the centre in radii; elevation of its butt in degrees; cue_mass, kg
 
+        law:               that of the ball if left out
         rolling_below:     the ball rolls once it slips slower, m/s
         rolling_friction:  u_r: once it rolls it slows down at u_r g and rests; 0: it rolls on
         """
@@ -137,14 +145,14 @@ class Ball:
             start = _core.Experiment(ball, strike, tip, elevation, cue_mass).start
         else:
             start = _core.Experiment(ball, velocity, angular_velocity).start
-        return Roll(ball, *start, law_of(law), rolling_below, rolling_friction)
+        return Roll(ball, *start, ball._law(law), rolling_below, rolling_friction)
 
     def evolve(
         self,
         rvw: ArrayLike,
         t: ArrayLike,
         *,
-        law: LawLike = "exact",
+        law: Optional[LawLike] = None,
         rolling_below: float = _core.rolling_slip,
         rolling_friction: float = 0,
     ) -> NDArray[np.float64]:

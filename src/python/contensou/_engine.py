@@ -7,19 +7,19 @@ from typing import Any, Optional
 
 from . import _core
 from ._balls import Ball
-from ._flow import LawLike, law as law_of
+from ._flow import LawLike
 
 
 def _with_infinity(members: dict[str, Any]) -> dict[str, Any]:
     return {key: float(value) if value == "inf" else value for key, value in members.items()}
 
 
-def _told(name: Optional[str], ball: Ball, law: LawLike) -> list[dict[str, Any]]:
-    told = json.loads(_core.engines(_core.Experiment(ball, None, None), law_of(law)._core, name), object_hook=_with_infinity)
+def _told(name: Optional[str], ball: Ball, law: Optional[LawLike]) -> list[dict[str, Any]]:
+    told = json.loads(_core.engines(_core.Experiment(ball, None, None), ball._law(law)._core, name), object_hook=_with_infinity)
     return [{**told, **each} for each in told.pop("engines")]
 
 
-def engine(name: str, ball: Ball, *, law: LawLike = "exact") -> dict[str, Any]:
+def engine(name: str, ball: Ball, *, law: Optional[LawLike] = None) -> dict[str, Any]:
     """What to type into a physics engine for a ball's torsional friction, and what slip and spin of its start then do: the
     fields of `contensou engine NAME --format json`, those of the ball and those of the engine in one dict.
 
@@ -31,6 +31,6 @@ def engine(name: str, ball: Ball, *, law: LawLike = "exact") -> dict[str, Any]:
     return _told(name, ball, law)[0]
 
 
-def engines(ball: Ball, *, law: LawLike = "exact") -> dict[str, dict[str, Any]]:
+def engines(ball: Ball, *, law: Optional[LawLike] = None) -> dict[str, dict[str, Any]]:
     """`engine` of each engine that is known, by name."""
     return {each["name"]: each for each in _told(None, ball, law)}

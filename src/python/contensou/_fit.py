@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._balls import Ball
-from ._flow import LawLike, law as law_of
+from ._flow import LawLike
 
 
 class Estimate(NamedTuple):
@@ -83,7 +83,7 @@ def fit(
     vy: Optional[ArrayLike] = None,
     angle: Optional[ArrayLike] = None,
     sd: Optional[dict[str, ArrayLike]] = None,
-    law: LawLike = "exact",
+    law: Optional[LawLike] = None,
     free: Sequence[str] = ("friction", "patch_radius", "slip", "spin"),
     robust: bool = False,
 ) -> Fit:
@@ -91,7 +91,7 @@ def fit(
     increase: any of slip (m/s), spin (rad/s about the vertical), place x, y (m) and velocity vx, vy (m/s) of the centre, and
     the angle turned about the vertical (rad, up to whole turns). NaN was not measured. src/fit/README.md says how to film it.
 
-    ball:    its radius and gravity; the values of what is not free
+    ball:    its radius and gravity; the values of what is not free; its law, where none is given
     sd:      standard deviations by observable, numbers or arrays; of others they are estimated, from 10 values or more
     robust:  Huber's loss: values that are far off count for less
     """
@@ -107,10 +107,10 @@ def fit(
     none = np.empty(0)
     series = [(name, values, np.broadcast_to(np.asarray(sd[name], float), t.shape) if name in sd else none)
               for name, values in seen.items()]
-    known_law = law_of(law)
+    known_law = ball._law(law)
     found = _core.fit(_core.Experiment(ball, None, None), known_law._core, t, series, list(free), robust)
     estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
     fitted = ball.but(friction=estimates["friction"].value, patch_radius=estimates["patch_radius"].value,
-                      slip=max(0.0, estimates["slip"].value), spin=estimates["spin"].value)
+                      slip=max(0.0, estimates["slip"].value), spin=estimates["spin"].value, law=known_law)
     predicted = dict(zip(seen, found.pop("predicted")))
     return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted, **found)

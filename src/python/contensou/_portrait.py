@@ -44,7 +44,7 @@ class Portrait:
         if experiment is None:
             flow = Flow(asked["mu"], law, asked["body"])._core
         elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball":
-            flow = experiment.flow(law_of(law or "exact")._core)
+            flow = experiment.flow(ball._law(law)._core)
         else:
             raise ValueError("ball and mu, u, v, body exclude each other: a ball brings them")
         if (asked["u"] is None) != (asked["v"] is None):
