@@ -56,33 +56,53 @@ constexpr unsigned time_limit = 300;
 /// Its status where it cannot be run, as a shell's.
 constexpr int not_run = 127;
 
-/// How gnuplot is told the format, and how large it draws a point of size 1.
+/// A terminal of gnuplot, and how long things of length 1 come out in its unit: points of PDF and EPS, else dots.
 struct Terminal {
+  std::string_view name, font;
+  double units_per_mm;
+  double letter, line, symbol;  ///< symbol 0: it goes with the letters
+  double dash;                  ///< 0: it goes with the width of its line
+};
+
+/// Cairo's terminals take a size of letters for 96 to the inch. PDF and EPS halve it unless told a fontscale, and halve
+/// lines, EPS once more.
+Terminal terminal_of(PictureFormat format, double dpi) {
+  constexpr double points = 72 / 25.4;
+  switch (format) {
+    case PictureFormat::pdf:
+      return {"pdfcairo fontscale 1", "sans", points, 4.0 / 3, 0.5, 6, 0.275};
+    case PictureFormat::eps:
+      return {"epscairo fontscale 1", "sans", points, 4.0 / 3, 0.25, 6, 0.275};
+    case PictureFormat::png:
+      return {"pngcairo", "sans", dpi / 25.4, 4.0 / 3, 1, 6.5, 0.55};
+    case PictureFormat::gif:
+      return {"gif animate delay 4 loop 0 optimize", "sans", 4, 4.0 / 3, 1, 6.4, 0};
+    default:
+      return {"svg dynamic", "sans-serif", 5, 1, 1, 0, 0};
+  }
+}
+
+/// How gnuplot is told the format, and how large it draws a point of size 1.
+struct Canvas {
   std::string command;
   double point_mm;
 };
 
 /// @param letter  the size of letters, mm
-Terminal terminal(const Figure& figure, double letter, PictureFormat format) {
+Canvas canvas(const Figure& figure, double letter, PictureFormat format) {
+  const Terminal terminal = terminal_of(format, figure.dpi);
+  const auto [width, height] = figure.size;
+  const double per_mm = terminal.units_per_mm, line = line_width * letter * figure.theme.line * per_mm;
   const bool vector = format == PictureFormat::pdf || format == PictureFormat::eps;
-  const bool pixels = format == PictureFormat::png || format == PictureFormat::gif;
-  // gnuplot's cairo and gd terminals count a point as 1/96 inch in letters, and a PDF's as half a point in lines.
-  const double per_mm = vector ? 72 / 25.4 : format == PictureFormat::png ? figure.dpi / 25.4 : pixels ? 4 : 5;
-  const std::string size =
-      vector ? fmt::format("{}cm,{}cm", figure.size.width_mm / 10, figure.size.height_mm / 10)
-             : fmt::format("{:.0f},{:.0f}", figure.size.width_mm * per_mm, figure.size.height_mm * per_mm);
-  const auto [name, point_mm] = format == PictureFormat::pdf   ? std::pair{"pdfcairo", 6 / per_mm}
-                                : format == PictureFormat::eps ? std::pair{"epscairo", 6 / per_mm}
-                                : format == PictureFormat::png ? std::pair{"pngcairo", 6.5 / per_mm}
-                                : format == PictureFormat::gif
-                                    ? std::pair{"gif animate delay 4 loop 0 optimize", 6.4 / per_mm}
-                                    : std::pair{"svg dynamic", 0.75 * letter};
-  const char* usual_font = vector || pixels ? "sans" : "sans-serif";
-  return {fmt::format("set terminal {} size {} enhanced rounded background '#{:06x}' font '{},{:.4g}' linewidth {:.4g}",
-                      name, size, figure.theme.ground.rgb, figure.font.empty() ? usual_font : figure.font,
-                      letter * per_mm * (vector || pixels ? 0.75 : 1),
-                      line_width * letter * figure.theme.line * per_mm * (vector ? 2 : 1)),
-          point_mm};
+  const std::string size = vector ? fmt::format("{}cm,{}cm", width / 10, height / 10)
+                                  : fmt::format("{:.0f},{:.0f}", width * per_mm, height * per_mm);
+  constexpr double dash = 0.6;  // widths of a line, as SVG has it, whose dashes are longer in wider lines
+  return {
+      fmt::format("set terminal {} size {} enhanced rounded background '#{:06x}' font '{},{:.4g}' linewidth {:.4g}{}",
+                  terminal.name, size, figure.theme.ground.rgb, figure.font.empty() ? terminal.font : figure.font,
+                  letter * per_mm / terminal.letter, line / terminal.line,
+                  terminal.dash > 0 ? fmt::format(" dashlength {:.4g}", dash * line / terminal.dash) : ""),
+      terminal.symbol > 0 ? terminal.symbol / per_mm : 0.75 * letter};
 }
 
 /// Text as a gnuplot string: between single quotes nothing is run and only the quote itself is special. Control
@@ -170,7 +190,7 @@ class Data {
 class Script {
  public:
   Script(const Figure& figure, PictureFormat format)
-      : figure_(figure), layout_(lay_out(figure)), terminal_(terminal(figure, layout_.letter, format)) {
+      : figure_(figure), layout_(lay_out(figure)), canvas_(canvas(figure, layout_.letter, format)) {
     put("set style textbox opaque noborder fillcolor {} margins 0.2,0.1\n", colour(figure.theme.ground));
     put("set xtics textcolor {0}\nset ytics textcolor {0}\nset cbtics textcolor {0}\nset multiplot\n", ink_);
     page();
@@ -182,7 +202,7 @@ class Script {
   std::string heading() const {
     return fmt::format(
         "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\nset encoding utf8\n{}\n",
-        terminal_.command);
+        canvas_.command);
   }
   const std::string& text() const { return text_; }
 
@@ -278,7 +298,7 @@ class Script {
   }
 
   void marks(const Marks& layer, const std::vector<Row>& places, Data& data) {
-    const double size = layer.size * mark_size * layout_.letter / terminal_.point_mm;
+    const double size = layer.size * mark_size * layout_.letter / canvas_.point_mm;
     if (const int ground = point_type(layer.shape).ground) {
       plot(fmt::format("with points pt {} ps {:.4g} lc {}", ground, size, colour(figure_.theme.ground)));
       data.add(places);
@@ -318,7 +338,7 @@ class Script {
 
   const Figure& figure_;
   Layout layout_;
-  Terminal terminal_;
+  Canvas canvas_;
   std::string ink_ = colour(figure_.theme.ink);
   std::string separator_;  ///< before the next plot of the command
   std::string text_;
