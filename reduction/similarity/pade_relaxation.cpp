@@ -1,4 +1,4 @@
-// Notation (README (R28) to (R30)): with p = 1/P, q = Q and T
+// Notation (README (R28) to (R30)): with p = lambda, q = Q and T
 //   G = 1/(1 + X), X = a_1/(b_1 + a_2/(b_2 + ...)), b_n = 1 + n p                    (R29)
 //   eta = 1/(p + T), y = p eta, N = max(1, round(q)), d = q - N                      (R30)
 #include "similarity/pade_relaxation.hpp"
@@ -14,7 +14,8 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Pairs of (R29) that leave out less than eps/8: by the slower of its two rates of convergence.
+/// Pairs of (R29), by the slower of its two rates of convergence. What they leave out of m is less than eps/8 but where p
+/// is next to 0, that is r next to 2 or 5: there it is 10 times as much at worst (T = 0.8), still within m's 5 ulp.
 int pairs_of_fraction(double p, double T) {
   // The first rate for t up to a bound, the binary exponents of t in mind.
   if (T < 0.015625 * p) return 4;

@@ -8,10 +8,10 @@ namespace contensou::reduction {
 struct PadeRelaxation {
   double begin;   ///< value at T = 0
   double end;     ///< value at T = infinity
-  double p;       ///< 1/P >= 0; 0 is a limit like any other
+  double p;       ///< lambda >= 0; 0 is a limit like any other
   double q;       ///< Q > 0
   double excess;  ///< 1 - p q >= 0, to its own last digit
-  double T;       ///< p t >= 0, with t of (R28)
+  double T;       ///< p zeta >= 0, with zeta of (R28)
 };
 
 /// Its value.

@@ -12,8 +12,8 @@ namespace {
 /// Every ball with mu <= 1 has r <= 5/7.
 constexpr double slow_r = 0.72;
 
-/// [lnGamma(P) + lnGamma(1 - d) - lnGamma(P - d)]/d - ln P of (R30), P = 2/(2 - r), d = r/(5 - r), for r <= slow_r: its
-/// Chebyshev series up to degree 15, in powers of t; within 1e-18.
+/// [lnGamma(P) + lnGamma(1 - d) - lnGamma(P - d)]/d - ln P of (R30), P = 1/lambda = 2/(2 - r), d = r/(5 - r), for
+/// r <= slow_r: its Chebyshev series up to degree 15, in powers of t; within 1e-18.
 double slow_connection(double r) {
   constexpr std::array c{
       0.13098133908826343,    0.14712431422470076,    0.017486965431931567,   0.0014499083005106678,

@@ -115,8 +115,8 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
   }
   text +=
       "\n"
-      "radial, angular   eigenvalues of (2.7) blown up at the origin, v = q |u|, and divided by |u| (by v at u = 0);\n"
-      "                  at infinity multiplied by it. The field itself has no linear part at the origin\n"
+      "radial, angular   eigenvalues of (2.7) in |u| and q = v/|u| (at u = 0 in v and |u|/v), divided by |u| (v);\n"
+      "                  at infinity 1/|u| (1/v) is the radial coordinate. (2.7) has no linear part at the origin\n"
       "kind              a half-line is a separatrix of its saddle; u < 0 is the mirror image\n"
       "every other orbit is born at infinity in an unstable node and enters the origin\n";
   for (std::size_t i = 0; i < plane.tangents.size(); ++i) {

@@ -8,8 +8,9 @@ namespace contensou::reduction {
 
 /// The rational approximation of the Hertz law that Zh98 solves: Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 + 15 pi k).
 ///
-/// It keeps the values and slopes at both ends, and is up to 39 % (Phi, k = 0.91) and 48 % (Psi, k = 0.54) below the
-/// exact law between them; it has no dissipation potential.
+/// It keeps Phi(0), Phi'(0), Phi(infinity), Psi(0) and lim k Psi, but neither the slope of Psi at k = 0 (-1.735 in place
+/// of 0) nor that of Phi in 1/k at infinity (-0.849 in place of 0). Between the ends it is up to 39 % (Phi, k = 0.91) and
+/// 48 % (Psi, k = 0.54) below the exact law; it has no dissipation potential.
 ///
 /// Source    Zh98 (1.4), (1.6).
 /// Accuracy  4 eps relative for every k (tests/reference/laws.csv).

@@ -36,7 +36,7 @@ std::string_view name(SingularKind kind);
 
 /// A singular point of the regularised field (2.7) after desingularisation. The angular coordinate is q = v/|u| on the
 /// half-plane u > 0, and |u|/v at the axis u = 0; the radial one is the speed |u| (there v) at the origin, its inverse
-/// at infinity. The field is divided (at infinity multiplied) by that speed. The half-plane u < 0 is the mirror image.
+/// at infinity. The field is divided by that speed in both places. The half-plane u < 0 is the mirror image.
 struct SingularPoint {
   InvariantDirection direction;
   SingularPlace place;

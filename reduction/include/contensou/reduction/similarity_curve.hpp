@@ -8,9 +8,9 @@ namespace contensou::reduction {
 /// their nearness xi (TerminalChart): ln k itself where k -> 0, which is every ball.
 ///
 /// Scaling symmetry leaves nothing else to compute: orbits, stop times, the state at a given time and the regularised
-/// time follow by exponentials and sums (Orbit). k = v/w, w = mu |u|, s is the scaled time of README (R1). All
-/// functions but the first are bounded and regular for every r, however small; xi may be any finite number: v
-/// underflows long before ln v does.
+/// time follow by exponentials and sums (Orbit). k = v/w, w = mu |u|, s is the scaled time of README (R1). m, n
+/// and c are bounded however small r is; b too, but for its value 1/(128 r Psi(0)) at k = 0. xi may be any finite
+/// number: v underflows long before ln v does.
 class SimilarityCurve {
  public:
   virtual ~SimilarityCurve() = default;

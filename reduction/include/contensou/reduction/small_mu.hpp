@@ -8,7 +8,8 @@
 
 namespace contensou::reduction {
 
-/// m(k; r) = first + r second + O(r^2 ln^3): the sliding coefficient of README (R4) for small r = gamma mu^2/chi.
+/// m(k; r) = first + r second + O(r^2): the sliding coefficient of README (R4) for r = gamma mu^2/chi far below
+/// r_low = Phi'(0)/Psi(0). The error is r^2 O(ln^3 k/k) as k -> infinity.
 struct CoefficientExpansion {
   double first;
   double second;

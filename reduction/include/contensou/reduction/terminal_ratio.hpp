@@ -9,17 +9,19 @@
 namespace contensou::reduction {
 
 /// What k = v/(mu |u|) tends to as a body that slides and pivots comes to rest.
+///
+/// u and v vanish at one instant whatever the regime is (README (R39)): k says which of them is then the smaller.
 enum class TerminalRegime {
-  zero,      ///< sliding dies out first: k -> 0
-  ray,       ///< both die out together: k tends to that of an invariant ray
-  infinity,  ///< pivoting dies out first: k -> infinity
+  zero,      ///< k -> 0: v is the smaller in the end, by any factor
+  ray,       ///< k tends to that of an invariant ray
+  infinity,  ///< k -> infinity: u is the smaller in the end
 };
 
 /// The same in words.
 constexpr std::string_view meaning(TerminalRegime regime) {
-  return regime == TerminalRegime::zero  ? "sliding dies out first"
-         : regime == TerminalRegime::ray ? "sliding and spinning die out together, on an invariant ray"
-                                         : "spinning dies out first";
+  return regime == TerminalRegime::zero  ? "u and v vanish together, v faster"
+         : regime == TerminalRegime::ray ? "u and v vanish together, in the ratio of an invariant ray"
+                                         : "u and v vanish together, u faster";
 }
 
 /// One end of motions, and which motions end there.
@@ -43,8 +45,9 @@ struct InvariantRay {
 /// The zeros of Phi - r k Psi beside k = 0 and k = infinity, and where k goes between them.
 ///
 /// k falls where Phi > r k Psi and grows where it is less (README (R2)), so that between two neighbours of 0, the rays
-/// and infinity every motion leaves the one and tends to the other. Under most laws Phi/(k Psi) grows with k: there is
-/// one ray for low < r < high, it attracts, and there is one end.
+/// and infinity every motion leaves the one and tends to the other. Under the named laws but potential8 and elliptic
+/// Phi/(k Psi) grows with k: there is one ray for low < r < high, it attracts, and there is one end. Under a pressure
+/// given as a table there may be several. For r <= 1/2 no pressure on a disc has a ray (README (R40)).
 struct TerminalRatios {
   double low;                       ///< Phi/(k Psi) at k = 0, Phi'(0)/Psi(0)
   double high;                      ///< and at k = infinity
