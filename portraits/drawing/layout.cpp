@@ -243,10 +243,11 @@ std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
   std::vector<Axis::Tick> all = axis.ticks;
   if (all.empty() && axis.logarithmic) {
     constexpr double few_decades = 2.5, same = 1e-9;
-    const bool powers = axis.high / axis.low >= std::pow(10, few_decades);
-    for (double at : round_ratios(axis.low * (1 - same), axis.high * (1 + same), few_decades)) {
-      all.push_back({at, powers ? fmt::format("10^{{{:.0f}}}", std::log10(at)) : number(at)});
-    }
+    const std::vector<double> round = round_ratios(axis.low * (1 - same), axis.high * (1 + same), few_decades);
+    // Either all plain, as number() writes those, or all powers.
+    const bool powers = axis.high / axis.low >= std::pow(10, few_decades) &&
+                        std::ranges::any_of(round, [](double at) { return number(at).starts_with("10^"); });
+    for (double at : round) all.push_back({at, powers ? fmt::format("10^{{{:.0f}}}", std::log10(at)) : number(at)});
   } else if (all.empty()) {
     const double range = axis.high - axis.low;
     const double end = std::max(std::abs(axis.low), std::abs(axis.high));
@@ -459,5 +460,19 @@ class Compositor {
 }  // namespace
 
 Layout lay_out(const Figure& figure) { return Compositor(figure).layout(); }
+
+void widen(Figure& figure, std::size_t panel, double times) {
+  // Twice: other numbers beside the ticks leave another width.
+  for (int i = 0; i < 2; ++i) {
+    const Box box = lay_out(figure).panels[panel].box;
+    Axis &x = figure.panels[panel].x, &y = figure.panels[panel].y;
+    const double x_unit = box.width / (x.high - x.low), y_unit = box.height / (y.high - y.low);
+    const double factor = y_unit / (x_unit * times);
+    Axis& axis = factor > 1 ? y : x;
+    const double more = (std::max(factor, 1 / factor) - 1) / 2 * (axis.high - axis.low);
+    axis.low -= more;
+    axis.high += more;
+  }
+}
 
 }  // namespace contensou::portraits

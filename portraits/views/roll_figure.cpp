@@ -46,7 +46,7 @@ void require_columns(const RollCurve& curve) {
 double shown_time(const RollPicture& picture) {
   const double rolls = std::max(picture.ball.rolls, picture.textbook.rolls);
   const double last = picture.ball.t[picture.ball.t.size() - 1];
-  return rolls > 0 && picture.slow == 0 ? std::min(1.6 * rolls, last) : last;
+  return rolls > 0 && picture.slow == 0 && !picture.whole_path ? std::min(1.6 * rolls, last) : last;
 }
 
 Polyline path_of(const RollCurve& curve, double end) {
@@ -96,24 +96,55 @@ Panel paths(const RollPicture& picture) {
   return panel;
 }
 
-/// The path from above, to scale unless it is flat.
-Panel path_panel(const RollPicture& picture, const PaperSize& size) {
+/// The path from above.
+Panel path_panel(const RollPicture& picture) {
   Panel panel = paths(picture);
-  const Point paper = panel_size(size, picture.slow > 0 ? 4 : 2);
-  const double panel_shape = paper.x / paper.y;
-  const double scale = std::max((panel.x.high - panel.x.low) / panel_shape, panel.y.high - panel.y.low);
-  // Most of the panel is used, across too.
-  const auto stretch = [scale](Axis& axis, const char* letter, double shape) {
-    constexpr double min_fraction = 0.75;
-    const double factor = std::max(1.0, min_fraction * scale * shape / std::max(axis.high - axis.low, 1e-300));
-    const auto [low, high] = widened(axis.low, axis.high, 1.16 * scale * shape / factor);
-    const std::string note = factor > 1.05 ? fmt::format(" (stretched {:.2g} times)", factor) : "";
-    axis = {fmt::format("{{/:Italic {}}}, m{}", letter, note), low, high, false, {}};
-  };
-  stretch(panel.x, "x", panel_shape);
-  stretch(panel.y, "y", 1);
+  for (auto [axis, letter] : {std::pair{&panel.x, 'x'}, {&panel.y, 'y'}}) {
+    const auto [low, high] = widened(axis->low, axis->high, 0);
+    *axis = {fmt::format("{{/:Italic {}}}, m", letter), low, high, false, {}};
+  }
   panel.title = "the path on the table";
+  const double shown = shown_time(picture);
+  if (shown < picture.ball.t[picture.ball.t.size() - 1]) panel.title += fmt::format(", the first {:.3g} s", shown);
   return panel;
+}
+
+/// Widens the axes of the path, the first panel, to the shape of that panel on the page: to scale, unless the path is so
+/// flat that most of the panel would be empty; then one side is stretched a round number of times, and says so.
+void fill_panel(Figure& figure) {
+  constexpr double flattest = 0.2, wanted = 0.75;
+  const Box box = lay_out(figure).panels.front().box;
+  Panel& path = figure.panels.front();
+  const double x = (path.x.high - path.x.low) / box.width, y = (path.y.high - path.y.low) / box.height;
+  const double flat = std::min(x, y) / std::max(x, y);
+  const double times = flat < flattest ? round_down(wanted / flat) : 1;
+  if (times > 1) (x < y ? path.x : path.y).name += fmt::format(" (stretched {} times)", number(times));
+  widen(figure, 0, x < y ? 1 / times : times);
+  path.to_scale = times == 1;
+}
+
+/// Which way the paths lead, and whether they bend.
+struct Course {
+  Point along{1, 0};  ///< the direction of the farthest point of the path
+  double reach = 0;   ///< its distance from the start; 0: the ball spins in place
+  bool bends = false;
+};
+
+Course course_of(const RollPicture& picture) {
+  const Polyline path = path_of(picture.ball, shown_time(picture));
+  const Polyline textbook = path_of(picture.textbook, shown_time(picture));
+  Course course;
+  for (const Point& point : path) {
+    const double distance = std::hypot(point.x, point.y);
+    if (distance > course.reach) course = {{point.x / distance, point.y / distance}, distance};
+  }
+  for (const Polyline* line : {&path, &textbook}) {
+    for (const Point& point : *line) {
+      const double off = std::abs(course.along.x * point.y - course.along.y * point.x);
+      course.bends = course.bends || off > straight * course.reach;
+    }
+  }
+  return course;
 }
 
 /// The distance along a straight path against time.
@@ -136,7 +167,11 @@ Panel speed_panel(const RollPicture& picture) {
   const bool logarithmic = picture.slow == 0 && first > 0 && last > long_spin * rolls;
   Panel panel;
   panel.title = "speeds; dashed: textbook, sliding and spinning uncoupled";
-  panel.x = {"{/:Italic t}, s", logarithmic ? first / 10 : 0, last, logarithmic, {}};
+  panel.x = {logarithmic ? "{/:Italic t}, s (logarithmic)" : "{/:Italic t}, s",
+             logarithmic ? round_down(first / 10) : 0,
+             last,
+             logarithmic,
+             {}};
   // A fast spin leaves room for the slip.
   const double fastest = std::max(picture.ball.slip.maxCoeff(), picture.ball.speed.maxCoeff());
   const double spin_to_slip = fastest > 0 ? picture.ball.rim.maxCoeff() / fastest : 1;
@@ -277,41 +312,32 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
       path.marks.insert(path.marks.begin(), {Marks{{line.back()}, colour, 1.6}, rolls});
     }
   }
+  if (!course_of(picture).bends) return frames;
+  fill_panel(frames.front());
+  const Panel& first = frames.front().panels.front();
+  for (Figure& frame : frames) {
+    Panel& path = frame.panels.front();
+    std::tie(path.x, path.y, path.to_scale) = std::tuple(first.x, first.y, first.to_scale);
+  }
   return frames;
 }
 
 Figure roll_figure(const RollPicture& picture) {
   require_columns(picture.ball);
   require_columns(picture.textbook);
-  const Polyline path = path_of(picture.ball, shown_time(picture));
-  const Polyline textbook = path_of(picture.textbook, shown_time(picture));
-  // The line through the farthest point of the path, and how far the paths leave it.
-  Point far{1, 0};
-  double reach = 0;
-  for (const Point& point : path) {
-    if (std::hypot(point.x, point.y) > reach) {
-      reach = std::hypot(point.x, point.y);
-      far = {point.x / reach, point.y / reach};
-    }
-  }
-  double bend = 0;
-  for (const Polyline* line : {&path, &textbook}) {
-    for (const Point& point : *line) bend = std::max(bend, std::abs(far.x * point.y - far.y * point.x));
-  }
-
+  const Course course = course_of(picture);
   Figure figure;
   figure.title = picture.title;
   figure.subtitle = picture.subtitle;
-  const bool stays = reach == 0;  // it spins in place
+  const bool stays = course.reach == 0;
   const double film_width = picture.size.width_mm.value_or(160);
   const double film_shape = panel_columns(film_width, 4) == 1 ? 2.2 : stays ? 0.45 : 0.75;
   figure.size = picture.slow > 0 ? PaperSize{film_width, picture.size.height_mm.value_or(film_shape * film_width)}
                 : stays          ? fitted({usual.width_mm / 2 + 25, usual.height_mm}, 1, picture.size)
                                  : fitted(usual, 2, picture.size);
-  if (!stays) {
-    figure.panels.push_back(bend <= straight * reach ? distance_panel(picture, far) : path_panel(picture, figure.size));
-  }
+  if (!stays) figure.panels.push_back(course.bends ? path_panel(picture) : distance_panel(picture, course.along));
   figure.panels.push_back(speed_panel(picture));
+  if (course.bends && picture.slow == 0) fill_panel(figure);
   return figure;
 }
 

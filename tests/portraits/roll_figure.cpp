@@ -1,12 +1,14 @@
 #include "contensou/portraits/roll_figure.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include <catch2/catch.hpp>
 
 #include "contensou/portraits/gnuplot.hpp"
+#include "contensou/portraits/layout.hpp"
 #include "figures.hpp"
 
 using namespace contensou::portraits;
@@ -61,10 +63,40 @@ TEST_CASE("the path with the point from which it rolls, beside the speeds", "[ta
   }
 }
 
-TEST_CASE("a flat path is stretched, and says so", "[limit]") {
-  const Panel path = roll_figure({"", "", curve(0.2, 2.2), curve(0.2, 2.2)}).panels[0];
-  CHECK(path.y.name.find("stretched") != std::string::npos);
-  CHECK(path.x.name.find("stretched") == std::string::npos);
+TEST_CASE("a path is to scale; a flat one is stretched a round number of times, and says so", "[limit]") {
+  // How many times as long a unit of y is on the page as one of x.
+  const auto stretched = [](const Figure& figure) {
+    const Panel& path = figure.panels[0];
+    const Box box = lay_out(figure).panels[0].box;
+    return box.height / (path.y.high - path.y.low) / (box.width / (path.x.high - path.x.low));
+  };
+  for (double push : {0.3, 0.5, 2.0, 10.0, 30.0}) {
+    for (std::optional<double> width : {std::optional<double>(), std::optional(85.0)}) {
+      RollPicture picture{"", "", curve(push, 2.2), curve(push, 2.2)};
+      picture.size.width_mm = width;
+      const Figure figure = roll_figure(picture);
+      CAPTURE(push, figure.size.width_mm);
+      const std::string& name = figure.panels[0].x.name;  // a path along y
+      const std::size_t note = name.find("(stretched ");
+      CHECK((note == name.npos) == (push < 5));
+      CHECK(figure.panels[0].to_scale == (push < 5));
+      const double times = push < 5 ? 1 : std::stod(name.substr(note + 11));
+      CHECK((push < 5 || (times >= 5 && times <= 20)));
+      CHECK(stretched(figure) == Approx(1 / times).epsilon(push < 5 ? 1e-12 : 0.01));
+    }
+  }
+  const Figure wide = roll_figure({"", "", curve(0.1, 2.2), curve(0.1, 2.2)});
+  CHECK_THAT(wide.panels[0].y.name, Catch::Contains("(stretched 5 times)"));
+  CHECK(stretched(wide) == Approx(5).epsilon(0.01));
+}
+
+TEST_CASE("a path that is cut says where", "[table]") {
+  RollPicture picture{"", "", curve(0.5, 2.2), curve(0.5, 2.2)};
+  CHECK(roll_figure(picture).panels[0].title == "the path on the table, the first 1.6 s");
+  picture.whole_path = true;
+  const Panel path = roll_figure(picture).panels[0];
+  CHECK(path.title == "the path on the table");
+  CHECK(path.lines[0].lines[0].back().x == Approx(2.2));
 }
 
 TEST_CASE("a straight path is drawn against time", "[limit]") {
@@ -86,7 +118,8 @@ TEST_CASE("a ball that stays in its place has no path", "[limit]") {
 TEST_CASE("a long spin is drawn on a logarithmic time axis", "[limit]") {
   const Panel speeds = roll_figure({"", "", curve(0.5, 30), curve(0.5, 30)}).panels[1];
   CHECK(speeds.x.logarithmic);
-  CHECK(speeds.x.low > 0);
+  CHECK(speeds.x.low == 0.1);
+  CHECK_THAT(speeds.x.name, Catch::Contains("logarithmic"));
 }
 
 TEST_CASE("a fast spin is drawn in a part of its size, and says so: the slip keeps its room", "[table]") {

@@ -210,7 +210,11 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
         fmt::format("; it rolls after {{{:.3g} s}}, the textbook's after {{{:.3g} s}}", rolls, textbook_rolls);
   }
   if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {{{:.3g} s}}", roll.stop_time());
-  if (whole.friction) picture.subtitle += fmt::format("; it rests after {{{:.3g} s}}", whole.friction->rest_time());
+  if (whole.friction) {
+    const auto& place = whole.friction->rest_position();
+    picture.subtitle += fmt::format("; it rests after {{{:.3g} s}} at {{({:.3g}, {:.3g}) m}}",
+                                    whole.friction->rest_time(), place.x(), place.y());
+  }
   return picture;
 }
 
@@ -318,6 +322,7 @@ class RollCommand final : public Verb {
           picture_of(roll, moves ? film_times : end * Eigen::ArrayXd::LinSpaced(500, 0, 1).cube());
       picture.size = figure_.size();
       picture.slow = moves ? slow : 0;
+      picture.whole_path = until_.given();
       std::vector<portraits::Figure> figures =
           moves ? portraits::roll_film(picture) : std::vector{portraits::roll_figure(picture)};
       for (portraits::Figure& figure : figures) figure = figure_.apply(std::move(figure), output.format);

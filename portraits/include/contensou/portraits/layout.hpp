@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,6 +91,11 @@ struct Layout {
 
 /// @throws std::domain_error  if the figure is too small for its panels
 Layout lay_out(const Figure& figure);
+
+/// Widens one axis of a panel about its middle so that on the page a unit of y is as many times as long as one of x.
+/// @param panel  its index, of a panel with linear axes
+/// @throws std::domain_error  as lay_out
+void widen(Figure& figure, std::size_t panel, double times = 1);
 
 /// The width of a line, the length of an arrow's head and the width of a mark of size 1, in sizes of letters.
 inline constexpr double line_width = 0.074, head_length = 0.74, mark_size = 0.5;

@@ -28,12 +28,14 @@ struct RollPicture {
   RollCurve ball;
   RollCurve textbook;  ///< the same start with sliding and spinning uncoupled
   AskedSize size = {};
-  double slow = 0;  ///< of a film: as many times slower than the ball; 0: no film
+  double slow = 0;          ///< of a film: as many times slower than the ball; 0: no film
+  bool whole_path = false;  ///< up to the last row, not only to a little after the ball rolls
 };
 
 /// The path on the table, up to a little after the ball rolls, and the speeds against time, up to the stop (on a
-/// logarithmic axis where the spin outlives the slip by far); the textbook's ball dashed. A straight path is shown
-/// against time instead, and a ball that stays in its place has no path.
+/// logarithmic axis where the spin outlives the slip by far); the textbook's ball dashed. The path is to scale unless it
+/// is too flat for that, and the figure says where it is cut and how it is stretched. A straight path is shown against
+/// time instead, and a ball that stays in its place has no path.
 ///
 /// @throws std::domain_error  if a column is shorter than 2 or columns differ in length
 Figure roll_figure(const RollPicture& picture);
