@@ -151,9 +151,9 @@ TEST_CASE("progress of a batch", "[cli]") {
   const TemporaryDirectory scratch;
   write_file(scratch.file("table.csv"), "mu,u0,v0\n0.1,1,1\nx,1,1\n");
   const std::string always = "stop --keep-going --progress always --batch ";
-  // It ends before anything is shown; what is shown then, the tests of progress_line say.
   const Run run = run_program(always + scratch.file("table.csv") + " -o " + scratch.file("out.csv"));
   CHECK_THAT(run.err, Contains(":3: mu: 'x' is not a number"));
+  CHECK_THAT(run.err, Contains("\r2 rows in "));
   CHECK(run_program(always + "- --progress soon").status == 2);
   check_rejected("stop --ball pool --progress always", "--progress is for many starts");
 }

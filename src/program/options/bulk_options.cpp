@@ -18,8 +18,9 @@ void BulkOptions::add(CLI::App& app) {
   threads_.add(app, "--threads", "N", "threads to compute with (default: all cores); the result does not depend on it",
                whole_number(1, max_threads));
   progress_.add(app, "--progress", "WHEN",
-                "progress on standard error: auto (default, if that is a terminal), always or never",
-                one_of<std::optional<bool>>({{"auto", std::nullopt}, {"always", true}, {"never", false}}));
+                "progress on standard error: auto (default: of long work, to a terminal), always or never",
+                one_of<std::optional<ShowProgress>>(
+                    {{"auto", std::nullopt}, {"always", ShowProgress::always}, {"never", ShowProgress::never}}));
 }
 
 void BulkOptions::refuse(const std::string& reason) const {
@@ -33,9 +34,9 @@ int BulkOptions::threads() const {
   return static_cast<int>(threads_.value_or(std::clamp(cores, 1L, max_threads)));
 }
 
-bool BulkOptions::progress(const std::string& output) const {
+ShowProgress BulkOptions::progress(const std::string& output) const {
   const bool watched = ::isatty(STDERR_FILENO) != 0 && (output != "-" || ::isatty(STDOUT_FILENO) == 0);
-  return progress_.value_or(std::nullopt).value_or(watched);
+  return progress_.value_or(std::nullopt).value_or(watched ? ShowProgress::of_long_work : ShowProgress::never);
 }
 
 }  // namespace contensou::program

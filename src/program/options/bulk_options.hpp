@@ -4,6 +4,7 @@
 #include <string>
 
 #include "options/argument.hpp"
+#include "output/progress.hpp"
 
 namespace contensou::program {
 
@@ -19,14 +20,14 @@ class BulkOptions {
   /// As many as the machine runs at once if none were given.
   int threads() const;
 
-  /// Whether progress is to be shown: if standard error is a terminal to which no output goes, unless always or never
-  /// was asked for.
+  /// When progress is to be shown: of long work, if standard error is a terminal to which no output goes, unless always
+  /// or never was asked for.
   /// @param output  the file of -o; "-" is standard output
-  bool progress(const std::string& output) const;
+  ShowProgress progress(const std::string& output) const;
 
  private:
   ArgumentOf<long> threads_;
-  ArgumentOf<std::optional<bool>> progress_;
+  ArgumentOf<std::optional<ShowProgress>> progress_;
 };
 
 }  // namespace contensou::program

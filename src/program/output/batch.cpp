@@ -13,7 +13,6 @@
 
 #include "output/answer.hpp"
 #include "output/ordered_work.hpp"
-#include "output/progress.hpp"
 
 namespace contensou::program {
 

@@ -8,6 +8,7 @@
 #include "exit_status.hpp"
 #include "input/csv.hpp"
 #include "output/output.hpp"
+#include "output/progress.hpp"
 
 namespace contensou::program {
 
@@ -23,7 +24,7 @@ struct BatchRequest {
 
   bool keep_going = false;  ///< report a bad row on standard error and leave its results empty
   int threads = 1;
-  bool progress = false;
+  ShowProgress progress = ShowProgress::never;
 };
 
 /// Computes on a table of any length, in the memory of a few blocks of it.

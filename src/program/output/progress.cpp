@@ -1,8 +1,8 @@
 #include "output/progress.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -19,13 +19,8 @@ std::string clock(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-void rewrite(const std::string& line, const char* end) {
-  constexpr const char* clear_rest = "\x1b[K";
-  std::fputs(fmt::format("\r{}{}{}", line, clear_rest, end).c_str(), stderr);
-}
-
-}  // namespace
-
+/// The bar at that fraction of the work, with rate and time left, or how much was done where the total is NaN; without
+/// a line end.
 std::string progress_line(double done, double total, const std::string& what, double seconds) {
   constexpr int width = 24;
   const double rate = done / seconds;
@@ -40,13 +35,19 @@ std::string progress_line(double done, double total, const std::string& what, do
   return line;
 }
 
+}  // namespace
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 void Progress::show(double done, double total) {
-  constexpr auto pause = std::chrono::milliseconds(200);
-  const auto now = Clock::now();
+  constexpr double pause = 0.2;
+  const double now = now_();
   if (!shown_ || now - last_ < pause) return;
   last_ = now;
   begun_ = visible_ = true;
-  rewrite(progress_line(done, total, what_, std::chrono::duration<double>(now - start_).count()), "");
+  rewrite(progress_line(done, total, what_, now - start_), "");
 }
 
 void Progress::erase() {
@@ -57,8 +58,13 @@ void Progress::erase() {
 void Progress::finish(double done) {
   if (!begun_) return;
   visible_ = false;
-  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double seconds = now_() - start_;
   rewrite(fmt::format("{:.6g} {} in {:.3g} s, {:.3g} {}/s", done, what_, seconds, done / seconds, what_), "\n");
+}
+
+void Progress::rewrite(const std::string& line, const char* end) const {
+  constexpr const char* clear_rest = "\x1b[K";
+  std::fputs(fmt::format("\r{}{}{}", line, clear_rest, end).c_str(), output_);
 }
 
 }  // namespace contensou::program

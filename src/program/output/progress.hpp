@@ -1,15 +1,30 @@
 #pragma once
 
-#include <chrono>
+#include <cstdio>
+#include <functional>
 #include <string>
+#include <utility>
 
 namespace contensou::program {
 
-/// How far a long computation is, in one line of standard error that is written over a few times a second.
+/// When progress is shown: of work that takes long, or of any.
+enum class ShowProgress { never, of_long_work, always };
+
+/// Of a clock that is never set back.
+double seconds_now();
+
+/// How far a computation is, in one line of standard error that is written over a few times a second.
 class Progress {
  public:
-  /// @param what  is counted, in the plural
-  Progress(std::string what, bool shown) : what_(std::move(what)), shown_(shown) {}
+  /// @param what    is counted, in the plural
+  /// @param now     the time, s
+  /// @param output  the terminal or file that the line is for
+  Progress(std::string what, ShowProgress when, std::function<double()> now = seconds_now, std::FILE* output = stderr)
+      : what_(std::move(what)),
+        shown_(when != ShowProgress::never),
+        begun_(when == ShowProgress::always),
+        now_(std::move(now)),
+        output_(output) {}
   ~Progress() { erase(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -20,22 +35,20 @@ class Progress {
   /// Makes room for a message, until it is shown again.
   void erase();
 
-  /// Leaves a line that says how long it took, if any was shown before.
+  /// Leaves a line that says how long it took, if any was shown before or progress is always shown.
   void finish(double done);
 
  private:
-  using Clock = std::chrono::steady_clock;
+  void rewrite(const std::string& line, const char* end) const;
 
   std::string what_;
   bool shown_;
-  bool begun_ = false;
+  bool begun_;
   bool visible_ = false;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_;
+  std::function<double()> now_;
+  std::FILE* output_;
+  double start_ = now_();
+  double last_ = start_;
 };
-
-/// The bar at that fraction of the work, with rate and time left, or how much was done where the total is NaN; without
-/// a line end.
-std::string progress_line(double done, double total, const std::string& what, double seconds);
 
 }  // namespace contensou::program

@@ -78,7 +78,7 @@ struct SweepRequest {
   SweepGrid grid;
   SweepFormat format;
   int threads = 1;
-  bool progress = false;
+  ShowProgress progress = ShowProgress::never;
 };
 
 std::vector<double> values_of(const Range& range, long begin, long count) {
