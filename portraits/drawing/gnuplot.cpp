@@ -198,10 +198,11 @@ class Script {
     put("unset multiplot\n");
   }
 
-  /// What comes first, once.
+  /// What comes first, once. In a locale without a degree sign gnuplot warns of it at `set encoding`.
   std::string heading() const {
     return fmt::format(
-        "# Drawn by contensou; gnuplot 5. `gnuplot FILE.gp > FILE.svg` draws it again.\nset encoding utf8\n{}\n",
+        "# Drawn by contensou; gnuplot 5. `LC_ALL=C.UTF-8 gnuplot FILE.gp > FILE.svg` draws it again.\n"
+        "set encoding utf8\n{}\n",
         canvas_.command);
   }
   const std::string& text() const { return text_; }

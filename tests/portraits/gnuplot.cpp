@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -23,25 +24,36 @@ namespace {
 
 portraits::Figure sample() { return portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.05}}, {})); }
 
+/// A variable of the environment, as it was again afterwards.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value.c_str(), 1);
+  }
+  ~Variable() {
+    if (before_)
+      setenv(name_, before_->c_str(), 1);
+    else
+      unsetenv(name_);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+  const std::optional<std::string>& before() const { return before_; }
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
 /// A folder for one test; PATH, TMPDIR and HOME point into it while it lives.
 class Sandbox {
  public:
   Sandbox() {
     fs::create_directory(folder() / "bin");
     fs::create_directory(folder() / "tmp");
-    path_ = std::getenv("PATH");
-    home_ = std::getenv("HOME");
-    setenv("PATH", (folder() / "bin").c_str(), 1);
-    setenv("TMPDIR", (folder() / "tmp").c_str(), 1);
-    setenv("HOME", folder().c_str(), 1);
   }
-  ~Sandbox() {
-    setenv("PATH", path_.c_str(), 1);
-    unsetenv("TMPDIR");
-    setenv("HOME", home_.c_str(), 1);
-  }
-  Sandbox(const Sandbox&) = delete;
-  Sandbox& operator=(const Sandbox&) = delete;
 
   void install_gnuplot(const std::string& content) const {
     const fs::path file = folder() / "bin" / "gnuplot";
@@ -51,14 +63,14 @@ class Sandbox {
   void fake_gnuplot(const std::string& body) const { install_gnuplot("#!/bin/sh\n" + body); }
   /// gnuplot, but with commands of the test around it.
   void real_gnuplot(const std::string& before, const std::string& after) const {
-    fake_gnuplot("PATH='" + path_ + "'\n" + before + " gnuplot \"$@\" " + after);
+    fake_gnuplot("PATH='" + path_.before().value() + "'\n" + before + " gnuplot \"$@\" " + after);
   }
   const fs::path& folder() const { return folder_.path(); }
   bool left_nothing() const { return fs::is_empty(folder() / "tmp"); }
 
  private:
   portraits::TemporaryFolder folder_;
-  std::string path_, home_;
+  Variable path_{"PATH", folder() / "bin"}, tmpdir_{"TMPDIR", folder() / "tmp"}, home_{"HOME", folder()};
 };
 
 }  // namespace
@@ -185,11 +197,10 @@ TEST_CASE("The environment changes no picture: no settings, no locale, no tempor
   const Sandbox sandbox;
   sandbox.real_gnuplot("", "");
   std::ofstream(sandbox.folder() / ".gnuplot") << "set title 'mine'\nprint 'mine'\n";
-  setenv("TMPDIR", "/no/such/folder", 1);
+  const Variable tmpdir("TMPDIR", "/no/such/folder");
   for (const char* locale : {"xx_XX.UTF-8", "C"}) {
-    setenv("LC_ALL", locale, 1);
+    const Variable all("LC_ALL", locale);
     CHECK(portraits::render(sample(), PictureFormat::svg) == expected);
-    unsetenv("LC_ALL");
   }
 }
 
@@ -240,13 +251,19 @@ TEST_CASE("A picture has the size of its figure and no date: the same bytes at a
   }
 }
 
-TEST_CASE("gnuplot has nothing to say about any view", "[route]") {
+TEST_CASE("gnuplot has nothing to say about any view, drawn as its script says on a machine without a locale",
+          "[route]") {
   for (portraits::View view : portraits::views()) {
     for (double mu : {0.5, 0.001}) {
       const auto figure = portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, {.view = view}));
       const portraits::TemporaryFolder folder;
-      std::ofstream(folder.path() / "figure.gp") << portraits::gnuplot_script(figure);
-      CHECK(std::system(("cd " + folder.path().string() + " && gnuplot figure.gp >svg 2>messages").c_str()) == 0);
+      const std::string script = portraits::gnuplot_script(figure);
+      std::ofstream(folder.path() / "FILE.gp") << script;
+      const std::size_t begin = script.find('`') + 1;
+      const std::string command = script.substr(begin, script.find('`', begin) - begin);
+      const std::string bare = "unset LANG LC_ALL LC_CTYPE; cd '" + folder.path().string() + "' && ";
+      CHECK(std::system((bare + command + " 2> messages").c_str()) == 0);
+      CHECK(fs::file_size(folder.path() / "FILE.svg") > 10000);
       std::ifstream messages(folder.path() / "messages");
       std::string words;
       std::getline(messages, words);
