@@ -15,6 +15,9 @@ const steps = {
   types: [`${tools}/typescript/bin/tsc`, "--project", here],
   tests: ["--test", `${here}/modules.test.mjs`],
 };
+// A node that would guess that a file is a module is not to: Debian's does not.
+const guess = "--experimental-detect-module";
+if (process.allowedNodeEnvironmentFlags.has(guess)) process.env.NODE_OPTIONS = guess.replace("--", "--no-");
 const failed = Object.entries(steps).filter(([name, words]) => {
   console.log(`--- ${name}`);
   return spawnSync(process.execPath, words, { cwd: dirname(dirname(here)), stdio: "inherit" }).status !== 0;
