@@ -352,7 +352,12 @@ class MemoryFile {
     if (file_ < 0) fail();
   }
   explicit MemoryFile(std::string_view content) : MemoryFile() {
-    if (::pwrite(file_, content.data(), content.size(), 0) != std::ssize(content)) fail();
+    while (!content.empty()) {  // a limit is met by the write after the one that it cuts short
+      const ssize_t written = ::write(file_, content.data(), content.size());
+      if (written < 0) fail();
+      content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    ::lseek(file_, 0, SEEK_SET);
   }
   ~MemoryFile() { ::close(file_); }
   MemoryFile(const MemoryFile&) = delete;
@@ -368,16 +373,18 @@ class MemoryFile {
 
  private:
   [[noreturn]] static void fail() {
-    throw GnuplotError(fmt::format("no room in memory for what gnuplot reads and writes: {}", std::strerror(errno)));
+    throw GnuplotError(fmt::format("what gnuplot reads and writes does not fit: {}", std::strerror(errno)));
   }
 
   int file_ = ::memfd_create("contensou", MFD_CLOEXEC);
 };
 
-/// Runs gnuplot with no settings but the script's: without ~/.gnuplot, in no language. It ends with
-/// this program.
+/// Runs a program, found on PATH, in no language. It ends with this one.
+/// @param command  its name and arguments
 /// @return  its status as of waitpid()
-int run(const MemoryFile& script, const MemoryFile& picture, const MemoryFile& messages) {
+int run(std::vector<const char*> command, const MemoryFile& input, const MemoryFile& output,
+        const MemoryFile& messages) {
+  command.push_back(nullptr);
   std::vector<const char*> environment{"LC_ALL=C.UTF-8"};
   for (char** variable = environ; *variable != nullptr; ++variable) {
     if (!std::string_view(*variable).starts_with("LC_ALL=")) environment.push_back(*variable);
@@ -392,11 +399,9 @@ int run(const MemoryFile& script, const MemoryFile& picture, const MemoryFile& m
     std::signal(SIGALRM, SIG_DFL);
     ::alarm(time_limit);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    char name[] = "gnuplot", without_settings[] = "-d";
-    char* const words[]{name, without_settings, nullptr};
-    if (::getppid() == parent && ::dup2(script.get(), STDIN_FILENO) >= 0 && ::dup2(picture.get(), STDOUT_FILENO) >= 0 &&
+    if (::getppid() == parent && ::dup2(input.get(), STDIN_FILENO) >= 0 && ::dup2(output.get(), STDOUT_FILENO) >= 0 &&
         ::dup2(messages.get(), STDERR_FILENO) >= 0) {
-      ::execvpe(name, words, const_cast<char**>(environment.data()));
+      ::execvpe(command.front(), const_cast<char**>(command.data()), const_cast<char**>(environment.data()));
     }
     ::_exit(not_run);
   }
@@ -502,7 +507,7 @@ std::string script_of(const Figure& figure, PictureFormat format) {
 /// Has gnuplot draw a script.
 std::string drawn(const std::string& commands, PictureFormat format) {
   const MemoryFile input(commands), output, errors;
-  std::string wrong = complaint(run(input, output, errors));
+  std::string wrong = complaint(run({"gnuplot", "-d"}, input, output, errors));  // without ~/.gnuplot
   const std::string messages = first_lines(errors.content(), 4);
   std::string picture = output.content();
   const auto& [ending, same, begin, end] = *std::ranges::find(formats, format, &Format::format);
@@ -519,6 +524,26 @@ std::string drawn(const std::string& commands, PictureFormat format) {
 }  // namespace
 
 std::string gnuplot_script(const Figure& figure) { return script_of(figure, PictureFormat::gp); }
+
+std::string substitute_of(const std::string& font) {
+  const auto lower = [](std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return text;
+  };
+  constexpr std::array any{"sans", "sans-serif", "serif", "mono", "monospace"};
+  std::string substitute, name = lower(font);
+  if (std::ranges::find(any, name) != any.end()) return "";
+  // The last words of a name may be of its style: bold, italic.
+  for (;; name.resize(name.find_last_of(' '))) {
+    const MemoryFile input, output, errors;
+    if (run({"fc-match", "--format=%{family}", name.c_str()}, input, output, errors) != 0) return "";
+    const std::string families = output.content();
+    if (("," + lower(families) + ",").find("," + name + ",") != std::string::npos) return "";
+    if (substitute.empty()) substitute = families.substr(0, families.find(','));
+    if (name.find(' ') == std::string::npos) return substitute;
+  }
+}
 
 std::string render(const Figure& figure, PictureFormat format) {
   if (format == PictureFormat::gp) return gnuplot_script(figure);

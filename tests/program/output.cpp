@@ -70,6 +70,35 @@ TEST_CASE("what cannot be written is status 4 and leaves nothing", "[cli]") {
   CHECK(fs::is_character_file("/dev/full"));
 }
 
+TEST_CASE("a limit on the size of files is named as the cause", "[limit]") {
+  const TemporaryDirectory scratch;
+  const std::string command =
+      fmt::format("ulimit -f 8; '{}' portrait --mu 0.3 -o '{}' 2>&1", CONTENSOU_PROGRAM, scratch.file("p.svg"));
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  char said[200] = "";
+  CHECK(std::fgets(said, sizeof said, pipe) != nullptr);
+  CHECK(WEXITSTATUS(::pclose(pipe)) == 4);
+  CHECK_THAT(said, Contains("File too large"));
+  CHECK(scratch.names().empty());
+}
+
+TEST_CASE("a font that is not installed is told with the one that is drawn", "[cli]") {
+  const TemporaryDirectory scratch;
+  const auto said = [&](const std::string& font, const std::string& file) {
+    return run_program({"law", "--font", font, "-o", scratch.file(file)}).err;
+  };
+  const std::string words = "--font 'No Such Font': no such font is installed; drawn in ";
+  for (const char* file : {"a.pdf", "a.png", "a.eps"}) CHECK_THAT(said("No Such Font", file), Contains(words));
+  const std::string told = said("No Such Font", "a.pdf");
+  const std::size_t name = told.find(words) + words.size();
+  const std::string installed = told.substr(name, told.find('\n') - name);
+  for (const std::string& font : {std::string("sans"), std::string("serif"), installed, installed + " bold"}) {
+    CAPTURE(font);
+    CHECK_THAT(said(font, "a.pdf"), !Contains("installed"));
+  }
+  CHECK_THAT(said("No Such Font", "a.svg"), !Contains("installed"));  // whoever shows it may have it
+}
+
 TEST_CASE("a full standard output is status 4", "[cli]") {
   const char* const command = "'" CONTENSOU_PROGRAM "' stop --ball pool >/dev/full 2>/dev/null";
   const int ended = std::system(command);

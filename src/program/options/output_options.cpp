@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
+#include <mutex>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,7 +48,25 @@ void Output::write(const Answer& answer) const { write(render(answer, format, di
 
 void Output::write(const std::vector<portraits::Figure>& figures) const { write(drawn(figures, picture().value())); }
 
+namespace {
+
+/// Says once if another font than the one asked for is drawn.
+void tell_substitute(const std::string& font) {
+  static std::once_flag told;
+  std::call_once(told, [&] {
+    const std::string substitute = portraits::substitute_of(font);
+    if (substitute.empty()) return;
+    std::cerr << fmt::format("contensou: --font {}: no such font is installed; drawn in {}\n", quotation(font),
+                             substitute);
+  });
+}
+
+}  // namespace
+
 std::string drawn(const std::vector<portraits::Figure>& figures, portraits::PictureFormat format) {
+  using enum portraits::PictureFormat;
+  const std::string& font = figures.front().font;
+  if (!font.empty() && format != svg && format != gp && format != tex) tell_substitute(font);
   try {
     return format == portraits::PictureFormat::gif ? portraits::render_film(figures)
                                                    : portraits::render(figures.front(), format);

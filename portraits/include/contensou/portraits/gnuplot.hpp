@@ -37,6 +37,11 @@ std::string gnuplot_script(const Figure& figure);
 /// @throws GnuplotError  if gnuplot is not found, fails, takes longer or draws nothing that is whole
 std::string render(const Figure& figure, PictureFormat format);
 
+/// What gnuplot draws in PDF, EPS, PNG and GIF in place of a font that is not installed, by fontconfig's fc-match. An SVG
+/// names its font, which whoever shows it has or has not.
+/// @return  the name of a font; empty if the one asked for is installed, or nobody knows
+std::string substitute_of(const std::string& font);
+
 /// A moving picture as a GIF that begins again and again, with 4 pixels to the millimetre; as render.
 /// @param frames  of one size, 25 for a second
 std::string render_film(const std::vector<Figure>& frames);
