@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -10,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
+#include "output/formula.hpp"
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;
@@ -17,7 +19,7 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-const std::vector<std::string> topics{"laws", "views", "units", "files"};
+const std::vector<std::string> topics{"laws", "views", "units", "files", "theory"};
 
 }  // namespace
 
@@ -64,8 +66,67 @@ TEST_CASE("topics of help", "[cli]") {
   CHECK_THAT(run_program("help files").out, Contains("spin_deceleration") && Contains("[contact.hertz]"));
   CHECK_THAT(run_program("help roll").out, Contains("slip_length") && Contains("rolling-friction"));
   CHECK_THAT(run_program("help roll").out, Contains("squirt") && Contains("by the same threshold"));
-  check_rejected("help unit", "no such topic (did you mean 'units'?); topics: laws, views, units, files, balls, check");
+  check_rejected("help unit",
+                 "no such topic (did you mean 'units'?); topics: laws, views, units, files, theory, balls, check");
   check_rejected("help stop law", "unexpected argument 'law'");
+}
+
+TEST_CASE("formulas of TeX as plain text", "[table]") {
+  using contensou::program::plain_formula;
+  const std::vector<std::pair<std::string, std::string>> formulas{
+      {R"(\frac{d \ln w}{d \ln k} = \frac{r k \Psi}{D})", "d ln w/d ln k = r k Psi/D"},
+      {R"(-\frac{7 v}{8 \mu |u| + 3\pi v})", "-7 v/(8 mu |u| + 3 pi v)"},
+      {R"(J \dot{\omega}_z, \ddot{x})", "J domega_z/dt, d2x/dt2"},
+      {R"(\frac{\partial s_\ast}{\partial v} = \frac{w - r \Psi s_\ast}{w D})", "ds*/dv = (w - r Psi s*)/(w D)"},
+      {R"(\frac12 \int_{k_\ast}^k g\, d\tau)", "1/2 Int(k*, k) g dtau"},
+      {R"(c_\infty = \frac{K}{\Psi(0)}, \quad m_0 \le k^{1/a})", "c_inf = K/Psi(0),   m0 <= k^(1/a)"},
+      {R"(\sqrt{v_x^2 + v_y^2} \ge 0)", "sqrt(v_x^2 + v_y^2) >= 0"},
+      {R"(r_\text{low} \to 2\chi/(3\pi))", "r_low -> 2 chi/(3 pi)"},
+  };
+  for (const auto& [tex, text] : formulas) CHECK(plain_formula(tex) == text);
+  std::string number;
+  CHECK(plain_formula(R"(a = b \tag{R4})", &number) == "a = b ");
+  CHECK(number == "R4");
+  for (const char* wrong : {R"(\Omega)", "{a", "a}", R"(\frac{a})", "a_"}) {
+    CHECK_THROWS_AS(plain_formula(wrong), std::logic_error);
+  }
+}
+
+TEST_CASE("help theory has every equation of reduction/README.md's chapter, in words and as TeX", "[cli]") {
+  std::ifstream file(CONTENSOU_THEORY);
+  std::string readme{std::istreambuf_iterator<char>(file), {}};
+  const auto begin = readme.find("\n## Theory\n"), end = readme.find("\n## Proofs\n");
+  REQUIRE(begin < end);
+  const std::string chapter = readme.substr(begin, end - begin);
+  const std::string text = run_program("help theory").out;
+  const std::string tex = run_program("help theory --format tex").out;
+  CHECK_THAT(tex, StartsWith("\\documentclass") && Catch::Matchers::EndsWith("\\end{document}\n"));
+
+  int equations = 0;
+  const std::string open = "```math\n", close = "```\n";
+  for (std::size_t at = chapter.find(open); at != std::string::npos; at = chapter.find(open, at + 1), ++equations) {
+    const std::size_t first = at + open.size();
+    const std::string formula = chapter.substr(first, chapter.find(close, first) - first);
+    CHECK_THAT(tex, Contains("\\begin{equation*}\n" + formula + "\\end{equation*}\n"));
+    std::string number;
+    std::istringstream parts(contensou::program::plain_formula(formula, &number));
+    std::string part;
+    std::getline(parts, part);
+    CHECK_THAT(text, Contains("\n    " + part.substr(0, part.find(" = "))));
+    if (!number.empty()) CHECK_THAT(text, Contains(fmt::format(" ({})\n", number)));
+  }
+  CHECK(equations == 23);
+  for (int i = 1; i <= 8; ++i) CHECK_THAT(text, Contains(fmt::format(" (2.{})\n", i)));
+  CHECK_THAT(text, Contains("dp/dq = Phi/(q D)") && Contains("X2 = tau d_tau + u d_u + v d_v"));
+  CHECK(text.find_first_of("\\$`") == std::string::npos);
+
+  // What `check` measures: a row each, of every law and start.
+  const auto checks = nlohmann::json::parse(run_program("check --format json").out)["checks"];
+  REQUIRE(checks.size() > 20);
+  for (const auto& check : checks) CHECK_THAT(text, Contains("\n  " + check["check"].get<std::string>()));
+
+  check_rejected("help laws --format tex", "--format tex: is for the theory: contensou help theory --format tex");
+  check_rejected("help theory --format html", "no such format");
 }
 
 TEST_CASE("values in other units", "[cli]") {

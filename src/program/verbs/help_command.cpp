@@ -10,6 +10,7 @@
 #include "output/answer.hpp"
 #include "output/help.hpp"
 #include "output/output.hpp"
+#include "output/theory.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -81,17 +82,28 @@ std::string files() {
              "--samples N frames).");
 }
 
-const Choices<std::string (*)()> topics{{"laws", laws}, {"views", views}, {"units", units}, {"files", files}};
+const Choices<std::string (*)()> topics{
+    {"laws", laws}, {"views", views}, {"units", units}, {"files", files}, {"theory", theory_as_text}};
 
 class HelpCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     root_ = app.get_parent();
-    topic_.add(app, "TOPIC", "", "laws, views, units, files, or a verb (default: all verbs)",
+    topic_.add(app, "TOPIC", "", "laws, views, units, files, theory, or a verb (default: all verbs)",
                [this](const std::string& typed) { return text_on(typed); });
+    format_.add(app, "--format", "FORMAT", "text (default), or tex, a document of LaTeX; of theory only",
+                one_of<bool>({{"text", false}, {"tex", true}}, "format"));
   }
 
   ExitStatus run() override {
+    const bool tex = format_.value_or(false);
+    if (tex && !(topic_.given() && topic_.text() == "theory")) {
+      format_.reject("is for the theory: contensou help theory --format tex");
+    }
+    if (tex) {
+      write_output("-", theory_as_tex());
+      return ExitStatus::done;
+    }
     write_output("-", topic_.given() ? *topic_ : root_->get_formatter()->make_help(root_, "contensou", {}));
     return ExitStatus::done;
   }
@@ -112,6 +124,7 @@ class HelpCommand final : public Verb {
 
   const CLI::App* root_ = nullptr;
   ArgumentOf<std::string> topic_;
+  ArgumentOf<bool> format_;
 };
 
 const RegisteredVerb<HelpCommand> help_verb("help", "What an option takes, or the options of a verb",
