@@ -11,6 +11,17 @@ export class Address {
    */
   constructor(store, known, use) {
     this.store = store;
+    // While the reader holds something, what he makes of it is one change.
+    addEventListener("pointerdown", () => {
+      this.held = true;
+      clearTimeout(this.timer);
+    }, true);
+    for (const end of ["pointerup", "pointercancel"]) {
+      addEventListener(end, () => {
+        this.held = false;
+        this.rememberSoon();
+      }, true);
+    }
     addEventListener("hashchange", () => {
       clearTimeout(this.timer);
       if (location.hash.slice(1) !== toFragment(store.state)) use(fromFragment(location.hash, known));
@@ -19,14 +30,15 @@ export class Address {
 
   rememberSoon() {
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.remember(), pause);
+    if (!this.held) this.timer = setTimeout(() => this.remember(), pause);
   }
 
   remember() {
     clearTimeout(this.timer);
     const fragment = toFragment(this.store.state);
     const before = location.hash.slice(1);
-    const change = this.settled && steps(before) !== steps(fragment) ? "pushState" : "replaceState";
+    // The history of a page around this one is not ours.
+    const change = this.settled && top === window && steps(before) !== steps(fragment) ? "pushState" : "replaceState";
     this.settled = true;
     try {
       history[change](null, "", `#${fragment}`);

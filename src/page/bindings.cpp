@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -17,7 +16,6 @@
 #include <emscripten/val.h>
 
 #include <fmt/format.h>
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
@@ -215,29 +213,30 @@ class Plane {
                                                                        : val::null();
   }
 
-  /// When the slip of one start has fallen to `least`, and how long the path is that it slides until it stops.
-  val slide(double u, double v, double least) const {
+  /// When a body has ceased to slide, s, the path of its centre until then, m, and by how many degrees it has turned: a
+  /// ball when its slip has fallen to `least`, m/s, what lies flat when it stops.
+  /// @param fields  as those of ride
+  val slide(const val& fields, double least) const {
     return answer([&] {
-      const Orbit orbit = flow().orbit({.u = u, .v = v});
-      const double stop = orbit.stop_time();
-      double end = 0;
-      if (v > least) {
-        const auto faster = [&](double tau) { return orbit.at_time(tau).v - least; };
-        const boost::math::tools::eps_tolerance<double> to_the_last_digit;
-        std::uintmax_t most = 100;
-        end = boost::math::tools::toms748_solve(faster, 0.0, stop, v - least, -least, to_the_last_digit, most).second;
-      }
-      return object("end", end, "length", orbit.slip_length(stop));
+      const si::BallMotion motion(moving(fields), flow());
+      if (system().inertia().chi == 1)
+        return object("end", motion.slip_time(0), "path", motion.slip_length(), "turned", 0.0);
+      const double end = motion.slip_time(least);
+      const auto heading = [&](double t) {
+        const Eigen::Vector2d velocity = motion.at_time(t).velocity;
+        return std::atan2(velocity.y(), velocity.x());
+      };
+      const double turned = std::remainder(heading(end) - heading(0), 2 * std::numbers::pi);
+      return object("end", end, "path", motion.path_length(end), "turned", turned * 180 / std::numbers::pi);
     });
   }
 
   /// The motion over the table until `end`, in s, as columns in times that are dense at its beginning: those of `contensou
-  /// roll`, and `slid`, m. And {t, x, y} of where it rests, if there is rolling friction.
+  /// roll`. And {t, x, y} of where it rests, if there is rolling friction.
   /// @param fields  a ball whose patch the plane knows better
   val ride(const val& fields, double rolling_friction, double end) const {
     return answer([&] {
-      si::Experiment experiment = experiment_of(fields);
-      experiment.ball.body.inertia = system().inertia();
+      const si::Experiment experiment = moving(fields);
       si::require_finite_motion(experiment, end);
       std::optional<si::RollingFriction> friction;
       if (rolling_friction > 0) {
@@ -248,18 +247,16 @@ class Plane {
       const double scale = 1 / si::seconds(experiment, 1);
       constexpr Eigen::Index pieces = 160;
       si::MotionColumns motion(pieces + 1);
-      Eigen::ArrayXd slid(pieces + 1);
       for (Eigen::Index i = 0; i <= pieces; ++i) {
         const double part = static_cast<double>(i) / pieces, t = end * part * part;
         const double tau = std::min(t * scale, orbit.stop_time());
         const reduction::OrbitPoint point = orbit.at_time(tau);
-        slid[i] = si::seconds(experiment, orbit.slip_length(tau));
-        const auto free = si::motion_by_slip(experiment, t, point.v, slid[i], point.u / experiment.ball.radius);
+        const double slid = si::seconds(experiment, orbit.slip_length(tau));
+        const auto free = si::motion_by_slip(experiment, t, point.v, slid, point.u / experiment.ball.radius);
         motion.set(i, friction ? (*friction)(free) : free);
       }
-      val result =
-          object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx", motion.wx, "wy",
-                 motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy, "slid", slid);
+      val result = object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx",
+                          motion.wx, "wy", motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy);
       if (friction) {
         const Eigen::Vector2d rest = friction->rest_position();
         result.set("rest", object("t", friction->rest_time(), "x", rest.x(), "y", rest.y()));
@@ -319,6 +316,13 @@ class Plane {
     return *flow_;
   }
   const ReducedSystem& system() const { return flow().system(); }
+
+  /// A ball with the plane's body.
+  si::Experiment moving(const val& fields) const {
+    si::Experiment experiment = experiment_of(fields);
+    experiment.ball.body.inertia = system().inertia();
+    return experiment;
+  }
 
   Instant state(State at, double left) const {
     return {at.u, at.v, std::log(at.v), std::log(at.v / (system().mu() * std::abs(at.u))), left};

@@ -1,5 +1,5 @@
 // The command line of the program that draws what the page shows.
-import { angularVelocity } from "./portrait_request.js";
+import { shotOf } from "./portrait_request.js";
 
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
 
@@ -43,13 +43,13 @@ export function commandLine(state, request, through, body, builtIn) {
   if (request.screen) words.push("--style", "screen");
   words.push("-o", "portrait.svg");
   const line = (all) => all.map((word) => quoted(String(word))).join(" ");
-  return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...startOf(state.ball, start), "--law", request.law]) : null };
+  return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", request.law]) : null };
 }
 
 /** The start of a roll, and what slows it down: slip along x at v, spin u/R, and what the reader says of the centre. */
-function startOf(ball, start) {
-  const { omegaX, omegaY, omegaZ } = angularVelocity(ball, start);
+function motionOf(ball, start) {
+  const { velocityX, velocityY, omegaX, omegaY, omegaZ } = shotOf(ball, start);
   const rolling = ball.rollingFriction > 0 ? ["--rolling-friction", ball.rollingFriction] : [];
-  if (ball.velocityX === start.v && ball.velocityY === 0) return ["--slip", start.v, "--spin", omegaZ, ...rolling];
-  return ["--velocity", `${ball.velocityX},${ball.velocityY}`, "--angular-velocity", [omegaX, omegaY, omegaZ].join(","), ...rolling];
+  if (velocityX === start.v && velocityY === 0) return ["--slip", start.v, "--spin", omegaZ, ...rolling];
+  return ["--velocity", `${velocityX},${velocityY}`, "--angular-velocity", [omegaX, omegaY, omegaZ].join(","), ...rolling];
 }

@@ -3,7 +3,7 @@ import { $, make, write } from "./dom.js";
 import { addNumberField, choiceButtons, fillSelect, numberField, slider } from "./fields.js";
 import { lawField } from "./law_field.js";
 import { shown } from "./numbers.js";
-import { bodyOf, fields, initialState, takeBall } from "./page_state.js";
+import { bodyOf, fields, initialState, moved, requireAllowed, startOf, takeBall } from "./page_state.js";
 import { isDark } from "./theme.js";
 import { described } from "./views.js";
 
@@ -24,7 +24,11 @@ const round = (value) => Number(value.toPrecision(3));
  */
 export function makeControls(store, plane, { ask, attempt }) {
   const { balls, bodies, laws, views, lawName } = store.library;
-  const chosen = (state) => state.orbits[state.chosen];
+  const move = (state, edit) => {
+    const orbit = state.orbits[state.chosen];
+    const { u, v } = { ...orbit, ...edit(orbit) };
+    state.orbits[state.chosen] = moved(orbit, u, v);
+  };
 
   // --- choices ---------------------------------------------------------------------------------------------------------
 
@@ -35,7 +39,7 @@ export function makeControls(store, plane, { ask, attempt }) {
   choose("ball", [{ name: "", title: "any size, any unit" }, ...balls], (state, value) => {
     const ball = balls.find(({ name }) => name === value);
     if (ball) takeBall(state, ball);
-    else Object.assign(state, { ball: null, part: "whole" });
+    else Object.assign(state, { ball: null, part: "whole", orbits: state.orbits.map(({ u, v }) => startOf(u, v)) });
   });
   const titles = bodies.map(({ name }) => ({ name, title: name.replace("-", " ") }));
   choose("body", [...titles, { name: "own", title: "your own χ and γ" }], (state, body) => {
@@ -67,15 +71,12 @@ export function makeControls(store, plane, { ask, attempt }) {
     return built ? { v: Math.max(2, 2 * built.slip), spin: 500 } : { v: 5, spin: 5 };
   };
   const slip = slider("slip", "slip", (fraction) => ask((state) => {
-    const { v } = chosen(state);
-    chosen(state).v = round(Math.max(fraction, 0.01) * largest(state).v);
-    // The ball turns forward as before.
-    if (state.ball) state.ball.velocityX += chosen(state).v - v;
+    move(state, () => ({ v: round(Math.max(fraction, 0.01) * largest(state).v) }));
     plane.freeze(state);
   }));
   const spin = slider("spin", "spin", (fraction) => ask((state) => {
     const value = round(fraction * largest(state).spin);
-    chosen(state).u = (chosen(state).u < 0 ? -1 : 1) * value * (state.ball?.radius ?? 1);
+    move(state, ({ u }) => ({ u: (u < 0 ? -1 : 1) * value * (state.ball?.radius ?? 1) }));
     plane.freeze(state);
   }));
   const friction = slider("friction", "friction f", (fraction) => ask((state) => {
@@ -83,7 +84,7 @@ export function makeControls(store, plane, { ask, attempt }) {
   }));
   const setMu = (state, mu) => {
     const { largestMu } = store.body;
-    if (!(mu > 0)) throw new Error("mu must be positive");
+    requireAllowed("mu", mu);
     if (mu > largestMu) throw new Error(`mu is the patch radius over R: at most ${largestMu} here`);
     // Patch radius and spin deceleration are proportional to mu.
     if (state.ball) state.ball.patch = Number(((state.ball.patch * mu) / state.mu).toPrecision(12));
@@ -93,10 +94,10 @@ export function makeControls(store, plane, { ask, attempt }) {
   muSlider.addEventListener("input", () => ask((state) => setMu(state, fractionToMu(muSlider.value / 1000, store.body.largestMu))));
   const muField = numberField($("mu"), $("mu-error"), (mu) => store.change((state) => setMu(state, mu)));
 
-  const number = (parent, key, label, edit, allowed = (value) => value > 0) => addNumberField(parent, {
+  const number = (parent, key, label, edit) => addNumberField(parent, {
     key, label,
     use(value) {
-      if (!allowed(value)) throw new Error("a positive number is needed");
+      requireAllowed(key, value);
       store.change((state) => edit(state, value));
     },
   });
@@ -110,13 +111,15 @@ export function makeControls(store, plane, { ask, attempt }) {
   // --- the card of a ball ----------------------------------------------------------------------------------------------
 
   const ofBall = (labels) => Object.entries(labels).map(([key, label]) => ({
-    key, moves: /^(velocity|rolling)/.test(key),
+    key, moves: /^(along|across|rolling)/.test(key),
     field: number($("ball-fields"), key, label, (state, value) => {
       // The spin in rad/s stays.
       if (key === "radius") for (const orbit of state.orbits) orbit.u *= value / state.ball.radius;
-      state.ball[key] = value;
-    }, (value) => key.startsWith("velocity") || value > 0 || (value === 0 && key === "rollingFriction")),
+      ownerOf(key, state)[key] = value;
+    }),
   }));
+  /** The ball, or of what the chosen orbit owns the orbit, if there is one. */
+  const ownerOf = (key, { ball, orbits, chosen }) => (key in ball ? ball : orbits[chosen]);
   const ballFields = ofBall({ radius: "radius R (m)", mass: "mass m (kg)", friction: "friction f", gravity: "gravity g (m/s²)" });
   const patchBy = make("select", { id: "patch-by" });
   $("ball-fields").append(make("label", {}, "patch known by", patchBy));
@@ -125,7 +128,7 @@ export function makeControls(store, plane, { ask, attempt }) {
     const patch = Number((by === "spin_deceleration" ? spinDeceleration : patchRadius).toPrecision(12));
     Object.assign(state.ball, { patchBy: by, patch });
   });
-  ballFields.push(...ofBall({ patch: "patch", velocityX: "centre: along the slip (m/s)", velocityY: "across it (m/s)", rollingFriction: "rolling friction (pool: 0.01)" }));
+  ballFields.push(...ofBall({ patch: "patch", along: "centre: along the slip (m/s)", across: "across it (m/s)", rollingFriction: "rolling friction (pool: 0.01)" }));
 
   function showBall(ball, { body, contact, state }) {
     friction.show(ball.friction / mostFriction, shown(ball.friction, 3));
@@ -134,8 +137,9 @@ export function makeControls(store, plane, { ask, attempt }) {
     // A puck rests on its whole face, a stone on a band, and neither rolls.
     patchBy.lastChild.disabled = body.mu === undefined;
     for (const { key, moves, field } of ballFields) {
-      field.show(ball[key]);
-      field.hide((key === "patch" && ball.patchBy === "whole_face") || (moves && body.chi === 1));
+      const owner = ownerOf(key, state);
+      if (owner) field.show(owner[key]);
+      field.hide(!owner || (key === "patch" && ball.patchBy === "whole_face") || (moves && body.chi === 1));
     }
     write($("ball-facts"), `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(state.mu, 5)}. ${ball.sources}`);
   }

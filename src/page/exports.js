@@ -1,4 +1,5 @@
 // Files that the page hands out.
+import { CanvasSurface } from "./surface.js";
 
 export function save(name, blob) {
   const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
@@ -10,14 +11,18 @@ export function save(name, blob) {
 
 export const textFile = (text, type) => new Blob([text], { type });
 
-/** A figure as PNG of so many pixels across. */
-export async function pngOf(svg, width) {
-  const image = new Image();
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
-  await image.decode();
-  const canvas = Object.assign(document.createElement("canvas"), { width, height: Math.round((image.height * width) / image.width) });
-  canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
-  return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
+/**
+ * A figure as PNG of so many pixels across.
+ *
+ * @param draw  draws it on a surface
+ * @param size  width and height that it is drawn for
+ */
+export async function pngOf(draw, size, width) {
+  const canvas = Object.assign(document.createElement("canvas"), { width, height: Math.round((size.height * width) / size.width) });
+  draw(new CanvasSurface(canvas, size));
+  const blob = await new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
+  if (!blob) throw new Error(`this browser has no canvas of ${canvas.width} × ${canvas.height} pixels`);
+  return blob;
 }
 
 /** Columns of numbers as CSV, all digits; infinities as the program writes them. */
@@ -37,17 +42,21 @@ export function csvOfOrbits(motions) {
 /** The motion of a real ball in SI units, with the columns of `contensou roll`. */
 export const csvOfRide = ({ t, x, y, vx, vy, wx, wy, wz, slip, energy }) => csv({ t, x, y, vx, vy, wx, wy, wz, slip, energy });
 
+/** The first kind of film that a browser can take: MP4 plays everywhere. */
+export const filmType = () => ["video/mp4;codecs=avc1.42E01E", "video/mp4", "video/webm"].find((type) => globalThis.MediaRecorder?.isTypeSupported(type));
+
 /**
- * A film of a canvas, WebM.
+ * A film of a canvas.
  *
  * @param run  plays what is to be seen, and calls back at its end
  */
-export function filmOf(canvas, run) {
-  const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: "video/webm" });
+export function filmOf(canvas, type, run) {
+  const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type });
   const parts = [];
   recorder.ondataavailable = ({ data }) => parts.push(data);
-  return new Promise((resolve) => {
-    recorder.onstop = () => resolve(new Blob(parts, { type: "video/webm" }));
+  return new Promise((resolve, reject) => {
+    recorder.onstop = () => resolve(new Blob(parts, { type }));
+    recorder.onerror = ({ error }) => reject(error);
     recorder.start();
     run(() => recorder.stop());
   });

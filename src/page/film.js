@@ -1,5 +1,7 @@
 // A film of a ball that the reader gives to the page: the library finds its friction and its patch, and the ball takes them.
 import { $ } from "./dom.js";
+import { startOf } from "./page_state.js";
+import { shotOf } from "./portrait_request.js";
 
 export class Film {
   constructor(store, player, ask) {
@@ -42,11 +44,11 @@ export class Film {
     const { store: { library, request, state } } = this;
     if (!state.ball) throw new Error("A film is of a real ball: choose one above, its radius is needed.");
     const laws = [request.law, request.against].filter(Boolean).join();
-    const ball = request.ball ?? { ...state.ball, omegaX: 0, omegaY: 0, omegaZ: 0 };
+    const ball = request.ball ?? shotOf(state.ball, startOf(0, 0));
     const found = library.fit(text, name, ball, laws);
     this.ask((next) => Object.assign(next, {
-      law: found.law, window: null, chosen: 0, fraction: 0, orbits: [{ u: found.spin * ball.radius, v: found.slip }],
-      ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch, velocityX: found.velocityX, velocityY: found.velocityY },
+      law: found.law, window: null, chosen: 0, fraction: 0, orbits: [startOf(found.spin * ball.radius, found.slip, found.velocityX, found.velocityY)],
+      ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch },
     }));
     this.player.toggle(this.player.moves);
     return `${found.notes}${found.report}`;

@@ -1,5 +1,5 @@
 // Two equal balls on the table, seen from above, one of which spins; and the patch on which a ball stands, from below.
-import { shown, roundDown } from "./numbers.js";
+import { length, roundDown, shown } from "./numbers.js";
 import { rotation, turnedBy } from "./turning.js";
 
 const smallest = 11;    // pixels, radius of a ball
@@ -30,15 +30,15 @@ function drawBall(surface, x, y, radius, turn, colour, theme) {
 }
 
 /**
- * @param scene  lanes: title, xs, ys, slidesTo, at (x, y, turn), colour; radius; unit: "m" or "", lengths in m
+ * @param scene  lanes: title, xs, ys, slides (the line of the path until it ceases to slide), at (x, y, turn), colour; radius; unit: "m" or "", lengths in m
  */
 export function drawLanes(surface, { lanes, radius, unit }, theme) {
   const size = theme.textSize;
-  const keys = [radius, unit, theme, ...lanes.flatMap(({ xs, slidesTo, colour }) => [xs, slidesTo, colour])];
+  const keys = [radius, unit, theme, ...lanes.flatMap(({ xs, slides, colour }) => [xs, slides.length, slides.at(-2), colour])];
   const { px, py, pixels, laneHeight } = surface.still(keys, theme.card, () => drawPaths(surface, { lanes, radius, unit }, theme));
   lanes.forEach(({ at, title, colour }, row) => {
     drawBall(surface, px(at.x), py(at.y, row), pixels, at.turn, colour, theme);
-    surface.text(4, laneHeight * row + 0.5 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
+    surface.text(4, laneHeight * row + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
   });
 }
 
@@ -48,7 +48,7 @@ function drawPaths(surface, { lanes, radius, unit }, theme) {
   const [xs, ys] = ["xs", "ys"].map((key) => lanes.flatMap((lane) => lane[key]));
   const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   const laneHeight = (surface.height - 1.6 * size) / lanes.length;
-  const most = laneHeight / 2 - 0.95 * size;
+  const most = laneHeight / 2 - 1.1 * size;
   /** Pixels of a metre, with a rim of `metres` and of `rim` pixels around the paths. */
   const scaleWith = (metres, rim) =>
     Math.min((surface.width - 8 - 2 * rim) / (right - left + 2 * metres), (2 * most - 2 * rim) / (high - low + 2 * metres));
@@ -58,12 +58,12 @@ function drawPaths(surface, { lanes, radius, unit }, theme) {
   const pixels = seen ? radius * scale : smallest;
   const larger = pixels / (radius * scale);
   const px = (x) => pixels + 4 + (x - left) * scale;
-  const py = (y, row) => laneHeight * row + size + most - (y - (low + high) / 2) * scale;
+  const py = (y, row) => laneHeight * row + 1.4 * size + most - (y - (low + high) / 2) * scale;
   lanes.forEach((lane, row) => {
-    const line = lane.xs.flatMap((x, i) => [px(x), py(lane.ys[i], row)]);
-    const slides = Math.min(lane.xs.length - 1, Math.floor(lane.slidesTo));
-    if (lane.slidesTo < lane.xs.length - 1) surface.shape([line.slice(2 * slides)], { stroke: theme.soft, width: 1.5 });
-    if (slides > 0) surface.shape([line.slice(0, 2 * slides + 2)], { stroke: `${lane.colour}66`, width: Math.min(16, pixels / 2) });
+    const slides = lane.slides.map((value, i) => (i % 2 ? py(value, row) : px(value)));
+    const rest = lane.xs.flatMap((x, i) => (2 * i < slides.length - 2 ? [] : [px(x), py(lane.ys[i], row)]));
+    surface.shape([[...slides.slice(-2), ...rest]], { stroke: theme.soft, width: 1.5 });
+    surface.shape([slides], { stroke: `${lane.colour}66`, width: Math.min(16, pixels / 2) });
   });
   const bar = roundDown((surface.width * 0.22) / scale);
   const [end, base] = [surface.width - 6, surface.height - 5];
@@ -72,12 +72,6 @@ function drawPaths(surface, { lanes, radius, unit }, theme) {
   const caption = `${length(bar, unit)}${larger > 1.05 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
   surface.text(start - 6, base - 1, caption, { colour: theme.soft, size: 0.95 * size, align: "right" });
   return { px, py, pixels, laneHeight };
-}
-
-/** A length in words, such as 52.9 mm. */
-export function length(metres, unit, digits = 3) {
-  if (!unit) return shown(metres, digits);
-  return metres < 0.1 ? `${shown(1000 * metres, digits)} mm` : `${shown(metres, digits)} m`;
 }
 
 const arrowShare = 0.06;  // of the patch's radius, the longest slip in it

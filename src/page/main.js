@@ -15,7 +15,7 @@ import { Player } from "./player.js";
 import { presets } from "./presets.js";
 import { Share } from "./share.js";
 import { Store } from "./store.js";
-import { CanvasSurface } from "./surface.js";
+import { ScreenSurface } from "./screen_surface.js";
 import { Tour } from "./tour.js";
 
 function start(library) {
@@ -46,7 +46,7 @@ function start(library) {
   const checks = new Checks(store);
   const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
   const share = new Share(store, plane, hero, player, address);
-  const go = (fragment) => ask((state) => Object.assign(state, fromFragment(fragment, library), { theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
+  const go = (fragment, step = 0) => ask((state) => Object.assign(state, fromFragment(fragment, library), { step, theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
   $("presets").append(...presets.map(({ title, fragment }) => {
     const link = make("a", { href: `#${fragment}`, textContent: title });
     link.addEventListener("click", (event) => {
@@ -55,10 +55,10 @@ function start(library) {
     });
     return link;
   }));
-  new Tour(go);
+  const tour = new Tour(go);
   new Film(store, player, ask);
 
-  const panes = new CanvasSurface($("panes"), (surface) => drawPanes(surface, store, store.theme));
+  const panes = new ScreenSurface($("panes"), (surface) => drawPanes(surface, store, store.theme));
   const draw = () => {
     const { contact, now, end, timeFactor } = store;
     plane.draw();
@@ -80,6 +80,7 @@ function start(library) {
       share.show();
       plane.label();
       checks.show();
+      tour.show(store.state.step);
     }
     draw();
     if (!player.playing || !moment) address.rememberSoon();
@@ -90,7 +91,7 @@ function start(library) {
   addEventListener("beforeprint", () => {
     screen = store.state.theme;
     ask((state) => (state.theme = "light"));
-    panes.draw();
+    for (const surface of [hero.lanes, hero.patch, plane.surface, panes]) surface.draw();
   });
   addEventListener("afterprint", () => ask((state) => (state.theme = screen)));
   $("app").hidden = false;
@@ -108,4 +109,4 @@ function start(library) {
   };
 }
 
-loadLibrary().then((library) => (globalThis.page = start(library)), globalThis.contensouFailed);
+loadLibrary().then((library) => (globalThis.page = start(library))).catch(globalThis.contensouFailed);

@@ -5,7 +5,7 @@ export function parseNumber(text) {
   const trimmed = text.trim().replace("−", "-");
   if (trimmed === "") return { value: NaN, problem: "a number is needed" };
   if (/^[-+]?\d+,\d+$/.test(trimmed)) return { value: NaN, problem: `write ${trimmed.replace(",", ".")} with a point` };
-  const value = Number(trimmed);
+  const value = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(trimmed) ? Number(trimmed) : NaN;
   if (!Number.isFinite(value)) return { value, problem: `'${trimmed}' is not a finite number` };
   return { value };
 }
@@ -21,6 +21,12 @@ export function shown(value, digits = 5) {
 
 export const superscript = (integer) =>
   [...String(integer)].map((sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)]).join("");
+
+/** A length in words, such as 52.9 mm; without a unit, a number. */
+export function length(metres, unit, digits = 3) {
+  if (!unit) return shown(metres, digits);
+  return metres >= 0.1 ? `${shown(metres, digits)} m` : metres >= 1e-5 || metres === 0 ? `${shown(1000 * metres, digits)} mm` : "less than 0.01 mm";
+}
 
 /** The largest of 1, 2, 5 times a power of ten that is at most x. */
 export function roundDown(x) {

@@ -1,4 +1,6 @@
 // Everything that a link has to reproduce, and its text after the # of the address.
+import { shown } from "./numbers.js";
+import { tour } from "./presets.js";
 
 const largestOwnMu = 10;
 
@@ -14,7 +16,34 @@ export function bodyOf(state, { bodies }) {
 
 export const fields = ["none", "motion", "regularised"];
 
-export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "velocityX", "velocityY", "rollingFriction"];
+export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "rollingFriction"];
+
+/** What a number may be, from 1e-9 to 1e9 if nothing else is said: beyond, what follows from it may be no number. */
+const ranges = {
+  rollingFriction: [0, 1e3], along: [-1e9, 1e9], across: [-1e9, 1e9], chi: [1e-3, 1e3], gamma: [1e-3, 1e3], mu: [1e-6, 10],
+  "window-U": [Number.MIN_VALUE, Infinity], "window-V": [Number.MIN_VALUE, Infinity],
+};
+const rangeOf = (key) => ranges[key] ?? [1e-9, 1e9];
+const isAllowed = (key, value) => value >= rangeOf(key)[0] && value <= rangeOf(key)[1];
+
+/** @throws {Error} if a number of that name may not have the value */
+export function requireAllowed(key, value) {
+  const [low, high] = rangeOf(key);
+  if (low > 0 && !(value > 0)) throw new Error("a positive number is needed");
+  if (!isAllowed(key, value)) throw new Error(`from ${shown(low)} to ${shown(high)} is allowed`);
+}
+
+/**
+ * A motion from u and v.
+ *
+ * @param along   the velocity of a real ball's centre, m/s, in the direction of the slip
+ * @param across  and to the left of it
+ * @returns {Start}
+ */
+export const startOf = (u, v, along = v, across = 0) => ({ u, v, along, across });
+
+/** The start with other speeds; the ball turns forward as before. */
+export const moved = ({ v: before, along, across }, u, v) => startOf(u, v, along === before ? v : along + v - before, across);
 
 /** @returns {State} */
 export function initialState() {
@@ -29,34 +58,37 @@ export function initialState() {
     against: null,  // another law, whose portrait is drawn into the same figure
     field: "none",  // of directions: "motion" or "regularised"
     isochrones: 7,  // of the stop time, about so many
-    orbits: [{ u: 0.8, v: 3.5 }],
+    orbits: [startOf(0.8, 3.5)],
     chosen: 0,
     fraction: 0,       // of the stop time (or of the part that is shown) that the moving point has reached
     part: "whole",  // of the motion: "whole", or "sliding"
     isochrone: 0,   // stop time of the isochrone the reader has drawn; 0 for none
     ball: null,     // SI values of a real ball; then speeds are m/s
+    step: 0,        // of the tour
     theme: "auto",
     embed: false,   // only the balls are shown, for a page around this one
   };
 }
 
-/** What the page opens with: a gel ball whose spin lets it slide seven times as far. */
+/** What the page opens with: a puck whose spin lets it slide four times as far. */
 export function firstState({ balls }) {
   const state = initialState();
-  const gel = balls.find(({ name }) => name === "gel");
-  if (gel) takeBall(state, { ...gel, spin: 300 });
+  const puck = balls.find(({ name }) => name === "puck");
+  if (puck) takeBall(state, { ...puck, slip: 0.5, spin: 60 });
   return state;
 }
 
-/** A real ball with the start that the library has for it: its centre moves along the slip, so that it does not turn forward. */
+/** A real ball with the start that the library has for it. */
 export function takeBall(state, ball) {
   Object.assign(state, {
-    ball: { ...ball, velocityX: ball.slip, velocityY: 0, rollingFriction: 0 },
-    law: ball.law, body: ball.body, orbits: [{ u: ball.radius * ball.spin, v: ball.slip }], chosen: 0, fraction: 0, isochrone: 0, part: "sliding",
-    window: null,
+    ball: { ...ball, rollingFriction: 0 }, law: ball.law, body: ball.body, orbits: [startOf(ball.radius * ball.spin, ball.slip)],
+    chosen: 0, fraction: 0, isochrone: 0, part: "sliding", window: null,
   });
   return state.ball;
 }
+
+/** Of what a link speaks that is more than how the page looks. */
+const stateKeys = new Set(["law", "body", "mu", "ball", "view", "window", "against", "field", "isochrones", "orbits", "part", "isochrone"]);
 
 export function toFragment(/** @type {State} */ state) {
   const { ball } = state;
@@ -66,9 +98,10 @@ export function toFragment(/** @type {State} */ state) {
     ...(ball
       ? { ball: ball.name, patchBy: ball.patchBy, ...Object.fromEntries(ballKeys.map((key) => [key, ball[key]])) }
       : { body: state.body === "own" ? `${state.chi},${state.gamma}` : state.body, mu: state.mu }),
-    view: state.view, window: state.window?.join(","), against: state.against, field: unless("none", state.field),
+    view: state.view, window: state.window?.join(","), against: unless(state.law, state.against), field: unless("none", state.field),
     isochrones: unless(initialState().isochrones, state.isochrones),
-    orbits: state.orbits.map(({ u, v }) => `${u},${v}`).join(";"), chosen: state.chosen,
+    orbits: state.orbits.map(({ u, v, along, across }) => (along === v && across === 0 ? [u, v] : [u, v, along, across]).join(",")).join(";"),
+    chosen: state.chosen, step: unless(0, state.step),
     at: unless(0, Number(state.fraction.toFixed(4))), part: unless(ball ? "sliding" : "whole", state.part),
     isochrone: unless(0, state.isochrone), theme: unless("auto", state.theme), embed: state.embed ? "1" : null,
   };
@@ -84,7 +117,7 @@ export function toFragment(/** @type {State} */ state) {
 export function fromFragment(fragment, known) {
   const { views, balls } = known;
   const query = new URLSearchParams(fragment.replace(/^#/, ""));
-  const state = [...query.keys()].every((key) => key === "embed") ? firstState(known) : initialState();
+  const state = [...query.keys()].some((key) => stateKeys.has(key)) ? initialState() : firstState(known);
   state.embed = query.has("embed");
   const choice = (key, allowed, use) => allowed.includes(query.get(key)) && use(query.get(key));
   const number = (key, use, allowed = (/** @type {number} */ _) => true) => {
@@ -102,17 +135,15 @@ export function fromFragment(fragment, known) {
   choice("view", views.map(({ name }) => name), (view) => (state.view = view));
   choice("theme", ["light", "dark"], (theme) => (state.theme = theme));
   choice("body", known.bodies.map(({ name }) => name), (body) => (state.body = body));
-  const inertia = numbers(query.get("body"), 2, ([chi, gamma]) => chi > 0 && gamma > 0);
+  const inertia = numbers(query.get("body"), 2, ([chi, gamma]) => isAllowed("chi", chi) && isAllowed("gamma", gamma));
   if (inertia) Object.assign(state, { body: "own", chi: inertia[0], gamma: inertia[1] });
-  number("mu", (mu) => (state.mu = mu), (mu) => mu > 0);
+  number("mu", (mu) => (state.mu = mu), (mu) => isAllowed("mu", mu));
   const { mu, largestMu } = bodyOf(state, known);
   state.mu = mu ?? Math.min(state.mu, largestMu);
   choice("ball", balls.map((ball) => ball.name), (name) => {
     const ball = takeBall(state, balls.find((entry) => entry.name === name));
     choice("patchBy", [ball.patchBy, "patch_radius", "spin_deceleration"], (by) => (ball.patchBy = by));
-    for (const key of ballKeys) {
-      number(key, (value) => (ball[key] = value), (value) => key.startsWith("velocity") || value > 0 || (value === 0 && key === "rollingFriction"));
-    }
+    for (const key of ballKeys) number(key, (value) => (ball[key] = value), (value) => isAllowed(key, value));
   });
   for (const key of ["law", "against"]) {
     try {
@@ -125,9 +156,14 @@ export function fromFragment(fragment, known) {
   state.window = numbers(query.get("window"), 2, ([U, V]) => U > 0 && V > 0) ?? state.window;
   const orbits = query.get("orbits");
   if (orbits !== null) {
-    state.orbits = orbits.split(";").map((text) => numbers(text, 2, ([, v]) => v >= 0))
-        .flatMap((start) => (start ? [{ u: start[0], v: start[1] }] : []));
+    const start = (text) => numbers(text, 2, ([, v]) => v >= 0) ?? numbers(text, 4, ([, v]) => v >= 0);
+    state.orbits = orbits.split(";").map(start).flatMap((found) => (found ? [startOf(found[0], found[1], found[2], found[3])] : []));
   }
+  // Links of before gave one velocity to all.
+  for (const [key, own] of [["velocityX", "along"], ["velocityY", "across"]]) number(key, (value) => state.orbits.forEach((orbit) => (orbit[own] = value)));
+  // What cannot roll does not turn forward.
+  if (!state.ball || bodyOf(state, known).chi === 1) state.orbits = state.orbits.map(({ u, v }) => startOf(u, v));
+  number("step", (step) => (state.step = step), (step) => step in tour);
   number("chosen", (chosen) => (state.chosen = chosen), Number.isInteger);
   state.chosen = Math.max(0, Math.min(state.orbits.length - 1, state.chosen));
   number("at", (fraction) => (state.fraction = fraction), (fraction) => fraction >= 0 && fraction <= 1);

@@ -3,9 +3,10 @@ import { $, write } from "./dom.js";
 import { listen } from "./gestures.js";
 import { plain } from "./markup.js";
 import { shown } from "./numbers.js";
+import { moved, startOf } from "./page_state.js";
 import { drawPortrait } from "./portrait_figure.js";
 import { rowsOf } from "./portrait_layout.js";
-import { CanvasSurface } from "./surface.js";
+import { ScreenSurface } from "./screen_surface.js";
 
 const reach = { touch: 24, mouse: 10 };  // pixels from which a start or an orbit is taken hold of
 
@@ -22,7 +23,7 @@ export class Plane {
   constructor(store, act) {
     this.store = store;
     this.act = act;
-    this.surface = new CanvasSurface($("plane"), (surface) => {
+    this.surface = new ScreenSurface($("plane"), (surface) => {
       this.planeScene = this.scene();
       this.frames = drawPortrait(surface, this.planeScene, store.theme);
     });
@@ -77,7 +78,7 @@ export class Plane {
       canvas.style.setProperty("--rows", rows);
       surface.measure();
     }
-    surface.draw();
+    surface.drawInSight();
     $("clear-isochrone").hidden = !this.store.state.isochrone;
   }
 
@@ -145,14 +146,14 @@ export class Plane {
     else this.announce("Nothing is here.");
   }
 
-  startOrbit(start, ask = this.act.ask) {
+  startOrbit({ u, v }, ask = this.act.ask) {
     const { store } = this;
     ask((state) => {
       // What is pointed at stays where it is.
-      if (Math.abs(start.u) <= store.portrait.window[0] && start.v <= store.portrait.window[1]) this.freeze(state);
-      state.orbits.push(start);
+      if (Math.abs(u) <= store.portrait.window[0] && v <= store.portrait.window[1]) this.freeze(state);
+      state.orbits.push(startOf(u, v));
       Object.assign(state, { chosen: state.orbits.length - 1, fraction: 0, isochrone: 0 });
-    }, () => this.announce(`Orbit from u = ${shown(start.u, 4)}, v = ${shown(start.v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`));
+    }, () => this.announce(`Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`));
   }
 
   moveStart(x, y, index) {
@@ -160,11 +161,8 @@ export class Plane {
     if (!to) return;
     this.act.ask((state) => {
       this.freeze(state);
-      const from = state.orbits[index];
-      const start = rounded(to, this.store.portrait);
-      // The ball turns forward as before.
-      if (state.ball && index === state.chosen) state.ball.velocityX += start.v - from.v;
-      state.orbits[index] = start;
+      const { u, v } = rounded(to, this.store.portrait);
+      state.orbits[index] = moved(state.orbits[index], u, v);
       Object.assign(state, { chosen: index, fraction: 0, isochrone: 0 });
     });
   }

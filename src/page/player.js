@@ -6,6 +6,7 @@ import { shown } from "./numbers.js";
 const shortest = 7;  // seconds on the screen
 const longest = 12;
 const rest = 1500;   // ms at the end, before the motion begins again
+const rounds = 3;    // after which it rests
 
 export class Player {
   constructor(store, ask) {
@@ -56,6 +57,7 @@ export class Player {
     const run = this.run = {};
     let last = null;
     let ended = null;
+    let round = 1;
     const step = (time) => {
       if (this.run !== run || !this.playing) return;
       const { state, motion } = this.store;
@@ -71,7 +73,8 @@ export class Player {
         this.done?.();
         this.done = null;
       }
-      else if (time - ended > rest) this.store.move({ fraction: 0 });
+      else if (time - ended > rest && round++ < rounds) this.store.move({ fraction: 0 });
+      else if (round > rounds) this.toggle(false);
     };
     requestAnimationFrame(step);
   }

@@ -1,10 +1,12 @@
 // What the page asks the library to draw. command_line.js writes the same request as options of the program.
+import { startOf } from "./page_state.js";
 
-/** How a ball turns that moves with its velocity, slides along x at v and spins with u = R omega. */
-export const angularVelocity = ({ radius, velocityX, velocityY }, { u, v }) => ({ omegaX: -velocityY / radius, omegaY: (velocityX - v) / radius, omegaZ: u / radius });
+/** A ball with its start: it slips along x at v and spins with u = R omega. */
+export const shotOf = (ball, { u, v, along, across }) =>
+  ({ ...ball, velocityX: along, velocityY: across, omegaX: -across / ball.radius, omegaY: (along - v) / ball.radius, omegaZ: u / ball.radius });
 
-/** A ball that does not turn but for its spin. */
-const shotOf = (ball, { u, v }) => ({ ...ball, velocityX: v, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: u / ball.radius });
+/** The same, but for how it turns forward: of that the plane knows nothing. */
+const plainly = ({ u, v }) => startOf(u, v);
 
 /**
  * @param {State} state
@@ -13,7 +15,8 @@ const shotOf = (ball, { u, v }) => ({ ...ball, velocityX: v, velocityY: 0, omega
  * @returns {PortraitRequest} null for what is not asked for
  */
 export function portraitRequest(state, { chi, gamma }, screen) {
-  const { law, mu, ball, orbits, chosen, view, window, isochrones, field, against } = state;
+  const { law, mu, ball, chosen, view, window, isochrones, field, against } = state;
+  const orbits = state.orbits.map(plainly);
   return {
     law, mu, chi, gamma, orbits, chosen, view, window, isochrones, field, screen,
     // Without a motion there is no ball in the program's sense: only the mu of one.

@@ -1,12 +1,12 @@
 // Motions worth seeing, each a link; and a tour of six steps through them.
 
 export const presets = [
-  ["Gel ball", ""],
-  ["No spin", "ball=gel&orbits=0,0.5"],
-  ["Massé", "ball=pool&velocityX=0.9&velocityY=0.9&orbits=3,4&rollingFriction=0.01"],
-  ["Pool break", "ball=pool&orbits=5.7,2&rollingFriction=0.01&part=whole"],
-  ["Bowling hook", "ball=bowling&velocityX=3&velocityY=7&orbits=3,7"],
-  ["Puck", "ball=puck&view=disc"],
+  ["Puck", ""],
+  ["No spin", "ball=puck&orbits=0,0.5"],
+  ["Gel ball", "ball=gel&orbits=9,0.5"],
+  ["Pool ball", "ball=pool&orbits=2.8575,1"],
+  ["Massé", "ball=pool&orbits=3,4,0.9,0.9&rollingFriction=0.01"],
+  ["Bowling hook", "ball=bowling&orbits=1,3,3,7"],
   ["Floor polisher", "body=disc&law=uniform&orbits=6,0.5"],
   ["Curling stone", "ball=curling-stone"],
 ].map(([title, fragment]) => ({ title, fragment }));

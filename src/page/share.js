@@ -1,7 +1,7 @@
 // What the reader takes along: a link, a command line, files.
 import { commandLine } from "./command_line.js";
 import { $, write } from "./dom.js";
-import { csvOfOrbits, csvOfRide, filmOf, pngOf, save, textFile } from "./exports.js";
+import { csvOfOrbits, csvOfRide, filmOf, filmType, pngOf, save, textFile } from "./exports.js";
 import { fillSelect, numberField } from "./fields.js";
 import { plain } from "./markup.js";
 import { toFragment } from "./page_state.js";
@@ -24,50 +24,63 @@ export class Share {
     const picture = () => {
       const [title, name, draw] = figures[$("picture").value];
       const { width, height } = $($("picture").value).getBoundingClientRect();
-      const surface = new SvgSurface(Math.round(width), Math.round(height), `${title}: ${plain(store.portrait.figure.title)}`);
-      draw(surface);
-      return [name, surface.toString()];
+      return { title, name, draw, width: Math.round(width), height: Math.round(height) };
     };
-    const copy = async (text, what) => {
+    const tell = (text) => write($("copied"), text);
+    /** What a button does, and where it cannot, why. */
+    const on = (id, action) => $(id).addEventListener("click", async () => {
       try {
-        await navigator.clipboard.writeText(text);
-        write($("copied"), `${what} copied.`);
-      } catch {
-        write($("copied"), text);
+        await action();
+      } catch (error) {
+        tell(`This could not be done: ${error.message || error.name}.`);
       }
+    });
+    const copy = async (text, what) => {
+      const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
+      tell(copied ? `${what} copied.` : text);
     };
-    $("copy-link").addEventListener("click", () => {
-      if (!address.link) $("copied").textContent = `This page has no address of its own here. What follows # in a link to it: ${toFragment(store.state)}`;
-      else copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
+    on("copy-link", () => {
+      if (!address.link) return tell(`This page has no address of its own here. What follows # in a link to it: ${toFragment(store.state)}`);
+      return copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
     });
-    $("copy-embed").addEventListener("click", () => {
+    on("copy-embed", async () => {
       const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
-      copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
+      await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
+      if (location.protocol === "file:") $("copied").append(" It names the file on this computer: readers need the page on a server, and its address there.");
     });
-    $("copy-command").addEventListener("click", () => copy($("command").textContent, "Command"));
-    $("copy-roll").addEventListener("click", () => copy($("roll-command").textContent, "Command"));
-    $("save-svg").addEventListener("click", () => {
-      const [name, svg] = picture();
-      save(`${name}.svg`, textFile(svg, "image/svg+xml"));
+    on("copy-command", () => copy($("command").textContent, "Command"));
+    on("copy-roll", () => copy($("roll-command").textContent, "Command"));
+    on("save-svg", () => {
+      const { title, name, draw, width, height } = picture();
+      const surface = new SvgSurface(width, height, `${title}: ${plain(store.portrait.figure.title)}`);
+      draw(surface);
+      save(`${name}.svg`, textFile(surface.toString(), "image/svg+xml"));
     });
     let pngWidth = Math.max(2000, screen.width * devicePixelRatio);
     numberField($("png-width"), $("png-width-error"), (width) => {
       if (!(width >= 100 && width <= widest)) throw new Error(`100 to ${widest} pixels`);
       pngWidth = Math.round(width);
     }).show(pngWidth);
-    $("save-png").addEventListener("click", async () => {
-      const [name, svg] = picture();
-      save(`${name}.png`, await pngOf(svg, pngWidth));
+    on("save-png", async () => {
+      const { name, draw, ...size } = picture();
+      save(`${name}.png`, await pngOf(draw, size, pngWidth));
     });
-    $("save-film").addEventListener("click", async () => {
-      write($("copied"), `The film is being taken: ${Math.ceil(player.seconds)} s.`);
-      save("balls.webm", await filmOf($("lanes"), (done) => player.once(done)));
-      write($("copied"), "The film is saved.");
+    on("save-film", async () => {
+      const type = filmType();
+      if (!type) throw new Error("this browser takes no films");
+      tell(`The film is being taken: ${Math.ceil(player.seconds)} s.`);
+      hero.filmed = true;
+      try {
+        save(`balls.${/mp4|webm/.exec(type)}`, await filmOf($("lanes"), type, (done) => player.once(done)));
+      } finally {
+        hero.filmed = false;
+      }
+      tell("The film is saved.");
     });
     for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
-      $(`save-${ending}`).addEventListener("click", () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending), type)));
+      on(`save-${ending}`, () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending), type)));
     }
-    $("save-csv").addEventListener("click", () => {
+    on("save-csv", () => {
       const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
         : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
       save(`${name}.csv`, textFile(text, "text/csv"));

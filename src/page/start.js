@@ -11,9 +11,10 @@ globalThis.contensouFailed = (error) => {
     "and a host that allows WebAssembly ('wasm-unsafe-eval' where it sends a content security policy).";
 };
 
-try {
+async function begin() {
   globalThis.contensouWasm = unpacked(wasm).arrayBuffer();
-  unpacked(modules).text().then((text) => document.body.append(Object.assign(document.createElement("script"), { textContent: text })));
-} catch (error) {
-  globalThis.contensouFailed(error);
+  const text = await unpacked(modules).text();
+  document.body.append(Object.assign(document.createElement("script"), { textContent: text }));
 }
+
+begin().catch(globalThis.contensouFailed);

@@ -1,11 +1,15 @@
 // The state of the page, and all that follows from it: each value is computed once for what it depends on.
-import { bodyOf, initialState } from "./page_state.js";
-import { angularVelocity, portraitRequest } from "./portrait_request.js";
+import { bodyOf, initialState, startOf } from "./page_state.js";
+import { portraitRequest, shotOf } from "./portrait_request.js";
 import { isDark, themeOf } from "./theme.js";
 import { described } from "./views.js";
 
 const longest = 10;    // s that a ball is let roll
-const slow = 1 / 500;  // of the first slip: without units, what slides no faster counts as rolling
+const slow = 1 / 500;  // of the fastest slip in the patch at first: without units, what slides no faster counts as rolling
+
+/** What moves where there are no units: of any size, and a second is a unit of tau. */
+const ballOf = (radius) =>
+  ({ mass: 1, radius, friction: 2 / (3 * Math.PI), gravity: 1, patchBy: "patch_radius", patch: radius, body: "ball", rollingFriction: 0 });
 
 export class Store {
   /** @type {((change: {moment: boolean}) => void)[]} */
@@ -78,7 +82,7 @@ export class Store {
   compute(/** @type {State} */ state) {
     const { library, library: { plane } } = this;
     this.contact = state.ball
-      ? this.keep("contact", [state.law, state.ball], () => library.contact(state.law, { ...state.ball, velocityX: 0, velocityY: 0, omegaX: 0, omegaY: 0, omegaZ: 0 }))
+      ? this.keep("contact", [state.law, state.ball], () => library.contact(state.law, shotOf(state.ball, startOf(0, 0))))
       : null;
     if (this.contact) state.mu = this.contact.mu;
     this.body = bodyOf(state, library);
@@ -95,32 +99,32 @@ export class Store {
     this.ride = orbit ? this.rideOf(state, orbit, ofSystem) : null;
   }
 
-  /** How the body of an orbit slides over the table, and beside it one that does not spin: times in tau. */
-  rideOf(state, { u, v }, ofSystem) {
-    const { library, library: { plane }, body: { chi }, motion: { stop } } = this;
+  /** How the body of an orbit slides over the table, and beside it one that does not spin: SI units, but `end` in tau. */
+  rideOf(state, orbit, ofSystem) {
+    const { library, library: { plane }, body: { chi }, motion: { stop }, timeFactor } = this;
     const rolls = chi !== 1;
-    const slides = (name, spin) => {
-      if (spin === 0 && v === 0) return { end: 0, length: 0 };
-      const least = state.ball ? library.rollingSlip : slow * v;
-      const slide = ofSystem(name, [spin, v, least], () => plane.slide(spin, v, least));
-      return rolls ? slide : { ...slide, end: plane.stop(spin, v) };
+    const { u, v } = orbit;
+    const ball = state.ball ?? ballOf(1);
+    const least = state.ball ? library.rollingSlip : slow * (v + state.mu * Math.abs(u));
+    const starts = { plain: { ...orbit, u: 0 }, own: orbit };
+    const slide = (name) => {
+      if (v === 0 && starts[name].u === 0) return { end: 0, path: 0, turned: 0 };
+      const shot = shotOf(ball, starts[name]);
+      return ofSystem(`${name} slide`, [shot, least], () => plane.slide(shot, least));
     };
-    const [own, plain] = [slides("slide", u), slides("plain slide", 0)];
-    // Without units a ball may have any size, and a second is a unit of tau.
-    const radius = state.ball?.radius ?? (Math.max(own.length, plain.length) / 4 || 1);
-    const unitless = { velocityX: v, velocityY: 0, mass: 1, radius, friction: 2 / (3 * Math.PI), gravity: 1, patchBy: "patch_radius", patch: radius, body: "ball", rollingFriction: 0 };
-    const ball = state.ball ?? unitless;
-    const moving = rolls ? ball : { ...ball, velocityX: v, velocityY: 0 };
-    const ride = (name, spin, end) => {
-      const shot = { ...moving, ...angularVelocity(moving, { u: spin, v }) };
-      return ofSystem(name, [shot, end], () => plane.ride(shot, rolls ? ball.rollingFriction : 0, end * this.timeFactor));
+    const [plain, own] = [slide("plain"), slide("own")];
+    const radius = state.ball?.radius ?? (Math.max(own.path, plain.path) / 4 || 1);
+    const ride = (name, until, kept = `${name} ride`) => {
+      const shot = shotOf(state.ball ?? ballOf(radius), starts[name]);
+      return ofSystem(kept, [shot, until], () => plane.ride(shot, rolls ? ball.rollingFriction : 0, until * timeFactor));
     };
-    const rest = rolls && ball.rollingFriction > 0 ? ride("rest", u, 0).rest : null;
+    const rest = rolls && ball.rollingFriction > 0 ? ride("own", 0, "rest").rest : null;
     // Also what rolls soon is seen to roll.
-    const speed = state.ball && rolls ? Math.hypot(ball.velocityX - v / chi, ball.velocityY) : 0;
-    const rolling = speed > 0 ? Math.min(longest, (6 * radius) / speed) / this.timeFactor : 0;
-    const end = Math.max(rolling, state.part === "whole" || v === 0 ? Math.max(stop, (rest?.t ?? 0) / this.timeFactor) : Math.min(stop, 1.3 * own.end));
-    return { own, plain, end, rolls, rest, radius, courses: [ride("plain ride", 0, end), ride("ride", u, end)] };
+    const speed = state.ball && rolls ? Math.hypot(orbit.along - v / chi, orbit.across) : 0;
+    const rolling = speed > 0 ? Math.min(longest, (6 * radius) / speed) / timeFactor : 0;
+    const whole = state.part === "whole" || v <= least;
+    const end = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor));
+    return { own, plain, least, end, rolls, rest, radius, courses: [ride("plain", end), ride("own", end)] };
   }
 
   get timeFactor() {

@@ -8,7 +8,6 @@ const mathematics = '"STIX Two Text", "Cambria Math", "DejaVu Serif", Georgia, s
 
 const scriptSize = 0.72;
 const scriptShift = { 1: -0.38, 0: 0, "-1": 0.24 };  // of an index or a power, in sizes of the text
-const smallestWidth = 120;  // pixels; a hidden or minimised page has none
 
 let measuring;
 const known = new Map();  // texts that were measured
@@ -43,33 +42,16 @@ export const borderOf = ({ left = 0, top = 0, width, height }) =>
  * @typedef {{fill?: string, stroke?: string, width?: number, dash?: number[], radius?: number}} Style
  */
 
+/** A canvas of so many pixels for a picture of that width and height. */
 export class CanvasSurface {
-  size = { width: 0, height: 0 };
-  inSight = true;
-  /** @type {ReturnType<typeof setTimeout> | undefined} */
-  late;
-  /** @type {{key: any[], value?: any, picture?: HTMLCanvasElement}} */
-  kept = { key: [] };
-
-  /** @param picture  draws on the surface, also when the page gives the canvas another size */
-  constructor(canvas, picture) {
+  constructor(canvas, { width = 0, height = 0 } = {}) {
     this.canvas = canvas;
-    this.picture = picture;
     this.context = canvas.getContext("2d", { alpha: false });
-    new ResizeObserver(() => {
-      this.measure();
-      this.draw();
-    }).observe(canvas);
-    new IntersectionObserver(([{ isIntersecting }]) => (this.inSight = isIntersecting), { rootMargin: "100px" }).observe(canvas);
-  }
-
-  /** Asks the page for the size, which lays the page out. */
-  measure() {
-    this.size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+    this.size = { width, height };
+    if (width) this.context.scale(canvas.width / width, canvas.height / height);
   }
 
   get width() {
-    if (this.size.width === 0) this.measure();
     return this.size.width;
   }
 
@@ -77,44 +59,10 @@ export class CanvasSurface {
     return this.size.height;
   }
 
-  draw() {
-    if (this.width >= smallestWidth) this.picture(this);
-  }
-
-  /** Draws; where the reader has scrolled away from it, only five times a second. */
-  drawInSight() {
-    if (this.inSight) this.draw();
-    else this.late ??= setTimeout(() => {
-      this.late = undefined;
-      this.draw();
-    }, 200);
-  }
-
-  /**
-   * Begins a picture with its ground and what stays while only the moment moves: a copy, unless something in `keys` has
-   * changed.
-   *
-   * @returns what `draw` has returned
-   */
-  still(keys, ground, draw) {
-    const { canvas, context, kept } = this;
-    const ratio = globalThis.devicePixelRatio || 1;
-    const size = { width: Math.round(this.width * ratio), height: Math.round(this.height * ratio) };
-    if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const key = [...keys, ratio, size.width, size.height];
-    const again = key.every((part, i) => part === kept.key[i]);
-    if (again && kept.picture) context.drawImage(kept.picture, 0, 0, size.width / ratio, size.height / ratio);
-    else {
-      this.shape([borderOf(this)], { fill: ground });
-      this.kept = { key, value: draw() };
-    }
-    // What changes at each drawing is not worth a copy.
-    if (again && !kept.picture) {
-      this.kept.picture = Object.assign(document.createElement("canvas"), size);
-      this.kept.picture.getContext("2d")?.drawImage(canvas, 0, 0);
-    }
-    return this.kept.value;
+  /** Begins a picture with its ground and what stays while only the moment moves. @returns what `draw` has returned */
+  still(_keys, ground, draw) {
+    this.shape([borderOf(this)], { fill: ground });
+    return draw();
   }
 
   /** @param {ArrayLike<number>[]} lines @param {Style} style */

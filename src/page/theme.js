@@ -1,9 +1,9 @@
 // Colours: of the page from its style sheet, and of the reader's own orbits. Those of portraits are the library's.
 
-/** Okabe and Ito's colours for the reader's own orbits. */
+/** Okabe and Ito's colours for the reader's own orbits; grey is the ball without spin. */
 const swatches = {
-  light: ["#c22f5a", "#0072b2", "#b45f06", "#007a59", "#8a4fa3", "#5c656e"],
-  dark: ["#ff7aa2", "#56b4e9", "#f0a830", "#35c79b", "#d49be6", "#b9c2ca"],
+  light: ["#c22f5a", "#0072b2", "#b45f06", "#007a59", "#8a4fa3", "#7a6a00"],
+  dark: ["#ff7aa2", "#56b4e9", "#f0a830", "#35c79b", "#d49be6", "#dede6a"],
 };
 
 const darkness = globalThis.matchMedia?.("(prefers-color-scheme: dark)");

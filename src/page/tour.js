@@ -3,31 +3,33 @@ import { $, make } from "./dom.js";
 import { tour } from "./presets.js";
 
 export class Tour {
-  /** @param go  called with the fragment of a step */
+  at = 0;
+
+  /** @param go  called with the fragment of a step, and its number */
   constructor(go) {
     const list = $("steps");
     list.append(...tour.map(({ title, text }, i) => make("li", {}, make("h3", { textContent: `${i + 1}. ${title}` }), make("p", { textContent: text }))));
-    let at = 0;
-    const show = () => {
-      const step = Math.round(list.scrollLeft / list.clientWidth);
-      if (step === at || !tour[step]) return;
-      at = step;
-      go(tour[step].fragment);
-      buttons();
-    };
-    const buttons = () => {
-      $("step-back").disabled = at === 0;
-      $("step-on").disabled = at === tour.length - 1;
-    };
+    this.list = list;
     let timer;
     list.addEventListener("scroll", () => {
       clearTimeout(timer);
-      timer = setTimeout(show, 120);
+      timer = setTimeout(() => {
+        const step = Math.round(list.scrollLeft / list.clientWidth);
+        if (step !== this.at && tour[step]) go(tour[step].fragment, step);
+      }, 120);
     });
-    const behavior = matchMedia("(prefers-reduced-motion: reduce)").matches ? "instant" : "smooth";
-    const to = (step) => list.scrollTo({ left: step * list.clientWidth, behavior });
-    $("step-back").addEventListener("click", () => to(at - 1));
-    $("step-on").addEventListener("click", () => to(at + 1));
-    buttons();
+    $("step-back").addEventListener("click", () => this.to(this.at - 1));
+    $("step-on").addEventListener("click", () => this.to(this.at + 1));
+  }
+
+  to(step) {
+    this.list.scrollTo({ left: step * this.list.clientWidth, behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "instant" : "smooth" });
+  }
+
+  /** Shows the step of the state. */
+  show(step) {
+    $("step-back").disabled = step === 0;
+    $("step-on").disabled = step >= tour.length - 1;
+    if (step !== this.at) this.to(this.at = step);
   }
 }

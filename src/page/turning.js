@@ -14,28 +14,40 @@ export function rotation(w) {
 export const turnedBy = (matrix, /** @type {number[]} */ [x, y, z]) => matrix.map((row) => row[0] * x + row[1] * y + row[2] * z);
 
 /**
- * What is seen of a ride of the library: {xs, ys, at(share)}, at with the place and the rotation at a share of the time.
+ * What is seen of a ride of the library: {xs, ys, at(share)}, at with the place, the path and the rotation at a share of the time.
  *
  * @param heading    the direction that is to the right
  * @param spinShown  the share of the spin that is drawn
  */
-export function rideOn({ t, x, y, wx, wy, wz, slid, rest }, heading, spinShown) {
+export function rideOn({ t, x, y, wx, wy, wz, rest }, heading, spinShown) {
   const back = rotation([0, 0, -heading]);
   const places = Array.from(x, (x, i) => turnedBy(back, [x, y[i], 0]));
   const [xs, ys] = [0, 1].map((k) => places.map((place) => place[k]));
+  let run = 0;
+  const path = xs.map((x, i) => (run += i ? Math.hypot(x - xs[i - 1], ys[i] - ys[i - 1]) : 0));
   const drawn = [wx, wy, wz.map((w) => spinShown * w)];
   /** How it turns in a part of a step. */
   const turn = (i, part) => rotation(turnedBy(back, drawn.map((w) => (part * (t[i + 1] - t[i]) * (w[i] + w[i + 1])) / 2)));
   const turned = [rotation([0, 0, 0])];  // before each step, as far as was asked for
+  /** In which step a share of the time lies, and what part of it has passed; times grow as squares. @returns {[number, number]} */
+  const rowAt = (share) => {
+    const i = Math.min(t.length - 2, Math.floor(Math.sqrt(Math.min(1, share)) * (t.length - 1)));
+    return [i, (Math.min(1, share) * t.at(-1) - t[i]) / (t[i + 1] - t[i])];
+  };
+  const between = (column, /** @type {[number, number]} */ [i, part]) => column[i] + part * (column[i + 1] - column[i]);
   return {
     xs, ys, rest,
+    /** The line of the path until a share of the time: x0, y0, x1, y1, ... */
+    until(share) {
+      const row = rowAt(share);
+      return [...xs.slice(0, row[0] + 1).flatMap((x, i) => [x, ys[i]]), between(xs, row), between(ys, row)];
+    },
     at(share) {
-      // Times grow as squares.
-      const i = Math.min(t.length - 2, Math.floor(Math.sqrt(Math.min(1, share)) * (t.length - 1)));
-      const part = (share * t.at(-1) - t[i]) / (t[i + 1] - t[i]);
-      const between = (column) => column[i] + part * (column[i + 1] - column[i]);
+      const row = rowAt(share);
+      const [i, part] = row;
       for (let j = turned.length - 1; j < i; ++j) turned.push(product(turn(j, 1), turned[j]));
-      return { x: between(xs), y: between(ys), slid: between(slid), turn: product(turn(i, part), turned[i]) };
+      const [px, py, far] = [xs, ys, path].map((column) => between(column, row));
+      return { x: px, y: py, path: far, turn: product(turn(i, part), turned[i]) };
     },
   };
 }

@@ -1,19 +1,21 @@
 // What the modules hand to each other; the functions of the library are those of bindings.cpp.
 
-interface Start { u: number; v: number }
+interface Speeds { u: number; v: number }
+/** A motion's; along and across: the velocity of a real ball's centre, m/s, in the direction of the slip and to the left of it. */
+interface Start extends Speeds { along: number; across: number }
 
 /** page_state.js says what each means. */
 interface State {
   law: string; body: string; chi: number; gamma: number; mu: number;
   view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
   orbits: Start[]; chosen: number; fraction: number; part: string; isochrone: number;
-  ball: Ball | null; theme: string; embed: boolean;
+  ball: Ball | null; theme: string; embed: boolean; step: number;
 }
 
 interface Ball {
   name: string; title: string; body: string; law: string; sources: string; patchBy: string;
   radius: number; mass: number; friction: number; gravity: number; patch: number;
-  slip: number; spin: number; velocityX: number; velocityY: number; rollingFriction: number;
+  slip: number; spin: number; rollingFriction: number;
 }
 
 interface Law { name: string; meaning: string; letter?: string; example?: number }
@@ -22,19 +24,20 @@ interface View { name: string; layered: boolean }
 interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number }
 
 /** What one portrait is asked for by: portrait_request.js. */
-interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "orbits" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
-  screen: boolean; ball: object & Ball & { omegaZ: number } | null;
+interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
+  screen: boolean; orbits: Speeds[]; ball: object & Ball & { velocityX: number; omegaZ: number } | null;
 }
 
 /** Columns. */
 interface Motion { tau: Float64Array; u: Float64Array; v: Float64Array; k: Float64Array; lnV: Float64Array }
 interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
-interface Instant extends Start { tau: number; k: number; force: number; places: Float64Array }
-interface Slide { end: number; length: number }
+interface Instant extends Speeds { tau: number; k: number; force: number; places: Float64Array }
+/** SI: when it has ended, the path of the centre until then, and by how many degrees it has turned. */
+interface Slide { end: number; path: number; turned: number }
 /** Columns, SI. */
 interface Ride {
   t: Float64Array; x: Float64Array; y: Float64Array; vx: Float64Array; vy: Float64Array; wx: Float64Array; wy: Float64Array; wz: Float64Array;
-  slip: Float64Array; energy: Float64Array; slid: Float64Array; rest?: { t: number; x: number; y: number };
+  slip: Float64Array; energy: Float64Array; rest?: { t: number; x: number; y: number };
 }
 interface Check { name: string; measured: number; allowed: number; passed: boolean }
 
@@ -51,7 +54,7 @@ interface Figure {
   title: string; panels: Panel[]; ground: string; ink: string; faint: string; line: number;
   colourBar?: { name: string; colours: string[]; ticks: Tick[] };
 }
-interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; moments: boolean; through: Start[] }
+interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; moments: boolean; through: Speeds[] }
 
 interface Library {
   laws: Law[]; bodies: Body[]; balls: Ball[]; views: View[]; rollingSlip: number; plane: LibraryPlane;
@@ -67,8 +70,8 @@ interface LibraryPlane {
   stop(u: number, v: number): number;
   instant(u: number, v: number, tau: number): Instant;
   place(u: number, v: number): Float64Array;
-  at(panel: number, x: number, y: number): Start | null;
-  slide(u: number, v: number, least: number): Slide;
+  at(panel: number, x: number, y: number): Speeds | null;
+  slide(ball: object, least: number): Slide;
   ride(ball: object, rollingFriction: number, end: number): Ride;
   motion(u: number, v: number): Motion;
   isochrone(tau: number): Float64Array[];

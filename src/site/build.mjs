@@ -84,7 +84,7 @@ function page(path, title, body) {
       .map(({ id, title }) => `<li><a href="${root}/${to}#${id}">${escape(title)}</a></li>`);
     return `<li>${link(to, to === "README.html" ? "README" : title)}${parts.length ? `<ul>${parts.join("")}</ul>` : ""}</li>`;
   });
-  const main = [["index.html", "contensou"], ...(ball ? [["explore.html", "The ball"]] : []), ["gallery.html", "Gallery"], ["reference/index.html", "Reference"]];
+  const main = [["index.html", "contensou"], ...(ball ? [["explore.html", "Play"]] : []), ["gallery.html", "Gallery"], ["reference/index.html", "Reference"]];
   const values = { title: escape(title), root, version, body, main: main.map((each) => link(...each)).join("\n"), texts: list.join("\n") };
   write(path, template.replace(/\{\{(\w+)\}\}/g, (_, name) => values[name]));
 }
@@ -156,7 +156,7 @@ reference();
 
 // README up to its second heading, below the ball.
 const second = readme.tokens.findIndex(({ tag }) => tag === "h2");
-const first = ball ? '<iframe src="explore.html#embed" title="Two equal balls leave equally fast; one of them spins"></iframe>'
+const first = ball ? '<iframe src="explore.html#embed" title="Two equal pucks leave equally fast; one of them spins"></iframe>'
   : "<p><em>Built without the page of <code>contensou explore</code>: <code>-DCONTENSOU_PAGE=ON</code> adds it.</em></p>";
 const [heading, rest] = [readme.tokens.slice(0, 3), readme.tokens.slice(3, second)].map((tokens) => html(tokens, readme.env));
 page("index.html", "contensou: a ball that slides and spins", `${heading}${first}${rest}

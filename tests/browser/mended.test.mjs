@@ -195,10 +195,15 @@ test("spins to the left alone fill their pane", async () => {
 test("what is copied while a motion plays is what would be drawn", async () => {
   const link = "#ball=gel&view=pair&orbits=9,0.5;-4,0.5";
   const pictures = async () => {
-    // Out of sight it is drawn now and then only.
-    await page.locator("#panes").scrollIntoViewIfNeeded();
-    await drawn();
-    return page.evaluate(() => ["lanes", "patch", "plane", "panes"].map((id) => document.getElementById(id).toDataURL()));
+    const all = [];
+    for (const id of ["lanes", "patch", "plane", "panes"]) {
+      // Out of sight it is not drawn.
+      await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+      await drawn();
+      await drawn();
+      all.push(await page.evaluate((id) => document.getElementById(id).toDataURL(), id));
+    }
+    return all;
   };
   const to = (fraction) => page.evaluate((fraction) => globalThis.page.store.move({ fraction }), fraction);
   await open(link);

@@ -2,15 +2,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commandLine } from "../../src/page/command_line.js";
-import { csvOfOrbits, csvOfRide } from "../../src/page/exports.js";
+import { csvOfOrbits, csvOfRide, filmType } from "../../src/page/exports.js";
 import { Frame } from "../../src/page/frame.js";
 import { plain, runsOf } from "../../src/page/markup.js";
 import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
-import { bodyOf, firstState, fromFragment, initialState, takeBall, toFragment } from "../../src/page/page_state.js";
+import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, startOf, takeBall, toFragment } from "../../src/page/page_state.js";
 import { layOut, rowsOf } from "../../src/page/portrait_layout.js";
 import { portraitRequest } from "../../src/page/portrait_request.js";
 import { presets, tour } from "../../src/page/presets.js";
 import { Store } from "../../src/page/store.js";
+import { regimeOf, say } from "../../src/page/story.js";
 import { rideOn, rotation, turnedBy } from "../../src/page/turning.js";
 import { described } from "../../src/page/views.js";
 
@@ -35,7 +36,7 @@ const known = {
 
 test("numbers are read as people type them, and a reason is given for what is none", () => {
   assert.deepEqual(["1.5", " −2e-3 ", "-0"].map((text) => parseNumber(text)), [{ value: 1.5 }, { value: -0.002 }, { value: -0 }]);
-  for (const [text, reason] of [["", /needed/], ["0,5", /write 0\.5/], ["abc", /'abc' is not/], ["1e999", /finite/]]) assert.match(parseNumber(text).problem, reason);
+  for (const [text, reason] of [["0x10", /'0x10' is not/], ["1e", /not/], [".", /not/], ["Infinity", /not/], ["", /needed/], ["0,5", /write 0\.5/], ["abc", /'abc' is not/], ["1e999", /finite/]]) assert.match(parseNumber(text).problem, reason);
 });
 
 test("numbers are shown with a few digits, in signs that people write", () => {
@@ -72,23 +73,28 @@ test("every state comes back from its link", () => {
   const states = [
     {}, { law: "pressure:-0.25", against: "pade", body: "own", chi: 1.5, gamma: 2.25, mu: 0.125 }, { body: "disc", mu: 1 },
     { view: "pair", window: [2, 3e-7], field: "regularised", isochrones: 0, theme: "dark" },
-    { orbits: [{ u: -1e-5, v: 0 }, { u: 1e20, v: 3 }], chosen: 1, fraction: 0.25, part: "sliding", isochrone: 1.5 }, { orbits: [], chosen: 0 },
+    { orbits: [startOf(-1e-5, 0), startOf(1e20, 3)], chosen: 1, fraction: 0.25, part: "sliding", isochrone: 1.5, step: 5 }, { orbits: [], chosen: 0 },
   ].map((part) => ({ ...initialState(), ...part }));
   const ball = initialState();
-  Object.assign(takeBall(ball, gel), { velocityX: -1, velocityY: 0.25, friction: 0.125, patchBy: "spin_deceleration", patch: 12.5 });
+  Object.assign(takeBall(ball, gel), { friction: 0.125, patchBy: "spin_deceleration", patch: 12.5 });
+  ball.orbits = [startOf(1, 2), startOf(3, 4, -1, 0.25)];
   for (const state of [...states, ball, { ...ball, part: "whole", embed: true }]) assert.deepEqual(fromFragment(`#${toFragment(state)}`, known), state);
 });
 
 test("what cannot be read in a link keeps its first value", () => {
   const first = initialState();
-  for (const part of ["law=nonsense", "mu=-1", "mu=x", "view=none", "window=1", "window=0,1", "orbits=x", "at=2", "ball=golf", "body=1", "isochrones=3", "theme=red", "part=none"]) {
+  for (const part of ["law=nonsense", "mu=-1", "mu=x", "view=none", "window=1", "window=0,1", "orbits=x", "mu=0.3&at=2", "ball=golf", "body=1", "isochrones=3", "part=none", "mu=0.3&theme=red", "mu=0.3&step=9"]) {
     const state = fromFragment(part, known);
     assert.deepEqual({ ...state, orbits: part.startsWith("orbits") ? first.orbits : state.orbits }, first, part);
   }
-  assert.deepEqual(fromFragment("orbits=x;1,-1;0.5,1&chosen=7", known).orbits, [{ u: 0.5, v: 1 }]);
+  assert.deepEqual(fromFragment("orbits=x;1,-1;0.5,1;1,2,3&chosen=7", known).orbits, [startOf(0.5, 1)]);
+  assert.deepEqual(fromFragment("mu=0.3&orbits=1,2,3,4", known).orbits, [startOf(1, 2)], "without units nothing is known of the centre");
+  assert.deepEqual(fromFragment("ball=puck&orbits=1,2,3,4", known).orbits, [startOf(1, 2)], "a puck does not turn forward");
+  assert.deepEqual(fromFragment("ball=gel&velocityX=3&orbits=1,2", known).orbits, [startOf(1, 2, 3, 0)], "a link of before");
   assert.equal(fromFragment("body=disc&mu=0.2", known).mu, 1, "a puck's mu is its own");
   assert.equal(fromFragment("mu=7", known).mu, 1, "at most 1 for a ball");
-  assert.deepEqual(fromFragment("", known), firstState(known));
+  // Nor is a link that was cut or mangled another world.
+  for (const link of ["", "#garbage", "#%", "#utm_source=x"]) assert.deepEqual(fromFragment(link, known), { ...firstState(known), mu: 1 }, link);
   assert.ok(fromFragment("#embed", known).embed);
 });
 
@@ -107,6 +113,76 @@ test("presets and steps of the tour are links that are understood", () => {
   }
 });
 
+test("a start that is moved keeps how the ball turns forward; one that does not turn is exact", () => {
+  assert.deepEqual(moved(startOf(1, 0.5), 2, 0.3), startOf(2, 0.3));
+  assert.deepEqual(moved(startOf(1, 0.5, 0.75, -2), 1, 0.25), startOf(1, 0.25, 0.5, -2));
+});
+
+test("a law is not compared with itself in a link", () => {
+  assert.doesNotMatch(toFragment({ ...initialState(), law: "pade", against: "pade" }), /against/);
+});
+
+test("numbers from which nothing can follow are refused in the words of the others", () => {
+  for (const [key, value, words] of [["gravity", 1e308, /: from 1·10⁻⁹ to 1·10⁹ is allowed$/], ["mass", 0, /positive/], ["mu", 1e-308, /from/], ["rollingFriction", -1, /from 0 to 1000/]]) {
+    assert.throws(() => requireAllowed(key, value), words);
+  }
+  for (const [key, value] of [["rollingFriction", 0], ["along", -3], ["window-U", 1e200]]) requireAllowed(key, value);
+  const { ball, mu } = fromFragment("ball=gel&gravity=1e308&patch=1e-308", known);
+  assert.deepEqual([ball.gravity, ball.patch], [gel.gravity, gel.patch]);
+  assert.equal(mu, 0.3);
+  assert.deepEqual([fromFragment("mu=1e-308", known).mu, fromFragment("body=1e308,1", known).body], [0.3, "ball"]);
+});
+
+test("a film is MP4 where the browser takes it, else WebM, else none", () => {
+  const before = globalThis.MediaRecorder;
+  for (const [taken, wanted] of [[/./, /^video\/mp4/], [/webm/, /^video\/webm$/], [/none/, undefined]]) {
+    globalThis.MediaRecorder = /** @type {any} */ ({ isTypeSupported: (type) => taken.test(type) });
+    if (wanted) assert.match(filmType(), wanted);
+    else assert.equal(filmType(), undefined);
+  }
+  globalThis.MediaRecorder = before;
+});
+
+/** A gel ball that leaves at 0.5 m/s, or what differs from it. */
+const facts = (other = {}) => ({
+  name: "gel ball", real: true, rolls: true, slip: 0.5, spin: 300, along: other.slip ?? 0.5, across: 0, least: 0.001, stop: 5.17, turningAlone: 5.16,
+  own: { end: 0.627, path: 0.239, turned: 0 }, plain: { end: 0.0291, path: 0.0125, turned: 0 }, ...other,
+});
+const path = (path, turned = 0) => ({ end: 1, path, turned });
+const puck = { name: "ice hockey puck", rolls: false };
+
+test("what there is to see follows from the numbers, and is said in words without powers of ten", () => {
+  const table = [
+    ["much", {}, /slides 19 times as far$/, /slides 12\.5 mm, then it rolls\. .* 48 times a second: it slides 0\.239 m, 19 times as far and 22 times as long\. Textbooks say 12\.5 mm both times\. Here it rolls once its slip is below 1 mm\/s\.$/],
+    ["much", { ...puck, own: path(0.515), plain: path(0.127) }, /Spin a puck, and it slides 4\.1 times/, /then it stops\.(?!.*Here it rolls)/],
+    ["more", { own: path(1.1), plain: path(1) }, /ball slide 10 % farther/, /Textbooks say 1 m/],
+    ["soon", { own: path(1.01), plain: path(1) }, /soon rolls, and spins on/, /Its spin lasts 5\.17 s/],
+    ["together", { ...puck, own: path(1.01), plain: path(1) }, /end at one instant/, /turning alone after 5\.16 s; together/],
+    ["curves", { across: 1, own: path(1.01, -60), plain: path(1, 59) }, /curves by 60°/, /touches down slipping at 0\.5 m\/s.*curve by 59°/],
+    ["soon", { across: 1, own: path(1.01, 2), plain: path(1) }, /soon rolls/, /touch down, slipping/],
+    ["plain", { spin: 0, own: path(0.0125) }, /^Without spin, textbooks are right$/, /leaves at 0\.5 m\/s and does not spin: it slides 12\.5 mm, then it rolls/],
+    ["rolls", { slip: 1e-34, along: 0.3, own: path(0), plain: path(0) }, /already rolls/, /Only its spin is left: it ends after 5\.17 s/],
+    ["rolls", { slip: 1e-34, along: 0.3, spin: 0, own: path(0), plain: path(0) }, /already rolls/, /too small to be seen\. Here/],
+    ["rolls", { slip: 0.0011, own: path(1e-6), plain: path(1e-9) }, /already rolls/, /./],
+    ["spins", { slip: 1e-34, own: path(0), plain: path(0) }, /spins in place/, /stops after 5\.17 s/],
+    ["spins", { ...puck, slip: 0, own: path(0), plain: path(0) }, /A puck that spins in place/, /./],
+    ["rests", { slip: 0, spin: 0, own: path(0), plain: path(0) }, /at rest/, /./],
+    ["more", { real: false, name: "ball", spin: 0.8, slip: 3.5, least: 0.0075, own: path(15.7), plain: path(14.1) }, /11 % farther/, /leave at v = 3\.5.*with u = 0\.8.*once its slip is below 0\.0075/],
+  ];
+  const seen = new Set();
+  for (const [regime, other, headline, story] of table) {
+    const all = facts(/** @type {any} */ (other));
+    assert.equal(regimeOf(all), regime, JSON.stringify(other));
+    const said = say(all);
+    assert.match(said.headline, headline);
+    assert.match(said.story, story);
+    assert.doesNotMatch(`${said.headline} ${said.story}`, /NaN|Infinity|∞|undefined|·10/);
+    seen.add(regime);
+  }
+  assert.equal(seen.size, 9);
+  assert.match(say(facts({ rest: { t: 12, x: 3, y: 4 } })).story, /It rests after 12 s, 5 m from its start\.$/);
+});
+
 const requestOf = (state) => portraitRequest(state, bodyOf(state, known), false);
 
 test("a request is what the state asks the library for", () => {
@@ -114,8 +190,8 @@ test("a request is what the state asks the library for", () => {
   const { against, ball, chi } = requestOf(state);
   assert.deepEqual([against, ball, chi], [null, null, 3.5], "a law is not compared with itself");
   takeBall(state, gel);
-  const { velocityX, omegaZ } = requestOf(state).ball;
-  assert.deepEqual([velocityX, omegaZ], [0.5, 300]);
+  const { velocityX, omegaY, omegaZ } = requestOf(state).ball;
+  assert.deepEqual([velocityX, omegaY, omegaZ], [0.5, 0, 300]);
   assert.equal(requestOf({ ...state, orbits: [] }).ball, null, "without a motion only the mu of a ball");
 });
 
@@ -127,7 +203,8 @@ test("the command line names what differs from what the program would do", () =>
     roll: null,
   });
   const ball = initialState();
-  Object.assign(takeBall(ball, gel), { friction: 0.25, velocityY: 1.5 });
+  takeBall(ball, gel).friction = 0.25;
+  ball.orbits[0].across = 1.5;
   assert.deepEqual(line(ball), {
     portrait: "contensou portrait --ball gel --friction 0.25 --slip 0.5 --spin 300 --law exact --view uv -o portrait.svg",
     roll: "contensou roll --ball gel --friction 0.25 --velocity 0.5,1.5 --angular-velocity -50,0,300 --law exact",
@@ -138,7 +215,7 @@ test("a table of orbits has the program's words for infinity, that of a ride the
   const motion = { tau: [0, 1], u: [1, 0], v: [2, 0], lnV: [0.5, -Infinity], k: [2, Infinity] };
   assert.equal(csvOfOrbits([motion]), "orbit,tau,u,v,ln_v,k\n1,0,1,2,0.5,2\n1,1,0,0,-inf,inf\n");
   const names = ["t", "x", "y", "vx", "vy", "wx", "wy", "wz", "slip", "energy"];
-  assert.equal(csvOfRide(Object.fromEntries([...names, "slid"].map((name, i) => [name, [i, -i]]))), `${names}\n0,1,2,3,4,5,6,7,8,9\n0,-1,-2,-3,-4,-5,-6,-7,-8,-9\n`);
+  assert.equal(csvOfRide(Object.fromEntries([...names, "rest"].map((name, i) => [name, [i, -i]]))), `${names}\n0,1,2,3,4,5,6,7,8,9\n0,-1,-2,-3,-4,-5,-6,-7,-8,-9\n`);
 });
 
 test("a frame leads from numbers to pixels and back, and a column breaks where it says", () => {
@@ -183,11 +260,12 @@ test("a ball that only slides does not turn, one that rolls turns by its path", 
   const ride = (wy, wz = 0) => {
     const t = Float64Array.of(0, duration / 4, duration);
     const always = (value) => t.map(() => value);
-    return { t, x: t.map((time) => v * time), y: always(0), wx: always(0), wy: always(wy), wz: always(wz), slid: t };
+    return { t, x: t.map((time) => v * time), y: always(0), wx: always(0), wy: always(wy), wz: always(wz) };
   };
   const slides = rideOn(ride(0), 0, 1);
   assert.deepEqual(slides.at(1).turn, rotation([0, 0, 0]));
-  assert.equal(slides.at(0.5).x, 3);
+  assert.deepEqual([slides.at(0.5).x, slides.at(0.5).path], [3, 3]);
+  assert.deepEqual(slides.until(0.5), [0, 0, 1.5, 0, 3, 0]);
   assert.ok(Math.abs(rideOn(ride(0), Math.PI / 2, 1).at(1).y + v * duration) < 1e-12, "what leads up is seen to lead to the right");
   assert.deepEqual(rideOn(ride(0, 8), 0, 0.25).at(1).turn, rideOn(ride(0, 2), 0, 1).at(1).turn);
   const rolls = rideOn(ride(v / radius), 0, 1);

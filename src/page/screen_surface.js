@@ -1,0 +1,79 @@
+// A canvas of the page: of the size that the layout gives it, sharp, and drawn where it is seen.
+import { borderOf, CanvasSurface } from "./surface.js";
+
+const smallestWidth = 120;  // pixels; a hidden or minimised page has none
+
+/** A canvas of the page. */
+export class ScreenSurface extends CanvasSurface {
+  size = { width: 0, height: 0 };
+  inSight = true;
+  late = false;  // what is there now has still to be drawn
+  /** @type {{key: any[], value?: any, picture?: HTMLCanvasElement}} */
+  kept = { key: [] };
+
+  /** @param picture  draws on the surface, also when the page gives the canvas another size */
+  constructor(canvas, picture) {
+    super(canvas);
+    this.picture = picture;
+    new ResizeObserver(() => {
+      this.measure();
+      this.draw();
+    }).observe(canvas);
+    new IntersectionObserver(([{ isIntersecting }]) => {
+      this.inSight = isIntersecting;
+      if (isIntersecting && this.late) this.draw();
+    }, { rootMargin: "100px" }).observe(canvas);
+  }
+
+  /** Asks the page for the size, which lays the page out. */
+  measure() {
+    this.size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  get width() {
+    if (this.size.width === 0) this.measure();
+    return this.size.width;
+  }
+
+  get height() {
+    return this.size.height;
+  }
+
+  draw() {
+    this.late = false;
+    if (this.width >= smallestWidth) this.picture(this);
+  }
+
+  /** Draws; where the reader has scrolled away from it, when he comes back. */
+  drawInSight() {
+    if (this.inSight) this.draw();
+    else this.late = true;
+  }
+
+  /**
+   * Begins a picture with its ground and what stays while only the moment moves: a copy, unless something in `keys` has
+   * changed.
+   *
+   * @returns what `draw` has returned
+   */
+  still(keys, ground, draw) {
+    const { canvas, context, kept } = this;
+    const ratio = globalThis.devicePixelRatio || 1;
+    const size = { width: Math.round(this.width * ratio), height: Math.round(this.height * ratio) };
+    if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const key = [...keys, ratio, size.width, size.height];
+    const again = key.every((part, i) => part === kept.key[i]);
+    if (again && kept.picture) context.drawImage(kept.picture, 0, 0, size.width / ratio, size.height / ratio);
+    else {
+      this.shape([borderOf(this)], { fill: ground });
+      this.kept = { key, value: draw() };
+    }
+    // What changes at each drawing is not worth a copy.
+    if (again && !kept.picture) {
+      this.kept.picture = Object.assign(document.createElement("canvas"), size);
+      this.kept.picture.getContext("2d")?.drawImage(canvas, 0, 0);
+    }
+    return this.kept.value;
+  }
+}

@@ -1,0 +1,78 @@
+// What is said of a motion: facts in SI units (without units, in those of v), and sentences that rest on them.
+import { length, shown } from "./numbers.js";
+
+const hardly = 1e-4;  // m, a path too short to be seen
+const bent = 3;       // degrees, of a path that is seen to curve
+const much = 1.5;     // times as far
+const some = 1.05;
+
+/**
+ * slide: {end, path, turned} of plane.slide, of this body and of one that does not spin.
+ *
+ * @typedef {{
+ *   name: string, real: boolean, rolls: boolean, slip: number, spin: number, along: number, across: number, least: number, own: Slide, plain: Slide,
+ *   stop: number, turningAlone: number, rest?: {t: number, x: number, y: number} | null,
+ * }} Facts  spin: without units u; least: the slip from which on a ball rolls; stop: when all has ended; turningAlone: when
+ *   the spin would end if nothing slid
+ */
+
+/** What there is to see. @returns {keyof typeof sentences} */
+export function regimeOf(/** @type {Facts} */ { real, rolls, slip, spin, along, across, least, own, plain }) {
+  if (slip <= least || (real && rolls && own.path < hardly)) {
+    return rolls && Math.hypot(along, across) > least ? "rolls" : spin === 0 ? "rests" : "spins";
+  }
+  if (spin === 0) return "plain";
+  const times = own.path / plain.path;
+  if (times >= much) return "much";
+  if (across !== 0 && Math.abs(own.turned) > bent) return "curves";
+  return times >= some ? "more" : rolls ? "soon" : "together";
+}
+
+const more = (ratio, word) => (ratio >= much ? `${shown(ratio, 2)} times as ${word}` : `${shown(100 * (ratio - 1), 2)} % ${{ far: "farther", long: "longer" }[word]}`);
+
+/** The parts of the sentences. */
+function wordsOf(/** @type {Facts} */ facts) {
+  const { name, real, rolls, slip, spin, along, across, least, own, plain } = facts;
+  const unit = real ? "m" : "";
+  const speed = (value) => (real ? `${shown(value, 3)} m/s` : `v = ${shown(value, 3)}`);
+  const time = (t) => (real ? `${shown(t, 3)} s` : `τ = ${shown(t, 3)}`);
+  const leave = along === slip && across === 0 ? "leave" : "touch down, slipping";
+  const turns = real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${shown(spin, 3)}`;
+  return {
+    ...facts, thing: name.split(" ").at(-1), speed: speed(slip), time, leave, turns, then: rolls ? "then it rolls" : "then it stops",
+    far: length(own.path, unit), farPlain: length(plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
+    threshold: rolls ? ` Here it rolls once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : shown(least, 2)}.` : "",
+  };
+}
+
+const two = ({ name, leave, speed, farPlain, then, turns, far, longer, times }) =>
+  `Two equal ${name}s ${leave} at ${speed}. One does not spin: it slides ${farPlain}, ${then}. The other spins ${turns}: it slides ${far}, ` +
+  `${more(times, "far")} and ${longer}. Textbooks say ${farPlain} both times.`;
+
+const sentences = {
+  much: (words) => [`Spin a ${words.thing}, and it slides ${shown(words.times, 2)} times as far`, two(words) + words.threshold],
+  more: (words) => [`Spin makes this ${words.thing} slide ${shown(100 * (words.times - 1), 2)} % farther`, two(words) + words.threshold],
+  soon: (words) => [`This ${words.thing} soon rolls, and spins on`, `${two(words)} Its spin lasts ${words.time(words.stop)}.${words.threshold}`],
+  together: (words) => ["Sliding and turning end at one instant",
+    `${two(words)} Sliding alone would end after ${words.time(words.plain.end)}, turning alone after ${words.time(words.turningAlone)}; ` +
+    `together they end at one instant, after ${words.time(words.stop)}.`],
+  curves: (words) => [`The path of this ${words.thing} curves by ${shown(Math.abs(words.own.turned), 2)}°`,
+    `It touches down slipping at ${words.speed}, which is not where it goes: friction pulls along the slip, and the path curves by ` +
+    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}; then it rolls straight on. It spins ${words.turns}; without spin it would curve by ` +
+    `${shown(Math.abs(words.plain.turned), 2)}° in ${words.farPlain}.${words.threshold}`],
+  plain: (words) => ["Without spin, textbooks are right",
+    `This ${words.name} ${words.leave.replace(/^(leave|touch)/, (verb) => `${verb}${verb === "touch" ? "es" : "s"}`)} at ${words.speed} and does not spin: ` +
+    `it slides ${words.farPlain}, ${words.then}. Textbooks say the same of one that spins: give it spin, and see.${words.threshold}`],
+  rolls: (words) => [`This ${words.thing} already rolls`,
+    `Its slip is too small to be seen.${words.spin === 0 ? "" : ` Only its spin is left: it ends after ${words.time(words.stop)}.`}${words.threshold}`],
+  spins: (words) => [`A ${words.thing} that spins in place`,
+    `Nothing is seen to slide: only the rim of the patch rubs, and the ${words.thing} turns ever slower, until it stops after ${words.time(words.stop)}.`],
+  rests: (words) => [`A ${words.thing} at rest`, "Nothing slides and nothing spins."],
+};
+
+/** {headline, story} of a motion. */
+export function say(/** @type {Facts} */ facts) {
+  const [headline, story] = sentences[regimeOf(facts)](wordsOf(facts));
+  const { rest } = facts;
+  return { headline, story: rest ? `${story} It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), "m")} from its start.` : story };
+}
