@@ -37,7 +37,7 @@ foreach(folder IN ITEMS reduction portraits src)
 endforeach()
 
 # The rooms of reduction: a file may use its own room and those of the floors before it.
-set(floors numerics laws system "similarity symmetry steppers" stop_times check)
+set(floors numerics laws system "similarity symmetry steppers" "stop_times planar" check)
 set(floor_count 0)
 foreach(floor IN LISTS floors)
   string(REPLACE " " ";" rooms "${floor}")

@@ -50,7 +50,7 @@ Samples slope_by_factor(const Samples& rate, const Samples& source) {
 /// z' at the points, for  d z' + h z = g,  z(-1) = 0.
 Samples slope_by_collocation(const Samples& drag, const Samples& rate, const Samples& source) {
   // z = A z', so (d + h A) z' = g; the rows where d vanishes with 1 + t as large as the others.
-  const Samples unit = drag + rate * (LegendreSeries::points() + 1);
+  const Samples unit = drag + rate.abs() * (LegendreSeries::points() + 1);
   Matrix system = (rate / unit).matrix().asDiagonal() * integration();
   system.diagonal().array() += drag / unit;
   return system.partialPivLu().solve((source / unit).matrix()).array();

@@ -9,7 +9,7 @@ namespace contensou::reduction {
 /// g/h.
 ///
 /// @param drag    d at the points of LegendreSeries, >= 0
-/// @param rate    h there, >= 0; h/d may have any size
+/// @param rate    h there; h/d may have any size; where h < 0, y grows away from g/h
 /// @param source  g there
 /// @return        y
 ///

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/reduction/planar_symmetry.hpp"
+
+namespace contensou::reduction {
+
+/// A point in the canonical coordinates of a scaling X: x = x_0 + S exp(p A') n(q), n(q) = (cos q, sin q), S n the closed
+/// curve p = 0 and A' = S^-1 A S. X moves p alone, p -> p + s; for A = 1 the curve is a circle, p = ln |x - x_0| up to a
+/// constant and q the angle.
+struct PlanarCanonical {
+  double q;      ///< in (-pi, pi]
+  double p;      ///< -infinity at the centre x_0
+  double dp_dq;  ///< R/T along the orbit through it; infinite on a ray; NaN at the centre
+};
+
+/// Where an orbit ends, or where a sector does.
+enum class PlanarEnd {
+  centre,  ///< x_0
+  infinity,
+  rest,      ///< a point that is none of both: the field vanishes on the whole ray
+  border,    ///< where the field has no values, or jumps, so that no orbit goes on
+  periodic,  ///< nowhere: it returns
+};
+
+/// An orbit on which q stays: the field points along X there.
+struct PlanarRay {
+  double q;
+  bool attracts;   ///< its neighbours on both sides, as time goes on
+  bool to_centre;  ///< the motion on it
+  double radial;   ///< R: dp = R d sigma, d sigma = exp(-c p) dt; an eigenvalue of the field blown up at the centre
+  double angular;  ///< dT/dq: the other one, of the side that is reached first counter-clockwise
+};
+
+/// What is always the same after a turn of a field without rays.
+struct PlanarTurn {
+  double factor;  ///< by which exp(p) changes: of the distance, where A = 1
+  double sigma;   ///< in d sigma = exp(-c p) dt; the period, where c = 0
+};
+
+class PlanarOrbit;
+
+/// x' = f(x) solved by its scaling X = c t d/dt + A (x - x_0) . d/dx: f on one closed curve about x_0 is all of f.
+///
+///     const PlanarReduction reduction(field, *find_symmetries(field, start).scaling, start);
+///     reduction.end(start);        // PlanarEnd::centre
+///     reduction.end_time(start);   // when
+///     reduction.orbit(start).at(0.5)
+///
+/// README (R42) to (R45). A value; copies share what is solved.
+///
+/// Accuracy  of times relative 1e-12, where the field is smooth but for kinks and good to its last bits; where it is not,
+///           that of the field. A ray that T only touches is found where it lies on u = 0, v = 0 or half way between.
+class PlanarReduction {
+ public:
+  /// @param scaling  of the field
+  /// @param around   a point other than the centre, where the field may be called and is not tiny
+  /// @param noise    of its values, relative: what PlanarSymmetries::residual says
+  /// @throws std::domain_error  unless all eigenvalues of A have positive real parts; and for a field without values
+  PlanarReduction(PlanarField field, const Generator& scaling, const Eigen::Vector2d& around, double noise = 0);
+
+  const Generator& scaling() const;
+  const Eigen::Vector2d& centre() const;
+
+  /// @throws std::domain_error  if x is not finite
+  PlanarCanonical canonical(const Eigen::Vector2d& x) const;
+  Eigen::Vector2d point(double q, double p) const;
+
+  /// Whether every ray is an orbit: T = 0 throughout.
+  bool star() const;
+  /// In the order of q; none for a star.
+  const std::vector<PlanarRay>& rays() const;
+  /// Of a field without rays, stars and borders.
+  const PlanarTurn* turn() const;
+
+  /// "stable node", "unstable node", "saddle", "stable focus", "unstable focus", "center", "stable star", "unstable
+  /// star"; "mixed" with sectors of several kinds; "bordered" if the field has values in a part of the plane or jumps
+  std::string_view kind() const;
+
+  /// Where the motion from this point ends.
+  /// @throws std::domain_error  if x is not finite, or the field has no value there
+  PlanarEnd end(const Eigen::Vector2d& x) const;
+
+  /// When it is there: 0 at the centre; infinity if it takes for ever or there is a border.
+  double end_time(const Eigen::Vector2d& x) const;
+
+  /// ln of the factor that moves the curve of the sector onto the orbit of x: p - L(q). Constant along an orbit, and
+  /// different on any two of one sector; after a turn about a centre without rays it is less by ln factor.
+  /// @throws std::domain_error  as end; on a ray, where it has no value
+  double first_integral(const Eigen::Vector2d& x) const;
+
+  PlanarOrbit orbit(const Eigen::Vector2d& start) const;
+
+ private:
+  friend class PlanarOrbit;
+  struct Solved;
+  std::shared_ptr<const Solved> solved_;
+};
+
+/// One motion.
+class PlanarOrbit {
+ public:
+  PlanarEnd end() const;
+  double end_time() const;
+
+  /// Where it is at a time after the start; from end_time on at the centre, if it ends there.
+  /// @throws std::domain_error  unless time >= 0; and for a time when it is at infinity or beyond a border
+  Eigen::Vector2d at(double time) const;
+
+ private:
+  friend class PlanarReduction;
+  struct Motion;
+  std::shared_ptr<const Motion> motion_;
+};
+
+}  // namespace contensou::reduction

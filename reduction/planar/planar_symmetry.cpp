@@ -1,0 +1,364 @@
+// The determining equations of X = c t d/dt + (A x + b) . d/dx, README (R41):
+//   A f - Df (A x + b) - c f = 0,   unknowns (A11, A12, A21, A22, b1, b2, c)
+#include "contensou/reduction/planar_symmetry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include "planar/matrix_exponential.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Unknowns = Eigen::Matrix<double, 7, 1>;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+Generator generator_of(const Unknowns& x) {
+  return {x[6], (Matrix2d() << x[0], x[1], x[2], x[3]).finished(), Vector2d(x[4], x[5])};
+}
+
+Unknowns unknowns_of(const Generator& g) {
+  return (Unknowns() << g.matrix(0, 0), g.matrix(0, 1), g.matrix(1, 0), g.matrix(1, 1), g.shift, g.time).finished();
+}
+
+/// The field with its failures: no value, and the first message.
+class Sampler {
+ public:
+  explicit Sampler(const PlanarField& field) : field_(field) {}
+
+  std::optional<Vector2d> operator()(const Vector2d& x) {
+    try {
+      const Vector2d value = field_(x);
+      if (value.allFinite()) return value;
+      remember(fmt::format("f({}, {}) = ({}, {})", x[0], x[1], value[0], value[1]));
+    } catch (const std::exception& failure) {
+      remember(failure.what());
+    }
+    return std::nullopt;
+  }
+
+  const std::string& first_failure() const { return first_failure_; }
+
+ private:
+  void remember(const std::string& failure) {
+    if (first_failure_.empty()) first_failure_ = failure;
+  }
+
+  const PlanarField& field_;
+  std::string first_failure_;
+};
+
+struct Slope {
+  Vector2d value;
+  double error;
+};
+
+/// df/dx_i by central differences over halved steps, extrapolated to 0 (C. Ridders, Adv. Eng. Softw. 4 (1982) 75): the
+/// entry of the table that differs least from its neighbours.
+std::optional<Slope> slope(Sampler& field, const Vector2d& x, int i, double first_step) {
+  constexpr int rows = 8;
+  std::array<std::array<Vector2d, rows>, rows> table;
+  Slope best{Vector2d::Zero(), std::numeric_limits<double>::infinity()};
+  double step = first_step;
+  for (int row = 0; row < rows; ++row, step /= 2) {
+    Vector2d ahead = x, behind = x;
+    ahead[i] += step;
+    behind[i] -= step;
+    const auto there = field(ahead), back = field(behind);
+    if (!there || !back) return std::nullopt;
+    table[row][0] = (*there - *back) / (ahead[i] - behind[i]);
+    double power = 1;
+    for (int column = 1; column <= row; ++column) {
+      power *= 4;
+      const Vector2d &before = table[row - 1][column - 1], &beside = table[row][column - 1];
+      table[row][column] = beside + (beside - before) / (power - 1);
+      const double rounding = eps * (there->norm() + back->norm()) / step;
+      const double error =
+          std::max({(table[row][column] - beside).norm(), (table[row][column] - before).norm(), rounding});
+      if (error < best.error) best = {table[row][column], error};
+    }
+  }
+  return best;
+}
+
+/// Where the field is sampled, in units of `around`: half of the points evenly, half closer and closer to the axes.
+Vector2d sample_point(int i, const Vector2d& around) {
+  const auto fraction = [](double x) { return x - std::floor(x); };
+  const double turn = fraction(i * std::numbers::phi);
+  const double radius = std::pow(3, 2 * fraction(i * std::numbers::sqrt2) - 1);
+  Vector2d direction{std::cos(2 * std::numbers::pi * turn), std::sin(2 * std::numbers::pi * turn)};
+  if (i % 2 == 1) {
+    const double ratio = std::pow(10, 10 * fraction(i * std::numbers::sqrt3) - 5);
+    direction = Vector2d(std::copysign(1, direction[0]), std::copysign(ratio, direction[1])) / std::hypot(1, ratio);
+  }
+  return radius * direction.cwiseProduct(around);
+}
+
+/// The determining equations at the samples, their rows and columns scaled to like sizes.
+struct Equations {
+  MatrixXd matrix;
+  Eigen::VectorXd row_scale;
+  Unknowns column_scale;
+  std::vector<Vector2d> points = {};
+  double error = 0;  ///< Frobenius' norm of what the errors of the derivatives make of the matrix
+};
+
+Equations determining_equations(Sampler& field, const Vector2d& around) {
+  constexpr int tried = 128, least = 12;
+  struct Sample {
+    Vector2d x;
+    Eigen::Matrix<double, 2, 7> rows, errors;
+    Eigen::Matrix<double, 2, 7> sizes;  ///< of the rows' terms, which may cancel
+  };
+  std::vector<Sample> samples;
+  bool all_zero = true;
+  for (int i = 1; i <= tried; ++i) {
+    const Vector2d x = sample_point(i, around);
+    const auto f = field(x);
+    if (!f) continue;
+    all_zero &= f->isZero(0);
+    const auto by_u = slope(field, x, 0, std::abs(x[0]) / 8), by_v = slope(field, x, 1, std::abs(x[1]) / 8);
+    if (!by_u || !by_v) continue;
+    const auto of_derivatives = [&](const Vector2d& du, const Vector2d& dv) {
+      return (Eigen::Matrix<double, 2, 7>() << du * x[0], du * x[1], dv * x[0], dv * x[1], du, dv, Vector2d(0, 0))
+          .finished();
+    };
+    Eigen::Matrix<double, 2, 7> of_values;
+    of_values << f->transpose(), 0, 0, 0, 0, -(*f)[0], 0, 0, f->transpose(), 0, 0, -(*f)[1];
+    const auto derivatives = of_derivatives(by_u->value, by_v->value);
+    samples.push_back({x, of_values - derivatives,
+                       of_derivatives(Vector2d::Constant(by_u->error), Vector2d::Constant(by_v->error)).cwiseAbs(),
+                       of_values.cwiseAbs() + derivatives.cwiseAbs()});
+  }
+  if (std::ssize(samples) < least) {
+    throw std::domain_error(
+        fmt::format("reduce: the field has values and differences at {} of {} points about |u| = {}, |v| = {}, and {} "
+                    "are needed{}{}",
+                    samples.size(), tried, around[0], around[1], least,
+                    field.first_failure().empty() ? "" : "; the first failure: ", field.first_failure()));
+  }
+  if (all_zero) throw std::domain_error("reduce: the field is 0 at every point that was tried");
+
+  // Rows and columns in turn; then without the points next to a kink, whose errors are the largest.
+  const auto inverse = [](double length) { return length > 0 ? 1 / length : 1; };
+  const auto scaled = [&] {
+    const auto count = static_cast<Eigen::Index>(2 * samples.size());
+    Equations equations{
+        .matrix = MatrixXd(count, 7), .row_scale = Eigen::VectorXd::Ones(count), .column_scale = Unknowns::Ones()};
+    MatrixXd errors(count, 7), sizes(count, 7);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(2 * i);
+      equations.matrix.middleRows<2>(row) = samples[i].rows;
+      errors.middleRows<2>(row) = samples[i].errors;
+      sizes.middleRows<2>(row) = samples[i].sizes;
+      equations.points.push_back(samples[i].x);
+    }
+    for (int pass = 0; pass < 3; ++pass) {
+      equations.row_scale = (sizes * equations.column_scale.asDiagonal()).rowwise().norm().unaryExpr(inverse);
+      equations.column_scale =
+          (equations.row_scale.asDiagonal() * sizes).colwise().norm().transpose().unaryExpr(inverse);
+    }
+    equations.matrix =
+        (equations.row_scale.asDiagonal() * equations.matrix * equations.column_scale.asDiagonal()).eval();
+    errors = (equations.row_scale.asDiagonal() * errors * equations.column_scale.asDiagonal()).eval();
+    equations.error = errors.norm();
+    return std::pair(std::move(equations), errors.rowwise().norm().eval());
+  };
+  const auto [first, errors] = scaled();
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    order.emplace_back(errors.segment<2>(static_cast<Eigen::Index>(2 * i)).maxCoeff(), i);
+  }
+  std::ranges::sort(order);
+  order.resize(std::max<std::size_t>(least, order.size() / 2));
+  std::vector<Sample> kept;
+  for (const auto& [error, i] : order) kept.push_back(samples[i]);
+  samples = std::move(kept);
+  return scaled().first;
+}
+
+/// max over the points of |f(phi x) - exp(s (A - c)) f(x)|/|f|, phi the finite transformation, s = ln 2; and the
+/// difference over s, as a right side of the determining equations.
+struct Finite {
+  double residual = 0;
+  Eigen::VectorXd difference;
+};
+
+Finite finite_transformation(Sampler& field, const Generator& g, const std::vector<Vector2d>& points) {
+  constexpr double s = std::numbers::ln2;
+  const Vector2d centre = g.matrix.inverse() * -g.shift;
+  const Matrix2d there = matrix_exponential(s * g.matrix);
+  const Matrix2d back = matrix_exponential(s * (g.time * Matrix2d::Identity() - g.matrix));
+  Finite finite{.difference = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * points.size()))};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto here = field(points[i]), moved = field(centre + there * (points[i] - centre));
+    if (!here || !moved) continue;  // it leaves where the field has values
+    const Vector2d difference = back * *moved - *here;
+    finite.residual = std::max(finite.residual, difference.norm() / here->norm());
+    finite.difference.segment<2>(static_cast<Eigen::Index>(2 * i)) = difference / s;
+  }
+  return finite;
+}
+
+bool scales(const Generator& g) {
+  const Eigen::Vector2cd eigenvalues = g.matrix.eigenvalues();
+  const double size = eigenvalues.cwiseAbs().maxCoeff();
+  return eigenvalues.real().minCoeff() > 1e-6 * size;
+}
+
+/// The same times a number: the largest entry is 1. An entry that is a simple fraction but for an error becomes it.
+Unknowns normalised(const Unknowns& x, double error) {
+  const double largest = x.cwiseAbs().maxCoeff();
+  const double first = *std::ranges::find_if(x, [=](double entry) { return std::abs(entry) > (1 - 1e-9) * largest; });
+  return (x / first).unaryExpr([error](double entry) {
+    for (int denominator = 1; denominator <= 12; ++denominator) {
+      const double near = std::round(entry * denominator) / denominator;
+      if (std::abs(entry - near) <= error) return near;
+    }
+    return entry;
+  });
+}
+
+/// A basis with as many zeros as elimination gives; the scaling takes the place of the one that it has most of.
+std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::optional<Generator>& scaling) {
+  const Eigen::Index count = kernel.cols();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    Eigen::Index row = 0, column = 0;
+    kernel.rightCols(count - i).cwiseAbs().maxCoeff(&row, &column);
+    kernel.col(i).swap(kernel.col(i + column));
+    kernel.col(i) /= kernel(row, i);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      if (j != i) kernel.col(j) -= kernel(row, j) * kernel.col(i);
+    }
+  }
+  if (scaling) {
+    Eigen::Index place = 0;
+    kernel.colPivHouseholderQr().solve(unknowns_of(*scaling)).cwiseAbs().maxCoeff(&place);
+    kernel.col(place).swap(kernel.col(0));
+  }
+  std::vector<Generator> basis;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    basis.push_back(i == 0 && scaling ? *scaling : generator_of(normalised(kernel.col(i), error)));
+  }
+  return basis;
+}
+
+}  // namespace
+
+PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& around) {
+  const double size = around.norm();
+  if (!std::isfinite(size) || size == 0) {
+    throw std::domain_error(
+        fmt::format("reduce: a point other than 0 is needed, about which the field is sampled, got ({}, {})", around[0],
+                    around[1]));
+  }
+  Sampler sampler(field);
+  const Vector2d scale = around.cwiseAbs().unaryExpr([&](double x) { return x > 0 ? x : size; });
+  const Equations equations = determining_equations(sampler, scale);
+  const auto decomposed = [](const MatrixXd& matrix) {
+    return Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner>(matrix,
+                                                                          Eigen::ComputeThinU | Eigen::ComputeThinV);
+  };
+  const auto svd = decomposed(equations.matrix);
+  const double largest = svd.singularValues()[0];
+  PlanarSymmetries result;
+  result.level = 8 * std::max(equations.error / largest, 8 * eps);
+  result.points = static_cast<int>(equations.points.size());
+  int nullity = 0;
+  for (int i = 0; i < 7; ++i) {
+    result.singular_values[i] = svd.singularValues()[6 - i] / largest;
+    nullity += result.singular_values[i] <= result.level;
+  }
+  constexpr double hidden = 1e-2;
+  if (result.level > hidden) result.verdict = PlanarSymmetries::Verdict::undecided;
+  const double zero = std::max(result.level, nullity > 0 ? result.singular_values[nullity - 1] : 0);
+  result.gap = nullity < 7 ? result.singular_values[nullity] / zero : std::numeric_limits<double>::infinity();
+  if (nullity == 0 || result.verdict == PlanarSymmetries::Verdict::undecided) return result;
+  result.verdict = PlanarSymmetries::Verdict::found;
+
+  // Of the null space, the simplest scaling: within these subspaces in turn, what is nearest to A = 1.
+  using Subspace = Eigen::Matrix<double, 7, Eigen::Dynamic>;
+  const auto spanned = [](std::initializer_list<Unknowns> vectors) {
+    Subspace subspace(7, vectors.size());
+    std::ranges::for_each(vectors, [&, i = Eigen::Index(0)](const Unknowns& x) mutable { subspace.col(i++) = x; });
+    return subspace;
+  };
+  const auto unit = [](int i) -> Unknowns { return Unknowns::Unit(i); };
+  const Unknowns identity = unit(0) + unit(3), b1 = unit(4), b2 = unit(5), c = unit(6);
+  for (const Subspace& subspace :
+       {spanned({identity, c}), spanned({identity, b1, b2, c}), spanned({unit(0), unit(3), c}),
+        spanned({unit(0), unit(3), b1, b2, c}), Subspace(Subspace::Identity(7, 7))}) {
+    // In the unknowns of the matrix, each of the subspace's of length 1.
+    Subspace inner = equations.column_scale.cwiseInverse().asDiagonal() * subspace;
+    const Eigen::VectorXd lengths = inner.colwise().norm();
+    inner = (inner * lengths.cwiseInverse().asDiagonal()).eval();
+    const auto part = decomposed(equations.matrix * inner);
+    const Eigen::VectorXd values = part.singularValues() / largest;
+    const auto kernel_size = (values.array() <= result.level).count();
+    if (kernel_size == 0) continue;
+    const MatrixXd kernel =
+        subspace * (lengths.cwiseInverse().asDiagonal() * part.matrixV().rightCols(kernel_size)).eval();
+    const Unknowns nearest = kernel * kernel.colPivHouseholderQr().solve(identity);
+    Generator found = generator_of(nearest);
+    if (!scales(found)) continue;
+
+    // The same from finite transformations, without a derivative: Newton's method with the matrix that is there.
+    Unknowns x = unknowns_of(found);
+    Finite finite = finite_transformation(sampler, found, equations.points);
+    for (int step = 0; step < 4; ++step) {
+      const Eigen::VectorXd along = part.matrixU().transpose() * equations.row_scale.cwiseProduct(finite.difference);
+      Eigen::VectorXd correction = Eigen::VectorXd::Zero(inner.cols());
+      for (Eigen::Index i = 0; i < inner.cols() - kernel_size; ++i) {
+        correction += part.matrixV().col(i) * (along[i] / part.singularValues()[i]);
+      }
+      const Unknowns next = x + subspace * correction.cwiseQuotient(lengths);
+      const Finite closer = finite_transformation(sampler, generator_of(next), equations.points);
+      if (!(closer.residual < finite.residual)) break;
+      x = next;
+      finite = closer;
+    }
+    x = normalised(x, 64 * eps);
+    result.scaling = generator_of(x[0] + x[3] > 0 ? x : Unknowns(-x));
+    result.residual = finite_transformation(sampler, *result.scaling, equations.points).residual;
+    break;
+  }
+  const MatrixXd kernel = equations.column_scale.asDiagonal() * svd.matrixV().rightCols(nullity);
+  result.generators = basis_of(kernel, result.level, result.scaling);
+  return result;
+}
+
+namespace {
+
+template <class Field>
+PlanarField mirrored(Field field) {
+  return [=](const Vector2d& x) {
+    const Rate rate = field(State{x[0], std::abs(x[1])});
+    return Vector2d(rate.u, std::copysign(1, x[1]) * rate.v);
+  };
+}
+
+}  // namespace
+
+PlanarField planar_field(const ReducedSystem& system) {
+  return mirrored([=](State state) { return system.field(state); });
+}
+
+PlanarField planar_regularised_field(const ReducedSystem& system) {
+  return mirrored([=](State state) { return system.regularised_field(state); });
+}
+
+}  // namespace contensou::reduction

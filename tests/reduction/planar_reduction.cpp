@@ -1,0 +1,273 @@
+#include "contensou/reduction/planar_reduction.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "constants.hpp"
+#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "worst_case.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+using Catch::Matchers::Contains;
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using std::numbers::pi;
+
+namespace {
+
+PlanarReduction reduced(const PlanarField& field, const Vector2d& around = {1, 1}) {
+  const PlanarSymmetries found = find_symmetries(field, around);
+  REQUIRE(found.scaling);
+  return {field, *found.scaling, around, found.residual};
+}
+
+PlanarField linear(const Matrix2d& m) {
+  return [m](const Vector2d& x) -> Vector2d { return m * x; };
+}
+
+double wrapped(double angle) { return std::remainder(angle, 2 * pi); }
+
+}  // namespace
+
+TEST_CASE("Zhuravlev's system is an instance: stop times and orbits of every law, body and mu", "[planar][route]") {
+  std::mt19937 random(27);
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  WorstCase times("stop time"), points("point on the way");
+  const std::vector<Inertia> bodies{homogeneous_ball, {2.5, 1.5}, {1, 2}, {1, 1}, {3, 40}};
+  std::vector<Law> laws = named_laws();
+  laws.push_back(*find_law("pressure:0.3"));
+  laws.push_back(*find_law("elliptic:0.7"));
+  for (int i = 0; i < 250; ++i) {
+    const Law& law = laws[static_cast<std::size_t>(i) % laws.size()];
+    const Inertia body = bodies[static_cast<std::size_t>(i / 7) % bodies.size()];
+    const double mu = std::pow(10, uniform(-4, 0.5));
+    const ReducedSystem system(law, mu, body);
+    const Flow flow(system);
+    const double scale = std::pow(10, uniform(-3, 3));
+    const PlanarReduction plane = reduced(planar_field(system), {scale, scale});
+    for (int j = 0; j < 4; ++j) {
+      const double k = std::pow(10, uniform(-4, 4)), u = scale * std::pow(10, uniform(-1, 1)) * (j % 2 == 0 ? 1 : -1);
+      const State start{u, mu * std::abs(u) * k};
+      const std::string where = fmt::format("{}, mu = {}, body {},{}, u = {}, v = {}", law.name(), mu, body.chi,
+                                            body.gamma, start.u, start.v);
+      const double tau = flow.stop_time(start).tau;
+      CAPTURE(where, plane.kind());
+      const PlanarOrbit orbit = plane.orbit({start.u, start.v});
+      times.add(tau, orbit.end_time(), where);
+      CHECK(orbit.end() == PlanarEnd::centre);
+      const double at = uniform(0, 0.99) * tau;
+      const auto wanted = flow.orbit(start).at_time(at);
+      const Vector2d got = orbit.at(at);
+      const double size = std::max(std::abs(wanted.u), wanted.v);
+      points.add(wanted.u, got[0], size, where + fmt::format(", at {}", at / tau));
+      points.add(wanted.v, got[1], size, where + fmt::format(", at {}", at / tau));
+    }
+  }
+  CHECK(times.count() == 1000);
+  CHECK_WITHIN_EPS(times, 2000);
+  CHECK_WITHIN_EPS(points, 4500);  // 1e-12
+}
+
+TEST_CASE("a focus whose centre is not smooth: its spiral and its stop are exact", "[planar][exact]") {
+  // r' = -1, angle' = b/r: angle = -b ln(1 - t/r0), a turn shrinks by exp(-2 pi/b)
+  for (double b : {1.0, -0.3, 20.0}) {
+    const PlanarReduction plane =
+        reduced([b](const Vector2d& x) -> Vector2d { return Vector2d(-x[0] - b * x[1], b * x[0] - x[1]) / x.norm(); });
+    CAPTURE(b);
+    CHECK(plane.kind() == "stable focus");
+    CHECK(plane.rays().empty());
+    REQUIRE(plane.turn());
+    CHECK(plane.turn()->factor == Approx(std::exp(-2 * pi / std::abs(b))).epsilon(1e-13));
+    const PlanarOrbit orbit = plane.orbit({0.3, -0.4});
+    CHECK(orbit.end() == PlanarEnd::centre);
+    CHECK(orbit.end_time() == Approx(0.5).epsilon(1e-13));
+    for (double t : {0.0, 0.1, 0.35, 0.499}) {
+      const Vector2d x = orbit.at(t);
+      CHECK(x.norm() == Approx(0.5 - t).epsilon(1e-12));
+      CHECK(wrapped(std::atan2(x[1], x[0]) - std::atan2(-0.4, 0.3) + b * std::log1p(-t / 0.5)) ==
+            Approx(0).margin(1e-11));
+    }
+    CHECK(orbit.at(0.5) == Vector2d(0, 0));
+    CHECK(orbit.at(7) == Vector2d(0, 0));
+  }
+}
+
+TEST_CASE("linear fields: kind, rays and motion against the exponential of the matrix", "[planar][exact]") {
+  struct Case {
+    Matrix2d m;
+    std::string_view kind;
+    std::size_t rays;
+    PlanarEnd end;
+  };
+  const std::vector<Case> cases{
+      {Matrix2d{{-0.1, -1}, {1, -0.1}}, "stable focus", 0, PlanarEnd::centre},
+      {Matrix2d{{0.4, -1}, {3, 0.1}}, "unstable focus", 0, PlanarEnd::infinity},
+      {Matrix2d{{0, -2}, {1, 0}}, "center", 0, PlanarEnd::periodic},
+      {Matrix2d{{-1, 0.5}, {0.25, -2}}, "stable node", 4, PlanarEnd::centre},
+      {Matrix2d{{1, 0}, {0, 5}}, "unstable node", 4, PlanarEnd::infinity},
+      {Matrix2d{{1, 2}, {2, -1}}, "saddle", 4, PlanarEnd::infinity},
+      {Matrix2d{{-1, 0}, {0, 2}}, "saddle", 4, PlanarEnd::infinity},
+      {Matrix2d{{-3, 0}, {0, -3}}, "stable star", 0, PlanarEnd::centre},
+  };
+  for (const auto& [m, kind, rays, end] : cases) {
+    CAPTURE(m, kind);
+    const PlanarReduction plane = reduced(linear(m));
+    CHECK(plane.kind() == kind);
+    CHECK(plane.rays().size() == rays);
+    for (const Vector2d& start : {Vector2d(0.7, 0.2), Vector2d(-0.1, 1.5), Vector2d(-1, -1e-3)}) {
+      const PlanarOrbit orbit = plane.orbit(start);
+      CHECK(orbit.end() == end);
+      CHECK(orbit.end_time() == infinity);  // no linear motion comes to its end
+      for (double t : {0.0, 0.5, 3.0, 12.0}) {
+        // exp(t m) by squaring of its series
+        Matrix2d exact = Matrix2d::Identity(), term = exact;
+        for (int i = 1; i < 20; ++i) exact += term = (term * m * (t / 256 / i)).eval();
+        for (int i = 0; i < 8; ++i) exact = (exact * exact).eval();
+        CAPTURE(start, t);
+        CHECK((orbit.at(t) - exact * start).norm() < 1e-11 * (exact * start).norm());
+      }
+    }
+  }
+}
+
+TEST_CASE("the rays of a node are its eigenvectors, and R and dT/dq its eigenvalues and their difference",
+          "[planar][exact]") {
+  const PlanarReduction plane = reduced(linear(Matrix2d{{-1, 0}, {0, -3}}));
+  REQUIRE(plane.rays().size() == 4);
+  for (const PlanarRay& ray : plane.rays()) {
+    const bool slow = std::abs(std::sin(ray.q)) < 1e-9;
+    CHECK(std::abs(wrapped(2 * ray.q)) == Approx(slow ? 0 : pi).margin(1e-14));
+    CHECK(ray.attracts == slow);
+    CHECK(ray.to_centre);
+    CHECK(ray.radial == Approx(slow ? -1 : -3).epsilon(1e-14));
+    CHECK(ray.angular == Approx(slow ? -2 : 2).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("motions that escape to infinity in finite time, and elliptic sectors", "[planar][exact]") {
+  // z' = z^2, z = u + i v: z = z0/(1 - z0 t); circles through the origin, of degree 2. Escape on v = 0, u > 0 alone.
+  const PlanarReduction plane =
+      reduced([](const Vector2d& x) { return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]); });
+  CHECK(plane.kind() == "mixed");
+  CHECK(plane.rays().size() == 2);
+  const PlanarOrbit escape = plane.orbit({2, 0});
+  CHECK(escape.end() == PlanarEnd::infinity);
+  CHECK(escape.end_time() == Approx(0.5).epsilon(1e-14));
+  CHECK(escape.at(0.25)[0] == Approx(4).epsilon(1e-13));
+  CHECK_THROWS_WITH(escape.at(0.5), Contains("infinity"));
+  const std::complex<double> start(0.5, 0.3);
+  const PlanarOrbit loop = plane.orbit({start.real(), start.imag()});
+  CHECK(loop.end() == PlanarEnd::centre);
+  CHECK(loop.end_time() == infinity);
+  for (double t : {0.5, 1.5, 4.0, 100.0}) {
+    const auto exact = start / (1.0 - start * t);
+    CHECK(std::abs(std::complex(loop.at(t)[0], loop.at(t)[1]) - exact) < 1e-11 * std::abs(exact));
+  }
+}
+
+TEST_CASE("an elliptic sector whose orbits come back in finite time", "[planar][exact]") {
+  // z' = z^2/|z|^2: the same circles, another clock: |z| = d sin(angle), dt = d d(angle), so d (pi - angle) is left
+  const PlanarReduction plane = reduced([](const Vector2d& x) -> Vector2d {
+    return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]) / x.squaredNorm();
+  });
+  for (double angle : {0.01, 0.5, 1.5, 3.0}) {
+    const double d = 0.8;
+    const Vector2d start = d * std::sin(angle) * Vector2d(std::cos(angle), std::sin(angle));
+    CAPTURE(angle);
+    CHECK(plane.end(start) == PlanarEnd::centre);
+    CHECK(plane.end_time(start) == Approx(d * (pi - angle)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("weights that differ", "[planar][exact]") {
+  // u' = -1, v' = -3 sqrt|v| sign(v): u -> c u, v -> c^2 v, t -> c t. Each stops in its own time.
+  const PlanarReduction plane = reduced([](const Vector2d& x) {
+    return Vector2d(-std::copysign(1, x[0]), -3 * std::copysign(std::sqrt(std::abs(x[1])), x[1]));
+  });
+  CHECK(plane.scaling().matrix.isDiagonal(0));
+  CHECK(plane.scaling().matrix(0, 0) == Approx(plane.scaling().time).epsilon(1e-13));
+  CHECK(plane.scaling().matrix(1, 1) == Approx(2 * plane.scaling().time).epsilon(1e-13));
+  const PlanarCanonical here = plane.canonical({0.3, 0.7});
+  CHECK((plane.point(here.q, here.p) - Vector2d(0.3, 0.7)).norm() < 1e-14);
+  // a smooth one: u' = v, v' = -u^3 - v |v|: weights 1, 2, of time -1
+  const PlanarReduction oscillator = reduced([](const Vector2d& x) { return Vector2d(x[1], -x[0] * x[0] * x[0]); });
+  CHECK(oscillator.kind() == "center");
+  // energy v^2/2 + u^4/4; period of amplitude a: (4/a) K(1/sqrt 2), K = 1.8540746773013719
+  const PlanarOrbit orbit = oscillator.orbit({1.3, 0});
+  CHECK(orbit.end() == PlanarEnd::periodic);
+  const double period = 4 / 1.3 * 1.8540746773013719184;
+  for (double turns : {1.0, 5.0}) CHECK((orbit.at(turns * period) - Vector2d(1.3, 0)).norm() < 1e-11);
+  const Vector2d quarter = orbit.at(period / 4);
+  CHECK(quarter[0] == Approx(0).margin(1e-12));
+  CHECK(quarter[1] == Approx(-1.3 * 1.3 / std::numbers::sqrt2).epsilon(1e-12));
+}
+
+TEST_CASE("about another centre", "[planar][exact]") {
+  const Vector2d centre(3, -1);
+  const PlanarReduction plane =
+      reduced([&](const Vector2d& x) -> Vector2d { return -(x - centre) / std::sqrt((x - centre).norm()); }, {1, 2});
+  CHECK((plane.centre() - centre).norm() < 1e-12);
+  CHECK(plane.kind() == "stable star");
+  // r' = -sqrt r: 2 sqrt r is left
+  CHECK(plane.end_time({6, 3}) == Approx(2 * std::sqrt(5)).epsilon(1e-12));
+  CHECK(plane.end_time(plane.centre()) == 0);
+}
+
+TEST_CASE("a constant force beside friction: creeping rays, and a start that never stops", "[planar][exact]") {
+  // A drive of 0.2 and of 1.5 of the friction along u = 0, where friction is 1: k tends to a ray, or v grows for ever.
+  const double rate = ReducedSystem(PadeLaw{}, 0.5).scaled_time_rate();
+  const auto driven = [&](double drive) {
+    return reduced([=, friction = planar_field({PadeLaw{}, 0.5})](const Vector2d& x) -> Vector2d {
+      return friction(x) + Vector2d(0, drive * rate);
+    });
+  };
+  const PlanarReduction slow = driven(0.2), fast = driven(1.5);
+  CHECK(slow.end({1, 1}) == PlanarEnd::centre);
+  CHECK(slow.end_time({0, 1}) == Approx(1 / (0.8 * rate)).epsilon(1e-12));
+  CHECK(fast.end({0, 1}) == PlanarEnd::infinity);
+  CHECK(fast.end_time({1, 1}) == infinity);
+}
+
+TEST_CASE("a first integral is one number along an orbit, and moves with the scaling", "[planar][invariant]") {
+  const PlanarReduction plane = reduced(planar_field({PadeLaw{}, 0.3}));
+  const PlanarOrbit orbit = plane.orbit({1, 1});
+  const double integral = plane.first_integral({1, 1});
+  for (double part : {0.1, 0.5, 0.9}) {
+    CHECK(plane.first_integral(orbit.at(part * orbit.end_time())) == Approx(integral).margin(1e-11));
+  }
+  CHECK(plane.first_integral({5, 5}) - integral == Approx(std::log(5)).epsilon(1e-12));
+  CHECK_THROWS_AS(plane.first_integral({1, 0}), std::domain_error);
+  CHECK_THROWS_AS(plane.first_integral({0, 0}), std::domain_error);
+}
+
+TEST_CASE("a field with values in a part of the plane", "[planar][domain]") {
+  // u' = -1 where v > u: orbits leave it through v = u, or stop at the border of nothing
+  const PlanarReduction plane =
+      reduced([](const Vector2d& x) { return x[1] > 0 ? Vector2d(1, -1) : Vector2d(not_a_number, 0); });
+  CHECK(plane.kind() == "bordered");
+  CHECK(plane.end({0, 1}) == PlanarEnd::border);
+  CHECK(plane.end_time({0, 1}) == infinity);
+  const PlanarOrbit orbit = plane.orbit({0, 1});
+  CHECK((orbit.at(0.75) - Vector2d(0.75, 0.25)).norm() < 1e-11);
+  CHECK_THROWS_WITH(orbit.at(1.1), Contains("border"));
+  CHECK_THROWS_AS(plane.end({0, -1}), std::domain_error);
+  CHECK_THROWS_AS(plane.end({0, not_a_number}), std::domain_error);
+  CHECK_THROWS_AS(orbit.at(-1), std::domain_error);
+}
+
+TEST_CASE("a matrix that is no scaling is refused", "[planar][domain]") {
+  const PlanarField field = linear(Matrix2d{{1, 0}, {0, -1}});
+  for (const Matrix2d& bad : {Matrix2d{{1, 0}, {0, -1}}, Matrix2d{{0, 1}, {-1, 0}}, Matrix2d{{0, 0}, {0, 0}}}) {
+    CHECK_THROWS_AS(PlanarReduction(field, {0, bad, {0, 0}}, {1, 1}), std::domain_error);
+  }
+  CHECK_THROWS_AS(PlanarReduction(field, {0, Matrix2d::Identity(), {0, 0}}, {0, 0}), std::domain_error);
+}

@@ -1,0 +1,176 @@
+#include "contensou/reduction/planar_symmetry.hpp"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "constants.hpp"
+#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+
+using namespace contensou::reduction;
+using Catch::Matchers::Contains;
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Verdict = PlanarSymmetries::Verdict;
+
+namespace {
+
+const Vector2d around{1, 1};
+
+PlanarSymmetries symmetries(const PlanarField& field) { return find_symmetries(field, around); }
+
+/// One generator, which is this one.
+void check_one(const PlanarSymmetries& found, double time, const Matrix2d& matrix,
+               const Vector2d& shift = Vector2d::Zero()) {
+  CAPTURE(found.singular_values, found.level, found.gap, found.residual);
+  REQUIRE(found.verdict == Verdict::found);
+  REQUIRE(found.generators.size() == 1);
+  const Generator& x = found.generators.front();
+  CAPTURE(x.time, x.matrix, x.shift);
+  CHECK(x.time == Approx(time).epsilon(1e-13));
+  CHECK((x.matrix - matrix).norm() < 1e-13);
+  CHECK((x.shift - shift).norm() < 1e-13);
+  CHECK(found.scaling);
+  CHECK(found.residual < 1e-13);
+  CHECK(found.gap > 1e5);
+}
+
+Matrix2d diagonal(double a, double b) { return Vector2d(a, b).asDiagonal(); }
+
+}  // namespace
+
+TEST_CASE("the symmetry of (2.6) is found for every law and body, and is the one that is typed in elsewhere",
+          "[planar][symmetry]") {
+  for (const Law& law : named_laws()) {
+    for (double mu : {1e-4, 0.05, 0.8}) {
+      for (const Inertia body : {homogeneous_ball, Inertia{1, 2}}) {
+        CAPTURE(law.name(), mu, body.chi);
+        check_one(symmetries(planar_field({law, mu, body})), 1, Matrix2d::Identity());
+      }
+    }
+  }
+}
+
+TEST_CASE("the symmetry of (2.7): beta -> beta/a", "[planar][symmetry]") {
+  for (const Law& law : paper_laws()) {
+    const PlanarSymmetries found = symmetries(planar_regularised_field({law, 0.3}));
+    check_one(found, -1, Matrix2d::Identity());
+  }
+}
+
+TEST_CASE("friction with a constant force, of another degree, about another point", "[planar][symmetry]") {
+  const PlanarField friction = planar_field({PadeLaw{}, 0.3});
+  check_one(symmetries([&](const Vector2d& x) -> Vector2d { return friction(x) + Vector2d(0, 0.4); }), 1,
+            Matrix2d::Identity());
+  check_one(symmetries([&](const Vector2d& x) -> Vector2d { return friction(x) / std::sqrt(x.norm()); }), 1,
+            diagonal(2. / 3, 2. / 3));
+  const Vector2d centre(0.25, -2);
+  check_one(symmetries([&](const Vector2d& x) { return friction(x - centre); }), 0.5, diagonal(0.5, 0.5), -centre / 2);
+}
+
+TEST_CASE("the weights of a scaling are found", "[planar][symmetry]") {
+  // u -> c u, v -> c^(2/3) v, t -> c^(1/3) t: by hand
+  check_one(symmetries([](const Vector2d& x) {
+              const double r = std::sqrt(x[0] * x[0] + std::pow(std::abs(x[1]), 3));
+              return Vector2d(-x[0] * std::pow(r, -1. / 3), -x[1] * std::pow(r, -1. / 3) - 0.3 * std::cbrt(r));
+            }),
+            1. / 3, diagonal(1, 2. / 3));
+}
+
+TEST_CASE("linear fields have several, and a plain scaling among them", "[planar][symmetry]") {
+  for (const Matrix2d& m :
+       {Matrix2d{{-0.3, -1}, {1, -0.3}}, Matrix2d{{-1, 0.2}, {0.1, -3}}, Matrix2d{{1, 2}, {2, -1}}}) {
+    const PlanarSymmetries found = symmetries([m](const Vector2d& x) -> Vector2d { return m * x; });
+    CAPTURE(m, found.singular_values, found.level);
+    REQUIRE(found.generators.size() == 2);
+    REQUIRE(found.scaling);
+    CHECK(found.scaling->matrix == Matrix2d::Identity());
+    CHECK(found.scaling->time == Approx(0).margin(1e-13));
+    // the other one commutes with m, and is no multiple of 1
+    const Matrix2d& other = found.generators[1].matrix;
+    CHECK((other * m - m * other).norm() < 1e-11);
+    CHECK((other - other.trace() / 2 * Matrix2d::Identity()).norm() > 0.1);
+  }
+}
+
+TEST_CASE("a constant field has five", "[planar][symmetry]") {
+  const PlanarSymmetries found = symmetries([](const Vector2d&) { return Vector2d(0, -1); });
+  CAPTURE(found.singular_values, found.level);
+  CHECK(found.generators.size() == 5);
+  REQUIRE(found.scaling);
+  CHECK(found.scaling->time == Approx(1).epsilon(1e-14));
+  for (const Generator& g : found.generators) {
+    CHECK((g.matrix * Vector2d(0, -1) - g.time * Vector2d(0, -1)).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("the elliptic law at r C^2 = 1 has a rotation, too", "[planar][symmetry]") {
+  const double c = 0.5;
+  const PlanarSymmetries found = symmetries(planar_field({EllipticLaw{c}, 2, {1, 1}}));
+  CAPTURE(found.singular_values, found.level);
+  CHECK(found.generators.size() == 2);
+  CHECK(found.scaling->time == Approx(1).epsilon(1e-13));
+}
+
+TEST_CASE("no symmetry: viscous drag beside dry friction", "[planar][symmetry]") {
+  const PlanarField friction = planar_field({PadeLaw{}, 0.3});
+  for (double drag : {1.0, 1e-3, 1e-6}) {
+    const PlanarSymmetries found =
+        symmetries([&](const Vector2d& x) -> Vector2d { return friction(x) - Vector2d(0, drag * x[1]); });
+    CAPTURE(drag, found.singular_values, found.level);
+    CHECK(found.verdict == Verdict::none);
+    CHECK(found.generators.empty());
+    CHECK_FALSE(found.scaling);
+    CHECK(found.gap > 1);
+  }
+}
+
+TEST_CASE("a symmetry that is no scaling", "[planar][symmetry]") {
+  // x' = 1 + sin y, y' = cos y: a translation along x
+  const PlanarSymmetries found =
+      symmetries([](const Vector2d& x) { return Vector2d(1.5 + std::sin(3 * x[1]), std::cos(3 * x[1])); });
+  CAPTURE(found.singular_values, found.level);
+  REQUIRE(found.generators.size() == 1);
+  CHECK(found.generators[0].shift == Vector2d(1, 0));
+  CHECK_FALSE(found.scaling);
+}
+
+TEST_CASE("noise: what it hides is not claimed", "[planar][symmetry][noise]") {
+  const PlanarField friction = planar_field({PadeLaw{}, 0.3});
+  const auto noisy = [&](double size, double drag) {
+    return symmetries([&, random = std::mt19937(7)](const Vector2d& x) mutable -> Vector2d {
+      std::normal_distribution<double> normal(0, size);
+      return friction(x) - Vector2d(0, drag * x[1]) + Vector2d(normal(random), normal(random));
+    });
+  };
+  for (double size : {1e-12, 1e-9, 1e-7}) {
+    const PlanarSymmetries found = noisy(size, 0), none = noisy(size, 1);
+    CAPTURE(size, found.singular_values, found.level, none.singular_values, none.level);
+    REQUIRE(found.verdict == Verdict::found);
+    CHECK(found.scaling);
+    CHECK(found.scaling->time == Approx(1).epsilon(1e3 * size));
+    CHECK(none.verdict == Verdict::none);
+  }
+  CHECK(noisy(0.1, 0).verdict == Verdict::undecided);
+  CHECK(noisy(0.1, 1).verdict == Verdict::undecided);
+}
+
+TEST_CASE("fields without values", "[planar][domain]") {
+  const PlanarField friction = planar_field({PadeLaw{}, 0.3});
+  CHECK_THROWS_WITH(symmetries([](const Vector2d&) -> Vector2d { throw std::runtime_error("no u here"); }),
+                    Contains("0 of 128 points") && Contains("no u here"));
+  CHECK_THROWS_WITH(symmetries([](const Vector2d&) { return Vector2d(not_a_number, 0); }), Contains("= (nan, 0)"));
+  CHECK_THROWS_WITH(symmetries([](const Vector2d&) { return Vector2d(0, 0); }), Contains("the field is 0"));
+  CHECK_THROWS_AS(find_symmetries(friction, Vector2d(0, 0)), std::domain_error);
+  CHECK_THROWS_AS(find_symmetries(friction, Vector2d(1, infinity)), std::domain_error);
+  // A half of the plane is enough, by either way of having no value.
+  check_one(symmetries([&](const Vector2d& x) -> Vector2d {
+              if (x[1] < 0) throw std::domain_error("v < 0");
+              return friction(x) * (x[0] < 0 ? not_a_number : 1);
+            }),
+            1, Matrix2d::Identity());
+}
