@@ -219,7 +219,8 @@ class Script {
   }
 
   void axis(const char* which, const Axis& axis, const std::vector<Axis::Tick>& ticks) {
-    put("set {0}range [{1:.8g}:{2:.8g}]\n{3} logscale {0}\n", which, axis.low, axis.high,
+    // The range of the panel before may be none that the scale can have.
+    put("set {0}range [*:*]\n{3} logscale {0}\nset {0}range [{1:.8g}:{2:.8g}]\n", which, axis.low, axis.high,
         axis.logarithmic ? "set" : "unset");
     std::vector<std::string> places;
     for (const auto& [at, text] : ticks) places.push_back(fmt::format("{} {:.8g}", quoted("{/*0.9 " + text + "}"), at));

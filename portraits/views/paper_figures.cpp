@@ -303,6 +303,7 @@ Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const Asked
   panel.y = {"force {/:Italic Φ} = {/:Italic F}/({/:Italic N f})", 0, 1.04, false, {}};
   panel.to_scale = true;
   panel.lines.push_back({{arc({0, 0}, 1, 1, 0, pi / 2)}, {guide, 1, true}, "ellipse"});
+  panel.lines.push_back({{{{1, 0}, {0, 1}}}, {guide, 1, false, true}, "chord"});
   constexpr int pieces = 400;
   for (const reduction::Law& law : laws) {
     Polyline line;
@@ -311,12 +312,12 @@ Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const Asked
       line.push_back({moment / law.pivoting_moment(), force});
     }
     line.push_back({0, 1});
-    const double fraction = 0.8 * static_cast<double>(panel.lines.size() - 1) / static_cast<double>(laws.size());
+    const double fraction = 0.8 * static_cast<double>(panel.lines.size() - 2) / static_cast<double>(laws.size());
     panel.lines.push_back({{std::move(line)}, stroke_of(law, viridis(fraction)), literal(law.name(), 20)});
   }
   Figure figure;
   figure.title = "The limit surface of a circular patch";
-  figure.subtitle = "force and moment at which a patch slips, laws of pressure beside each other";
+  figure.subtitle = "force and moment at which a patch slips; under Coulomb friction they lie above the chord";
   const double width = size.width_mm.value_or(130);
   figure.size = {width, size.height_mm.value_or(1.05 * width)};
   figure.panels = {panel};

@@ -100,7 +100,7 @@ TEST_CASE("A limit surface goes from the largest moment to the largest force, in
   const Figure figure = limit_surface_figure({reduction::HertzLaw{}, reduction::PadeLaw{}});
   const Panel& panel = figure.panels.front();
   CHECK(panel.to_scale);
-  REQUIRE(panel.lines.size() == 3);  // with the ellipse
+  REQUIRE(panel.lines.size() == 4);  // with the ellipse and the chord
   for (const Lines& layer : panel.lines) {
     const Polyline& line = layer.lines.front();
     CHECK(line.front().x == Approx(1));
@@ -108,6 +108,13 @@ TEST_CASE("A limit surface goes from the largest moment to the largest force, in
     CHECK(line.back().x == Approx(0).margin(1e-12));
     CHECK(line.back().y == Approx(1));
     for (const Point& point : line) CHECK(std::hypot(point.x, point.y) < 1.1);
+  }
+  // Coulomb friction lies above the chord, (R6); the Pade pair below it.
+  const auto& hertz = panel.lines[2].lines.front();
+  const auto& pade = panel.lines[3].lines.front();
+  for (std::size_t i = 1; i + 2 < hertz.size(); ++i) {
+    CHECK(hertz[i].x + hertz[i].y > 1);
+    CHECK(pade[i].x + pade[i].y < 1);
   }
 }
 

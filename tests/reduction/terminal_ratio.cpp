@@ -1,6 +1,7 @@
 #include "contensou/reduction/terminal_ratio.hpp"
 
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
@@ -8,6 +9,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/tabulated_pressure_law.hpp"
 
 using namespace contensou::reduction;
 
@@ -84,6 +86,36 @@ TEST_CASE("Phi/(k Psi) need not grow: every ray is found", "[terminal_ratio]") {
     CHECK(two.end_of(1.01 * two.rays[0].k).k == two.rays[1].k);
     CHECK(two.end_of(1e9).k == two.rays[1].k);
   }
+}
+
+// README (R40).
+TEST_CASE("no pressure on a disc has a ray for r <= 1/2, and some have one just above", "[terminal_ratio][limit]") {
+  std::mt19937 random(40);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int table = 0; table < 20; ++table) {
+    // Steps between random radii, most of them narrow peaks; every fourth table is a ring at the rim.
+    Eigen::ArrayXd rho(6), pressure(6);
+    for (double& each : rho) each = share(random);
+    if (table % 4 == 0) rho.tail(2) << 1 - 1e-3 * share(random), 1;
+    std::sort(rho.begin(), rho.end());
+    rho[0] = 0;
+    rho[5] = 1;
+    for (double& each : pressure) each = table % 4 == 0 ? 0 : std::pow(share(random), 8);
+    pressure.tail(2) = 1;
+    const Law law = TabulatedPressureLaw("random", rho, pressure);
+    INFO("rho " << rho.transpose() << "  pressure " << pressure.transpose());
+    const TerminalRatios ratios = terminal_ratios(law, 0.5);
+    CHECK(ratios.rays.empty());
+    CHECK(ratios.ends.front().regime == TerminalRegime::zero);
+    CHECK(ratios.low >= 0.5);
+    CHECK(ratios.high >= 2);
+    for (double k = 1e-3; k < 1e3; k *= 1.5) {
+      const auto [force, moment] = law({k, 1});
+      CHECK(force > k * moment / 2);
+    }
+  }
+  CHECK(terminal_ratios(*find_law("ring"), 0.5).rays.empty());
+  CHECK(terminal_ratios(*find_law("ring"), 0.501).rays.size() == 1);
 }
 
 TEST_CASE("a ray that Phi/(k Psi) only touches attracts from one side", "[terminal_ratio][limit]") {

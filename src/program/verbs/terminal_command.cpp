@@ -1,3 +1,7 @@
+#include <optional>
+
+#include "contensou/portraits/rays_figure.hpp"
+#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
@@ -15,19 +19,30 @@ class TerminalCommand final : public Verb {
     body_.add_mu(app);
     law_.add(app);
     body_.add_body(app);
+    figure_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
-    const Answer answer = terminal_answer(body_.read(law_.read(std::string(body_.body().law))));
-    output_.read().write(answer);
+    const Output output = output_.read();
+    figure_.require_picture(output);
+    const reduction::Law law = law_.read(std::string(body_.body().law));
+    if (!output.picture()) {
+      output.write(terminal_answer(body_.read(law)));
+      return ExitStatus::done;
+    }
+    // All r are drawn; that of a body is marked.
+    std::optional<double> r;
+    if (body_.mu().given() || body_.argument().given()) r = body_.read(law).r();
+    output.write({figure_.apply(portraits::rays_figure(law, r, figure_.size()), output.format)});
     return ExitStatus::done;
   }
 
  private:
   BodyOptions body_;
   LawOption law_;
-  OutputOptions output_{{{"a terminal ratio", answer_formats("text")}}};
+  FigureOptions figure_;
+  OutputOptions output_{{{"a terminal ratio", with_pictures(answer_formats("text"))}}};
 };
 
 const RegisteredVerb<TerminalCommand> terminal_verb(

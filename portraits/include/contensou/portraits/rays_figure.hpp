@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "contensou/portraits/figure.hpp"
+#include "contensou/reduction/friction_law.hpp"
+
+namespace contensou::portraits {
+
+/// Where motions under a law go, by r = gamma mu^2/chi, in three panels: the invariant rays, k* against r; D = Phi - r k
+/// Psi, in units of Phi + r k Psi, with the way that k goes, for one r below r_low, one between and one above r_high; m(k) of the stop time for the
+/// same r, between its bounds if the law states them.
+///
+/// @param r  that of a body, marked in the first panel and drawn in the others
+/// @throws std::domain_error  unless r is positive and finite
+Figure rays_figure(const reduction::Law& law, std::optional<double> r = {}, const AskedSize& size = {});
+
+}  // namespace contensou::portraits

@@ -1,0 +1,159 @@
+#include "contensou/portraits/rays_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "contensou/portraits/layout.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
+#include "data/round_numbers.hpp"
+#include "views/portrait_panel.hpp"
+
+namespace contensou::portraits {
+
+namespace {
+
+constexpr Colour guide_colour{0x888888};
+constexpr Colour curve_colour{0x0b4f8a};
+constexpr Colour marked_colour{0xb3003b};
+
+constexpr double ends = 100;  ///< k is seen from 1/ends to ends
+constexpr int pieces = 600;
+
+/// The ratios that curves are drawn through; denser beyond the panel, so that none ends inside.
+double ratio_at(int i) { return std::pow(ends, 1.5 * (2.0 * i / pieces - 1)); }
+
+/// One r that curves are drawn for.
+struct Drawn {
+  double r;
+  Stroke stroke;
+  std::string legend;
+};
+
+double force_over_moment(const reduction::Law& law, double k) {
+  const auto [force, moment] = law(reduction::slip_of_ratio(k));
+  return force / (k * moment);
+}
+
+Panel panel_over_k(const std::string& title) {
+  Panel panel;
+  panel.title = title;
+  panel.x = {"{/:Italic k} = {/:Italic v}/({/:Italic μ}|{/:Italic u}|)", 1 / ends, ends, true, {}};
+  return panel;
+}
+
+/// k* against r: what attracts is solid, what repels dashed.
+Panel rays(const reduction::Law& law, double low, double high, std::optional<double> marked) {
+  std::vector<Point> points;
+  for (int i = 0; i <= pieces; ++i) points.push_back({force_over_moment(law, ratio_at(i)), ratio_at(i)});
+  const auto [least, largest] = std::ranges::minmax(points, {}, &Point::x);
+  const double bottom = std::min({low, high, least.x, marked.value_or(low)});
+  const double top = std::max({low, high, largest.x, marked.value_or(low)});
+  Panel panel;
+  panel.title = "invariant rays";
+  panel.x = {"{/:Italic r} = {/:Italic γμ}^2/{/:Italic χ}", 0, 1.2 * top, false, {}};
+  if (top > 20 * bottom) panel.x = {panel.x.name, 0.5 * bottom, 2 * top, true, {}};
+  panel.y = {"{/:Italic k}*", 1 / ends, ends, true, {}};
+  // r = Phi/(k Psi) grows along a ray that attracts.
+  Lines attracting{{}, {curve_colour, 2.4}, "attracts"}, repelling{{}, {curve_colour, 1.4, true}, "repels"};
+  for (std::size_t begin = 0; begin + 1 < points.size();) {
+    const bool grows = points[begin + 1].x > points[begin].x;
+    std::size_t end = begin + 1;
+    while (end + 1 < points.size() && (points[end + 1].x > points[end].x) == grows) ++end;
+    (grows ? attracting : repelling)
+        .lines.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(begin),
+                            points.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+    begin = end;
+  }
+  Lines borders{{{{low, 1 / ends}, {low, ends}}, {{high, 1 / ends}, {high, ends}}}, {guide_colour, 1, false, true}, ""};
+  panel.lines = {std::move(borders)};
+  for (Lines* lines : {&attracting, &repelling}) {
+    if (!lines->lines.empty()) panel.lines.push_back(std::move(*lines));
+  }
+  panel.labels = {{{low, 1.6 / ends}, "{/:Italic r}_{low}", guide_colour},
+                  {{high, ends / 1.6}, "{/:Italic r}_{high}", guide_colour}};
+  if (marked) panel.lines.push_back({{{{*marked, 1 / ends}, {*marked, ends}}}, {marked_colour, 1.6, true, true}, ""});
+  return panel;
+}
+
+/// D in units of its terms, with heads that say which way k goes.
+Panel ways(const reduction::Law& law, const std::vector<Drawn>& all) {
+  Panel panel = panel_over_k("{/:Italic k} falls where {/:Italic D} > 0");
+  panel.y = {"{/:Italic D}/({/:Italic Φ} + {/:Italic r k Ψ})", -1.05, 1.05, false, {}};
+  for (const auto& [r, stroke, legend] : all) {
+    Polyline line;
+    for (int i = 0; i <= pieces; ++i) {
+      const double k = ratio_at(i);
+      const auto [force, moment] = law(reduction::slip_of_ratio(k));
+      line.push_back({k, (force - r * k * moment) / (force + r * k * moment)});
+    }
+    Arrows heads{{}, stroke.colour, 1};
+    for (const double place : {0.15, 0.4, 0.6, 0.85}) {
+      const Point& at = line[static_cast<std::size_t>(pieces * (0.5 + (place - 0.5) / 1.5))];
+      heads.arrows.push_back({at, {at.y > 0 ? -at.x : at.x, 0}});
+    }
+    panel.lines.push_back({{std::move(line)}, stroke, legend});
+    panel.arrows.push_back(std::move(heads));
+  }
+  panel.lines.insert(panel.lines.begin(), {{{{1 / ends, 0}, {ends, 0}}}, {guide_colour, 1}, ""});
+  return panel;
+}
+
+/// m between its bounds; a line ends at each ray.
+Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all) {
+  Panel panel = panel_over_k("time left = {/:Italic P} + {/:Italic m S}");
+  panel.y = {"{/:Italic m}", 0, 0, false, {}};
+  for (const auto& [r, stroke, legend] : all) {
+    const reduction::Flow flow({law, 1, {.chi = 1, .gamma = r}});
+    Lines lines{{}, stroke, legend};
+    for (const auto& curve : flow.solution().curves()) {
+      Polyline line;
+      for (int i = 0; i <= pieces; ++i) {
+        const double k = ratio_at(i);
+        if (flow.solution().through(std::log(k)) != curve) continue;
+        line.push_back({k, curve->sliding_coefficient(curve->chart().coordinate(std::log(k)))});
+        panel.y.high = std::max(panel.y.high, 1.1 * line.back().y);
+      }
+      lines.lines.push_back(std::move(line));
+    }
+    panel.lines.push_back(std::move(lines));
+  }
+  if (const auto bounds = law.sliding_bounds()) {
+    panel.y.high = std::max(panel.y.high, 1.08 * bounds->max);
+    panel.y.low = bounds->min > 0 ? 0.8 * bounds->min : -0.04;
+    Lines borders{{}, {guide_colour, 1, false, true}, "bounds of {/:Italic m}"};
+    for (const double m : {bounds->min, bounds->max}) borders.lines.push_back({{1 / ends, m}, {ends, m}});
+    panel.lines.insert(panel.lines.begin(), std::move(borders));
+  }
+  return panel;
+}
+
+}  // namespace
+
+Figure rays_figure(const reduction::Law& law, std::optional<double> r, const AskedSize& size) {
+  const reduction::TerminalRatios ratios = reduction::terminal_ratios(law, r.value_or(1));
+  const auto [low, high] = std::minmax(ratios.low, ratios.high);
+  std::vector<Drawn> all;
+  const auto add = [&](double value, Colour colour, double width, bool dashed, bool dotted) {
+    all.push_back({value, {colour, width, dashed, dotted}, fmt::format("{{/:Italic r}} = {}", number(value, 3))});
+  };
+  add(0.5 * low, viridis(0), 2, false, false);
+  if (high > 1.001 * low) add(std::sqrt(low * high), viridis(0.4), 1.8, true, false);
+  add(1.6 * high, viridis(0.7), 2, false, true);
+  if (r) add(*r, marked_colour, 1.8, true, true);
+
+  Figure figure;
+  figure.title = fmt::format("Where motions end,  law: {}", literal(law.name()));
+  figure.subtitle =
+      "a ray is where {/:Italic Φ} = {/:Italic r k Ψ}; motions end on one that attracts, or with {/:Italic k} → 0 or ∞";
+  figure.size = fitted({270, 105}, 3, size);
+  figure.panels = {rays(law, ratios.low, ratios.high, r), ways(law, all), coefficients(law, all)};
+  return figure;
+}
+
+}  // namespace contensou::portraits

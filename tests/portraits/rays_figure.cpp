@@ -1,0 +1,75 @@
+#include "contensou/portraits/rays_figure.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
+
+using namespace contensou;
+using namespace contensou::portraits;
+
+namespace {
+
+const Lines* layer(const Panel& panel, const std::string& legend) {
+  const auto found = std::ranges::find(panel.lines, legend, &Lines::legend);
+  return found == panel.lines.end() ? nullptr : &*found;
+}
+
+/// k where a line of rays passes r, by its two nearest points.
+double ray_at(const Polyline& line, double r) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Point &a = line[i - 1], &b = line[i];
+    if ((a.x - r) * (b.x - r) <= 0 && a.x != b.x) return a.y * std::pow(b.y / a.y, (r - a.x) / (b.x - a.x));
+  }
+  return std::nan("");
+}
+
+}  // namespace
+
+TEST_CASE("rays are drawn where terminal_ratios finds them, and as it says that they attract or repel", "[route]") {
+  for (const char* name : {"exact", "pade", "uniform", "ring", "potential8"}) {
+    const reduction::Law law = *reduction::find_law(name);
+    const Panel panel = rays_figure(law).panels[0];
+    for (const double r : {1.0, 1.992, 2.5, 3.5}) {
+      for (const reduction::InvariantRay& ray : reduction::terminal_ratios(law, r).rays) {
+        INFO(name << " r = " << r << " k = " << ray.k);
+        const Lines* lines = layer(panel, ray.attracts() ? "attracts" : "repels");
+        REQUIRE(lines != nullptr);
+        bool found = false;
+        for (const Polyline& line : lines->lines) found = found || std::abs(ray_at(line, r) / ray.k - 1) < 1e-3;
+        CHECK(found);
+      }
+    }
+  }
+  CHECK(layer(rays_figure(reduction::HertzLaw{}).panels[0], "repels") == nullptr);
+  CHECK(layer(rays_figure(*reduction::find_law("potential8")).panels[0], "repels") != nullptr);
+}
+
+TEST_CASE("heads point to smaller k where D > 0, and m lies between its bounds", "[invariant]") {
+  for (const char* name : {"exact", "pade", "elliptic", "potential8"}) {
+    const reduction::Law law = *reduction::find_law(name);
+    const Figure figure = rays_figure(law, 3.0);
+    INFO(name);
+    REQUIRE(figure.panels.size() == 3);
+    REQUIRE(figure.panels[1].arrows.size() >= 3);
+    for (const Arrows& heads : figure.panels[1].arrows) {
+      CHECK(heads.arrows.size() == 4);
+      for (const Arrow& head : heads.arrows) CHECK(head.at.y * head.direction.x < 0);
+    }
+    CHECK(layer(figure.panels[2], "{/:Italic r} = 3") != nullptr);
+    for (const Lines& lines : figure.panels[2].lines) {
+      for (const Polyline& line : lines.lines) {
+        for (const Point& point : line) {
+          CHECK(point.y >= law.sliding_bounds()->min - 1e-12);
+          CHECK(point.y <= law.sliding_bounds()->max + 1e-12);
+        }
+      }
+    }
+  }
+  CHECK_THROWS_AS(rays_figure(reduction::HertzLaw{}, -1.0), std::domain_error);
+}
