@@ -159,31 +159,42 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
   const double mu = portrait.system().mu(), V = portrait.window.v;
-  const auto& [direction, k_star, order] = portrait.plane.tangents.front();
-  const bool spins_last = direction != InvariantDirection::sliding;
-  const double shrinks = shrinks_in_log_view(portrait);
-  // Both speeds at the right border, over V, and from there on how far above k = 1 is seen.
-  double corner = 0, above = 3;
-  if (portrait.highlight && shrinks < 1) {
-    const Instant start = portrait.highlight->at(0);
-    if (std::isfinite(start.ln_k)) {
-      corner = start.ln_v - start.ln_k - std::log(V) + shrinks / 4;
-      above = std::max(above, start.ln_k + 1);
-    }
-  }
-  const double last_range = shrinks * 4 / 3, first_range = shrinks * (1 + order) + above;
+  const auto log_u = [=](double u) { return std::log(mu * std::abs(u) / V); };
+  const bool spins_last = portrait.plane.tangents.front().direction != InvariantDirection::sliding;
   const std::vector<double> rays = ray_log_ratios(portrait);
+  // Around the orbits that were asked for, where they begin and where they cross k = 1: some powers of e, more of them
+  // where the speed that is over first falls. Scaling is a shift along the diagonal, so both axes have one scale.
   Panel panel;
-  panel.x.high = corner;
-  panel.x.low = corner - (rays.empty() ? (spins_last ? last_range : first_range) : 6);
-  panel.y.high = corner + (!rays.empty() ? 1 + rays.back() : spins_last ? above : last_range / 4);
-  panel.y.low = !rays.empty() ? rays.front() - 6 : panel.y.high - (spins_last ? first_range : last_range);
+  panel.to_scale = true;
+  std::vector<double> xs, ys;
+  const auto add = [&](const Instant& at) {
+    if (!std::isfinite(at.ln_k)) return;
+    xs.push_back(log_u(at.u));
+    ys.push_back(at.ln_v - std::log(V));
+  };
+  const auto add_orbit = [&](const PortraitOrbit& curve) {
+    add(curve.at(0));
+    if (rays.empty() && (curve.ln_k[0] > 0) == spins_last) add(at_log_ratio(curve, 0));
+  };
+  if (portrait.highlight) add_orbit(*portrait.highlight);
+  std::ranges::for_each(portrait.through, add_orbit);
+  if (xs.empty()) add(instant_at_logarithms(mu, 0, std::log(V)));
+  const auto [left, right] = std::ranges::minmax(xs);
+  const auto [bottom, top] = std::ranges::minmax(ys);
+  constexpr double deep = 8, near = 2, rim = 1, broad = 1.3;
+  panel.x.high = right + (spins_last ? rim : near);
+  panel.x.low = left - (spins_last && rays.empty() ? near : deep);
+  panel.y.high = top + (spins_last ? near : rim);
+  panel.y.low = bottom - (spins_last || !rays.empty() ? deep : near);
+  // The shape of the page, but not to the left of where copies begin below its top.
+  const double height = panel.y.high - panel.y.low, width = panel.x.high - panel.x.low;
+  panel.x.low = std::min(panel.x.low, std::max(panel.x.high - broad * height, panel.y.high - upstream_of_copies));
+  panel.y.low = std::min(panel.y.low, panel.y.high - width / broad);
   panel.x.name = fmt::format("ln({{/:Italic μ}}|{{/:Italic u}}|/{{/:Italic V}}),  {{/:Italic V}} = {} {}", number(V, 4),
                              drawing.caption.speed_unit);
   panel.y.name = "ln({/:Italic v}/{/:Italic V})";
   // Minus infinity is a point far beyond the borders.
   const Point nowhere{11 * panel.x.low - 10 * panel.x.high, 11 * panel.y.low - 10 * panel.y.high};
-  const auto log_u = [=](double u) { return std::log(mu * std::abs(u) / V); };
   const PanelMap map{
       .place =
           [=](const Instant& at, const Instant&) {
@@ -197,8 +208,8 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
     // Translates along the diagonal, evenly across the panel.
     const int count = drawing.crowd(14);
     const double w = log_u(at_log_ratio(curve, 0).u);
-    const double first = spins_last ? panel.x.low : panel.x.low - 6;
-    const double last = panel.x.high + (spins_last ? shrinks : 6);
+    const double first = panel.x.low - (spins_last ? 0 : near);
+    const double last = panel.x.high + (spins_last && rays.empty() ? rim : deep);
     Copies result;
     for (int i = 0; i < count; ++i) {
       result.push_back({curve, std::exp(first + (i + 0.5) * (last - first) / count - w)});

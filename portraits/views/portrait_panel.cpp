@@ -241,7 +241,7 @@ void PortraitPanel::add_copies(const std::function<std::vector<Copy>(const Portr
     if (has_rays || !of.plane.terminal.rays.empty()) return filling(of.flow, mirrored);
     // From so steep that it passes the whole window.
     const double steepest = std::log(of.window.v / (of.system().mu() * of.window.u)) + 7;
-    return copies(traced_.emplace_back(orbit_through(of.flow, 0, 0, std::max(14.0, steepest))));
+    return copies(traced_.emplace_back(orbit_through(of.flow, 0, 0, std::max(upstream_of_copies, steepest))));
   });
 }
 

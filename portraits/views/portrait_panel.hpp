@@ -71,6 +71,9 @@ Instant instant_at_logarithms(double mu, double ln_k, double ln_v);
 /// The legend of a portrait's orbits where two laws are compared.
 std::string law_legend(const PhasePortrait& portrait);
 
+/// How many powers of e above k = 1 the one curve begins whose copies fill a panel.
+inline constexpr double upstream_of_copies = 14;
+
 /// ln k of the invariant rays, by growing k.
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 

@@ -24,14 +24,6 @@ std::vector<MappedPanel> pair_view(const Drawing& drawing);
 /// How orbits near the origin: (u, ln k), where even a contact of order 10^5 with an axis has a shape.
 MappedPanel contact_panel(const Drawing& drawing, bool right_half);
 
-/// By how many powers of e the speed that outlives the other falls in the log view: where that outlives it by far, both
-/// are seen next to k = 1, and the times left there hardly differ.
-inline double shrinks_in_log_view(const PhasePortrait& portrait) {
-  constexpr double widest = 3, other = 8, rounding = 1e-12;
-  if (!portrait.plane.terminal.rays.empty()) return widest;
-  return std::clamp(other / (1 + portrait.plane.tangents.front().contact_order), rounding, widest);
-}
-
 /// A view as users name it and as it is laid out on a page.
 struct ViewLayout {
   View view;
@@ -72,7 +64,7 @@ inline constexpr std::array view_layouts{
                [](const PhasePortrait& portrait) {
                  const auto [u, v] = portrait.window;
                  const double tau = portrait.flow.orbit({u, v}).stop_time();
-                 return std::pair{shrinks_in_log_view(portrait) < 1 ? tau : 0.01 * tau, tau};
+                 return std::pair{1e-4 * tau, tau};
                },
                "by scaling orbits are translates of one curve along the diagonal"},
     ViewLayout{View::similarity, "similarity", "(q, p) and (ln k, p): orbits are translates of one curve",

@@ -330,6 +330,30 @@ TEST_CASE("Arrows on invariant rays point to the stop in every view", "[invarian
   }
 }
 
+TEST_CASE(
+    "The log view has one scale on both axes, and every orbit that was asked for begins in it, copies along 45 degrees",
+    "[invariant]") {
+  for (double mu : patch_ratios) {
+    for (double factor : {2.0, 1e3}) {
+      const reduction::State start{0.8, 3.5};
+      const reduction::State copy{start.u / factor, start.v / factor}, third{copy.u / factor, copy.v / factor};
+      const auto portrait = portrait_of(mu, {.view = View::log, .highlight = start, .through = {copy, third}});
+      const auto [figure, maps] = portraits::draw_mapped(portrait, {}, plain);
+      const Panel& panel = figure.panels.at(0);
+      CAPTURE(mu, factor);
+      const auto at = [&](const reduction::State& state) {
+        const double ln_k = std::log(state.v / (mu * state.u));
+        return maps.at(0).place({state.u, state.v, std::log(state.v), ln_k, 1}, {});
+      };
+      for (const auto& state : {start, copy, third}) CHECK(inside(panel, at(state)));
+      CHECK(panel.to_scale);
+      const portraits::Point from = at(start), to = at(third);
+      CHECK(from.x - to.x == Approx(2 * std::log(factor)).epsilon(1e-12));
+      CHECK(from.y - to.y == Approx(2 * std::log(factor)).epsilon(1e-12));
+    }
+  }
+}
+
 TEST_CASE("Heights of a speed scale and speeds lead back to each other", "[invariant]") {
   for (double exponent : {1.0, 0.1, 1e-4}) {
     const portraits::SpeedScale scale{2, exponent};
