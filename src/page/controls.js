@@ -1,6 +1,6 @@
 // The choices: ball, law, body, patch, what the plane shows; and the sliders.
 import { $, make, write } from "./dom.js";
-import { addNumberField, choiceButtons, fillSelect, numberField, slider } from "./fields.js";
+import { addNumberField, choiceButtons, fillSelect, forgiveTouches, numberField, slider } from "./fields.js";
 import { lawField } from "./law_field.js";
 import { shown } from "./numbers.js";
 import { bodyOf, fields, initialState, moved, requireAllowed, startOf, takeBall } from "./page_state.js";
@@ -92,6 +92,7 @@ export function makeControls(store, plane, { ask, attempt }) {
   };
   const muSlider = $("mu-slider");
   muSlider.addEventListener("input", () => ask((state) => setMu(state, fractionToMu(muSlider.value / 1000, store.body.largestMu))));
+  forgiveTouches(muSlider);
   const muField = numberField($("mu"), $("mu-error"), (mu) => store.change((state) => setMu(state, mu)));
 
   const number = (parent, key, label, edit) => addNumberField(parent, {

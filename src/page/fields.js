@@ -61,6 +61,16 @@ export function choiceButtons(parent, choices, choose) {
   return { show: (name) => inputs.forEach((input) => (input.checked = input.value === name)) };
 }
 
+/** A finger that goes on to scroll has touched a slider by chance: that is taken back. */
+export function forgiveTouches(input) {
+  let before = "";
+  input.addEventListener("pointerdown", () => (before = input.value));
+  input.addEventListener("pointercancel", () => {
+    input.value = before;
+    input.dispatchEvent(new Event("input"));
+  });
+}
+
 /** A slider above the patch's; `use` takes a fraction of its length. */
 export function slider(name, label, use) {
   const input = make("input", { type: "range", min: 0, max: 1000, id: `${name}-slider` });
@@ -68,6 +78,7 @@ export function slider(name, label, use) {
   const title = make("label", { htmlFor: input.id, textContent: label });
   $("mu-control").before(make("div", { className: "slider", id: `${name}-control` }, title, output, input));
   input.addEventListener("input", () => use(Number(input.value) / 1000));
+  forgiveTouches(input);
   return {
     show(fraction, text) {
       if (document.activeElement !== input) input.value = Math.round(1000 * fraction);

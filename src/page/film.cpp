@@ -17,7 +17,7 @@ namespace contensou::page {
 namespace {
 
 /// What the best law has found: {report, notes on columns that are not read, law, friction, patch, slip, spin, velocityX
-/// and velocityY of the centre, along the slip and across it}.
+/// and velocityY of the centre, along the slip and across it, measured: {t, slip, spin}, without those that were not}.
 /// @param laws  between commas
 val fit(const std::string& text, const std::string& name, const val& ball, const std::string& laws) {
   return answer([&] {
@@ -35,11 +35,18 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
     const auto& start = fits.front().ball;
     const Eigen::Vector2d slip = si::slip_velocity_at_start(start), velocity = si::velocities_of(start.start).velocity;
     const Eigen::Vector2d along = slip.norm() > 0 ? Eigen::Vector2d(slip.normalized()) : Eigen::Vector2d(1, 0);
+    const fit::Track& track = request.tracks.front();
+    val measured = object("t", Eigen::ArrayXd(track.t - track.start));
+    for (const fit::Series& series : track.series) {
+      if (series.observable == fit::Observable::slip) measured.set("slip", column(series.value));
+      if (series.observable == fit::Observable::spin) measured.set("spin", column(series.value));
+    }
     const auto value = [&](fit::Parameter parameter) { return fits.front().estimate(parameter).value; };
     return object("notes", notes, "report", program::report_on(fits, request.tracks, false, {6}), "law",
                   fits.front().law, "friction", value(fit::Parameter::friction), "patch",
                   value(fit::Parameter::patch_radius), "slip", slip.norm(), "spin", si::spin_at_start(start),
-                  "velocityX", velocity.dot(along), "velocityY", along.x() * velocity.y() - along.y() * velocity.x());
+                  "velocityX", velocity.dot(along), "velocityY", along.x() * velocity.y() - along.y() * velocity.x(),
+                  "measured", measured);
   });
 }
 

@@ -46,6 +46,7 @@ export class Film {
     const laws = [request.law, request.against].filter(Boolean).join();
     const ball = request.ball ?? shotOf(state.ball, startOf(0, 0));
     const found = library.fit(text, name, ball, laws);
+    this.store.measured = { ...found.measured, ball: ball.name };
     this.ask((next) => Object.assign(next, {
       law: found.law, window: null, chosen: 0, fraction: 0, orbits: [startOf(found.spin * ball.radius, found.slip, found.velocityX, found.velocityY)],
       ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch },

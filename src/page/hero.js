@@ -1,7 +1,7 @@
 // The top of the page: what the ball does, beside one that does not spin.
 import { $, make, write } from "./dom.js";
 import { drawLanes, drawPatch } from "./hero_figure.js";
-import { length, shown } from "./numbers.js";
+import { duration, length, shown } from "./numbers.js";
 import { say } from "./story.js";
 import { ScreenSurface } from "./screen_surface.js";
 import { rideOn } from "./turning.js";
@@ -39,10 +39,10 @@ export class Hero {
     }
     const ball = state.ball;
     this.unit = ball ? "m" : "";
-    const duration = ride.end * timeFactor;
+    const lasts = ride.end * timeFactor;
     const { radius, own, plain, rest } = ride;
     const spin = orbit.u / (ball?.radius ?? 1);
-    this.spinShown = Math.min(1, (fastest * this.player.seconds * radius) / (Math.abs(orbit.u) * duration) || 1);
+    this.spinShown = Math.min(1, (fastest * this.player.seconds * radius) / (Math.abs(orbit.u) * lasts) || 1);
     // A path that curves is seen from where it leads to the right.
     const [x, y] = ["x", "y"].map((key) => ride.courses[1][key].at(-1));
     const heading = Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0;
@@ -58,8 +58,7 @@ export class Hero {
     this.most = Math.max(own.path, plain.path);
     this.titles = [spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`, "without spin"];
     this.ends = [own.end, plain.end];
-    const seconds = ball ? " s" : "";
-    this.barTitles = this.ends.map((end, i) => `${["This one slides", "Without spin"][i]} for ${shown(end, 3)}${seconds}`);
+    this.barTitles = this.ends.map((end, i) => `${["This one slides", "Without spin"][i]} for ${duration(end, this.unit)}`);
     $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${story}`);
   }
 

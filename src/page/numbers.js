@@ -22,11 +22,14 @@ export function shown(value, digits = 5) {
 export const superscript = (integer) =>
   [...String(integer)].map((sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)]).join("");
 
+/** A number in words, which have no powers of ten for what is small. */
+const inWords = (value, least, unit, digits = 3) => `${value === 0 || value >= least ? shown(value, digits) : `less than ${least}`}${unit}`;
+
 /** A length in words, such as 52.9 mm; without a unit, a number. */
-export function length(metres, unit, digits = 3) {
-  if (!unit) return shown(metres, digits);
-  return metres >= 0.1 ? `${shown(metres, digits)} m` : metres >= 1e-5 || metres === 0 ? `${shown(1000 * metres, digits)} mm` : "less than 0.01 mm";
-}
+export const length = (metres, unit) => (!unit ? inWords(metres, 1e-4, "") : metres >= 0.1 ? inWords(metres, 0, " m") : inWords(1000 * metres, 0.01, " mm"));
+
+/** A time in words; without a unit, a number. */
+export const duration = (t, unit) => (unit ? inWords(t, 1e-3, " s") : inWords(t, 1e-4, ""));
 
 /** The largest of 1, 2, 5 times a power of ten that is at most x. */
 export function roundDown(x) {

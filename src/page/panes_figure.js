@@ -5,8 +5,8 @@ import { superscript } from "./numbers.js";
 const deepest = -6;  // decades of k that are shown below 1, at least
 
 export function drawPanes(surface, store, theme) {
-  const { motions, end, now, timeFactor, contact, state: { chosen } } = store;
-  const panes = surface.still([motions, end, contact, theme], theme.card, () => drawStill(surface, store, theme));
+  const { motions, end, now, timeFactor, contact, measured, state: { chosen, ball } } = store;
+  const panes = surface.still([motions, end, contact, theme, measured, ball?.name], theme.card, () => drawStill(surface, store, theme));
   if (!now) return;
   for (const { frame, key, scale } of panes) {
     surface.inside(frame, () => {
@@ -18,7 +18,20 @@ export function drawPanes(surface, store, theme) {
   }
 }
 
-function drawStill(surface, { motions, end, timeFactor, contact, state: { chosen } }, theme) {
+const most = 1500;  // points of a film that are drawn
+
+/** What a film of this ball has measured, as points t0, v0, t1, v1, ...; {v, u}. */
+function pointsOf({ measured, state: { ball } }) {
+  if (!measured || measured.ball !== ball?.name) return {};
+  const { t, slip = [], spin = [] } = measured;
+  const step = Math.ceil(t.length / most);
+  const points = (column, scale) => Array.from(column).flatMap((value, i) => (i % step || Number.isNaN(value) ? [] : [t[i], scale * value]));
+  return { v: points(slip, 1), u: points(spin, ball.radius) };
+}
+
+function drawStill(surface, store, theme) {
+  const { motions, end, timeFactor, contact, state: { chosen } } = store;
+  const seen = pointsOf(store);
   const size = theme.textSize;
   const [left, gap] = [4.9 * size, 0.8 * size];
   const height = (surface.height - 3.9 * size - 2 * gap) / 3;
@@ -45,6 +58,7 @@ function drawStill(surface, { motions, end, timeFactor, contact, state: { chosen
       for (let i = 0; i < count; ++i) points.push(motion.tau[i] * timeFactor, scale(motion[key][i]));
       surface.shape(frame.lines(points), { stroke: theme.swatch(index), width: index === chosen ? 2.6 : 1.2 });
     }));
+    if (seen[key]) surface.inside(frame, () => surface.shape([frame.lines(seen[key]).flat()], { radius: 1.6, fill: theme.ink }));
     return { frame, key, scale };
   });
 }

@@ -242,5 +242,5 @@ function rounded({ u, v }, { window: [U, V] }) {
     const digits = Math.max(3, 4 - Math.floor(Math.log10(side / Math.max(Math.abs(value), 1e-300))));
     return Number(value.toPrecision(Math.min(4, digits)));
   };
-  return { u: to(u, U), v: to(v, V) };
+  return { u: Math.abs(u) < 1e-9 * U ? 0 : to(u, U), v: to(v, V) };
 }

@@ -1,6 +1,6 @@
 // Time: play, pause, scrub; how fast the clock of the page goes.
 import { $, write } from "./dom.js";
-import { choiceButtons } from "./fields.js";
+import { choiceButtons, forgiveTouches } from "./fields.js";
 import { shown } from "./numbers.js";
 
 const shortest = 7;  // seconds on the screen
@@ -15,6 +15,7 @@ export class Player {
     this.partButtons = choiceButtons($("span"), [{ name: "sliding", title: "while it slides" }, { name: "whole", title: "until rest" }],
       (name) => ask((state) => Object.assign(state, { part: name, fraction: 0 })));
     $("play").addEventListener("click", () => this.toggle());
+    forgiveTouches($("time"));
     $("time").addEventListener("input", () => store.move({ fraction: Number($("time").value) / 1000 }));
   }
 

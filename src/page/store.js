@@ -5,7 +5,7 @@ import { isDark, themeOf } from "./theme.js";
 import { described } from "./views.js";
 
 const longest = 10;    // s that a ball is let roll
-const slow = 1 / 500;  // of the fastest slip in the patch at first: without units, what slides no faster counts as rolling
+const slow = 1 / 500;  // of the fastest slip in the patch at first: without units, what slips no faster counts as rolling
 
 /** What moves where there are no units: of any size, and a second is a unit of tau. */
 const ballOf = (radius) =>
@@ -24,6 +24,8 @@ export class Store {
   body = { chi: 1, gamma: 1, largestMu: 1, mu: /** @type {number | undefined} */ (undefined) };
   /** @type {OwnOrbit[]} */
   motions = [];
+  /** @type {Measured | null} the last film */
+  measured = null;
   /** @type {any} the chosen one */
   motion;
 

@@ -1,7 +1,7 @@
 // What is said of a motion: facts in SI units (without units, in those of v), and sentences that rest on them.
-import { length, shown } from "./numbers.js";
+import { duration, length, shown } from "./numbers.js";
 
-const hardly = 1e-4;  // m, a path too short to be seen
+const hardly = 1e-3;  // m, a path too short to be seen
 const bent = 3;       // degrees, of a path that is seen to curve
 const much = 1.5;     // times as far
 const some = 1.05;
@@ -34,14 +34,13 @@ const more = (ratio, word) => (ratio >= much ? `${shown(ratio, 2)} times as ${wo
 function wordsOf(/** @type {Facts} */ facts) {
   const { name, real, rolls, slip, spin, along, across, least, own, plain } = facts;
   const unit = real ? "m" : "";
-  const speed = (value) => (real ? `${shown(value, 3)} m/s` : `v = ${shown(value, 3)}`);
-  const time = (t) => (real ? `${shown(t, 3)} s` : `τ = ${shown(t, 3)}`);
+  const time = (t) => `${real ? "" : "τ = "}${duration(t, unit)}`;
   const leave = along === slip && across === 0 ? "leave" : "touch down, slipping";
-  const turns = real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${shown(spin, 3)}`;
+  const turns = real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
   return {
-    ...facts, thing: name.split(" ").at(-1), speed: speed(slip), time, leave, turns, then: rolls ? "then it rolls" : "then it stops",
+    ...facts, thing: name.split(" ").at(-1), speed: real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`, time, leave, turns, then: rolls ? "then it rolls" : "then it stops",
     far: length(own.path, unit), farPlain: length(plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
-    threshold: rolls ? ` Here it rolls once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : shown(least, 2)}.` : "",
+    threshold: rolls ? ` Here it rolls once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : "1/500 of the first"}.` : "",
   };
 }
 

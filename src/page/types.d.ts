@@ -63,7 +63,9 @@ interface Library {
   lawName(called: string): string;
   portraitFile(request: PortraitRequest, ending: string): string;
 }
-interface Fitted { report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number }
+/** Columns, SI, and the name of the ball; slip and spin where the film has them. */
+interface Measured { ball: string; t: Float64Array; slip?: Float64Array; spin?: Float64Array }
+interface Fitted { measured: Omit<Measured, "ball">; report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number }
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number): { terminalRatio: number; meaning: string };
   portrait(request: PortraitRequest): Portrait;

@@ -46,6 +46,19 @@ test("a film is fitted as the program fits it, and the ball takes what was found
   numbers.forEach((value, i) => assert.ok(Math.abs(value - wantedNumbers[i]) <= 2e-5 * Math.abs(wantedNumbers[i]) + 1e-3, `number ${i}: ${value}, not ${wantedNumbers[i]}`));
   for (const part of [/friction +0\.50/, /95 % confidence/, /pade/, /exact fits better than all others/]) assert.match(said, part);
   assert.match(await page.textContent("#story"), /leave at 0\.[56]/);
+  // What was measured is drawn over the curves, until the ball is another.
+  const points = async () => {
+    await page.selectOption("#picture", "panes");
+    return Array.from(String(await saved("#save-svg")).matchAll(/<path d="([^"]*a1\.6 [^"]*)"/g), ([, path]) => Array.from(path.matchAll(/M([\d.]+) ([\d.]+)a1\.6/g), ([, x, y]) => [Number(x) - 1.6, Number(y)]));
+  };
+  await page.locator("#span label", { hasText: "rest" }).click();
+  const drawnPoints = await points();
+  assert.deepEqual(drawnPoints.map((discs) => discs.length), [60, 60]);
+  assert.ok(drawnPoints[0].every(([x], i) => i === 0 || x > drawnPoints[0][i - 1][0]), "in time");
+  const [top, bottom] = [0, 59].map((i) => drawnPoints[0][i][1]);
+  assert.ok(bottom > top + 20, "the slip falls");
+  await page.selectOption("#ball", "pool");
+  assert.deepEqual(await points(), []);
   await close();
 });
 

@@ -167,7 +167,7 @@ test("what there is to see follows from the numbers, and is said in words withou
     ["spins", { slip: 1e-34, own: path(0), plain: path(0) }, /spins in place/, /stops after 5\.17 s/],
     ["spins", { ...puck, slip: 0, own: path(0), plain: path(0) }, /A puck that spins in place/, /./],
     ["rests", { slip: 0, spin: 0, own: path(0), plain: path(0) }, /at rest/, /./],
-    ["more", { real: false, name: "ball", spin: 0.8, slip: 3.5, least: 0.0075, own: path(15.7), plain: path(14.1) }, /11 % farther/, /leave at v = 3\.5.*with u = 0\.8.*once its slip is below 0\.0075/],
+    ["more", { real: false, name: "ball", spin: 0.8, slip: 3.5, least: 0.0075, own: path(15.7), plain: path(14.1) }, /11 % farther/, /leave at v = 3\.5.*with u = 0\.8.*once its slip is below 1\/500 of the first/],
   ];
   const seen = new Set();
   for (const [regime, other, headline, story] of table) {

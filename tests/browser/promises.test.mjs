@@ -1,0 +1,329 @@
+// What the page keeps to whatever a reader does, each with the steps that once led elsewhere.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { clickPlane, close, drawn, file, folder, open, page, pixelOf, saved, state } from "./browser.mjs";
+
+const said = async () => `${await page.textContent("#headline")} ${await page.textContent("#story")}`;
+
+test("a click anywhere in the plane is answered in words: no NaN, no power of ten, and what rolls is told so", async () => {
+  for (const fragment of ["#ball=gel&orbits=9,0.5", "#ball=pool&orbits=2.8575,1", "#ball=steel&orbits=0,0.5", "", "#ball=curling-stone", "#mu=0.3&orbits=0.8,3.5"]) {
+    await open(fragment);
+    const { answers, count } = await page.evaluate(() => {
+      const { plane, frames: [frame], store, library } = globalThis.page;
+      const [answers, all] = [[], 13];
+      let count = 0;
+      for (let i = 0; i < all; ++i) for (let j = 0; j < all; ++j) {
+        const at = [frame.left + ((i + 0.5) / all) * frame.width, frame.top + ((j + 0.5) / all) * frame.height];
+        if (!plane.pointed(...at)) continue;
+        count += 1;
+        plane.choose(...at, "key");
+        const start = store.orbit;
+        const words = `${document.getElementById("headline").textContent} ${document.getElementById("story").textContent} ` +
+          [...document.querySelectorAll("#bars span, #bars b")].map((part) => part.textContent).join(" ");
+        if (/NaN|∞|undefined|·10/.test(words)) answers.push([start, words]);
+        if (store.state.ball && library.rollingSlip > start.v && !(start.u === 0 ? /already rolls|at rest/ : /already rolls|in place/).test(words)) answers.push([start, words]);
+        store.change((state) => state.orbits.pop());
+      }
+      return { answers, count };
+    });
+    assert.ok(count > 150, `${count} clicks`);
+    assert.deepEqual(answers, [], fragment);
+    await close();
+  }
+});
+
+test("the log view has one scale, and all starts in it", async () => {
+  await open("#mu=0.3&view=log&orbits=0.8,3.5;0.4,1.75;0.2,0.875");
+  const { places, box } = await page.evaluate(() => {
+    const { frames: [frame], library, state } = globalThis.page;
+    return {
+      places: state.orbits.map(({ u, v }) => frame.pixel(library.plane.place(u, v))),
+      box: [frame.left, frame.top, frame.left + frame.width, frame.top + frame.height],
+    };
+  });
+  for (const [x, y] of places) assert.ok(x > box[0] && x < box[2] && y > box[1] && y < box[3], `${x}, ${y} in ${box}`);
+  for (const i of [1, 2]) {
+    const [dx, dy] = [0, 1].map((axis) => places[i][axis] - places[i - 1][axis]);
+    assert.ok(dx < -3 && Math.abs(dx + dy) < 0.01 * Math.abs(dx), `${dx}, ${dy}`);
+  }
+  await close();
+});
+
+test("the velocity of the centre is its orbit's: what is done to one orbit leaves the others", async () => {
+  await open("#ball=gel&orbits=9,0.5");
+  const before = (await state()).orbits[0];
+  await clickPlane(3, 0.3);
+  let { orbits } = await state();
+  assert.deepEqual([orbits[1].along, orbits[1].across], [orbits[1].v, 0], "a click starts without rolling");
+  await page.mouse.move(...await pixelOf(orbits[1].u, orbits[1].v));
+  await page.mouse.down();
+  await page.mouse.move(...await pixelOf(3, 0.15), { steps: 4 });
+  await page.mouse.up();
+  ({ orbits } = await state());
+  assert.ok(orbits[1].v < 0.2);
+  assert.deepEqual(orbits[0], before);
+  await page.fill("#ball-fields [name=across]", "0.25");
+  await page.click("#orbits li:nth-child(1) button");
+  assert.deepEqual((await state()).orbits[0], before);
+  assert.equal(await page.inputValue("#ball-fields [name=across]"), "0");
+  assert.match(await said(), /leave at 0\.5 m\/s/);
+  await close();
+  await open("#ball=pool&orbits=5.7,2");
+  assert.match(await said(), /leave at 2 m\/s/, "a link with u and v alone is of a ball that does not turn forward");
+  await close();
+});
+
+test("the ball without spin is grey, whichever orbit is chosen", async () => {
+  await open();
+  await clickPlane(-1, 0.3);
+  const colours = () => page.$$eval("#bars i", (bars) => bars.map((bar) => getComputedStyle(bar).backgroundColor));
+  const grey = await page.evaluate(() => {
+    const probe = document.body.appendChild(document.createElement("i"));
+    probe.style.color = "var(--soft)";
+    const { color } = getComputedStyle(probe);
+    probe.remove();
+    return color;
+  });
+  for (const i of [1, 2]) {
+    await page.click(`#orbits li:nth-child(${i}) button`);
+    const [own, plain] = await colours();
+    assert.equal(plain, grey);
+    assert.notEqual(own, grey);
+  }
+  await close();
+});
+
+test("the text of the tour is that of what is shown, and in the link", async () => {
+  await open();
+  const shown = () => page.evaluate(() => Math.round(document.getElementById("steps").scrollLeft / document.getElementById("steps").clientWidth));
+  for (let step = 1; step <= 2; ++step) {
+    await page.click("#step-on");
+    await page.waitForFunction((step) => location.hash.includes(`step=${step}`), step);
+  }
+  const link = page.url();
+  await page.goBack();
+  await page.waitForFunction(() => globalThis.page.state.step === 1);
+  assert.equal(await shown(), 1);
+  await page.locator("#presets a", { hasText: "Gel" }).click();
+  assert.equal((await state()).step, 0);
+  assert.equal(await shown(), 0);
+  await page.waitForTimeout(300);
+  assert.equal((await state()).ball.name, "gel", "the text that comes back changes nothing");
+  await close();
+  await open(link.slice(link.indexOf("#")));
+  assert.equal(await shown(), 2);
+  assert.ok(!(await page.isDisabled("#step-back")));
+  await close();
+});
+
+test("every preset says what is to be seen", async () => {
+  await open();
+  const wanted = { "Puck": /4 times/, "No spin": /Without spin/, "Gel ball": /19 times/, "Pool ball": /1\.9 times/, "Massé": /curves by 60°/, "Bowling hook": /curves by 6/,
+    "Floor polisher": /10 times/, "Curling stone": /end at one instant/ };
+  for (const link of await page.$$("#presets a")) {
+    await link.click();
+    assert.match(await page.textContent("#headline"), wanted[await link.textContent()]);
+  }
+  await close();
+});
+
+test("what fails is said beside the buttons, and no promise is left unhandled", async () => {
+  const failing = () => {
+    HTMLCanvasElement.prototype.toBlob = (done) => done(null);
+    globalThis.MediaRecorder = class {
+      static isTypeSupported = () => globalThis.takesFilms;
+      constructor() {
+        throw new DOMException("no such film", "NotSupportedError");
+      }
+    };
+    Object.defineProperty(navigator, "clipboard", { value: { writeText: () => Promise.reject(new Error("denied")) } });
+    globalThis.unhandled = [];
+    addEventListener("unhandledrejection", ({ reason }) => globalThis.unhandled.push(String(reason)));
+  };
+  await open("", {}, true, failing);
+  for (const [takes, button, words] of [[false, "#save-film", /takes no films/], [true, "#save-film", /no such film/], [true, "#save-png", /no canvas of \d+ × \d+ pixels/]]) {
+    await page.evaluate((takes) => (globalThis.takesFilms = takes), takes);
+    await page.click(button);
+    await page.waitForFunction((words) => new RegExp(words).test(document.getElementById("copied").textContent), words.source);
+  }
+  await page.click("#copy-embed");
+  await page.waitForFunction(() => /<iframe src="file:.*names the file on this computer/.test(document.getElementById("copied").textContent));
+  await page.click("#copy-link");
+  await page.waitForTimeout(50);
+  assert.deepEqual(await page.evaluate(() => globalThis.unhandled), []);
+  await close();
+});
+
+test("where a host forbids pictures from data, a PNG is made all the same; where it forbids scripts from text, the page says so", async () => {
+  const html = readFileSync(file, "utf8");
+  const guarded = async (name, policy) => {
+    const path = join(folder, name);
+    writeFileSync(path, html.replace("<head>", `<head><meta http-equiv="Content-Security-Policy" content="${policy}">`));
+    await page.goto(pathToFileURL(path).href);
+  };
+  await open();
+  await guarded("pictures.html", "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'");
+  await page.waitForSelector("#orbits li");
+  const png = await saved("#save-png");
+  assert.deepEqual([png.subarray(1, 4).toString(), png.length > 5000], ["PNG", true]);
+  await guarded("trusted.html", "require-trusted-types-for 'script'");
+  await page.locator("#failure").filter({ visible: true }).waitFor();
+  assert.match(await page.textContent("#failure"), /could not be started: .*Trusted/i);
+  await close([/TrustedScript/i, /Trusted Type/i, /data:,/]);
+});
+
+test("inside another page nothing is added to the history; a slow drag adds one change", async () => {
+  await open();
+  const outer = join(folder, "article.html");
+  writeFileSync(outer, `<iframe style="width:1200px;height:900px" src="${pathToFileURL(file).href}#embed"></iframe>`);
+  await page.goto(pathToFileURL(outer).href);
+  const inner = page.frameLocator("iframe");
+  await inner.locator("#spin-slider").waitFor();
+  const before = await page.evaluate(() => history.length);
+  for (const key of ["ArrowRight", "ArrowRight"]) {
+    await inner.locator("#spin-slider").press(key);
+    await page.waitForTimeout(350);
+  }
+  assert.equal(await page.evaluate(() => history.length), before);
+  await close();
+  await open();
+  await page.waitForTimeout(350);
+  const length = await page.evaluate(() => history.length);
+  const box = await page.locator("#spin-slider").boundingBox();
+  const at = (share) => page.mouse.move(box.x + share * box.width, box.y + box.height / 2);
+  await at(0.2);
+  await page.mouse.down();
+  for (const share of [0.3, 0.4, 0.5]) {
+    await at(share);
+    await page.waitForTimeout(350);
+  }
+  await page.mouse.up();
+  await page.waitForTimeout(350);
+  assert.equal(await page.evaluate(() => history.length), length + 1);
+  await close();
+});
+
+test("numbers of any size are answered in the page's words", async () => {
+  await open("#ball=gel&orbits=9,0.5");
+  const wrong = [];
+  const look = async (what) => {
+    const words = await page.evaluate(() => [...document.querySelectorAll(".error, #headline, #story, #ball-facts, #instant")].map((each) => each.textContent).join(" | "));
+    if (/::|nan\b|NaN|undefined/.test(words.replace("is not a finite number", ""))) wrong.push(`${what}: ${words}`);
+  };
+  const values = ["1e-308", "1e308", "1e-9", "1e9", "0", "-1"];
+  const fields = ["radius", "mass", "friction", "gravity", "patch", "along", "across", "rollingFriction"];
+  for (const field of fields) {
+    const usual = await page.inputValue(`#ball-fields [name=${field}]`);
+    for (const value of values) {
+      await page.fill(`#ball-fields [name=${field}]`, value);
+      await look(`${field} ${value}`);
+    }
+    await page.fill(`#ball-fields [name=${field}]`, usual);
+  }
+  for (const value of [...values, "10", "1e-6"]) {
+    await page.fill("#mu", value);
+    await look(`mu ${value}`);
+  }
+  await close();
+  for (const fragment of ["#body=1e308,1e-308&mu=0.3", "#mu=1e-308", "#ball=gel&gravity=1e308", "#mu=1e-6&orbits=0.8,3.5", "#body=1000,0.001&mu=10&orbits=1,1", "#body=0.001,1000&mu=1&orbits=1,1"]) {
+    await open(fragment, {}, false);
+    await look(fragment);
+    await close();
+  }
+  assert.deepEqual(wrong, []);
+});
+
+test("what is not seen is not drawn, and after three rounds it rests", async () => {
+  await open("", { reducedMotion: "no-preference" });
+  await page.evaluate(() => {
+    globalThis.drawings = 0;
+    for (const surface of [globalThis.page.hero.lanes, globalThis.page.plane.surface]) {
+      const picture = surface.picture;
+      surface.picture = (...all) => {
+        globalThis.drawings += 1;
+        picture(...all);
+      };
+    }
+    scrollTo(0, 1e6);
+  });
+  await page.waitForTimeout(400);
+  const before = await page.evaluate(() => [globalThis.drawings, globalThis.page.state.fraction]);
+  await page.waitForFunction((fraction) => globalThis.page.state.fraction > fraction + 0.03, before[1]);
+  assert.equal(await page.evaluate(() => globalThis.drawings), before[0]);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.waitForFunction((drawings) => globalThis.drawings > drawings + 2, before[0]);
+  // Rounds, in a clock that goes quicker.
+  await page.evaluate(() => {
+    Object.defineProperty(globalThis.page.player, "seconds", { get: () => 0.05 });
+    globalThis.starts = 0;
+    let last = 0;
+    globalThis.page.store.listen(() => {
+      const { fraction } = globalThis.page.state;
+      if (fraction < last) globalThis.starts += 1;
+      last = fraction;
+    });
+    globalThis.page.player.toggle(true);
+  });
+  await page.waitForFunction(() => !globalThis.page.player.playing, null, { timeout: 20000 });
+  assert.equal(await page.evaluate(() => globalThis.starts), 2);
+  await close();
+});
+
+test("a finger that scrolls past a slider does not move it", async () => {
+  await open("", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  await page.locator("#spin-slider").scrollIntoViewIfNeeded();
+  const box = await page.locator("#spin-slider").boundingBox();
+  const before = await state();
+  const devtools = await page.context().newCDPSession(page);
+  const [x, y] = [box.x + 0.7 * box.width, box.y + box.height / 2];
+  const touch = (type, ...points) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const top = await page.evaluate(() => scrollY);
+  await touch("touchStart", [x, y]);
+  for (let i = 1; i <= 10; ++i) {
+    await touch("touchMove", [x - i, y - 15 * i]);
+    await drawn();
+  }
+  await touch("touchEnd");
+  assert.ok((await page.evaluate(() => scrollY)) > top + 60);
+  assert.deepEqual((await state()).orbits, before.orbits);
+  await close();
+});
+
+test("no card changes its height with the view, the step of the tour or the motion", async () => {
+  for (const viewport of [{ width: 1440, height: 900 }, { width: 1280, height: 800 }]) {
+    await open("", { viewport });
+    const heights = () => page.evaluate(() => ["hero", "plane-card", "tour"].map((id) => Math.round(document.getElementById(id).getBoundingClientRect().height)).join());
+    const seen = new Map([[await heights(), "the opening"]]);
+    const note = async (what) => seen.set(await heights(), what);
+    for (const view of ["patch", "log", "similarity", "blowup", "disc", "time", "pair", "uv"]) {
+      await page.click(`#views [value=${view}]`);
+      await note(view);
+    }
+    for (const link of await page.$$("#presets a")) {
+      await link.click();
+      await note(await link.textContent());
+    }
+    for (let step = 1; step < 6; ++step) {
+      await page.click("#step-on");
+      await page.waitForFunction((step) => globalThis.page.state.step === step, step);
+      await note(`step ${step}`);
+    }
+    assert.equal(seen.size, 1, JSON.stringify([...seen]));
+    await close();
+  }
+});
+
+test("letters follow the size that the reader has set in the browser", async () => {
+  await open("", { viewport: { width: 1280, height: 800 } });
+  const size = () => page.evaluate(() => parseFloat(getComputedStyle(document.getElementById("story")).fontSize));
+  const before = await size();
+  const devtools = await page.context().newCDPSession(page);
+  await devtools.send("Page.setFontSizes", { fontSizes: { standard: 32 } });
+  await drawn();
+  assert.equal(await size(), 2 * before);
+  await close();
+});
+
