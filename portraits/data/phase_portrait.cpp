@@ -353,7 +353,7 @@ PhasePortrait portrait_in(const Flow& flow, View view, Window window, const Port
   const reduction::PhasePlane plane = reduction::phase_plane(flow.system());
   const SpeedScale scale = scale_of(plane, view, window, request.linear || request.stepped);
   const OrbitTracer tracer(flow, window, scale, request.stepped);
-  PhasePortrait portrait{flow, plane, view, window, scale, {}, {}, {}, {}, {}};
+  PhasePortrait portrait{flow, plane, view, window, scale, {}, {}, {}, {}, request.through, {}};
   if (!request.drawn_only || shows_window(view)) {
     portrait.isochrones = isochrones(flow, {{-window.u, 0}, {window.u, window.v}}, times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
@@ -366,13 +366,15 @@ PhasePortrait portrait_in(const Flow& flow, View view, Window window, const Port
   return portrait;
 }
 
-/// Stop times of isochrones: multiples of a round time, up to the corner of the window, which is the last to stop.
+/// Stop times of isochrones: multiples of a round time, up to the corner of the window, which is the last to stop. As many
+/// as are asked for, as nearly as round times allow; the roundest where no number is.
 std::vector<double> round_times(const Flow& flow, Window window, const PortraitRequest& request) {
-  const int about = request.isochrones.value_or(7);
-  if (about == 0) return {};
-  const double longest = flow.orbit({window.u, window.v}).stop_time();
-  const double step = round_step(longest / request.time_unit, about) * request.time_unit;
-  return multiples(0, 0.95 * longest, step);
+  constexpr int usual = 7;
+  if (request.isochrones == 0) return {};
+  const double last = 0.95 * flow.orbit({window.u, window.v}).stop_time() / request.time_unit;
+  const double step = request.isochrones ? step_for(last, *request.isochrones, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5})
+                                         : step_for(last, usual, {1, 2, 5});
+  return multiples(0, last * request.time_unit, step * request.time_unit);
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,6 +21,19 @@ double round_down(double x) {
 }
 
 double round_step(double range, double pieces) { return round_down(range / pieces * 1.7); }
+
+double step_for(double x, int count, std::initializer_list<double> digits) {
+  const double near = std::floor(std::log10(x / count));
+  double best = 0, off = std::numeric_limits<double>::infinity();
+  for (double digit : digits) {
+    for (double power : {near - 1, near, near + 1}) {
+      const double step = digit * std::pow(10, power);
+      const double its_off = std::abs(std::ceil(x / step) - 1 - count);
+      if (its_off < off) std::tie(best, off) = std::pair(step, its_off);
+    }
+  }
+  return best;
+}
 
 std::vector<double> multiples(double low, double high, double step) {
   std::vector<double> result;
@@ -50,6 +66,15 @@ std::string number(double value, int digits) {
   const double mantissa = value / std::pow(10, exponent);
   if (std::abs(mantissa - 1) < 1e-6) return fmt::format("10^{{{}}}", exponent);
   return fmt::format("{:.{}g}·10^{{{}}}", mantissa, digits > 5 ? digits : 3, exponent);
+}
+
+std::vector<std::string> powers_of_ten(const std::vector<double>& values) {
+  std::vector<std::string> plain, powers;
+  for (double value : values) {
+    plain.push_back(number(value));
+    powers.push_back(fmt::format("10^{{{:.0f}}}", std::log10(value)));
+  }
+  return std::ranges::none_of(plain, [](const std::string& text) { return text.starts_with("10^"); }) ? plain : powers;
 }
 
 }  // namespace contensou::portraits

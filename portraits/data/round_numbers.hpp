@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,12 @@ double round_down(double x);
 /// A round step that a range is cut by into about so many pieces: 0.6 to 1.5 times as many.
 double round_step(double range, double pieces);
 
+/// The step, one of the digits times a power of ten, that has the number of multiples between 0 and x nearest to count;
+/// of equally near ones that of the first digit.
+/// @param x      > 0
+/// @param count  > 0
+double step_for(double x, int count, std::initializer_list<double> digits);
+
 /// The multiples of a step between two numbers, without these.
 std::vector<double> multiples(double low, double high, double step);
 
@@ -21,5 +28,8 @@ std::vector<double> round_ratios(double low, double high, double few_decades);
 /// A number as people write it; large and small ones with their power of ten, in the markup of a figure.
 /// @param digits  at most so many are shown; up to 5 of them, 3 before a power of ten
 std::string number(double value, int digits = 5);
+
+/// Powers of ten, all written in one way: plainly where number() writes each of them so.
+std::vector<std::string> powers_of_ten(const std::vector<double>& values);
 
 }  // namespace contensou::portraits

@@ -244,10 +244,9 @@ std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
   if (all.empty() && axis.logarithmic) {
     constexpr double few_decades = 2.5, same = 1e-9;
     const std::vector<double> round = round_ratios(axis.low * (1 - same), axis.high * (1 + same), few_decades);
-    // Either all plain, as number() writes those, or all powers.
-    const bool powers = axis.high / axis.low >= std::pow(10, few_decades) &&
-                        std::ranges::any_of(round, [](double at) { return number(at).starts_with("10^"); });
-    for (double at : round) all.push_back({at, powers ? fmt::format("10^{{{:.0f}}}", std::log10(at)) : number(at)});
+    const bool are_powers = axis.high / axis.low >= std::pow(10, few_decades);
+    std::vector<std::string> names = are_powers ? powers_of_ten(round) : std::vector<std::string>{};
+    for (std::size_t i = 0; i < round.size(); ++i) all.push_back({round[i], are_powers ? names[i] : number(round[i])});
   } else if (all.empty()) {
     const double range = axis.high - axis.low;
     const double end = std::max(std::abs(axis.low), std::abs(axis.high));
@@ -460,6 +459,15 @@ class Compositor {
 }  // namespace
 
 Layout lay_out(const Figure& figure) { return Compositor(figure).layout(); }
+
+Figure trimmed(Figure figure) {
+  if (figure.panels.size() != 1 || !figure.panels.front().to_scale) return figure;
+  const double used = lay_out(figure).panels.front().box.height;
+  Figure free = figure;
+  free.panels.front().to_scale = false;
+  figure.size.height_mm -= lay_out(free).panels.front().box.height - used;
+  return figure;
+}
 
 void widen(Figure& figure, std::size_t panel, double times) {
   // Twice: other numbers beside the ticks leave another width.

@@ -40,7 +40,8 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const std::string& n
   panel.x = {drawing.speed(name), -x, x, false, {}};
   panel.y = {drawing.speed("{/:Italic v}"), 0, top, false, {}};
   if (!scale.linear()) {
-    panel.y.name += fmt::format("  (shaded: {{/:Italic v}}^{{{}}})", number(scale.exponent, 3));
+    panel.y.name +=
+        fmt::format("  (shaded: height as {{/:Italic v^s}}, {{/:Italic s}} = {})", number(scale.exponent, 3));
     panel.y.ticks = speed_ticks(scale);
     panel.regions.push_back({{{-x, 0}, {x, 0}, {x, 0.5}, {-x, 0.5}}, drawing.palette.region});
   }

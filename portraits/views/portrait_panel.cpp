@@ -150,14 +150,22 @@ TimeBands logarithmic_bands(double shortest, double longest, double unit, const 
 }
 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption) {
-  const std::string unit = caption.time_unit_name.empty() ? "" : fmt::format(" ({})", caption.time_unit_name);
-  ColourBar bar{"time left" + unit, bands.colours, {}};
+  ColourBar bar{time_left(caption), bands.colours, {}};
+  std::vector<double> begins;
+  for (std::size_t band : bands.marked) begins.push_back(bands.begin(band) / caption.time_unit);
+  const bool equal = begins.front() == 0;
+  const std::vector<std::string> powers = equal ? std::vector<std::string>{} : powers_of_ten(begins);
   // Bands are equal on the bar.
-  for (std::size_t band : bands.marked) {
-    bar.ticks.push_back({static_cast<double>(band) / static_cast<double>(bands.colours.size()),
-                         number(bands.begin(band) / caption.time_unit)});
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    bar.ticks.push_back({static_cast<double>(bands.marked[i]) / static_cast<double>(bands.colours.size()),
+                         equal ? number(begins[i]) : powers[i]});
   }
   return bar;
+}
+
+std::string time_left(const PortraitCaption& caption) {
+  const std::string& unit = caption.time_unit_name;
+  return fmt::format("time left {}{}{}", caption.time_symbol, unit.empty() ? "" : ", ", unit);
 }
 
 std::string Drawing::speed(const std::string& name) const {
@@ -401,17 +409,22 @@ std::vector<PortraitPanel::TimedArrow> PortraitPanel::arrows_on(const Copy& copy
 void PortraitPanel::add_highlights() {
   if (!drawing_.style.asked) return;
   const PhasePortrait& portrait = drawing_.portrait;
-  Stroke stroke{drawing_.palette.highlight, 3.4, false};
   if (!portrait.through.empty()) {
+    const Stroke stroke = asked_stroke(drawing_.palette, false);
     std::vector<Copy> copies;
+    Marks points{{}, stroke.colour, 0.9, Marks::Shape::circle, through_legend};
     for (const PortraitOrbit& orbit : portrait.through) copies.push_back({orbit});
+    for (const reduction::State& point : portrait.points) points.points.push_back(place(point.u, point.v));
     heads_.clear();
-    add_plain(copies, stroke, "through the points given");
+    add_plain(copies, stroke, through_legend);
+    panel_.marks.push_back(std::move(points));
   }
   if (portrait.highlight) {
     heads_.clear();
-    add_plain({{*portrait.highlight}}, stroke, drawing_.caption.highlight);
-    panel_.marks.push_back({{map_.line(*portrait.highlight).front()}, stroke.colour});
+    const Stroke stroke = asked_stroke(drawing_.palette, true);
+    const std::string& legend = drawing_.caption.highlight;
+    add_plain({{*portrait.highlight}}, stroke, legend);
+    panel_.marks.push_back({{map_.line(*portrait.highlight).front()}, stroke.colour, 0.6, Marks::Shape::dot, legend});
   }
 }
 
@@ -442,10 +455,7 @@ std::vector<Point> PortraitPanel::obstacles() const {
 void PortraitPanel::add_isochrones() {
   const std::vector<Isochrone>& isochrones = drawing_.portrait.isochrones;
   if (isochrones.empty()) return;
-  const auto& [name, symbol] = std::pair{drawing_.caption.time_unit_name, drawing_.caption.time_symbol};
-  Lines lines{{},
-              {drawing_.palette.isochrone, 1.1, true},
-              fmt::format("time left {}{}{}", symbol, name.empty() ? "" : ", ", name)};
+  Lines lines{{}, {drawing_.palette.isochrone, 1.1, true}, time_left(drawing_.caption)};
   const std::vector<Point> points = obstacles();
   std::vector<Point> labels;
   const double middle = panel_.x.low < 0 ? on_paper(panel_, {0, 0}).x : -1;
@@ -468,7 +478,7 @@ void PortraitPanel::add_isochrones() {
   }
   panel_.lines.insert(panel_.lines.begin(), lines);
   for (const PhasePortrait& other : drawing_.portrait.comparisons) {
-    Lines its_lines{{}, {drawing_.palette.comparison, 0.9, true, true}, lines.legend + ", " + law_legend(other)};
+    Lines its_lines{{}, {drawing_.palette.comparison, 1.3, false, true}, lines.legend + ", " + law_legend(other)};
     for (const Isochrone& isochrone : other.isochrones) its_lines.lines.push_back(line_of(isochrone));
     panel_.lines.insert(panel_.lines.begin(), std::move(its_lines));
   }

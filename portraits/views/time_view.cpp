@@ -93,8 +93,8 @@ std::vector<MappedPanel> time_view(const Drawing& drawing) {
   if (portrait.highlight) asked.push_back(&*portrait.highlight);
   for (const PortraitOrbit* orbit : asked) {
     if (orbit->u[0] == 0 || orbit->v[0] == 0) continue;
-    add(*orbit, {drawing.palette.highlight, 3.4, false},
-        portrait.highlight && orbit == &*portrait.highlight ? drawing.caption.highlight : "through the points given");
+    const bool of_start = portrait.highlight && orbit == &*portrait.highlight;
+    add(*orbit, asked_stroke(drawing.palette, of_start), of_start ? drawing.caption.highlight : through_legend);
   }
   return {std::move(spinning), std::move(sliding), std::move(ratio)};
 }

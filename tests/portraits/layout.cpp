@@ -210,3 +210,19 @@ TEST_CASE("A panel to scale has units of one length", "[invariant]") {
   const Box box = lay_out(figure).panels[0].box;
   CHECK(box.width / box.height == Approx(2));
 }
+
+TEST_CASE("A panel to scale leaves no height empty when its figure is trimmed", "[table]") {
+  Figure figure;
+  figure.panels = {{}};
+  figure.panels.front().x = {"x", 0, 4, false, {}};
+  figure.panels.front().y = {"y", 0, 1, false, {}};
+  CHECK(trimmed(figure).size.height_mm == figure.size.height_mm);
+  figure.panels.front().to_scale = true;
+  const Box before = lay_out(figure).panels.front().box;
+  figure = trimmed(figure);
+  CHECK(figure.size.height_mm < 90);  // of 120
+  const Box after = lay_out(figure).panels.front().box;
+  CHECK(after.width == Approx(before.width));
+  CHECK(after.height == Approx(before.height));
+  CHECK(trimmed(figure).size.height_mm == Approx(figure.size.height_mm));
+}

@@ -285,6 +285,17 @@ TEST_CASE("Numbers of orbits and isochrones are those asked for", "[table]") {
   const PhasePortrait many = phase_portrait(flow, {.orbits_per_side = 0, .isochrones = 20});
   CHECK(many.orbits.empty());
   CHECK(many.isochrones.size() >= 14);
+  // Each is in one or two pieces.
+  for (int count : {1, 2, 3, 4, 5, 6, 7, 10, 15, 30, 100}) {
+    for (double mu : {0.01, 0.3, 1.0}) {
+      std::set<double> times;
+      for (const auto& isochrone : phase_portrait({{reduction::PadeLaw{}, mu}}, {.isochrones = count}).isochrones) {
+        times.insert(isochrone.tau_stop);
+      }
+      CAPTURE(count, mu, times.size());
+      CHECK(std::abs(static_cast<double>(times.size()) - count) <= std::max(count > 3 ? 1.0 : 0.0, 0.15 * count));
+    }
+  }
 }
 
 TEST_CASE("An orbit through a point begins on the border and passes through it", "[route]") {

@@ -26,7 +26,9 @@ using namespace contensou;
 using portraits::Figure;
 using portraits::inside;
 using portraits::layer;
+using portraits::Lines;
 using portraits::Panel;
+using portraits::Point;
 using portraits::PortraitRequest;
 using portraits::PortraitStyle;
 using portraits::View;
@@ -551,13 +553,18 @@ TEST_CASE("The disc holds everything; its singular points are those of the plane
 
 TEST_CASE("The axis says that it is bent, whatever the title", "[table]") {
   const portraits::SpeedScale scale = portrait_of(0.3).scale;
-  CHECK_THAT(figure_of(0.3).panels[0].y.name, Catch::Contains(fmt::format("^{{{:.3g}}}", scale.exponent)));
+  CHECK_THAT(
+      figure_of(0.3).panels[0].y.name,
+      Catch::Contains(fmt::format("shaded: height as {{/:Italic v^s}}, {{/:Italic s}} = {:.3g}", scale.exponent)));
   CHECK_THAT(figure_of(1).panels[0].y.name, !Catch::Contains("shaded"));
 }
 
 TEST_CASE("Isochrones of the law that a portrait is compared with have their legend", "[table]") {
   const Panel panel = draw(portrait_of(0.3, {.comparison = reduction::PadeLaw()}), {}, plain).panels.front();
-  CHECK(layer(panel, "time left τ*, law pade").lines.size() > 3);
+  const Lines& its_isochrones = layer(panel, "time left {/:Italic τ}*, law pade");
+  CHECK(its_isochrones.lines.size() > 3);
+  CHECK(its_isochrones.stroke.dotted);  // its orbits are dashed
+  CHECK_FALSE(its_isochrones.stroke.dashed);
 }
 
 TEST_CASE("The blown-up origin is a circle of its own, with a node and a saddle", "[table]") {
@@ -638,7 +645,7 @@ TEST_CASE("Every panel of every view draws the other law too", "[invariant]") {
       const Figure figure = draw(portraits::phase_portrait(system, {.view = view, .comparison = other}));
       for (const Panel& panel : figure.panels) {
         INFO(portraits::name(view) << ", law " << other.name() << ", " << panel.title);
-        const portraits::Lines& lines = layer(panel, "law " + other.name());
+        const Lines& lines = layer(panel, "law " + other.name());
         CHECK(lines.stroke.dashed);
         std::size_t seen = 0;
         for (const auto& same : panel.lines) {
@@ -677,7 +684,36 @@ TEST_CASE("A highlighted orbit is marked at its start, and points asked for have
     REQUIRE(panel.marks.size() == 2);  // and the stop
     CHECK(panel.marks[0].points[0].x == sign);
   }
-  CHECK(layer(figure_of(0.3, {.through = {{0.5, 1}, {-0.5, 2}}}).panels[0], "through").lines.size() == 2);
+  const Figure figure = draw(portrait_of(0.3, {.highlight = State{1, 2}, .through = {{0.5, 1}, {-0.5, 2}}}),
+                             {.highlight = "this motion"});
+  const Panel& panel = figure.panels[0];
+  const Lines &through = layer(panel, "through"), &own = layer(panel, "this motion");
+  CHECK(through.lines.size() == 2);
+  CHECK(through.stroke.width < 0.7 * own.stroke.width);
+  const auto points = std::ranges::find(panel.marks, through.legend, &portraits::Marks::legend);
+  REQUIRE(points != panel.marks.end());
+  REQUIRE(points->points.size() == 2);
+  for (int i : {0, 1}) {
+    CHECK(points->points[i].x == std::vector{0.5, -0.5}[i]);
+    CHECK(std::ranges::any_of(through.lines[i], [&](Point point) {
+      return portraits::paper_distance(panel, point, points->points[i]) < 0.02;
+    }));
+  }
+}
+
+TEST_CASE("Times of a colour bar are all written in one way, under the name of the isochrones", "[table]") {
+  for (View view : {View::uv, View::similarity, View::log, View::disc, View::blowup}) {
+    for (double mu : {0.01, 0.3, 1.0}) {
+      const Figure figure = figure_of(mu, {.view = view});
+      CAPTURE(portraits::name(view), mu);
+      CHECK((figure.colour_bar || view == View::log));
+      if (!figure.colour_bar) continue;
+      CHECK(figure.colour_bar->name == "time left {/:Italic τ}*");
+      const auto& ticks = figure.colour_bar->ticks;
+      CHECK((std::ranges::all_of(ticks, [](const auto& tick) { return tick.text.starts_with("10^{"); }) ||
+             std::ranges::none_of(ticks, [](const auto& tick) { return tick.text.starts_with("10^{"); })));
+    }
+  }
 }
 
 TEST_CASE("An orbit stays on its side of the blown-up origin to the end", "[invariant]") {

@@ -32,6 +32,7 @@ TEST_CASE("every verb has help with an example", "[cli]") {
     CHECK(run.status == 0);
     CHECK(run.err.empty());
     CHECK_THAT(run.out, Contains("Example:") && Contains("contensou " + verb));
+    CHECK(run.out.find("\nColumns and fields:\n") == run.out.rfind("\nColumns and fields:\n"));
     CHECK(run_program("help " + verb).out == run.out);
     CHECK_THAT(run_program("--help").out, Contains("\n  " + verb + " ") && Contains("contensou " + verb));
   }

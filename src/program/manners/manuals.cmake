@@ -22,5 +22,9 @@ foreach(verb IN ITEMS "" LISTS VERBS)
   file(WRITE ${OUT}/include "${include}")
   execute_process(COMMAND ${HELP2MAN} --no-info --include=${OUT}/include --output=${OUT}/${page}.1 "--help-option=help ${verb}"
     ${CONTENSOU} COMMAND_ERROR_IS_FATAL ANY)
+  # A line each.
+  file(READ ${OUT}/${page}.1 manual)
+  string(REGEX REPLACE "(\n\\.SH EXAMPLES\n\\.IP\n)(([^.\n][^\n]*\n)+)" "\\1.nf\n\\2.fi\n" manual "${manual}")
+  file(WRITE ${OUT}/${page}.1 "${manual}")
 endforeach()
 file(REMOVE ${OUT}/include)

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "contensou/portraits/layout.hpp"
 
 namespace contensou::program {
 
@@ -74,7 +77,7 @@ portraits::Figure FigureOptions::apply(portraits::Figure figure, const std::stri
   figure.font = font_.value_or("");
   if (dpi_.given() && format != "png") dpi_.reject(fmt::format("a {} has no dots: leave it out", format));
   figure.dpi = static_cast<double>(dpi_.value_or(static_cast<long>(figure.dpi)));
-  return figure;
+  return size().height_mm ? figure : portraits::trimmed(std::move(figure));
 }
 
 }  // namespace contensou::program

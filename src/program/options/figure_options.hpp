@@ -26,7 +26,7 @@ class FigureOptions {
   /// --size; nothing of it without the option.
   portraits::AskedSize size() const { return size_.value_or(portraits::AskedSize{}); }
 
-  /// The figure with the title, the font and the dots that are asked for.
+  /// The figure with the title, the font and the dots that are asked for, as high as it needs unless a height is.
   /// @param format  that it is written in
   /// @throws BadInput  for --dpi with other than png, for --font with tex
   portraits::Figure apply(portraits::Figure figure, const std::string& format) const;

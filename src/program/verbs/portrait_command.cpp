@@ -134,7 +134,10 @@ class PortraitCommand final : public Verb {
     add(
         "--through", "U,V", "also the orbit through this point; may be repeated",
         [this](const std::string& typed) { request_.through.push_back(parse_point(typed)); }, true);
-    add("--isochrones", "N", fmt::format("about N isochrones of the stop time, 0 to {} (default 7)", max_isochrones),
+    add("--isochrones", "N",
+        fmt::format("so many isochrones of the stop time, 0 to {}, as nearly as round times allow (default about 7, in "
+                    "a column 4)",
+                    max_isochrones),
         [this, read = at_most(max_isochrones)](const std::string& typed) {
           if (!typed.empty()) request_.isochrones = read(typed);
         })

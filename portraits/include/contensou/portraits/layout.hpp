@@ -110,6 +110,10 @@ int panel_columns(double width_mm, int panels);
 /// @param usual  the size in which its panels, side by side, look best
 PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked);
 
+/// A figure of one panel to scale, lower by what that leaves empty above and below; any other as it is.
+/// @throws std::domain_error  as lay_out
+Figure trimmed(Figure figure);
+
 /// The size of a panel of such a figure in mm, about: what is left beside names and ticks.
 Point panel_size(const PaperSize& figure, int panels);
 

@@ -70,6 +70,7 @@ struct PhasePortrait {
   std::vector<Isochrone> isochrones;       ///< in the window
   std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
   std::vector<PortraitOrbit> through;      ///< the orbits through the points asked for, from the border
+  std::vector<reduction::State> points;    ///< those points
   /// Another law in the same window, with isochrones of the same times; one if asked for, else none.
   std::vector<PhasePortrait> comparisons;
 
@@ -83,7 +84,7 @@ struct PortraitRequest {
   std::optional<reduction::State> highlight = {};  ///< the window then contains it
   std::vector<reduction::State> through = {};      ///< points in the window, neither u nor v 0
   std::optional<int> orbits_per_side = {};         ///< of u = 0, >= 0
-  std::optional<int> isochrones = {};              ///< about so many, >= 0; 7 if not said
+  std::optional<int> isochrones = {};  ///< so many, >= 0, as nearly as round times allow; about 7 if not said
   std::optional<reduction::Law> comparison = {};
   bool stepped = false;  ///< orbits by (2.7), stepped in beta, in place of the flow's own
   /// The axis of v is linear also where the plane is then a comb of verticals: where orbits enter the origin along v =
