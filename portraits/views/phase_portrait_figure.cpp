@@ -85,7 +85,7 @@ MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& c
     figure.panels.push_back(std::move(shown.panel));
     mapped.maps.push_back(std::move(shown.map));
   }
-  if (drawing.coloured() && portrait.view != View::time) figure.colour_bar = colour_bar(drawing.bands, caption);
+  if (drawing.coloured() && !shows_moments(portrait.view)) figure.colour_bar = colour_bar(drawing.bands, caption);
   return mapped;
 }
 

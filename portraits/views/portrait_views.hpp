@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,7 +21,15 @@ std::vector<MappedPanel> similarity_view(const Drawing& drawing);
 std::vector<MappedPanel> blowup_view(const Drawing& drawing);
 std::vector<MappedPanel> disc_view(const Drawing& drawing);
 std::vector<MappedPanel> time_view(const Drawing& drawing);
+std::vector<MappedPanel> regularised_view(const Drawing& drawing);
 std::vector<MappedPanel> pair_view(const Drawing& drawing);
+
+/// Motions from five ratios at the start, of each law, and those asked for: what the views of motions are drawn from.
+void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
+                                                                  Stroke stroke, const std::string& legend)>& add);
+
+/// The ratios, growing: about where sliding alone takes as long as pivoting alone, and half-decades to both sides.
+std::vector<double> start_ratios(const PhasePortrait& portrait);
 
 /// How orbits near the origin: (u, ln k), where even a contact of order 10^5 with an axis has a shape.
 MappedPanel contact_panel(const Drawing& drawing, bool right_half);
@@ -79,6 +89,11 @@ inline constexpr std::array view_layouts{
                far_times, "the Poincaré disc: every orbit is born at infinity and dies at the stop"},
     ViewLayout{View::time, "time", "u, v and k against tau/tau*", time_view, 3, 270, 105, nullptr,
                "by scaling only {/:Italic k}_0 = {/:Italic v}_0/({/:Italic μu}_0) matters"},
+    ViewLayout{
+        View::regularised, "regularised",
+        "u, ln v and tau against 1 + beta/beta_1, where 1/beta_1 = 40 mu^3 u0 + 105 pi v0 (ball, exact and pade)",
+        regularised_view, 3, 270, 105, nullptr,
+        "in {/:Italic β} (2.7) has no denominator, and rest is never reached: (2.8) gives the finite stop back"},
     ViewLayout{View::pair, "pair", "the plane beside (u, ln k)", pair_view, 2, 300, 125, nullptr, plane_shows},
 };
 

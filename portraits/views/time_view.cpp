@@ -28,16 +28,46 @@ double clamped_ln_k(const Instant& at, const Instant&) {
 
 }  // namespace
 
-std::vector<MappedPanel> time_view(const Drawing& drawing) {
-  const PhasePortrait& portrait = drawing.portrait;
+std::vector<double> start_ratios(const PhasePortrait& portrait) {
   const reduction::ReducedSystem& system = portrait.system();
-  // About where sliding alone takes as long as pivoting alone, half-decades to both sides: 1, 3, 10, ...
   const double same_time = 1 / (system.r() * system.law().pivoting_moment());
   const double middle = std::round(2 * std::log10(same_time));
-  std::vector<double> k_start;
+  std::vector<double> ratios;  // 1, 3, 10, ...
   for (double half = middle - 2; half <= middle + 2; ++half) {
-    k_start.push_back((std::fmod(half, 2) == 0 ? 1 : 3) * std::pow(10, std::floor(half / 2)));
+    ratios.push_back((std::fmod(half, 2) == 0 ? 1 : 3) * std::pow(10, std::floor(half / 2)));
   }
+  return ratios;
+}
+
+void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
+                                                                  Stroke stroke, const std::string& legend)>& add) {
+  const PhasePortrait& portrait = drawing.portrait;
+  const std::vector<double> ratios = start_ratios(portrait);
+  const auto add_all = [&](const PhasePortrait& of, bool compared) {
+    const std::vector<Colour>& times = drawing.palette.times;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      const double ln_k = std::log(ratios[i]);
+      const Stroke stroke = compared ? Stroke{drawing.palette.comparison, 1.3, true}
+                                     : Stroke{times[i * (times.size() - 1) / (ratios.size() - 1)], 1.8, false};
+      const std::string legend =
+          compared ? law_legend(of) : fmt::format("{{/:Italic k}}_0 = {}", number(std::exp(ln_k), 3));
+      add(of, orbit_through(of.flow, ln_k, 0, 0), stroke, legend);
+    }
+  };
+  add_all(portrait, false);
+  for (const PhasePortrait& other : portrait.comparisons) add_all(other, true);
+  if (!drawing.style.asked) return;
+  const auto add_asked = [&](const PortraitOrbit& orbit, bool of_start, const std::string& legend) {
+    if (orbit.u[0] == 0 || orbit.v[0] == 0) return;
+    add(portrait, orbit, asked_stroke(drawing.palette, of_start), legend);
+  };
+  for (const PortraitOrbit& orbit : portrait.through) add_asked(orbit, false, through_legend);
+  if (portrait.highlight) add_asked(*portrait.highlight, true, drawing.caption.highlight);
+}
+
+std::vector<MappedPanel> time_view(const Drawing& drawing) {
+  const PhasePortrait& portrait = drawing.portrait;
+  const std::vector<double> k_start = start_ratios(portrait);
   MappedPanel spinning{{}, over_time([](const Instant& at, const Instant& start) { return at.u / start.u; })};
   MappedPanel sliding{{}, over_time([](const Instant& at, const Instant& start) { return at.v / start.v; })};
   MappedPanel ratio{{}, over_time(clamped_ln_k)};
@@ -62,39 +92,17 @@ std::vector<MappedPanel> time_view(const Drawing& drawing) {
     k.y.high = highest + 6;
   }
 
-  const auto add = [&](const PortraitOrbit& orbit, Stroke stroke, const std::string& legend) {
+  add_courses(drawing, [&](const PhasePortrait&, const PortraitOrbit& orbit, Stroke stroke, const std::string& legend) {
     for (MappedPanel* mapped : {&spinning, &sliding, &ratio}) {
       Polyline line = mapped->map.line(orbit);
       if (std::isnan(line.back().y)) line.pop_back();
       mapped->panel.lines.push_back({{std::move(line)}, stroke, legend});
     }
-  };
-  const auto add_courses = [&](const PhasePortrait& of, bool compared) {
-    const std::vector<Colour>& times = drawing.palette.times;
-    for (std::size_t i = 0; i < k_start.size(); ++i) {
-      const double ln_k = std::log(k_start[i]);
-      const Stroke stroke = compared ? Stroke{drawing.palette.comparison, 1.3, true}
-                                     : Stroke{times[i * (times.size() - 1) / (k_start.size() - 1)], 1.8, false};
-      const std::string legend =
-          compared ? law_legend(of) : fmt::format("{{/:Italic k}}_0 = {}", number(std::exp(ln_k), 3));
-      add(orbit_through(of.flow, ln_k, 0, 0), stroke, legend);
-    }
-  };
-  add_courses(portrait, false);
-  for (const PhasePortrait& other : portrait.comparisons) add_courses(other, true);
+  });
   if (!rays.empty() && drawing.style.invariant) {
     Lines lines{{}, {drawing.palette.comparison, 1.6, true}, rays.size() == 1 ? "{/:Italic k}*" : "invariant rays"};
     for (double ln_k : rays) lines.lines.push_back({{0, ln_k}, {1, ln_k}});
     k.lines.push_back(std::move(lines));
-  }
-  if (!drawing.style.asked) return {std::move(spinning), std::move(sliding), std::move(ratio)};
-  std::vector<const PortraitOrbit*> asked;
-  for (const PortraitOrbit& orbit : portrait.through) asked.push_back(&orbit);
-  if (portrait.highlight) asked.push_back(&*portrait.highlight);
-  for (const PortraitOrbit* orbit : asked) {
-    if (orbit->u[0] == 0 || orbit->v[0] == 0) continue;
-    const bool of_start = portrait.highlight && orbit == &*portrait.highlight;
-    add(*orbit, asked_stroke(drawing.palette, of_start), of_start ? drawing.caption.highlight : through_legend);
   }
   return {std::move(spinning), std::move(sliding), std::move(ratio)};
 }

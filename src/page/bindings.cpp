@@ -421,9 +421,11 @@ val bodies() {
   });
 }
 
-/// {name, layered}: whether isochrones and a field are drawn in it.
+/// {name, layered}: whether isochrones and a field are drawn in it. Not of the view of beta: there a click is no moment.
 val views() {
-  return list(portraits::views(), [](portraits::View view) {
+  std::vector<portraits::View> shown = portraits::views();
+  std::erase(shown, portraits::View::regularised);
+  return list(shown, [](portraits::View view) {
     return object("name", portraits::name(view), "layered", portraits::shows_window(view));
   });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/regularised_motion.hpp"
 #include "figures.hpp"
 
 using namespace contensou;
@@ -392,7 +394,7 @@ TEST_CASE("The state at a point of a panel lies there, in every view", "[invaria
       REQUIRE(maps.size() == figure.panels.size());
       for (std::size_t i = 0; i < maps.size(); ++i) {
         INFO(portraits::name(view) << " at mu = " << mu << ", panel " << i);
-        CHECK((maps[i].state == nullptr) == (view == View::time));
+        CHECK((maps[i].state == nullptr) == shows_moments(view));
         if (!maps[i].state) continue;
         int states = 0;
         constexpr int steps = 24;
@@ -608,6 +610,50 @@ TEST_CASE("Against time both speeds fall from 1 to 0, and k starts where its leg
     for (const auto& layer : figure.panels[2].lines) {
       CHECK(layer.legend.find("k}_0 = ") != std::string::npos);
       CHECK(layer.lines.front().front().x == 0);
+    }
+  }
+}
+
+TEST_CASE("Against beta both speeds fall like powers in the end, and the time goes to tau*", "[limit]") {
+  struct Regime {
+    const char* law;
+    reduction::Inertia body;
+    double mu, power_of_u, power_of_v;
+  };
+  // Of the exact law: v ~ beta^(-14/(5 mu^2)); a ray; r K = 8/5.
+  for (const auto& [law, body, mu, power_of_u, power_of_v] :
+       {Regime{"exact", {3.5, 2.5}, 1, 1, 2.8}, Regime{"exact", {3.5, 2.5}, 0.05, 1, 1120},
+        Regime{"uniform", {1, 2}, 1, 1, 1}, Regime{"exact", {1, 8}, 1, 1.6, 1}}) {
+    INFO(law << " gamma " << body.gamma << " mu " << mu);
+    const reduction::Flow flow({*reduction::find_law(law), mu, body});
+    const auto portrait = portraits::phase_portrait(flow, {.view = View::regularised});
+    const auto [figure, maps] = draw_mapped(portrait, {}, plain);
+    REQUIRE(figure.panels.size() == 3);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const auto& u = figure.panels[0].lines[i].lines.front();
+      const auto& v = figure.panels[1].lines[i].lines.front();
+      const auto& tau = figure.panels[2].lines[i].lines.front();
+      CHECK((u.front().x == 1 && u.front().y == 1 && v.front().y == 0 && tau.front().y == 0));
+      const auto &a = u[u.size() - 2], &b = u.back();
+      const double step = std::log(b.x / a.x);
+      CHECK(-std::log(b.y / a.y) / step == Approx(power_of_u).epsilon(0.03));
+      CHECK(-(v.back().y - v[v.size() - 2].y) / step == Approx(power_of_v).epsilon(0.03));
+      CHECK(tau.back().y > 0.99);
+      CHECK(tau.back().y < 1);
+    }
+    // beta by stepping (2.7): 1/beta_1 is 2 chi/(3 pi) times 128 r Psi(0) w + 45 pi^2 v.
+    constexpr double pi = std::numbers::pi;
+    const State start{1, 3 * mu};
+    const auto stepped = reduction::integrate_regularised(flow.system(), start).points;
+    const double rate = 2 * body.chi / (3 * pi) *
+                        (128 * flow.system().r() * flow.system().law().pivoting_moment() * mu + 45 * pi * pi * start.v);
+    const auto instant = [&](const reduction::OrbitPoint& at) {
+      const double left = flow.orbit({at.u, at.v}).stop_time();
+      return portraits::PortraitOrbit::Instant{at.u, at.v, at.ln_v, at.ln_v - std::log(mu * at.u), left};
+    };
+    for (Eigen::Index row = 1; row < stepped.rows() && stepped.v[row] > 1e-200; ++row) {
+      const double x = maps[0].place(instant(stepped.row(row)), instant(stepped.row(0))).x;
+      REQUIRE(x == Approx(1 + rate * stepped.beta[row]).epsilon(1e-8));
     }
   }
 }

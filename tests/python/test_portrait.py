@@ -52,7 +52,7 @@ def test_as_data():
         np.testing.assert_allclose(taus, line["tau_stop"], rtol=1e-9)
 
 
-@pytest.mark.parametrize("view, panels", [("uv", 1), ("blowup", 2), ("disc", 1), ("time", 3), ("log", 1), ("pair", 2)])
+@pytest.mark.parametrize("view, panels", [("uv", 1), ("blowup", 2), ("disc", 1), ("time", 3), ("regularised", 3), ("log", 1), ("pair", 2)])
 def test_by_matplotlib(view, panels):
     from matplotlib import pyplot
 

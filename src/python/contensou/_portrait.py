@@ -188,7 +188,7 @@ def portrait(
     """The phase portrait of a system, as in Flow, or of a ball in SI units, as `contensou portrait` draws it.
 
     u, v:        the start of an orbit to be highlighted
-    view:        uv, patch, log, similarity, blowup, disc, time, pair
+    view:        uv, patch, log, similarity, blowup, disc, time, regularised, pair
     window:      (U, V): show |u| <= U and v <= V
     orbits:      so many on each side of u = 0
     through:     points (u, v) whose orbits are shown, too

@@ -20,7 +20,7 @@ struct Window {
 };
 
 /// Which axes. A new view is an entry here, a function in views/ and a row in views/portrait_views.hpp.
-enum class View { uv, patch, log, similarity, blowup, disc, time, pair };
+enum class View { uv, patch, log, similarity, blowup, disc, time, regularised, pair };
 
 std::string_view name(View view);
 
@@ -30,6 +30,9 @@ std::optional<View> find_view(std::string_view name);
 
 /// Whether it shows the window itself: there isochrones and a field are drawn, and v may have a SpeedScale.
 constexpr bool shows_window(View view) { return view == View::uv || view == View::patch || view == View::pair; }
+
+/// Whether its points are moments of motions, and not states: then it has no colours of time.
+constexpr bool shows_moments(View view) { return view == View::time || view == View::regularised; }
 
 /// In the order in which they are listed.
 const std::vector<View>& views();

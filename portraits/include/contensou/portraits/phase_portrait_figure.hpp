@@ -41,8 +41,8 @@ struct PanelMap {
 
   /// Where a state lies of an orbit that begins at `start`, which tells the side of u = 0 also at rest.
   std::function<Point(const Instant& at, const Instant& start)> place;
-  /// The state at a point, with no time left; nothing where there is none. Empty where points are moments: x is the
-  /// fraction of the stop time that has passed.
+  /// The state at a point, with no time left; nothing where there is none. Empty where points are moments: in the
+  /// view of time, x is the fraction of the stop time that has passed.
   std::function<std::optional<Instant>(Point)> state = {};
 
   Polyline line(const PortraitOrbit& orbit) const;
