@@ -28,7 +28,6 @@ using reduction::Flow;
 using reduction::Law;
 
 using Pair = std::array<double, 2>;
-using Triple = std::array<double, 3>;
 
 /// An entry of the array that a motion gives.
 struct Instant {
@@ -40,64 +39,63 @@ Instant instant_of(const si::MotionPoint& point) {
   return {t, position.x(), position.y(), velocity.x(), velocity.y(), w.x(), w.y(), w.z(), slip, energy};
 }
 
-/// The fields of a Ball of Python that say what its patch follows from.
-si::PatchSource patch_of(const py::object& ball) {
-  const auto radius = ball.attr("patch_radius").cast<std::optional<double>>();
-  const auto deceleration = ball.attr("spin_deceleration").cast<std::optional<double>>();
-  const auto modulus = ball.attr("youngs_modulus").cast<std::optional<Pair>>();
-  const auto ratio = ball.attr("poisson_ratio").cast<std::optional<Pair>>();
-  if (modulus.has_value() != ratio.has_value() ||
-      radius.has_value() + deceleration.has_value() + modulus.has_value() != 1) {
-    throw std::domain_error(
-        "a ball's patch is given by one of patch_radius, spin_deceleration, and youngs_modulus with poisson_ratio");
+/// What the fields of a Ball of Python say, by their names; None says nothing.
+si::Description described_by(const py::dict& fields) {
+  si::Description described;
+  for (const auto& [key, value] : fields) {
+    const auto name = key.cast<std::string>();
+    const auto quantity = std::ranges::find(si::quantities(), name, &si::Quantity::name);
+    if (quantity == si::quantities().end() || value.is_none()) continue;
+    std::vector<double> numbers;
+    try {
+      numbers = (*quantity)->count() == 1 ? std::vector{value.cast<double>()} : value.cast<std::vector<double>>();
+    } catch (const py::cast_error&) {
+      const std::size_t count = (*quantity)->count();
+      throw py::type_error(fmt::format("{}: {} needed, {}{}{}; got {}", name,
+                                       count == 1 ? "a number is" : fmt::format("{} numbers are", count),
+                                       (*quantity)->meaning, (*quantity)->unit.empty() ? "" : ", in ",
+                                       (*quantity)->unit, py::repr(value).cast<std::string>()));
+    }
+    described.set(**quantity, std::move(numbers), {"", name, ""});
   }
-  if (radius) return si::PatchRadius{*radius};
-  if (deceleration) return si::SpinDeceleration{*deceleration};
-  return si::HertzModuli{.youngs_modulus = *modulus, .poisson_ratio = *ratio};
+  if (fields.contains("name")) described.set_name(fields["name"].cast<std::string>());
+  return described;
 }
 
-/// A Ball of Python with its own start, or with what takes the place of it.
-si::Experiment experiment_of(const py::object& ball, const std::optional<Pair>& velocity,
-                             const std::optional<Triple>& angular_velocity) {
-  const auto number = [&](const char* field) { return ball.attr(field).cast<double>(); };
-  si::Experiment experiment{
-      .ball = {.name = ball.attr("name").cast<std::string>(), .mass = number("mass"), .radius = number("radius")},
-      .contact = {.friction = number("friction"), .patch = patch_of(ball)},
-      .start = si::SlipAndSpin{.slip = number("slip"), .spin = number("spin")},
-      .environment = {.gravity = number("gravity")}};
-  if (velocity || angular_velocity) {
-    si::Velocities start = si::velocities_of(experiment.start);
-    if (velocity) start.velocity = Eigen::Vector2d(velocity->data());
-    if (angular_velocity) start.angular_velocity = Eigen::Vector3d(angular_velocity->data());
-    experiment.start = start;
-  }
-  si::require_experiment(experiment);
-  return experiment;
+si::Description at_rest() {
+  si::Description still;
+  for (const si::Quantity* quantity : {&si::slip, &si::spin})
+    still.set(*quantity, {0}, {"", std::string(quantity->name), ""});
+  return still;
 }
 
 /// The fields of a Ball of Python.
-py::dict fields_of(const si::Experiment& experiment) {
+py::dict fields_of(const si::Description& described) {
+  py::dict fields;
+  if (!described.name().empty()) fields["name"] = described.name();
+  for (const si::Quantity* quantity : si::quantities()) {
+    const auto* given = described.find(*quantity);
+    if (given == nullptr) continue;
+    const py::str name{std::string(quantity->name)};
+    fields[name] = given->numbers.size() == 1 ? py::object(py::float_(given->numbers[0]))
+                                              : py::object(py::tuple(py::cast(given->numbers)));
+  }
+  return fields;
+}
+
+/// The fields of a Ball of Python that it has without being told.
+py::dict fields_of_ball(const si::Description& described) {
+  const si::Experiment experiment = si::experiment_of(described);
+  const std::string law = si::law_of(experiment);
   if (experiment.ball.body.lies_flat()) {
     const auto [chi, gamma] = experiment.ball.body.inertia;
-    const std::string law = si::law_of(experiment);
     throw std::domain_error(
         fmt::format("{} is a {}, which lies flat, and a Ball rolls: use Flow(mu={}, law=\"{}\", body=({}, {}))",
                     experiment.ball.name, experiment.ball.body.name,
                     si::patch_ratio(experiment, *reduction::find_law(law)), law, chi, gamma));
   }
-  py::dict fields;
-  fields["name"] = experiment.ball.name;
-  fields["mass"] = experiment.ball.mass;
-  fields["radius"] = experiment.ball.radius;
-  fields["friction"] = experiment.contact.friction;
-  fields["gravity"] = experiment.environment.gravity;
-  fields["slip"] = si::slip_at_start(experiment);
-  fields["spin"] = si::spin_at_start(experiment);
-  fields["law"] = si::law_of(experiment);
-  for (const auto& [quantity, values] : si::given_by(experiment.contact.patch)) {
-    const py::str name(std::string(quantity->name));
-    fields[name] = values.size() == 1 ? py::object(py::float_(values[0])) : py::make_tuple(values[0], values[1]);
-  }
+  py::dict fields = fields_of(described);
+  fields["law"] = law;
   return fields;
 }
 
@@ -145,21 +143,24 @@ void bind_si(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Instant, t, x, y, vx, vy, wx, wy, wz, slip, energy);
 
   py::class_<si::Experiment>(module, "Experiment")
-      .def(py::init(&experiment_of))
-      .def(py::init([](const py::object& ball, double speed, Pair tip, double elevation, double cue_mass) {
-        si::Experiment experiment = experiment_of(ball, {}, {});
-        experiment.start = si::struck(experiment.ball, {.speed = speed,
-                                                        .right = tip[0],
-                                                        .above = tip[1],
-                                                        .elevation = elevation * (std::numbers::pi / 180),
-                                                        .mass = cue_mass});
-        si::require_experiment(experiment);
-        return experiment;
-      }))
+      .def(py::init([](const py::dict& fields) { return si::experiment_of(at_rest().under(described_by(fields))); }))
+      .def("struck",
+           [](si::Experiment experiment, double speed, Pair tip, double elevation, double cue_mass) {
+             experiment.start = si::struck(experiment.ball, {.speed = speed,
+                                                             .right = tip[0],
+                                                             .above = tip[1],
+                                                             .elevation = elevation * (std::numbers::pi / 180),
+                                                             .mass = cue_mass});
+             si::require_experiment(experiment);
+             return experiment;
+           })
       .def(
           "flow",
           [](const si::Experiment& experiment, const Law& law) { return Flow(si::reduced_system(experiment, law)); },
           Released())
+      .def_property_readonly("gravity", [](const si::Experiment& experiment) { return experiment.environment.gravity; })
+      .def_property_readonly("slip", &si::slip_at_start)
+      .def_property_readonly("spin", &si::spin_at_start)
       .def_property_readonly("start", [](const si::Experiment& experiment) {
         const auto [velocity, w] = si::velocities_of(experiment.start);
         return py::make_tuple(py::make_tuple(velocity.x(), velocity.y()), py::make_tuple(w.x(), w.y(), w.z()));
@@ -171,11 +172,19 @@ void bind_si(py::module_& module) {
   module.def("ball", [](const std::string& name) {
     std::vector<std::pair<std::string, si::Experiment>> balls;
     for (const si::CatalogueEntry& entry : si::catalogue()) balls.emplace_back(entry.name, entry.experiment);
-    return fields_of(one_of("ball", "balls", balls, name));
+    return fields_of_ball(si::describe(one_of("ball", "balls", balls, name)));
   });
   module.def("parse_run_file", [](const std::string& text, const std::string& source) {
-    return fields_of(si::parse_run_file(text, source));
+    return fields_of_ball(si::parse_run_file(text, source));
   });
+  module.def("changed", [](const py::dict& fields, const py::dict& changes) {
+    return fields_of(described_by(fields).under(described_by(changes)));
+  });
+  module.attr("quantities") = [] {
+    py::list names;
+    for (const si::Quantity* quantity : si::quantities()) names.append(py::str(std::string(quantity->name)));
+    return names;
+  }();
   module.def(
       "engines",
       [](const si::Experiment& experiment, const Law& law, const std::optional<std::string>& name) {

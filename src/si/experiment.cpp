@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,19 +14,45 @@
 
 namespace contensou::si {
 
-std::vector<GivenQuantity> given_by(const PatchSource& patch) {
-  if (const auto* given = std::get_if<PatchRadius>(&patch)) return {{&patch_radius, {given->value}}};
-  if (const auto* measured = std::get_if<SpinDeceleration>(&patch)) return {{&spin_deceleration, {measured->value}}};
-  if (std::holds_alternative<WholeFace>(patch)) return {};
-  const auto& [moduli, ratios] = std::get<HertzModuli>(patch);
-  return {{&youngs_modulus, {moduli.begin(), moduli.end()}}, {&poisson_ratio, {ratios.begin(), ratios.end()}}};
+static_assert(gravity.standard == Environment{}.gravity && rolling_friction.standard == 0);
+
+double* member_of(Experiment& experiment, const Quantity& quantity) {
+  const std::pair<const Quantity*, double*> members[]{{&mass, &experiment.ball.mass},
+                                                      {&radius, &experiment.ball.radius},
+                                                      {&friction, &experiment.contact.friction},
+                                                      {&rolling_friction, &experiment.contact.rolling_friction}};
+  const auto* const found = std::ranges::find(members, &quantity, &std::pair<const Quantity*, double*>::first);
+  return found == std::end(members) ? nullptr : found->second;
 }
 
-std::vector<GivenQuantity> given_by(const Start& start) {
-  if (const auto* along_x = std::get_if<SlipAndSpin>(&start))
-    return {{&slip, {along_x->slip}}, {&spin, {along_x->spin}}};
-  const auto& [centre, body] = std::get<Velocities>(start);
-  return {{&velocity, {centre.begin(), centre.end()}}, {&angular_velocity, {body.begin(), body.end()}}};
+std::vector<GivenQuantity> given_by(Experiment experiment) {
+  std::vector<GivenQuantity> given;
+  for (const Quantity* quantity : quantities()) {
+    const double* const member = member_of(experiment, *quantity);
+    if (member && quantity->standard != *member) given.push_back({quantity, {*member}});
+  }
+  const auto add = [&](const Quantity& quantity, const auto&... values) { given.push_back({&quantity, {values...}}); };
+  const PatchSource& patch = experiment.contact.patch;
+  if (const auto* radius_given = std::get_if<PatchRadius>(&patch)) add(patch_radius, radius_given->value);
+  if (const auto* measured = std::get_if<SpinDeceleration>(&patch)) add(spin_deceleration, measured->value);
+  if (const auto* moduli = std::get_if<HertzModuli>(&patch)) {
+    add(youngs_modulus, moduli->youngs_modulus[0], moduli->youngs_modulus[1]);
+    add(poisson_ratio, moduli->poisson_ratio[0], moduli->poisson_ratio[1]);
+  }
+  if (const auto* along_x = std::get_if<SlipAndSpin>(&experiment.start)) {
+    add(slip, along_x->slip);
+    add(spin, along_x->spin);
+  } else {
+    const auto& [centre, body] = std::get<Velocities>(experiment.start);
+    add(velocity, centre.x(), centre.y());
+    add(angular_velocity, body.x(), body.y(), body.z());
+  }
+  if (const auto& [g, newtons] = experiment.environment; newtons) {
+    add(load, *newtons);
+  } else {
+    add(gravity, g);
+  }
+  return given;
 }
 
 std::string origin_of(const PatchSource& patch) {
@@ -81,13 +109,8 @@ double slip_at_start(const Experiment& experiment) {
 double spin_at_start(const Experiment& experiment) { return velocities_of(experiment.start).angular_velocity.z(); }
 
 void require_experiment(const Experiment& experiment) {
-  require(mass, experiment.ball.mass);
-  require(radius, experiment.ball.radius);
-  require(friction, experiment.contact.friction);
-  for (const auto& given : {given_by(experiment.contact.patch), given_by(experiment.start)}) {
-    for (const auto& [quantity, values] : given) {
-      for (double value : values) require(*quantity, value);
-    }
+  for (const auto& [quantity, values] : given_by(experiment)) {
+    for (double value : values) require(*quantity, value);
   }
   require(gravity, experiment.environment.gravity);
   if (experiment.ball.body.lies_flat()) {

@@ -13,6 +13,22 @@
 
 namespace contensou::si {
 
+std::size_t Quantity::count() const { return 1 + static_cast<std::size_t>(std::ranges::count(components, ',')); }
+
+const std::vector<const Quantity*>& quantities() {
+  static const std::vector<const Quantity*> all{
+      &mass,          &radius, &friction, &rolling_friction, &patch_radius,     &spin_deceleration, &youngs_modulus,
+      &poisson_ratio, &slip,   &spin,     &velocity,         &angular_velocity, &gravity,           &load};
+  return all;
+}
+
+const std::vector<Ways>& alternatives() {
+  static const std::vector<Ways> all{{{&patch_radius}, {&spin_deceleration}, {&youngs_modulus, &poisson_ratio}},
+                                     {{&slip, &spin}, {&velocity, &angular_velocity}},
+                                     {{&gravity}, {&load}}};
+  return all;
+}
+
 const std::vector<Dimension>& dimensions() {
   using std::numbers::pi;
   static const std::vector<Dimension> all{
@@ -59,7 +75,8 @@ std::optional<double> parse_quantity(std::string_view text, const Dimension& dim
   if (symbol == dimension.symbol) return number;
   const auto unit = std::ranges::find(dimension.others, symbol, &Unit::symbol);
   if (unit == dimension.others.end()) return std::nullopt;
-  return number * unit->factor / unit->divisor;
+  const double scaled = number * unit->factor;
+  return std::isfinite(scaled) ? scaled / unit->divisor : number / unit->divisor * unit->factor;
 }
 
 void require(const Quantity& quantity, double value) {

@@ -6,7 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <initializer_list>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -44,7 +45,7 @@ std::string shortest(double value) {
 }
 
 /// What the user calls a key: `key` in [section].
-std::string place(const Section& section, std::string_view key) {
+std::string called(const Section& section, std::string_view key) {
   return section.path.empty() ? fmt::format("'{:.80}'", key) : fmt::format("'{:.80}' in [{}]", key, section.path);
 }
 
@@ -144,57 +145,57 @@ class Screen {
   std::size_t dots_ = 0;   ///< of the key that is being read
 };
 
+/// Words of a run file that are no quantities.
+struct WordKey {
+  std::string_view section, key;
+};
+constexpr WordKey name_key{"ball", "name"}, body_key{"ball", "body"}, law_key{"contact", "law"};
+
 class Reader {
  public:
-  Reader(std::string_view source, const Overrides& overrides, const StartOverride& start)
-      : source_(source), overrides_(overrides), start_(start) {}
+  explicit Reader(std::string_view source) : source_(source) {}
 
-  Experiment read(std::string_view text) const {
+  Description read(std::string_view text) const {
     const toml::table document = parse(text);
-    const Section file{"", &document, {1, 1}};
-    const Section ball = section(file, "ball");
-    const Section contact = section(file, "contact");
-    const Section start = section(file, "start");
-    const Section environment = section(file, "environment");
-    allow(file, {"ball", "contact", "start", "environment"});
-    allow(ball, {"name", "body", mass.name, radius.name});
-    allow(contact, {friction.name, patch_radius.name, spin_deceleration.name, "hertz", "law"});
-    allow(start, {slip.name, spin.name, velocity.name, angular_velocity.name});
-    allow(environment, {gravity.name, load.name});
-
-    const Experiment experiment{
-        .ball = {.name = line_of(ball, "name", "ball"),
-                 .mass = number(ball, mass),
-                 .radius = number(ball, radius),
-                 .body = body(ball)},
-        .contact = {.friction = number(contact, friction), .patch = patch(contact, body(ball)), .law = law(contact)},
-        .start = start_of(start),
-        .environment = {.gravity = gravity_of(environment, ball)},
-    };
-    // Of values that the file does not have it is not the place.
-    if (overrides_.empty()) {
-      at(contact.position, [&] { require_experiment(experiment); });
-    } else {
-      require_experiment(experiment);
+    std::vector<Section> sections{{"", &document, {1, 1}}};
+    std::map<std::string, std::string, std::less<>> places;
+    for (const Quantity* quantity : quantities()) {
+      if (places.contains(quantity->section)) continue;
+      sections.push_back(section(sections, quantity->section));
+      places.emplace(quantity->section, place(sections.back().position));
     }
-    return experiment;
+    for (const Section& each : sections) require_known_keys(each, sections);
+
+    Description described(std::move(places));
+    for (const Quantity* quantity : quantities()) {
+      const Section& parent = *std::ranges::find(sections, quantity->section, &Section::path);
+      const auto found = parent.table->find(quantity->name);
+      if (found == parent.table->end()) continue;
+      const Source source{place(found->first.source().begin), fmt::format("'{}'", quantity->name),
+                          fmt::format("[{}]", quantity->section)};
+      described.set(*quantity, numbers(found->second, parent, *quantity), source);
+    }
+    const auto word = [&](WordKey of, auto take) {
+      const Section& parent = *std::ranges::find(sections, of.section, &Section::path);
+      if (const toml::node* node = parent.table->get(of.key))
+        take(line_of(*node, parent, of.key), Source{place(node->source().begin), "", ""});
+    };
+    word(name_key, [&](const std::string& name, const Source&) { described.set_name(name); });
+    word(body_key, [&](const std::string& name, const Source& source) { described.set_body(name, source); });
+    word(law_key, [&](const std::string& name, const Source& source) { described.set_law(name, source); });
+    described.require_no_contradiction();
+    return described;
   }
 
  private:
+  std::string place(toml::source_position where) const {
+    return fmt::format("{}:{}:{}", source_, where.line, where.column);
+  }
+
   [[noreturn]] void fail(toml::source_position where, std::string_view message) const {
     std::string shown(message);  // it may quote the file
     std::ranges::replace_if(shown, is_control, '?');
-    throw RunFileError(fmt::format("{}:{}:{}: {}", source_, where.line, where.column, shown));
-  }
-
-  /// Gives the complaint of a check a place in the file.
-  template <class Check>
-  void at(toml::source_position where, Check check) const {
-    try {
-      check();
-    } catch (const std::domain_error& error) {
-      fail(where, error.what());
-    }
+    throw RunFileError(fmt::format("{}: {}", place(where), shown));
   }
 
   toml::table parse(std::string_view text) const {
@@ -209,63 +210,51 @@ class Reader {
     }
   }
 
-  Section section(const Section& parent, std::string_view key) const {
-    const std::string path = parent.path.empty() ? std::string(key) : fmt::format("{}.{}", parent.path, key);
+  /// The table of a path, which is empty if it is not there; of those before, one is its parent.
+  Section section(const std::vector<Section>& before, std::string_view path) const {
+    const std::size_t dot = path.rfind('.');
+    const std::string_view of = dot == std::string_view::npos ? "" : path.substr(0, dot);
+    const Section& parent = *std::ranges::find(before, of, &Section::path);
     static const toml::table none;
+    const std::string_view key = path.substr(dot + 1);
     const toml::node* node = parent.table->get(key);
-    if (node == nullptr) return {path, &none, parent.position};
+    if (node == nullptr) return {std::string(path), &none, parent.position};
     if (!node->is_table()) fail(node->source().begin, fmt::format("'{}' must be a table: write [{}]", key, path));
-    return {path, node->as_table(), node->source().begin};
+    return {std::string(path), node->as_table(), node->source().begin};
   }
 
-  void allow(const Section& section, std::initializer_list<std::string_view> keys) const {
-    const std::vector<std::string> names(keys.begin(), keys.end());
+  /// Rejects a key that no quantity, no word and no section has.
+  void require_known_keys(const Section& section, const std::vector<Section>& sections) const {
+    std::vector<std::string> names;
+    for (const WordKey& word : {name_key, body_key, law_key}) {
+      if (word.section == section.path) names.emplace_back(word.key);
+    }
+    for (const Quantity* quantity : quantities()) {
+      if (quantity->section == section.path) names.emplace_back(quantity->name);
+    }
+    const std::string before = section.path.empty() ? "" : section.path + ".";
+    for (const Section& other : sections) {
+      if (other.path.size() > before.size() && other.path.starts_with(before) &&
+          other.path.find('.', before.size()) == std::string::npos)
+        names.push_back(other.path.substr(before.size()));
+    }
     for (const auto& [key, node] : *section.table) {
       if (std::ranges::find(names, key.str()) != names.end()) continue;
       fail(key.source().begin,
-           fmt::format("unknown {} {}{}; allowed: {}", node.is_table() ? "table" : "key", place(section, key.str()),
+           fmt::format("unknown {} {}{}; allowed: {}", node.is_table() ? "table" : "key", called(section, key.str()),
                        suggestion(key.str(), names), fmt::join(names, ", ")));
     }
   }
 
-  std::string line_of(const Section& section, std::string_view key, std::string_view standard) const {
-    const toml::node* node = section.table->get(key);
-    if (node == nullptr) return std::string(standard);
-    if (!node->is_string()) {
-      fail(node->source().begin, fmt::format("{} must be a string in quotes", place(section, key)));
-    }
-    const std::string& text = node->as_string()->get();
+  std::string line_of(const toml::node& node, const Section& section, std::string_view key) const {
+    if (!node.is_string())
+      fail(node.source().begin, fmt::format("{} must be a string in quotes", called(section, key)));
+    const std::string& text = node.as_string()->get();
     if (std::ranges::any_of(text, is_control)) {
-      fail(node->source().begin,
-           fmt::format("{} must be one line of text without control characters", place(section, key)));
+      fail(node.source().begin,
+           fmt::format("{} must be one line of text without control characters", called(section, key)));
     }
     return text;
-  }
-
-  Body body(const Section& ball) const {
-    const std::string typed = line_of(ball, "body", "ball");
-    std::vector<std::string> names;
-    for (const Body& body : bodies()) {
-      if (!body.lies_flat() && body.name != "ball") continue;  // the strokes and the textbook are of a solid ball
-      if (body.name == typed) return body;
-      names.emplace_back(body.name);
-    }
-    fail(ball.table->get("body")->source().begin,
-         fmt::format("no such body '{:.80}'{}; bodies: {}", typed, suggestion(typed, names), fmt::join(names, ", ")));
-  }
-
-  std::string law(const Section& contact) const {
-    const std::string name = line_of(contact, "law", "");
-    if (name.empty()) return name;
-    try {
-      if (reduction::find_law(name)) return name;
-    } catch (const std::domain_error& error) {
-      fail(contact.table->get("law")->source().begin, error.what());
-    }
-    std::vector<std::string> names;
-    for (const reduction::Law& known : reduction::named_laws()) names.push_back(known.name());
-    fail(contact.table->get("law")->source().begin,
-         fmt::format("no such law '{:.80}'{}; laws: {}", name, suggestion(name, names), fmt::join(names, ", ")));
   }
 
   double number(const toml::node& node, const Section& section, const Quantity& quantity) const {
@@ -279,116 +268,34 @@ class Reader {
     } else if (const auto* real = node.as_floating_point()) {
       value = real->get();
     } else {
-      fail(node.source().begin, fmt::format("{} must be a number{}", place(section, quantity.name),
+      fail(node.source().begin, fmt::format("{} must be a number{}", called(section, quantity.name),
                                             dimension ? fmt::format(", in {0}, or one in quotes with {1} behind it",
                                                                     quantity.unit, units_of(*dimension))
                                                       : ""));
     }
-    at(node.source().begin, [&] { require(quantity, value); });
+    try {
+      require(quantity, value);
+    } catch (const std::domain_error& error) {
+      fail(node.source().begin, error.what());
+    }
     return value;
   }
 
-  double number(const Section& section, const Quantity& quantity, std::optional<double> standard = {}) const {
-    if (const auto found = overrides_.find(quantity.name); found != overrides_.end()) return found->second;
-    const toml::node* node = section.table->get(quantity.name);
-    if (node != nullptr) return number(*node, section, quantity);
-    if (standard) return *standard;
-    fail(section.position, fmt::format("{} is missing: {}{}{}", place(section, quantity.name), quantity.meaning,
-                                       quantity.unit.empty() ? "" : ", in ", quantity.unit));
-  }
-
-  template <std::size_t Count>
-  std::array<double, Count> numbers(const Section& section, const Quantity& quantity) const {
-    static_assert(Count == 2 || Count == 3);
-    const toml::node* node = section.table->get(quantity.name);
-    if (node == nullptr) {
-      fail(section.position, fmt::format("{} is missing: {}", place(section, quantity.name), quantity.meaning));
+  /// Of a vector, the numbers of an array.
+  std::vector<double> numbers(const toml::node& node, const Section& section, const Quantity& quantity) const {
+    const std::size_t count = quantity.count();
+    if (count == 1) return {number(node, section, quantity)};
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->size() != count) {
+      fail(node.source().begin, fmt::format("{} must be {} numbers in brackets: {}", called(section, quantity.name),
+                                            count == 2 ? "two" : "three", quantity.meaning));
     }
-    const toml::array* array = node->as_array();
-    if (array == nullptr || array->size() != Count) {
-      fail(node->source().begin, fmt::format("{} must be {} numbers in brackets: {}", place(section, quantity.name),
-                                             Count == 2 ? "two" : "three", quantity.meaning));
-    }
-    std::array<double, Count> values{};
-    for (std::size_t i = 0; i < Count; ++i) values[i] = number((*array)[i], section, quantity);
+    std::vector<double> values;
+    for (const toml::node& each : *array) values.push_back(number(each, section, quantity));
     return values;
   }
 
-  /// By gravity, or by the load over the mass.
-  double gravity_of(const Section& environment, const Section& ball) const {
-    const bool load_given = overrides_.contains(load.name);
-    const bool gravity_given = overrides_.contains(gravity.name);
-    if (load_given && gravity_given) {
-      throw std::domain_error("a load and a gravity exclude each other: give one of them");
-    }
-    const bool load_in_file = environment.table->contains(load.name);
-    if (load_in_file && environment.table->contains(gravity.name)) {
-      fail(environment.position, "'load' and 'gravity' in [environment] exclude each other: give one of them");
-    }
-    return load_given || (load_in_file && !gravity_given) ? number(environment, load) / number(ball, mass)
-                                                          : number(environment, gravity, Environment{}.gravity);
-  }
-
-  Start start_of(const Section& start) const {
-    if (start_.velocity && start_.angular_velocity) return Velocities{*start_.velocity, *start_.angular_velocity};
-    Start given = given_start(start);
-    if (!start_.velocity && !start_.angular_velocity) return given;
-    auto [centre, body] = velocities_of(given);
-    return Velocities{start_.velocity.value_or(centre), start_.angular_velocity.value_or(body)};
-  }
-
-  /// slip and spin, or velocity and angular_velocity; never both.
-  Start given_start(const Section& start) const {
-    const auto key_of = [&](const Quantity& quantity) -> const toml::key* {
-      const auto found = start.table->find(quantity.name);
-      return found == start.table->end() ? nullptr : &found->first;
-    };
-    const toml::key* general = key_of(velocity) != nullptr ? key_of(velocity) : key_of(angular_velocity);
-    if (general == nullptr) return SlipAndSpin{.slip = number(start, slip), .spin = number(start, spin)};
-    for (const Quantity* quantity : {&slip, &spin}) {
-      const toml::key* key = key_of(*quantity);
-      if (key == nullptr && !overrides_.contains(quantity->name)) continue;
-      fail((key == nullptr ? general : key)->source().begin,
-           fmt::format("'{}' and '{}' in [start] exclude each other: give slip and spin, or velocity and "
-                       "angular_velocity",
-                       quantity->name, general->str()));
-    }
-    const auto [x, y] = numbers<2>(start, velocity);
-    const auto [wx, wy, wz] = numbers<3>(start, angular_velocity);
-    return Velocities{{x, y}, {wx, wy, wz}};
-  }
-
-  PatchSource patch(const Section& contact, const Body& body) const {
-    const bool radius_given = overrides_.contains(patch_radius.name);
-    const bool deceleration_given = overrides_.contains(spin_deceleration.name);
-    if (radius_given && deceleration_given) {
-      throw std::domain_error("a patch radius and a spin deceleration exclude each other: give one of them");
-    }
-
-    std::vector<std::string_view> given;
-    for (std::string_view key : {patch_radius.name, spin_deceleration.name, std::string_view("hertz")}) {
-      if (contact.table->contains(key)) given.push_back(key);
-    }
-    const bool overridden = radius_given || deceleration_given;
-    if (body.lies_flat() && given.empty() && !overridden) return WholeFace{};
-    if (given.size() > 1 || (given.empty() && !overridden)) {
-      fail(contact.position, fmt::format("[contact] must have exactly one of patch_radius, spin_deceleration and the "
-                                         "table [contact.hertz]; it has {}",
-                                         given.empty() ? "none" : fmt::format("{}", fmt::join(given, " and "))));
-    }
-    if (radius_given) return PatchRadius{number(contact, patch_radius)};
-    if (deceleration_given) return SpinDeceleration{number(contact, spin_deceleration)};
-    if (given.front() == patch_radius.name) return PatchRadius{number(contact, patch_radius)};
-    if (given.front() == spin_deceleration.name) return SpinDeceleration{number(contact, spin_deceleration)};
-    const Section hertz = section(contact, "hertz");
-    allow(hertz, {youngs_modulus.name, poisson_ratio.name});
-    return HertzModuli{.youngs_modulus = numbers<2>(hertz, youngs_modulus),
-                       .poisson_ratio = numbers<2>(hertz, poisson_ratio)};
-  }
-
   std::string_view source_;
-  const Overrides& overrides_;
-  const StartOverride& start_;
 };
 
 std::string line(const Quantity& quantity, const std::vector<double>& values) {
@@ -401,19 +308,7 @@ std::string line(const Quantity& quantity, const std::vector<double>& values) {
 
 }  // namespace
 
-Experiment parse_run_file(std::string_view text, std::string_view source, const Overrides& overrides,
-                          const StartOverride& start) {
-  for (const auto& [name, value] : overrides) {
-    const Quantity* known = nullptr;
-    for (const Quantity* quantity :
-         {&mass, &radius, &friction, &patch_radius, &spin_deceleration, &slip, &spin, &gravity, &load}) {
-      if (quantity->name == name) known = quantity;
-    }
-    if (known == nullptr) throw std::domain_error(fmt::format("parse_run_file: no value is called '{}'", name));
-    require(*known, value);
-  }
-  return Reader(source, overrides, start).read(text);
-}
+Description parse_run_file(std::string_view text, std::string_view source) { return Reader(source).read(text); }
 
 std::string read_run_text(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
@@ -425,32 +320,27 @@ std::string read_run_text(const std::string& path) {
   return text;
 }
 
-Experiment read_run_file(const std::string& path, const Overrides& overrides, const StartOverride& start) {
-  return parse_run_file(read_run_text(path), path, overrides, start);
-}
+Description read_run_file(const std::string& path) { return parse_run_file(read_run_text(path), path); }
 
 std::string run_file(const Experiment& experiment, std::string_view remark) {
   std::string text;
   std::istringstream lines{std::string(remark)};
   for (std::string comment; std::getline(lines, comment);) text += fmt::format("# {}\n", comment);
-  std::ostringstream name;
-  name << toml::value<std::string>(experiment.ball.name);
-  const std::string_view body = experiment.ball.body.name;
-
-  const auto add = [&](const std::vector<GivenQuantity>& given) {
-    for (const auto& [quantity, values] : given) text += line(*quantity, values);
+  const auto word = [](const WordKey& of, std::string_view value) {
+    std::ostringstream quoted;
+    quoted << toml::value<std::string>(std::string(value));
+    return fmt::format("{} = {}\n", of.key, quoted.str());
   };
-  const auto& [ball, contact, start, environment] = experiment;
-  text += fmt::format("[ball]\nname = {}\n", name.str());
-  if (body != "ball") text += fmt::format("body = \"{}\"\n", body);
-  add({{&mass, {ball.mass}}, {&radius, {ball.radius}}});
-  text += "\n[contact]\n" + line(friction, {contact.friction});
-  if (!contact.law.empty()) text += fmt::format("law = \"{}\"\n", contact.law);
-  if (std::holds_alternative<HertzModuli>(contact.patch)) text += "\n[contact.hertz]\n";
-  add(given_by(contact.patch));
-  text += "\n[start]\n";
-  add(given_by(start));
-  text += "\n[environment]\n" + line(gravity, {environment.gravity});
+  std::string_view section;
+  for (const auto& [quantity, values] : given_by(experiment)) {
+    if (section != quantity->section) text += fmt::format("{}[{}]\n", section.empty() ? "" : "\n", quantity->section);
+    if (quantity == &mass) text += word(name_key, experiment.ball.name);
+    if (quantity == &mass && experiment.ball.body.name != Body{}.name)
+      text += word(body_key, experiment.ball.body.name);
+    section = quantity->section;
+    text += line(*quantity, values);
+    if (quantity == &friction && !experiment.contact.law.empty()) text += word(law_key, experiment.contact.law);
+  }
   return text;
 }
 

@@ -87,6 +87,57 @@ void check_key(const RunFile& with, const RunFile& without, const std::string& o
 
 }  // namespace
 
-TEST_CASE("a run file's law is that of every verb", "[cli]") {
+TEST_CASE("every key of a run file is what its option is, for every verb", "[cli]") {
   check_key({.law = "law = \"pade\""}, {}, " --law pade");
+  check_key({.radius = "radius = 0.025"}, {}, " --radius 0.025");
+  check_key({.friction = "friction = 0.3"}, {}, " --friction 0.3");
+  check_key({.patch = "patch_radius = 0.002"}, {}, " --patch-radius 0.002");
+  check_key({.patch = "spin_deceleration = 7"}, {}, " --spin-deceleration 7");
+  check_key({.patch = "hertz = {youngs_modulus = [1e6, 2e6], poisson_ratio = [0.4, 0.3]}"}, {},
+            " --youngs-modulus 1e6,2e6 --poisson-ratio 0.4,0.3");
+  check_key({.environment = "gravity = 1.6"}, {}, " --gravity 1.6");
+  check_key({.mass = "mass = 0.1", .environment = "load = 3"}, {.environment = "load = 3"}, " --mass 0.1");
+  check_key({.environment = "load = '3 N'"}, {}, " --load 3");
+  check_key({.start = "slip = 2\nspin = 60"}, {}, " --slip 2", true);
+  check_key({.start = "slip = 0.7\nspin = -9"}, {}, " --spin -9", true);
+  check_key({.start = "velocity = [0.3, 1]\nangular_velocity = [0, 0, 60]"}, {}, " --velocity 0.3,1", true);
+  check_key({.start = "velocity = [0.7, 0]\nangular_velocity = [0, 0, 5]"}, {}, " --angular-velocity 0,0,5", true);
+}
+
+TEST_CASE("a run file keeps a cloth: its rolling friction is that of roll", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string cloth = scratch.file("cloth.toml"), without = scratch.file("without.toml");
+  write_file(cloth, RunFile{.law = "rolling_friction = 0.008"}.text());
+  write_file(without, RunFile{}.text());
+  for (const std::string options : {"roll --format json", "roll --format text"}) {
+    const Run run = run_program(options + " --ball " + cloth);
+    CHECK_THAT(run.out, Contains("rest"));
+    CHECK(run.out == run_program(options + " --rolling-friction 0.008 --ball " + without).out);
+    CHECK(run_program(options + " --rolling-friction 0 --ball " + cloth).out ==
+          run_program(options + " --ball " + without).out);
+  }
+  const Run batch = run_program("roll --batch - --ball " + cloth, "slip,spin\n1,2\n");
+  CHECK(rows_of(batch.out)[0].back() == "y_rest");
+  CHECK(json_of("stop --format json --ball " + cloth).at("ball").at("rolling_friction") == 0.008);
+}
+
+TEST_CASE("a start is given in one way", "[cli]") {
+  check_rejected("stop --ball pool --slip 1 --velocity 1,0",
+                 "--slip and --velocity exclude each other: give slip and spin");
+  CHECK_THAT(run_program("roll --ball pool --batch -", "slip,spin,wz\n5,7,1\n").err,
+             StartsWith("<stdin>:1: columns slip, spin and vx, vy, wx, wy, wz exclude each other"));
+  CHECK_THAT(run_program("check --ball pool --against -", "t,slip,spin,wz\n0,1,7,7\n1,0,5,6\n").err,
+             StartsWith("<stdin>:3: spin 5 and wz 6 are one angular velocity, and differ"));
+  CHECK(run_program("check --ball pool --against -", "t,slip,spin,wz\n0,1,7,7\n1,0,5,5\n").status == 1);
+  // A start by velocities, in every verb.
+  CHECK(json_of("stop --format json --ball pool --velocity 0,2 --angular-velocity 0,0,9").at("t_stop") ==
+        json_of("stop --format json --ball pool --slip 2 --spin 9").at("t_stop"));
+  // A number that fits a double in SI units fits one.
+  CHECK(json_of("stop --format json --ball pool --slip 1e308km/h").at("v0") == 1e308 / 3.6);
+}
+
+TEST_CASE("a load is told as one", "[cli]") {
+  CHECK_THAT(run_program("stop --ball gel --load 3").out, Contains("friction 0.5, load 3 N\n") && !Contains("gravity"));
+  CHECK_THAT(run_program("engine --ball gel --load 3").out, Contains("mass 0.113 kg, load 3 N, friction f = 0.5"));
+  CHECK(json_of("engine --ball gel --format json").at("load") == 0.113 * 9.80665);
 }

@@ -1,5 +1,6 @@
 #include "contensou/si/run_file.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -30,6 +31,21 @@ slip = 1.0
 spin = 100
 )";
 
+using Given = std::vector<std::pair<const Quantity*, std::vector<double>>>;
+
+/// What options say.
+Description options(const Given& given) {
+  Description above;
+  for (const auto& [quantity, values] : given)
+    above.set(*quantity, values, {"", "--" + std::string(quantity->name), ""});
+  return above;
+}
+
+/// The experiment of a run file, with what options put in place of its values.
+Experiment read(const std::string& text, const std::string& source, const Given& given = {}) {
+  return experiment_of(parse_run_file(text, source).under(options(given)));
+}
+
 std::string with(std::string text, const std::string& old, const std::string& replacement) {
   const auto at = text.find(old);
   REQUIRE(at != std::string::npos);
@@ -51,6 +67,7 @@ void check_same(const Experiment& a, const Experiment& b) {
   CHECK(a.ball.mass == b.ball.mass);
   CHECK(a.ball.radius == b.ball.radius);
   CHECK(a.contact.friction == b.contact.friction);
+  CHECK(a.contact.rolling_friction == b.contact.rolling_friction);
   CHECK(same(a.contact.patch, b.contact.patch));
   CHECK(a.start.index() == b.start.index());
   CHECK(velocities_of(a.start).velocity == velocities_of(b.start).velocity);
@@ -61,7 +78,7 @@ void check_same(const Experiment& a, const Experiment& b) {
 }  // namespace
 
 TEST_CASE("a run file in full", "[table]") {
-  const Experiment experiment = parse_run_file(good, "x.toml");
+  const Experiment experiment = read(good, "x.toml");
   CHECK(experiment.ball.name == "pool ball on cloth");
   CHECK(experiment.ball.mass == 0.1701);
   CHECK(experiment.ball.radius == 0.028575);
@@ -70,10 +87,10 @@ TEST_CASE("a run file in full", "[table]") {
   CHECK(slip_at_start(experiment) == 1);
   CHECK(spin_at_start(experiment) == 100);
   CHECK(experiment.environment.gravity == 9.80665);
-  CHECK(parse_run_file(good + "[environment]\ngravity = 1.62\n", "x.toml").environment.gravity == 1.62);
+  CHECK(read(good + "[environment]\ngravity = 1.62\n", "x.toml").environment.gravity == 1.62);
   const std::string hertz =
       with(good, "spin_deceleration = 10", "hertz = {youngs_modulus = [2.1e11, 7.0e10], poisson_ratio = [0.3, 0.22]}");
-  const auto moduli = std::get<HertzModuli>(parse_run_file(hertz, "x.toml").contact.patch);
+  const auto moduli = std::get<HertzModuli>(read(hertz, "x.toml").contact.patch);
   CHECK(moduli.youngs_modulus[1] == 7.0e10);
   CHECK(moduli.poisson_ratio[0] == 0.3);
 }
@@ -81,50 +98,57 @@ TEST_CASE("a run file in full", "[table]") {
 TEST_CASE("what is written reads back to the same doubles", "[invariant]") {
   for (const CatalogueEntry& entry : catalogue()) {
     INFO(entry.name);
-    check_same(parse_run_file(run_file(entry.experiment, entry.sources), entry.name), entry.experiment);
+    check_same(read(run_file(entry.experiment, entry.sources), entry.name), entry.experiment);
   }
   const Experiment awkward{
       .ball = {.name = "a \"quoted\" 'name' with \\ and \xC3\xA9", .mass = 1.0 / 3, .radius = 1e300},
       .contact = {.friction = 5e-324, .patch = PatchRadius{1e299 / 3}},
       .start = SlipAndSpin{.slip = 12345678901234567890.0, .spin = -0.1},
       .environment = {.gravity = 123456789}};
-  check_same(parse_run_file(run_file(awkward, "a remark\n\nof three lines"), "awkward"), awkward);
+  check_same(read(run_file(awkward, "a remark\n\nof three lines"), "awkward"), awkward);
 }
 
 TEST_CASE("a start may be given by its velocities", "[table]") {
   const std::string general =
       with(with(good, "slip = 1.0", "velocity = [1, -0.5]"), "spin = 100", "angular_velocity = [3, 1e3, -7.5]");
-  const Experiment experiment = parse_run_file(general, "x.toml");
+  const Experiment experiment = read(general, "x.toml");
   const auto& start = std::get<Velocities>(experiment.start);
   CHECK(start.velocity == Eigen::Vector2d(1, -0.5));
   CHECK(start.angular_velocity == Eigen::Vector3d(3, 1000, -7.5));
-  check_same(parse_run_file(run_file(experiment), "written"), experiment);
+  check_same(read(run_file(experiment), "written"), experiment);
   const Experiment awkward{.ball = experiment.ball,
                            .contact = experiment.contact,
                            .start = Velocities{{1.0 / 3, -5e-324}, {12345678901234567890.0, 0, -1e-300}}};
-  check_same(parse_run_file(run_file(awkward), "written"), awkward);
+  check_same(read(run_file(awkward), "written"), awkward);
 }
 
 TEST_CASE("velocities take the place of a start, one or both", "[table]") {
-  const StartOverride velocity_only{.velocity = Eigen::Vector2d(2, 3)};
-  const Velocities kept = velocities_of(parse_run_file(good, "x.toml", {}, velocity_only).start);
+  const Velocities kept = velocities_of(read(good, "x.toml", {{&velocity, {2, 3}}}).start);
   CHECK(kept.velocity == Eigen::Vector2d(2, 3));
   CHECK(kept.angular_velocity == Eigen::Vector3d(0, 0, 100));
-  const StartOverride spin_only{.angular_velocity = Eigen::Vector3d(4, 5, 6)};
-  CHECK(velocities_of(parse_run_file(good, "x.toml", {}, spin_only).start).velocity == Eigen::Vector2d(1, 0));
+  CHECK(velocities_of(read(good, "x.toml", {{&angular_velocity, {4, 5, 6}}}).start).velocity == Eigen::Vector2d(1, 0));
   // Both of them need no [start].
   const std::string without = good.substr(0, good.find("[start]"));
-  const StartOverride both{Eigen::Vector2d(2, 3), Eigen::Vector3d(4, 5, 6)};
-  CHECK(velocities_of(parse_run_file(without, "x.toml", {}, both).start).angular_velocity == Eigen::Vector3d(4, 5, 6));
-  CHECK_THROWS_WITH(parse_run_file(without, "x.toml", {}, velocity_only), Contains("'slip' in [start] is missing"));
+  const Given both{{&velocity, {2, 3}}, {&angular_velocity, {4, 5, 6}}};
+  CHECK(velocities_of(read(without, "x.toml", both).start).angular_velocity == Eigen::Vector3d(4, 5, 6));
+  CHECK_THROWS_WITH(
+      read(without, "x.toml", {{&velocity, {2, 3}}}),
+      "x.toml:1:1: 'angular_velocity' in [start] is missing: angular velocity, x, y and z (up), in rad/s");
+  // And a slip with a spin takes the place of both; not one of them alone, which leaves open what the other is.
+  const std::string general =
+      with(with(good, "slip = 1.0", "velocity = [1, 2]"), "spin = 100", "angular_velocity = [0, 0, 1]");
+  CHECK(std::get<SlipAndSpin>(read(general, "x.toml", {{&slip, {3}}, {&spin, {4}}}).start).spin == 4);
+  CHECK_THROWS_WITH(read(general, "x.toml", {{&spin, {3}}}),
+                    "x.toml:9:1: --spin and 'velocity' in [start] exclude each other: give 'slip' and 'spin' in "
+                    "[start], or 'velocity' and 'angular_velocity' in [start]");
 }
 
 TEST_CASE("values in quotes may have another unit", "[table]") {
-  CHECK(parse_run_file(with(good, "radius = 0.028575", "radius = \"2.25 in\""), "x.toml").ball.radius == 0.05715);
-  CHECK(spin_at_start(parse_run_file(with(good, "spin = 100", "spin = '60 rpm'"), "x.toml")) ==
+  CHECK(read(with(good, "radius = 0.028575", "radius = \"2.25 in\""), "x.toml").ball.radius == 0.05715);
+  CHECK(spin_at_start(read(with(good, "spin = 100", "spin = '60 rpm'"), "x.toml")) ==
         Approx(2 * std::numbers::pi).epsilon(1e-15));
   CHECK_THROWS_WITH(
-      parse_run_file(with(good, "0.1701", "\"6 m\""), "x.toml"),
+      read(with(good, "0.1701", "\"6 m\""), "x.toml"),
       Contains("x.toml:3:8: 'mass' in [ball] must be a number, in kg, or one in quotes with kg, g, lb or oz"));
 }
 
@@ -146,10 +170,12 @@ TEST_CASE("mistakes are found with their place", "[table]") {
       {with(good, "0.1701", "-1"), "x.toml:3:8: ", {"got -1"}},
       {with(good, "pool ball on cloth", "two\\nlines"), "x.toml:2:8: ", {"one line", "control characters"}},
       {with(good, "\"pool ball on cloth\"", "3"), "x.toml:2:8: ", {"'name' in [ball] must be a string"}},
-      {with(good, "spin_deceleration = 10\n", ""), "x.toml:5:1: ", {"exactly one of", "it has none"}},
-      {with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3"),
+      {with(good, "spin_deceleration = 10\n", ""),
        "x.toml:5:1: ",
-       {"exactly one of", "patch_radius and spin_deceleration"}},
+       {"the patch is missing: give 'patch_radius' in [contact], or", "'poisson_ratio' in [contact.hertz]"}},
+      {with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3"),
+       "x.toml:8:1: ",
+       {"'patch_radius' and 'spin_deceleration' in [contact] exclude each other"}},
       {with(good, "spin_deceleration = 10", "patch_radius = 0.03"), "x.toml:5:1: ", {"at most the ball's radius"}},
       {with(good, "spin_deceleration = 10", "hertz = 3"), "x.toml:7:9: ", {"must be a table", "[contact.hertz]"}},
       {with(good, "spin_deceleration = 10", "hertz = {youngs_modulus = [1e9]}"), "x.toml:7:", {"two numbers"}},
@@ -184,17 +210,17 @@ TEST_CASE("mistakes are found with their place", "[table]") {
   };
   for (const auto& [text, place, words] : mistakes) {
     INFO(text);
-    CHECK_THROWS_AS(parse_run_file(text, "x.toml"), RunFileError);
-    CHECK_THROWS_WITH(parse_run_file(text, "x.toml"), StartsWith(place));
-    for (const std::string& word : words) CHECK_THROWS_WITH(parse_run_file(text, "x.toml"), Contains(word));
+    CHECK_THROWS_AS(read(text, "x.toml"), RunFileError);
+    CHECK_THROWS_WITH(read(text, "x.toml"), StartsWith(place));
+    for (const std::string& word : words) CHECK_THROWS_WITH(read(text, "x.toml"), Contains(word));
   }
 }
 
 TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
   const auto refused = [](const std::string& text, const std::string& message) {
     INFO(text.substr(0, 80));
-    CHECK_THROWS_AS(parse_run_file(text, "x.toml"), RunFileError);
-    CHECK_THROWS_WITH(parse_run_file(text, "x.toml"), Contains(message));
+    CHECK_THROWS_AS(read(text, "x.toml"), RunFileError);
+    CHECK_THROWS_WITH(read(text, "x.toml"), Contains(message));
   };
   const auto repeated = [](const std::string& piece, int times) {
     std::string text;
@@ -229,10 +255,10 @@ TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
   const std::string dots = repeated("([{.", 20);
   for (const std::string quotes : {"\"", "'"}) {
     const std::string named = with(good, "\"pool ball on cloth\"", quotes + dots + quotes + " # " + dots);
-    CHECK(parse_run_file(named, "x.toml").ball.name == dots);
+    CHECK(read(named, "x.toml").ball.name == dots);
   }
   refused(with(good, "pool ball on cloth", R"(\"([)" + dots + "\" ("), "x.toml:2:95: not TOML");
-  CHECK(parse_run_file("\xEF\xBB\xBF" + good, "x.toml").ball.mass == 0.1701);
+  CHECK(read("\xEF\xBB\xBF" + good, "x.toml").ball.mass == 0.1701);
 }
 
 TEST_CASE("a run file that never ends, or is not there", "[limit]") {
@@ -242,25 +268,38 @@ TEST_CASE("a run file that never ends, or is not there", "[limit]") {
 }
 
 TEST_CASE("a load in place of gravity", "[table]") {
-  const auto gravity = [](const std::string& environment, const Overrides& overrides = {}) {
-    return parse_run_file(good + environment, "x.toml", overrides).environment.gravity;
+  const auto pressed = [](const std::string& environment, const Given& given = {}) {
+    return read(good + environment, "x.toml", given).environment;
   };
-  CHECK(gravity("[environment]\nload = 3\n") == 3 / 0.1701);
-  CHECK(gravity("[environment]\nload = '3 kN'\n") == 3000 / 0.1701);
-  CHECK(gravity("", {{"load", 3}, {"mass", 0.5}}) == 6);
+  const auto is_gravity = [](const Environment& environment, double value) {
+    return environment.gravity == value && !environment.load;
+  };
+  const auto is_load = [](const Environment& environment, double value, double of_mass) {
+    return environment.gravity == value / of_mass && environment.load == value;
+  };
+  CHECK(is_load(pressed("[environment]\nload = 3\n"), 3, 0.1701));
+  CHECK(is_load(pressed("[environment]\nload = '3 kN'\n"), 3000, 0.1701));
+  CHECK(is_load(pressed("", {{&load, {3}}, {&mass, {0.5}}}), 3, 0.5));
   // The command line's comes before the file's, of either kind.
-  CHECK(gravity("[environment]\ngravity = 1.6\n", {{"load", 3}, {"mass", 0.5}}) == 6);
-  CHECK(gravity("[environment]\nload = 3\n", {{"gravity", 1.6}}) == 1.6);
-  CHECK(gravity("[environment]\nload = 3\n", {{"load", 5}, {"mass", 0.5}}) == 10);
-  CHECK_THROWS_WITH(gravity("[environment]\nload = 3\ngravity = 9.8\n"),
-                    StartsWith("x.toml:11:1: 'load' and 'gravity' in [environment] exclude each other"));
-  CHECK_THROWS_WITH(gravity("[environment]\nload = 0\n"), "x.toml:12:8: load must be finite and > 0, in N, got 0");
-  CHECK_THROWS_WITH(gravity("", {{"load", 3}, {"gravity", 9.8}}), Contains("a load and a gravity exclude each other"));
+  CHECK(is_load(pressed("[environment]\ngravity = 1.6\n", {{&load, {3}}, {&mass, {0.5}}}), 3, 0.5));
+  CHECK(is_gravity(pressed("[environment]\nload = 3\n", {{&gravity, {1.6}}}), 1.6));
+  CHECK(is_load(pressed("[environment]\nload = 3\n", {{&load, {5}}, {&mass, {0.5}}}), 5, 0.5));
+  CHECK_THROWS_WITH(pressed("[environment]\nload = 3\ngravity = 9.8\n"),
+                    "x.toml:13:1: 'gravity' and 'load' in [environment] exclude each other: give 'gravity' in "
+                    "[environment], or 'load' in [environment]");
+  CHECK_THROWS_WITH(pressed("[environment]\nload = 0\n"), "x.toml:12:8: load must be finite and > 0, in N, got 0");
+  CHECK_THROWS_WITH(pressed("", {{&load, {3}}, {&gravity, {9.8}}}),
+                    Contains("--gravity and --load exclude each other"));
+  CHECK_THROWS_WITH(pressed("", {{&load, {1e308}}, {&mass, {1e-9}}}), Contains("gravity must be finite"));
+  // And is written as one.
+  const Experiment loaded = read(good + "[environment]\nload = 3\n", "x.toml");
+  CHECK_THAT(run_file(loaded), Contains("load = 3  # N"));
+  CHECK(is_load(read(run_file(loaded), "written").environment, 3, 0.1701));
 }
 
-TEST_CASE("overrides act as if the file had said so", "[invariant]") {
-  const Overrides overrides{{"radius", 0.03}, {"mass", 0.2},    {"friction", 0.3},         {"slip", 2.0},
-                            {"spin", -5.0},   {"gravity", 1.6}, {"spin_deceleration", 4.0}};
+TEST_CASE("options act as if the file had said so", "[invariant]") {
+  const Given given{{&radius, {0.03}}, {&mass, {0.2}},    {&friction, {0.3}},          {&slip, {2.0}},
+                    {&spin, {-5.0}},   {&gravity, {1.6}}, {&spin_deceleration, {4.0}}, {&rolling_friction, {0.02}}};
   const std::string changed =
       R"([ball]
 name = "pool ball on cloth"
@@ -268,6 +307,7 @@ mass = 0.2
 radius = 0.03
 [contact]
 friction = 0.3
+rolling_friction = 0.02
 spin_deceleration = 4
 [start]
 slip = 2
@@ -275,50 +315,83 @@ spin = -5
 [environment]
 gravity = 1.6
 )";
-  check_same(parse_run_file(good, "x.toml", overrides), parse_run_file(changed, "y.toml"));
+  check_same(read(good, "x.toml", given), read(changed, "y.toml"));
 
-  CHECK(std::get<PatchRadius>(parse_run_file(good, "x.toml", {{"patch_radius", 0.002}}).contact.patch).value == 0.002);
-  CHECK(slip_at_start(parse_run_file(with(good, "slip = 1.0\n", ""), "x.toml", {{"slip", 3.0}})) == 3);
-  const std::string general =
-      with(with(good, "slip = 1.0", "velocity = [1, 0]"), "spin = 100", "angular_velocity = [0, 0, 1]");
-  CHECK_THROWS_WITH(parse_run_file(general, "x.toml", {{"spin", 3.0}}),
-                    StartsWith("x.toml:9:1: 'spin' and 'velocity'"));
-  CHECK_THROWS_WITH(parse_run_file(good, "x.toml", {{"mas", 1.0}}), Contains("'mas'"));
-  CHECK_THROWS_WITH(parse_run_file(good, "x.toml", {{"mass", -1.0}}), Contains("mass must be"));
-  CHECK_THROWS_AS(parse_run_file(good, "x.toml", {{"patch_radius", 1e-3}, {"spin_deceleration", 3.0}}),
-                  std::domain_error);
-  // A value that only the overrides bring has no place in the file.
-  CHECK_THROWS_AS(parse_run_file(good, "x.toml", {{"patch_radius", 1}}), std::domain_error);
-  CHECK_THROWS_WITH(parse_run_file(good, "x.toml", {{"patch_radius", 1}}), !Contains("x.toml"));
-  // A contradictory file stays one, whatever is overridden.
+  CHECK(std::get<PatchRadius>(read(good, "x.toml", {{&patch_radius, {0.002}}}).contact.patch).value == 0.002);
+  CHECK(slip_at_start(read(with(good, "slip = 1.0\n", ""), "x.toml", {{&slip, {3.0}}})) == 3);
+  CHECK_THROWS_WITH(read(good, "x.toml", {{&mass, {-1.0}}}), Contains("mass must be"));
+  CHECK_THROWS_WITH(read(good, "x.toml", {{&velocity, {-1.0}}}), Contains("--velocity must be 2 numbers"));
+  CHECK_THROWS_WITH(read(good, "x.toml", {{&patch_radius, {1e-3}}, {&spin_deceleration, {3.0}}}),
+                    Contains("--patch_radius and --spin_deceleration exclude each other"));
+  // A value that only the options bring has no place in the file.
+  CHECK_THROWS_AS(read(good, "x.toml", {{&patch_radius, {1}}}), std::domain_error);
+  CHECK_THROWS_WITH(read(good, "x.toml", {{&patch_radius, {1}}}), !Contains("x.toml"));
+  // A contradictory file stays one, whatever replaces its values.
   const std::string two = with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3");
-  CHECK_THROWS_AS(parse_run_file(two, "x.toml", {{"patch_radius", 2e-3}}), RunFileError);
+  CHECK_THROWS_AS(read(two, "x.toml", {{&patch_radius, {2e-3}}}), RunFileError);
   const std::string none = with(good, "spin_deceleration = 10\n", "");
-  CHECK(std::get<PatchRadius>(parse_run_file(none, "x.toml", {{"patch_radius", 2e-3}}).contact.patch).value == 2e-3);
+  CHECK(std::get<PatchRadius>(read(none, "x.toml", {{&patch_radius, {2e-3}}}).contact.patch).value == 2e-3);
+  // One modulus alone replaces one, and no other patch.
+  const Experiment steel = find_ball("steel")->experiment;
+  const Given rubber{{&youngs_modulus, {2e6, 2e11}}};
+  const auto moduli = std::get<HertzModuli>(experiment_of(describe(steel).under(options(rubber))).contact.patch);
+  CHECK((moduli.youngs_modulus[0] == 2e6 && moduli.poisson_ratio[0] == 0.3));
+  CHECK_THROWS_WITH(read(good, "x.toml", rubber),
+                    Contains("'spin_deceleration' in [contact] and --youngs_modulus exclude"));
+}
+
+TEST_CASE("every quantity is a key, and is written back", "[invariant]") {
+  for (const CatalogueEntry& entry : catalogue()) {
+    for (const Quantity* quantity : quantities()) {
+      CAPTURE(entry.name, quantity->name);
+      const bool of_a_ball = quantity->section == "contact.hertz" || quantity == &angular_velocity;
+      if (entry.experiment.ball.body.lies_flat() && (of_a_ball || quantity == &radius)) continue;
+      const auto values = [](const Quantity& of) {
+        return std::vector<double>(of.count(), &of == &youngs_modulus ? 0x1p30
+                                               : &of == &patch_radius ? 0x1p-10
+                                                                      : 0x1p-5);
+      };
+      Given given{{quantity, values(*quantity)}};
+      // A modulus comes with a ratio.
+      for (const Ways& ways : alternatives()) {
+        for (const auto& way : ways) {
+          if (std::ranges::find(way, quantity) == way.end() || quantity == &velocity) continue;
+          for (const Quantity* other : way) {
+            if (other != quantity) given.emplace_back(other, values(*other));
+          }
+        }
+      }
+      const Description changed = describe(entry.experiment).under(options(given));
+      const Experiment experiment = experiment_of(changed);
+      const std::string written = run_file(experiment);
+      CHECK_THAT(written, Contains("\n" + std::string(quantity->name) + " = "));
+      CHECK(run_file(read(written, "written")) == written);
+      CHECK(describe(experiment).find(*quantity)->numbers == given.front().second);
+    }
+  }
 }
 
 TEST_CASE("a body that lies flat, and a law of its own", "[table]") {
   const std::string flat = with(with(good, "spin_deceleration = 10\n", ""), "mass", "body = \"disc\"\nmass");
-  const Experiment disc = parse_run_file(flat, "f");
+  const Experiment disc = read(flat, "f");
   CHECK(disc.ball.body.name == "disc");
   CHECK(std::holds_alternative<WholeFace>(disc.contact.patch));
   CHECK(law_of(disc) == "uniform");
   const auto uniform = *contensou::reduction::find_law("uniform");
   CHECK(patch_radius_of(disc, uniform) == 0.028575);
-  CHECK(patch_radius_of(parse_run_file(flat, "f", {{"radius", 0.04}}), uniform) == 0.04);
-  const Experiment banded =
-      parse_run_file(with(flat, "friction", "law = \"annulus:0.9\"\npatch_radius = 0.01\nfriction"), "f");
+  CHECK(patch_radius_of(read(flat, "f", {{&radius, {0.04}}}), uniform) == 0.04);
+  const Experiment banded = read(with(flat, "friction", "law = \"annulus:0.9\"\npatch_radius = 0.01\nfriction"), "f");
   CHECK(law_of(banded) == "annulus:0.9");
   CHECK(patch_radius_of(banded, uniform) == 0.01);
-  CHECK(law_of(parse_run_file(good, "f")) == "exact");
+  CHECK(law_of(read(good, "f")) == "exact");
   // A spin that dies out: J = m R^2/2.
-  const Experiment measured = parse_run_file(flat, "f", {{"spin_deceleration", 10}});
+  const Experiment measured = read(flat, "f", {{&spin_deceleration, {10}}});
   CHECK(patch_radius_of(measured, uniform) ==
         Approx(0.028575 * 0.028575 * 10 / (2 * 0.2 * 9.80665 * (2.0 / 3))).epsilon(1e-14));
 
   const auto refused = [&](const std::string& text, const std::string& words) {
     CAPTURE(text);
-    CHECK_THROWS_WITH(parse_run_file(text, "f"), Contains(words));
+    CHECK_THROWS_WITH(read(text, "f"), Contains(words));
   };
   refused(with(flat, "disc", "disk"),
           "f:3:8: no such body 'disk' (did you mean 'disc'?); bodies: ball, disc, puck, ring");

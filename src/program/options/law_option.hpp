@@ -26,10 +26,10 @@ class LawOption {
   const Argument& argument() const { return law_; }
 
   /// The law of that name, of that exponent (pressure:P), or of the table in that file (with a / or ending in .csv);
-  /// the standard one if none was given.
+  /// the standard one if none was given: of a start StartOptions::standard_law().
   /// @throws BadInput           for an unknown name or an exponent out of range; BadLine for a bad line of the file
   /// @throws std::system_error  if the file cannot be read
-  reduction::Law read(const std::string& standard = std::string(si::Body{}.law)) const;
+  reduction::Law read(const std::string& standard) const;
 
   /// Those of several names between commas. Throws as read.
   std::vector<reduction::Law> read_several(const std::string& standard) const;

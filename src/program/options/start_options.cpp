@@ -31,6 +31,12 @@ Body parse_body(const std::string& typed) {
   return {"", {.chi = ratios[0], .gamma = ratios[1]}, std::nullopt, false};
 }
 
+std::string option_of(const si::Quantity& quantity) {
+  std::string name = fmt::format("--{}", quantity.name);
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
 double parse_sliding_speed(const std::string& typed) {
   const double v0 = parse_number(typed);
   if (v0 < 0) throw NotAllowed("a sliding speed is >= 0; turn the axes so that the ball slides along x");
@@ -76,34 +82,44 @@ void StartOptions::add(CLI::App& app) {
   add_ball(app, "instead of these four: a ball in SI units, built in or from a run file");
 }
 
-void StartOptions::add_ball(CLI::App& app, const std::string& help, bool starts) {
+void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer) {
   app.option_defaults()->group("Start");
   ball_.add(app, "--ball", "NAME|FILE.toml", help + " ('contensou balls' lists them)");
   app.option_defaults()->group("Ball (with --ball, in place of its own values)");
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const si::Quantity& quantity = *quantities[i];
-    if (!starts && (&quantity == &si::slip || &quantity == &si::spin)) continue;
-    std::string name = fmt::format("--{}", quantity.name);
-    std::ranges::replace(name, '_', '-');
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const si::Quantity& quantity = *si::quantities()[i];
+    if (!offer(quantity)) continue;
     const auto read = [&quantity](const std::string& typed) {
-      const double value = parse_quantity(typed, quantity.unit);
+      const std::string components(quantity.components);
+      const std::vector<double> values = quantity.count() == 1
+                                             ? std::vector{parse_quantity(typed, quantity.unit)}
+                                             : numbers(typed, quantity.count(), components, quantity.unit);
       try {
-        si::require(quantity, value);
+        for (double value : values) si::require(quantity, value);
       } catch (const std::domain_error& error) {
         throw NotAllowed(error.what());
       }
-      return value;
+      return values;
     };
     const si::Dimension* dimension = si::find_dimension(quantity.unit);
-    overrides_[i].add(app, name, dimension ? std::string(dimension->name) : "X",
-                      fmt::format("{}{}", quantity.meaning, dimension ? fmt::format(", in {}", dimension->words) : ""),
-                      read);
+    const std::string value_name(quantity.count() > 1 ? quantity.components : dimension ? dimension->name : "X");
+    values_[i].add(app, option_of(quantity), value_name,
+                   fmt::format("{}{}", quantity.meaning, dimension ? fmt::format(", in {}", dimension->words) : ""),
+                   read);
   }
 }
 
 std::string StartOptions::override_names() const {
   std::vector<const Argument*> arguments;
-  for (const Argument& argument : overrides_) arguments.push_back(&argument);
+  for (const Argument& argument : values_) arguments.push_back(&argument);
+  return names_given(arguments);
+}
+
+std::string StartOptions::start_names() const {
+  std::vector<const Argument*> arguments;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    if (si::quantities()[i]->section == si::slip.section) arguments.push_back(&values_[i]);
+  }
   return names_given(arguments);
 }
 
@@ -154,37 +170,51 @@ reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) cons
   return body_.read(law, "--mu M, --ball NAME|FILE.toml");
 }
 
-std::optional<double> StartOptions::override_of(const si::Quantity& quantity) const {
-  return overrides_[static_cast<std::size_t>(std::ranges::find(quantities, &quantity) - quantities.begin())].optional();
+const si::Description& StartOptions::ball_of_its_own() const {
+  if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
+  if (own_) return *own_;
+  try {
+    own_ = names_a_file(ball_.text(), {".toml"}) ? si::read_run_file(ball_.text())
+                                                 : si::describe(require_ball(ball_.text()).experiment);
+  } catch (const NotAllowed& error) {
+    ball_.reject(fmt::format("{}; a file needs a / or the ending .toml", error.what()));
+  }
+  return *own_;
 }
 
-si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::StartOverride& start) const {
-  if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
-  const si::Overrides overrides = this->overrides();
-  if (overrides.contains(si::patch_radius.name) && overrides.contains(si::spin_deceleration.name)) {
-    throw BadInput("--patch-radius and --spin-deceleration exclude each other: give one of them");
+si::Description StartOptions::given_values() const {
+  si::Description given;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    if (values_[i].given()) given.set(*si::quantities()[i], *values_[i], {"", values_[i].name(), ""});
   }
-  if (overrides.contains(si::gravity.name) && overrides.contains(si::load.name)) {
-    throw BadInput("--gravity and --load exclude each other: give one of them");
+  return given;
+}
+
+si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Description& between) const {
+  if (ball_.given()) require_one_kind();
+  const si::Description& own = ball_of_its_own();
+  const si::Description given = given_values();
+  try {
+    given.require_no_contradiction();
+  } catch (const std::domain_error& error) {
+    throw BadInput(error.what());
   }
   try {
-    const BallText& text = read_text();
-    const si::Experiment experiment = text.parsed(overrides, start);
+    const si::Description described = own.under(between).under(given);
+    const si::Experiment experiment = si::experiment_of(described);
     si::patch_radius_of(experiment, law);  // is one that it can have
-    tell_new_patch(text, overrides, experiment, law);
+    tell_new_patch(experiment, law);
     return experiment;
   } catch (const si::RunFileError&) {
     throw;
-  } catch (const NotAllowed& error) {
-    ball_.reject(fmt::format("{}; a file needs a / or the ending .toml", error.what()));
   } catch (const std::domain_error& error) {  // of the values together, not of a place in a file
     const std::string others = override_names();
     ball_.reject((others.empty() ? "" : fmt::format("with {}: ", others)) + error.what());
   }
 }
 
-si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const si::StartOverride& start) const {
-  const si::Experiment experiment = read_ball(law, start);
+si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const si::Description& between) const {
+  const si::Experiment experiment = read_ball(law, between);
   if (!experiment.ball.body.lies_flat()) return experiment;
   ball_.reject(
       fmt::format("a {} lies flat and never rolls; 'contensou stop' says when and where it lies still, 'contensou "
@@ -192,42 +222,20 @@ si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const 
                   experiment.ball.body.name));
 }
 
-std::string StartOptions::standard_law(const si::StartOverride& start) const {
-  if (!ball_.given()) return std::string(body().law);
-  try {
-    return si::law_of(read_text().parsed(overrides(), start));
-  } catch (const std::domain_error&) {  // read_ball says what is wrong
-    return std::string(Body{}.law);
-  }
+std::string StartOptions::standard_law() const {
+  return ball_.given() ? si::law_of(ball_of_its_own()) : std::string(body().law);
 }
 
-si::Overrides StartOptions::overrides() const {
-  si::Overrides given;
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    if (overrides_[i].given()) given[quantities[i]->name] = *overrides_[i];
-  }
-  return given;
+bool StartOptions::brings_law() const {
+  return (ball_.given() && !ball_of_its_own().law().empty()) || standard_law() != Body{}.law;
 }
 
-const StartOptions::BallText& StartOptions::read_text() const {
-  if (!text_ && names_a_file(ball_.text(), {".toml"})) {
-    text_ = BallText{si::read_run_text(ball_.text()), ball_.text()};
-  } else if (!text_) {
-    const si::CatalogueEntry& entry = require_ball(ball_.text());
-    text_ = BallText{si::run_file(entry.experiment, entry.sources), "built-in ball " + entry.name};
-  }
-  return *text_;
-}
-
-void StartOptions::tell_new_patch(const BallText& text, si::Overrides overrides, const si::Experiment& experiment,
-                                  const reduction::Law& law) const {
+void StartOptions::tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const {
   const auto* measured = std::get_if<si::SpinDeceleration>(&experiment.contact.patch);
-  if (measured == nullptr || overrides.contains(si::spin_deceleration.name)) return;
-  for (const si::Quantity* changing : {&si::radius, &si::friction, &si::gravity, &si::load})
-    overrides.erase(changing->name);
+  if (measured == nullptr || given_values().find(si::spin_deceleration)) return;
   double own = 0;
   try {
-    const si::Experiment before = text.parsed(overrides, {});
+    const si::Experiment before = si::experiment_of(ball_of_its_own().under(at_rest("")));
     own = si::patch_radius_of(before, *reduction::find_law(si::law_of(before)));
   } catch (const std::domain_error&) {
     return;  // the file leaves one of them to the command line
@@ -238,6 +246,12 @@ void StartOptions::tell_new_patch(const BallText& text, si::Overrides overrides,
              "note: the patch radius goes from {:.6g} m to {:.6g} m: what was measured is the spin deceleration,\n"
              "{} rad/s^2, and it is kept; --patch-radius {:.6g} keeps the patch instead\n",
              own, patch, measured->value, own);
+}
+
+si::Description at_rest(const std::string& source) {
+  si::Description still;
+  for (const si::Quantity* quantity : {&si::slip, &si::spin}) still.set(*quantity, {0}, {"", source, ""});
+  return still;
 }
 
 }  // namespace contensou::program

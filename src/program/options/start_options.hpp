@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/body.hpp"
@@ -56,10 +56,18 @@ class StartOptions {
  public:
   void add(CLI::App& app);
 
-  /// --ball and its overrides alone, for a verb that is in SI units.
-  /// @param starts  whether --slip and --spin are among them
+  /// Of what si::quantities() are in options of every verb that takes a ball.
+  using Offer = bool (*)(const si::Quantity& quantity);
+  static bool all_but_rolling(const si::Quantity& quantity) { return &quantity != &si::rolling_friction; }
+  static bool all(const si::Quantity& /*quantity*/) { return true; }
+  static bool no_start(const si::Quantity& quantity) {
+    return all_but_rolling(quantity) && quantity.section != si::slip.section;
+  }
+
+  /// --ball and its values alone, for a verb that is in SI units.
+  /// @param offer  of the values
   void add_ball(CLI::App& app, const std::string& help = "a ball in SI units, built in or from a run file",
-                bool starts = true);
+                Offer offer = all_but_rolling);
 
   /// Whether any of them was given, --body aside.
   bool given() const { return !given_names().empty(); }
@@ -76,23 +84,26 @@ class StartOptions {
 
   bool ball_given() const { return ball_.given(); }
 
-  /// What an option such as --slip gave in place of the ball's own value.
-  std::optional<double> override_of(const si::Quantity& quantity) const;
+  /// What the options of single values say.
+  si::Description given_values() const;
 
-  /// Whether --slip or --spin was given.
-  bool overrides_start() const { return override_of(si::slip) || override_of(si::spin); }
+  /// Whether a start of the ball was given, such as --slip.
+  bool overrides_start() const { return !start_names().empty(); }
+  std::string start_names() const;
 
-  /// The name of the law that the body or the ball brings.
-  /// @param start  velocities that take the place of those of [start]
-  std::string standard_law(const si::StartOverride& start = {}) const;
+  /// The name of the law that the body or the ball brings. Throws as read.
+  std::string standard_law() const;
 
-  /// The ball of --ball where it has to roll. Throws as read, and BadInput for a body that lies flat.
-  si::Experiment read_rolling_ball(const reduction::Law& law, const si::StartOverride& start = {}) const;
+  /// Whether the ball says its law itself, or its body has another than a ball.
+  bool brings_law() const;
+
+  /// The ball of --ball where it has to roll. Throws as read_ball, and BadInput for a body that lies flat.
+  si::Experiment read_rolling_ball(const reduction::Law& law, const si::Description& between = {}) const;
 
   /// The ball of --ball. Throws as read.
   ///
-  /// @param start  velocities that take the place of those of [start]
-  si::Experiment read_ball(const reduction::Law& law, const si::StartOverride& start = {}) const;
+  /// @param between  values that take the place of the ball's own, and that options replace
+  si::Experiment read_ball(const reduction::Law& law, const si::Description& between = {}) const;
 
   /// What moves, without how: --mu, a --body with a mu of its own, or --ball is enough. Throws as read.
   reduction::ReducedSystem read_body(const reduction::Law& law) const;
@@ -102,27 +113,11 @@ class StartOptions {
   Body body() const { return body_.body(); }
 
  private:
-  /// What single options can change of a ball.
-  static constexpr std::array quantities{
-      &si::radius,  &si::mass, &si::friction, &si::patch_radius, &si::spin_deceleration,
-      &si::gravity, &si::load, &si::slip,     &si::spin};
-
-  /// The ball's run file, also of one that is built in.
-  struct BallText {
-    std::string text, source;
-
-    si::Experiment parsed(const si::Overrides& overrides, const si::StartOverride& start) const {
-      return si::parse_run_file(text, source, overrides, start);
-    }
-  };
-
-  const BallText& read_text() const;
-  si::Overrides overrides() const;
+  const si::Description& ball_of_its_own() const;
 
   /// Says on standard error where the patch that a measured spin deceleration stands for is not that of the ball's own
   /// values, because some of them or the law were replaced.
-  void tell_new_patch(const BallText& text, si::Overrides overrides, const si::Experiment& experiment,
-                      const reduction::Law& law) const;
+  void tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const;
 
   void require_one_kind() const;
   std::string override_names() const;
@@ -130,8 +125,11 @@ class StartOptions {
   BodyOptions body_;
   ArgumentOf<double> u0_, v0_;
   Argument ball_;
-  mutable std::optional<BallText> text_;                         ///< a file is read once: it may be a pipe
-  std::array<ArgumentOf<double>, quantities.size()> overrides_;  ///< of quantities
+  mutable std::optional<si::Description> own_;  ///< of --ball; a file is read once: it may be a pipe
+  std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
 };
+
+/// A start at rest, for a verb that brings its own.
+si::Description at_rest(const std::string& source);
 
 }  // namespace contensou::program

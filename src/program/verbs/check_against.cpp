@@ -24,10 +24,18 @@ struct Instant {
 
 std::vector<Instant> read_instants(CsvReader& table) {
   const CsvColumn t = table.column("t"), slip = table.column("slip");
+  const bool both = table.has_column("spin") && table.has_column("wz");
   const CsvColumn spin = table.column(!table.has_column("spin") && table.has_column("wz") ? "wz" : "spin");
+  const CsvColumn same = both ? table.column("wz") : spin;
   std::vector<Instant> instants;
   table.for_each_row([&](const CsvRow& row) {
     const Instant instant{row.line(), table.number(row, t), {table.number(row, slip), table.number(row, spin)}};
+    if (const double wz = table.number(row, same); wz != instant.speeds.spin) {
+      throw table.complaint(instant.line,
+                            fmt::format("spin {} and wz {} are one angular velocity, and differ: leave one of "
+                                        "the columns out",
+                                        instant.speeds.spin, wz));
+    }
     if (instant.speeds.slip < 0)
       throw table.complaint(instant.line,
                             fmt::format("slip: a speed, 0 or more, is needed, got {}", instant.speeds.slip));
@@ -78,20 +86,21 @@ const ModelBeside& MotionsBeside::nearest() const {
 MotionsBeside compare_with_motions(const Argument& file, const StartOptions& ball, const reduction::Law& law,
                                    double tolerance) {
   if (!ball.ball_given()) file.reject("slip and spin are those of a ball in SI units: add --ball NAME|FILE.toml");
-  si::Experiment experiment = ball.read(law).experiment.value();
   CsvReader table(file.text());
   const std::vector<Instant> instants = read_instants(table);
   const si::SlipAndSpin first = instants.front().speeds;
-  experiment.start =
-      si::SlipAndSpin{ball.override_of(si::slip).value_or(first.slip), ball.override_of(si::spin).value_or(first.spin)};
+  si::Description as_first;
+  as_first.set(si::slip, {first.slip}, {"", "slip of the first row", ""});
+  as_first.set(si::spin, {first.spin}, {"", "spin of the first row", ""});
+  si::Experiment experiment = ball.read_ball(law, at_rest(file.name()));
+  try {
+    experiment = si::experiment_of(si::describe(experiment).under(as_first).under(ball.given_values()));
+  } catch (const std::domain_error& error) {
+    throw table.complaint(instants.front().line, fmt::format("the start: {}", error.what()));
+  }
   const double slip = si::slip_at_start(experiment), spin = std::abs(si::spin_at_start(experiment));
   if (slip == 0 && spin == 0) {
     throw table.complaint(instants.front().line, "the ball is at rest in the first row: there is no motion to compare");
-  }
-  try {
-    si::require_experiment(experiment);
-  } catch (const std::domain_error& error) {
-    throw table.complaint(instants.front().line, fmt::format("the start: {}", error.what()));
   }
   const double R = experiment.ball.radius;
   MotionsBeside result{

@@ -164,10 +164,9 @@ class CheckCommand final : public Verb {
     if (against_.given()) return compare(output);
     if (tolerance_.given()) throw BadInput("--tolerance is for a table: add --against FILE");
     const bool of_one_start = start_.given() || start_.body_argument().given();
-    const std::string standard = start_.standard_law();
-    const bool one_law = law_.given() || standard != Body{}.law;
+    const bool one_law = law_.given() || start_.brings_law();
     std::vector<Row> rows;
-    for (const Law& law : one_law ? std::vector{law_.read(standard)} : reduction::paper_laws()) {
+    for (const Law& law : one_law ? std::vector{law_.read(start_.standard_law())} : reduction::paper_laws()) {
       for (Check& check : of_one_start ? checks_of_start(law) : built_in_checks(law)) {
         rows.push_back({law.name(), std::move(check)});
       }

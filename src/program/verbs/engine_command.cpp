@@ -14,7 +14,7 @@ using si::Engine;
 
 /// Below the tables.
 constexpr const char* explanation =
-    "slip, spin   s until 1e-3 of what they were at the start is left\n"
+    "slip, spin   s until 1e-3 of what they were at the start is left (roll: 'rolls after' --rolling-below 1 mm/s)\n"
     "cone         of force F and moment M: elliptic (F/F0)^2 + (M/M0)^2 <= 1; box F <= F0, M <= M0, as if neither\n"
     "             knew of the other; pyramid F/F0 + M/M0 <= 1, where either slip or spin is braked\n";
 
@@ -23,10 +23,11 @@ std::string shown(const Json& value, const Digits& digits) { return digits(value
 std::string heading(const Json& members, const Digits& digits) {
   const auto of = [&](const char* name) { return shown(members[name], digits); };
   return fmt::format(
-      "{}: radius {} m, friction f = {}, patch radius a = {} m, slip {} m/s, spin {} rad/s\n"
+      "{}: radius {} m, mass {} kg, load {} N, friction f = {}, patch radius a = {} m\n"
+      "start: slip {} m/s, spin {} rad/s\n"
       "spinning without sliding, law {}: moment = f a Psi(0) load, Psi(0) = {}, f a Psi(0) = {} m\n",
-      members["ball"].get<std::string>(), of("radius"), of("friction"), of("patch_radius"), of("slip"), of("spin"),
-      members["law"].get<std::string>(), of("pivoting_moment"), of("moment_arm"));
+      members["ball"].get<std::string>(), of("radius"), of("mass"), of("load"), of("friction"), of("patch_radius"),
+      of("slip"), of("spin"), members["law"].get<std::string>(), of("pivoting_moment"), of("moment_arm"));
 }
 
 /// The end of a line of a table.

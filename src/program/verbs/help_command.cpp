@@ -48,26 +48,34 @@ std::string units() {
 
 std::string files() {
   std::string text = help_paragraph("Run files (--ball FILE.toml), such as 'contensou balls pool' prints:");
-  const std::vector<std::pair<const char*, std::vector<std::pair<si::Quantity, const char*>>>> sections{
-      {"[ball]",
-       {{si::mass, ""}, {si::radius, "; and texts in quotes: name; body, ball (default), disc, puck or ring"}}},
-      {"[contact]",
-       {{si::friction, "; and law, the default of --law, a text in quotes"},
-        {si::patch_radius, "; of a disc or ring its whole face if left out; or"},
-        {si::spin_deceleration, "; or"}}},
-      {"[contact.hertz]", {{si::youngs_modulus, ", as [E1, E2]"}, {si::poisson_ratio, ", as [n1, n2]"}}},
-      {"[start]",
-       {{si::slip, ""},
-        {si::spin, "; or"},
-        {si::velocity, ", as [vx, vy]"},
-        {si::angular_velocity, ", as [wx, wy, wz]"}}},
-      {"[environment]", {{si::gravity, " (default 9.80665); or"}, {si::load, ""}}}};
-  for (const auto& [section, quantities] : sections) {
-    text += fmt::format("{}\n", section);
-    for (const auto& [quantity, more] : quantities) {
-      text += help_entry(quantity.name, fmt::format("{}{}{}{}", quantity.meaning, quantity.unit.empty() ? "" : ", in ",
-                                                    quantity.unit, more));
+  std::string_view section;
+  for (const si::Quantity* quantity : si::quantities()) {
+    if (quantity->section != section) {
+      section = quantity->section;
+      text += fmt::format("[{}]\n", section);
+      if (quantity == &si::mass) {
+        text += help_entry("name", "text in quotes") +
+                help_entry("body", "text in quotes: ball (default), disc, puck or ring");
+      }
+      if (quantity == &si::friction) text += help_entry("law", "text in quotes: the default of --law");
     }
+    const std::string vector = quantity->components.empty() ? "" : fmt::format(", as [{}]", quantity->components);
+    const std::string standard = quantity->standard ? fmt::format(" (default {})", *quantity->standard) : "";
+    text +=
+        help_entry(quantity->name, fmt::format("{}{}{}{}{}", quantity->meaning, quantity->unit.empty() ? "" : ", in ",
+                                               quantity->unit, vector, standard));
+  }
+  text += "\n";
+  for (const si::Ways& ways : si::alternatives()) {
+    std::vector<std::string> names;
+    for (const auto& way : ways) {
+      std::vector<std::string_view> members;
+      for (const si::Quantity* quantity : way) members.push_back(quantity->name);
+      names.push_back(fmt::format("{}", fmt::join(members, " with ")));
+    }
+    text += help_paragraph(
+        fmt::format("Give {}{}.", fmt::join(names, ", or "),
+                    ways.front().front() == &si::patch_radius ? "; a disc or ring has its whole face without" : ""));
   }
   return text + "\n" +
          help_paragraph(

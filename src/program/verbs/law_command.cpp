@@ -32,7 +32,7 @@ class LawCommand final : public Verb {
     const Output output = output_.read();
     figure_.require_picture(output);
     if (surface_) require_picture("--surface", output);
-    const reduction::Law law = law_.read();
+    const reduction::Law law = law_.read(std::string(si::Body{}.law));
     if (output.picture()) {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
       std::vector<reduction::Law> laws = reduction::paper_laws();

@@ -55,8 +55,9 @@ class OrbitCommand final : public Verb {
     if (time_left_.given()) answer.columns.push_back({"tau_left", lefts});
     if (start.experiment) {
       answer.members["ball"] = members_of_ball(*start.experiment, system.law());
-      answer.columns.push_back(
-          {"t", motion.tau.unaryExpr([&](double tau) { return si::seconds(*start.experiment, tau); })});
+      const auto seconds = [&](double tau) { return si::seconds(*start.experiment, tau); };
+      const bool given = at != nullptr && at->in_seconds;  // as they were typed, not there and back
+      answer.columns.push_back({"t", given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds))});
     }
     output.write(answer);
     return ExitStatus::done;

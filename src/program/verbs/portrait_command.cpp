@@ -92,7 +92,7 @@ class PortraitCommand final : public Verb {
         .style = style_};
     question.style.size = figure_.size();
     question.request.stepped = route == reduction::Route::regularised;
-    if (against_.given()) question.request.comparison = against_.read();
+    if (against_.given()) question.request.comparison = against_.read(std::string(si::Body{}.law));
     const portraits::PhasePortrait portrait = question.portrait();
     if (output.picture()) {
       output.write({figure_.apply(question.figure(portrait), output.format)});

@@ -33,9 +33,9 @@ namespace {
 struct Roll {
   si::Experiment experiment;
   reduction::Law law;
-  bool integrated;          ///< the route of its columns: the equations of motion instead of the similarity solution
-  double rolling_below;     ///< m/s of slip
-  double rolling_friction;  ///< u_r; 0: none
+  bool integrated;       ///< the route of its columns: the equations of motion instead of the similarity solution
+  double rolling_below;  ///< m/s of slip
+  double rolling_friction = experiment.contact.rolling_friction;
   si::Course<si::BallMotion> whole{experiment, {experiment, law}, rolling_below, rolling_friction};
   si::Course<si::UncoupledMotion> textbook{experiment, {experiment, law}, rolling_below, rolling_friction};
 
@@ -229,25 +229,12 @@ double parse_end(const std::string& typed) {
   return end;
 }
 
-/// Reads a vector.
-template <int Size>
-auto vector(const char* names, std::string_view unit = "") {
-  return [=](const std::string& typed) {
-    return Eigen::Matrix<double, Size, 1>(numbers(typed, Size, names, unit).data());
-  };
-}
-
 constexpr long max_frames = 1000;  ///< of a film: 40 s
 
 class RollCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    start_.add_ball(app);
-    app.option_defaults()->group("Velocities (in place of the ball's own start)");
-    velocity_.add(app, "--velocity", "VX,VY", "of the centre, in metres per second",
-                  vector<2>("VX,VY", si::velocity.unit));
-    angular_velocity_.add(app, "--angular-velocity", "WX,WY,WZ", "z up, in radians per second",
-                          vector<3>("WX,WY,WZ", si::angular_velocity.unit));
+    start_.add_ball(app, "a ball in SI units, built in or from a run file", StartOptions::all);
     app.option_defaults()->group("Stroke of a cue, along x (in place of the ball's own start)");
     strike_.add(app, "--strike", "SPEED",
                 "of the cue, in metres per second: an elastic impulse along it. Left out are squirt, miscues within "
@@ -257,7 +244,7 @@ class RollCommand final : public Verb {
              fmt::format("where it strikes, to the right of and above the centre as seen along the cue, in radii, at "
                          "most {} from it (default 0,0)",
                          si::largest_tip_offset),
-             vector<2>("A,B"));
+             [](const std::string& typed) { return Eigen::Vector2d(numbers(typed, 2, "A,B").data()); });
     elevation_.add(app, "--elevation", "ANGLE", "of the cue's butt, 0 to below 90 degrees (default 0)",
                    quantity("deg"));
     cue_mass_.add(app, "--cue-mass", "MASS", fmt::format("in kilograms (default {})", si::standard_cue_mass),
@@ -274,10 +261,6 @@ class RollCommand final : public Verb {
             "which at 0 rolls after 2 v/(7 f g)",
             si::rolling_slip),
         [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
-    rolling_friction_.add(
-        app, "--rolling-friction", "U_R",
-        "once it rolls, the ball slows down at U_R g and rests (pool 0.005 to 0.015; default 0: it rolls on)",
-        [](const std::string& typed) { return not_negative(parse_number(typed)); });
     CLI::Option* at = instants_.add(app, "t", "s", "");
     until_.add(app, "--until", "TIME", "the last of them, in seconds (default: a little past the stop)", parse_end)
         ->excludes(at);
@@ -297,9 +280,8 @@ class RollCommand final : public Verb {
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     figure_.require_picture(output);
-    const reduction::Law law = law_.read(start_.standard_law(start_override()));
-    const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
-                    rolling_friction_.value_or(0)};
+    const reduction::Law law = law_.read(start_.standard_law());
+    const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip)};
     const auto* at = instants_.at();
     const double last = at != nullptr && at->values.size() > 0 ? at->values.maxCoeff() : until_.value_or(0);
     si::require_finite_motion(roll.experiment, roll.stop_time(), last);
@@ -337,23 +319,27 @@ class RollCommand final : public Verb {
 
  private:
   ExitStatus run_many() const {
-    const std::string others =
-        names_given({&velocity_, &angular_velocity_, &strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_});
+    const std::string others = names_given({&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_});
     if (!others.empty() || start_.overrides_start() || instants_.given()) {
       throw BadInput(fmt::format("--batch has the starts in the file, and gives events alone: leave out {}",
                                  !others.empty()     ? others
                                  : instants_.given() ? "--at, --samples"
-                                                     : "--slip, --spin"));
+                                                     : start_.start_names()));
     }
     const Output out = output_.read(1);
-    const reduction::Law law =
-        law_.read(start_.standard_law(si::StartOverride{Eigen::Vector2d::Zero(), Eigen::Vector3d::Zero()}));
-    const si::Experiment still = start_.read_rolling_ball(law);
+    const reduction::Law law = law_.read(start_.standard_law());
+    const si::Experiment still = start_.read_rolling_ball(law, at_rest("--batch"));
     const reduction::Flow flow(si::reduced_system(still, law));
     OutputFile output(out.path);
     CsvReader table(batch_.text());
-    const bool general = table.has_column("vx");
-    BatchRequest request{.inputs = {"slip", "spin"},
+    const std::vector<std::string> along_x{"slip", "spin"}, velocities{"vx", "vy", "wx", "wy", "wz"};
+    const auto has = [&](const std::string& column) { return table.has_column(column); };
+    const bool general = std::ranges::any_of(velocities, has);
+    if (general && std::ranges::any_of(along_x, has)) {
+      throw table.complaint(table.header_line(),
+                            "columns slip, spin and vx, vy, wx, wy, wz exclude each other: keep one kind of start");
+    }
+    BatchRequest request{.inputs = general ? velocities : along_x,
                          .results = {"t_rolls", "x_rolls", "y_rolls", "t_spin_ends", "x_spin_ends", "y_spin_ends",
                                      "slip_length", "turns", "path"},
                          .compute =
@@ -370,8 +356,7 @@ class RollCommand final : public Verb {
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
                          .progress = bulk_.progress(out.path)};
-    if (general) request.inputs = {"vx", "vy", "wx", "wy", "wz"};
-    if (rolling_friction_.value_or(0) > 0)
+    if (still.contact.rolling_friction > 0)
       request.results.insert(request.results.end(), {"t_rest", "x_rest", "y_rest"});
     const ExitStatus status = run_batch(table, output, request);
     output.finish();
@@ -379,9 +364,8 @@ class RollCommand final : public Verb {
   }
 
   void compute_events(const si::Experiment& experiment, const reduction::Flow& flow, std::span<double> results) const {
-    const double friction = rolling_friction_.value_or(0);
     const si::Course<si::BallMotion> course(experiment, {experiment, flow}, rolling_below_.value_or(si::rolling_slip),
-                                            friction);
+                                            experiment.contact.rolling_friction);
     const auto [rolls, spin_ends, rest, slip_length, turns, path] = events_of(course);
     auto place = results.begin();
     const auto add = [&](const si::Event& event) {
@@ -393,22 +377,15 @@ class RollCommand final : public Verb {
     if (rest) add(*rest);
   }
 
-  si::StartOverride start_override() const { return {velocity_.optional(), angular_velocity_.optional()}; }
-
   si::Experiment read_shot(const reduction::Law& law) const {
-    const si::StartOverride start = start_override();
-    if ((start.velocity || start.angular_velocity) && start_.overrides_start()) {
-      throw BadInput("--slip, --spin and --velocity, --angular-velocity exclude each other: give one pair of them");
-    }
     const std::string of_stroke = names_given({&tip_, &elevation_, &cue_mass_});
     if (!strike_.given()) {
       if (!of_stroke.empty()) throw BadInput(fmt::format("{} is of a stroke: add --strike SPEED", of_stroke));
-      return start_.read_rolling_ball(law, start);
+      return start_.read_rolling_ball(law);
     }
-    if (start.velocity || start.angular_velocity || start_.overrides_start()) {
-      throw BadInput("--strike is a start of its own: leave out --velocity, --angular-velocity, --slip and --spin");
-    }
-    si::Experiment experiment = start_.read_rolling_ball(law);
+    if (start_.overrides_start())
+      throw BadInput(fmt::format("--strike is a start of its own: leave out {}", start_.start_names()));
+    si::Experiment experiment = start_.read_rolling_ball(law, at_rest(strike_.name()));
     const Eigen::Vector2d tip = tip_.value_or(Eigen::Vector2d::Zero());
     try {
       experiment.start = si::struck(experiment.ball, {.speed = *strike_,
@@ -424,12 +401,10 @@ class RollCommand final : public Verb {
   }
 
   StartOptions start_;
-  ArgumentOf<Eigen::Vector2d> velocity_;
-  ArgumentOf<Eigen::Vector3d> angular_velocity_;
   LawOption law_;
   ArgumentOf<bool> integrated_;
   InstantsOption instants_;
-  ArgumentOf<double> until_, rolling_below_, rolling_friction_, strike_, elevation_, cue_mass_;
+  ArgumentOf<double> until_, rolling_below_, strike_, elevation_, cue_mass_;
   ArgumentOf<Eigen::Vector2d> tip_;
   Argument batch_;
   bool keep_going_ = false;

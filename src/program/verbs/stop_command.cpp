@@ -55,7 +55,7 @@ class StopCommand final : public Verb {
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.standard_law());
-    const auto ball = has_ball ? start_.read(law).experiment : std::nullopt;
+    const auto ball = has_ball ? std::optional(start_.read_ball(law, at_rest("--batch"))) : std::nullopt;
     StopTimes stop_times(law, ball ? ball->ball.body.inertia : start_.body().inertia, route_);
     BatchRequest request{.inputs = {"mu", "u0", "v0"},
                          .results = {"tau_stop"},

@@ -266,7 +266,8 @@ class SweepCommand final : public Verb {
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed, MIN >= 0", read(""));
     app.add_flag("--log", log_, "values in equal ratios instead of equal steps; MIN > 0");
     body_.add_body(app);
-    ball_.add_ball(app, "instead of these: a ball in SI units, with --spin and --slip; times in seconds", false);
+    ball_.add_ball(app, "instead of these: a ball in SI units, with --spin and --slip; times in seconds",
+                   StartOptions::no_start);
     spin_.add(app, "--spin", "MIN:MAX:N", "N values of the spin about the vertical, in radians per second",
               read(si::spin.unit));
     slip_.add(app, "--slip", "MIN:MAX:N", "N values of the sliding speed, in metres per second", read(si::slip.unit));
@@ -326,7 +327,7 @@ class SweepCommand final : public Verb {
     if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument()}); !others.empty()) {
       throw BadInput(fmt::format("--ball and {} exclude each other: with --ball, use --spin and --slip", others));
     }
-    const si::Experiment experiment = ball_.read_ball(law);
+    const si::Experiment experiment = ball_.read_ball(law, at_rest("--slip and --spin"));
     const double mu = si::patch_ratio(experiment, law);
     return {.mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = speeds_of(slip_), .ball = experiment};
   }

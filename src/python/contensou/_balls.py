@@ -14,8 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._flow import Flow, Law, LawLike, law as law_of
 
-_patch = ("patch_radius", "spin_deceleration", "youngs_modulus", "poisson_ratio")
-
 
 class Event(NamedTuple):
     """When something happens, in s after the start, and where the centre is then, in m from the start."""
@@ -30,9 +28,11 @@ class Ball:
     """A homogeneous ball on a horizontal plane, in SI units, with a typical start.
 
     Its patch is given by one of patch_radius (m), spin_deceleration (rad/s^2, measured without slip), or Young's moduli
-    (Pa) and Poisson's ratios of ball and plane. slip (m/s, along x) and spin (rad/s about the vertical) are the start.
-    Gravity acts through the load alone: a ball pressed on the plane with N newtons has gravity=N / mass. law is that of
-    every question about the ball that names none: a name, a Law or a function.
+    (Pa) and Poisson's ratios of ball and plane. What presses it on the plane is gravity (m/s^2, 9.80665 if left out), or a
+    load (N). Its start, at rest if left out, is slip (m/s, along x) and spin (rad/s about the vertical), or velocity (x, y)
+    and angular_velocity (x, y, z up). Of a start by velocities slip and spin, and of a load gravity, say what they come to.
+    rolling_friction: once it rolls, the ball slows down at so much of gravity and rests. law is that of every question
+    about the ball that names none: a name, a Law or a function.
     `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
     """
 
@@ -43,28 +43,50 @@ class Ball:
     spin_deceleration: Optional[float] = None
     youngs_modulus: Optional[tuple[float, float]] = None
     poisson_ratio: Optional[tuple[float, float]] = None
-    gravity: float = 9.80665
-    slip: float = 0
-    spin: float = 0
+    gravity: float = None  # type: ignore[assignment]  # never after __init__
+    slip: float = None  # type: ignore[assignment]
+    spin: float = None  # type: ignore[assignment]
     name: str = "ball"
     law: LawLike = "exact"
+    rolling_friction: float = 0
+    load: Optional[float] = None
+    velocity: Optional[tuple[float, float]] = None
+    angular_velocity: Optional[tuple[float, float, float]] = None
+    _experiment: _core.Experiment = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        for key in ("youngs_modulus", "poisson_ratio"):
-            if getattr(self, key) is not None:
-                object.__setattr__(self, key, tuple(getattr(self, key)))
-        object.__setattr__(self, "law", law_of(self.law))
-        _core.Experiment(self, None, None)
+        given = {name: getattr(self, name) for name in ("name", *_core.quantities)}
+        known = _core.changed({}, given)
+        core = _core.Experiment(known)
+        if self.velocity is not None or self.angular_velocity is not None:
+            known["velocity"], known["angular_velocity"] = core.start
+        derived = {"gravity": core.gravity, "slip": core.slip, "spin": core.spin}
+        for key, value in {**derived, **known, "law": law_of(self.law), "_experiment": core}.items():
+            object.__setattr__(self, key, value)
+
+    def _given(self) -> dict[str, Any]:
+        """The fields that say all."""
+        derived = {"gravity"} if self.load is not None else set()
+        if self.velocity is not None:
+            derived |= {"slip", "spin"}
+        known = {each.name: getattr(self, each.name) for each in fields(self) if each.init and each.name not in derived}
+        return {name: value for name, value in known.items() if value is not None}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Ball._of, (self._given(), {})
 
     @classmethod
     def _of(cls, known: dict[str, Any], changes: dict[str, Any]) -> Ball:
-        if not changes.keys().isdisjoint(_patch):
-            known = {key: value for key, value in known.items() if key not in _patch}
-        return cls(**{**known, **changes})
+        law = {"law": changes.get("law", known.get("law", "exact"))}
+        allowed = [each.name for each in fields(cls) if each.init]
+        for key in changes.keys() - set(allowed):
+            raise TypeError(f"a Ball has no {key}; it has {', '.join(allowed)}")
+        return cls(**_core.changed(known, changes), **law)
 
     def but(self, **changes: Any) -> Ball:
-        """The ball with other fields; a new patch_radius, spin_deceleration or moduli take the place of what it had."""
-        return self._of({each.name: getattr(self, each.name) for each in fields(self)}, changes)
+        """The ball with other fields. What was given in another way goes: a new patch_radius, spin_deceleration or moduli
+        take the place of what it had, a load that of gravity, slip with spin that of velocities."""
+        return self._of(self._given(), changes)
 
     @classmethod
     def read(cls, path: Union[str, PathLike[str]], **changes: Any) -> Ball:
@@ -122,7 +144,7 @@ class Ball:
         cue_mass: float = _core.standard_cue_mass,
         law: Optional[LawLike] = None,
         rolling_below: float = _core.rolling_slip,
-        rolling_friction: float = 0,
+        rolling_friction: Optional[float] = None,
     ) -> Roll:
         """The whole motion of the ball, from its own start or from another one:
 
@@ -133,19 +155,16 @@ class Ball:
 
         law:               that of the ball if left out
         rolling_below:     the ball rolls once it slips slower, m/s
-        rolling_friction:  u_r: once it rolls it slows down at u_r g and rests; 0: it rolls on
+        rolling_friction:  u_r: once it rolls it slows down at u_r g and rests; 0: it rolls on. That of the ball if left out
         """
-        given = {name for name, value in locals().items() if name != "self" and value is not None}
-        if strike is not None and given & {"velocity", "angular_velocity", "slip", "spin"}:
-            raise ValueError("strike is a start of its own: leave out velocity, angular_velocity, slip and spin")
-        if given & {"velocity", "angular_velocity"} and given & {"slip", "spin"}:
-            raise ValueError("slip, spin and velocity, angular_velocity exclude each other: give one pair of them")
-        ball = self.but(**{key: value for key, value in (("slip", slip), ("spin", spin)) if value is not None})
-        if strike is not None:
-            start = _core.Experiment(ball, strike, tip, elevation, cue_mass).start
-        else:
-            start = _core.Experiment(ball, velocity, angular_velocity).start
-        return Roll(ball, *start, ball._law(law), rolling_below, rolling_friction)
+        start = {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin}
+        start = {name: value for name, value in start.items() if value is not None}
+        if strike is not None and start:
+            raise ValueError(f"strike is a start of its own: leave out {', '.join(start)}")
+        ball = self.but(**start)
+        core = ball._experiment if strike is None else ball._experiment.struck(strike, tip, elevation, cue_mass)
+        friction = ball.rolling_friction if rolling_friction is None else rolling_friction
+        return Roll(ball, *core.start, ball._law(law), rolling_below, friction)
 
     def evolve(
         self,
@@ -154,7 +173,7 @@ class Ball:
         *,
         law: Optional[LawLike] = None,
         rolling_below: float = _core.rolling_slip,
-        rolling_friction: float = 0,
+        rolling_friction: Optional[float] = None,
     ) -> NDArray[np.float64]:
         """The state of a ball on the table t seconds later, in the convention of pooltool: rows r, v and w, the place of
         the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 of any shape S: (*S, 3, 3).
@@ -174,7 +193,7 @@ class Ball:
 
 @lru_cache(maxsize=64)
 def _solved(ball: Ball, law: Law) -> _core.Flow:
-    return _core.Experiment(ball, None, None).flow(law._core)
+    return ball._experiment.flow(law._core)
 
 
 @dataclass(frozen=True)
@@ -192,7 +211,7 @@ class Roll:
     _core: Union[_core.BallMotion, _core.UncoupledMotion] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        experiment = _core.Experiment(self.ball, self.velocity, self.angular_velocity)
+        experiment = self.ball.but(velocity=self.velocity, angular_velocity=self.angular_velocity)._experiment
         settings = self.rolling_below, self.rolling_friction
         if self.textbook:
             core: Union[_core.BallMotion, _core.UncoupledMotion] = _core.UncoupledMotion(experiment, self.law._core, *settings)

@@ -15,7 +15,7 @@ def _with_infinity(members: dict[str, Any]) -> dict[str, Any]:
 
 
 def _told(name: Optional[str], ball: Ball, law: Optional[LawLike]) -> list[dict[str, Any]]:
-    told = json.loads(_core.engines(_core.Experiment(ball, None, None), ball._law(law)._core, name), object_hook=_with_infinity)
+    told = json.loads(_core.engines(ball._experiment, ball._law(law)._core, name), object_hook=_with_infinity)
     return [{**told, **each} for each in told.pop("engines")]
 
 

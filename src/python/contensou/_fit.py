@@ -108,7 +108,7 @@ def fit(
     series = [(name, values, np.broadcast_to(np.asarray(sd[name], float), t.shape) if name in sd else none)
               for name, values in seen.items()]
     known_law = ball._law(law)
-    found = _core.fit(_core.Experiment(ball, None, None), known_law._core, t, series, list(free), robust)
+    found = _core.fit(ball._experiment, known_law._core, t, series, list(free), robust)
     estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
     fitted = ball.but(friction=estimates["friction"].value, patch_radius=estimates["patch_radius"].value,
                       slip=max(0.0, estimates["slip"].value), spin=estimates["spin"].value, law=known_law)

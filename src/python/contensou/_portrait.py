@@ -40,7 +40,7 @@ class Portrait:
     def __init__(self, asked: dict[str, Any]) -> None:
         self._asked = asked
         ball, law = asked["ball"], asked["law"]
-        experiment = None if ball is None else _core.Experiment(ball, None, None)
+        experiment = None if ball is None else ball._experiment
         if experiment is None:
             flow = Flow(asked["mu"], law, asked["body"])._core
         elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball":

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -43,7 +44,8 @@ using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli, Who
 struct Contact {
   double friction;  ///< coefficient of dry friction
   PatchSource patch;
-  std::string law = "";  ///< of friction, by its name, where the pressure is not that of the body
+  std::string law = "";         ///< of friction, by its name, where the pressure is not that of the body
+  double rolling_friction = 0;  ///< u_r: once it rolls, the ball slows down at u_r g and rests; 0: it rolls on
 };
 
 /// A ball that slides along x and spins about the vertical, with no horizontal angular velocity.
@@ -66,6 +68,7 @@ struct Environment {
   /// m/s^2, the load over the mass: nothing else of a ball on a horizontal plane depends on it. A ball that something
   /// presses on the plane with N newtons has N/mass.
   double gravity = 9.80665;
+  std::optional<double> load{};  ///< N, where it was given in place of gravity, which is load/mass then
 };
 
 /// Everything that decides one motion of a ball on a horizontal plane.
@@ -76,21 +79,23 @@ struct Experiment {
   Environment environment{};
 };
 
-/// One or more values of a quantity.
+/// What a quantity has been given, as many values as it has components.
 struct GivenQuantity {
   const Quantity* quantity;
   std::vector<double> values;
 };
 
-/// What a patch or a start is given by.
-std::vector<GivenQuantity> given_by(const PatchSource& patch);
-std::vector<GivenQuantity> given_by(const Start& start);
+/// What an experiment is given by, in the order of quantities(); standard values, gravity's aside, are left out.
+std::vector<GivenQuantity> given_by(Experiment experiment);
 
-/// The same in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or "its whole face".
+/// What a patch is given by, in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or "its whole face".
 std::string origin_of(const PatchSource& patch);
 
-/// The name of the law that an experiment's pressure brings.
+/// The name of the law of an experiment of which no other is asked for: the contact's own, or that of the body's pressure.
 std::string law_of(const Experiment& experiment);
+
+/// The member of an experiment that is a quantity by itself, with no other way to give it; null for others.
+double* member_of(Experiment& experiment, const Quantity& quantity);
 
 /// Radius of the contact patch in m, from whatever the contact gives it by.
 /// @param law  a measured spin deceleration holds under it

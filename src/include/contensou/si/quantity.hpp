@@ -7,7 +7,8 @@
 
 namespace contensou::si {
 
-/// A number that a user gives: what run files and messages call it, its unit, and the values it may have.
+/// What a user gives of an experiment in numbers: a row here is a key of run files, an option of the program and a field of
+/// Python's Ball.
 struct Quantity {
   enum class Range { any, not_negative, positive, poisson_ratio };
 
@@ -15,27 +16,58 @@ struct Quantity {
   std::string_view unit;  ///< SI; empty for a pure number
   std::string_view meaning;
   Range range;
+  std::string_view section;             ///< of a run file
+  std::string_view components = "";     ///< of a vector, between commas; empty for a number
+  std::optional<double> standard = {};  ///< the value if none is given
+
+  /// How many numbers it is.
+  std::size_t count() const;
 };
 
-inline constexpr Quantity mass{"mass", "kg", "mass of the ball", Quantity::Range::positive};
-inline constexpr Quantity radius{"radius", "m", "radius of the ball", Quantity::Range::positive};
-inline constexpr Quantity friction{"friction", "", "coefficient of dry friction", Quantity::Range::positive};
-inline constexpr Quantity patch_radius{"patch_radius", "m", "radius of the contact patch", Quantity::Range::positive};
-inline constexpr Quantity spin_deceleration{
-    "spin_deceleration", "rad/s^2", "measured deceleration of a ball that spins in place", Quantity::Range::positive};
-inline constexpr Quantity youngs_modulus{"youngs_modulus", "Pa", "Young's moduli of ball and plane",
-                                         Quantity::Range::positive};
-inline constexpr Quantity poisson_ratio{"poisson_ratio", "", "Poisson's ratios of ball and plane",
-                                        Quantity::Range::poisson_ratio};
+inline constexpr Quantity mass{"mass", "kg", "mass of the ball", Quantity::Range::positive, "ball"};
+inline constexpr Quantity radius{"radius", "m", "radius of the ball", Quantity::Range::positive, "ball"};
+inline constexpr Quantity friction{"friction", "", "coefficient of dry friction", Quantity::Range::positive, "contact"};
+inline constexpr Quantity rolling_friction{
+    .name = "rolling_friction",
+    .unit = "",
+    .meaning = "once it rolls, the ball slows down at so much of gravity and rests (pool 0.005 to 0.015)",
+    .range = Quantity::Range::not_negative,
+    .section = "contact",
+    .standard = 0};
+inline constexpr Quantity patch_radius{"patch_radius", "m", "radius of the contact patch", Quantity::Range::positive,
+                                       "contact"};
+inline constexpr Quantity spin_deceleration{"spin_deceleration", "rad/s^2",
+                                            "measured deceleration of a ball that spins in place",
+                                            Quantity::Range::positive, "contact"};
+inline constexpr Quantity youngs_modulus{
+    "youngs_modulus", "Pa", "Young's moduli of ball and plane", Quantity::Range::positive, "contact.hertz", "E1,E2"};
+inline constexpr Quantity poisson_ratio{
+    "poisson_ratio", "",     "Poisson's ratios of ball and plane", Quantity::Range::poisson_ratio,
+    "contact.hertz", "N1,N2"};
 inline constexpr Quantity slip{"slip", "m/s", "sliding speed of the contact point, along x",
-                               Quantity::Range::not_negative};
-inline constexpr Quantity spin{"spin", "rad/s", "angular velocity about the vertical", Quantity::Range::any};
-inline constexpr Quantity velocity{"velocity", "m/s", "velocity of the centre, x and y", Quantity::Range::any};
-inline constexpr Quantity angular_velocity{"angular_velocity", "rad/s", "angular velocity, x, y and z (up)",
-                                           Quantity::Range::any};
-inline constexpr Quantity gravity{"gravity", "m/s^2", "acceleration of gravity", Quantity::Range::positive};
+                               Quantity::Range::not_negative, "start"};
+inline constexpr Quantity spin{"spin", "rad/s", "angular velocity about the vertical", Quantity::Range::any, "start"};
+inline constexpr Quantity velocity{"velocity",           "m/s",   "velocity of the centre, x and y",
+                                   Quantity::Range::any, "start", "VX,VY"};
+inline constexpr Quantity angular_velocity{"angular_velocity",   "rad/s", "angular velocity, x, y and z (up)",
+                                           Quantity::Range::any, "start", "WX,WY,WZ"};
+inline constexpr Quantity gravity{.name = "gravity",
+                                  .unit = "m/s^2",
+                                  .meaning = "acceleration of gravity",
+                                  .range = Quantity::Range::positive,
+                                  .section = "environment",
+                                  .standard = 9.80665};
 inline constexpr Quantity load{"load", "N", "force that presses the ball on the plane, in place of its weight",
-                               Quantity::Range::positive};
+                               Quantity::Range::positive, "environment"};
+
+/// All of them, in the order of a run file.
+const std::vector<const Quantity*>& quantities();
+
+/// Quantities of which only one way is given: those of a way belong together.
+using Ways = std::vector<std::vector<const Quantity*>>;
+
+/// What has several ways: the patch, the start, and what presses the ball on the plane.
+const std::vector<Ways>& alternatives();
 
 /// A unit that may stand behind a number: one of it is factor/divisor SI units.
 struct Unit {

@@ -1,0 +1,224 @@
+#include "contensou/si/description.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "contensou/reduction/laws.hpp"
+#include "text/nearest_name.hpp"
+
+namespace contensou::si {
+
+namespace {
+
+using Way = Ways::value_type;
+
+/// Names with the section that they share, or each with its own.
+std::string joined(const std::vector<Source>& sources) {
+  const bool together =
+      std::ranges::all_of(sources, [&](const Source& source) { return source.section == sources.front().section; });
+  std::vector<std::string> names;
+  for (const auto& [place, name, section] : sources) {
+    names.push_back(together || section.empty() ? name : fmt::format("{} in {}", name, section));
+  }
+  const std::string& section = sources.front().section;
+  return fmt::format("{}{}", fmt::join(names, " and "), together && !section.empty() ? " in " + section : "");
+}
+
+std::string ways_out(const Description& described, const Ways& ways) {
+  std::vector<std::string> texts;
+  for (const Way& way : ways) {
+    std::vector<Source> sources;
+    for (const Quantity* quantity : way) sources.push_back(described.home_of(*quantity));
+    texts.push_back(joined(sources));
+  }
+  return fmt::format("give {}", fmt::join(texts, ", or "));
+}
+
+/// The first of a way's quantities that is given; null if none is.
+const Quantity* given_of(const Description& described, const Way& way) {
+  const auto found = std::ranges::find_if(way, [&](const Quantity* quantity) { return described.find(*quantity); });
+  return found == way.end() ? nullptr : *found;
+}
+
+bool has_all(const Description& described, const Way& way) {
+  return std::ranges::all_of(way, [&](const Quantity* quantity) { return described.find(*quantity); });
+}
+
+const std::vector<double>& numbers_of(const Description& described, const Quantity& quantity) {
+  if (const Description::Values* given = described.find(quantity)) return given->numbers;
+  described.source_of(quantity).fail(fmt::format("{} is missing: {}{}{}", joined({described.source_of(quantity)}),
+                                                 quantity.meaning, quantity.unit.empty() ? "" : ", in ",
+                                                 quantity.unit));
+}
+
+PatchSource patch_of(const Description& described, const Body& body) {
+  if (described.find(patch_radius)) return PatchRadius{numbers_of(described, patch_radius)[0]};
+  if (described.find(spin_deceleration)) return SpinDeceleration{numbers_of(described, spin_deceleration)[0]};
+  if (described.find(youngs_modulus) || described.find(poisson_ratio)) {
+    const std::vector<double>& moduli = numbers_of(described, youngs_modulus);
+    const std::vector<double>& ratios = numbers_of(described, poisson_ratio);
+    return HertzModuli{.youngs_modulus = {moduli[0], moduli[1]}, .poisson_ratio = {ratios[0], ratios[1]}};
+  }
+  if (body.lies_flat()) return WholeFace{};
+  described.source_of(patch_radius).fail("the patch is missing: " + ways_out(described, alternatives()[0]));
+}
+
+Start start_of(const Description& described) {
+  if (!described.find(velocity) && !described.find(angular_velocity))
+    return SlipAndSpin{.slip = numbers_of(described, slip)[0], .spin = numbers_of(described, spin)[0]};
+  return Velocities{Eigen::Vector2d(numbers_of(described, velocity).data()),
+                    Eigen::Vector3d(numbers_of(described, angular_velocity).data())};
+}
+
+}  // namespace
+
+void Source::fail(const std::string& message) const {
+  if (place.empty()) throw std::domain_error(message);
+  throw RunFileError(fmt::format("{}: {}", place, message));
+}
+
+void Description::set(const Quantity& quantity, std::vector<double> numbers, Source source) {
+  if (numbers.size() != quantity.count()) {
+    source.fail(fmt::format("{} must be {} number{}: {}; got {}", joined({source}), quantity.count(),
+                            quantity.count() == 1 ? "" : "s", quantity.meaning, numbers.size()));
+  }
+  try {
+    for (double number : numbers) require(quantity, number);
+  } catch (const std::domain_error& error) {
+    source.fail(error.what());
+  }
+  values_[&quantity] = {std::move(numbers), std::move(source)};
+}
+
+void Description::set_body(const std::string& name, const Source& source) {
+  std::vector<std::string> names;
+  for (const Body& known : bodies()) {
+    if (!known.lies_flat() && known.name != Body{}.name) continue;  // the strokes and the textbook are of a solid ball
+    if (known.name == name) return set_body(known);
+    names.emplace_back(known.name);
+  }
+  source.fail(
+      fmt::format("no such body '{:.80}'{}; bodies: {}", name, suggestion(name, names), fmt::join(names, ", ")));
+}
+
+void Description::set_law(const std::string& name, const Source& source) {
+  try {
+    if (name.empty() || reduction::find_law(name)) {
+      law_ = name;
+      return;
+    }
+  } catch (const std::domain_error& error) {
+    source.fail(error.what());
+  }
+  std::vector<std::string> names;
+  for (const reduction::Law& known : reduction::named_laws()) names.push_back(known.name());
+  source.fail(fmt::format("no such law '{:.80}'{}; laws: {}", name, suggestion(name, names), fmt::join(names, ", ")));
+}
+
+const Description::Values* Description::find(const Quantity& quantity) const {
+  const auto found = values_.find(&quantity);
+  return found == values_.end() ? nullptr : &found->second;
+}
+
+Description Description::under(const Description& above) const {
+  Description result = *this;
+  if (above.find(velocity) || above.find(angular_velocity)) {
+    const auto move = [&](const Quantity& from, const Quantity& to, auto numbers) {
+      if (const Values* own = find(from)) result.values_[&to] = {numbers(own->numbers[0]), own->source};
+      result.values_.erase(&from);
+    };
+    move(slip, velocity, [](double along_x) { return std::vector{along_x, 0.0}; });
+    move(spin, angular_velocity, [](double upright) { return std::vector{0.0, 0.0, upright}; });
+  }
+  for (const Ways& ways : alternatives()) {
+    for (const Way& way : ways) {
+      if (!has_all(above, way)) continue;
+      for (const Way& other : ways) {
+        if (&other == &way) continue;
+        for (const Quantity* quantity : other) result.values_.erase(quantity);
+      }
+    }
+  }
+  for (const auto& [quantity, values] : above.values_) result.values_[quantity] = values;
+  if (!above.name_.empty()) result.name_ = above.name_;
+  if (!above.law_.empty()) result.law_ = above.law_;
+  if (above.body_) result.body_ = above.body_;
+  return result;
+}
+
+void Description::require_no_contradiction() const {
+  for (const Ways& ways : alternatives()) {
+    std::vector<Source> given;
+    for (const Way& way : ways) {
+      if (const Quantity* first = given_of(*this, way)) given.push_back(source_of(*first));
+    }
+    if (given.size() < 2) continue;
+    const auto placed = std::ranges::find_if(given, [](const Source& source) { return !source.place.empty(); });
+    (placed == given.end() ? given.front() : *placed)
+        .fail(fmt::format("{} exclude each other: {}", joined(given), ways_out(*this, ways)));
+  }
+}
+
+Source Description::source_of(const Quantity& quantity) const {
+  if (const Values* given = find(quantity)) return given->source;
+  return home_of(quantity);
+}
+
+Source Description::home_of(const Quantity& quantity) const {
+  if (!in_file_) return {"", std::string(quantity.name), ""};
+  const auto place = places_.find(quantity.section);
+  return {place == places_.end() ? "" : place->second, fmt::format("'{}'", quantity.name),
+          fmt::format("[{}]", quantity.section)};
+}
+
+bool Description::in_one_file() const {
+  return in_file_ && std::ranges::none_of(values_, [](const auto& each) { return each.second.source.place.empty(); });
+}
+
+Description describe(const Experiment& experiment) {
+  Description described;
+  described.set_name(experiment.ball.name);
+  described.set_body(experiment.ball.body);
+  described.set_law(experiment.contact.law, {});
+  for (const auto& [quantity, values] : given_by(experiment))
+    described.set(*quantity, values, {"", std::string(quantity->name), ""});
+  return described;
+}
+
+Experiment experiment_of(const Description& described) {
+  described.require_no_contradiction();
+  const Body body = described.body().value_or(Body{});
+  Experiment experiment{
+      .ball = {.name = described.name().empty() ? "ball" : described.name(), .mass = 0, .radius = 0, .body = body},
+      .contact = {.friction = 0, .patch = WholeFace{}, .law = described.law()},
+      .start = SlipAndSpin{}};
+  for (const Quantity* quantity : quantities()) {
+    if (double* const member = member_of(experiment, *quantity))
+      *member =
+          described.find(*quantity) || !quantity->standard ? numbers_of(described, *quantity)[0] : *quantity->standard;
+  }
+  experiment.contact.patch = patch_of(described, body);
+  experiment.start = start_of(described);
+  if (const Description::Values* newtons = described.find(load)) {
+    experiment.environment = {.gravity = newtons->numbers[0] / experiment.ball.mass, .load = newtons->numbers[0]};
+  } else if (const Description::Values* given = described.find(gravity)) {
+    experiment.environment.gravity = given->numbers[0];
+  }
+  try {
+    require_experiment(experiment);
+  } catch (const std::domain_error& error) {  // of the values together
+    if (!described.in_one_file()) throw;
+    described.home_of(friction).fail(error.what());
+  }
+  return experiment;
+}
+
+std::string law_of(const Description& described) {
+  return described.law().empty() ? std::string(described.body().value_or(Body{}).law) : described.law();
+}
+
+}  // namespace contensou::si
