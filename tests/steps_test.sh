@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# What the steps of .ci/test and .ci/full make of a step that fails: steps_test.sh FILE, the file .ci/steps.
+told=$(bash -c '
+  source "$1"
+  good() { echo "$1 ran" >&2; }
+  half_good() { false; echo half; return 3; }
+  step build good build
+  step "test it" after build half_good
+  step report after "test it" good report
+  step last good last' steps "$1" 2>&1)
+status=$?
+failed=0
+expect() { [[ $2 == $3 ]] || { printf '%s: %s\n' "$1" "$2"; failed=1; }; }
+expect "exit status" "$status" 1
+expect "what ran" "$(grep -c ' ran$' <<<"$told")" 2
+expect "table" "$(tail -n 4 <<<"$told" | sed -E 's/ +[0-9]+ s +[0-9]+ s +/: /')" \
+  $'build: passed\ntest it: FAILED\nreport: not run\nlast: passed'
+bash -c 'source "$1"; step one true; step two after one true' steps "$1" >/dev/null
+expect "exit status of what passed" $? 0
+exit $failed
