@@ -12,6 +12,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include "numerics/epsilon.hpp"
 #include "numerics/infinity.hpp"
 #include "planar/strip.hpp"
 
@@ -21,8 +22,6 @@ using Eigen::Vector2d;
 using std::numbers::pi;
 
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 double angle_of(const Vector2d& n) { return std::atan2(n[1], n[0]); }
 
@@ -47,7 +46,7 @@ double root_below(const std::function<double(double)>& function, double high) {
 }
 
 /// How an orbit is found again: the strip that it is in, or that q stays.
-struct Place {
+struct StripPlace {
   const Strip* strip = nullptr;
   double xi = 0;
   double radial = 0;  ///< without a strip
@@ -65,9 +64,9 @@ struct PlanarReduction::Solved {
   void scan();
   void make_strips();
   std::string_view classify() const;
-  Place place(const Vector2d& n) const;
-  PlanarEnd end(const Place& place) const;
-  double end_time(const Place& place, double p) const;
+  StripPlace place(const Vector2d& n) const;
+  PlanarEnd end(const StripPlace& place) const;
+  double end_time(const StripPlace& place, double p) const;
 
   Generator scaling;
   SectionField field;
@@ -229,7 +228,7 @@ std::string_view PlanarReduction::Solved::classify() const {
                  "unstable node");
 }
 
-Place PlanarReduction::Solved::place(const Vector2d& n) const {
+StripPlace PlanarReduction::Solved::place(const Vector2d& n) const {
   if (!star) {
     for (const Strip& strip : strips) {
       const auto xi = strip.locate(n);
@@ -244,7 +243,7 @@ Place PlanarReduction::Solved::place(const Vector2d& n) const {
   return {.radial = rates->radial};
 }
 
-PlanarEnd PlanarReduction::Solved::end(const Place& place) const {
+PlanarEnd PlanarReduction::Solved::end(const StripPlace& place) const {
   double radial = place.radial;
   if (place.strip != nullptr) {
     if (!place.strip->closed() && !place.strip->to().ray) return PlanarEnd::border;
@@ -254,7 +253,7 @@ PlanarEnd PlanarReduction::Solved::end(const Place& place) const {
   return radial < 0 ? PlanarEnd::centre : radial > 0 ? PlanarEnd::infinity : PlanarEnd::rest;
 }
 
-double PlanarReduction::Solved::end_time(const Place& place, double p) const {
+double PlanarReduction::Solved::end_time(const StripPlace& place, double p) const {
   const double c = field.time_degree();
   if (place.strip != nullptr)
     return place.strip->timed() ? std::exp(c * p) * place.strip->time_left(place.xi) : infinity;
@@ -289,7 +288,7 @@ double PlanarReduction::first_integral(const Vector2d& x) const {
   canonical(x);
   if (x != centre()) {
     const auto [n, p] = solved_->field.canonical(x);
-    const Place place = solved_->place(n);
+    const StripPlace place = solved_->place(n);
     if (place.strip != nullptr) return p - place.strip->ln_rho(place.xi);
   }
   throw std::domain_error(fmt::format(
@@ -301,7 +300,7 @@ struct PlanarOrbit::Motion {
   bool at_centre;
   Vector2d n;
   double p;
-  Place place;
+  StripPlace place;
   PlanarEnd end;
   double end_time;
 

@@ -14,6 +14,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include "numerics/epsilon.hpp"
 #include "planar/matrix_exponential.hpp"
 
 namespace contensou::reduction {
@@ -24,8 +25,6 @@ using Eigen::Matrix2d;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Unknowns = Eigen::Matrix<double, 7, 1>;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 Generator generator_of(const Unknowns& x) {
   return {x[6], (Matrix2d() << x[0], x[1], x[2], x[3]).finished(), Vector2d(x[4], x[5])};

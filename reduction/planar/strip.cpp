@@ -13,6 +13,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include "numerics/epsilon.hpp"
 #include "numerics/infinity.hpp"
 #include "numerics/linear_ode.hpp"
 #include "planar/matrix_exponential.hpp"
@@ -25,8 +26,6 @@ using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
 
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 

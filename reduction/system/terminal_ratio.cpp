@@ -13,13 +13,12 @@
 #include <boost/math/tools/roots.hpp>
 
 #include "contensou/reduction/pade_law.hpp"
+#include "numerics/epsilon.hpp"
 #include "numerics/infinity.hpp"
 
 namespace contensou::reduction {
 
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// An E below this has no sign: a law is good to some eps, and k takes as good as for ever to pass there.
 constexpr double without_sign = TerminalRatios::tolerance;
