@@ -5,6 +5,10 @@ function(contensou_help topic result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
+# help2man hands the program's name to a shell, which would cut a path at a blank.
+cmake_path(GET CONTENSOU PARENT_PATH folder)
+cmake_path(GET CONTENSOU FILENAME program)
+
 foreach(verb IN ITEMS "" LISTS VERBS)
   string(REGEX REPLACE "-$" "" page "contensou-${verb}")
   contensou_help("${verb}" help)
@@ -21,7 +25,7 @@ foreach(verb IN ITEMS "" LISTS VERBS)
   endif()
   file(WRITE ${OUT}/include "${include}")
   execute_process(COMMAND ${HELP2MAN} --no-info --include=${OUT}/include --output=${OUT}/${page}.1 "--help-option=help ${verb}"
-    ${CONTENSOU} COMMAND_ERROR_IS_FATAL ANY)
+    ./${program} WORKING_DIRECTORY ${folder} COMMAND_ERROR_IS_FATAL ANY)
   # A line each.
   file(READ ${OUT}/${page}.1 manual)
   string(REGEX REPLACE "(\n\\.SH EXAMPLES\n\\.IP\n)(([^.\n][^\n]*\n)+)" "\\1.nf\n\\2.fi\n" manual "${manual}")
