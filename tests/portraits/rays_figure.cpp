@@ -15,7 +15,7 @@ using namespace contensou::portraits;
 
 namespace {
 
-const Lines* layer(const Panel& panel, const std::string& legend) {
+const Lines* lines_of(const Panel& panel, const std::string& legend) {
   const auto found = std::ranges::find(panel.lines, legend, &Lines::legend);
   return found == panel.lines.end() ? nullptr : &*found;
 }
@@ -38,7 +38,7 @@ TEST_CASE("rays are drawn where terminal_ratios finds them, and as it says that 
     for (const double r : {1.0, 1.992, 2.5, 3.5}) {
       for (const reduction::InvariantRay& ray : reduction::terminal_ratios(law, r).rays) {
         INFO(name << " r = " << r << " k = " << ray.k);
-        const Lines* lines = layer(panel, ray.attracts() ? "attracts" : "repels");
+        const Lines* lines = lines_of(panel, ray.attracts() ? "attracts" : "repels");
         REQUIRE(lines != nullptr);
         bool found = false;
         for (const Polyline& line : lines->lines) found = found || std::abs(ray_at(line, r) / ray.k - 1) < 1e-3;
@@ -46,8 +46,8 @@ TEST_CASE("rays are drawn where terminal_ratios finds them, and as it says that 
       }
     }
   }
-  CHECK(layer(rays_figure(reduction::HertzLaw{}).panels[0], "repels") == nullptr);
-  CHECK(layer(rays_figure(*reduction::find_law("potential8")).panels[0], "repels") != nullptr);
+  CHECK(lines_of(rays_figure(reduction::HertzLaw{}).panels[0], "repels") == nullptr);
+  CHECK(lines_of(rays_figure(*reduction::find_law("potential8")).panels[0], "repels") != nullptr);
 }
 
 TEST_CASE("heads point to smaller k where D > 0, and m lies between its bounds", "[invariant]") {
@@ -61,7 +61,7 @@ TEST_CASE("heads point to smaller k where D > 0, and m lies between its bounds",
       CHECK(heads.arrows.size() == 4);
       for (const Arrow& head : heads.arrows) CHECK(head.at.y * head.direction.x < 0);
     }
-    CHECK(layer(figure.panels[2], "{/:Italic r} = 3") != nullptr);
+    CHECK(lines_of(figure.panels[2], "{/:Italic r} = 3") != nullptr);
     for (const Lines& lines : figure.panels[2].lines) {
       for (const Polyline& line : lines.lines) {
         for (const Point& point : line) {

@@ -12,7 +12,6 @@ namespace contensou::program {
 
 namespace {
 
-constexpr std::size_t width = 80;
 constexpr std::size_t margin = 22;  ///< where meanings begin
 
 /// @param column  where the first line begins
@@ -24,7 +23,7 @@ std::string wrapped(std::string_view text, std::size_t column, std::size_t inden
     const auto bytes_more = std::ranges::count_if(word, [](char c) { return (c & 0xC0) == 0x80; });  // of UTF-8
     const std::size_t size = word.size() - static_cast<std::size_t>(bytes_more);
     if (!lines.empty()) {
-      const bool fits = column + 1 + size <= width;
+      const bool fits = column + 1 + size <= help_width;
       lines += fits ? " " : fmt::format("\n{:{}}", "", indent);
       column = fits ? column + 1 : indent;
     }

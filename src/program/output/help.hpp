@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 
 namespace contensou::program {
+
+inline constexpr std::size_t help_width = 80;
 
 /// Text in lines of at most 80 columns.
 std::string help_paragraph(std::string_view text, std::size_t indent = 0);

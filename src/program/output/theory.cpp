@@ -19,8 +19,6 @@ namespace contensou::program {
 
 namespace {
 
-constexpr std::size_t width = 80;
-
 /// What a text of Markdown is made of, as far as the chapter uses it.
 struct Block {
   enum class Kind { heading, paragraph, item, formula, table } kind;
@@ -100,7 +98,7 @@ std::string equations(const std::string& tex) {
   std::vector<std::string> lines;
   for (std::string part; std::getline(parts, part);) {
     if (CLI::detail::trim(part).empty()) continue;
-    if (!lines.empty() && lines.back().size() + apart.size() + part.size() + tag.size() + 2 <= width) {
+    if (!lines.empty() && lines.back().size() + apart.size() + part.size() + tag.size() + 2 <= help_width) {
       lines.back() += fmt::format("{}{}", apart, part);
     } else {
       lines.push_back(fmt::format("{}{}", indent, part));
@@ -108,14 +106,14 @@ std::string equations(const std::string& tex) {
   }
   // What is longer goes on after the last equals sign that has room.
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].size() + tag.size() + 2 <= width) continue;
-    const std::size_t sign = lines[i].rfind(" = ", width - 8);
+    if (lines[i].size() + tag.size() + 2 <= help_width) continue;
+    const std::size_t sign = lines[i].rfind(" = ", help_width - 8);
     if (sign == std::string::npos || sign < 12) throw std::logic_error("theory: too long a formula: " + lines[i]);
     lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                  fmt::format("{}  {}", indent, lines[i].substr(sign + 1)));
     lines[i].resize(sign);
   }
-  lines.back() += fmt::format("{:>{}}", tag, tag.empty() ? 0 : width - lines.back().size());
+  lines.back() += fmt::format("{:>{}}", tag, tag.empty() ? 0 : help_width - lines.back().size());
   return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
