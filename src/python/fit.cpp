@@ -1,12 +1,32 @@
 // contensou::fit in Python: one film.
 #include "contensou/fit/fit.hpp"
 
+#include <memory>
+#include <utility>
+
 #include "contensou/si/scaling.hpp"
 #include "values.hpp"
 
 namespace contensou::python {
 
 namespace {
+
+/// A law that a signal can stop: a search, which has one thread, asks it again and again.
+class InterruptibleLaw {
+ public:
+  explicit InterruptibleLaw(std::shared_ptr<const reduction::Law> law) : law_(std::move(law)) {}
+
+  const std::string& name() const { return law_->name(); }
+  const std::vector<double>& kinks() const { return law_->kinks(); }
+  reduction::Resistance operator()(reduction::Slip slip) const {
+    interruption_->check();
+    return (*law_)(slip);
+  }
+
+ private:
+  std::shared_ptr<const reduction::Law> law_;
+  std::shared_ptr<Interruption> interruption_ = std::make_shared<Interruption>();
+};
 
 Eigen::ArrayXd column_of(const Numbers& numbers) {
   return Eigen::Map<const Eigen::ArrayXd>(numbers.data(), numbers.size());
@@ -62,7 +82,10 @@ void bind_fit(py::module_& module) {
     track.start = track.t.size() > 0 ? track.t[0] : 0;
     for (const auto& [name, values, sd] : series)
       track.series.push_back({one_of("observable", "observables", kinds, name), column_of(values), column_of(sd)});
-    fit::FitRequest request{.ball = ball, .law = law, .tracks = {track}, .free = {false, false, false, false}};
+    fit::FitRequest request{.ball = ball,
+                            .law = InterruptibleLaw(std::make_shared<const reduction::Law>(law)),
+                            .tracks = {track},
+                            .free = {false, false, false, false}};
     const std::vector<std::pair<std::string, bool fit::Free::*>> parameters{{"friction", &fit::Free::friction},
                                                                             {"patch_radius", &fit::Free::patch_radius},
                                                                             {"slip", &fit::Free::slip},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,25 @@ using Released = py::call_guard<py::gil_scoped_release>;
 /// Numbers of any shape, one after the other.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// Lets a signal such as Ctrl-C end a long computation that holds no lock of Python's: asked often, it looks for one ten times
+/// a second.
+class Interruption {
+ public:
+  /// @throws py::error_already_set  KeyboardInterrupt, or what else a handler of Python's raises
+  void check() {
+    if (++asked_ % 64 != 0) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - looked_ < std::chrono::milliseconds(100)) return;
+    looked_ = now;
+    const py::gil_scoped_acquire acquired;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+
+ private:
+  unsigned asked_ = 0;
+  std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
+};
+
 /// An array of the shape of `given`, each entry what the function makes of that number.
 template <class Value, class Function>
 py::array_t<Value> mapped(const Numbers& given, Function function) {
@@ -33,7 +53,11 @@ py::array_t<Value> mapped(const Numbers& given, Function function) {
   Value* const to = result.mutable_data();
   const py::ssize_t size = given.size();
   const py::gil_scoped_release released;
-  for (py::ssize_t i = 0; i < size; ++i) to[i] = function(from[i]);
+  Interruption interruption;
+  for (py::ssize_t i = 0; i < size; ++i) {
+    interruption.check();
+    to[i] = function(from[i]);
+  }
   return result;
 }
 

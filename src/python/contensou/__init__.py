@@ -9,9 +9,10 @@
 
 u = R omega_z is the speed of pivoting, v >= 0 that of sliding, mu the radius of the contact patch over that of the
 body, R; tau = (3 pi/2) f g t is the paper's time. All three are speeds in one unit, any one; a Ball is in SI units.
-Numbers may be arrays of any shapes that broadcast. What the library rejects is a ValueError.
+Numbers may be arrays of any shapes that broadcast; what is masked in one is NaN. What the library rejects is a ValueError.
 """
 
+from ._core import __version__
 from ._balls import Ball, Event, Roll
 from ._engine import engine, engines
 from ._fit import Estimate, Fit, fit
@@ -20,5 +21,5 @@ from ._portrait import Portrait, portrait
 
 __all__ = [
     "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "Law", "Orbit", "Portrait", "Ray", "Roll", "Terminal",
-    "check", "engine", "engines", "fit", "law", "portrait", "stop_time",
+    "__version__", "check", "engine", "engines", "fit", "law", "portrait", "stop_time",
 ]

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._numbers import numbers
 from ._flow import Flow, Law, LawLike, law as law_of
 
 
@@ -178,7 +179,7 @@ class Ball:
         """The state of a ball on the table t seconds later, in the convention of pooltool: rows r, v and w, the place of
         the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 of any shape S: (*S, 3, 3).
         A new array."""
-        rvw = np.asarray(rvw, float)
+        rvw = numbers("rvw", rvw)
         if rvw.shape != (3, 3) or rvw[1, 2] != 0:
             raise ValueError(f"rvw: rows r, v, w of a ball on the table, shape (3, 3) with v_z = 0; got {rvw.tolist()}")
         roll = self.roll(velocity=rvw[1, :2], angular_velocity=rvw[2], law=law,
@@ -223,7 +224,7 @@ class Roll:
         return Roll, tuple(getattr(self, each.name) for each in fields(self) if each.init)
 
     def __call__(self, t: ArrayLike) -> Any:
-        return self._core.at(t)[()]
+        return self._core.at(numbers("t", t))[()]
 
     @property
     def uncoupled(self) -> Roll:

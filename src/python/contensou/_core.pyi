@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 _Place = tuple[float, float, float]
 _Body = Union[str, tuple[float, float]]
 
+__version__: str
 standard_cue_mass: float
 rolling_slip: float
 quantities: list[str]

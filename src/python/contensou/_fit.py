@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._balls import Ball
 from ._flow import LawLike
+from ._numbers import numbers
 
 
 class Estimate(NamedTuple):
@@ -89,15 +90,15 @@ def fit(
 ) -> Fit:
     """Friction and patch radius of a ball, with its slip and spin at t[0], from what a film shows at the times t in s, which
     increase: any of slip (m/s), spin (rad/s about the vertical), place x, y (m) and velocity vx, vy (m/s) of the centre, and
-    the angle turned about the vertical (rad, up to whole turns). NaN was not measured. src/fit/README.md says how to film it.
+    the angle turned about the vertical (rad, up to whole turns). NaN, and what is masked, was not measured. src/fit/README.md says how to film it.
 
     ball:    its radius and gravity; the values of what is not free; its law, where none is given
     sd:      standard deviations by observable, numbers or arrays; of others they are estimated, from 10 values or more
     robust:  Huber's loss: values that are far off count for less
     """
-    t = np.asarray(t, float)
+    t = numbers("t", t)
     given = {"slip": slip, "spin": spin, "x": x, "y": y, "vx": vx, "vy": vy, "angle": angle}
-    seen = {name: np.asarray(values, float) for name, values in given.items() if values is not None}
+    seen = {name: numbers(name, values) for name, values in given.items() if values is not None}
     sd = sd or {}
     if not sd.keys() <= seen.keys():
         raise ValueError(f"sd: of {', '.join(sorted(sd.keys() - seen.keys()))} there are no values")
@@ -105,7 +106,7 @@ def fit(
         if values.shape != t.shape or t.ndim != 1:
             raise ValueError(f"{name}: one value for each time is needed, shape {t.shape}; got {values.shape}")
     none = np.empty(0)
-    series = [(name, values, np.broadcast_to(np.asarray(sd[name], float), t.shape) if name in sd else none)
+    series = [(name, values, np.broadcast_to(numbers(f"sd of {name}", sd[name]), t.shape) if name in sd else none)
               for name, values in seen.items()]
     known_law = ball._law(law)
     found = _core.fit(ball._experiment, known_law._core, t, series, list(free), robust)

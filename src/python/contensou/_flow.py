@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._numbers import number, numbers, target, thread_count
 
 Body = Union[str, tuple[float, float]]
 
@@ -50,6 +51,7 @@ class Law:
         return f"law({self.name!r})" if self.function is None and self.rho is None else f"<law {self.name}>"
 
     def __call__(self, k: ArrayLike) -> tuple[Any, Any]:
+        k = numbers("k", k)
         return self._core.force(k)[()], self._core.moment(k)[()]
 
     @property
@@ -76,7 +78,8 @@ def law(
 ) -> Law:
     """The law of a name, of a function, or of a pressure given as a table. See Law."""
     if rho is not None or pressure is not None:
-        table = [tuple(np.ravel(np.asarray(() if column is None else column, float)).tolist()) for column in (rho, pressure)]
+        table = [tuple(np.ravel(numbers(each, () if column is None else column)).tolist())
+                 for each, column in (("rho", rho), ("pressure", pressure))]
         return Law(name or "pressure", None, table[0], table[1])
     if isinstance(of, Law):
         return of
@@ -131,7 +134,7 @@ class Orbit:
     _core: _core.Orbit = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_core", self.flow._core.orbit(self.u, self.v))
+        object.__setattr__(self, "_core", self.flow._core.orbit(number("u", self.u), number("v", self.v)))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Orbit, (self.flow, self.u, self.v)
@@ -151,9 +154,9 @@ class Orbit:
         with fields tau, u, v, ln_v, k, beta. v underflows near the stop, ln_v does not; beta is the paper's regularised
         time (2.8)."""
         if tau is not None and tau_left is None:
-            return self._core.at(tau)[()]
+            return self._core.at(numbers("tau", tau))[()]
         if tau is None and tau_left is not None:
-            return self._core.at_left(tau_left)[()]
+            return self._core.at_left(numbers("tau_left", tau_left))[()]
         raise TypeError("at: one of tau and tau_left is needed")
 
     def sample(self, count: int = 201) -> NDArray[Any]:
@@ -162,7 +165,7 @@ class Orbit:
 
     def slip_length(self, tau: ArrayLike) -> Any:
         """The integral of v over [0, tau], in the unit of speed squared."""
-        return self._core.slip_length(tau)[()]
+        return self._core.slip_length(numbers("tau", tau))[()]
 
 
 @dataclass(frozen=True, init=False)
@@ -182,7 +185,7 @@ class Flow:
 
     def __init__(self, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball") -> None:
         of = None if law is None else _law(law)
-        core = _core.Flow(None if of is None else of._core, mu, body)
+        core = _core.Flow(None if of is None else of._core, None if mu is None else number("mu", mu), body)
         for name, value in {"mu": core.mu, "law": of or Law(core.law.name), "body": body, "_core": core}.items():
             object.__setattr__(self, name, value)
 
@@ -192,15 +195,17 @@ class Flow:
     def stop_time(self, *, u: ArrayLike, v: ArrayLike, out: Optional[NDArray[np.float64]] = None, threads: int = 1) -> Any:
         """The time tau until u = v = 0, to a few eps (2e-15 relative).
 
-        u, v:     numbers, or arrays of shapes that broadcast; any u, v >= 0. In an array what is no start becomes NaN
+        u, v:     numbers, or arrays of shapes that broadcast; any u, v >= 0. In an array what is no start, or is
+                  masked, becomes NaN
         out:      float64 of the broadcast shape, to write into; may be u or v itself
         threads:  that share the work on a large array; other threads of Python go on meanwhile
         """
         if out is None and isinstance(u, (float, int)) and isinstance(v, (float, int)):
             return self._core.stop_time(u, v)
-        u, v = np.broadcast_arrays(np.asarray(u, float), np.asarray(v, float))
-        if out is not None and (out.shape != u.shape or out.dtype != np.float64):
-            raise ValueError(f"out: float64 of shape {u.shape} is needed, got {out.dtype} of shape {out.shape}")
+        threads = thread_count(threads)
+        u, v = np.broadcast_arrays(numbers("u", u), numbers("v", v))
+        if out is not None:
+            target(out, u.shape)
         direct = out is not None and out.flags.c_contiguous and all(
             out.ctypes.data == given.ctypes.data and given.flags.c_contiguous or not np.may_share_memory(out, given)
             for given in (u, v)
@@ -240,10 +245,8 @@ def stop_time(
     flow (0.4 ms) for each of its values."""
     if mu is None or isinstance(mu, (float, int)):
         return _flow(mu, law, body).stop_time(u=u, v=v, out=out, threads=threads)
-    u, v, mu = np.broadcast_arrays(np.asarray(u, float), np.asarray(v, float), np.asarray(mu, float))
-    taus = np.empty(u.shape) if out is None else out
-    if taus.shape != u.shape:
-        raise ValueError(f"out: shape {u.shape} is needed, got {taus.shape}")
+    u, v, mu = np.broadcast_arrays(numbers("u", u), numbers("v", v), numbers("mu", mu))
+    taus = np.empty(u.shape) if out is None else target(out, u.shape)
     values, group = np.unique(mu, return_inverse=True)
     group = group.reshape(u.shape)
     found = [Flow(float(value), law, body).stop_time(u=u[group == i], v=v[group == i], threads=threads)
@@ -290,4 +293,4 @@ def check(*, u: float, v: float, mu: Optional[float] = None, law: Optional[LawLi
     """
     laws: list[Optional[LawLike]] = ["exact", "pade"] if law is None and body in ("ball", "hollow-ball") else [law]
     flows = [_flow(mu, each, body) for each in laws]
-    return Checks(Check(flow.law.name, *row) for flow in flows for row in flow._core.check(u, v))
+    return Checks(Check(flow.law.name, *row) for flow in flows for row in flow._core.check(number("u", u), number("v", v)))
