@@ -1,18 +1,9 @@
 #include "contensou/portraits/paper_figures.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <string>
 #include <utility>
-
-#include <fmt/format.h>
-
-#include "contensou/portraits/layout.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "views/portrait_panel.hpp"
 
 namespace contensou::portraits {
 
@@ -84,27 +75,6 @@ class Sketch {
 };
 
 std::string italic(const std::string& text) { return "{/:Italic " + text + "}"; }
-
-constexpr Colour moment_colour{0xb3003b};
-
-/// The look of a law's curves, also in grey: the exact law solid and heavy, its approximation dashed, others otherwise.
-Stroke stroke_of(const reduction::Law& law, Colour colour) {
-  if (law.as<reduction::HertzLaw>()) return {colour, 2.4};
-  if (law.as<reduction::PadeLaw>()) return {colour, 1.6, true};
-  return {colour, 1.6, law.name() != "uniform", true};
-}
-
-constexpr double max_k = 4;
-
-Polyline curve(const reduction::Law& law, double reduction::Resistance::*part) {
-  constexpr int pieces = 400;
-  Polyline line;
-  for (int i = 0; i <= pieces; ++i) {
-    const double k = max_k * i / pieces;
-    line.push_back({k, law(reduction::slip_of_ratio(k)).*part});
-  }
-  return line;
-}
 
 }  // namespace
 
@@ -261,67 +231,6 @@ Figure ball_drawing(const AskedSize& size) {
   sketch.line({seen(-eps * 0.3, -eps * 0.5), {-0.62, -0.24}}, {guide, 0.8, false});
   sketch.label({-0.7, -0.27}, italic("ε"));
   return sketch.framed({0, 1.02}, 4.86, 3.3);
-}
-
-Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size) {
-  Panel panel;
-  panel.x = {"{/:Italic k = v}/({/:Italic ε}|{/:Italic ω_z}|)", 0, max_k, false, {}};
-  panel.y = {"{/:Italic Φ = F}/({/:Italic N f}),   {/:Italic Ψ = M}/({/:Italic N f ε})", 0, 1.05, false, {}};
-  panel.lines.push_back({{{{0, 1}, {max_k, 1}}, {{1, 0}, {1, 1.05}}}, {guide, 0.8, true}, ""});
-  for (const reduction::Law& law : laws) {
-    const std::string name = literal(law.name(), 20);
-    const std::string force = "{/:Italic Φ}, " + name, moment = "{/:Italic Ψ}, " + name;
-    panel.lines.push_back({{curve(law, &reduction::Resistance::force)}, stroke_of(law, velocity_colour), force});
-    panel.lines.push_back({{curve(law, &reduction::Resistance::moment)}, stroke_of(law, moment_colour), moment});
-    // Moments are told from forces by circles.
-    const Polyline& line = panel.lines.back().lines.front();
-    Marks circles{{}, moment_colour, 0.7, Marks::Shape::circle, moment};
-    for (std::size_t i = line.size() / 16; i < line.size(); i += line.size() / 8) circles.points.push_back(line[i]);
-    panel.marks.push_back(std::move(circles));
-  }
-  Figure figure;
-  figure.title = "Combined dry friction of a circular patch";
-  if (laws.size() == 2) {
-    figure.subtitle = "Zh98, Fig. 2: the exact law (1.3), (1.5) and its Padé approximation (1.4), (1.6)";
-    panel.labels = {
-        {{0.5, 0.82}, "force  {/:Italic Φ}", velocity_colour, Label::Align::centre},
-        {{2.5, 0.2}, "moment  {/:Italic Ψ}", moment_colour, Label::Align::centre},
-        {{0.07, 0.64}, "3π/16", moment_colour, Label::Align::left},
-        {{1.04, 0.32}, "the centre of rotation leaves the patch", guide, Label::Align::left},
-    };
-  } else {
-    figure.subtitle = "force and moment against the ratio of slip to spin";
-  }
-  figure.size = fitted({170, 115}, 1, size);
-  figure.panels = {panel};
-  return figure;
-}
-
-Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const AskedSize& size) {
-  Panel panel;
-  panel.x = {"moment {/:Italic Ψ}/{/:Italic Ψ}(0) = {/:Italic M}/{/:Italic M}_{max}", 0, 1.04, false, {}};
-  panel.y = {"force {/:Italic Φ} = {/:Italic F}/({/:Italic N f})", 0, 1.04, false, {}};
-  panel.to_scale = true;
-  panel.lines.push_back({{arc({0, 0}, 1, 1, 0, pi / 2)}, {guide, 1, true}, "ellipse"});
-  panel.lines.push_back({{{{1, 0}, {0, 1}}}, {guide, 1, false, true}, "chord"});
-  constexpr int pieces = 400;
-  for (const reduction::Law& law : laws) {
-    Polyline line;
-    for (int i = 0; i <= pieces; ++i) {
-      const auto [force, moment] = law(reduction::slip_of_ratio(std::tan(pi / 2 * i / pieces)));
-      line.push_back({moment / law.pivoting_moment(), force});
-    }
-    line.push_back({0, 1});
-    const double fraction = 0.8 * static_cast<double>(panel.lines.size() - 2) / static_cast<double>(laws.size());
-    panel.lines.push_back({{std::move(line)}, stroke_of(law, viridis(fraction)), literal(law.name(), 20)});
-  }
-  Figure figure;
-  figure.title = "The limit surface of a circular patch";
-  figure.subtitle = "force and moment at which a patch slips; under Coulomb friction they lie above the chord";
-  const double width = size.width_mm.value_or(130);
-  figure.size = {width, size.height_mm.value_or(1.05 * width)};
-  figure.panels = {panel};
-  return figure;
 }
 
 }  // namespace contensou::portraits

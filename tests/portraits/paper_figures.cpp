@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/portraits/gnuplot.hpp"
+#include "contensou/portraits/law_figure.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/portraits/paper_figures.hpp"
+#include "contensou/portraits/law_figure.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "input/csv.hpp"
 #include "options/figure_options.hpp"

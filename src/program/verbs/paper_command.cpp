@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/portraits/law_figure.hpp"
 #include "contensou/portraits/paper_figures.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"

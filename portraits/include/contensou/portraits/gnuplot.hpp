@@ -26,6 +26,7 @@ class GnuplotError : public std::runtime_error {
 };
 
 /// The figure as a gnuplot script with its data inside: `gnuplot FILE.gp > FILE.svg` draws it.
+/// @throws std::domain_error  as lay_out
 std::string gnuplot_script(const Figure& figure);
 
 /// The bytes of the figure in a format other than gif; the same for the same figure. gp and tex need no gnuplot. For
@@ -34,7 +35,8 @@ std::string gnuplot_script(const Figure& figure);
 /// although it drew the figure goes to std::cerr.
 ///
 /// @return  a whole file: it has its format's beginning and end, and an SVG all that the figure plots
-/// @throws GnuplotError  if gnuplot is not found, fails, takes longer or draws nothing that is whole
+/// @throws GnuplotError       if gnuplot is not found, fails, takes longer or draws nothing that is whole
+/// @throws std::domain_error  as lay_out, and for tex as pgfplots
 std::string render(const Figure& figure, PictureFormat format);
 
 /// What gnuplot draws in PDF, EPS, PNG and GIF in place of a font that is not installed, by fontconfig's fc-match. An SVG

@@ -1,0 +1,116 @@
+#include "views/palette.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "data/round_numbers.hpp"
+
+namespace contensou::portraits {
+
+namespace {
+
+constexpr std::array<unsigned, 9> viridis_steps{0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
+                                                0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
+
+std::vector<Colour> spread(const std::vector<Colour>& colours, std::size_t count) {
+  std::vector<Colour> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    result.push_back(colours[count == 1 ? 0 : i * (colours.size() - 1) / (count - 1)]);
+  }
+  return result;
+}
+
+}  // namespace
+
+Colour viridis(double fraction, double white) {
+  const double place = fraction * (viridis_steps.size() - 1);
+  const auto index = std::min(static_cast<std::size_t>(place), viridis_steps.size() - 2);
+  const double part = place - static_cast<double>(index);
+  unsigned rgb = 0;
+  for (int shift : {16, 8, 0}) {
+    const double low = (viridis_steps[index] >> shift) & 0xFF, high = (viridis_steps[index + 1] >> shift) & 0xFF;
+    rgb |= static_cast<unsigned>(std::lround(white * 255 + (1 - white) * (low + part * (high - low)))) << shift;
+  }
+  return {rgb};
+}
+
+Palette palette(bool screen) {
+  std::vector<Colour> times;
+  constexpr int steps = 64;
+  // Near the stop: on paper the darkest, on a dark screen the lightest. All have 3:1 to the ground, regions included.
+  for (int i = 0; i <= steps; ++i) {
+    const double fraction = static_cast<double>(i) / steps;
+    times.push_back(viridis(screen ? 1 - 0.6 * fraction : 0.55 * fraction));
+  }
+  if (screen) {
+    return {{{0x10141c}, {0xe3e8f0}, {0x9aa5b8}, 1.25, 1.15},
+            {0x7fb4e6},
+            {0xf0a35e},
+            {0xff6f91},
+            {0xe3e8f0},
+            {0x6b778c},
+            {0x55627a},
+            {0x1a2130},
+            times};
+  }
+  return {{}, {0x0b4f8a}, {0xc8621a}, {0xc2185b}, {0x222222}, {0x8a8f98}, {0xa9b0ba}, {0xf6f7f9}, times};
+}
+
+std::size_t TimeBands::band(double tau) const {
+  return static_cast<std::size_t>(std::ranges::upper_bound(edges, tau) - edges.begin());
+}
+
+TimeBands linear_bands(const PhasePortrait& portrait, const Palette& palette) {
+  double longest = 0;
+  for (const PortraitOrbit& orbit : portrait.orbits) longest = std::max(longest, orbit.tau_left[0]);
+  for (const PortraitOrbit& orbit : portrait.through) longest = std::max(longest, orbit.tau_left[0]);
+  if (longest == 0 && portrait.highlight) longest = portrait.highlight->tau_left[0];
+  if (longest == 0) longest = 1;
+  constexpr std::size_t per_interval = 3;
+  const double step = portrait.isochrones.empty() ? round_down(longest / 4) : portrait.isochrones.front().tau_stop;
+  TimeBands bands;
+  bands.edges = multiples(0, longest, step / per_interval);
+  bands.colours = spread(palette.times, bands.edges.size() + 1);
+  for (std::size_t band = 0; band <= bands.edges.size(); band += per_interval) {
+    if (band > 0) bands.arrows.push_back((bands.begin(bands.marked.back()) + bands.begin(band)) / 2);
+    bands.marked.push_back(band);
+  }
+  return bands;
+}
+
+TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette) {
+  constexpr int per_decade = 6;
+  // Edges at sixths of decades in the unit that the bar is marked in.
+  const int top = static_cast<int>(std::ceil(per_decade * std::log10(longest / unit)));
+  TimeBands bands;
+  for (int i = static_cast<int>(std::floor(per_decade * std::log10(shortest / unit))); i < top; ++i) {
+    bands.edges.push_back(unit * std::pow(10, static_cast<double>(i) / per_decade));
+    if (i % per_decade == 0) bands.marked.push_back(bands.edges.size());
+  }
+  bands.colours = spread(palette.times, bands.edges.size() + 1);
+  return bands;
+}
+
+ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption) {
+  ColourBar bar{time_left(caption), bands.colours, {}};
+  std::vector<double> begins;
+  for (std::size_t band : bands.marked) begins.push_back(bands.begin(band) / caption.time_unit);
+  const bool equal = begins.front() == 0;
+  const std::vector<std::string> powers = equal ? std::vector<std::string>{} : powers_of_ten(begins);
+  // Bands are equal on the bar.
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    bar.ticks.push_back({static_cast<double>(bands.marked[i]) / static_cast<double>(bands.colours.size()),
+                         equal ? number(begins[i]) : powers[i]});
+  }
+  return bar;
+}
+
+std::string time_left(const PortraitCaption& caption) {
+  const std::string& unit = caption.time_unit_name;
+  return fmt::format("time left {}{}{}", caption.time_symbol, unit.empty() ? "" : ", ", unit);
+}
+
+}  // namespace contensou::portraits
