@@ -28,8 +28,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr Patch patch{0.2, 3e-3, 1e-4};
-constexpr double load = 1.7;
-constexpr double limit = patch.friction * load;
+constexpr double normal_force = 1.7;
+constexpr double limit = patch.friction * normal_force;
 
 /// Motions of every k and every size beside the creep, in every direction.
 std::vector<Vector3d> motions() {
@@ -57,7 +57,7 @@ TEST_CASE("beside a small creep the wrench is that of the law", "[analytic]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     const PatchFriction friction(law);
     const auto [force, moment] = law({0.5, 0.3});
-    const Vector3d value = friction({0.3, -0.4, -100}, load, {0.2, 3e-3, 1e-9}).value;
+    const Vector3d value = friction({0.3, -0.4, -100}, normal_force, {0.2, 3e-3, 1e-9}).value;
     CAPTURE(law.name());
     CHECK(value.x() == Approx(-0.6 * limit * force).epsilon(1e-14));
     CHECK(value.y() == Approx(0.8 * limit * force).epsilon(1e-14));
@@ -69,7 +69,7 @@ TEST_CASE("friction takes power, within its bounds, and its Jacobian is its own"
   for (const reduction::Law& law : reduction::named_laws()) {
     const PatchFriction friction(law);
     for (const Vector3d& motion : motions()) {
-      const auto [value, jacobian] = friction(motion, load, patch);
+      const auto [value, jacobian] = friction(motion, normal_force, patch);
       CAPTURE(law.name(), motion.transpose());
       CHECK((value.dot(motion) < 0 || motion.isZero()));
       CHECK(value.head<2>().norm() <= limit * (1 + 1e-15));
@@ -86,8 +86,9 @@ TEST_CASE("friction takes power, within its bounds, and its Jacobian is its own"
         if (law.name() == "pade" && i == 2 && w < 1e-4 * V) continue;  // it has a kink at omega = 0
         const double h = 1e-5;
         const Vector3d change = h * unit[i] * Vector3d::Unit(i);
-        const Vector3d slope =
-            (friction(motion + change, load, patch).value - friction(motion - change, load, patch).value) / (2 * h);
+        const Vector3d slope = (friction(motion + change, normal_force, patch).value -
+                                friction(motion - change, normal_force, patch).value) /
+                               (2 * h);
         CHECK((slope.cwiseQuotient(moment_arm) / limit - scaled.col(i)).norm() < 3e-8);
       }
     }
@@ -100,7 +101,7 @@ TEST_CASE("the Jacobian of a law with a potential is symmetric and negative semi
     const PatchFriction friction(law);
     for (const Vector3d& motion : motions()) {
       const Vector3d arm(1, 1, 1 / patch.radius);  // all entries in one unit
-      const Matrix3d jacobian = arm.asDiagonal() * friction(motion, load, patch).jacobian * arm.asDiagonal();
+      const Matrix3d jacobian = arm.asDiagonal() * friction(motion, normal_force, patch).jacobian * arm.asDiagonal();
       const double size = jacobian.norm();
       CAPTURE(law.name(), motion.transpose());
       CHECK((jacobian - jacobian.transpose()).norm() < 1e-9 * size);
@@ -110,7 +111,7 @@ TEST_CASE("the Jacobian of a law with a potential is symmetric and negative semi
 }
 
 TEST_CASE("at rest the patch is viscous", "[limit]") {
-  const auto [value, jacobian] = PatchFriction(reduction::HertzLaw{})(Vector3d::Zero(), load, patch);
+  const auto [value, jacobian] = PatchFriction(reduction::HertzLaw{})(Vector3d::Zero(), normal_force, patch);
   CHECK(value.isZero());
   const double stiffness = limit / patch.creep;
   const Matrix3d expected = -stiffness * Vector3d(1, 1, patch.radius * patch.radius / 5).asDiagonal().toDenseMatrix();
@@ -122,7 +123,7 @@ TEST_CASE("what creeps under a load", "[analytic]") {
   const auto settled = [&](const reduction::Law& law, const Vector3d& pushed) {
     const PatchFriction friction(law);
     Vector3d motion = Vector3d::Zero();
-    for (int i = 0; i < 2000; ++i) motion = stepped(friction, motion, load, patch, per_mass, 1e-4, pushed);
+    for (int i = 0; i < 2000; ++i) motion = stepped(friction, motion, normal_force, patch, per_mass, 1e-4, pushed);
     return motion;
   };
   for (const reduction::Law& law : reduction::named_laws()) {
@@ -171,23 +172,23 @@ TEST_CASE("one Newton step per time step brings sliding to rest where the creep 
   const double dt = 1e-3;
   const Vector3d per_mass(2, 2, 1e5);
   const auto end = [&](double share) {
-    const Patch of{0.2, 3e-3, share * 2 * 0.2 * load * dt};
+    const Patch of{0.2, 3e-3, share * 2 * 0.2 * normal_force * dt};
     Vector3d motion(0.1, 0, 0);
-    for (int i = 0; i < 2000; ++i) motion = stepped(friction, motion, load, of, per_mass, dt);
+    for (int i = 0; i < 2000; ++i) motion = stepped(friction, motion, normal_force, of, per_mass, dt);
     return motion.norm();
   };
   CHECK(end(0.5) < 1e-12);
-  CHECK(end(0.01) > 0.4 * 2 * 0.2 * load * dt);
+  CHECK(end(0.01) > 0.4 * 2 * 0.2 * normal_force * dt);
 }
 
 TEST_CASE("no call allocates, of any law", "[limit]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     const PatchFriction friction(law);
     const std::vector<Vector3d> all = motions();
-    friction(all.back(), load, patch);
+    friction(all.back(), normal_force, patch);
     const long before = allocations();
     double sum = 0;
-    for (const Vector3d& motion : all) sum += friction(motion, load, patch).value.z();
+    for (const Vector3d& motion : all) sum += friction(motion, normal_force, patch).value.z();
     const long after = allocations();
     CAPTURE(law.name());
     CHECK(after == before);
@@ -212,20 +213,21 @@ TEST_CASE("the C interface gives numbers or zeros, and throws nothing", "[limit]
   for (const double v : {0.0, 1e-300, 1e-4, 1.0, 1e300}) {
     for (const double omega : {0.0, 1e-300, -1.0, 1e300}) {
       CAPTURE(v, omega);
-      CHECK(call({v, -v, omega}, load, good) == 0);
+      CHECK(call({v, -v, omega}, normal_force, good) == 0);
       CHECK(numbers().allFinite());
       CHECK(std::hypot(wrench.force[0], wrench.force[1]) <= limit * (1 + 1e-15));
-      const Wrench same = PatchFriction(reduction::HertzLaw{})({v, -v, omega}, load, patch);
+      const Wrench same = PatchFriction(reduction::HertzLaw{})({v, -v, omega}, normal_force, patch);
       CHECK(wrench.moment == same.value.z());
       CHECK(wrench.jacobian[0][2] == same.jacobian(0, 2));
       CHECK(wrench.jacobian[1][0] == same.jacobian(1, 0));
     }
   }
-  for (const auto& [weight, of] : {std::pair{0.0, good}, {-1.0, good}, {load, contensou_patch{0, 3e-3, 1e-4}}}) {
+  for (const auto& [weight, of] :
+       {std::pair{0.0, good}, {-1.0, good}, {normal_force, contensou_patch{0, 3e-3, 1e-4}}}) {
     CHECK(call({1, 1, 1}, weight, of) == 0);
     CHECK((numbers() == 0).all());
   }
-  CHECK(call({1, 1, 1}, load, {0.2, 0, 1e-4}) == 0);
+  CHECK(call({1, 1, 1}, normal_force, {0.2, 0, 1e-4}) == 0);
   CHECK(wrench.moment == 0);
   const auto refused = [&](const Vector3d& motion, double weight, const contensou_patch& of) {
     CHECK(call(motion, weight, of) == 1);
@@ -234,24 +236,24 @@ TEST_CASE("the C interface gives numbers or zeros, and throws nothing", "[limit]
                     std::domain_error);
   };
   for (const double bad : {nan, infinity, -infinity}) {
-    refused({bad, 0, 0}, load, good);
-    refused({0, bad, 0}, load, good);
-    refused({0, 0, bad}, load, good);
+    refused({bad, 0, 0}, normal_force, good);
+    refused({0, bad, 0}, normal_force, good);
+    refused({0, 0, bad}, normal_force, good);
     refused({1, 0, 0}, bad, good);
-    refused({1, 0, 0}, load, {bad, 3e-3, 1e-4});
-    refused({1, 0, 0}, load, {0.2, bad, 1e-4});
+    refused({1, 0, 0}, normal_force, {bad, 3e-3, 1e-4});
+    refused({1, 0, 0}, normal_force, {0.2, bad, 1e-4});
   }
-  refused({1, 0, 0}, load, {0.2, 3e-3, 0});
-  refused({1, 0, 0}, load, {0.2, 3e-3, nan});
-  refused({1, 0, 0}, load, {0.2, -1, 1e-4});
-  refused({1, 0, 0}, load, {-0.2, 3e-3, 1e-4});
-  refused({1.7e308, 1.7e308, 0}, load, good);
-  refused({0, 0, 1e308}, load, {0.2, 100, 1e-4});
+  refused({1, 0, 0}, normal_force, {0.2, 3e-3, 0});
+  refused({1, 0, 0}, normal_force, {0.2, 3e-3, nan});
+  refused({1, 0, 0}, normal_force, {0.2, -1, 1e-4});
+  refused({1, 0, 0}, normal_force, {-0.2, 3e-3, 1e-4});
+  refused({1.7e308, 1.7e308, 0}, normal_force, good);
+  refused({0, 0, 1e308}, normal_force, {0.2, 100, 1e-4});
   refused({1, 0, 0}, 1e300, {0.2, 3e-3, 1e-20});
-  CHECK(contensou_patch_wrench(nullptr, Vector3d(1, 0, 0).data(), load, &good, &wrench) == 1);
-  CHECK(contensou_patch_wrench(law.get(), nullptr, load, &good, &wrench) == 1);
-  CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), load, nullptr, &wrench) == 1);
-  CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), load, &good, nullptr) == 1);
+  CHECK(contensou_patch_wrench(nullptr, Vector3d(1, 0, 0).data(), normal_force, &good, &wrench) == 1);
+  CHECK(contensou_patch_wrench(law.get(), nullptr, normal_force, &good, &wrench) == 1);
+  CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), normal_force, nullptr, &wrench) == 1);
+  CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), normal_force, &good, nullptr) == 1);
   for (const char* name : {"exakt", "", "elliptic:x", "elliptic:7", static_cast<const char*>(nullptr)}) {
     CHECK(contensou_law_new(name) == nullptr);
   }
