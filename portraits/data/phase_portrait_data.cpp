@@ -17,8 +17,10 @@ using Json = nlohmann::ordered_json;
 
 std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
-/// v/(mu |u|), by its logarithm, which does not underflow.
-std::vector<double> ratios(const PortraitOrbit& orbit) { return list(orbit.ln_k.exp()); }
+/// v/(mu |u|), by its logarithm, which does not underflow. Not by Eigen's exp, which is never below 5.6e-309.
+std::vector<double> ratios(const PortraitOrbit& orbit) {
+  return list(orbit.ln_k.unaryExpr([](double ln_k) { return std::exp(ln_k); }));
+}
 
 Json json_of(const PortraitOrbit& orbit) {
   return {{"u", list(orbit.u)},

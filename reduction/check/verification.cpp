@@ -189,7 +189,8 @@ class Examination {
     const double speed = std::max(std::abs(start_.u), start_.v);
     const double faint = 1e-15 / std::max(1.0, system_.r());
     const State almost_pivoting{speed, faint * system_.mu() * speed};
-    const State almost_sliding{faint * std::min(1.0, system_.r()) * speed / system_.mu(), speed};
+    const double pivoting_rate = system_.r() * system_.law().pivoting_moment();
+    const State almost_sliding{faint * std::min(1.0, pivoting_rate) * speed / system_.mu(), speed};
     const auto stop = [&](State start) { return flow_.orbit(start).stop_time(); };
     add("limit of pure pivoting", relative(stop(almost_pivoting), system_.pivoting_limit(speed)), rounding);
     add("limit of pure sliding", relative(stop(almost_sliding), system_.sliding_limit(speed)), rounding);

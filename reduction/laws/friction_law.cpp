@@ -1,11 +1,25 @@
 #include "contensou/reduction/friction_law.hpp"
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 namespace contensou::reduction {
+
+namespace {
+
+/// What a law of one's own may miss a limit or a ratio by: it may come from a quadrature.
+constexpr double noise = 1e-6;
+
+[[noreturn]] void reject(const std::string& name, const std::string& what) {
+  throw std::domain_error(fmt::format("Law {}: {}", name, what));
+}
+
+bool differ(double a, double b) { return !(std::abs(a - b) <= noise * std::max(std::abs(a), std::abs(b))); }
+
+}  // namespace
 
 void Law::Function::read_limits() {
   pivoting_moment = resistance({0, 1}).moment;
@@ -17,15 +31,63 @@ void Law::Function::read_limits() {
   const double same_slope = resistance({slower, 1}).force / slower;
 
   if (!(pivoting_moment > 0) || !std::isfinite(pivoting_moment)) {
-    throw std::domain_error(fmt::format("Law {}: Psi(0) must be positive and finite, got {}", name, pivoting_moment));
+    reject(name, fmt::format("Psi(0) must be positive and finite, got {}", pivoting_moment));
   }
   if (!(std::abs(pure_sliding - 1) <= 1e-14)) {
-    throw std::domain_error(fmt::format("Law {}: Phi must be 1 in pure sliding, got {}", name, pure_sliding));
+    reject(name, fmt::format("Phi must be 1 in pure sliding, got {}", pure_sliding));
   }
-  if (!(force_slope > 0) || !(std::abs(same_slope - force_slope) <= 1e-6 * force_slope)) {
-    throw std::domain_error(fmt::format(
-        "Law {}: Phi must grow in proportion to k for slow sliding, but Phi/k is {} at k = 2^-60 and {} at k = 2^-80",
-        name, force_slope, same_slope));
+  if (!(force_slope > 0) || differ(same_slope, force_slope)) {
+    reject(name,
+           fmt::format(
+               "Phi must grow in proportion to k for slow sliding, but Phi/k is {} at k = 2^-60 and {} at k = 2^-80",
+               force_slope, same_slope));
+  }
+  require_degree_0();
+  require_approach();
+}
+
+void Law::Function::require_degree_0() const {
+  for (const Slip slip : {Slip{0x1p-10, 1}, Slip{0.3, 1}, Slip{0.9, 1}, Slip{1, 0.9}, Slip{1, 0.3}, Slip{1, 0x1p-10}}) {
+    const Resistance here = resistance(slip);
+    if (!(here.force > 0) || !(here.moment > 0) || !std::isfinite(here.force) || !std::isfinite(here.moment)) {
+      reject(name, fmt::format("Phi and Psi must be positive and finite where a patch slides and pivots, got Phi = {} "
+                               "and Psi = {} at sliding = {}, pivoting = {}",
+                               here.force, here.moment, slip.sliding, slip.pivoting));
+    }
+    // No powers of two, with which a law that is rounded otherwise would agree to the bit.
+    for (double scale : {1e-9, 1e-3, 0.3, 1e3, 1e9}) {
+      const Resistance there = resistance({scale * slip.sliding, scale * slip.pivoting});
+      if (!differ(here.force, there.force) && !differ(here.moment, there.moment)) continue;
+      reject(name,
+             fmt::format("dry friction depends on the ratio of the two speeds alone, but Phi = {}, Psi = {} at "
+                         "sliding = {}, pivoting = {}, and Phi = {}, Psi = {} at {} times both: divide by a speed "
+                         "of the slip, not by a fixed one",
+                         here.force, here.moment, slip.sliding, slip.pivoting, there.force, there.moment, scale));
+    }
+  }
+}
+
+void Law::Function::require_approach() const {
+  // A bounded quantity at two ratios, the second 64 times nearer to the limit: it may not grow like a power of it.
+  const auto require_bounded = [&](const char* what, double first, double second, double allowance) {
+    if (second <= 2 * first + allowance) return;
+    reject(name, fmt::format("{}: it is {} and, 64 times nearer to the limit, {}", what, first, second));
+  };
+  constexpr double near = 0x1p-10;
+  constexpr double nearer = 0x1p-16;
+  const auto deficit = [&](double k) { return moment_deficit({k, 1}) / k; };
+  const auto missing = [&](double inverse_k) { return (1 - resistance({1, inverse_k}).force) / inverse_k; };
+  require_bounded("Psi must come to Psi(0) in proportion to k or faster, (1 - Psi/Psi(0))/k bounded", deficit(near),
+                  deficit(nearer), noise / nearer);
+  require_bounded("Phi must come to 1 in proportion to 1/k or faster, k (1 - Phi) bounded", missing(near),
+                  missing(nearer), noise / nearer);
+  constexpr double far = 0x1p-60;
+  constexpr double farther = 0x1p-80;
+  const double moment = resistance({1, far}).moment / far;
+  const double same_moment = resistance({1, farther}).moment / farther;
+  if (!(moment >= 0) || !std::isfinite(moment) || differ(moment, same_moment)) {
+    reject(name, fmt::format("k Psi must have a limit for fast sliding, but is {} at k = 2^60 and {} at k = 2^80",
+                             moment, same_moment));
   }
 }
 

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <span>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -319,7 +320,8 @@ class TabulatedPressureLaw::Rings {
     double deficit;  ///< moment of pure pivoting less this one
   };
 
-  Rings(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
+  Rings(const Eigen::ArrayXd& given_rho, const Eigen::ArrayXd& given_pressure)
+      : rho(given_rho), pressure(given_pressure) {
     std::vector<Piece> pieces;
     const Eigen::ArrayXd relative = pressure / pressure.maxCoeff();
     for (Eigen::Index i = 1; i < rho.size(); ++i) {
@@ -355,6 +357,8 @@ class TabulatedPressureLaw::Rings {
   }
 
   double moment_deficit(double k) const { return sum(k).deficit / pivoting_moment_; }
+
+  Eigen::ArrayXd rho, pressure;  ///< the table
 
  private:
   [[noreturn]] static void refuse_centre() {
@@ -491,6 +495,25 @@ TabulatedPressureLaw::TabulatedPressureLaw(std::string name, const Eigen::ArrayX
   require_table(rho, pressure);
   kinks_ = sharpest_bends(rho, pressure);
   rings_ = std::make_shared<const Rings>(rho, pressure);
+}
+
+Eigen::Index TabulatedPressureLaw::rows() const { return rings_->rho.size(); }
+
+std::optional<TabulatedPressureLaw> TabulatedPressureLaw::coarser() const {
+  const auto& [rho, pressure] = std::tie(rings_->rho, rings_->pressure);
+  const Eigen::Index last = rho.size() - 1;
+  std::vector<Eigen::Index> kept;
+  bool before_stays = false;
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    const bool at_step = (i > 0 && rho[i] == rho[i - 1]) || (i < last && rho[i] == rho[i + 1]);
+    const bool stays = i == 0 || i == last || at_step || !before_stays;
+    if (stays) kept.push_back(i);
+    before_stays = stays;
+  }
+  if (std::ssize(kept) == rho.size()) return std::nullopt;
+  const Eigen::ArrayXd fewer = pressure(kept);
+  if (!(fewer.maxCoeff() > 0)) return std::nullopt;
+  return TabulatedPressureLaw(name_, rho(kept), fewer);
 }
 
 Resistance TabulatedPressureLaw::operator()(Slip slip) const {

@@ -77,13 +77,21 @@ class ForcesOnTheWay {
           sign > 0 ? '>' : '<', std::exp(chart_.log_terminal_ratio()), std::exp(chart_.log_far_ratio()), law_.name(),
           force, drag, k, r_));
     }
+    against_ = std::max(against_, -difference / std::max(force, drag));
     return {std::max(difference, 0.0), force, drag};  // < 0: rounding
+  }
+
+  /// How far D has had the other sign, relative to its larger term; 0 as far as the law's own rounding explains it.
+  double against() const {
+    constexpr double of_the_law = 16 * std::numeric_limits<double>::epsilon();
+    return against_ > of_the_law ? against_ : 0;
   }
 
  private:
   const Law& law_;
   double r_;
   const TerminalChart& chart_;
+  mutable double against_ = 0;
 };
 
 }  // namespace
@@ -140,7 +148,9 @@ RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& 
     const auto [difference, force, drag] = forces(k);
     return {difference, force, law.moment_deficit(slip_of_ratio(k))};
   };
-  return {equation, sign_of(chart), edges_of(law, r, chart), 1};
+  RegularSolution m(equation, sign_of(chart), edges_of(law, r, chart), 1);
+  m.truncation_ = std::max(m.truncation_, forces.against());
+  return m;
 }
 
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart) {

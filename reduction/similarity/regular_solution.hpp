@@ -42,13 +42,16 @@ class RegularSolution {
   /// y; beyond the edges, its value there.
   double operator()(double ln_k) const;
 
-  /// What the last terms of the series leave out of y, relative to max(|y|, size); the noise of the law is in it.
+  /// What the last terms of the series leave out of y, relative to max(|y|, size); the noise of the law is in it, and so
+  /// is a D of the wrong sign, taken for 0.
   double truncation() const { return truncation_; }
 
   /// How often the equation was evaluated.
   long evaluations() const { return evaluations_; }
 
  private:
+  friend RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart);
+
   struct Panel {
     double left, right;
     LegendreSeries y;

@@ -145,3 +145,13 @@ TEST_CASE("portrait says what is wrong with a switch, and draws nothing", "[cli]
   CHECK(scratch.names().empty());
   CHECK_THAT(run_program("portrait --mu 0.3 -o p.jpg").err, Contains("svg, pdf, png, eps, gp, tex, csv, json"));
 }
+
+TEST_CASE("k of an orbit's last points is 0, or what is left of it", "[cli]") {
+  const auto portrait =
+      json_of("portrait --ball pool --slip 4 --spin 104.98687664041995 --law exact -o - --format json");
+  const auto& orbit = portrait.at("orbits").at(0);
+  const auto k = orbit.at("k").get<std::vector<double>>();
+  CHECK(k.front() > 1);
+  CHECK(k.back() == 0);
+  for (std::size_t i = 1; i < k.size(); ++i) CHECK((k[i] < k[i - 1] || k[i] == 0));
+}

@@ -282,3 +282,43 @@ TEST_CASE("the error under a pressure from a table is not promised", "[cli]") {
   CHECK_THAT(run_program(start + scratch.file("p.csv")).out, Contains("numerical error some 2e-15 of it"));
   CHECK_THAT(run_program(start + "ring").out, Contains("numerical error below 2e-15 of it"));
 }
+
+TEST_CASE("what interpolation of a pressure table may cost stands beside its stop time", "[cli]") {
+  const TemporaryDirectory scratch;
+  std::string rows = "rho,pressure\n";
+  for (int i = 0; i <= 40; ++i) rows += fmt::format("{},{}\n", i / 40.0, std::sqrt(1 - i / 40.0 * (i / 40.0)));
+  write_file(scratch.file("hertz.csv"), rows);
+  const std::string start = "stop --mu 0.1 --u0 3 --v0 1 --law ";
+  const json table = json_of(start + scratch.file("hertz.csv") + " --format json");
+  const double tau = table.at("tau_stop").get<double>();
+  const double said = std::abs(table.at("coarser_table").at("tau_stop").get<double>() - tau);
+  CHECK(table.at("coarser_table").at("rows") == 21);
+  // The curve that the rows sample is the exact law's pressure.
+  const double missed = std::abs(json_of(start + "exact --format json").at("tau_stop").get<double>() - tau);
+  CHECK(missed > 1e-4 * tau);
+  CHECK(missed < said);
+  CHECK(said < 5 * missed);
+  CHECK_THAT(run_program(start + scratch.file("hertz.csv")).out,
+             Contains("with 21 rows") && Contains("what interpolation between all 41 may cost"));
+  // Rows of steps are needed, and named laws have none.
+  CHECK_FALSE(json_of(start + "annulus:0.5 --format json").contains("coarser_table"));
+  CHECK_FALSE(json_of(start + "exact --format json").contains("coarser_table"));
+  CHECK_THAT(run_program("help laws").out, Contains("linear in rho^2 between two rows"));
+}
+
+TEST_CASE("T_stop is a number wherever it fits", "[cli]") {
+  const json fast = json_of("stop --ball pool --spin 1e308 --format json");
+  CHECK(fast.at("T_stop").get<double>() == Approx(fast.at("tau_stop").get<double>() / 4.71238898038469).epsilon(1e-15));
+}
+
+// r/r_high - 1 = 8.5e-14 counts as 0, which costs a fraction of that: the accuracy was stated as 2.4e-15.
+TEST_CASE("the accuracy next to a border counts what was taken for the border", "[cli]") {
+  const json stop = json_of(
+      "stop --mu 1 --law elliptic:0.05 --body 3.5,1400.0000000001196 --u0 1.5283057164038434 --v0 0.1665941353948894 "
+      "--format json");
+  // By mpmath, from the elementary integrals of this law.
+  const double error = std::abs(stop.at("tau_stop").get<double>() / 0.24677254949119878413 - 1);
+  CHECK(error > 1e-14);
+  CHECK(error < stop.at("accuracy").get<double>());
+  CHECK(stop.at("accuracy").get<double>() < 1e-13);
+}

@@ -23,6 +23,9 @@ TEST_CASE("terminal names the three regimes", "[cli]") {
   CHECK(tall["limit"] == "infinity");
   CHECK(tall["k_star"] == "inf");
   CHECK(rows_of(run_program("terminal --mu 0.3 --format csv").out)[0][5] == "k_star");
+  // Both speeds end at one instant, always.
+  CHECK_THAT(run_program("terminal --mu 0.3").out,
+             Catch::Matchers::Contains("tends to 0: u and v vanish together, v faster"));
 }
 
 TEST_CASE("terminal says how good a ray is, next to which its law has few digits, too", "[cli]") {

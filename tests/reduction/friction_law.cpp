@@ -115,3 +115,39 @@ TEST_CASE("a law whose limits are not those of friction is rejected", "[friction
                       Contains("Psi(0)"));
   }
 }
+
+TEST_CASE("a law that depends on more than the ratio of the speeds is rejected, with what was measured",
+          "[friction_law][domain]") {
+  // As engines soften friction, at a speed of their own; and friction that falls with speed.
+  const auto softened = [](Slip slip) {
+    const double size = std::hypot(slip.sliding, slip.pivoting, 1e-3);
+    return Resistance{slip.sliding / std::hypot(slip.sliding, slip.pivoting), 0.6 * slip.pivoting / size};
+  };
+  CHECK_THROWS_WITH(Law(softened), Contains("ratio of the two speeds alone") && Contains("1e-09 times both"));
+  const auto falling = [](Slip slip) {
+    const double faster = 1 + 1e-4 * std::exp(-std::hypot(slip.sliding, slip.pivoting));
+    const double size = std::hypot(slip.sliding, slip.pivoting);
+    return Resistance{slip.pivoting == 0 ? 1 : faster * slip.sliding / size, 0.6 * slip.pivoting / size};
+  };
+  CHECK_THROWS_WITH(Law(falling), Contains("ratio of the two speeds alone"));
+  // What a quadrature of one's own leaves is no such dependence.
+  CHECK_NOTHROW(Law([](Slip slip) {
+    const auto [force, moment] = RootLaw{}(slip);
+    return Resistance{slip.pivoting == 0 ? force : force * (1 + 1e-8 * std::sin(1e3 * slip.sliding)), moment};
+  }));
+}
+
+TEST_CASE("a law that does not resist, or comes to its limits too slowly, is rejected", "[friction_law][domain]") {
+  CHECK_THROWS_WITH(Law(from_ratio(root_force, [](double k) { return k > 2 ? 0.0 : root_moment(k); })),
+                    Contains("positive and finite") && Contains("Psi = 0"));
+  CHECK_THROWS_WITH(Law(from_ratio([](double k) { return k > 0.2 && k < 2 ? -1.0 : root_force(k); }, root_moment)),
+                    Contains("positive and finite") && Contains("Phi = -1"));
+  // m would grow like 1/sqrt(k).
+  CHECK_THROWS_WITH(Law(from_ratio(root_force, [](double k) { return 1 / (1 + std::sqrt(k) + k); })),
+                    Contains("Psi(0) in proportion to k"));
+  CHECK_THROWS_WITH(
+      Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k / (1 + std::sqrt(k) + k); }, root_moment)),
+      Contains("Phi must come to 1"));
+  CHECK_THROWS_WITH(Law(from_ratio(root_force, [](double k) { return 1 / std::sqrt(1 + k); })),
+                    Contains("k Psi must have a limit"));
+}

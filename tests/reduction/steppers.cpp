@@ -34,10 +34,10 @@ struct Stepper {
 const Stepper steppers[]{{"integrate_regularised", integrate_regularised, Route::regularised},
                          {"integrate_directly", integrate_directly, Route::direct}};
 
-/// A law that breaks down at one k on the way: 1e-3 > k > 1e-6 has no number.
+/// A law that breaks down on the way, between the ratios at which a Law is examined: 5e-4 > k > 2e-5 has no number.
 struct BrokenLaw {
   Resistance operator()(Slip slip) const {
-    const bool broken = slip.sliding < 1e-3 * slip.pivoting && slip.sliding > 1e-6 * slip.pivoting;
+    const bool broken = slip.sliding < 5e-4 * slip.pivoting && slip.sliding > 2e-5 * slip.pivoting;
     return broken ? Resistance{NAN, NAN} : RootLaw{}(slip);
   }
 };

@@ -11,6 +11,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <string>
+
 #include <catch2/catch.hpp>
 
 #include "allocations.hpp"
@@ -107,6 +109,28 @@ TEST_CASE("the Jacobian of a law with a potential is symmetric and negative semi
       CHECK((jacobian - jacobian.transpose()).norm() < 1e-9 * size);
       CHECK(Eigen::SelfAdjointEigenSolver<Matrix3d>(jacobian).eigenvalues().maxCoeff() < 1e-9 * size);
     }
+  }
+}
+
+TEST_CASE("next to a kink the Jacobian is symmetric as far as differences are, and no larger than 5 f N/s", "[limit]") {
+  const Vector3d arm(1, 1, 1 / patch.radius);
+  for (const char* name : {"exact", "uniform", "punch", "ring", "pressure:-0.99", "annulus:0.999"}) {
+    const PatchFriction friction(*reduction::find_law(name));
+    double asymmetry = 0;
+    double size = 0;
+    for (double pivoting : {0.9, 1.0, 2.0, 10.0, 1e3}) {  // the rim's speed over s
+      for (double k = 0.2; k < 5; k *= std::abs(k - 1) < 0.01 ? 1.0001 : 1.01) {
+        const double sliding = std::sqrt(std::max(0.0, std::pow(k * pivoting, 2) - 1));
+        const Vector3d motion = patch.creep * Vector3d(sliding, 0, pivoting / patch.radius);
+        const Matrix3d jacobian = arm.asDiagonal() * friction(motion, load, patch).jacobian * arm.asDiagonal();
+        asymmetry = std::max(asymmetry, (jacobian - jacobian.transpose()).norm() / jacobian.norm());
+        size = std::max(size, jacobian.norm() * patch.creep / limit);
+      }
+    }
+    CAPTURE(name, asymmetry, size);
+    CHECK(asymmetry < 1e-6);
+    CHECK(size < 5);
+    if (name == std::string("exact")) CHECK(asymmetry < 1e-15);
   }
 }
 

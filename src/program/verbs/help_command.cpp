@@ -22,7 +22,12 @@ std::string laws() {
       "Laws of friction (--law), by their pressure at rho, the distance from the centre "
       "of the patch over its radius:");
   for (const auto& [name, meaning] : law_forms()) text += help_entry(name, meaning);
-  return text;
+  return text + "\n" +
+         help_paragraph(
+             "The pressure of FILE.csv is linear in rho^2 between two rows (uniform up to a step, two rows of one "
+             "rho); "
+             "annulus and soft are such tables. What that costs where the rows sample a smooth curve, stop says beside "
+             "its answer, by the same table with every other row left out.");
 }
 
 std::string views() {

@@ -27,16 +27,6 @@ struct OtherLaw {
   double tau;
 };
 
-struct StopReport {
-  GivenStart start;
-  reduction::StopTime stop;
-  double sliding_only;                             ///< tau of a body that did not pivot
-  double pivoting_only;                            ///< tau of a body that did not slide
-  std::optional<OtherLaw> other;                   ///< the other law of the paper, beside one of its laws
-  std::vector<reduction::StopEstimate> estimates;  ///< for small mu
-  double slip_length;                              ///< m, of a ball
-};
-
 /// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say
 /// nothing, nor where only one speed is: there they are one law.
 std::optional<OtherLaw> other_law(const GivenStart& start) {
@@ -47,6 +37,33 @@ std::optional<OtherLaw> other_law(const GivenStart& start) {
   const reduction::Flow flow({other, system.mu(), system.inertia()});
   return OtherLaw{other.name(), flow.stop_time(state).tau};
 }
+
+/// What a table of pressures says with every other row left out: interpolation costs no more if its rows sample a curve.
+struct CoarserTable {
+  Eigen::Index rows;
+  double tau;
+};
+
+std::optional<CoarserTable> coarser_table(const GivenStart& start) {
+  const auto& [system, state, experiment] = start;
+  const auto* table = system.law().as<reduction::TabulatedPressureLaw>();
+  if (table == nullptr || !start.slides_and_spins()) return std::nullopt;
+  const auto coarser = table->coarser();
+  if (!coarser) return std::nullopt;
+  const reduction::Flow flow({*coarser, system.mu(), system.inertia()});
+  return CoarserTable{coarser->rows(), flow.stop_time(state).tau};
+}
+
+struct StopReport {
+  GivenStart start;
+  reduction::StopTime stop;
+  double sliding_only;                             ///< tau of a body that did not pivot
+  double pivoting_only;                            ///< tau of a body that did not slide
+  std::optional<OtherLaw> other;                   ///< the other law of the paper, beside one of its laws
+  std::optional<CoarserTable> coarser;             ///< of a law that is a table of pressures
+  std::vector<reduction::StopEstimate> estimates;  ///< for small mu
+  double slip_length;                              ///< m, of a ball
+};
 
 /// m that the contact point slides until the stop.
 double slip_length(const GivenStart& start) {
@@ -71,11 +88,12 @@ Json members_of(const StopReport& report) {
       {"v0", state.v},
       {"tau_stop", tau},
       {"accuracy", report.stop.accuracy},
-      {"T_stop", 2 * tau / (3 * std::numbers::pi)},  // f g t, without the paper's factor 3 pi/2
+      {"T_stop", tau / (1.5 * std::numbers::pi)},  // f g t, without the paper's factor 3 pi/2
       {"bounds", {report.stop.bounds.lower, report.stop.bounds.upper}},
       {"limits", {{"sliding_only", report.sliding_only}, {"pivoting_only", report.pivoting_only}}},
   };
   if (report.other) members["other_law"] = {{"law", report.other->law}, {"tau_stop", report.other->tau}};
+  if (report.coarser) members["coarser_table"] = {{"rows", report.coarser->rows}, {"tau_stop", report.coarser->tau}};
   for (const reduction::StopEstimate& estimate : report.estimates) {
     members["estimates"].push_back(
         {{"name", estimate.name}, {"tau_stop", estimate.tau}, {"error", error_of(estimate, report.stop)}});
@@ -113,6 +131,7 @@ Json row_of(const Json& members) {
                                                                   {"accuracy", "/accuracy"},
                                                                   {"other_law", "/other_law/law"},
                                                                   {"other_tau", "/other_law/tau_stop"},
+                                                                  {"coarser_tau", "/coarser_table/tau_stop"},
                                                                   {"t_stop", "/t_stop"}}) {
     const Json::json_pointer pointer(place);
     if (members.contains(pointer)) row[column] = members[pointer];
@@ -155,8 +174,8 @@ class Text {
     return chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
   }
 
-  /// A tabulated pressure has bends, at which the law's own accuracy is not proved.
-  bool from_table() const { return system_.law().as<reduction::TabulatedPressureLaw>() != nullptr; }
+  /// The law, if it is a table of pressures: such a one has bends, at which its accuracy is not proved.
+  const reduction::TabulatedPressureLaw* table() const { return system_.law().as<reduction::TabulatedPressureLaw>(); }
 
   std::string body_line() const {
     const auto [chi, gamma] = system_.inertia();
@@ -184,23 +203,28 @@ class Text {
       return line(label, experiment ? si::seconds(*experiment, tau) : tau, tau, note);
     };
     const double tau = report_.stop.tau;
-    std::string text =
-        line<std::string>("", "t* (s)", experiment ? "tau* (m/s)" : "tau*") +
-        row("slip and spin end", tau,
-            std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
-                            : fmt::format("numerical error {} {:.0e} of it", from_table() ? "some" : "below",
-                                          rounded_up(report_.stop.accuracy)));
+    std::string text = line<std::string>("", "t* (s)", experiment ? "tau* (m/s)" : "tau*") +
+                       row("slip and spin end", tau,
+                           std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
+                                           : fmt::format("numerical error {} {:.0e} of it", table() ? "some" : "below",
+                                                         rounded_up(report_.stop.accuracy)));
     if (!report_.start.slides_and_spins()) return text;
     text += row("at least", report_.stop.bounds.lower) + row("at most", report_.stop.bounds.upper) +
             row("sliding only", report_.sliding_only, "limit u0 = 0") +
             row("spinning only", report_.pivoting_only, "limit v0 = 0");
-    if (!report_.other) return text;
-    const double other = report_.other->tau;
-    const double percent = 100 * (other / tau - 1);
-    const bool comparable = tau > 0 && std::isfinite(tau) && std::isfinite(other);
-    return text +
-           row("law " + report_.other->law, other,
-               comparable ? fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer") : "");
+    const auto beside = [&](const std::string& label, double other, const std::string& more) {
+      const double percent = 100 * (other / tau - 1);
+      const bool comparable = tau > 0 && std::isfinite(tau) && std::isfinite(other);
+      const std::string change =
+          comparable ? fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer") : "";
+      text += row(label, other, change + more);
+    };
+    if (report_.other) beside("law " + report_.other->law, report_.other->tau, "");
+    if (report_.coarser) {
+      beside(fmt::format("with {} rows", report_.coarser->rows), report_.coarser->tau,
+             fmt::format(": what interpolation between all {} may cost", table()->rows()));
+    }
+    return text;
   }
 
   /// To one digit.
@@ -265,6 +289,7 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           system.sliding_limit(state.v),
                           system.pivoting_limit(state.u),
                           other_law(start),
+                          coarser_table(start),
                           estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
                           experiment ? slip_length(start) : 0};
   const Json members = members_of(report);

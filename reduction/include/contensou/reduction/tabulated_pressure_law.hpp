@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,13 @@ class TabulatedPressureLaw {
   TabulatedPressureLaw(std::string name, const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure);
 
   const std::string& name() const { return name_; }
+
+  /// How many rows the table has.
+  Eigen::Index rows() const;
+
+  /// The law of a table with every other row left out, but for the first, the last and both rows of a step: what it
+  /// changes bounds what interpolation between the rows costs, if they sample a smooth curve. Empty if no row can go.
+  std::optional<TabulatedPressureLaw> coarser() const;
 
   /// k = rho of the steps and of the sharpest bends of the pressure, growing; at most 32.
   const std::vector<double>& kinks() const { return kinks_; }

@@ -26,9 +26,12 @@ struct Wrench {
 ///   F = -f N Phi(V, w) v/V,    M = -f N eps Psi(V, w) sign(omega)
 /// so |F| <= f N, |M| <= f N eps Psi(0), and F.v + M omega <= 0 for every motion. Under a law with a dissipation potential
 /// R (all named ones but pade, which also has a kink at omega = 0) this is minus the gradient of f N R(V, w), which is
-/// convex: the Jacobian is symmetric and negative semidefinite, and an implicit step under a given load N has exactly one
-/// solution (reduction/README.md, (R36)). At rest it is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, K = lim k Psi
-/// (1/5 for exact); elsewhere it is of that order at most. (The law ring has a logarithm at k = 1.)
+/// convex: the Jacobian is symmetric and negative semidefinite, and an implicit step under a given load N has exactly
+/// one solution (reduction/README.md, (R36)). At rest it is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, K = lim k Psi
+/// (1/5 for exact); elsewhere it is of that order, below 5 f N/s with lengths in units of eps under every law (the ring's has
+/// a logarithm at k = 1, which differences cut off). It is symmetric to rounding for exact, elliptic and potential8, whose
+/// slopes are closed; those of the others are differences of the law, to 1e-9, and 1e-6 next to the kink of ring and of
+/// pressures near it.
 ///
 /// What rests creeps instead: under a tangential load T < f N alone at
 ///   |v| = s T/sqrt((f N)^2 - T^2),
