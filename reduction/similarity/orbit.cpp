@@ -2,18 +2,22 @@
 //   s left    = w/(r Psi(0)) + v m                                (R4)
 //   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R5)
 //   slip left = v (v/2 + n w)                                     (R13)
+//   angle left = w (w/(2 r Psi(0)) + o v)                         (R31)
 //   beta      = (3 pi/(2 chi)) (b/(w + v) - b0/(w0 + v0))         (R7)
 //   d(s left)/d xi = c (w + v)                                    (R3)
 #include "contensou/reduction/orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/tools/roots.hpp>
 
 #include "numerics/infinity.hpp"
 
@@ -102,10 +106,14 @@ double Orbit::accuracy() const { return on_axis() ? rounding_of_stop_time(0) : c
 
 long Orbit::evaluations() const { return on_axis() ? 0 : curve_->evaluations(); }
 
-Orbit::Progress Orbit::progress(double xi) const {
+Orbit::Progress Orbit::fallen(double xi) const {
   const double ln_w = curve_->ln_w(xi) - ln_w0_;
-  const double ln_v = ln_w + (curve_->chart().log_ratio(xi) - ln_k0_);
-  return {ln_w, ln_v, std::exp(ln_w), std::exp(ln_v)};
+  return {ln_w, ln_w + (curve_->chart().log_ratio(xi) - ln_k0_), 0, 0};
+}
+
+Orbit::Progress Orbit::progress(double xi) const {
+  const Progress now = fallen(xi);
+  return {now.ln_w, now.ln_v, std::exp(now.ln_w), std::exp(now.ln_v)};
 }
 
 Orbit::Progress Orbit::progress(double xi, double left) const {
@@ -129,6 +137,10 @@ double Orbit::scaled_elapsed(double xi, const Progress& now) const {
 
 double Orbit::slip_left(double xi, const Progress& now) const {
   return v_ * now.v * (v_ * now.v / 2 + curve_->slip_length_coefficient(xi) * w_ * now.w);
+}
+
+double Orbit::turned_left(double xi, const Progress& now) const {
+  return w_ * now.w * (pivoting_ * now.w / 2 + curve_->angle_coefficient(xi) * v_ * now.v);
 }
 
 double Orbit::scaled_left_slope(double xi, const Progress& now) const {
@@ -218,8 +230,12 @@ OrbitPoint Orbit::at_time(double tau) const {
   const double stop = stop_time();
   if (tau >= stop) return rest(tau);
   if (on_axis()) return on_axis_at(tau, 1 - tau / stop);
-  const double left = tau > stop / 2 ? scaled_of(stop - tau) : whole() - scaled_of(tau);
-  return point_with_left(tau, coordinate_at_time(tau), left);
+  return point_with_left(tau, coordinate_at_time(tau), left_at(tau));
+}
+
+double Orbit::left_at(double tau) const {
+  const double stop = stop_time();
+  return tau > stop / 2 ? scaled_of(stop - tau) : whole() - scaled_of(tau);
 }
 
 double Orbit::coordinate_at_time(double tau) const {
@@ -229,21 +245,128 @@ double Orbit::coordinate_at_time(double tau) const {
   return coordinate_at_elapsed(scaled_of(tau));
 }
 
+double Orbit::length_of(double scaled_square) const {
+  return std::ldexp(scaled_square / system_.scaled_time_rate(), 2 * exponent_);
+}
+
 double Orbit::slip_length(double tau) const {
   if (!(tau >= 0)) throw std::domain_error(fmt::format("Orbit::slip_length: tau must be >= 0, got {}", tau));
   const double stop = stop_time();
-  double slip = 0;
   if (on_axis()) {
     const double v = u0_ == 0 && tau < stop ? v_ * (1 - tau / stop) : 0;
-    slip = (v_ - v) * (v_ + v) / 2;
-  } else {
-    slip = slip_left(xi0_, at_start);
-    if (tau < stop) {
-      const double xi = coordinate_at_time(tau);
-      slip -= slip_left(xi, progress(xi));
-    }
+    return length_of((v_ - v) * (v_ + v) / 2);
   }
-  return std::ldexp(slip / system_.scaled_time_rate(), 2 * exponent_);
+  double slip = slip_left(xi0_, at_start);
+  if (tau < stop) {
+    const double xi = coordinate_at_time(tau);
+    slip -= slip_left(xi, progress(xi, left_at(tau)));
+  }
+  return length_of(slip);
+}
+
+Orbit::Instant Orbit::instant(double tau) const {
+  if (!(tau >= 0)) throw std::domain_error(fmt::format("Orbit::instant: tau must be >= 0, got {}", tau));
+  const double stop = stop_time();
+  const double turning = std::copysign(1 / system_.mu(), u0_);
+  if (on_axis()) {
+    const double left = tau < stop ? 1 - tau / stop : 0;
+    const double square = (1 - left) * (1 + left) / 2;
+    if (u0_ == 0) return {0, v0_ * left, std::log(v0_ * left), length_of(v_ * v_ * square), 0};
+    return {u0_ * left, 0, -infinity, 0, turning * length_of(w_ * pivoting_ * square)};
+  }
+  const double slip = slip_left(xi0_, at_start);
+  const double turned = turned_left(xi0_, at_start);
+  if (tau >= stop) return {0, 0, -infinity, length_of(slip), turning * length_of(turned)};
+  if (tau == 0) return {u0_, v0_, std::log(v0_), 0, 0};
+  const double xi = coordinate_at_time(tau);
+  const Progress now = progress(xi, left_at(tau));
+  return {u0_ * now.w, v0_ * now.v, std::log(v0_) + now.ln_v, length_of(slip - slip_left(xi, now)),
+          turning * length_of(turned - turned_left(xi, now))};
+}
+
+double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction) const {
+  const auto rest = [&](double xi) { return fallen(xi).*ln_speed - ln_fraction; };
+  // Below the curve's limit both logarithms are linear.
+  const double limit = std::min(curve_->limit(), xi0_);
+  const double at_limit = rest(limit);
+  if (at_limit >= 0) return limit - at_limit / (at_limit - rest(limit - 1));
+  std::uintmax_t most = 200;
+  constexpr int digits = std::numeric_limits<double>::digits - 2;
+  const auto [low, high] = boost::math::tools::toms748_solve(rest, limit, xi0_, at_limit, -ln_fraction,
+                                                             boost::math::tools::eps_tolerance<double>(digits), most);
+  return low + (high - low) / 2;
+}
+
+double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double start) const {
+  if (start <= speed) return 0;
+  if (speed == 0) return stop_time();
+  const double fraction = speed / start;
+  if (on_axis()) return stop_time() * (1 - fraction);
+  const double ln_fraction = std::isnormal(fraction) ? std::log(fraction) : std::log(speed) - std::log(start);
+  const double xi = coordinate_of_fall(ln_speed, ln_fraction);
+  // Both speeds from the one that is known and from k.
+  Progress now = fallen(xi);
+  const double correction = ln_fraction - now.*ln_speed;
+  now.ln_w += correction;
+  now.ln_v += correction;
+  now.w = std::exp(now.ln_w);
+  now.v = std::exp(now.ln_v);
+  const double left = scaled_left(xi, now);
+  return 2 * left < whole() ? stop_time() - tau_of(left) : tau_of(scaled_elapsed(xi, now));
+}
+
+double Orbit::time_of_v(double v) const {
+  if (!(v >= 0)) throw std::domain_error(fmt::format("Orbit::time_of_v: v must be >= 0, got {}", v));
+  return time_of_fall(&Progress::ln_v, v, v0_);
+}
+
+double Orbit::time_of_u(double u) const {
+  if (!(u >= 0)) throw std::domain_error(fmt::format("Orbit::time_of_u: u must be >= 0, got {}", u));
+  return time_of_fall(&Progress::ln_w, u, std::abs(u0_));
+}
+
+double Orbit::integral(const std::function<double(double)>& of_v, double tau, const std::vector<double>& edges) const {
+  if (!(tau >= 0)) throw std::domain_error(fmt::format("Orbit::integral: tau must be >= 0, got {}", tau));
+  // What it would be at v = 0, and the rest, which dies out with v.
+  const double end = std::min(tau, stop_time());
+  const double last_value = of_v(0);
+  const double at_rest = last_value * end;
+  if (end == 0 || v0_ == 0) return at_rest;
+  std::vector<double> panels;
+  std::function<double(double)> integrand;
+  if (on_axis()) {
+    panels = {0, end};
+    for (double v : edges) panels.push_back(std::min(time_of_v(std::max(v, 0.0)), end));
+    integrand = [&](double at) { return of_v(v0_ * (1 - at / stop_time())) - last_value; };
+  } else {
+    // Over xi: v and the time are had from it without a root.
+    constexpr double ln_nothing = -50;
+    constexpr double width = 2;
+    constexpr double most = 64;
+    double last = coordinate_of_fall(&Progress::ln_v, ln_nothing);
+    if (end < stop_time()) last = std::max(coordinate_at_time(end), last);
+    for (double edge = xi0_; edge > last; edge -= std::max(width, (xi0_ - last) / most)) panels.push_back(edge);
+    panels.push_back(last);
+    for (double v : edges) {
+      if (v > 0 && v < v0_) panels.push_back(std::max(coordinate_of_fall(&Progress::ln_v, std::log(v / v0_)), last));
+    }
+    for (double k : system_.law().kinks()) {
+      if (chart().reaches(std::log(k))) panels.push_back(std::clamp(chart().coordinate(std::log(k)), last, xi0_));
+    }
+    integrand = [&](double xi) {
+      const Progress now = progress(xi);
+      return (of_v(v0_ * now.v) - last_value) * tau_of(scaled_left_slope(xi, now));
+    };
+  }
+  std::ranges::sort(panels);
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+  constexpr unsigned depth = 12;
+  constexpr double tolerance = 1e-10;
+  double sum = at_rest;
+  for (std::size_t i = 1; i < panels.size(); ++i) {
+    if (panels[i] > panels[i - 1]) sum += Rule::integrate(integrand, panels[i - 1], panels[i], depth, tolerance);
+  }
+  return sum;
 }
 
 OrbitPoint Orbit::at_time_left(double time_left) const {

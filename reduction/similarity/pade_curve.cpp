@@ -81,11 +81,14 @@ double PadeCurve::ln_w(double ln_k) const {
 double PadeCurve::sliding_coefficient(double ln_k) const { return pade_sliding_coefficient(r(), std::exp(ln_k)); }
 
 double PadeCurve::slip_length_coefficient(double ln_k) const {
+  return 8 / (3 * pi) * (1 - r() / 5 * angle_coefficient(ln_k));
+}
+
+double PadeCurve::angle_coefficient(double ln_k) const {
   const double c = 2 + r();
   const double d = 5 - r();
   const double T = d * (3 * pi / 8 * std::exp(ln_k)) / c;
-  const double fraction = value({1 + 3 / c, 1, (2 - r()) / c, (5 + r()) / d, 6 * r() / (c * d), T});
-  return 8 / (3 * pi) * (1 - r() / (5 + r()) * fraction);
+  return 5 / (5 + r()) * value({1 + 3 / c, 1, (2 - r()) / c, (5 + r()) / d, 6 * r() / (c * d), T});
 }
 
 double PadeCurve::beta_coefficient(double ln_k) const {

@@ -32,11 +32,10 @@ struct CurveCoefficients {
 
 }  // namespace
 
-/// ln w, b and c of one curve.
+/// ln w and c of one curve.
 class QuadratureCurve::Panels {
  public:
-  Panels(const Law& law, const QuadratureCurve& curve)
-      : law_(law), r_(curve.r()), chart_(curve.chart()), beta_(law, r_, chart_) {
+  Panels(const Law& law, const QuadratureCurve& curve) : law_(law), r_(curve.r()), chart_(curve.chart()) {
     solve(sample());
   }
 
@@ -48,8 +47,6 @@ class QuadratureCurve::Panels {
     if (xi > panel.right) return panel.ln_w(1) + upper_slope_ * (xi - panel.right);
     return panel.ln_w(panel.t(xi));
   }
-
-  double beta_coefficient(double xi) const { return beta_(chart_.log_ratio(xi)); }
 
   double time_rate(double xi) const {
     const Panel& panel = find(xi);
@@ -201,7 +198,6 @@ class QuadratureCurve::Panels {
   const Law& law_;
   double r_;
   TerminalChart chart_;
-  BetaSolution beta_;
   std::vector<double> kinks_;  ///< in xi
   bool frozen_ = false;
   std::vector<Panel> panels_;
@@ -215,8 +211,7 @@ QuadratureCurve::QuadratureCurve(const Law& law, double r, const TerminalChart& 
 QuadratureCurve::~QuadratureCurve() = default;
 
 const QuadratureCurve::Panels& QuadratureCurve::panels() const {
-  std::call_once(made_, [this] { panels_ = std::make_unique<const Panels>(law_, *this); });
-  return *panels_;
+  return panels_.made([this] { return Panels(law_, *this); });
 }
 
 double QuadratureCurve::limit() const { return panels().limit(); }
@@ -233,16 +228,20 @@ double QuadratureCurve::sliding_coefficient(double xi) const {
 }
 
 double QuadratureCurve::slip_length_coefficient(double xi) const {
-  std::call_once(n_made_, [this] {
-    n_ = std::make_unique<const RegularSolution>(reduction::slip_length_solution(law_, r(), chart()));
-  });
+  const RegularSolution& n = n_.made([this] { return slip_length_solution(law_, r(), chart()); });
   const double ln_k = chart().log_ratio(xi);
-  return (*n_)(ln_k) * (1 + std::exp(std::min(ln_k, max_ln_k)));
+  return n(ln_k) * (1 + std::exp(std::min(ln_k, max_ln_k)));
+}
+
+double QuadratureCurve::angle_coefficient(double xi) const {
+  return o_.made([this] { return angle_solution(law_, r(), chart()); })(chart().log_ratio(xi));
 }
 
 double QuadratureCurve::ln_w(double xi) const { return panels().ln_w(xi); }
 
-double QuadratureCurve::beta_coefficient(double xi) const { return panels().beta_coefficient(xi); }
+double QuadratureCurve::beta_coefficient(double xi) const {
+  return b_.made([this] { return BetaSolution(law_, r(), chart()); })(chart().log_ratio(xi));
+}
 
 double QuadratureCurve::time_rate(double xi) const { return panels().time_rate(xi); }
 

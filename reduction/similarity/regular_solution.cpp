@@ -1,6 +1,7 @@
 // Notation (README (R19), (R31)): z = +- ln k, growing away from the stop, D = Phi - r k Psi, |D| = +- D
 //   |D| dm/dz + Phi m               = 1 - Psi/Psi(0)
 //   |D| dn/dz + (Phi + r k Psi) n   = k (1 - Phi)
+//   |D| do/dz + (Phi + r k Psi) o   = 1 - Psi/Psi(0)
 //   |D| db/dz - h b                 = -g,  h = (r k Psi + k Phi)/(1 + k),  g = k (1 + k)/((16 + 15 pi k)(8 + 3 pi k))
 #include "similarity/regular_solution.hpp"
 
@@ -159,6 +160,15 @@ RegularSolution slip_length_solution(const Law& law, double r, const TerminalCha
   const auto equation = [&](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag] = forces(k);
     return {difference * (1 + k) / k, (force * (1 + 2 * k) + drag) / k, 1 - force};
+  };
+  return {equation, sign_of(chart), edges_of(law, r, chart), 1};
+}
+
+RegularSolution angle_solution(const Law& law, double r, const TerminalChart& chart) {
+  const ForcesOnTheWay forces(law, r, chart);
+  const auto equation = [&](double k) -> RegularSolution::Terms {
+    const auto [difference, force, drag] = forces(k);
+    return {difference, force + drag, law.moment_deficit(slip_of_ratio(k))};
   };
   return {equation, sign_of(chart), edges_of(law, r, chart), 1};
 }

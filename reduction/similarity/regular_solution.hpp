@@ -79,6 +79,9 @@ RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& 
 /// n/(1 + k), n of (R13), on the same way.
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart);
 
+/// o of (R31), on the same way.
+RegularSolution angle_solution(const Law& law, double r, const TerminalChart& chart);
+
 /// b of (R7), on the same way, from far away towards the stop: there D has the other sign in its equation, and the
 /// regular solution is the one that is regular at the far end.
 class BetaSolution {

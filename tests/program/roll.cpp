@@ -155,6 +155,12 @@ TEST_CASE("rolling friction brings the ball to rest", "[cli]") {
   CHECK_FALSE(json_of(masse + " --samples 2 --format json").contains("rest"));
   const auto stepped = columns_of(slowed + " --samples 9 --route integrated");
   const auto reduced = columns_of(slowed + " --samples 9");
+  // What that route has of its own stands beside the reduced route's.
+  const auto both = json_of(slowed + " --samples 2 --route integrated --format json");
+  for (const char* field : {"t_stop", "slip_length", "turns"}) {
+    CHECK(both.at("integrated").at(field).get<double>() == Approx(both.at(field).get<double>()).epsilon(1e-11));
+    CHECK(both.at("integrated").at(field) != both.at(field));
+  }
   for (std::size_t i = 0; i < 9; ++i) CHECK(stepped.at("x")[i] == Approx(reduced.at("x")[i]).margin(1e-11));
 }
 

@@ -26,6 +26,7 @@ class LyingCurve final : public reduction::SimilarityCurve {
     return lie_.sliding_coefficient(ln_k, truth_->sliding_coefficient(ln_k));
   }
   double slip_length_coefficient(double ln_k) const override { return truth_->slip_length_coefficient(ln_k); }
+  double angle_coefficient(double ln_k) const override { return truth_->angle_coefficient(ln_k); }
   double beta_coefficient(double ln_k) const override {
     return lie_.beta_coefficient(ln_k, truth_->beta_coefficient(ln_k));
   }

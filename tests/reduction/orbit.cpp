@@ -56,13 +56,14 @@ void check_trajectories(const std::string& table, const Law& law) {
   CHECK_WITHIN_EPS(left_ln_v, promised);
 }
 
-/// The integral of v dtau from where ln k is top to where it is bottom, by v^2 d ln k/D along the orbit (R3).
-double slip_between(const ReducedSystem& system, const Orbit& orbit, double bottom, double top) {
+/// The integral of a function of a state from where ln k is top to where it is bottom, by v d ln k/D along the orbit (R3).
+template <class Function>
+double integral_between(const ReducedSystem& system, const Orbit& orbit, double bottom, double top, Function function) {
   const auto rate = [&](double ln_k) {
     const double k = std::exp(ln_k);
     const auto [force, moment] = system.law()(slip_of_ratio(k));
-    const double v = orbit.at_log_ratio(ln_k).v;
-    return v * v / (force - system.r() * k * moment) / system.scaled_time_rate();
+    const OrbitPoint point = orbit.at_log_ratio(ln_k);
+    return function(point) * point.v / std::abs(force - system.r() * k * moment) / system.scaled_time_rate();
   };
   double sum = 0;
   for (double left = bottom; left < top;) {
@@ -71,6 +72,10 @@ double slip_between(const ReducedSystem& system, const Orbit& orbit, double bott
     left = right;
   }
   return sum;
+}
+
+double slip_between(const ReducedSystem& system, const Orbit& orbit, double bottom, double top) {
+  return integral_between(system, orbit, bottom, top, [](const OrbitPoint& point) { return point.v; });
 }
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -291,6 +296,125 @@ TEST_CASE("the slip is the integral of v along the orbit", "[orbit][route]") {
   CHECK_WITHIN_EPS(whole, 200);
   // The time of the middle is known to eps of the stop time only, which is long against the slip where mu is small.
   CHECK_WITHIN_EPS(part, 1e6);
+}
+
+// The parts of k are those of the quadrature, so beyond a ray and towards infinity, too.
+TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]") {
+  WorstCase turned("turned"), slipped("slip");
+  for (const char* name : {"exact", "pade", "ring"}) {
+    for (double r : {1e-6, 0.1, 5.0 / 7, 1.7, 3.0, 6.0}) {
+      const ReducedSystem system(*find_law(name), 0.3, {.chi = 3.5, .gamma = r * 3.5 / 0.09});
+      const Flow flow(system);
+      for (double k0 : {1e-2, 0.4, 3.0, 1e3}) {
+        const Orbit orbit = flow.orbit({-3, 0.9 * k0});
+        const double ln_k0 = orbit.start_log_ratio();
+        const double end = orbit.chart().log_ratio(orbit.start_coordinate() - 3);
+        // Over panels on either side of k = 1.
+        const auto [bottom, top] = std::minmax({ln_k0, end});
+        const auto by_quadrature = [&](auto of_point) {
+          const double kink = std::clamp(0.0, bottom, top);
+          return integral_between(system, orbit, bottom, kink, of_point) +
+                 integral_between(system, orbit, kink, top, of_point);
+        };
+        const std::string where = fmt::format("{}, r = {}, k0 = {}", name, r, k0);
+        const Orbit::Instant at = orbit.instant(orbit.at_log_ratio(end).tau);
+        turned.add(by_quadrature([](const OrbitPoint& point) { return point.u; }), at.turned, where);
+        slipped.add(by_quadrature([](const OrbitPoint& point) { return point.v; }), at.slip_length, where);
+      }
+    }
+  }
+  // The time of the end is known to eps of the stop time only, which is long against this part where r is small.
+  CHECK_WITHIN_EPS(turned, 1e7);
+  CHECK_WITHIN_EPS(slipped, 1e7);
+}
+
+TEST_CASE("an instant is the state with the slip, by one root", "[orbit][route]") {
+  for (const Law& law : paper_laws()) {
+    const Flow flow(ReducedSystem(law, 0.3));
+    for (const State start : {State{-2, 0.7}, State{1, 1e-6}, State{1e-3, 5}, State{0, 2}, State{-2, 0}, State{0, 0}}) {
+      const Orbit orbit = flow.orbit(start);
+      for (double share : {0.0, 1e-3, 0.3, 0.9, 1.0, 2.0}) {
+        const double tau = share * orbit.stop_time();
+        const Orbit::Instant at = orbit.instant(tau);
+        const OrbitPoint point = orbit.at_time(tau);
+        CAPTURE(law.name(), start.u, start.v, share);
+        CHECK((at.u == point.u && at.v == point.v && at.ln_v == point.ln_v));
+        CHECK(at.slip_length == orbit.slip_length(tau));
+        CHECK(at.turned * start.u >= 0);
+      }
+    }
+    // One speed alone falls linearly.
+    const Orbit pivoting = flow.orbit({-2, 0});
+    CHECK(pivoting.instant(pivoting.stop_time()).turned == Approx(-pivoting.stop_time()).epsilon(1e-15));
+    CHECK(pivoting.instant(pivoting.stop_time() / 2).turned == Approx(-0.75 * pivoting.stop_time()).epsilon(1e-15));
+    CHECK(flow.orbit({0, 2}).instant(1).turned == 0);
+    CHECK_THROWS_AS(pivoting.instant(-1), std::domain_error);
+    CHECK_THROWS_AS(pivoting.instant(std::nan("")), std::domain_error);
+  }
+}
+
+TEST_CASE("when a speed has fallen to a value", "[orbit][route]") {
+  WorstCase when_v("tau of v"), when_u("tau of u");
+  for (const char* name : {"exact", "pade", "ring"}) {
+    for (double r : {1e-4, 5.0 / 7, 3.0, 6.0}) {
+      const Flow flow(ReducedSystem(*find_law(name), 0.3, {.chi = 3.5, .gamma = r * 3.5 / 0.09}));
+      for (double k0 : {1e-2, 3.0, 1e3}) {
+        const Orbit orbit = flow.orbit({-3, 0.9 * k0});
+        const double stop = orbit.stop_time();
+        for (double share : {1e-6, 1e-3, 0.3, 0.99}) {
+          const OrbitPoint point = orbit.at_time(share * stop);
+          const std::string where = fmt::format("{}, r = {}, k0 = {}, share = {}", name, r, k0, share);
+          if (std::isnormal(point.v)) when_v.add(point.tau, orbit.time_of_v(point.v), stop, where);
+          when_u.add(point.tau, orbit.time_of_u(std::abs(point.u)), stop, where);
+        }
+        CHECK(orbit.time_of_v(0) == stop);
+        CHECK(orbit.time_of_u(0) == stop);
+        CHECK(orbit.time_of_v(0.9 * k0) == 0);
+        CHECK(orbit.time_of_u(3) == 0);
+        CHECK(orbit.time_of_v(1e300) == 0);
+        CHECK(orbit.time_of_v(5e-324) <= stop);
+      }
+    }
+  }
+  CHECK_WITHIN_EPS(when_v, promised);
+  CHECK_WITHIN_EPS(when_u, promised);
+  const Flow flow(ReducedSystem(HertzLaw{}, 0.3));
+  const Orbit sliding = flow.orbit({0, 2});
+  CHECK(sliding.time_of_v(0.5) == Approx(0.75 * sliding.stop_time()).epsilon(1e-15));
+  CHECK(sliding.time_of_u(0) == 0);
+  CHECK(flow.orbit({0, 0}).time_of_v(0) == 0);
+  CHECK_THROWS_AS(sliding.time_of_v(-1), std::domain_error);
+  CHECK_THROWS_AS(sliding.time_of_u(std::nan("")), std::domain_error);
+}
+
+TEST_CASE("the integral of a function of v", "[orbit][route]") {
+  for (const char* name : {"exact", "pade", "ring"}) {
+    for (double r : {1e-6, 5.0 / 7, 3.0, 6.0}) {
+      const ReducedSystem system(*find_law(name), 0.3, {.chi = 3.5, .gamma = r * 3.5 / 0.09});
+      const Flow flow(system);
+      for (double k0 : {1e-2, 3.0, 1e3}) {
+        const double v0 = 0.9 * k0;
+        const Orbit orbit = flow.orbit({-3, v0});
+        const double stop = orbit.stop_time();
+        CAPTURE(name, r, k0);
+        for (double tau : {orbit.time_of_v(0.1 * v0), stop, 2 * stop}) {
+          const double end = std::min(tau, stop);
+          CHECK(orbit.integral([](double) { return 3.0; }, tau) == Approx(3 * end).epsilon(1e-15));
+          CHECK(orbit.integral([](double v) { return v; }, tau) == Approx(orbit.slip_length(tau)).epsilon(1e-10));
+          // |v - c|, by what slips on either side of it.
+          const double c = 0.3 * v0;
+          const double turn = orbit.time_of_v(c);
+          const double sides = 2 * orbit.slip_length(turn) - orbit.slip_length(end) - c * (2 * turn - end);
+          CHECK(orbit.integral([&](double v) { return std::abs(v - c); }, tau, {c}) == Approx(sides).epsilon(1e-9));
+        }
+        CHECK(orbit.integral([](double v) { return v; }, 0) == 0);
+      }
+    }
+  }
+  const Orbit sliding = Flow(ReducedSystem(HertzLaw{}, 0.3)).orbit({0, 2});
+  CHECK(sliding.integral([](double v) { return v * v; }, sliding.stop_time()) ==
+        Approx(4 * sliding.stop_time() / 3).epsilon(1e-12));
+  CHECK_THROWS_AS(sliding.integral([](double v) { return v; }, -1), std::domain_error);
 }
 
 TEST_CASE("the slip of pure sliding is v0^2/2 over its deceleration, and without sliding there is none",

@@ -48,14 +48,9 @@ std::optional<Flow> flow_of(const ReducedSystem& system, Route route) {
 
 /// tau until the first of the speeds has fallen to 1e-3 of its start: most happens before.
 double busy_time(const Orbit& orbit, State start) {
-  const auto both_last = [&](double tau) {
-    const reduction::OrbitPoint point = orbit.at_time(tau);
-    return point.v >= 1e-3 * start.v && std::abs(point.u) >= 1e-3 * std::abs(start.u);
-  };
-  double low = 0;
-  double high = orbit.stop_time();
-  for (int i = 0; i < 40; ++i) (both_last((low + high) / 2) ? low : high) = (low + high) / 2;
-  return high;
+  const double v = start.v > 0 ? orbit.time_of_v(1e-3 * start.v) : 0;
+  const double u = start.u != 0 ? orbit.time_of_u(1e-3 * std::abs(start.u)) : 0;
+  return start.v == 0 ? u : start.u == 0 ? v : std::min(u, v);
 }
 
 double require_finite(double stop) {

@@ -162,6 +162,13 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
                {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())},
                {"t_stop", roll.stop_time()}};
   members.update(members_of(events_of(roll.whole)));
+  if (roll.integrated) {
+    const si::IntegratedMotion by_steps = si::integrate_motion(roll.experiment, roll.law, {});
+    members["integrated"] = {{"t_stop", by_steps.stop_time},
+                             {"slip_length", by_steps.slip_length},
+                             {"turns", by_steps.spin_angle / (2 * std::numbers::pi)},
+                             {"steps", by_steps.steps}};
+  }
   members["rolls_after"]["threshold"] = roll.rolling_below;
   members["energy_balance"] = {
       {"start", start}, {"lost_sliding", loss.sliding}, {"lost_spinning", loss.pivoting}, {"kept", kept}};
@@ -188,8 +195,11 @@ std::string report_on(const Roll& roll, const Digits& digits) {
   if (!roll.integrated) return text;
   const si::IntegratedMotion motion = si::integrate_motion(roll.experiment, roll.law, {});
   return text +
-         fmt::format("route integrated: slip and spin end after {} s, {:.1g} from the reduced route, in {} steps\n",
-                     digits(motion.stop_time), std::abs(motion.stop_time - roll.stop_time()), motion.steps);
+         fmt::format(
+             "route integrated: slip and spin end after {} s, {:.1g} from the reduced route, whose events are those "
+             "above;\n       it slips {} m and turns {} times, in {} steps\n",
+             digits(motion.stop_time), std::abs(motion.stop_time - roll.stop_time()), digits(motion.slip_length),
+             digits(motion.spin_angle / (2 * std::numbers::pi)), motion.steps);
 }
 
 /// The picture of the motion at these instants, beside the textbook's.

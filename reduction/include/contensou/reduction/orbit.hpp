@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "contensou/reduction/orbit_point.hpp"
@@ -25,6 +28,14 @@ class Orbit {
   struct Remaining {
     double u, v, ln_v;
     double tau_left;
+  };
+
+  /// An instant with what lies between the start and it, in speeds squared: where tau is turned into a time, a length
+  /// and R times an angle.
+  struct Instant {
+    double u, v, ln_v;
+    double slip_length;  ///< the integral of v dtau
+    double turned;       ///< the integral of u dtau, of the sign of u
   };
 
   double stop_time() const;
@@ -55,10 +66,26 @@ class Orbit {
   /// @throws std::domain_error  on an axis, or if ln_k is not between the start's and the terminal ratio's
   OrbitPoint at_log_ratio(double ln_k) const;
 
-  /// The integral of v over [0, tau] in the unit of speed squared: the length of slip where tau is turned into a time.
-  /// Past the stop, the whole of it.
+  /// The whole instant by one root: all but beta, which costs more than the rest. Past the stop, rest.
+  /// @throws std::domain_error  as at_time
+  Instant instant(double tau) const;
+
+  /// slip_length of the instant: needs less of the curve.
   /// @throws std::domain_error  as at_time
   double slip_length(double tau) const;
+
+  /// tau when the sliding speed has fallen to v, when |u| has to a value >= 0; 0 where it starts no larger, and the stop
+  /// time for 0.
+  /// @throws std::domain_error  if the speed is negative or not a number
+  double time_of_v(double v) const;
+  double time_of_u(double u) const;
+
+  /// The integral of a function of v over [0, tau], tau not beyond the stop: without a root for each of its values.
+  /// @param edges     values of v where the function is not smooth
+  /// @throws std::domain_error  as at_time
+  ///
+  /// Accuracy  1e-10 of the integral of its absolute value.
+  double integral(const std::function<double(double v)>& of_v, double tau, const std::vector<double>& edges = {}) const;
 
   /// Whether the start is on u = 0 or v = 0, where k does not change.
   bool on_axis() const { return v0_ == 0 || u0_ == 0; }
@@ -100,6 +127,7 @@ class Orbit {
     double w, v;
   };
   static constexpr Progress at_start{0, 0, 1, 1};
+  Progress fallen(double xi) const;  ///< the logarithms alone
   Progress progress(double xi) const;
   Progress progress(double xi, double left) const;
   double beta(double xi, const Progress& now) const;
@@ -108,9 +136,14 @@ class Orbit {
 
   double whole() const { return pivoting_ + v_ * m0_; }  ///< the stop time, scaled
   double slip_left(double xi, const Progress& now) const;
+  double turned_left(double xi, const Progress& now) const;
+  double length_of(double scaled_square) const;
+  double coordinate_of_fall(double Progress::*ln_speed, double ln_fraction) const;
+  double time_of_fall(double Progress::*ln_speed, double speed, double start) const;
   double scaled_elapsed(double xi, const Progress& now) const;
   double scaled_left(double xi, const Progress& now) const;
   double scaled_left_slope(double xi, const Progress& now) const;
+  double left_at(double tau) const;
   double coordinate_at_time(double tau) const;
   double coordinate_at_elapsed(double elapsed) const;
   double coordinate_at_left(double left) const;

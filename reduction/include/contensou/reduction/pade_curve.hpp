@@ -8,8 +8,8 @@ namespace contensou::reduction {
 
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
-/// Source    README (R8) orbit, (R9) time (Zh98 (2.6) carried to the end), (R11) regularised time, (R14) slip.
-/// Accuracy  sliding_coefficient, slip_length_coefficient and beta_coefficient about 5 eps relative, ln_w
+/// Source    README (R8) orbit, (R9) time (Zh98 (2.6) carried to the end), (R11) regularised time, (R14) slip and angle.
+/// Accuracy  sliding_coefficient, slip_length_coefficient, angle_coefficient and beta_coefficient about 5 eps relative, ln_w
 ///           eps (|ln w| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
@@ -25,6 +25,7 @@ class PadeCurve final : public SimilarityCurve {
   double ln_w(double ln_k) const override;
   double sliding_coefficient(double ln_k) const override;
   double slip_length_coefficient(double ln_k) const override;
+  double angle_coefficient(double ln_k) const override;
   double beta_coefficient(double ln_k) const override;
   double time_rate(double ln_k) const override;
   double limit() const override;

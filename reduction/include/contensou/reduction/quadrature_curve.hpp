@@ -8,20 +8,21 @@
 
 namespace contensou::reduction {
 
+class BetaSolution;
 class RegularSolution;
 
 /// The similarity curve of any friction law, by quadrature of the separated equation.
 ///
 /// m, all that a stop time needs, is found in ln k, outwards from the stop (RegularSolution). The others are found when
-/// they are first asked for: n and b like m, ln w and c in xi, (R26), panel by panel: on each, coefficients are sampled
+/// they are first asked for: n, o and b like m, ln w and c in xi, (R26), panel by panel: on each, coefficients are sampled
 /// at Gauss points (Boost.Math), and solved as Legendre series. Panels meet at the law's kinks and are halved until the
 /// series have converged. They reach from k = 4e-18 to 1e19, where the limits hold to the last bit; and towards an
 /// invariant ray as far as Phi - r k Psi, which vanishes there, has a digit left.
 ///
 /// Accuracy  sliding_coefficient 3 eps for a law that is smooth between its kinks, on and beside rays, too
 ///           (tests/reference/rays.csv); the other functions 1e-13, and less next to a ray.
-/// Cost      about 1 300 evaluations of the law for m, as many for n, and 3 500 for the three others; then some 30 ns
-///           for each value. Noise in the law costs up to a million, and shows in truncation().
+/// Cost      about 1 300 evaluations of the law for m, as many for each of n, o and b, and 2 000 for ln w and c; then
+///           some 30 ns for each value. Noise in the law costs up to a million, and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi
@@ -33,6 +34,7 @@ class QuadratureCurve final : public SimilarityCurve {
   double ln_w(double xi) const override;
   double sliding_coefficient(double xi) const override;
   double slip_length_coefficient(double xi) const override;
+  double angle_coefficient(double xi) const override;
   double beta_coefficient(double xi) const override;
   double time_rate(double xi) const override;
 
@@ -49,15 +51,29 @@ class QuadratureCurve final : public SimilarityCurve {
   ~QuadratureCurve() override;
 
  private:
+  /// A part that is made when it is first asked for, by the first thread.
+  template <class Part>
+  class Later {
+   public:
+    template <class Make>
+    const Part& made(Make make) const {
+      std::call_once(once_, [&] { part_ = std::make_unique<const Part>(make()); });
+      return *part_;
+    }
+
+   private:
+    mutable std::once_flag once_;
+    mutable std::unique_ptr<const Part> part_;
+  };
+
   class Panels;
   const Panels& panels() const;
 
   Law law_;
   std::unique_ptr<const RegularSolution> m_;
-  mutable std::once_flag n_made_;
-  mutable std::unique_ptr<const RegularSolution> n_;
-  mutable std::once_flag made_;
-  mutable std::unique_ptr<const Panels> panels_;
+  Later<RegularSolution> n_, o_;
+  Later<BetaSolution> b_;
+  Later<Panels> panels_;
 };
 
 }  // namespace contensou::reduction

@@ -24,6 +24,9 @@ class SimilarityCurve {
   /// n: the length of slip that is left, the integral of v ds, is  v (v/2 + n w)  (README (R13)).
   virtual double slip_length_coefficient(double xi) const = 0;
 
+  /// o: the angle that is left, the integral of w ds, is  w (w/(2 r Psi(0)) + o v)  (README (R31)).
+  virtual double angle_coefficient(double xi) const = 0;
+
   /// b: the regularised time is  b/(w + v), up to its scale and a constant  (README (R7)).
   virtual double beta_coefficient(double xi) const = 0;
 

@@ -6,7 +6,7 @@
 namespace contensou::si {
 
 /// The whole motion of a ball, Zh98 (2.1) to (2.5), from the similarity solution: slip and spin are one orbit of the
-/// reduced system, the rest follows from the first integrals (motion_by_slip). Any instant is found by itself.
+/// reduced system, the rest follows from the first integrals (motion_by_slip). Any instant is found by itself, by one root.
 ///
 /// After the stop the ball rolls on a straight line at constant velocity: the model has no rolling resistance.
 ///
@@ -44,7 +44,7 @@ class BallMotion {
   /// m that the contact point slides on the ball, that is the integral of slip over time, until the stop.
   double slip_length() const;
 
-  /// rad that the ball turns about the vertical until the stop, to 1e-9.
+  /// rad that the ball turns about the vertical until the stop, of the sign of its spin.
   double spin_angle() const;
 
   /// m along the path of the centre until that time in s, to 1e-9.
@@ -52,14 +52,6 @@ class BallMotion {
 
  private:
   double paper_time(double t) const;
-
-  /// s until a function of an OrbitPoint, true at the start, is no longer.
-  template <class Function>
-  double time_until_not(Function holds) const;
-
-  /// The integral of a function of time over [0, end], with panels graded towards the start, where slip dies out.
-  template <class Function>
-  double integral(Function function, double end) const;
 
   Experiment experiment_;
   reduction::Orbit orbit_;
