@@ -1,6 +1,7 @@
 #include "contensou/reduction/laws.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -24,22 +25,27 @@ namespace contensou::reduction {
 namespace {
 
 struct NamedLaw {
-  Law law;
+  std::string_view name;
   std::string_view meaning;
+  Law (*law)();
 };
 
-const std::vector<NamedLaw>& laws_with_meaning() {
-  static const std::vector<NamedLaw> laws{
-      {HertzLaw{}, "Hertz's pressure, (1 - rho^2)^(1/2)"},
-      {PadeLaw{}, "the paper's approximation of it"},
-      {PressureLaw::uniform(), "the same pressure all over the patch"},
-      {PressureLaw::punch(), "a flat rigid punch, pressure (1 - rho^2)^(-1/2)"},
-      {PressureLaw::ring(), "all pressure on the rim"},
-      {PressureLaw::paraboloid(), "a soft foundation, pressure 1 - rho^2"},
-      {EllipticLaw{}, "the ellipse of grasping and of physics engines as limit surface, with Hertz's Psi(0)"},
-      {Potential8Law{}, "within 3.41 % of exact, as simple as pade: the gradient of a potential"},
-  };
-  return laws;
+constexpr std::array laws_with_meaning{
+    NamedLaw{"exact", "Hertz's pressure, (1 - rho^2)^(1/2)", []() -> Law { return HertzLaw{}; }},
+    NamedLaw{"pade", "the paper's approximation of it", []() -> Law { return PadeLaw{}; }},
+    NamedLaw{"uniform", "the same pressure all over the patch", []() -> Law { return PressureLaw::uniform(); }},
+    NamedLaw{"punch", "a flat rigid punch, pressure (1 - rho^2)^(-1/2)", []() -> Law { return PressureLaw::punch(); }},
+    NamedLaw{"ring", "all pressure on the rim", []() -> Law { return PressureLaw::ring(); }},
+    NamedLaw{"paraboloid", "a soft foundation, pressure 1 - rho^2", []() -> Law { return PressureLaw::paraboloid(); }},
+    NamedLaw{"elliptic", "the ellipse of grasping and of physics engines as limit surface, with Hertz's Psi(0)",
+             []() -> Law { return EllipticLaw{}; }},
+    NamedLaw{"potential8", "within 3.41 % of exact, as simple as pade: the gradient of a potential",
+             []() -> Law { return Potential8Law{}; }},
+};
+
+const NamedLaw* named(std::string_view name) {
+  const auto* found = std::ranges::find(laws_with_meaning, name, &NamedLaw::name);
+  return found == laws_with_meaning.end() ? nullptr : found;
 }
 
 /// Uniform pressure between the fraction eta of the radius and the edge.
@@ -79,19 +85,24 @@ const std::vector<Law>& paper_laws() {
   return laws;
 }
 
+std::vector<std::string_view> names_of_laws() {
+  std::vector<std::string_view> names;
+  for (const NamedLaw& law : laws_with_meaning) names.push_back(law.name);
+  return names;
+}
+
 const std::vector<Law>& named_laws() {
   static const std::vector<Law> laws = [] {
     std::vector<Law> list;
-    for (const NamedLaw& named : laws_with_meaning()) list.push_back(named.law);
+    for (const NamedLaw& named : laws_with_meaning) list.push_back(named.law());
     return list;
   }();
   return laws;
 }
 
 std::string_view meaning_of_law(std::string_view name) {
-  const auto& laws = laws_with_meaning();
-  const auto found = std::ranges::find(laws, name, [](const NamedLaw& named) { return named.law.name(); });
-  return found == laws.end() ? "" : found->meaning;
+  const NamedLaw* found = named(name);
+  return found == nullptr ? "" : found->meaning;
 }
 
 const std::vector<LawFamily>& law_families() {
@@ -112,10 +123,9 @@ std::optional<Law> find_law(std::string_view name) {
   const std::string_view before = name.substr(0, name.find(':'));
   const auto family = std::ranges::find(law_families(), before, &LawFamily::name);
   if (before != name && family != law_families().end()) return member(*family, name.substr(before.size() + 1));
-  const auto& laws = named_laws();
-  const auto found = std::ranges::find(laws, name, &Law::name);
-  if (found == laws.end()) return std::nullopt;
-  return *found;
+  const NamedLaw* found = named(name);
+  if (found == nullptr) return std::nullopt;
+  return found->law();
 }
 
 }  // namespace contensou::reduction

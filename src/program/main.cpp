@@ -42,8 +42,51 @@ std::string footer() {
              "failed.");
 }
 
+/// The verbs as parts of the program's command line. Options are given to a verb when they are needed.
+class Verbs {
+ public:
+  explicit Verbs(CLI::App& root) {
+    std::ranges::sort(verbs(), {}, &VerbEntry::name);
+    for (const VerbEntry& entry : verbs()) {
+      CLI::App* app = root.add_subcommand(entry.name, entry.summary)->allow_extras()->group("Verbs");
+      parts_.push_back({&entry, app, nullptr});
+      names_.push_back(entry.name);
+    }
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  bool has(const std::string& name) const { return std::ranges::find(names_, name) != names_.end(); }
+
+  /// The verb of that name, with its options.
+  Verb& complete(const std::string& name) {
+    Part& part = *std::ranges::find(parts_, name, [](const Part& of) { return of.entry->name; });
+    if (!part.verb) {
+      part.app->footer(
+          [entry = part.entry] { return "Example:\n  " + entry->example + "\n" + help_on_fields(entry->name); });
+      part.verb = part.entry->make();
+      part.verb->add_options(*part.app);
+      part.app->set_help_flag();  // so that it is the last
+      part.app->set_help_flag("-h,--help", "print this");
+    }
+    return *part.verb;
+  }
+  void complete_all() {
+    for (const std::string& name : names_) complete(name);
+  }
+
+ private:
+  struct Part {
+    const VerbEntry* entry;
+    CLI::App* app;
+    std::unique_ptr<Verb> verb;
+  };
+  std::vector<Part> parts_;
+  std::vector<std::string> names_;
+};
+
 /// What CLI11 could not place: a verb or an option that does not exist, or a word too many.
-void reject_extras(const CLI::App& app, const std::vector<std::string>& names) {
+/// @param names  of verbs, where one of them was expected
+void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::string>& names) {
   if (app.remaining_size() == 0) return;
   const std::string typed = app.remaining().front();
   const std::string option = typed.substr(0, typed.find('='));
@@ -54,6 +97,7 @@ void reject_extras(const CLI::App& app, const std::vector<std::string>& names) {
     }
     std::vector<std::string> others;
     if (const CLI::App* root = app.get_parent()) {
+      all.complete_all();
       for (const CLI::App* verb : root->get_subcommands([](const CLI::App*) { return true; })) {
         if (verb->get_option_no_throw(option) != nullptr) others.push_back(verb->get_name());
       }
@@ -99,46 +143,39 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
 
 /// @param verb  becomes the name of the verb, once it is known
 ExitStatus run(const std::vector<std::string>& arguments, std::string& verb) {
-  std::ranges::sort(verbs(), {}, &VerbEntry::name);
-  std::vector<std::string> names;
-  for (const VerbEntry& entry : verbs()) names.push_back(entry.name);
   CLI::App app("A ball that slides and spins on a plane under combined dry friction.\n", "contensou");
   app.formatter(std::make_shared<HelpFormatter>());
+  Verbs all(app);
   app.set_version_flag("--version", "contensou " CONTENSOU_VERSION, "name the version");
-  app.footer(footer());
+  app.footer(footer);
   app.require_subcommand(0, 1)->allow_extras();
-  std::vector<std::unique_ptr<Verb>> made;
-  for (const VerbEntry& entry : verbs()) {
-    CLI::App& of_verb = *app.add_subcommand(entry.name, entry.summary)->allow_extras()->group("Verbs");
-    of_verb.footer("Example:\n  " + entry.example + "\n" + help_on_fields(entry.name));
-    made.push_back(entry.make());
-    made.back()->add_options(of_verb);
-    of_verb.set_help_flag();  // so that it is the last
-    of_verb.set_help_flag("-h,--help", "print this");
+  const bool known = !arguments.empty() && all.has(arguments.front());
+  if (known) verb = arguments.front();
+  if (known && verb != "help") {
+    all.complete(verb);
+  } else {
+    all.complete_all();
   }
   try {
-    const bool known = !arguments.empty() && std::ranges::find(names, arguments.front()) != names.end();
-    if (known) verb = arguments.front();
     reject_what_means_nothing(known ? *app.get_subcommand(verb) : app, arguments);
     parse(app, arguments);
   } catch (const CLI::CallForHelp&) {
-    reject_extras(app, names);
+    reject_extras(app, all, all.names());
     write_output("-", app.help());
     return ExitStatus::done;
   } catch (const CLI::CallForVersion& version) {
-    reject_extras(app, names);
+    reject_extras(app, all, all.names());
     write_output("-", version.what() + std::string("\n"));
     return ExitStatus::done;
   } catch (const CLI::ParseError& error) {
     throw BadInput(error.what());
   }
-  reject_extras(app, names);
+  reject_extras(app, all, all.names());
   if (app.get_subcommands().empty()) {
-    throw BadInput(fmt::format("a verb is missing; verbs: {}", fmt::join(names, ", ")));
+    throw BadInput(fmt::format("a verb is missing; verbs: {}", fmt::join(all.names(), ", ")));
   }
-  reject_extras(*app.get_subcommands().front(), {});
-  const auto place = std::ranges::find(verbs(), verb, &VerbEntry::name) - verbs().begin();
-  return made[static_cast<std::size_t>(place)]->run();
+  reject_extras(*app.get_subcommands().front(), all, {});
+  return all.complete(verb).run();
 }
 
 ExitStatus complain(ExitStatus status, const std::string& message) {

@@ -31,10 +31,10 @@ std::vector<std::pair<std::string, std::string>> law_forms() {
       {"ring", "the default of --body ring"},
   };
   std::vector<std::pair<std::string, std::string>> forms;
-  for (const reduction::Law& law : reduction::named_laws()) {
-    std::string meaning(reduction::meaning_of_law(law.name()));
-    if (const auto note = notes.find(law.name()); note != notes.end()) meaning += fmt::format(", {}", note->second);
-    forms.emplace_back(law.name(), meaning);
+  for (const std::string_view name : reduction::names_of_laws()) {
+    std::string meaning(reduction::meaning_of_law(name));
+    if (const auto note = notes.find(name); note != notes.end()) meaning += fmt::format(", {}", note->second);
+    forms.emplace_back(name, meaning);
   }
   for (const auto& family : reduction::law_families()) {
     forms.emplace_back(fmt::format("{}:{}", family.name, family.letter),

@@ -11,7 +11,10 @@ namespace contensou::reduction {
 /// The two laws of the paper: the exact one of Hertz's pressure, and the Pade pair that approximates it.
 const std::vector<Law>& paper_laws();
 
-/// Every law that has a name, in the order in which it is shown: those of the paper first.
+/// The name of every law that has one, in the order in which they are shown: those of the paper first.
+std::vector<std::string_view> names_of_laws();
+
+/// The laws of these names, all of them made: some have tables. Where one is asked for, find_law makes that one.
 const std::vector<Law>& named_laws();
 
 /// What the law of that name is, in a few words; empty if no law has it.
