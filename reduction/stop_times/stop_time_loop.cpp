@@ -24,12 +24,7 @@ bool usable(double tau, double v0) {
   return ((std::bit_cast<std::uint64_t>(tau) - min_ordinary) & not_ordinary) == 0 && !std::signbit(v0);
 }
 
-/// Where a start lies.
-struct Place {
-  std::size_t panel;
-  double t;
-};
-Place place(double u, double v_mu) {
+PlaceInPanels place(double u, double v_mu) {
   const double smaller = v_mu < u ? v_mu : u;
   const double distance = std::abs(v_mu - u);
   const double y = (distance < smaller ? distance : smaller) / (u + v_mu) + Panels::lowest;
@@ -53,6 +48,8 @@ double one(const Panels& table, double u0, double v0) {
 std::size_t panel_of(const Panels& table, double u0, double v0) {
   return place(std::abs(u0), table.inverse_mu * v0).panel;
 }
+
+PlaceInPanels place_in_panels(double w, double v0) { return place(w, v0); }
 
 double from_panels(const Panels& table, double u0, double v0) {
   const double tau = one(table, u0, v0);

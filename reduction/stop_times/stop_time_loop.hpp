@@ -50,6 +50,15 @@ StopTimeLoop& run_fastest();
 /// What the polynomials say of one start; NaN if `otherwise` is to be asked.
 double from_panels(const StopTimePanels& table, double u0, double v0);
 
+/// Where a start lies: its panel, and what is left of y + lowest from the panel's left edge.
+struct PlaceInPanels {
+  std::size_t panel;
+  double t;
+};
+
+/// @param w  mu |u0|, in the unit of v0; not both 0
+PlaceInPanels place_in_panels(double w, double v0);
+
 /// The number of the panel that it lies in.
 std::size_t panel_of(const StopTimePanels& table, double u0, double v0);
 

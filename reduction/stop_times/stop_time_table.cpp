@@ -14,9 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_sliding_coefficient.hpp"
 #include "stop_times/stop_time_loop.hpp"
+#include "stop_times/stop_time_panels.hpp"
 
 namespace contensou::reduction {
 
@@ -27,83 +26,6 @@ using Panel = Panels::Panel;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double tolerance = 4 * std::numeric_limits<double>::epsilon();
-
-double sliding_coefficient(const Flow& flow, double k) {
-  if (flow.system().law().as<PadeLaw>()) return pade_sliding_coefficient(flow.system().r(), k);
-  const double ln_k = std::log(k);
-  const auto& curve = flow.solution().through(ln_k);
-  return curve->sliding_coefficient(curve->chart().coordinate(ln_k));
-}
-
-/// inverse_mu v0/|u0| at a y of the branch of a panel.
-double ratio(std::size_t panel, double y) {
-  const double up_to_one = (panel & Panels::near_one) != 0 ? (1 - y) / (1 + y) : y / (1 - y);
-  return (panel & Panels::above_one) != 0 ? 1 / up_to_one : up_to_one;
-}
-
-/// The left edge of a panel in y + lowest, and its width.
-struct Span {
-  double left;
-  double width;
-};
-Span span(std::size_t panel) {
-  constexpr std::size_t cuts = std::size_t{1} << Panels::cut_bits;
-  const std::size_t index = panel % Panels::per_branch;
-  const double octave = std::ldexp(Panels::lowest, static_cast<int>(index / cuts));
-  const double width = octave / cuts;
-  return {octave + width * static_cast<double>(index % cuts), width};
-}
-
-/// Polynomials on [0, 1], by least squares at Chebyshev's points: twice as many as terms, so that their noise is
-/// halved.
-class Fit {
- public:
-  static constexpr std::size_t points = std::size_t{2} * Panels::terms;
-  using Values = std::array<double, points>;
-
-  Fit() {
-    for (std::size_t i = 0; i < points; ++i) {
-      const double angle = std::numbers::pi * static_cast<double>(2 * i + 1) / (2 * points);
-      x[i] = (1 - std::cos(angle)) / 2;
-      for (std::size_t n = 0; n < Panels::terms; ++n) {
-        analysis_[n][i] = (n == 0 ? 1.0 : 2.0) / points * std::cos(static_cast<double>(n) * (std::numbers::pi - angle));
-      }
-    }
-    // T_(n+1) = (4 x - 2) T_n - T_(n-1), T_1 = 2 x - 1.
-    powers_[0] = {1};
-    powers_[1] = {-1, 2};
-    for (std::size_t n = 2; n < Panels::terms; ++n) {
-      for (std::size_t i = 0; i <= n; ++i) {
-        powers_[n][i] = (i > 0 ? 4 * powers_[n - 1][i - 1] : 0) - 2 * powers_[n - 1][i] - powers_[n - 2][i];
-      }
-    }
-  }
-
-  /// Coefficients of powers of width x.
-  Panel panel(const Values& values, double width) const {
-    // The constant apart, so that what is left is small and its rounding smaller.
-    const double constant = values[0];
-    Panel fitted{};
-    for (std::size_t n = 0; n < Panels::terms; ++n) {
-      double coefficient = 0;
-      for (std::size_t i = 0; i < points; ++i) coefficient += analysis_[n][i] * (values[i] - constant);
-      for (std::size_t i = 0; i <= n; ++i) fitted.c[i] += powers_[n][i] * coefficient;
-    }
-    fitted.c[0] += constant;
-    double unit = 1;
-    for (double& c : fitted.c) {
-      c /= unit;
-      unit *= width;
-    }
-    return fitted;
-  }
-
-  Values x{};
-
- private:
-  std::array<Values, Panels::terms> analysis_{};  ///< values -> coefficients of Chebyshev's polynomials
-  std::array<std::array<double, Panels::terms>, Panels::terms> powers_{};  ///< of these polynomials
-};
 
 bool moderate(double x) { return x > 0x1p-100 && x < 0x1p100; }
 
@@ -151,13 +73,7 @@ struct StopTimeTable::Stored {
   }
 
   Panel made(std::size_t index, double sliding) const {
-    static const Fit fit;
-    const auto [left, width] = span(index);
-    Fit::Values values;
-    for (std::size_t i = 0; i < Fit::points; ++i) {
-      values[i] = sliding * sliding_coefficient(flow, ratio(index, left - Panels::lowest + width * fit.x[i]));
-    }
-    return fit.panel(values, width);
+    return fitted_panel(index, [&](double k) { return sliding * sliding_coefficient(flow, k); });
   }
 
   /// Compares some starts in each panel, and takes the panels that fail out of use.
@@ -165,9 +81,8 @@ struct StopTimeTable::Stored {
     std::vector<bool> fails(storage.size());
     for (std::size_t i = 0; i < storage.size(); ++i) {
       if (i % Panels::per_branch >= Panels::used) continue;
-      const auto [left, width] = span(i);
       for (double x : {0.01, 0.37, 0.85}) {
-        const double k = ratio(i, left - Panels::lowest + width * x);
+        const double k = ratio_in_panel(i, x);
         const State start = k < 1 ? State{1, k / loop.inverse_mu} : State{loop.inverse_mu / k, 1};
         const double wanted = flow.stop_time(start).tau;
         const double error = std::abs(from_panels(loop, start.u, start.v) - wanted) / wanted;

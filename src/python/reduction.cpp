@@ -8,6 +8,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/stop_times_of_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/body.hpp"
@@ -109,6 +110,22 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
   }
 }
 
+/// As stop_times, each start with a mu of its own. The flow is of one of them.
+void stop_times_of_mus(const Flow& flow, const Numbers& mu, const Numbers& u, const Numbers& v,
+                       py::array_t<double>& out) {
+  const auto count = static_cast<std::size_t>(out.size());
+  const double* const mus = mu.data();
+  const double* const us = u.data();
+  const double* const vs = v.data();
+  double* const taus = out.mutable_data();
+  const py::gil_scoped_release released;
+  const reduction::StopTimesOfMu stop_time(flow.system().law(), flow.system().inertia());
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_state = std::isfinite(us[i]) && std::isfinite(vs[i]) && vs[i] >= 0;
+    taus[i] = is_state ? stop_time(mus[i], {us[i], vs[i]}) : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 py::tuple terminal(const Flow& flow) {
   const reduction::TerminalRatios& ratios = flow.terminal();
   constexpr const char* regimes[] = {"zero", "ray", "infinity"};
@@ -157,6 +174,7 @@ void bind_reduction(py::module_& module) {
           },
           Released())
       .def("stop_times", &stop_times)
+      .def("stop_times_of_mus", &stop_times_of_mus)
       .def(
           "orbit",
           [](const Flow& flow, double u, double v) {

@@ -131,7 +131,7 @@ class Batch {
     for (const CsvColumn& column : columns_) piece.values.push_back(table_.number(row, column));
     piece.results.resize(request_.results.size());
     try {
-      request_.compute(piece.values, piece.results);
+      request_.compute(piece.values, piece.results, row.line());
     } catch (const std::domain_error& error) {
       throw table_.complaint(row.line(), error.what());
     } catch (const std::runtime_error& error) {

@@ -17,10 +17,10 @@ struct BatchRequest {
   std::vector<std::string> inputs;   ///< columns that are read; the others pass through
   std::vector<std::string> results;  ///< columns that are added
 
-  /// The results of a row, from its inputs; several threads call it.
+  /// The results of a row, from its inputs and the number of lines before it; several threads call it.
   /// @throws std::domain_error   for a bad row
   /// @throws std::runtime_error  for one that cannot be computed
-  std::function<void(std::span<const double> inputs, std::span<double> results)> compute;
+  std::function<void(std::span<const double> inputs, std::span<double> results, long line)> compute;
 
   bool keep_going = false;  ///< report a bad row on standard error and leave its results empty
   int threads = 1;

@@ -353,7 +353,7 @@ class RollCommand final : public Verb {
                          .results = {"t_rolls", "x_rolls", "y_rolls", "t_spin_ends", "x_spin_ends", "y_spin_ends",
                                      "slip_length", "turns", "path"},
                          .compute =
-                             [&](std::span<const double> row, std::span<double> results) {
+                             [&](std::span<const double> row, std::span<double> results, long /*line*/) {
                                si::Experiment experiment = still;
                                if (general) {
                                  experiment.start = si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}};

@@ -60,11 +60,11 @@ class StopCommand final : public Verb {
     BatchRequest request{.inputs = {"mu", "u0", "v0"},
                          .results = {"tau_stop"},
                          .compute =
-                             [&](std::span<const double> row, std::span<double> results) {
+                             [&](std::span<const double> row, std::span<double> results, long line) {
                                if (const std::string wrong = start_.body().complaint(row[0]); !wrong.empty()) {
                                  throw BadInput(fmt::format("mu: {}, got {}", wrong, row[0]));
                                }
-                               results[0] = stop_times(row[0], {.u = row[1], .v = sliding("v0", row[2])});
+                               results[0] = stop_times(row[0], {.u = row[1], .v = sliding("v0", row[2])}, line);
                              },
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
@@ -74,9 +74,9 @@ class StopCommand final : public Verb {
       request.inputs = {"spin", "slip"};
       request.results = {"t_stop"};
       request.compute = [&, mu = si::patch_ratio(experiment, law)](std::span<const double> row,
-                                                                   std::span<double> results) {
+                                                                   std::span<double> results, long /*line*/) {
         const reduction::State start{.u = row[0] * experiment.ball.radius, .v = sliding("slip", row[1])};
-        results[0] = si::seconds(experiment, stop_times(mu, start));
+        results[0] = si::seconds(experiment, stop_times(mu, start, 0));
       };
     }
     OutputFile output(out.path);  // before the input, which may be long in coming

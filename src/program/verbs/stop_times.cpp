@@ -23,6 +23,9 @@ constexpr std::size_t max_tables = 16;
 /// A table takes about as long to make as so many calls of a closed form or a curve.
 constexpr long starts_that_pay = 1 << 15;
 
+/// And StopTimesOfMu as long as so many curves.
+constexpr long mus_that_pay = 1000;
+
 }  // namespace
 
 void StopTimes::AtMu::row(std::span<const double> u0, double v0, std::span<double> taus) const {
@@ -30,8 +33,16 @@ void StopTimes::AtMu::row(std::span<const double> u0, double v0, std::span<doubl
   std::ranges::transform(u0, taus.begin(), [&](double u) { return one({.u = u, .v = v0}); });
 }
 
-StopTimes::StopTimes(const reduction::Law& law, reduction::Inertia body, long starts)
-    : law_(law), body_(body), by_table_(starts >= starts_that_pay) {}
+StopTimes::StopTimes(const reduction::Law& law, reduction::Inertia body, long starts, long mus)
+    : law_(law),
+      body_(body),
+      by_table_(starts >= starts_that_pay),
+      many_mus_(!by_table_ && mus >= mus_that_pay && !law.as<reduction::PadeLaw>()) {}
+
+const reduction::StopTimesOfMu& StopTimes::of_every_mu() {
+  std::call_once(of_every_mu_made_, [this] { of_every_mu_.emplace(law_, body_); });
+  return *of_every_mu_;
+}
 
 StopTimes::AtMu StopTimes::made(double mu) {
   const reduction::ReducedSystem system(law_, mu, body_);
@@ -40,6 +51,7 @@ StopTimes::AtMu StopTimes::made(double mu) {
     if (!table.proved() && !told_.exchange(true)) tell_if_not_proved(table);
     return {.table = std::move(table), .one = {}};
   }
+  if (many_mus_) return {.table = {}, .one = [mu, every = of_every_mu()](State start) { return every(mu, start); }};
   const Route route = route_.read(system);
   if (route != Route::quadrature) {
     return {.table = {}, .one = [=](State start) { return reduction::stop_time(system, start, route).tau; }};
@@ -62,9 +74,11 @@ std::shared_ptr<const StopTimes::AtMu> StopTimes::at(double mu) {
   return made_once.get();  // the first thread makes it, and others wait
 }
 
-double StopTimes::operator()(double mu, State start) {
-  const bool by_function = law_.as<reduction::PadeLaw>() != nullptr && route_.value_or(Route::closed) == Route::closed;
-  return by_function ? reduction::pade_stop_time(mu, start, body_) : at(mu)->one(start);
+double StopTimes::operator()(double mu, State start, long row) {
+  const bool is_pade = law_.as<reduction::PadeLaw>() != nullptr;
+  if (is_pade && route_.value_or(Route::closed) == Route::closed) return reduction::pade_stop_time(mu, start, body_);
+  if (row >= mus_that_pay && !route_.given()) return of_every_mu()(mu, start);
+  return at(mu)->one(start);
 }
 
 void tell_if_not_proved(const reduction::StopTimeTable& table) {

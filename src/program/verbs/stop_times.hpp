@@ -10,6 +10,7 @@
 #include <span>
 
 #include "contensou/reduction/stop_time_table.hpp"
+#include "contensou/reduction/stop_times_of_mu.hpp"
 #include "options/route_option.hpp"
 
 namespace contensou::program {
@@ -32,22 +33,29 @@ class StopTimes {
   StopTimes(const reduction::Law& law, reduction::Inertia body, const RouteOption& route)
       : law_(law), body_(body), route_(route) {}
 
-  /// By the best route, for so many starts of each mu: by a table where they pay for it.
-  StopTimes(const reduction::Law& law, reduction::Inertia body, long starts);
+  /// By the best route, for so many starts of each mu and so many mu: by a table where they pay for it.
+  StopTimes(const reduction::Law& law, reduction::Inertia body, long starts, long mus);
 
   /// @throws  as RouteOption::read and the making of the solution
   std::shared_ptr<const AtMu> at(double mu);
 
-  /// @throws  as at and stop_time
-  double operator()(double mu, reduction::State start);
+  /// By what serves every mu, where no route was asked for and so many rows have been before: they may each have a mu of
+  /// their own, and a curve would be made for each.
+  /// @param row  how many were before this one; what they were does not matter to the bits of the answer
+  /// @throws     as at and stop_time
+  double operator()(double mu, reduction::State start, long row);
 
  private:
   AtMu made(double mu);
+  const reduction::StopTimesOfMu& of_every_mu();
 
   reduction::Law law_;
   reduction::Inertia body_;
   RouteOption route_;
   bool by_table_ = false;
+  bool many_mus_ = false;
+  std::once_flag of_every_mu_made_;
+  std::optional<reduction::StopTimesOfMu> of_every_mu_;
   std::atomic<bool> told_ = false;  ///< that a table is not whole
   std::mutex guard_;
   std::map<double, std::shared_future<std::shared_ptr<const AtMu>>> known_;

@@ -120,7 +120,7 @@ class Sweep {
       : request_(request),
         heading_(std::move(heading)),
         output_(output),
-        stop_times_(request.law, request.body, starts_of_mu_),
+        stop_times_(request.law, request.body, starts_of_mu_, request.grid.mu.count),
         progress_("stop times", request.progress) {
     if (grid_.u0.count <= longest_kept_axis) u0_ = values_of(grid_.u0, 0, grid_.u0.count);
   }
