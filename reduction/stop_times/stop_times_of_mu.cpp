@@ -19,18 +19,18 @@ namespace {
 
 using Panels = StopTimePanels;
 
-constexpr std::size_t points = 16;
-constexpr double tolerance = 4 * std::numeric_limits<double>::epsilon();
+constexpr std::size_t points_of_r = 16;
+constexpr double allowed_error = 4 * std::numeric_limits<double>::epsilon();
 
-using Weights = std::array<double, points>;
+using Weights = std::array<double, points_of_r>;
 
 /// Chebyshev's points of (0, max_r), and their barycentric weights.
-struct Points {
+struct PointsOfR {
   Weights r, weight;
 
-  Points() {
-    for (std::size_t j = 0; j < points; ++j) {
-      const double angle = std::numbers::pi * static_cast<double>(2 * j + 1) / (2 * points);
+  PointsOfR() {
+    for (std::size_t j = 0; j < points_of_r; ++j) {
+      const double angle = std::numbers::pi * static_cast<double>(2 * j + 1) / (2 * points_of_r);
       r[j] = StopTimesOfMu::max_r * (1 - std::cos(angle)) / 2;
       weight[j] = (j % 2 == 0 ? 1 : -1) * std::sin(angle);
     }
@@ -40,7 +40,7 @@ struct Points {
   Weights at(double x) const {
     Weights share;
     double sum = 0;
-    for (std::size_t j = 0; j < points; ++j) {
+    for (std::size_t j = 0; j < points_of_r; ++j) {
       if (x == r[j]) {
         share.fill(0);
         share[j] = 1;
@@ -54,28 +54,28 @@ struct Points {
 };
 
 /// The polynomials of a panel, side by side: coefficients of one power together.
-struct Panel {
+struct PanelOfEveryR {
   std::array<Weights, Panels::terms> c;
   bool refused = false;
 };
 
-double interpolated(const Panel& panel, double t, const Weights& share) {
+double interpolated(const PanelOfEveryR& panel, double t, const Weights& share) {
   double m = 0;
   for (std::size_t n = Panels::terms; n-- > 0;) {
     double coefficient = 0;
-    for (std::size_t j = 0; j < points; ++j) coefficient += share[j] * panel.c[n][j];
+    for (std::size_t j = 0; j < points_of_r; ++j) coefficient += share[j] * panel.c[n][j];
     m = m * t + coefficient;
   }
   return m;
 }
 
-bool moderate(double x) { return x > 0x1p-300 && x < 0x1p300; }
+bool ordinary_size(double x) { return x > 0x1p-300 && x < 0x1p300; }
 
 }  // namespace
 
 struct StopTimesOfMu::Stored {
   Stored(const Law& given, Inertia body) : unit(given, 1, body), panels(Panels::branches * Panels::per_branch) {
-    for (std::size_t j = 0; j < points; ++j) {
+    for (std::size_t j = 0; j < points_of_r; ++j) {
       const Flow flow = at_r(at.r[j]);
       for_each_panel([&](std::size_t i) {
         const Panels::Panel fitted = fitted_panel(i, [&](double k) { return sliding_coefficient(flow, k); });
@@ -83,8 +83,8 @@ struct StopTimesOfMu::Stored {
       });
     }
     // Next to 0, and between points in the middle and at the end, where the interpolation is worst.
-    for (double r :
-         {1e-3 * at.r[0], (at.r[points / 2 - 1] + at.r[points / 2]) / 2, (at.r[points - 2] + at.r[points - 1]) / 2})
+    for (double r : {1e-3 * at.r[0], (at.r[points_of_r / 2 - 1] + at.r[points_of_r / 2]) / 2,
+                     (at.r[points_of_r - 2] + at.r[points_of_r - 1]) / 2})
       prove(r);
   }
 
@@ -108,7 +108,7 @@ struct StopTimesOfMu::Stored {
         const double wanted = sliding_coefficient(flow, k);
         // S over the stop time: so much of an error of m is felt.
         const double felt = 1 / (1 / (r * unit.law().pivoting_moment() * k) + wanted);
-        if (!(std::abs(interpolated(panels[panel], t, share) - wanted) * felt <= tolerance))
+        if (!(std::abs(interpolated(panels[panel], t, share) - wanted) * felt <= allowed_error))
           panels[panel].refused = true;
       }
     });
@@ -119,15 +119,15 @@ struct StopTimesOfMu::Stored {
   }
 
   ReducedSystem unit;  ///< of law and body, mu = 1
-  Points at;
-  std::vector<Panel> panels;
+  PointsOfR at;
+  std::vector<PanelOfEveryR> panels;
 };
 
 StopTimesOfMu::StopTimesOfMu(const Law& law, Inertia body) : stored_(std::make_shared<const Stored>(law, body)) {}
 
 double StopTimesOfMu::refused() const {
   double refused = 0;
-  for (const Panel& panel : stored_->panels) refused += panel.refused ? 1 : 0;
+  for (const PanelOfEveryR& panel : stored_->panels) refused += panel.refused ? 1 : 0;
   return refused / (Panels::branches * Panels::used);
 }
 
@@ -137,11 +137,11 @@ double StopTimesOfMu::operator()(double mu, State start) const {
   const double w = mu * u;
   const auto [chi, gamma] = stored.unit.inertia();
   const double r = gamma * mu * mu / chi;
-  const bool ordinary =
-      r <= max_r && r > std::numeric_limits<double>::min() && moderate(u) && moderate(w) && moderate(start.v);
+  const bool ordinary = r <= max_r && r > std::numeric_limits<double>::min() && ordinary_size(u) && ordinary_size(w) &&
+                        ordinary_size(start.v);
   if (!ordinary) return stored.one(mu, start);
   const auto [index, t] = place_in_panels(w, start.v);
-  const Panel& panel = stored.panels[index];
+  const PanelOfEveryR& panel = stored.panels[index];
   if (panel.refused) return stored.one(mu, start);
   const double tau =
       stored.unit.pivoting_limit(u) / mu + stored.unit.sliding_limit(start.v) * interpolated(panel, t, stored.at.at(r));

@@ -260,6 +260,22 @@ TEST_CASE("a long batch has the bits of single calls, however many threads there
         run_program("stop --law exact --batch - --threads 1", few).out);
 }
 
+// From the 1000th line on by what serves every mu; before, by a curve for each.
+TEST_CASE("rows that each have a mu of their own are those of its flow", "[route]") {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit;
+  std::string csv = "mu,u0,v0\n";
+  for (int i = 0; i < 1300; ++i) csv += fmt::format("{},{},{}\n", unit(random), unit(random), unit(random));
+  const auto rows = rows_of(run_program("stop --batch -", csv).out);
+  REQUIRE(rows.size() == 1301);
+  for (std::size_t i = 1; i < rows.size(); i += i < 900 ? 100 : 10) {
+    const auto& row = rows[i];
+    const Flow flow(ReducedSystem(HertzLaw{}, std::stod(row[0])));
+    CAPTURE(i);
+    CHECK(std::stod(row[3]) == Approx(flow.stop_time({std::stod(row[1]), std::stod(row[2])}).tau).epsilon(2e-15));
+  }
+}
+
 TEST_CASE("the first bad row of a long batch is the one that is named", "[cli]") {
   std::string csv = RandomTable(60000).csv;
   const std::string good = run_program("stop --law pade --batch -", csv).out;
