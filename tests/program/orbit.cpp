@@ -110,7 +110,11 @@ TEST_CASE("instants of a ball in seconds", "[cli]") {
   CHECK(std::stod(seconds[1].back()) == Approx(1).epsilon(1e-15));
   CHECK(std::stod(seconds[2].back()) == Approx(2).epsilon(1e-15));
   CHECK(rows_of(run_program({"orbit", "--ball", "pool", "--at", "2000 ms"}).out)[1] == seconds[2]);
-  CHECK(rows_of(run_program("orbit --ball pool --at " + seconds[2][0]).out)[1] == seconds[2]);  // a number is tau
+  CHECK(seconds[2].back() == "2");                                                       // as it was typed
+  auto by_tau = rows_of(run_program("orbit --ball pool --at " + seconds[2][0]).out)[1];  // a number is tau
+  CHECK(std::stod(by_tau.back()) == Approx(2).epsilon(1e-15));
+  by_tau.back() = seconds[2].back();
+  CHECK(by_tau == seconds[2]);
   const auto left = rows_of(run_program({"orbit", "--ball", "pool", "--time-left", "3 s"}).out);
   const double stop = json_of("stop --ball pool --format json").at("t_stop").get<double>();
   CHECK(std::stod(left[1].back()) == Approx(stop - 3).epsilon(1e-13));
