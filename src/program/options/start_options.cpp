@@ -37,12 +37,6 @@ std::string option_of(const si::Quantity& quantity) {
   return name;
 }
 
-double parse_sliding_speed(const std::string& typed) {
-  const double v0 = parse_number(typed);
-  if (v0 < 0) throw NotAllowed("a sliding speed is >= 0; turn the axes so that the ball slides along x");
-  return v0;
-}
-
 }  // namespace
 
 void BodyOptions::add_mu(CLI::App& app) {
@@ -77,7 +71,7 @@ void StartOptions::add(CLI::App& app) {
   app.option_defaults()->group("Start");
   body_.add_mu(app);
   u0_.add(app, "--u0", "U", "pivoting R omega_z at the start, either sign, in any unit of speed", number);
-  v0_.add(app, "--v0", "V", "sliding speed at the start, 0 or more, in the unit of --u0", parse_sliding_speed);
+  v0_.add(app, "--v0", "V", "sliding speed at the start, 0 or more, in the unit of --u0", number);
   body_.add_body(app);
   add_ball(app, "instead of these four: a ball in SI units, built in or from a run file");
 }
@@ -161,7 +155,21 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     throw BadInput(
         fmt::format("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", ")));
   }
+  if (*v0_ < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
   return {body_.read(law), {.u = *u0_, .v = *v0_}, std::nullopt};
+}
+
+Eigen::Vector2d StartOptions::read_point() const {
+  const std::string others = names_given({&body_.mu(), &body_.argument(), &ball_});
+  if (!others.empty() || !override_names().empty()) {
+    throw BadInput(fmt::format("--system and {} exclude each other: its numbers are in the formulas, or --param",
+                               others.empty() ? override_names() : others));
+  }
+  for (const Argument* argument : {&u0_, &v0_}) {
+    if (!argument->given())
+      throw BadInput(fmt::format("{} missing: a start of --system is --u0 U --v0 V", argument->name()));
+  }
+  return {*u0_, *v0_};
 }
 
 reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) const {

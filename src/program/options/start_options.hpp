@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/body.hpp"
 #include "contensou/si/catalogue.hpp"
@@ -81,6 +83,10 @@ class StartOptions {
   /// @throws si::RunFileError   for a mistake in a run file
   /// @throws std::system_error  for a run file that cannot be read
   GivenStart read(const reduction::Law& law) const;
+
+  /// --u0 and --v0 of either sign, where they are a point of another system.
+  /// @throws BadInput  if one is missing, and for what a ball or a body has
+  Eigen::Vector2d read_point() const;
 
   bool ball_given() const { return ball_.given(); }
 

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+using Json = nlohmann::json;
+
+Run reduce(const std::string& system, std::vector<std::string> more = {"--u0", "1", "--v0", "1"}) {
+  more.insert(more.begin(), {"reduce", "--system", system});
+  return run_program(more);
+}
+
+Json json_of_system(const std::string& system, std::vector<std::string> more = {"--u0", "1", "--v0", "1"}) {
+  more.insert(more.end(), {"--format", "json"});
+  const Run run = reduce(system, more);
+  INFO(system << run.err);
+  CHECK(run.err.empty());
+  CHECK((run.status == 0 || run.status == 1));
+  return Json::parse(run.out);
+}
+
+void check_rejected_system(const std::string& system, const std::string& words) {
+  const Run run = reduce(system);
+  INFO(system);
+  CHECK(run.status == 2);
+  CHECK(run.out.empty());
+  CHECK_THAT(run.err, StartsWith("contensou: --system: ") && Contains(words));
+}
+
+}  // namespace
+
+TEST_CASE("reduce finds the symmetry of the paper's system, and all routes agree", "[cli]") {
+  for (const std::string start : {"--mu 0.3 --u0 1 --v0 1", "--mu 0.3 --u0 -2 --v0 1e-3 --law pade", "--ball pool",
+                                  "--mu 1 --u0 1 --v0 1 --body disc", "--mu 0.3 --u0 0 --v0 1"}) {
+    INFO(start);
+    const Json reduced = json_of("reduce " + start + " --format json");
+    REQUIRE(reduced["generators"].size() == 1);
+    CHECK(reduced["generators"][0] == Json::parse(R"({"time": 1, "matrix": [[1, 0], [0, 1]], "shift": [0, 0]})"));
+    REQUIRE(reduced["singular_values"].size() == 7);
+    CHECK(reduced["singular_values"][0] < 1e-12);
+    CHECK(reduced["singular_values"][6] == 1);
+    CHECK(reduced["gap"] > 1e6);
+    CHECK(reduced["kind"] == "stable node");
+    const double tau = reduced["tau_stop"];
+    CHECK(tau == json_of("stop " + start + " --format json")["tau_stop"]);
+    CHECK(reduced["routes"].size() >= 4);
+    CHECK(reduced["routes"].back()["name"] == "section");
+    for (const Json& route : reduced["routes"]) {
+      CHECK(route["tau_stop"].get<double>() == Approx(tau).epsilon(route["name"] == "section" ? 1e-13 : 1e-9));
+    }
+  }
+}
+
+TEST_CASE("reduce: canonical coordinates, rays and the first integral of the paper's system", "[cli]") {
+  const Json ray = json_of("reduce --law uniform --body disc --mu 1 --u0 -1 --v0 2 --format json");
+  REQUIRE(ray["rays"].size() == 3);
+  CHECK(ray["rays"][0] == Json::parse(R"({"k": 0, "attracts": false})"));
+  CHECK(ray["rays"][1]["k"].get<double>() == Approx(0.653001789205597639).epsilon(1e-14));
+  CHECK(ray["rays"][1]["attracts"] == true);
+  CHECK(ray["rays"][2] == Json::parse(R"({"k": "inf", "attracts": false})"));
+  CHECK(ray["canonical"]["q"] == -2);
+  CHECK(ray["canonical"]["p"].get<double>() == std::log(2.0));
+  const Json one = json_of("reduce --mu 0.3 --u0 1 --v0 1 --format json"),
+             three = json_of("reduce --mu 0.3 --u0 3 --v0 3 --format json");
+  CHECK(three["first_integral"].get<double>() - one["first_integral"].get<double>() ==
+        Approx(std::log(3)).epsilon(1e-14));
+  CHECK(one["canonical"]["dp_dq"] == three["canonical"]["dp_dq"]);
+  CHECK(json_of("reduce --mu 0.3 --u0 0 --v0 1 --format json")["canonical"]["q"] == "inf");
+}
+
+TEST_CASE("reduce shows the equations with their numbers, on one screen", "[cli]") {
+  const std::string text = run_program("reduce --mu 0.3 --u0 1 --v0 1 --law pade").out;
+  for (const char* words :
+       {"(2.6)       du/dtau = -0.159155 Psi(k) sign(u),  dv/dtau = -0.742723 Phi(k)",
+        "W = (4.8 |u| + 47.1239 v) (2.4 |u| + 9.42478 v)", "X = tau d/dtau + u d/du + v d/dv", "gap ",
+        "q = v/u = 1, p = ln v = 0, dp/dq = 1.01486", "|u| k^-0.0332103 (15.4857 + 46.518 k)^0.0201857 = 1.06583",
+        "tau_stop    12.4966", "section     12.49658514720"}) {
+    CHECK_THAT(text, Contains(words));
+  }
+  CHECK(std::ranges::count(text, '\n') <= 24);
+}
+
+TEST_CASE("reduce --system: known answers", "[cli]") {
+  // dry friction of equal strength for both, and a slope: r' = -1 without it
+  const Json friction = json_of_system("u' = -u/hypot(u,v); v' = -v/hypot(u,v)", {"--u0", "3", "--v0", "-4"});
+  CHECK(friction["kind"] == "stable star");
+  CHECK(friction["tau_stop"].get<double>() == Approx(5).epsilon(1e-13));
+  // on v = 0 nothing but the slope's balance: k -> the ray; from (0, v) it takes v/(1 + a)
+  const std::string slope = "u' = -u/hypot(u,v); v' = -v/hypot(u,v) - a";
+  const Json down = json_of_system(slope, {"--param", "a=0.25", "--u0", "0", "--v0", "1"});
+  CHECK(down["tau_stop"].get<double>() == Approx(1 / 1.25).epsilon(1e-13));
+  CHECK(json_of_system(slope, {"--param", "a=1.5", "--u0", "1", "--v0", "1"})["end"] == "infinity");
+  const Json focus = json_of_system("v' = u - a*v; u' = -a*u - v", {"--param", "a=0.1", "--u0", "1", "--v0", "1"});
+  CHECK(focus["kind"] == "stable focus");
+  CHECK(focus["generators"].size() == 2);
+  CHECK(focus["turn"]["factor"].get<double>() == Approx(std::exp(-0.2 * std::numbers::pi)).epsilon(1e-13));
+  CHECK(focus["turn"]["sigma"].get<double>() == Approx(2 * std::numbers::pi).epsilon(1e-13));
+  CHECK(focus["tau_stop"] == "inf");
+  const Json oscillator = json_of_system("u' = v; v' = -u*|u|^2", {"--u0", "1", "--v0", "0"});
+  CHECK(oscillator["generators"][0] == Json::parse(R"({"time": -0.5, "matrix": [[0.5, 0], [0, 1]], "shift": [0, 0]})"));
+  CHECK(oscillator["end"] == "periodic");
+}
+
+TEST_CASE("reduce --system: no symmetry, status 1", "[cli]") {
+  for (const std::string format : {"text", "csv", "json"}) {
+    const Run run = reduce("u' = -u; v' = -v/hypot(u,v)", {"--u0", "1", "--v0", "1", "--format", format});
+    CHECK(run.status == 1);
+    CHECK_FALSE(run.out.empty());
+    CHECK(run.out.find("nan") == std::string::npos);
+    if (format == "json") CHECK(Json::parse(run.out)["generators"].empty());
+    if (format == "text") CHECK_THAT(run.out, Contains("none of the form"));
+  }
+  const Run shift = reduce("u' = 1.5 + sin(3*v); v' = cos(3*v)");
+  CHECK(shift.status == 0);
+  CHECK_THAT(shift.out, Contains("X = 1 d/du") && Contains("no generator is a scaling"));
+}
+
+TEST_CASE("formulas: bars, functions, constants and parameters", "[cli]") {
+  const auto time_of = [](const std::string& speed) {
+    // along v = 0 at u = 2 the motion is u' = -speed, a number
+    return json_of_system("u' = -sign(u)*(" + speed + "); v' = -2*sign(v)*(" + speed + ")",
+                          {"--param", "a=3", "--param", "b_1=-2", "--u0", "2", "--v0", "1"})["canonical"]["dp_dq"];
+  };
+  const auto reference = time_of("5*a^0*b_1^0");
+  for (const std::string formula :
+       {"|b_1| + a + 0*|u|", "||b_1| - |-a||+2*|b_1|*a/a^1", "|a*b_1|-1+0*|a|*|b_1|", "hypot(a, 4)+0*b_1",
+        "sqrt(25)+0*(a+b_1)", "exp(log(5))+0*a*b_1", "5*sin(pi/2)+0*a*b_1", "(a > b_1 ? 5 : 1)", "-b_1^2+a^2",
+        "|-5|*abs(-1)+0*a*b_1", "1e1/2+0*a*b_1", "max(a, 5, b_1)"}) {
+    INFO(formula);
+    CHECK(time_of(formula).get<double>() == Approx(reference.get<double>()).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("mistakes in formulas: what, where, and a way out", "[cli]") {
+  check_rejected_system("u' = -u/hypt(u,v); v' = 1",
+                        "'hypt' is no variable, parameter or function (did you mean 'hypot'?)");
+  check_rejected_system("u' = -u/hypt(u,v); v' = 1", "at character 9 of 'u' = -u/hypt(u,v); v' = 1'");
+  check_rejected_system("u' = a*u; v' = |v|*b", "--param a=VALUE");
+  check_rejected_system("u' = |u|; v' = |v|*b", "at character 20");
+  check_rejected_system("u' = |u; v' = 1", "'|' is not closed, at character 6");
+  check_rejected_system("u' = u|; v' = 1", "'|' closes nothing");
+  check_rejected_system("u' = (u; v' = 1", "parenthesis, at character 8");
+  check_rejected_system("u' = u*; v' = 1", "at character 8");
+  check_rejected_system("u' = 1,5; v' = 1", "a decimal point is a point");
+  check_rejected_system("u' = u", "v' = is missing: a system is \"u' = F; v' = G\"");
+  check_rejected_system("w' = u; v' = 1", "u' = or v' = is missing");
+  check_rejected_system("u' = u; u' = 1", "u' stands there twice: ");
+  check_rejected_system("", "u' = or v' = is missing");
+  CHECK_THAT(reduce("u' = 0/0; v' = 1").err, Contains("the field has values and differences at 0 of 128 points"));
+}
+
+TEST_CASE("reduce rejects what makes no sense", "[cli]") {
+  check_rejected("reduce --mu 0.3 --u0 0 --v0 0", "a start other than rest");
+  check_rejected("reduce --mu 0.3 --u0 1 --v0 -1", "--v0 -1: a sliding speed is >= 0");
+  check_rejected("reduce --mu 0.3 --u0 1 --v0 1 --param a=1", "--param is for the formulas of --system");
+  const std::string system = "reduce --system u'=u;v'=v";
+  check_rejected(system + " --mu 0.3 --u0 1 --v0 1", "--system and --mu exclude each other");
+  check_rejected(system + " --ball pool", "--system and --ball exclude each other");
+  check_rejected(system + " --law pade --u0 1 --v0 1", "--system and --law exclude each other");
+  check_rejected(system + " --u0 1", "--v0 missing");
+  check_rejected(system + " --u0 0 --v0 0", "a start other than u = v = 0");
+  check_rejected(system + " --u0 1 --v0 1 --param a=1", "no formula of 'u'=u;v'=v' has the parameter 'a'");
+  check_rejected(system + " --u0 1 --v0 1 --param a", "a parameter is NAME=VALUE");
+  check_rejected(system + " --u0 1 --v0 1 --param a=x", "'x' is not a number");
+  check_rejected(system + " --u0 1 --v0 1 --param u=1", "'u' cannot name a parameter");
+  check_rejected(system + " --u0 1 --v0 1 --param sin=1", "'sin' cannot name a parameter");
+  check_rejected(system + " --u0 1 --v0 1 --param a=1 --param a=2", "'a' is given twice");
+}
