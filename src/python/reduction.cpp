@@ -8,6 +8,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/phase_plane.hpp"
 #include "contensou/reduction/stop_times_of_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/verification.hpp"
@@ -139,6 +140,15 @@ py::tuple terminal(const Flow& flow) {
   return py::make_tuple(flow.system().r(), ratios.low, ratios.high, rays, ends);
 }
 
+py::list facts(const Flow& flow) {
+  py::list points;
+  for (const reduction::SingularPoint& point : reduction::phase_plane(flow.system()).points) {
+    points.append(py::make_tuple(name(point.direction), name(point.place), point.k, point.q, point.radial,
+                                 point.angular, name(point.kind)));
+  }
+  return points;
+}
+
 }  // namespace
 
 void bind_reduction(py::module_& module) {
@@ -182,6 +192,18 @@ void bind_reduction(py::module_& module) {
           },
           Released())
       .def("terminal", &terminal)
+      .def("facts", &facts)
+      .def("first_integral",
+           [](const Flow& flow, const Numbers& u, const Numbers& v) {
+             py::array_t<double> result(std::vector<py::ssize_t>(u.shape(), u.shape() + u.ndim()));
+             for (py::ssize_t i = 0; i < u.size(); ++i) {
+               const double speed = v.data()[i];
+               const bool on_axis = u.data()[i] == 0 || !(speed > 0);
+               result.mutable_data()[i] = on_axis ? std::numeric_limits<double>::quiet_NaN()
+                                                  : flow.log_first_integral(u.data()[i], std::log(speed));
+             }
+             return result;
+           })
       .def(
           "check",
           [](const Flow& flow, double u, double v) {

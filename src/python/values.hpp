@@ -78,6 +78,7 @@ Value one_of(std::string_view kind, std::string_view kinds, const std::vector<st
 }
 
 void bind_reduction(py::module_& module);
+void bind_planar(py::module_& module);
 void bind_si(py::module_& module);
 void bind_portraits(py::module_& module);
 void bind_fit(py::module_& module);

@@ -6,6 +6,7 @@
     ct.Ball.pool().roll(slip=1, spin=100)       # a real ball, in SI units
     ct.fit(t, slip=v, spin=w, ball=ct.Ball.pool())  # friction and patch radius, from a film
     ct.portrait(mu=1).plot()                    # a phase portrait
+    ct.reduce("u' = -v - a*u; v' = u - a*v", u=1, v=1, a=0.1)  # the symmetry of any planar system, and its motion
 
 u = R omega_z is the speed of pivoting, v >= 0 that of sliding, mu the radius of the contact patch over that of the
 body, R; tau = (3 pi/2) f g t is the paper's time. All three are speeds in one unit, any one; a Ball is in SI units.
@@ -18,8 +19,10 @@ from ._engine import engine, engines
 from ._fit import Estimate, Fit, fit
 from ._flow import Check, Checks, End, Flow, Law, Orbit, Ray, Terminal, check, law, stop_time
 from ._portrait import Portrait, portrait
+from ._reduce import FlowReduction, Generator, PlanarRay, Reduction, SingularPoint, reduce
 
 __all__ = [
-    "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "Law", "Orbit", "Portrait", "Ray", "Roll", "Terminal",
-    "__version__", "check", "engine", "engines", "fit", "law", "portrait", "stop_time",
+    "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",
+    "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "SingularPoint", "Terminal", "__version__", "check", "engine",
+    "engines", "fit", "law", "portrait", "reduce", "stop_time",
 ]

@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, Callable, NamedTuple, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._numbers import number, numbers, target, thread_count
+
+if TYPE_CHECKING:
+    from ._reduce import FlowReduction, SingularPoint
 
 Body = Union[str, tuple[float, float]]
 
@@ -224,6 +227,18 @@ class Flow:
         """What k tends to as the body comes to rest."""
         r, low, high, rays, ends = self._core.terminal()
         return Terminal(r, low, high, tuple(Ray(*ray) for ray in rays), tuple(End(*end) for end in ends))
+
+    def reduction(self) -> FlowReduction:
+        """The symmetry of (2.6), found, and what it makes of the plane."""
+        from ._reduce import FlowReduction
+
+        return FlowReduction(self)
+
+    def facts(self) -> tuple[SingularPoint, ...]:
+        """The singular points of the plane, at the origin and at infinity, with their eigenvalues."""
+        from ._reduce import SingularPoint
+
+        return tuple(SingularPoint(*point) for point in self._core.facts())
 
 
 @lru_cache(maxsize=64)

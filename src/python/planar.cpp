@@ -1,0 +1,176 @@
+// The symmetries of any planar field, and its motions.
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <pybind11/eigen.h>
+
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
+#include "input/planar_system.hpp"
+#include "values.hpp"
+
+namespace contensou::python {
+
+namespace {
+
+using Eigen::Vector2d;
+using reduction::PlanarEnd;
+using reduction::PlanarField;
+using reduction::PlanarReduction;
+using reduction::PlanarSymmetries;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Not an exception of C++, which the library would take for a point without value.
+struct Interrupted {
+  py::error_already_set error;
+};
+
+PlanarField field_of(py::function function) {
+  return [function = std::make_shared<py::function>(std::move(function))](const Vector2d& x) {
+    try {
+      const auto [u, v] = (*function)(x[0], x[1]).cast<std::pair<double, double>>();
+      return Vector2d(u, v);
+    } catch (const py::cast_error&) {
+      throw Interrupted{[] {
+        PyErr_SetString(PyExc_TypeError, "reduce: the field must return a pair of numbers (u', v')");
+        return py::error_already_set();
+      }()};
+    } catch (py::error_already_set& error) {
+      if (error.matches(PyExc_Exception)) throw;
+      throw Interrupted{error};
+    }
+  };
+}
+
+template <class Result>
+Result interruptible(const std::function<Result()>& compute) {
+  try {
+    return compute();
+  } catch (Interrupted& interrupted) {
+    throw py::error_already_set(interrupted.error);
+  }
+}
+
+class Planar {
+ public:
+  Planar(const PlanarField& field, const Vector2d& around) {
+    interruptible<int>([&] {
+      symmetries = reduction::find_symmetries(field, around);
+      if (symmetries.scaling) solution.emplace(field, *symmetries.scaling, around, symmetries.residual);
+      return 0;
+    });
+  }
+
+  const PlanarReduction& solved() const {
+    if (solution) return *solution;
+    throw std::domain_error("reduce: no scaling of this field was found, so it is not solved");
+  }
+
+  PlanarSymmetries symmetries;
+  std::optional<PlanarReduction> solution;
+};
+
+py::array_t<double> like(const Numbers& given) {
+  return py::array_t<double>(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
+}
+
+/// A number at each of the points; NaN where there is none.
+template <class Function>
+py::array_t<double> at_points(const Numbers& u, const Numbers& v, Function function) {
+  py::array_t<double> result = like(u);
+  for (py::ssize_t i = 0; i < u.size(); ++i) {
+    try {
+      result.mutable_data()[i] = interruptible<double>([&] { return function(Vector2d(u.data()[i], v.data()[i])); });
+    } catch (const std::domain_error&) {
+      result.mutable_data()[i] = nothing;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void bind_planar(py::module_& module) {
+  py::class_<Planar>(module, "Planar")
+      .def_static("of_function",
+                  [](py::function function, double u, double v) {
+                    return Planar(field_of(std::move(function)), {u, v});
+                  })
+      .def_static("of_text",
+                  [](const std::string& text, const std::map<std::string, double>& parameters, double u, double v) {
+                    return Planar(program::parse_planar_system(text, parameters), {u, v});
+                  })
+      .def_static("of_flow",
+                  [](const reduction::Flow& flow, double u, double v) {
+                    return Planar(reduction::planar_field(flow.system()), {u, v});
+                  })
+      .def_property_readonly("generators",
+                             [](const Planar& planar) {
+                               py::list list;
+                               for (const auto& x : planar.symmetries.generators) {
+                                 list.append(py::make_tuple(x.time, x.matrix, x.shift));
+                               }
+                               return list;
+                             })
+      .def_property_readonly("verdict",
+                             [](const Planar& planar) {
+                               constexpr const char* verdicts[] = {"found", "none", "undecided"};
+                               return verdicts[static_cast<int>(planar.symmetries.verdict)];
+                             })
+      .def_property_readonly("singular_values", [](const Planar& planar) { return planar.symmetries.singular_values; })
+      .def_property_readonly("level", [](const Planar& planar) { return planar.symmetries.level; })
+      .def_property_readonly("gap", [](const Planar& planar) { return planar.symmetries.gap; })
+      .def_property_readonly("solved", [](const Planar& planar) { return planar.solution.has_value(); })
+      .def_property_readonly("kind", [](const Planar& planar) { return std::string(planar.solved().kind()); })
+      .def_property_readonly(
+          "rays",
+          [](const Planar& planar) {
+            py::list list;
+            for (const auto& ray : planar.solved().rays()) {
+              list.append(py::make_tuple(ray.q, ray.attracts, ray.to_centre, ray.radial, ray.angular));
+            }
+            return list;
+          })
+      .def_property_readonly("turn",
+                             [](const Planar& planar) -> std::optional<std::pair<double, double>> {
+                               const auto* turn = planar.solved().turn();
+                               if (turn == nullptr) return std::nullopt;
+                               return std::pair(turn->factor, turn->sigma);
+                             })
+      .def("canonical",
+           [](const Planar& planar, const Numbers& u, const Numbers& v) {
+             const PlanarReduction& plane = planar.solved();
+             return py::make_tuple(at_points(u, v, [&](const Vector2d& x) { return plane.canonical(x).q; }),
+                                   at_points(u, v, [&](const Vector2d& x) { return plane.canonical(x).p; }));
+           })
+      .def("first_integral",
+           [](const Planar& planar, const Numbers& u, const Numbers& v) {
+             const PlanarReduction& plane = planar.solved();
+             return at_points(u, v, [&](const Vector2d& x) { return plane.first_integral(x); });
+           })
+      .def("stop_time",
+           [](const Planar& planar, const Numbers& u, const Numbers& v) {
+             const PlanarReduction& plane = planar.solved();
+             return at_points(u, v, [&](const Vector2d& x) {
+               const auto orbit = plane.orbit(x);
+               return orbit.end() == PlanarEnd::centre ? orbit.end_time() : std::numeric_limits<double>::infinity();
+             });
+           })
+      .def("at", [](const Planar& planar, double u, double v, const Numbers& times) {
+        const auto orbit = planar.solved().orbit({u, v});
+        py::array_t<double> us = like(times), vs = like(times);
+        for (py::ssize_t i = 0; i < times.size(); ++i) {
+          const Vector2d x = interruptible<Vector2d>([&] { return orbit.at(times.data()[i]); });
+          us.mutable_data()[i] = x[0];
+          vs.mutable_data()[i] = x[1];
+        }
+        return py::make_tuple(us, vs);
+      });
+}
+
+}  // namespace contensou::python
