@@ -13,6 +13,7 @@
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::fit {
+long n_lm = 0, n_fev = 0, n_jev = 0;
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -20,8 +21,10 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr Index min_of_unknown_noise = 10;
-constexpr Index max_of_guess = 30, max_of_first_solution = 5000;
-constexpr double accuracy_of_score = 1e-4, accuracy_of_guess = 1e-6, tolerance_of_guess = 1e-5;
+constexpr Index max_of_guess = 30;
+/// No value is taken to be sharper than that, of the largest one.
+constexpr double least_sd = 1e-9;
+constexpr double accuracy_of_score = 1e-4, tolerance_of_guess = 1e-5;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -29,8 +32,32 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The standard deviation that normal errors of this median of their sizes have.
-double sd_by_median(std::vector<double> sizes) { return median(std::move(sizes)) / 0.6744897501960817; }
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// The least difference of two values that differ; 0 where none do.
+double resolution(const VectorXd& data, const std::vector<Index>& rows) {
+  std::vector<double> values;
+  for (Index row : rows) values.push_back(data[row]);
+  std::ranges::sort(values);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (values[i] > values[i - 1]) least = std::min(least, values[i] - values[i - 1]);
+  }
+  return std::isfinite(least) ? least : 0;
+}
+
+/// Of x it is y and so on; of others they themselves.
+std::size_t other_axis(std::size_t place) {
+  using enum Observable;
+  constexpr std::pair<Observable, Observable> axes[]{{x, y}, {y, x}, {vx, vy}, {vy, vx}};
+  const auto* found =
+      std::ranges::find(axes, static_cast<Observable>(place), &std::pair<Observable, Observable>::first);
+  return found == std::end(axes) ? place : static_cast<std::size_t>(found->second);
+}
 
 /// What Huber's loss makes of a residual, so that half the square of the result is the loss; and its derivative.
 double softened(double residual) {
@@ -82,6 +109,7 @@ Beginning beginning(const Track& track, Observable observable) {
   return {median(y), t.size() > 1 ? (y.back() - y.front()) / (t.back() - t.front()) : NAN};
 }
 
+/// The residuals as a function of what is free.
 struct Functor {
   using Scalar = double;
   using InputType = VectorXd;
@@ -89,16 +117,51 @@ struct Functor {
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-  const Search& search;
-  std::vector<Index> free;
-  VectorXd start;
+  /// Where a combination of ln f and ln eps is held, the first input goes along the line of both.
+  struct Line {
+    Eigen::Vector2d direction;
+    double low = -std::numeric_limits<double>::infinity(), high = -low;  ///< where both are what they may be
+  };
 
-  int inputs() const { return static_cast<int>(free.size()); }
+  const Search& search;
+  VectorXd start;
+  std::vector<Index> free = search.free;  ///< of the other inputs
+  std::optional<Line> line = {};
+
+  Functor(const Search& of, VectorXd from, const Coordinate* held) : search(of), start(std::move(from)) {
+    if (held == nullptr) return;
+    if (!held->of_contact()) {
+      std::erase(free, held->place);
+      return;
+    }
+    const auto shared = std::erase_if(free, [](Index place) { return place < shared_parameters; });
+    if (shared < shared_parameters) return;
+    line = Line{{-held->powers[1], held->powers[0]}};
+    for (Index i = 0; i < shared_parameters; ++i) {
+      const double slope = line->direction[i];
+      if (slope == 0) continue;
+      const auto [low, high] = search.model.range(i);
+      const double ends[]{(low - start[i]) / slope, (high - start[i]) / slope};
+      line->low = std::max(line->low, std::min(ends[0], ends[1]));
+      line->high = std::min(line->high, std::max(ends[0], ends[1]));
+    }
+    line->high = std::max(line->low, line->high);
+  }
+
+  int inputs() const { return static_cast<int>(free.size()) + (line ? 1 : 0); }
   int values() const { return std::max(inputs(), static_cast<int>(search.data.size())); }
+
+  VectorXd first_inputs() const {
+    VectorXd x(inputs());
+    if (line) x[0] = std::clamp(0.0, line->low, line->high);
+    x.tail(static_cast<Index>(free.size())) = start(free);
+    return x;
+  }
 
   VectorXd whole(const VectorXd& x) const {
     VectorXd parameters = start;
-    for (std::size_t i = 0; i < free.size(); ++i) parameters[free[i]] = x[static_cast<Index>(i)];
+    parameters(free) = x.tail(static_cast<Index>(free.size()));
+    if (line) parameters.head<2>() += std::clamp(x[0], line->low, line->high) * line->direction;
     return parameters;
   }
 
@@ -116,12 +179,20 @@ struct Functor {
     jacobian.setZero();
     VectorXd weight = search.weight;
     if (search.request.robust) weight.array() *= search.residuals(parameters).unaryExpr(&softened_slope).array();
-    jacobian.topRows(search.data.size()).noalias() = weight.asDiagonal() * search.model.derivatives(parameters, free);
+    const Index rows = search.data.size();
+    jacobian.topRightCorner(rows, static_cast<Index>(free.size())).noalias() =
+        weight.asDiagonal() * search.model.derivatives(parameters, free);
+    if (line && line->low <= x[0] && x[0] <= line->high) {
+      jacobian.col(0).head(rows) =
+          weight.asDiagonal() * (search.model.derivatives(parameters, {0, 1}) * line->direction);
+    }
     return 0;
   }
 };
 
 }  // namespace
+
+double sd_by_median(std::vector<double> sizes) { return median(std::move(sizes)) / 0.6744897501960817; }
 
 std::vector<Track> thinned(const std::vector<Track>& tracks, Index most) {
   std::vector<Track> result = tracks;
@@ -145,6 +216,9 @@ std::vector<Track> thinned(const std::vector<Track>& tracks, Index most) {
 
 Search::Search(const FitRequest& asked, double accuracy)
     : request(asked), model(asked.ball, asked.law, asked.tracks, accuracy), data(model.rows()), weight(model.rows()) {
+  const auto set_sd = [&](std::size_t place, double sd) {
+    for (Index row : rows_of[place]) weight[row] = 1 / sd;
+  };
   // A standard deviation that is not known begins as that of the values about their neighbours.
   std::vector<double> errors[7];
   double largest[7] = {};
@@ -181,9 +255,24 @@ Search::Search(const FitRequest& asked, double accuracy)
           "fit: {} has {} values and no standard deviations; from fewer than {} values they cannot be estimated", name,
           count, min_of_unknown_noise));
     }
-    const double sd = std::max(sd_by_median(errors[place]), 1e-9 * largest[place]);
-    for (Index at : rows_of[place]) weight[at] = sd > 0 ? 1 / sd : 1;
+    rounding[place] = resolution(data, rows_of[place]);
+    scatter[place] = std::max(root_mean_square(errors[place]), rounding[place]);
+    if (scatter[place] == 0) {
+      // The same value everywhere: as sharp as what the same camera says across.
+      const std::size_t other = other_axis(place);
+      const bool varies = other != place && !rows_of[other].empty() && resolution(data, rows_of[other]) > 0;
+      if (!varies) {
+        throw std::domain_error(
+            fmt::format("fit: {0} has the same value in all of its {1} rows, which tells no standard deviation of it: "
+                        "give one, or leave {0} out",
+                        name, count));
+      }
+      sharp_as[place] = other;
+      continue;
+    }
+    set_sd(place, std::max(sd_by_median(errors[place]), least_sd * largest[place]));
   }
+  follow_other_axes();
 
   if (request.free.friction) free.push_back(TrackModel::place(Parameter::friction));
   if (request.free.patch_radius) free.push_back(TrackModel::place(Parameter::patch_radius));
@@ -205,6 +294,13 @@ Search::Search(const FitRequest& asked, double accuracy)
   if (free.empty()) throw std::domain_error("fit: nothing is free, so there is nothing to be found");
 }
 
+void Search::follow_other_axes() {
+  for (std::size_t place = 0; place < std::size(rows_of); ++place) {
+    if (!sharp_as[place]) continue;
+    for (Index row : rows_of[place]) weight[row] = weight[rows_of[*sharp_as[place]].front()];
+  }
+}
+
 bool Search::any_estimated() const {
   return std::ranges::any_of(estimated, [](bool each) { return each; });
 }
@@ -220,21 +316,30 @@ double Search::cost(const VectorXd& parameters) const {
   return request.robust ? all.unaryExpr(&softened).squaredNorm() : all.squaredNorm();
 }
 
-VectorXd Search::improved(VectorXd parameters, std::optional<Index> held, double tolerance) const {
-  // Beyond a limit nothing changes: no way back would be found.
-  parameters = model.limited(std::move(parameters));
-  Functor functor{*this, free, parameters};
-  if (held) std::erase(functor.free, *held);
-  if (functor.free.empty()) return parameters;
-  VectorXd x(functor.inputs());
-  for (std::size_t i = 0; i < functor.free.size(); ++i) x[static_cast<Index>(i)] = parameters[functor.free[i]];
-  Eigen::LevenbergMarquardt<Functor> method(functor);
-  method.parameters.ftol = method.parameters.xtol = tolerance;
-  method.parameters.maxfev = 300;
-  method.parameters.factor = 1;
-  method.minimize(x);
-  if (!x.allFinite()) throw std::runtime_error("fit: the search for the parameters did not converge");
-  return functor.whole(x);
+VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double tolerance) const {
+  constexpr int most_ways_back = 3;
+  for (int i = 0; i < most_ways_back; ++i) {
+    // Beyond a limit nothing changes: no way back would be found from there. What is held finds its limits itself.
+    VectorXd limited = model.limited(parameters);
+    if (held != nullptr && held->of_contact()) limited.head<2>() = parameters.head<2>();
+    Functor functor(*this, std::move(limited), held);
+    VectorXd x = functor.first_inputs();
+    if (x.size() == 0) return functor.start;
+    Eigen::LevenbergMarquardt<Functor> method(functor);
+    method.parameters.ftol = method.parameters.xtol = tolerance;
+    method.parameters.maxfev = 300;
+    method.parameters.factor = 1;
+    method.minimize(x);
+    extern long n_lm, n_fev, n_jev;
+    ++n_lm;
+    n_fev += method.nfev;
+    n_jev += method.njev;
+    if (!x.allFinite()) throw std::runtime_error("fit: the search for the parameters did not converge");
+    parameters = functor.whole(x);
+    const bool beyond_line = functor.line && (x[0] < functor.line->low || x[0] > functor.line->high);
+    if (!beyond_line && (functor.line || model.limited(parameters) == parameters)) break;
+  }
+  return parameters;
 }
 
 double Search::estimate_noise(const VectorXd& parameters) {
@@ -243,7 +348,7 @@ double Search::estimate_noise(const VectorXd& parameters) {
       std::max(1.0, static_cast<double>(values) - static_cast<double>(free.size())) / static_cast<double>(values);
   double largest = 0;
   for (std::size_t place = 0; place < std::size(rows_of); ++place) {
-    if (!estimated[place]) continue;
+    if (!estimated[place] || sharp_as[place]) continue;
     const std::vector<Index>& rows = rows_of[place];
     double sd = 0, scale = 0;
     if (request.robust) {
@@ -255,10 +360,11 @@ double Search::estimate_noise(const VectorXd& parameters) {
       sd = std::sqrt(sd / (share * static_cast<double>(rows.size())));
     }
     for (Index row : rows) scale = std::max(scale, std::abs(data[row]));
-    sd = std::max({sd, 1e-9 * scale, std::numeric_limits<double>::min()});
+    sd = std::max(sd, least_sd * scale);
     largest = std::max(largest, std::abs(sd * weight[rows.front()] - 1));
     for (Index row : rows) weight[row] = 1 / sd;
   }
+  follow_other_axes();
   return largest;
 }
 
@@ -287,7 +393,13 @@ VectorXd Search::solve() {
   std::vector<Track> part = with_noise(thinned(request.tracks, max_of_first_solution));
   FitRequest smaller = request;
   smaller.tracks = std::move(part);
-  VectorXd parameters = Search(smaller, accuracy_of_guess).improved_from_guesses();
+  Search first(smaller, accuracy_of_guess);
+  VectorXd parameters = first.improved_from_guesses();
+  guesses = std::move(first.guesses);
+  return settled(std::move(parameters));
+}
+
+VectorXd Search::settled(VectorXd parameters) {
   if (any_estimated()) estimate_noise(parameters);
   constexpr int most_rounds = 30;
   for (int round = 0; round < most_rounds; ++round) {
@@ -295,6 +407,12 @@ VectorXd Search::solve() {
     if (!any_estimated() || estimate_noise(parameters) < 1e-3) break;
   }
   return parameters;
+}
+
+double Search::criterion(const VectorXd& parameters) const {
+  double log_weights = 0;
+  for (double each : weight) log_weights += each > 0 ? std::log(each) : 0;
+  return cost(parameters) - 2 * log_weights + 2 * static_cast<double>(free.size());
 }
 
 std::vector<Track> Search::with_noise(std::vector<Track> tracks) const {
@@ -344,7 +462,7 @@ VectorXd Search::placed(VectorXd parameters) const {
   return still;
 }
 
-VectorXd Search::improved_from_guesses() const {
+VectorXd Search::improved_from_guesses() {
   constexpr std::size_t most_improved = 2;
   const VectorXd given = this->given();
   const double radius = request.ball.ball.radius;
@@ -361,16 +479,16 @@ VectorXd Search::improved_from_guesses() const {
   for (const Track& track : few) {
     requests.push_back({request.ball, request.law, {track}, request.free, true});
   }
-  std::vector<std::pair<double, VectorXd>> guesses;
+  std::vector<std::pair<double, VectorXd>> scored;
   for (double patch : patches) {
     for (double friction : frictions) {
-      guesses.emplace_back(0, given);
-      guesses.back().second.head<shared_parameters>() << friction, patch;
+      scored.emplace_back(0, given);
+      scored.back().second.head<shared_parameters>() << friction, patch;
     }
   }
   for (std::size_t i = 0; i < few.size(); ++i) {
     const Search alone(requests[i], accuracy_of_score);
-    for (auto& [cost, parameters] : guesses) {
+    for (auto& [cost, parameters] : scored) {
       double least = std::numeric_limits<double>::infinity();
       VectorXd best;
       for (const auto& [slip, spin] : starts_of(few[i], given)) {
@@ -390,14 +508,15 @@ VectorXd Search::improved_from_guesses() const {
       parameters.segment(TrackModel::place(Parameter::slip, i), start_parameters) = best.tail(start_parameters);
     }
   }
-  const VectorXd given_placed = guesses.front().second;
-  std::ranges::sort(guesses, {}, [](const auto& guess) { return guess.first; });
+  const VectorXd given_placed = scored.front().second;
+  std::ranges::sort(scored, {}, [](const auto& guess) { return guess.first; });
+  for (const auto& [cost, parameters] : scored) guesses.push_back(parameters);
   // The ball's own values are the first to be improved, and kept where others are no better to speak of.
   constexpr double no_better = 0.1;
-  VectorXd best = improved(given_placed, {}, tolerance_of_guess);
+  VectorXd best = improved(given_placed, nullptr, tolerance_of_guess);
   double least = cost(best) - no_better;
   for (std::size_t i = 0; i < std::min(most_improved, guesses.size()); ++i) {
-    const VectorXd parameters = improved(guesses[i].second, {}, tolerance_of_guess);
+    const VectorXd parameters = improved(guesses[i], nullptr, tolerance_of_guess);
     if (const double loss = cost(parameters); loss < least) {
       least = loss;
       best = parameters;

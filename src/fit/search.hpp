@@ -14,6 +14,36 @@ namespace contensou::fit {
 
 /// From this many standard deviations on, Huber's loss is linear: 95 % efficient on normal errors.
 inline constexpr double huber_bend = 1.345;
+/// Of a longer film, a first solution is that of so many instants.
+inline constexpr Eigen::Index max_of_first_solution = 5000;
+
+/// What is held while all else is fitted anew: f^a eps^b, by its logarithm, or a number of a start.
+struct Coordinate {
+  Eigen::Vector2d powers = Eigen::Vector2d::Zero();  ///< a and b
+  Eigen::Index place = -1;                           ///< of a number of a start
+
+  bool of_contact() const { return place < shared_parameters; }
+
+  double of(const Eigen::VectorXd& parameters) const {
+    return of_contact() ? powers.dot(parameters.head<2>()) : parameters[place];
+  }
+
+  /// The nearest parameters where it has that value.
+  Eigen::VectorXd moved(Eigen::VectorXd parameters, double to) const {
+    if (of_contact()) {
+      parameters.head<2>() += (to - of(parameters)) / powers.squaredNorm() * powers;
+    } else {
+      parameters[place] = to;
+    }
+    return parameters;
+  }
+};
+
+/// Orbits as sharp as any film.
+inline constexpr double accuracy_of_guess = 1e-6;
+
+/// The standard deviation that normal errors of this median of their sizes have.
+double sd_by_median(std::vector<double> sizes);
 
 /// The weighted residuals of tracks, and the parameters that are free in them.
 class Search {
@@ -30,6 +60,10 @@ class Search {
   bool estimated[7] = {};                ///< whether its sd is not known
   std::vector<Eigen::Index> free;        ///< places of parameters
   Eigen::Index values = 0;               ///< measured ones
+  std::vector<Eigen::VectorXd> guesses;  ///< what solve() has begun from, the best first
+
+  double rounding[7] = {};  ///< the least difference of values whose sd is not known
+  double scatter[7] = {};   ///< of these about their neighbours, at least that difference
 
   bool any_estimated() const;
 
@@ -40,10 +74,10 @@ class Search {
   double cost(const Eigen::VectorXd& parameters) const;
 
   /// Improves the free parameters by Levenberg and Marquardt's method.
-  /// @param held       another one that is not free now
+  /// @param held       what stays as it is
   /// @param tolerance  of the sum of squares, relative
   /// @throws std::runtime_error  if they do not converge
-  Eigen::VectorXd improved(Eigen::VectorXd parameters, std::optional<Eigen::Index> held = {},
+  Eigen::VectorXd improved(Eigen::VectorXd parameters, const Coordinate* held = nullptr,
                            double tolerance = 1e-11) const;
 
   /// Sets the standard deviations that are not known to those of the residuals.
@@ -56,12 +90,22 @@ class Search {
   /// The estimate, with standard deviations that are not known.
   Eigen::VectorXd solve();
 
+  /// The estimate next to these parameters, with standard deviations that are not known.
+  Eigen::VectorXd settled(Eigen::VectorXd parameters);
+
+  /// Akaike's criterion, but for a constant.
+  double criterion(const Eigen::VectorXd& parameters) const;
+
  private:
+  /// Where a column shows no noise, what its other axis has.
+  std::optional<std::size_t> sharp_as[7] = {};
+  void follow_other_axes();
+
   /// The tracks with standard deviations where they have none.
   std::vector<Track> with_noise(std::vector<Track> tracks) const;
 
   /// The best estimate from several starts, which the data tell.
-  Eigen::VectorXd improved_from_guesses() const;
+  Eigen::VectorXd improved_from_guesses();
 
   /// Slips and spins that the track may have begun with.
   /// @param given  as given()

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -34,7 +33,7 @@ namespace {
 
 }  // namespace
 
-Track checked(Track track) {
+void require(const Track& track) {
   bool any = track.stop_time.has_value();
   for (Eigen::Index i = 0; i < track.t.size(); ++i) {
     const double t = track.t[i];
@@ -49,30 +48,33 @@ Track checked(Track track) {
   if (track.stop_time && !(track.stop_time->sd > 0 && std::isfinite(track.stop_time->sd))) {
     reject(track, fmt::format("a stop time needs a standard deviation > 0, in s; got {}", track.stop_time->sd));
   }
-  for (Series& series : track.series) {
+  for (const Series& series : track.series) {
     const std::string_view name = kind_of(series.observable).name;
     if (series.value.size() != track.t.size())
       reject(track, fmt::format("{} has {} values and t has {}", name, series.value.size(), track.t.size()));
     if (series.sd.size() != 0 && series.sd.size() != track.t.size())
       reject(track, fmt::format("{} has {} values and {} standard deviations", name, track.t.size(), series.sd.size()));
-    double last = NAN;
+    double largest = 0;
     for (Eigen::Index i = 0; i < track.t.size(); ++i) {
-      double& value = series.value[i];
+      const double value = series.value[i];
       if (std::isnan(value)) continue;
       if (std::isinf(value)) reject(track, fmt::format("{} must be finite", name));
       if (series.sd.size() != 0 && !(series.sd[i] > 0 && std::isfinite(series.sd[i]))) {
         reject(track, fmt::format("a standard deviation of {} must be finite and > 0; got {}", name, series.sd[i]));
       }
-      if (series.observable == Observable::angle && !std::isnan(last)) {
-        constexpr double turn = 2 * std::numbers::pi;
-        value -= turn * std::round((value - last) / turn);
-      }
-      last = value;
+      largest = std::max(largest, std::abs(value));
       any = true;
+    }
+    // Nothing is seen to more digits than a double has, and sums of squares must not overflow.
+    constexpr double sharpest = 1e-15, least = 1e-100, most = 1e100;
+    if (largest > most) reject(track, fmt::format("{} up to {:.3g} is required; got {:.3g}", name, most, largest));
+    for (double sd : series.sd) {
+      if (sd >= std::max(least, sharpest * largest) && sd <= most) continue;
+      reject(track, fmt::format("a standard deviation of {} from {:.3g} to {:.3g} is required; got {:.3g}", name,
+                                std::max(least, sharpest * largest), most, sd));
     }
   }
   if (!any) reject(track, "it has no value and no stop time");
-  return track;
 }
 
 }  // namespace contensou::fit

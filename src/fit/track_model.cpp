@@ -109,9 +109,26 @@ TrackModel::TrackModel(const si::Experiment& ball, const reduction::Law& law, co
   }
 }
 
+TrackModel::Range TrackModel::range(Index place) const {
+  switch (parameter_at(place)) {
+    case Parameter::friction:
+      return {min_ln_friction, max_ln_friction};
+    case Parameter::patch_radius:
+      return {min_ln_ratio + std::log(radius_), max_ln_patch_radius_};
+    case Parameter::slip:
+      return {-max_speed, max_speed};
+    case Parameter::spin:
+      return {-max_speed / radius_, max_speed / radius_};
+    default:
+      return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
+}
+
 VectorXd TrackModel::limited(VectorXd parameters) const {
-  parameters[0] = std::clamp(parameters[0], min_ln_friction, max_ln_friction);
-  parameters[1] = std::clamp(parameters[1], min_ln_ratio + std::log(radius_), max_ln_patch_radius_);
+  for (Index place = 0; place < parameters.size(); ++place) {
+    const auto [low, high] = range(place);
+    parameters[place] = std::clamp(parameters[place], low, high);
+  }
   return parameters;
 }
 
@@ -170,12 +187,9 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     std::vector<std::pair<Index, Parameter>> columns;
     for (std::size_t column = 0; column < wanted.size(); ++column) {
       const Index at = wanted[column];
-      const bool shared = at < shared_parameters;
-      if (!shared && static_cast<std::size_t>((at - shared_parameters) / start_parameters) != i) continue;
+      if (at >= shared_parameters && track_of(at) != i) continue;
       if (parameters[at] != free[at]) continue;
-      columns.emplace_back(
-          static_cast<Index>(column),
-          static_cast<Parameter>(shared ? at : shared_parameters + (at - shared_parameters) % start_parameters));
+      columns.emplace_back(static_cast<Index>(column), parameter_at(at));
     }
     std::size_t cell = 0;
     for (Index row = 0; row < track.t.size(); ++row) {

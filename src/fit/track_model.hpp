@@ -32,13 +32,30 @@ class TrackModel {
     return number < shared_parameters ? number : number + start_parameters * static_cast<Eigen::Index>(track);
   }
 
+  static Parameter parameter_at(Eigen::Index place) {
+    return static_cast<Parameter>(
+        place < shared_parameters ? place : shared_parameters + (place - shared_parameters) % start_parameters);
+  }
+
+  /// Of a place of a start.
+  static std::size_t track_of(Eigen::Index place) {
+    return static_cast<std::size_t>((place - shared_parameters) / start_parameters);
+  }
+
   /// What the motion gives, row by row: the series of the first track, its stop time, then the next.
   Eigen::VectorXd values(const Eigen::VectorXd& free) const;
 
   /// Derivatives of the values by these of the parameters, a column each: exact, by scaling and by ScaledOrbit.
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& free, const std::vector<Eigen::Index>& wanted) const;
 
-  /// The parameters within what they may be: eps <= R, and no invariant ray.
+  /// What a parameter may be: ln eps without an invariant ray and eps <= R, slip and R spin up to max_speed.
+  struct Range {
+    double low, high;
+  };
+  Range range(Eigen::Index place) const;
+  static constexpr double max_speed = 100;  ///< m/s
+
+  /// The parameters within what they may be.
   Eigen::VectorXd limited(Eigen::VectorXd parameters) const;
 
  private:

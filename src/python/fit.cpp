@@ -35,8 +35,8 @@ Eigen::ArrayXd column_of(const Numbers& numbers) {
 py::dict found_of(const fit::Fit& found) {
   py::dict estimates, noise, result;
   for (const fit::Estimate& estimate : found.estimates) {
-    estimates[py::str(std::string(fit::kind_of(estimate.parameter).name))] = py::make_tuple(
-        estimate.value, estimate.standard_error, py::make_tuple(estimate.interval.low, estimate.interval.high));
+    estimates[py::str(std::string(fit::kind_of(estimate.parameter).name))] =
+        py::make_tuple(estimate.value, estimate.standard_error, estimate.interval.low, estimate.interval.high);
   }
   for (const fit::Noise& each : found.noise) noise[py::str(std::string(fit::kind_of(each.observable).name))] = each.sd;
   py::list names, predicted;
@@ -58,9 +58,11 @@ py::dict found_of(const fit::Fit& found) {
   result["aic"] = found.aic;
   result["profiled"] = found.profiled;
   result["predicted"] = predicted;
-  if (found.only) {
-    result["only"] =
-        py::make_tuple(found.only->name(), found.only->value, found.only->value * found.only->relative_error);
+  result["misfits"] = found.misfits;
+  result["other_spins"] = found.turns.front().other_spins;
+  if (const auto& only = found.only) {
+    result["only"] = py::make_tuple(only->name(), only->value, only->value * only->relative_error, only->interval.low,
+                                    only->interval.high);
   } else {
     result["only"] = py::none();
   }

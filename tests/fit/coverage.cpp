@@ -8,6 +8,7 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pressure_law.hpp"
+#include "contensou/si/scaling.hpp"
 #include "films.hpp"
 
 using namespace contensou;
@@ -173,5 +174,60 @@ TEST_CASE("what a film that is wrong makes of friction and patch radius", "[inva
     CHECK(std::abs(wrong.friction.error) < 0.01);
     CHECK(wrong.patch.error == Approx(std::log(factor)).margin(0.02));
     CHECK(wrong.reduced_chi2 == Approx(1).margin(0.03));
+  }
+}
+
+TEST_CASE("films that decide little: intervals hold the truth, or are open", "[invariant]") {
+  si::Experiment gel{.ball = {.name = "gel", .mass = 0.113, .radius = 0.03},
+                     .contact = {.friction = 0.5, .patch = si::PatchRadius{7.2e-3}},
+                     .start = si::SlipAndSpin{.slip = 0.5, .spin = 30}};
+  si::Experiment fast = pool_ball();
+  fast.start = si::SlipAndSpin{.slip = 1, .spin = 300};
+  using enum Observable;
+  struct Kind {
+    const char* name;
+    si::Experiment ball;
+    double rate, length;
+    std::vector<Seen> seen;
+    bool with_sd;
+  };
+  const std::vector<Kind> kinds{
+      {"gel, slip alone, 1 cm/s", gel, 120, 1, {{slip, 0.01}}, false},
+      {"the same, sd given", gel, 120, 1, {{slip, 0.01}}, true},
+      {"gel, slip alone, 2 mm/s", gel, 120, 1, {{slip, 0.002}}, false},
+      {"gel, x and y alone, 1 mm", gel, 120, 1, {{x, 0.001}, {y, 0.001}}, false},
+      {"pool, angle alone, 0.02 rad", pool_ball(), 240, 0.5, {{angle, 0.02}}, false},
+      {"pool, slip alone, 1 cm/s", pool_ball(), 240, 0.5, {{slip, 0.01}}, false},
+      {"pool, slip alone, spin 300", fast, 240, 0.8, {{slip, 0.01}}, false},
+  };
+  constexpr int films = CONTENSOU_FULL_TESTS ? 200 : 6;
+  constexpr double least = CONTENSOU_FULL_TESTS ? 0.92 : 0.66, most = CONTENSOU_FULL_TESTS ? 0.98 : 1;
+  for (const auto& [name, ball, rate, length, seen, with_sd] : kinds) {
+    const Track film = track_of(
+        {ball}, ArrayXd::LinSpaced(static_cast<Eigen::Index>(rate * length), 0, length - 1 / rate), seen, with_sd);
+    const double truth[]{ball.contact.friction, std::get<si::PatchRadius>(ball.contact.patch).value,
+                         si::slip_at_start(ball), si::spin_at_start(ball)};
+    std::mt19937_64 random(5);
+    int held[4] = {}, open[4] = {}, held_of_only = 0, only = 0;
+    for (int i = 0; i < films; ++i) {
+      const Fit found = fit::fit({.ball = ball, .law = reduction::HertzLaw{}, .tracks = {noisy(film, seen, random)}});
+      for (std::size_t place = 0; place < 4; ++place) {
+        const auto& [low, high] = found.estimates[place].interval;
+        held[place] += low <= truth[place] && truth[place] <= high ? 1 : 0;
+        open[place] += found.estimates[place].determined() ? 0 : 1;
+      }
+      if (!found.only) continue;
+      const double value = std::pow(truth[0], found.only->friction_power) * std::pow(truth[1], found.only->patch_power);
+      ++only;
+      held_of_only += found.only->interval.low <= value && value <= found.only->interval.high ? 1 : 0;
+    }
+    for (std::size_t place = 0; place < 4; ++place) {
+      INFO(name << ", " << kind_of(static_cast<Parameter>(place)).name << ": held in " << held[place] << ", open in "
+                << open[place] << " of " << films);
+      CHECK(held[place] >= least * films);
+      CHECK((held[place] <= most * films || 4 * open[place] > films));
+    }
+    INFO(name << ": the only combination held in " << held_of_only << " of " << only);
+    CHECK(held_of_only >= least * only);
   }
 }

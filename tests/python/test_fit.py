@@ -66,7 +66,7 @@ def test_a_fit_is_the_programs(tmp_path):
     found = ct.fit(T, ball=BALL, **seen)
     for name in ("friction", "patch_radius", "slip", "spin"):
         estimate = found.estimates[name]
-        assert [estimate.value, estimate.standard_error, *estimate.interval] == list(told[name].values())
+        assert [*estimate, estimate.determined] == list(told[name].values())
     assert found.correlation == told["correlation"]
     assert found.noise["slip"] == told["noise"]["slip"]["sd"]
 

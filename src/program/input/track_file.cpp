@@ -16,6 +16,7 @@ namespace contensou::program {
 namespace {
 
 constexpr std::string_view deviation = "_sd";
+constexpr const char* frame = "frame";
 
 /// A name of the header, with the unit in brackets behind it.
 struct Heading {
@@ -41,8 +42,18 @@ double factor_of(const std::string& unit, std::string_view si_unit) {
   return angle ? *value * (std::numbers::pi / 180) : *value;
 }
 
+/// Of a field: empty, and what numpy and R write for it, was not.
+bool is_measured(std::string_view field) {
+  field = without_spaces(field);
+  for (std::string_view nothing : {"", "nan", "NaN", "NAN", "NA"}) {
+    if (field == nothing) return false;
+  }
+  return true;
+}
+
 struct TrackColumn {
   CsvColumn column;
+  std::string unit = {};  ///< as it stands there
   double factor = 1;
 };
 
@@ -51,6 +62,18 @@ struct SeriesColumns {
   TrackColumn value;
   std::optional<TrackColumn> sd;
 };
+
+/// Whether a length or speed without a unit seems to be in mm.
+std::string unit_doubt(const SeriesColumns& of, const fit::Series& series) {
+  constexpr double too_much = 30;  // m or m/s, of a ball that is filmed
+  const std::string_view unit = fit::kind_of(of.observable).unit;
+  if (!of.value.unit.empty() || (unit != "m" && unit != "m/s")) return "";
+  double largest = 0;
+  for (double value : series.value) largest = std::max(largest, std::isnan(value) ? 0 : std::abs(value));
+  if (largest < too_much) return "";
+  return fmt::format("{0} is up to {1:.4g} {2}; is it in mm? Then call it '{0} [m{2}]'", of.value.column.name, largest,
+                     unit);
+}
 
 }  // namespace
 
@@ -61,8 +84,8 @@ std::vector<std::string> observable_names() {
 }
 
 fit::Track read_track(CsvReader& table, const std::string& track_name, const TrackRequest& request,
-                      const std::function<void(const std::string&)>& note) {
-  std::vector<std::string> known{"t"};
+                      const std::function<void(const std::string&)>& note, NoiseByName* unused) {
+  std::vector<std::string> known{"t", frame};
   for (const std::string& name : observable_names()) known.push_back(name);
   std::set<std::string> unread;
   std::vector<Heading> headings;
@@ -70,7 +93,8 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     headings.push_back(heading_of(name));
     std::string base = headings.back().name;
     if (base.ends_with(deviation)) base.resize(base.size() - deviation.size());
-    const bool is_read = base == "t" ? base == headings.back().name : std::ranges::find(known, base) != known.end();
+    const bool is_time = base == "t" || base == frame;
+    const bool is_read = is_time ? base == headings.back().name : std::ranges::find(known, base) != known.end();
     if (!is_read) unread.insert(headings.back().name);
   }
   const auto fail = [&](const std::string& message) { throw table.complaint(table.header_line(), message); };
@@ -80,7 +104,7 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
       if (headings[i].name != name) continue;
       if (found) fail(fmt::format("two columns are called '{}'; one is allowed", name));
       try {
-        found = {{table.names()[i], i}, factor_of(headings[i].unit, si_unit)};
+        found = {{table.names()[i], i}, headings[i].unit, factor_of(headings[i].unit, si_unit)};
       } catch (const BadInput& error) {
         fail(fmt::format("column {}: {}", quotation(table.names()[i]), error.what()));
       }
@@ -88,11 +112,20 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     return found;
   };
 
-  const auto time = column("t", "s");
+  auto time = column("t", "s");
+  if (const auto frames = column(frame, "s"); frames && !time) {
+    if (!frames->unit.empty()) fail("frames are numbers, without a unit");
+    if (!request.fps) fail("frames are numbered here: --fps N says how many are in a second");
+    time = frames;
+    time->factor = 1 / *request.fps;
+  } else if (request.fps && time) {
+    fail("--fps is of a column frame; here is t");
+  }
   std::vector<SeriesColumns> columns;
   for (const auto& [observable, name, unit, meaning] : fit::observable_kinds()) {
     const auto value = column(std::string(name), unit);
-    const auto sd = column(fmt::format("{}{}", name, deviation), unit);
+    auto sd = column(fmt::format("{}{}", name, deviation), unit);
+    if (value && sd && sd->unit.empty()) sd->factor = value->factor;
     if (value) columns.push_back({observable, *value, sd});
     if (!value && sd)
       fail(fmt::format("column {0}{1} is the standard deviation of {0}, which is not there", name, deviation));
@@ -110,6 +143,11 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
                     fmt::join(observable_names(), ", "), deviation, time ? "other column of these is" : "t is", hints,
                     separator ? "; a comma must separate columns" : ""));
   }
+  if (time->column.name != frame) {
+    for (const Heading& heading : headings) {
+      if (heading.name == frame) unread.insert(frame);
+    }
+  }
   for (const std::string& name : unread)
     note(fmt::format("{}: column {} is not read", escaped(track_name), quotation(name)));
 
@@ -125,7 +163,7 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     if (!left_out) t.push_back(now);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const auto& [observable, value, sd] = columns[i];
-      const bool measured = !without_spaces(row[value.column.place]).empty();
+      const bool measured = is_measured(row[value.column.place]);
       const double number = measured ? value.factor * table.number(row, value.column) : NAN;
       double error = 1;
       if (sd && measured) error = sd->factor * table.number(row, sd->column);
@@ -147,8 +185,12 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
   for (std::size_t i = 0; i < columns.size(); ++i) {
     fit::Series series{columns[i].observable, array(values[i]), array(deviations[i])};
     const auto noise = request.noise.find(std::string(fit::kind_of(series.observable).name));
-    if (series.sd.size() == 0 && noise != request.noise.end())
+    if (series.sd.size() == 0 && noise != request.noise.end()) {
       series.sd = Eigen::ArrayXd::Constant(track.t.size(), noise->second);
+      if (unused != nullptr) unused->erase(noise->first);
+    }
+    if (const std::string doubt = unit_doubt(columns[i], series); !doubt.empty())
+      note(fmt::format("{}: {}", escaped(track_name), doubt));
     track.series.push_back(std::move(series));
   }
   return track;

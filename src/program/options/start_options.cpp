@@ -179,8 +179,19 @@ reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) cons
 }
 
 const si::Description& StartOptions::ball_of_its_own() const {
-  if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
   if (own_) return *own_;
+  if (!ball_.given() && radius_is_ball_) {
+    const auto radius = std::ranges::find(si::quantities(), &si::radius) - si::quantities().begin();
+    if (const auto& given = values_[static_cast<std::size_t>(radius)]; given.given()) {
+      // Friction and patch are first guesses, the mass counts for nothing.
+      own_ = si::describe(si::Experiment{.ball = {.name = "ball", .mass = 1, .radius = *given},
+                                         .contact = {.friction = 0.2, .patch = si::PatchRadius{0.1 * *given}},
+                                         .start = si::SlipAndSpin{.slip = 0, .spin = 0}});
+      return *own_;
+    }
+    throw BadInput("--ball missing: give --ball NAME|FILE.toml, or --radius");
+  }
+  if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
   try {
     own_ = names_a_file(ball_.text(), {".toml"}) ? si::read_run_file(ball_.text())
                                                  : si::describe(require_ball(ball_.text()).experiment);
@@ -217,6 +228,7 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
     throw;
   } catch (const std::domain_error& error) {  // of the values together, not of a place in a file
     const std::string others = override_names();
+    if (!ball_.given()) throw BadInput(fmt::format("{}: {}", others, error.what()));
     ball_.reject((others.empty() ? "" : fmt::format("with {}: ", others)) + error.what());
   }
 }

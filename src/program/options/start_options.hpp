@@ -71,6 +71,9 @@ class StartOptions {
   void add_ball(CLI::App& app, const std::string& help = "a ball in SI units, built in or from a run file",
                 Offer offer = all_but_rolling);
 
+  /// From here on --radius is a ball, too: for a verb that finds what else there is of it.
+  void take_radius_for_ball() { radius_is_ball_ = true; }
+
   /// Whether any of them was given, --body aside.
   bool given() const { return !given_names().empty(); }
   std::string given_names() const;
@@ -131,6 +134,7 @@ class StartOptions {
   BodyOptions body_;
   ArgumentOf<double> u0_, v0_;
   Argument ball_;
+  bool radius_is_ball_ = false;
   mutable std::optional<si::Description> own_;  ///< of --ball; a file is read once: it may be a pipe
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
 };

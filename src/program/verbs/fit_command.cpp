@@ -47,7 +47,7 @@ NoiseByName parse_noise(const std::string& typed) {
     const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
                                                 : parse_quantity(value, unit);
     if (!(sd > 0)) throw NotAllowed(fmt::format("a standard deviation is > 0, in {}", unit));
-    noise[name] = sd;
+    if (!noise.emplace(name, sd).second) throw NotAllowed(fmt::format("{} is given twice; once is allowed", name));
   }
   return noise;
 }
@@ -68,14 +68,23 @@ double parse_positive_time(const std::string& typed) {
   return time;
 }
 
+double parse_rate(const std::string& typed) {
+  const double rate = parse_number(typed);
+  if (!(rate > 0)) throw NotAllowed("pictures in a second > 0 are needed");
+  return rate;
+}
+
 class FitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     files_
         .add(
             app, "FILE", "",
-            "CSV with t and any of slip, spin, x, y, vx, vy, angle, in SI units (rad) or with a unit, as in 'spin "
-            "[rpm]'; NAME_sd is the standard deviation of NAME; - is standard input. Several files: one ball",
+            "CSV with t, or frame and --fps, and any of slip, spin, x, y, vx, vy, angle, in SI units (rad) or with a "
+            "unit, "
+            "as in 'spin [rpm]'; NAME_sd is the standard deviation of NAME, empty, nan or NA: not measured; - is "
+            "standard "
+            "input. Several files: one ball",
             [](const std::string& typed) { return typed; }, true)
         ->expected(1, 1000)
         ->allow_extra_args();
@@ -88,14 +97,15 @@ class FitCommand final : public Verb {
                "standard deviations of columns that have none, and of stop (default: estimated)", parse_noise);
     stop_time_.add(app, "--stop-time", "TIME", "measured, in seconds from the start; with --noise stop=SD",
                    parse_positive_time);
-    start_.add_ball(app, "radius and gravity, and the values of what is not free");
+    start_.add_ball(app, "radius and gravity, and the values of what is not free; --radius alone does, too");
+    start_.take_radius_for_ball();
     law_.add(app, "--law", "LAW,...", "one, or several to rank (default exact). 'contensou help laws' explains them");
     app.option_defaults()->group("Estimate");
     free_.add(app, "--free", "NAMES", "what is to be found, of friction,patch,slip,spin (default: all)", parse_free);
     app.add_flag("--robust", robust_, "Huber's loss: values that are far off count for less");
     app.add_flag("--plan", plan_,
                  "no FILE: the errors that a film with these --fps and --noise would give of the ball");
-    fps_.add(app, "--fps", "N", "pictures in a second, for --plan", number);
+    fps_.add(app, "--fps", "N", "pictures in a second, for --plan and for a column frame", parse_rate);
     figure_.add(app);
     output_.add(app);
   }
@@ -125,13 +135,24 @@ class FitCommand final : public Verb {
       answer.text = [&](const Digits& digits) { return report_on(fits, request.tracks, plan_, digits); };
       output.write(answer);
     }
-    return ExitStatus::done;
+    const Fit& best = fits.front();
+    if (best.fits()) return ExitStatus::done;
+    fmt::print(stderr, "contensou: this does not fit: {}\n", fmt::join(best.misfits, "; "));
+    return ExitStatus::check_failed;
   }
 
  private:
   static std::string remark(const Fit& fit) {
-    return fmt::format("fitted to {} values, law {}: friction +- {:.2g}, patch_radius +- {:.2g} m", fit.values, fit.law,
-                       fit.estimates[0].standard_error, fit.estimates[1].standard_error);
+    const auto error = [](const fit::Estimate& estimate, const char* unit) {
+      const std::string_view name = fit::kind_of(estimate.parameter).name;
+      return !estimate.free          ? fmt::format("{} given", name)
+             : estimate.determined() ? fmt::format("{} +- {:.2g}{}", name, estimate.standard_error, unit)
+                                     : fmt::format("{} not determined", name);
+    };
+    std::string text = fmt::format("fitted to {} values, law {}: {}, {}", fit.values, fit.law,
+                                   error(fit.estimates[0], ""), error(fit.estimates[1], " m"));
+    if (!fit.fits()) text += fmt::format("\nTHIS DOES NOT FIT: {}", fmt::join(fit.misfits, "; "));
+    return text;
   }
 
   NoiseByName noise() const { return noise_.value_or({}); }
@@ -145,19 +166,28 @@ class FitCommand final : public Verb {
   }
 
   std::vector<fit::Track> read_tracks() const {
-    if (fps_.given()) fps_.reject("it is of a film that is planned: add --plan, or leave it out");
     if (!files_.given() && !stop_time_.given())
       throw BadInput(
           "FILE missing: give a CSV with t and slip, spin, x, y, vx, vy or angle; or --stop-time, or --plan");
     std::vector<fit::Track> tracks;
+    NoiseByName unused = noise();
+    if (stop_time_.given()) unused.erase(stop);
     if (files_.given()) {
       const auto note = [](const std::string& text) { fmt::print(stderr, "contensou: {}\n", text); };
       for (const std::string& file : files_.all()) {
         CsvReader table(file);
-        tracks.push_back(read_track(table, file, {noise(), from_.optional(), until_.optional()}, note));
+        tracks.push_back(
+            read_track(table, file, {noise(), from_.optional(), until_.optional(), fps_.optional()}, note, &unused));
       }
     } else {
       tracks.push_back({.name = "--stop-time"});
+      if (fps_.given()) fps_.reject("it is of a film: give a FILE with a column frame, or add --plan");
+    }
+    if (!unused.empty()) {
+      const std::string& name = unused.begin()->first;
+      noise_.reject(name == stop
+                        ? "stop is of --stop-time, which is not given"
+                        : fmt::format("no file has a column {0} without standard deviations of its own", name));
     }
     if (stop_time_.given()) {
       if (tracks.size() > 1) stop_time_.reject("it is of one track, and there are several files");

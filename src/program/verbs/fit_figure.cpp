@@ -41,13 +41,38 @@ void widen(portraits::Axis& axis, double margin) {
   axis.high += margin * length;
 }
 
+/// Lengths in mm where none reaches a metre, and speeds likewise.
+struct ShownUnit {
+  std::string name;
+  double factor = 1;
+};
+ShownUnit shown_unit(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const fit::Noise& noise) {
+  const std::string unit(fit::kind_of(noise.observable).unit);
+  double largest = 0;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    for (std::size_t k = 0; k < tracks[i].series.size(); ++k) {
+      if (tracks[i].series[k].observable == noise.observable)
+        largest = std::max(largest, fit.predicted[i][k].abs().maxCoeff());
+    }
+  }
+  constexpr double small = 0.1;
+  return unit.starts_with('m') && largest < small ? ShownUnit{"m" + unit, 1e3} : ShownUnit{unit};
+}
+
+/// An angle at the turn of another one.
+double at_turn_of(double other, double angle) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return angle + turn * std::round((other - angle) / turn);
+}
+
 /// Data with the fit, and what is left, of one observable.
 struct Pair {
   Panel data, residuals;
 };
 
 Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const fit::Noise& noise) {
-  const auto& [observable, name, unit, meaning] = fit::kind_of(noise.observable);
+  const auto& [observable, name, si_unit, meaning] = fit::kind_of(noise.observable);
+  const auto [unit, factor] = shown_unit(fit, tracks, noise);
   Pair pair{empty("", fmt::format("{}, {}", name, unit)), empty("", fmt::format("{}: residual / sd", name))};
   double last = 0, first = INFINITY;
   portraits::Lines curves{{}, {fit_colour, 3}, "fitted motion"};
@@ -63,7 +88,9 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
       residuals.legend = "";
       portraits::Polyline curve;
       for (Eigen::Index row = 0; row < track.t.size(); row += step) {
-        const double value = series.value[row], fitted = fit.predicted[i][k][row];
+        const double fitted = factor * fit.predicted[i][k][row];
+        double value = factor * series.value[row];
+        if (observable == fit::Observable::angle) value = at_turn_of(fitted, value);
         curve.push_back({track.t[row], fitted});
         first = std::min(first, track.t[row]);
         last = std::max(last, track.t[row]);
@@ -73,9 +100,14 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
         }
         if (std::isnan(value)) continue;
         data.points.push_back({track.t[row], value});
-        const double sd = series.sd.size() > 0 ? series.sd[row] : noise.sd;
-        residuals.points.push_back(
-            {track.t[row], std::clamp((value - fitted) / sd, -residual_border, residual_border)});
+        const double sd = factor * (series.sd.size() > 0 ? series.sd[row] : noise.sd);
+        const double residual = (value - fitted) / sd;
+        if (std::abs(residual) <= residual_border) {
+          residuals.points.push_back({track.t[row], residual});
+        } else {
+          pair.residuals.labels.push_back(
+              {{track.t[row], std::copysign(residual_border, residual)}, residual > 0 ? "↑" : "↓", colour});
+        }
       }
       curves.lines.push_back(std::move(curve));
       pair.data.marks.push_back(std::move(data));
@@ -84,7 +116,8 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
   }
   pair.data.lines.push_back(std::move(curves));
   for (Panel* panel : {&pair.data, &pair.residuals}) {
-    panel->x.low = first;
+    // The film's own clock, but from 0 where it begins soon after it.
+    panel->x.low = first > 0 && first < 0.1 * last ? 0 : first;
     panel->x.high = last > first ? last : first + 1;
   }
   widen(y, 0.06);

@@ -15,12 +15,27 @@ from ._numbers import numbers
 
 
 class Estimate(NamedTuple):
-    """What a film says of one number: in SI units, with its standard error (inf: not determined, 0: it was given) and the
-    interval of 95 % confidence."""
+    """What a film says of one number: in SI units, with its standard error (inf: not determined, and value is any of many;
+    0: it was given) and the ends of the interval of 95 % confidence."""
 
     value: float
     standard_error: float
-    interval: tuple[float, float]
+    low: float
+    high: float
+
+    @property
+    def determined(self) -> bool:
+        return np.isfinite(self.standard_error)
+
+
+class Combination(NamedTuple):
+    """The one combination of friction and patch_radius that a film determines, in SI units."""
+
+    name: str
+    value: float
+    standard_error: float
+    low: float
+    high: float
 
 
 @dataclass(frozen=True)
@@ -32,8 +47,11 @@ class Fit:
     names, correlation_matrix:  of those that were free
     correlation:  of friction and patch_radius
     noise:        the standard deviation of each observable, given or estimated
-    only:         (name, value, standard error) of the one combination of friction and patch_radius that the film
-                  determines, where it does no more
+    reduced_chi2: nan or inf where there are no more values than numbers to be found
+    profiled:     whether the intervals are by profile likelihood
+    misfits:      why this is not the motion of the film, in words; empty where it may be
+    other_spins:  at the start, which explain the film as well, by other whole turns between two pictures
+    only:         the one combination of friction and patch_radius that the film determines, where it does no more
     aic:          Akaike's criterion, to compare laws on the same film: the smaller the better
     predicted:    what the fitted motion gives, by observable
     """
@@ -48,12 +66,18 @@ class Fit:
     reduced_chi2: float
     aic: float
     profiled: bool
-    only: Optional[tuple[str, float, float]]
+    misfits: list[str]
+    other_spins: list[float]
+    only: Optional[Combination]
     predicted: dict[str, NDArray[np.float64]]
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={each.value:.6g} +- {each.standard_error:.2g}" for name, each in self.estimates.items())
         return f"Fit(law={self.law!r}, {values}, reduced_chi2={self.reduced_chi2:.4g})"
+
+    @property
+    def fits(self) -> bool:
+        return not self.misfits
 
     @property
     def friction(self) -> Estimate:
@@ -113,5 +137,7 @@ def fit(
     estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
     fitted = ball.but(friction=estimates["friction"].value, patch_radius=estimates["patch_radius"].value,
                       slip=max(0.0, estimates["slip"].value), spin=estimates["spin"].value, law=known_law)
+    only = found.pop("only")
     predicted = dict(zip(seen, found.pop("predicted")))
-    return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted, **found)
+    return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted,
+               only=only and Combination(*only), **found)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,29 +56,42 @@ struct Interval {
 struct Estimate {
   Parameter parameter;
   std::size_t track;      ///< of a number of a start: of which track
-  double value;           ///< SI
+  double value;           ///< SI; any of many where the data do not decide it
   double standard_error;  ///< infinite where the data do not decide it; 0 where it is not free
-  Interval interval;      ///< of 95 % confidence
+  Interval interval;      ///< of 95 % confidence: an end that the data do not set is that of what the number can be
   bool free;
+
+  bool determined() const { return std::isfinite(standard_error); }
 };
 
 /// The noise of an observable.
 struct Noise {
   Observable observable;
-  Eigen::Index values;  ///< how many were measured
-  double rms;           ///< of the residuals, SI
-  double sd;            ///< that the weights have, of their root mean square
-  bool estimated;       ///< from the residuals
+  Eigen::Index values;    ///< how many were measured
+  double rms;             ///< of the residuals, SI
+  double sd;              ///< that the weights have, of their root mean square
+  bool estimated;         ///< from the residuals
+  Eigen::Index outliers;  ///< how many are farther off than six standard deviations, by the median of the residuals
 };
 
-/// The only combination f^a eps^b that the data decide.
+/// The only combination f^a eps^b that the data decide: friction, patch radius, their product or their ratio.
 struct Combination {
-  double friction_power, patch_power;  ///< the larger one 1
-  double value;                        ///< SI
-  double relative_error;               ///< standard error over value
+  double friction_power, patch_power;
+  double value;           ///< SI
+  double relative_error;  ///< standard error over value
+  Interval interval;      ///< of 95 % confidence
 
   /// "the product friction patch_radius", "friction", ...
   std::string name() const;
+  std::string unit() const;  ///< "m", "1/m" or none
+};
+
+/// How far whole turns of an angle may be mistaken.
+struct Turns {
+  /// The spin, rad/s, with which a mark turns by half a turn from picture to picture: beyond it, turns are found by trial.
+  /// Infinite where no angle is seen, or the spin, too.
+  double half_turn_spin = INFINITY;
+  std::vector<double> other_spins = {};  ///< at the start, which explain the data as well
 };
 
 /// What a fit has found.
@@ -93,14 +106,19 @@ struct Fit {
   double degrees_of_freedom = 0;
   double aic = 0;                                      ///< Akaike's criterion: the smaller, the better the law
   std::optional<Combination> only = {};                ///< where the data do not decide friction and patch radius each
-  bool profiled = false;                               ///< whether the intervals of these two are by profile likelihood
+  bool profiled = false;                               ///< whether the intervals are by profile likelihood
   bool at_limit = false;                               ///< whether a value ran into what it may be
   std::vector<std::vector<Eigen::ArrayXd>> predicted;  ///< of each track, each series: what the fitted motion gives
+
+  /// Why this is not the motion of the data, in words; empty where it may be.
+  std::vector<std::string> misfits = {};
+  std::vector<Turns> turns = {};  ///< of each track
 
   const Estimate& estimate(Parameter parameter, std::size_t track = 0) const;
   std::vector<const Estimate*> free_estimates() const;
   double correlation_of_contact() const;  ///< of friction and patch radius; 0 unless both are free
-  double reduced_chi2() const { return chi2 / degrees_of_freedom; }
+  bool fits() const { return misfits.empty(); }
+  double reduced_chi2() const { return chi2 / degrees_of_freedom; }  ///< NaN or infinite without degrees of freedom
 };
 
 /// Weighted least squares: the motion that the data are most probably of, where their errors are independent and normal.

@@ -46,10 +46,9 @@ struct Track {
   double start = 0;                        ///< s
 };
 
-/// Rejects a track that no motion can be fitted to, and takes the whole turns out of its angles: between two instants
-/// the ball turns by less than half a turn.
+/// Rejects a track that no motion can be fitted to.
 /// @throws std::domain_error  naming the series: if sizes differ, a time or a standard deviation is not what it must be,
 ///                            a time is before the start, or there is neither a value nor a stop time
-Track checked(Track track);
+void require(const Track& track);
 
 }  // namespace contensou::fit

@@ -1,0 +1,186 @@
+#include "fit/profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace contensou::fit {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double tolerance = 1e-4;
+/// A sum of squares that is lower than the least by that much is a better estimate.
+constexpr double better_by = 0.01;
+/// Steps of a logarithm, and how much longer each is than the last.
+constexpr double widest = 1.2, growth = 1.6;
+/// How sharp an end is, of its distance from the estimate.
+constexpr double sharp = 2e-3;
+constexpr int most_refinements = 12;
+
+}  // namespace
+
+Profile::Profile(const Search& search, const VectorXd& best, double rise)
+    : search_(search), best_(best), rise_(rise), least_(search.cost(best)) {
+  points_.push_back({best, 0});
+  spread();
+}
+
+void Profile::spread() {
+  std::vector<double> seen[2];
+  for (const VectorXd& guess : search_.guesses) {
+    bool is_new = false;
+    for (Index shared : {0, 1}) {
+      if (std::ranges::count(seen[shared], guess[shared]) > 0) continue;
+      seen[shared].push_back(guess[shared]);
+      is_new = true;
+    }
+    if (!is_new) continue;
+    const VectorXd parameters = search_.improved(guess, nullptr, tolerance);
+    points_.push_back({parameters, search_.cost(parameters) - least_});
+    if (points_.back().excess < -better_by) better_ = parameters;
+  }
+}
+
+std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, const VectorXd& foretold) const {
+  // Of each part of the valley, by friction and patch radius, the nearest point on each side.
+  struct Nearest {
+    const VectorXd* parameters = nullptr;
+    double distance = infinity;
+  };
+  std::map<std::tuple<double, double, bool>, Nearest> parts;
+  const auto part_of = [](double logarithm) { return std::round(logarithm / 1.5); };
+  const auto offer = [&](const VectorXd& parameters) {
+    const double away = number.of(parameters) - at;
+    Nearest& nearest = parts[{part_of(parameters[0]), part_of(parameters[1]), away < 0}];
+    if (std::abs(away) < nearest.distance) nearest = {&parameters, std::abs(away)};
+  };
+  for (const Point& point : points_) {
+    if (point.excess < 4 * rise_) offer(point.parameters);
+  }
+  if (const VectorXd* guess = nearest_guess(number, at)) offer(*guess);
+  std::vector<std::pair<double, VectorXd>> found{{search_.cost(number.moved(foretold, at)), foretold}};
+  for (const auto& [part, nearest] : parts) {
+    found.emplace_back(search_.cost(number.moved(*nearest.parameters, at)), *nearest.parameters);
+  }
+  std::ranges::sort(found, {}, [](const auto& each) { return each.first; });
+  // The best, and the best of another part.
+  std::vector<VectorXd> starts;
+  constexpr std::size_t most = 3;
+  for (auto& [cost, parameters] : found) {
+    const bool is_new = std::ranges::none_of(
+        starts, [&](const VectorXd& start) { return (start - parameters).head<2>().cwiseAbs().maxCoeff() < 0.5; });
+    if (is_new) starts.push_back(std::move(parameters));
+    if (starts.size() == most) break;
+  }
+  return starts;
+}
+
+const VectorXd* Profile::nearest_guess(const Coordinate& number, double at) const {
+  constexpr double near = 1;  // the best of those that are nearer; else the nearest
+  const VectorXd* nearest = nullptr;
+  double least = infinity;
+  for (const VectorXd& guess : search_.guesses) {
+    const double away = std::abs(number.of(guess) - at);
+    if (away < near) return &guess;
+    if (away < least) nearest = &guess;
+    least = std::min(least, away);
+  }
+  return nearest;
+}
+
+const Profile::Point& Profile::lowest(const Coordinate& number, double at, const VectorXd& foretold) {
+  Point found{{}, infinity};
+  for (const VectorXd& start : starts_at(number, at, foretold)) {
+    const VectorXd parameters = search_.improved(number.moved(start, at), &number, tolerance);
+    const double excess = search_.cost(parameters) - least_;
+    if (excess < found.excess || found.parameters.size() == 0) found = {parameters, excess};
+    if (excess < rise_) break;
+  }
+  if (found.excess < -better_by) better_ = found.parameters;
+  points_.push_back(std::move(found));
+  return points_.back();
+}
+
+double Profile::end(const Coordinate& number, double sign, double error, double limit) {
+  const double from = number.of(best_), room = sign * (limit - from);
+  struct Reach {
+    double distance, height;  ///< from the estimate; the root of the sum's rise, less that of the allowed one
+  };
+  Reach inside{0, -std::sqrt(rise_)}, outside{infinity, infinity};
+  const auto look = [&](double distance, const VectorXd& foretold) {
+    const double excess = lowest(number, from + sign * distance, foretold).excess;
+    const Reach found{distance, std::sqrt(std::max(0.0, excess)) - std::sqrt(rise_)};
+    if (found.height < 0) {
+      inside = found;
+      if (outside.distance < distance) outside = {infinity, infinity};
+    } else if (distance < outside.distance) {
+      outside = found;
+    }
+    return found.height < 0;
+  };
+
+  // Along the valley, from the farthest point that is known, to where the last two lead.
+  VectorXd last = best_;
+  for (const Point& point : points_) {
+    const double distance = sign * (number.of(point.parameters) - from);
+    if (point.excess >= rise_ || distance <= inside.distance) continue;
+    inside = {distance, std::sqrt(std::max(0.0, point.excess)) - std::sqrt(rise_)};
+    last = point.parameters;
+  }
+  VectorXd before = last;
+  const double longest = number.of_contact() ? widest : infinity;
+  double step =
+      std::min({std::isfinite(error) && error > 0 ? std::sqrt(rise_) * error : room / 256, room / 4, longest});
+  for (double ahead = 0; inside.distance < room && !better_; step = std::min(growth * step, longest)) {
+    const double distance = std::min(room, inside.distance + step);
+    const VectorXd foretold =
+        ahead > 0 ? VectorXd(last + (distance - inside.distance) / ahead * (last - before)) : last;
+    ahead = distance - inside.distance;
+    if (!look(distance, foretold)) break;
+    before = std::exchange(last, points_.back().parameters);
+  }
+  // Beyond its end another one may begin.
+  double stride = number.of_contact() ? widest : room / 64;
+  for (double distance = outside.distance; distance < room && !better_; stride *= growth) {
+    distance = std::min(room, distance + stride);
+    look(distance, last);
+  }
+  if (inside.distance >= room) return sign * infinity;
+  // False position; an end that stays twice counts half (Illinois).
+  for (int i = 0, side = 0; i < most_refinements && outside.distance - inside.distance > sharp * outside.distance;
+       ++i) {
+    const double length = outside.distance - inside.distance;
+    const double share = -inside.height / (outside.height - inside.height);
+    if (look(inside.distance + std::clamp(share, 0.02, 0.98) * length, last)) {
+      if (std::exchange(side, -1) == -1) outside.height /= 2;
+    } else if (std::exchange(side, 1) == 1) {
+      inside.height /= 2;
+    }
+    if (better_) break;
+  }
+  return from + sign * (inside.distance + outside.distance) / 2;
+}
+
+Interval Profile::of(const Coordinate& number, double error, double low, double high) {
+  if (better_) return {low, high};
+  return {end(number, -1, error, low), end(number, 1, error, high)};
+}
+
+bool Profile::reaches_beyond(const Coordinate& number, const Interval& interval) const {
+  const double value = number.of(best_);
+  const double low = value - (1 + 4 * sharp) * (value - interval.low);
+  const double high = value + (1 + 4 * sharp) * (interval.high - value);
+  return std::ranges::any_of(points_, [&](const Point& point) {
+    const double at = number.of(point.parameters);
+    return point.excess < rise_ && (at < low || at > high);
+  });
+}
+
+}  // namespace contensou::fit

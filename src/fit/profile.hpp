@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/fit/fit.hpp"
+#include "fit/search.hpp"
+
+namespace contensou::fit {
+
+/// Profile likelihood: how far a number can go, all else fitted anew, until the sum of squares has risen by so much.
+///
+/// From the farthest point that is known it goes outward along the valley, each point from its neighbours, then in wide
+/// steps to the end of what the model allows, from the guesses and from all points that were found before, also along other
+/// numbers: a valley that is met anew belongs to the interval.
+class Profile {
+ public:
+  /// @param search  with all standard deviations; kept by reference
+  /// @param best    the estimate
+  /// @param rise    of the sum of squares
+  Profile(const Search& search, const Eigen::VectorXd& best, double rise);
+
+  /// What a number may be; infinite where the data set no end.
+  /// @param error   its standard error, by curvature; any where there is none
+  /// @param low, high  its least and largest values that can be
+  Interval of(const Coordinate& number, double error, double low, double high);
+
+  /// Whether the valley was met beyond an interval of a number, when another one was followed.
+  bool reaches_beyond(const Coordinate& number, const Interval& interval) const;
+
+  /// A better estimate, where one was met: then no interval counts.
+  const std::optional<Eigen::VectorXd>& better() const { return better_; }
+
+ private:
+  struct Point {
+    Eigen::VectorXd parameters;
+    double excess;
+  };
+
+  /// Improves the best guess of each friction and of each patch radius, which lie about the valley.
+  void spread();
+
+  /// Where the interval ends on one side.
+  double end(const Coordinate& number, double sign, double error, double limit);
+
+  /// The lowest sum of squares found with the number held there.
+  /// @param foretold  where the valley seems to go
+  const Point& lowest(const Coordinate& number, double at, const Eigen::VectorXd& foretold);
+
+  /// Where to begin from, the best first: of the points found before, also along other numbers.
+  std::vector<Eigen::VectorXd> starts_at(const Coordinate& number, double at, const Eigen::VectorXd& foretold) const;
+
+  /// The best guess with a value near that one.
+  const Eigen::VectorXd* nearest_guess(const Coordinate& number, double at) const;
+
+  const Search& search_;
+  Eigen::VectorXd best_;
+  double rise_, least_;
+  std::vector<Point> points_;
+  std::optional<Eigen::VectorXd> better_;
+};
+
+}  // namespace contensou::fit

@@ -1,0 +1,464 @@
+#include "fit/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+
+#include "contensou/reduction/laws.hpp"
+#include "contensou/si/scaling.hpp"
+#include "fit/profile.hpp"
+#include "fit/student.hpp"
+
+namespace contensou::fit {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// An eigenvalue of the correlations of derivatives below which the data do not decide.
+constexpr double undecided = 1e-10;
+/// A relative error from which on a number counts as unknown: catalogues are better.
+constexpr double unknown = 0.5;
+/// Where friction and patch radius depend on each other more than that, and are known worse than that, a parabola is no
+/// good model of the sum of squares; nor where a number is known worse than the last.
+constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01, nonlinear = 0.1;
+
+bool is_of_contact(Parameter parameter) { return static_cast<int>(parameter) < shared_parameters; }
+
+/// The inverse of a matrix of information, and which parameters it does not decide.
+struct Inverse {
+  MatrixXd covariance;
+  std::vector<bool> undecided;
+};
+
+Inverse inverse_of(const MatrixXd& information) {
+  const VectorXd scale = information.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? x : 1; });
+  const VectorXd inverse_scale = scale.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inverse_scale.asDiagonal() * information *
+                                                       inverse_scale.asDiagonal());
+  const VectorXd values = solver.eigenvalues().cwiseMax(undecided);
+  const MatrixXd& vectors = solver.eigenvectors();
+  Inverse result;
+  result.covariance = inverse_scale.asDiagonal() * vectors * values.cwiseInverse().asDiagonal() * vectors.transpose() *
+                      inverse_scale.asDiagonal();
+  for (Index i = 0; i < information.rows(); ++i) {
+    double share = 0;
+    for (Index k = 0; k < values.size(); ++k) {
+      if (values[k] <= undecided) share += vectors(i, k) * vectors(i, k);
+    }
+    result.undecided.push_back(share > 1e-6);
+  }
+  return result;
+}
+
+/// What the data tell of ln f and ln eps when all else is free, too: of both by itself, the 2 by 2 matrix.
+Eigen::Matrix2d information_of_contact(const MatrixXd& information) {
+  const Index others = information.rows() - 2;
+  if (others == 0) return information;
+  const MatrixXd beside = information.topRightCorner(2, others);
+  return information.topLeftCorner<2, 2>() -
+         beside * inverse_of(information.bottomRightCorner(others, others)).covariance * beside.transpose();
+}
+
+/// The combinations that a film may decide alone: f of a slip, f eps of a spin, f/eps of the end of a slip.
+const Eigen::Vector2d combinations[]{{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+
+/// A solution and what follows from it.
+class Reporter {
+ public:
+  Reporter(const Search& search, const VectorXd& solution, bool planned)
+      : search_(search),
+        request_(search.request),
+        planned_(planned),
+        parameters_(search.model.limited(solution)),
+        values_(search.model.values(parameters_)) {
+    fit_.at_limit = parameters_ != solution;
+  }
+
+  Report report() {
+    set_size();
+    set_errors();
+    set_estimates();
+    set_only_by_curvature();
+    if (!planned_ && needs_profile()) set_profiles();
+    set_noise();
+    set_predicted();
+    set_ball();
+    if (!planned_) set_misfits();
+    require_numbers();
+    return {std::move(fit_), std::move(better_)};
+  }
+
+ private:
+  /// What is fitted, how many values, how well.
+  void set_size();
+  /// Covariance and correlations, by curvature.
+  void set_errors();
+  void set_estimates();
+  void add_estimate(Parameter parameter, std::size_t track);
+  /// Of a plan: the combination that is known where friction and patch radius are not.
+  void set_only_by_curvature();
+  bool needs_profile() const;
+  /// Whether a number of the contact is as good as unknown.
+  bool decides_little() const;
+  void set_profiles();
+  /// What is profiled, and between which ends.
+  struct Number {
+    Coordinate coordinate;
+    std::optional<std::size_t> estimate;  ///< whose it is
+    double error;                         ///< by curvature
+    double low, high;
+    Interval interval;
+  };
+  std::optional<Number> number_of(std::size_t estimate) const;
+  Number combined(const Eigen::Vector2d& powers) const;
+  void set_profile(const Number& number);
+  void set_only(const std::vector<Number>& numbers);
+  void set_noise();
+  void set_predicted();
+  void set_ball();
+  void set_misfits();
+  void require_numbers() const;
+
+  bool is_free(Index place) const { return std::ranges::find(search_.free, place) != search_.free.end(); }
+  bool both_free() const { return request_.free.friction && request_.free.patch_radius; }
+  /// Whether a number of the start is in the data as such.
+  bool is_seen(Parameter parameter, std::size_t track) const;
+
+  const Search& search_;
+  const FitRequest& request_;
+  const bool planned_;
+  VectorXd parameters_, values_, residuals_;
+  MatrixXd information_;
+  Inverse inverse_;
+  VectorXd deviation_;   ///< standard errors of the free parameters
+  double variance_ = 1;  ///< by which the robust loss needs more data for the same error
+  double quantile_ = normal_quantile;
+  Fit fit_;
+  std::optional<VectorXd> better_;
+};
+
+void Reporter::set_size() {
+  const auto count = static_cast<Index>(search_.free.size());
+  fit_.law = request_.law.name();
+  fit_.ball = request_.ball;
+  fit_.values = search_.values;
+  fit_.degrees_of_freedom = static_cast<double>(search_.values - count);
+  const bool by_student = search_.any_estimated() && !planned_;
+  if (by_student && fit_.degrees_of_freedom < 1) {
+    throw std::domain_error(
+        fmt::format("fit: {} values without standard deviations do not decide {} numbers", search_.values, count));
+  }
+  if (by_student) quantile_ = student_quantile(fit_.degrees_of_freedom);
+  residuals_ =
+      planned_ ? VectorXd::Zero(values_.size()) : VectorXd((values_ - search_.data).cwiseProduct(search_.weight));
+  fit_.chi2 = residuals_.squaredNorm();
+  fit_.aic = search_.criterion(parameters_);
+}
+
+void Reporter::set_errors() {
+  const MatrixXd derivatives = search_.weight.asDiagonal() * search_.model.derivatives(parameters_, search_.free);
+  information_ = derivatives.transpose() * derivatives;
+  if (request_.robust && !planned_) {
+    double squares = 0, slopes = 0;
+    for (double residual : residuals_) {
+      const double size = std::min(std::abs(residual), huber_bend);
+      squares += size * size;
+      if (std::abs(residual) <= huber_bend) slopes += 1;
+    }
+    const auto missing = static_cast<double>(residuals_.size() - search_.values);
+    const double share = (slopes - missing) / static_cast<double>(search_.values);
+    variance_ = squares / std::max(fit_.degrees_of_freedom, 1.0) / (share * share);
+  }
+  inverse_ = inverse_of(information_);
+  deviation_ = (variance_ * inverse_.covariance.diagonal()).cwiseSqrt();
+  fit_.correlation =
+      variance_ * deviation_.cwiseInverse().asDiagonal() * inverse_.covariance * deviation_.cwiseInverse().asDiagonal();
+}
+
+void Reporter::add_estimate(Parameter parameter, std::size_t track) {
+  const Index place = TrackModel::place(parameter, track);
+  const auto found = std::ranges::find(search_.free, place);
+  Estimate estimate{parameter, track, parameters_[place], 0, {}, found != search_.free.end()};
+  double error = 0;
+  if (estimate.free) {
+    const auto at = static_cast<std::size_t>(found - search_.free.begin());
+    error = inverse_.undecided[at] ? infinity : deviation_[static_cast<Index>(at)];
+  }
+  if (is_of_contact(parameter)) {
+    estimate.value = std::exp(estimate.value);
+    estimate.standard_error = error == 0 ? 0 : estimate.value * error;
+    estimate.interval = {estimate.value * std::exp(-quantile_ * error), estimate.value * std::exp(quantile_ * error)};
+  } else {
+    estimate.standard_error = error;
+    estimate.interval = {estimate.value - quantile_ * error, estimate.value + quantile_ * error};
+  }
+  if (estimate.free || static_cast<int>(parameter) < static_cast<int>(Parameter::direction))
+    fit_.estimates.push_back(estimate);
+}
+
+void Reporter::set_estimates() {
+  add_estimate(Parameter::friction, 0);
+  add_estimate(Parameter::patch_radius, 0);
+  for (std::size_t track = 0; track < request_.tracks.size(); ++track) {
+    for (int i = shared_parameters; i < shared_parameters + start_parameters; ++i) {
+      add_estimate(static_cast<Parameter>(i), track);
+    }
+  }
+  // No patch is larger than the ball.
+  double& largest_patch = fit_.estimates[1].interval.high;
+  if (request_.free.patch_radius) largest_patch = std::min(largest_patch, request_.ball.ball.radius);
+}
+
+void Reporter::set_only_by_curvature() {
+  if (!both_free() || !planned_) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information_of_contact(information_));
+  constexpr double least_share = 1e-8;  // below which it counts as none
+  const double strong = solver.eigenvalues()[1], weak = std::max(solver.eigenvalues()[0], least_share * strong);
+  double least = infinity;
+  for (const Eigen::Vector2d& powers : combinations) {
+    const Eigen::Vector2d along = solver.eigenvectors().transpose() * powers;
+    const double error = std::sqrt(along[0] * along[0] / weak + along[1] * along[1] / strong);
+    if (error >= std::min(least, unknown)) continue;
+    least = error;
+    const double value = std::exp(powers.dot(parameters_.head<2>()));
+    fit_.only = Combination{powers[0],
+                            powers[1],
+                            value,
+                            error,
+                            {value * std::exp(-quantile_ * error), value * std::exp(quantile_ * error)}};
+  }
+  if (weak * unknown * unknown >= 1) fit_.only = {};
+}
+
+bool Reporter::is_seen(Parameter parameter, std::size_t track) const {
+  const auto has = [&](Observable observable) {
+    const auto& series = request_.tracks[track].series;
+    return std::ranges::find(series, observable, &Series::observable) != series.end();
+  };
+  return parameter == Parameter::slip ? has(Observable::slip) : has(Observable::spin) || has(Observable::angle);
+}
+
+bool Reporter::needs_profile() const {
+  if (std::ranges::any_of(inverse_.undecided, std::identity())) return true;
+  for (std::size_t i = 0; i < search_.free.size(); ++i) {
+    const Index place = search_.free[i];
+    const double error = deviation_[static_cast<Index>(i)];
+    if (place < shared_parameters && error > nonlinear) return true;
+    const Parameter parameter = TrackModel::parameter_at(place);
+    const bool speed = parameter == Parameter::slip || parameter == Parameter::spin;
+    if (speed && !is_seen(parameter, TrackModel::track_of(place)) && error > nonlinear * std::abs(parameters_[place]))
+      return true;
+  }
+  return both_free() && std::abs(fit_.correlation(0, 1)) > strongly_correlated &&
+         std::max(deviation_[0], deviation_[1]) > hardly_nonlinear;
+}
+
+bool Reporter::decides_little() const {
+  if (std::ranges::any_of(inverse_.undecided, std::identity())) return true;
+  for (std::size_t i = 0; i < search_.free.size(); ++i) {
+    if (search_.free[i] < shared_parameters && deviation_[static_cast<Index>(i)] > unknown) return true;
+  }
+  return false;
+}
+
+void Reporter::set_profiles() {
+  fit_.profiled = true;
+  // Orbits as sharp as a film is.
+  Search quick(request_, accuracy_of_guess);
+  quick.weight = search_.weight;
+  quick.guesses = search_.guesses;
+  // Where some number is not decided, others find more ways to follow the noise: chi^2 of two numbers bounds what that
+  // takes off the sum of squares (tests/fit/coverage.cpp).
+  constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
+  const double rise = quantile_ * quantile_ * variance_ * (decides_little() ? of_two_numbers : 1);
+  Profile profile(quick, parameters_, rise);
+  std::vector<Number> numbers;
+  for (std::size_t i = 0; i < fit_.estimates.size(); ++i) {
+    if (std::optional<Number> number = number_of(i)) numbers.push_back(*number);
+  }
+  if (both_free()) {
+    for (const Eigen::Vector2d& powers : {Eigen::Vector2d(1, 1), Eigen::Vector2d(1, -1)})
+      numbers.push_back(combined(powers));
+  }
+  // The patch first: it is the number that most films tell least of, so that its valley is the longest.
+  std::ranges::stable_sort(numbers, {},
+                           [](const Number& number) { return number.coordinate.powers != Eigen::Vector2d(0, 1); });
+  for (int round = 0; round < 2; ++round) {
+    for (Number& number : numbers) {
+      if (round > 0 && !profile.reaches_beyond(number.coordinate, number.interval)) continue;
+      number.interval = profile.of(number.coordinate, number.error, number.low, number.high);
+      better_ = profile.better();
+      if (better_) return;
+    }
+  }
+  for (const Number& number : numbers) set_profile(number);
+  if (both_free()) set_only(numbers);
+}
+
+std::optional<Reporter::Number> Reporter::number_of(std::size_t estimate) const {
+  const Estimate& of = fit_.estimates[estimate];
+  if (!of.free || static_cast<int>(of.parameter) >= static_cast<int>(Parameter::direction)) return {};
+  const Index place = TrackModel::place(of.parameter, of.track);
+  const auto column = std::ranges::find(search_.free, place) - search_.free.begin();
+  const double error = inverse_.undecided[static_cast<std::size_t>(column)] ? infinity : deviation_[column];
+  const auto [low, high] = search_.model.range(place);
+  if (is_of_contact(of.parameter))
+    return Number{{.powers = Eigen::Vector2d::Unit(place)}, estimate, error, low, high, {}};
+  const bool either_sign = is_seen(of.parameter, of.track), negative = std::signbit(of.value);
+  return Number{
+      {.place = place}, estimate, error, either_sign || negative ? low : 0, either_sign || !negative ? high : 0, {}};
+}
+
+Reporter::Number Reporter::combined(const Eigen::Vector2d& powers) const {
+  const TrackModel::Range friction = search_.model.range(0), patch = search_.model.range(1);
+  const auto [low, high] = powers[1] > 0 ? patch : TrackModel::Range{-patch.high, -patch.low};
+  const double variance = variance_ * powers.dot(inverse_.covariance.topLeftCorner<2, 2>() * powers);
+  return {{.powers = powers}, {}, std::sqrt(variance), friction.low + low, friction.high + high, {}};
+}
+
+void Reporter::set_profile(const Number& number) {
+  if (!number.estimate) return;
+  Estimate& estimate = fit_.estimates[*number.estimate];
+  Interval interval = number.interval;
+  if (number.coordinate.of_contact()) {
+    estimate.standard_error = estimate.value * (interval.high - interval.low) / (2 * quantile_);
+    interval = {std::exp(interval.low), std::exp(interval.high)};
+    if (estimate.parameter == Parameter::patch_radius)
+      interval.high = std::min(interval.high, request_.ball.ball.radius);
+  } else {
+    if (number.low == 0) interval.low = std::max(interval.low, 0.0);
+    if (number.high == 0) interval.high = std::min(interval.high, 0.0);
+    estimate.standard_error = (interval.high - interval.low) / (2 * quantile_);
+  }
+  estimate.interval = interval;
+}
+
+void Reporter::set_only(const std::vector<Number>& numbers) {
+  const auto is_known = [](const Estimate& estimate) { return estimate.standard_error < unknown * estimate.value; };
+  if (is_known(fit_.estimates[0]) && is_known(fit_.estimates[1])) return;
+  double least = unknown;
+  for (const auto& [coordinate, estimate, error, low, high, interval] : numbers) {
+    const double relative = (interval.high - interval.low) / (2 * quantile_);
+    if (!coordinate.of_contact() || !(relative < least)) continue;
+    least = relative;
+    fit_.only = Combination{coordinate.powers[0],
+                            coordinate.powers[1],
+                            std::exp(coordinate.of(parameters_)),
+                            relative,
+                            {std::exp(interval.low), std::exp(interval.high)}};
+  }
+}
+
+void Reporter::set_noise() {
+  for (const auto& [observable, name, unit, meaning] : observable_kinds()) {
+    const auto place = static_cast<std::size_t>(observable);
+    const std::vector<Index>& rows = search_.rows_of[place];
+    if (rows.empty()) continue;
+    double squares = 0, variances = 0;
+    std::vector<double> sizes;
+    for (Index row : rows) {
+      const double sd = 1 / search_.weight[row];
+      squares += residuals_[row] * residuals_[row] * sd * sd;
+      variances += sd * sd;
+      sizes.push_back(std::abs(residuals_[row]));
+    }
+    const auto n = static_cast<double>(rows.size());
+    // The others' standard deviation, not less than what values are rounded to.
+    constexpr double far = 6;
+    const double border =
+        far * std::max(sd_by_median(sizes),
+                       search_.estimated[place] ? search_.rounding[place] * search_.weight[rows.front()] : 1);
+    fit_.noise.push_back({observable, static_cast<Index>(rows.size()), std::sqrt(squares / n), std::sqrt(variances / n),
+                          search_.estimated[place],
+                          std::ranges::count_if(sizes, [&](double size) { return size > border; })});
+  }
+}
+
+void Reporter::set_predicted() {
+  Index row = 0;
+  for (const Track& track : request_.tracks) {
+    fit_.predicted.emplace_back();
+    for (std::size_t i = 0; i < track.series.size(); ++i) {
+      fit_.predicted.back().emplace_back(values_.segment(row, track.t.size()).array());
+      row += track.t.size();
+    }
+    if (track.stop_time) ++row;
+  }
+}
+
+void Reporter::set_ball() {
+  const auto number = [&](Parameter parameter) { return fit_.estimate(parameter).value; };
+  fit_.ball.contact = {number(Parameter::friction), si::PatchRadius{number(Parameter::patch_radius)}};
+  if (fit_.law != request_.ball.ball.body.law && reduction::find_law(fit_.law)) fit_.ball.contact.law = fit_.law;
+  const double slip = std::max(0.0, number(Parameter::slip)), spin = number(Parameter::spin);
+  if (!is_free(TrackModel::place(Parameter::vx)) || !is_free(TrackModel::place(Parameter::vy))) {
+    fit_.ball.start = si::SlipAndSpin{slip, spin};
+    return;
+  }
+  const double direction = number(Parameter::direction), radius = request_.ball.ball.radius;
+  const Eigen::Vector2d velocity(number(Parameter::vx), number(Parameter::vy));
+  const Eigen::Vector2d of_contact(slip * std::cos(direction), slip * std::sin(direction));
+  const Eigen::Vector2d difference = (velocity - of_contact) / radius;
+  fit_.ball.start = si::Velocities{velocity, {-difference.y(), difference.x(), spin}};
+}
+
+void Reporter::set_misfits() {
+  for (const Noise& noise : fit_.noise) {
+    const auto& [observable, name, unit, meaning] = kind_of(noise.observable);
+    const double scatter = search_.scatter[static_cast<std::size_t>(observable)];
+    constexpr double some_times = 5, blurred = 0.5;
+    if (observable == Observable::angle && noise.estimated && noise.sd > blurred) {
+      fit_.misfits.push_back(fmt::format(
+          "the angle is off by {:.2g} rad on the average, so that its whole turns are not known", noise.sd));
+    } else if (noise.estimated && scatter > 0 && noise.sd > some_times * scatter) {
+      fit_.misfits.push_back(fmt::format("{} is off by {:.2g} {} on the average, and off its neighbours by {:.2g} only",
+                                         name, noise.sd, unit, scatter));
+    }
+  }
+  if (std::ranges::all_of(fit_.noise, &Noise::estimated) && !fit_.noise.empty()) return;
+  // By Wilson and Hilferty's approximation the cube root of chi^2 is normal.
+  constexpr double too_much = 2, too_rare = 3.7;
+  const double n = fit_.degrees_of_freedom, share = 2 / (9 * n);
+  double reduced = fit_.reduced_chi2();
+  if (request_.robust) {  // which lets some values be far off
+    std::vector<double> sizes;
+    for (Index row = 0; row < residuals_.size(); ++row) {
+      if (search_.weight[row] > 0) sizes.push_back(std::abs(residuals_[row]));
+    }
+    reduced = std::pow(sd_by_median(sizes), 2);
+  }
+  if (n >= 1 && reduced > too_much && std::cbrt(reduced) > 1 - share + too_rare * std::sqrt(share)) {
+    fit_.misfits.push_back(fmt::format(
+        "residuals are {:.2g} times as large as the standard deviations that are given (reduced chi^2 {:.3g})",
+        std::sqrt(reduced), reduced));
+  }
+}
+
+void Reporter::require_numbers() const {
+  for (const Estimate& estimate : fit_.estimates) {
+    if (std::isfinite(estimate.value) && !std::isnan(estimate.standard_error) && !std::isnan(estimate.interval.low) &&
+        !std::isnan(estimate.interval.high))
+      continue;
+    throw std::runtime_error(fmt::format("fit: no number was found for {}", kind_of(estimate.parameter).name));
+  }
+}
+
+}  // namespace
+
+Report report_on(const Search& search, const VectorXd& solution, bool planned) {
+  return Reporter(search, solution, planned).report();
+}
+
+}  // namespace contensou::fit

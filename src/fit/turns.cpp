@@ -1,0 +1,150 @@
+#include "fit/turns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <stdexcept>
+
+#include "contensou/si/scaling.hpp"
+#include "fit/search.hpp"
+
+namespace contensou::fit {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+/// By how much Akaike's criterion of the one may be less than that of the other without a preference.
+constexpr double no_preference = 4;
+
+template <class AnyTrack>
+auto find(AnyTrack& track, Observable observable) -> decltype(track.series.data()) {
+  const auto found = std::ranges::find(track.series, observable, &Series::observable);
+  return found == track.series.end() ? nullptr : &*found;
+}
+
+/// From one measured value to the next: the time and by how much the angle grew, up to whole turns.
+struct Step {
+  double time, growth;
+};
+std::vector<Step> steps_of(const Track& track, const Series& angle) {
+  std::vector<Step> steps;
+  Index last = -1;
+  for (Index i = 0; i < track.t.size(); ++i) {
+    if (std::isnan(angle.value[i])) continue;
+    if (last >= 0) steps.push_back({track.t[i] - track.t[last], angle.value[i] - angle.value[last]});
+    last = i;
+  }
+  return steps;
+}
+
+double usual_time(const std::vector<Step>& steps) {
+  std::vector<double> times;
+  for (const Step& step : steps) times.push_back(step.time);
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::ranges::nth_element(times, middle);
+  return *middle;
+}
+
+/// How fast the angle grows in the first steps of the usual time, where no step is more than half a turn.
+double slow_rate(const std::vector<Step>& steps, double usual) {
+  constexpr int most = 10;
+  std::complex<double> sum = 0;
+  int count = 0;
+  for (const Step& step : steps) {
+    if (count == most) break;
+    if (std::abs(step.time - usual) > 0.01 * usual) continue;
+    sum += std::polar(1.0, step.growth);
+    ++count;
+  }
+  return std::arg(sum) / usual;
+}
+
+/// The angle at its turns, where it grows at that rate at first.
+void unwrap(const Track& track, Series& angle, double rate) {
+  constexpr double share_of_last = 0.3;  // in the rate, which is smooth
+  Index last = -1;
+  for (Index i = 0; i < track.t.size(); ++i) {
+    double& value = angle.value[i];
+    if (std::isnan(value)) continue;
+    if (last >= 0) {
+      const double time = track.t[i] - track.t[last];
+      value += turn * std::round((angle.value[last] + rate * time - value) / turn);
+      rate += share_of_last * ((value - angle.value[last]) / time - rate);
+    }
+    last = i;
+  }
+}
+
+/// Whether the spin tells where the angle turns to.
+bool seen_by_spin(const Track& track) {
+  const Series* spin = find(track, Observable::spin);
+  return spin != nullptr && !spin->value.isNaN().all();
+}
+
+/// The angle of one track at the turns that explain the data best.
+Turns set_turns(const FitRequest& request, Track& track) {
+  Series* angle = find(track, Observable::angle);
+  if (angle == nullptr) return {};
+  const std::vector<Step> steps = steps_of(track, *angle);
+  if (steps.empty()) return {};
+  if (seen_by_spin(track)) {
+    const Eigen::ArrayXd& spin = find(track, Observable::spin)->value;
+    unwrap(track, *angle, *std::ranges::find_if_not(spin, [](double each) { return std::isnan(each); }));
+    return {};
+  }
+  const double usual = usual_time(steps), slow = slow_rate(steps, usual), own = si::spin_at_start(request.ball);
+  const auto turns_more = [&](double rate) { return std::round((rate - slow) * usual / turn); };
+  std::vector<double> more{0, -1, 1, -2, 2};
+  if (const double by_ball = turns_more(own); !std::ranges::count(more, by_ball)) more.push_back(by_ball);
+  if (!request.free.spin) more = {turns_more(own)};
+
+  struct Trial {
+    Track track;
+    double criterion, spin;
+  };
+  std::vector<Trial> trials;
+  for (double each : more) {
+    Track tried = track;
+    unwrap(tried, *find(tried, Observable::angle), slow + each * turn / usual);
+    if (more.size() == 1) {
+      track = std::move(tried);
+      return {half_turn_spin(track)};
+    }
+    FitRequest alone{request.ball, request.law, thinned({tried}, max_of_first_solution), request.free, request.robust};
+    Search search(alone);
+    try {
+      const Eigen::VectorXd found = search.solve();
+      trials.push_back({std::move(tried), search.criterion(found), found[TrackModel::place(Parameter::spin)]});
+    } catch (const std::runtime_error&) {  // not of these turns
+    }
+  }
+  if (trials.empty()) throw std::runtime_error("fit: the search for the parameters did not converge");
+  // Of those that explain the data as well as the best, the slowest.
+  const double best = std::ranges::min(trials, {}, &Trial::criterion).criterion;
+  std::erase_if(trials, [&](const Trial& trial) { return trial.criterion >= best + no_preference; });
+  std::ranges::stable_sort(trials, {}, [](const Trial& trial) { return std::abs(trial.spin); });
+  track = std::move(trials.front().track);
+  Turns result{half_turn_spin(track)};
+  for (std::size_t i = 1; i < trials.size(); ++i) result.other_spins.push_back(trials[i].spin);
+  return result;
+}
+
+}  // namespace
+
+double half_turn_spin(const Track& track) {
+  const Series* angle = find(track, Observable::angle);
+  if (angle == nullptr || seen_by_spin(track)) return INFINITY;
+  const std::vector<Step> steps = steps_of(track, *angle);
+  return steps.empty() ? INFINITY : std::numbers::pi / usual_time(steps);
+}
+
+std::vector<Turns> set_turns(FitRequest& request) {
+  std::vector<Turns> result;
+  for (Track& track : request.tracks) result.push_back(set_turns(request, track));
+  return result;
+}
+
+}  // namespace contensou::fit
