@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-bool is_of_contact(Parameter parameter) { return static_cast<int>(parameter) < shared_parameters; }
+bool of_all_tracks(Parameter parameter) { return static_cast<int>(parameter) < shared_parameters; }
 
 /// Turns a slip against its direction, which is the same as the opposite one along it, and the spin that no datum tells
 /// the sense of to that of the ball.
@@ -93,7 +93,7 @@ std::string Combination::unit() const { return patch_power == 0 ? "" : patch_pow
 
 const Estimate& Fit::estimate(Parameter parameter, std::size_t track) const {
   const auto found = std::ranges::find_if(estimates, [&](const Estimate& each) {
-    return each.parameter == parameter && (is_of_contact(parameter) || each.track == track);
+    return each.parameter == parameter && (of_all_tracks(parameter) || each.track == track);
   });
   if (found == estimates.end()) {
     throw std::domain_error(fmt::format("Fit::estimate: track {} has no {}", track, kind_of(parameter).name));

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-4;
 /// A sum of squares that is lower than the least by that much is a better estimate.
 constexpr double better_by = 0.01;
@@ -26,10 +26,10 @@ constexpr int most_refinements = 12;
 
 }  // namespace
 
-Profile::Profile(const Search& search, const VectorXd& best, double rise)
-    : search_(search), best_(best), rise_(rise), least_(search.cost(best)) {
+Profile::Profile(const Search& search, const VectorXd& best, double rise, bool wide)
+    : search_(search), best_(best), rise_(rise), least_(search.cost(best)), wide_(wide) {
   points_.push_back({best, 0});
-  spread();
+  if (wide_) spread();
 }
 
 void Profile::spread() {
@@ -52,7 +52,7 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
   // Of each part of the valley, by friction and patch radius, the nearest point on each side.
   struct Nearest {
     const VectorXd* parameters = nullptr;
-    double distance = infinity;
+    double distance = endless;
   };
   std::map<std::tuple<double, double, bool>, Nearest> parts;
   const auto part_of = [](double logarithm) { return std::round(logarithm / 1.5); };
@@ -85,7 +85,7 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
 const VectorXd* Profile::nearest_guess(const Coordinate& number, double at) const {
   constexpr double near = 1;  // the best of those that are nearer; else the nearest
   const VectorXd* nearest = nullptr;
-  double least = infinity;
+  double least = endless;
   for (const VectorXd& guess : search_.guesses) {
     const double away = std::abs(number.of(guess) - at);
     if (away < near) return &guess;
@@ -96,7 +96,7 @@ const VectorXd* Profile::nearest_guess(const Coordinate& number, double at) cons
 }
 
 const Profile::Point& Profile::lowest(const Coordinate& number, double at, const VectorXd& foretold) {
-  Point found{{}, infinity};
+  Point found{{}, endless};
   for (const VectorXd& start : starts_at(number, at, foretold)) {
     const VectorXd parameters = search_.improved(number.moved(start, at), &number, tolerance);
     const double excess = search_.cost(parameters) - least_;
@@ -113,13 +113,13 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
   struct Reach {
     double distance, height;  ///< from the estimate; the root of the sum's rise, less that of the allowed one
   };
-  Reach inside{0, -std::sqrt(rise_)}, outside{infinity, infinity};
+  Reach inside{0, -std::sqrt(rise_)}, outside{endless, endless};
   const auto look = [&](double distance, const VectorXd& foretold) {
     const double excess = lowest(number, from + sign * distance, foretold).excess;
     const Reach found{distance, std::sqrt(std::max(0.0, excess)) - std::sqrt(rise_)};
     if (found.height < 0) {
       inside = found;
-      if (outside.distance < distance) outside = {infinity, infinity};
+      if (outside.distance < distance) outside = {endless, endless};
     } else if (distance < outside.distance) {
       outside = found;
     }
@@ -135,7 +135,7 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     last = point.parameters;
   }
   VectorXd before = last;
-  const double longest = number.of_contact() ? widest : infinity;
+  const double longest = number.of_contact() ? widest : endless;
   double step =
       std::min({std::isfinite(error) && error > 0 ? std::sqrt(rise_) * error : room / 256, room / 4, longest});
   for (double ahead = 0; inside.distance < room && !better_; step = std::min(growth * step, longest)) {
@@ -148,11 +148,11 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
   }
   // Beyond its end another one may begin.
   double stride = number.of_contact() ? widest : room / 64;
-  for (double distance = outside.distance; distance < room && !better_; stride *= growth) {
+  for (double distance = outside.distance; wide_ && distance < room && !better_; stride *= growth) {
     distance = std::min(room, distance + stride);
     look(distance, last);
   }
-  if (inside.distance >= room) return sign * infinity;
+  if (inside.distance >= room) return sign * endless;
   // False position; an end that stays twice counts half (Illinois).
   for (int i = 0, side = 0; i < most_refinements && outside.distance - inside.distance > sharp * outside.distance;
        ++i) {

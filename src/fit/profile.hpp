@@ -20,7 +20,8 @@ class Profile {
   /// @param search  with all standard deviations; kept by reference
   /// @param best    the estimate
   /// @param rise    of the sum of squares
-  Profile(const Search& search, const Eigen::VectorXd& best, double rise);
+  /// @param wide    whether there may be more than the valley about the estimate
+  Profile(const Search& search, const Eigen::VectorXd& best, double rise, bool wide);
 
   /// What a number may be; infinite where the data set no end.
   /// @param error   its standard error, by curvature; any where there is none
@@ -58,6 +59,7 @@ class Profile {
   const Search& search_;
   Eigen::VectorXd best_;
   double rise_, least_;
+  bool wide_;
   std::vector<Point> points_;
   std::optional<Eigen::VectorXd> better_;
 };

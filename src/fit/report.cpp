@@ -109,6 +109,8 @@ class Reporter {
   void add_estimate(Parameter parameter, std::size_t track);
   /// Of a plan: the combination that is known where friction and patch radius are not.
   void set_only_by_curvature();
+  /// Whether a number is known so badly that a parabola is no good model of the sum of squares.
+  bool is_vague() const;
   bool needs_profile() const;
   /// Whether a number of the contact is as good as unknown.
   bool decides_little() const;
@@ -250,7 +252,7 @@ bool Reporter::is_seen(Parameter parameter, std::size_t track) const {
   return parameter == Parameter::slip ? has(Observable::slip) : has(Observable::spin) || has(Observable::angle);
 }
 
-bool Reporter::needs_profile() const {
+bool Reporter::is_vague() const {
   if (std::ranges::any_of(inverse_.undecided, std::identity())) return true;
   for (std::size_t i = 0; i < search_.free.size(); ++i) {
     const Index place = search_.free[i];
@@ -261,6 +263,11 @@ bool Reporter::needs_profile() const {
     if (speed && !is_seen(parameter, TrackModel::track_of(place)) && error > nonlinear * std::abs(parameters_[place]))
       return true;
   }
+  return false;
+}
+
+bool Reporter::needs_profile() const {
+  if (is_vague()) return true;
   return both_free() && std::abs(fit_.correlation(0, 1)) > strongly_correlated &&
          std::max(deviation_[0], deviation_[1]) > hardly_nonlinear;
 }
@@ -283,12 +290,14 @@ void Reporter::set_profiles() {
   // takes off the sum of squares (tests/fit/coverage.cpp).
   constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
   const double rise = quantile_ * quantile_ * variance_ * (decides_little() ? of_two_numbers : 1);
-  Profile profile(quick, parameters_, rise);
+  const bool wide = is_vague();
+  Profile profile(quick, parameters_, rise, wide);
   std::vector<Number> numbers;
   for (std::size_t i = 0; i < fit_.estimates.size(); ++i) {
-    if (std::optional<Number> number = number_of(i)) numbers.push_back(*number);
+    const std::optional<Number> number = number_of(i);
+    if (number && (wide || number->coordinate.of_contact())) numbers.push_back(*number);
   }
-  if (both_free()) {
+  if (both_free() && wide) {
     for (const Eigen::Vector2d& powers : {Eigen::Vector2d(1, 1), Eigen::Vector2d(1, -1)})
       numbers.push_back(combined(powers));
   }

@@ -20,7 +20,7 @@ constexpr double turn = 2 * std::numbers::pi;
 constexpr double no_preference = 4;
 
 template <class AnyTrack>
-auto find(AnyTrack& track, Observable observable) -> decltype(track.series.data()) {
+auto series_of(AnyTrack& track, Observable observable) -> decltype(track.series.data()) {
   const auto found = std::ranges::find(track.series, observable, &Series::observable);
   return found == track.series.end() ? nullptr : &*found;
 }
@@ -80,18 +80,18 @@ void unwrap(const Track& track, Series& angle, double rate) {
 
 /// Whether the spin tells where the angle turns to.
 bool seen_by_spin(const Track& track) {
-  const Series* spin = find(track, Observable::spin);
+  const Series* spin = series_of(track, Observable::spin);
   return spin != nullptr && !spin->value.isNaN().all();
 }
 
 /// The angle of one track at the turns that explain the data best.
 Turns set_turns(const FitRequest& request, Track& track) {
-  Series* angle = find(track, Observable::angle);
+  Series* angle = series_of(track, Observable::angle);
   if (angle == nullptr) return {};
   const std::vector<Step> steps = steps_of(track, *angle);
   if (steps.empty()) return {};
   if (seen_by_spin(track)) {
-    const Eigen::ArrayXd& spin = find(track, Observable::spin)->value;
+    const Eigen::ArrayXd& spin = series_of(track, Observable::spin)->value;
     unwrap(track, *angle, *std::ranges::find_if_not(spin, [](double each) { return std::isnan(each); }));
     return {};
   }
@@ -108,7 +108,7 @@ Turns set_turns(const FitRequest& request, Track& track) {
   std::vector<Trial> trials;
   for (double each : more) {
     Track tried = track;
-    unwrap(tried, *find(tried, Observable::angle), slow + each * turn / usual);
+    unwrap(tried, *series_of(tried, Observable::angle), slow + each * turn / usual);
     if (more.size() == 1) {
       track = std::move(tried);
       return {half_turn_spin(track)};
@@ -135,7 +135,7 @@ Turns set_turns(const FitRequest& request, Track& track) {
 }  // namespace
 
 double half_turn_spin(const Track& track) {
-  const Series* angle = find(track, Observable::angle);
+  const Series* angle = series_of(track, Observable::angle);
   if (angle == nullptr || seen_by_spin(track)) return INFINITY;
   const std::vector<Step> steps = steps_of(track, *angle);
   return steps.empty() ? INFINITY : std::numbers::pi / usual_time(steps);

@@ -184,8 +184,8 @@ const si::Description& StartOptions::ball_of_its_own() const {
     const auto radius = std::ranges::find(si::quantities(), &si::radius) - si::quantities().begin();
     if (const auto& given = values_[static_cast<std::size_t>(radius)]; given.given()) {
       // Friction and patch are first guesses, the mass counts for nothing.
-      own_ = si::describe(si::Experiment{.ball = {.name = "ball", .mass = 1, .radius = *given},
-                                         .contact = {.friction = 0.2, .patch = si::PatchRadius{0.1 * *given}},
+      own_ = si::describe(si::Experiment{.ball = {.name = "ball", .mass = 1, .radius = given->front()},
+                                         .contact = {.friction = 0.2, .patch = si::PatchRadius{0.1 * given->front()}},
                                          .start = si::SlipAndSpin{.slip = 0, .spin = 0}});
       return *own_;
     }

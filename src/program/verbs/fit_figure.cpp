@@ -24,7 +24,7 @@ constexpr Colour data_colours[]{{0x4a90cc}, {0x3a3a3a}, {0xe0a030}, {0x8050a0}};
 
 /// So many values are shown of a track; more would be one blot.
 constexpr Eigen::Index most_marks = 250;
-/// Residuals beyond that many standard deviations are shown at the border.
+/// Residuals beyond that many standard deviations are arrows at the border.
 constexpr double residual_border = 4;
 
 Panel empty(std::string title, std::string name) {
@@ -209,8 +209,11 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>&
     figure.panels.push_back(std::move(pair.data));
     below.push_back(std::move(pair.residuals));
   }
-  const bool both = fit.estimates[0].free && fit.estimates[1].free && std::isfinite(fit.estimates[0].standard_error) &&
-                    std::isfinite(fit.estimates[1].standard_error) && !fit.only;
+  // A page is not high enough for six rows.
+  constexpr std::size_t most_rows = 5;
+  const bool both = fit.noise.size() < most_rows && fit.estimates[0].free && fit.estimates[1].free &&
+                    std::isfinite(fit.estimates[0].standard_error) && std::isfinite(fit.estimates[1].standard_error) &&
+                    !fit.only;
   if (both) {
     figure.panels.push_back(confidence_panel(fit));
     below.push_back(numbers_panel(fit, tracks.size()));
