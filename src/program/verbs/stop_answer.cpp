@@ -65,10 +65,10 @@ struct StopReport {
   double slip_length;                              ///< m, of a ball
 };
 
-/// m that the contact point slides until the stop.
-double slip_length(const GivenStart& start) {
-  const reduction::Orbit orbit = reduction::Flow(start.system).orbit(start.state);
-  return si::seconds(*start.experiment, orbit.slip_length(orbit.stop_time()));
+/// The integral of v dtau until the stop.
+double slip_length(const reduction::Flow& flow, reduction::State start) {
+  const reduction::Orbit orbit = flow.orbit(start);
+  return orbit.slip_length(orbit.stop_time());
 }
 
 /// What an estimate is too long by; 0 where both are infinite.
@@ -284,14 +284,21 @@ class Text {
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate) {
   using Estimates = std::vector<reduction::StopEstimate>;
   const auto& [system, state, experiment] = start;
+  const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;
+  std::optional<reduction::Flow> flow;
+  if (route == reduction::Route::quadrature) {
+    flow = reduction::Flow::by_quadrature(system);
+  } else if (!stepped || experiment) {
+    flow = system;
+  }
   const StopReport report{start,
-                          reduction::stop_time(system, state, route),
+                          stepped ? reduction::stop_time(system, state, route) : flow->stop_time(state),
                           system.sliding_limit(state.v),
                           system.pivoting_limit(state.u),
                           other_law(start),
                           coarser_table(start),
                           estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
-                          experiment ? slip_length(start) : 0};
+                          experiment ? si::seconds(*experiment, slip_length(*flow, state)) : 0};
   const Json members = members_of(report);
   return {.members = members, .rows = {row_of(members)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();
