@@ -13,7 +13,6 @@
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::fit {
-long n_lm = 0, n_fev = 0, n_jev = 0;
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -330,10 +329,6 @@ VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double to
     method.parameters.maxfev = 300;
     method.parameters.factor = 1;
     method.minimize(x);
-    extern long n_lm, n_fev, n_jev;
-    ++n_lm;
-    n_fev += method.nfev;
-    n_jev += method.njev;
     if (!x.allFinite()) throw std::runtime_error("fit: the search for the parameters did not converge");
     parameters = functor.whole(x);
     const bool beyond_line = functor.line && (x[0] < functor.line->low || x[0] > functor.line->high);
