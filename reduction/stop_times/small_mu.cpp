@@ -1,6 +1,6 @@
 // Notation (README (R21), (R23)): g = (1 - Psi/Psi(0))/Phi, q = k Psi/Phi,
 //   k m0 = integral of g dk over (0, k),   k m1 = integral of q (g - m0) dk over (0, k)
-// In y = ln k each integrand gains a factor k.
+// and of (R46) I = integral of Psi/(Psi(0) Phi) dk, here 0 at min_ln_k. In y = ln k each integrand gains a factor k.
 #include "contensou/reduction/small_mu.hpp"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include "contensou/reduction/pade_law.hpp"
 #include "numerics/dilogarithm.hpp"
@@ -151,6 +152,127 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
   estimates.push_back({"E1", "relative error O(mu^4 ln^2 mu)", start.u == 0 ? sliding : with_coefficient(m.first)});
   estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)", start.u == 0 ? sliding : with_coefficient(m.second)});
   return estimates;
+}
+
+/// k m0 and I of (R46) for all k up to one, and the k at which their sum has a given value.
+class SmallMuMotion::Layer {
+ public:
+  Layer(const Law& law, double ln_k0)
+      : ln_k0_(ln_k0), force_slope_(law.force_slope()), rate_low_(coefficient_rate(law, std::exp(min_ln_k))) {
+    Values sum = below(min_ln_k);
+    if (ln_k0 > min_ln_k) {
+      for_each_panel(min_ln_k, ln_k0, [&](const Samples& y, double half) {
+        Samples gain, pivoting;
+        for (int i = 0; i < LegendreSeries::order; ++i) {
+          const Slip slip = slip_of_ratio(std::exp(y[i]));
+          const auto [force, moment] = law(slip);
+          gain[i] = std::exp(y[i]) * law.moment_deficit(slip) / force;
+          pivoting[i] = std::exp(y[i]) * moment / (law.pivoting_moment() * force);
+        }
+        const auto from = [half](double start, const Samples& rate) {
+          LegendreSeries integral = LegendreSeries::through(rate).antiderivative();
+          integral *= half;
+          return integral += start;
+        };
+        panels_.push_back(
+            {(y[0] + y[LegendreSeries::order - 1]) / 2, half, from(sum.gain, gain), from(sum.pivoting, pivoting)});
+        sum = panels_.back().at_end();
+      });
+    }
+    start_ = panels_.empty() ? below(ln_k0) : sum;
+    start_coefficient_ = panels_.empty() ? rate_low_ : std::exp(-ln_k0) * sum.gain;
+  }
+
+  struct Values {
+    double gain;      ///< k m0
+    double pivoting;  ///< I
+    double both() const { return gain + pivoting; }
+  };
+
+  const Values& start() const { return start_; }
+
+  double start_coefficient() const { return start_coefficient_; }  ///< m0(k0)
+
+  struct Point {
+    double ln_k;
+    Values values;
+  };
+
+  Point where(double both) const {
+    if (both >= start_.both()) return {ln_k0_, start_};
+    if (panels_.empty() || both <= below(min_ln_k).both()) {
+      const double ln_k = min_ln_k + force_slope_ * both;
+      return {ln_k, below(ln_k)};
+    }
+    const auto panel = std::lower_bound(panels_.begin(), panels_.end(), both,
+                                        [](const Panel& each, double value) { return each.at_end().both() < value; });
+    const auto excess = [&](double t) { return panel->at(t).both() - both; };
+    const double low = excess(-1);
+    const double high = excess(1);
+    double t = low >= 0 ? -1 : 1;
+    if (low < 0 && high > 0) {
+      std::uintmax_t steps = 100;
+      const auto [left, right] = boost::math::tools::toms748_solve(excess, -1.0, 1.0, low, high,
+                                                                   boost::math::tools::eps_tolerance<double>(), steps);
+      t = left + (right - left) / 2;
+    }
+    return {panel->ln_k(t), panel->at(t)};
+  }
+
+ private:
+  struct Panel {
+    double middle, half;
+    LegendreSeries gain, pivoting;
+    double ln_k(double t) const { return middle + half * t; }
+    Values at(double t) const { return {gain(t), pivoting(t)}; }
+    Values at_end() const { return {gain.at_end(), pivoting.at_end()}; }
+  };
+
+  /// k so small that Psi = Psi(0).
+  Values below(double ln_k) const { return {std::exp(ln_k) * rate_low_, (ln_k - min_ln_k) / force_slope_}; }
+
+  double ln_k0_;
+  double force_slope_;
+  double rate_low_;  ///< of k m0
+  std::vector<Panel> panels_;
+  Values start_{};
+  double start_coefficient_;
+};
+
+SmallMuMotion::SmallMuMotion(const ReducedSystem& system, State start)
+    : start_(start),
+      pivoting_(system.pivoting_limit(start.u)),
+      sliding_(system.sliding_limit(start.v)),
+      pivoting_rate_(system.r() * system.law().pivoting_moment()) {
+  require_state("SmallMuMotion", start);
+  if (start.u == 0 || start.v == 0) return;
+  // A rim slower than this changes nothing of the sliding.
+  const double ln_w0 = std::max(std::log(system.mu()) + std::log(std::abs(start.u)), std::log(start.v) - max_ln_k);
+  ln_k0_ = std::log(start.v) - ln_w0;
+  unit_rate_ = std::exp(std::log(system.scaled_time_rate()) - ln_w0);
+  layer_ = std::make_shared<Layer>(system.law(), ln_k0_);
+}
+
+double SmallMuMotion::stop_time() const { return pivoting_ + sliding_ * (layer_ ? layer_->start_coefficient() : 1); }
+
+SmallMuMotion::Speeds SmallMuMotion::at_time(double tau) const {
+  if (!(tau >= 0)) throw std::domain_error(fmt::format("SmallMuMotion::at_time: tau must be >= 0, got {}", tau));
+  const double stop = stop_time();
+  if (tau >= stop) return {0, 0, -std::numeric_limits<double>::infinity()};
+  if (!layer_) {
+    const double left = 1 - tau / stop;
+    return {left * start_.u, left * start_.v, std::log(start_.v) + std::log(left)};
+  }
+  const auto& [gain0, pivoting0] = layer_->start();
+  const double theta = gain0 - unit_rate_ * tau;
+  if (pivoting_rate_ * theta <= -1) return {0, 0, -std::numeric_limits<double>::infinity()};
+  const double clock = theta >= 0 ? theta : std::log1p(pivoting_rate_ * theta) / pivoting_rate_;
+  const auto [ln_k, now] = layer_->where(pivoting0 + clock);
+  // For theta >= 0 the two are equal, and theta - k m0 may have no digits.
+  const double fall = theta >= 0 ? now.pivoting - pivoting0 : theta - now.gain;
+  const double ln_v_ratio = ln_k - ln_k0_;
+  return {start_.u * std::max(1 + pivoting_rate_ * fall, 0.0), start_.v * std::exp(ln_v_ratio),
+          std::log(start_.v) + ln_v_ratio};
 }
 
 }  // namespace contensou::reduction

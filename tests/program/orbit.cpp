@@ -5,6 +5,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/small_mu.hpp"
 #include "run_program.hpp"
 
 using namespace contensou::reduction;
@@ -72,6 +73,36 @@ TEST_CASE("the state by the time left", "[cli]") {
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --samples 3", "exclude each other");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --at 1", "exclude each other");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --route direct", "closed and quadrature");
+}
+
+TEST_CASE("beside the state what it is for small mu", "[cli]") {
+  const std::string command = "orbit --law pade --mu 0.1 --u0 -1 --v0 1 --estimate --at 0,0.5,1.5,20,99";
+  const auto rows = rows_of(run_program(command).out);
+  REQUIRE(rows.size() == 6);
+  CHECK(std::vector(rows[0].end() - 3, rows[0].end()) ==
+        std::vector<std::string>{"u_estimate", "v_estimate", "ln_v_estimate"});
+  const SmallMuMotion motion({PadeLaw{}, 0.1}, {-1, 1});
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    const auto speeds = motion.at_time(std::stod(rows[row][0]));
+    CHECK(std::stod(rows[row][6]) == speeds.u);
+    CHECK(std::stod(rows[row][7]) == speeds.v);
+    CHECK(std::stod(rows[row][8]) == speeds.ln_v);
+    CHECK(speeds.u == Approx(std::stod(rows[row][1])).epsilon(1e-3));
+    if (row < 5) CHECK(std::abs(speeds.ln_v - std::stod(rows[row][3])) < 0.1);
+  }
+  CHECK(rows[5][8] == "-inf");
+  const auto left = rows_of(run_program("orbit --mu 0.1 --u0 1 --v0 1 --estimate --time-left 2,0").out);
+  CHECK(left[0].back() == "tau_left");
+  CHECK(left[0][8] == "ln_v_estimate");
+  CHECK(std::stod(left[1][6]) == Approx(std::stod(left[1][1])).epsilon(1e-2));
+  for (const std::string start :
+       {"--u0 0 --v0 1", "--u0 1 --v0 0", "--u0 0 --v0 0", "--u0 1 --v0 1 --mu 1 --law ring --body puck"}) {
+    const std::string mu = start.find("mu") == std::string::npos ? " --mu 0.3" : "";
+    const Run run = run_program("orbit --estimate --samples 5 " + start + mu);
+    INFO(start << "\n" << run.err);
+    CHECK(run.status == 0);
+    CHECK(run.out.find("nan") == std::string::npos);
+  }
 }
 
 TEST_CASE("a ball has seconds in its last column", "[cli]") {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <boost/math/special_functions/lambert_w.hpp>
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
@@ -44,6 +45,31 @@ double worst_error(const Law& law, const std::string& name, double mu, const std
 double observed_order(const Law& law, const std::string& name, double mu, const std::vector<double>& ratios,
                       const Inertia& body = {}) {
   return std::log2(worst_error(law, name, mu, ratios, body) / worst_error(law, name, mu / 2, ratios, body));
+}
+
+struct MotionErrors {
+  double u = 0;     ///< relative
+  double ln_v = 0;  ///< absolute
+};
+
+/// The errors of SmallMuMotion, at worst over twentieths of a time from the start on.
+MotionErrors motion_errors(const ReducedSystem& system, State start, double time, int twentieths) {
+  const Orbit exact = Flow(system).orbit(start);
+  const SmallMuMotion estimate(system, start);
+  MotionErrors worst;
+  for (int i = 1; i <= twentieths; ++i) {
+    const double tau = time * i / 20;
+    const OrbitPoint point = exact.at_time(tau);
+    const auto speeds = estimate.at_time(tau);
+    worst.u = std::max(worst.u, std::abs(speeds.u / point.u - 1));
+    worst.ln_v = std::max(worst.ln_v, std::abs(speeds.ln_v - point.ln_v));
+  }
+  return worst;
+}
+
+/// As far as 19/20 of the stop time.
+MotionErrors motion_errors(const ReducedSystem& system, State start) {
+  return motion_errors(system, start, Flow(system).stop_time(start).tau, 19);
 }
 
 }  // namespace
@@ -172,4 +198,106 @@ TEST_CASE("what is not small has no estimate", "[small_mu][domain]") {
   CHECK_THROWS_WITH(small_mu_estimates({HertzLaw{}, 1, {1, 2}}, {1, 1}), Catch::Matchers::Contains("r << 2"));
   CHECK_THROWS_AS(small_mu_estimates({PadeLaw{}, 0.1}, {1, -1}), std::domain_error);
   CHECK_THROWS_AS(coefficient_expansion(PadeLaw{}, infinity), std::domain_error);
+}
+
+TEST_CASE("the motion for small mu is of the orders 4 in u and 2 in ln v at any one k0", "[small_mu][limit]") {
+  for (const Law& law : named_laws()) {
+    for (double k0 : {0.1, 1.0, 10.0}) {
+      CAPTURE(law.name(), k0);
+      const double mu = 0.025;
+      const ReducedSystem system(law, mu), half(law, mu / 2);
+      const State start{1, mu * k0}, half_start{1, mu / 2 * k0};
+      const MotionErrors whole = motion_errors(system, start), whole_of_half = motion_errors(half, half_start);
+      CHECK(std::log2(whole.u / whole_of_half.u) == Approx(4).margin(0.05));
+      CHECK(std::log2(whole.ln_v / whole_of_half.ln_v) == Approx(2).margin(0.05));
+      // As far as thrice the time of the layer. At k0 = 10 its first error in ln v is small, and the next is seen.
+      const MotionErrors layer = motion_errors(system, start, system.sliding_limit(start.v), 60);
+      const MotionErrors layer_of_half = motion_errors(half, half_start, half.sliding_limit(half_start.v), 60);
+      CHECK(std::log2(layer.u / layer_of_half.u) == Approx(4).margin(0.06));
+      CHECK(std::log2(layer.ln_v / layer_of_half.ln_v) == Approx(2).margin(0.2));
+    }
+  }
+}
+
+TEST_CASE("the motion for small mu is of these orders uniformly in k0, less their logarithms", "[small_mu][limit]") {
+  for (const Law& law : paper_laws()) {
+    CAPTURE(law.name());
+    MotionErrors last{infinity, infinity};
+    for (double mu : {0.1, 0.05, 0.025, 0.0125}) {
+      MotionErrors factor;
+      for (double ln_k = -5; ln_k <= 20; ln_k += 0.25) {
+        const MotionErrors errors = motion_errors({law, mu}, {1, mu * std::exp(ln_k)});
+        factor.u = std::max(factor.u, errors.u / std::pow(mu * mu * std::log(mu), 2));
+        factor.ln_v = std::max(factor.ln_v, errors.ln_v / std::pow(mu * std::log(mu), 2));
+      }
+      CAPTURE(mu, factor.u, factor.ln_v);
+      CHECK(factor.u < last.u);
+      CHECK(factor.ln_v < last.ln_v);
+      CHECK(factor.u < 1.1);
+      CHECK(factor.ln_v < 3.1);
+      last = factor;
+    }
+    CHECK(last.u > 0.6);
+    CHECK(last.ln_v > 1.8);
+  }
+}
+
+TEST_CASE("the layer of the Pade ball is Lambert's W", "[small_mu][route]") {
+  using boost::math::lambert_w0;
+  const double mu = 0.01, u0 = -2;
+  for (double k0 : {1e-3, 0.3, 4.0, 150.0}) {
+    const State start{u0, mu * 2 * k0};
+    const double scale = 8 * mu * 2 / (3 * pi);
+    const double z = 3 * pi * k0 / 8;
+    const SmallMuMotion motion({PadeLaw{}, mu}, start);
+    for (double fraction : {0.0, 0.2, 0.7, 0.95}) {
+      CAPTURE(k0, fraction);
+      const double tau = fraction * 3 * pi / 7 * start.v;
+      CHECK(motion.at_time(tau).v == Approx(scale * lambert_w0(z * std::exp(z - 7 * tau / (16 * mu)))).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("the motion for small mu begins at the start, slows down, and stops at E1", "[small_mu][limit]") {
+  for (const Law& law : named_laws()) {
+    for (double mu : {1e-8, 0.01, 0.3, 1.0, 1.6, 2.0, 3.0}) {
+      const ReducedSystem system(law, mu);
+      for (const State start : {State{1, 1}, State{-1, 1e-9}, State{1, 1e-300}, State{1e-300, 1}, State{-1e-300, 1e300},
+                                State{1e290, 1e-300}, State{5e-324, 1}, State{0, 3}, State{-3, 0}}) {
+        const SmallMuMotion motion(system, start);
+        CAPTURE(law.name(), mu, start.u, start.v, motion.stop_time());
+        if (mu < 0.5) CHECK(motion.stop_time() == Approx(estimates(system, start).at("E1")).epsilon(1e-12));
+        SmallMuMotion::Speeds last = motion.at_time(0);
+        CHECK(last.u == start.u);
+        CHECK(last.v == start.v);
+        CHECK(last.ln_v == std::log(start.v));
+        for (double fraction : {1e-12, 1e-4, 0.01, 0.3, 0.5, 0.7, 0.99, 1 - 1e-12}) {
+          const auto speeds = motion.at_time(fraction * motion.stop_time());
+          CHECK(speeds.v >= 0);
+          CHECK(speeds.ln_v <= last.ln_v);
+          CHECK(speeds.u * start.u >= 0);
+          if (mu < 0.5) CHECK(std::abs(speeds.u) <= std::abs(last.u) * (1 + 1e-14));
+          CHECK(std::isfinite(speeds.u));
+          last = speeds;
+        }
+        for (double factor : {1.0, 2.0, infinity}) {
+          const auto rest = motion.at_time(factor * motion.stop_time());
+          CHECK(rest.u == 0);
+          CHECK(rest.v == 0);
+          CHECK(rest.ln_v == -infinity);
+        }
+      }
+    }
+  }
+  CHECK(SmallMuMotion({PadeLaw{}, 0.1}, {0, 0}).at_time(0).v == 0);
+  for (const State start : {State{2, 0}, State{0, 2}}) {
+    const SmallMuMotion motion({PadeLaw{}, 0.1}, start);
+    const Orbit exact = Flow({PadeLaw{}, 0.1}).orbit(start);
+    for (double tau : {0.5, 1.5, 2.6}) {
+      CHECK(motion.at_time(tau).u == Approx(exact.at_time(tau).u).epsilon(1e-14));
+      CHECK(motion.at_time(tau).v == Approx(exact.at_time(tau).v).epsilon(1e-14));
+    }
+  }
+  CHECK_THROWS_AS(SmallMuMotion({PadeLaw{}, 0.1}, {1, -1}), std::domain_error);
+  CHECK_THROWS_AS(SmallMuMotion({PadeLaw{}, 0.1}, {1, 1}).at_time(-1), std::domain_error);
 }

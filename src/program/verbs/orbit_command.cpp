@@ -1,3 +1,4 @@
+#include "contensou/reduction/small_mu.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/instants_option.hpp"
 #include "options/law_option.hpp"
@@ -24,6 +25,9 @@ class OrbitCommand final : public Verb {
              "FILE has that column",
              [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
         ->excludes(at);
+    app.add_flag("--estimate", estimate_,
+                 "beside it the asymptotic solution for small mu: u_estimate, with a relative error of the order mu^4, "
+                 "v_estimate and ln_v_estimate, of the order mu^2");
     output_.add(app);
   }
 
@@ -52,6 +56,7 @@ class OrbitCommand final : public Verb {
                               {"ln_v", motion.ln_v},
                               {"k", motion.k},
                               {"beta", motion.beta}}};
+    if (estimate_) add_estimate(answer, reduction::SmallMuMotion(system, start.state), motion.tau);
     if (time_left_.given()) answer.columns.push_back({"tau_left", lefts});
     if (start.experiment) {
       answer.members["ball"] = members_of_ball(*start.experiment, system.law());
@@ -71,11 +76,25 @@ class OrbitCommand final : public Verb {
         "times in seconds are of a ball: add --ball NAME|FILE.toml, or leave the unit out: tau is in that of --u0");
   }
 
+  static void add_estimate(Answer& answer, const reduction::SmallMuMotion& estimate, const Eigen::ArrayXd& taus) {
+    Eigen::ArrayXd u(taus.size()), v(taus.size()), ln_v(taus.size());
+    for (Eigen::Index row = 0; row < taus.size(); ++row) {
+      const auto speeds = estimate.at_time(taus[row]);
+      u[row] = speeds.u;
+      v[row] = speeds.v;
+      ln_v[row] = speeds.ln_v;
+    }
+    answer.columns.push_back({"u_estimate", u});
+    answer.columns.push_back({"v_estimate", v});
+    answer.columns.push_back({"ln_v_estimate", ln_v});
+  }
+
   StartOptions start_;
   LawOption law_;
   RouteOption route_;
   InstantsOption instants_;
   ArgumentOf<InstantsOption::Times> time_left_;
+  bool estimate_ = false;
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -68,5 +69,43 @@ struct StopEstimate {
 /// @throws std::domain_error  if start is not a state, or r >= Phi'(0)/Psi(0): there k does not tend to 0, and
 ///                            nothing is small
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start);
+
+/// The motion from one start to the leading order for r = gamma mu^2/chi far below r_low = Phi'(0)/Psi(0), for any law
+/// (README (R47)): a layer of sliding, in which w hardly changes, then spin-down, in which w falls in proportion to the
+/// time left and v as a power of it, as one formula for both. It stops at E1.
+///
+/// Accuracy  at one k0, and at fixed fractions of the layer or of the stop time, the relative error of u is O(mu^4), and
+///           that of v, which is the error of ln v, O(mu^2); as k0 -> infinity each has a factor ln^2 mu. Exact at the
+///           start and, but for rounding, on the axes. Any r is taken: near r_low and above it nothing is small, and
+///           the errors are as large as the speeds.
+class SmallMuMotion {
+ public:
+  struct Speeds {
+    double u;
+    double v;     ///< 0 where it underflows; ln_v does not
+    double ln_v;  ///< natural logarithm of v in the unit of the start
+  };
+
+  /// Calls the law as often as coefficient_expansion does.
+  /// @throws std::domain_error  if start is not a state
+  SmallMuMotion(const ReducedSystem& system, State start);
+
+  /// E1 of small_mu_estimates.
+  double stop_time() const;
+
+  /// The speeds tau after the start, without a call of the law; rest from stop_time() on.
+  /// @throws std::domain_error  if tau is negative or not a number
+  Speeds at_time(double tau) const;
+
+ private:
+  class Layer;
+  std::shared_ptr<const Layer> layer_;  ///< null on the axes
+  State start_;
+  double pivoting_;       ///< P
+  double sliding_;        ///< S
+  double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
+  double unit_rate_ = 0;  ///< of s/w0 over tau
+  double ln_k0_ = 0;
+};
 
 }  // namespace contensou::reduction
