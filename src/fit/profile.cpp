@@ -74,8 +74,9 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
   std::vector<VectorXd> starts;
   constexpr std::size_t most = 3;
   for (auto& [cost, parameters] : found) {
-    const bool is_new = std::ranges::none_of(
-        starts, [&](const VectorXd& start) { return (start - parameters).head<2>().cwiseAbs().maxCoeff() < 0.5; });
+    const bool is_new = std::ranges::none_of(starts, [&parameters = parameters](const VectorXd& start) {
+      return (start - parameters).head<2>().cwiseAbs().maxCoeff() < 0.5;
+    });
     if (is_new) starts.push_back(std::move(parameters));
     if (starts.size() == most) break;
   }

@@ -345,7 +345,7 @@ TEST_CASE(
       const auto [figure, maps] = portraits::draw_mapped(portrait, {}, plain);
       const Panel& panel = figure.panels.at(0);
       CAPTURE(mu, factor);
-      const auto at = [&](const reduction::State& state) {
+      const auto at = [&, &maps = maps](const reduction::State& state) {
         const double ln_k = std::log(state.v / (mu * state.u));
         return maps.at(0).place({state.u, state.v, std::log(state.v), ln_k, 1}, {});
       };
@@ -647,7 +647,7 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
     const auto stepped = reduction::integrate_regularised(flow.system(), start).points;
     const double rate = 2 * body.chi / (3 * pi) *
                         (128 * flow.system().r() * flow.system().law().pivoting_moment() * mu + 45 * pi * pi * start.v);
-    const auto instant = [&](const reduction::OrbitPoint& at) {
+    const auto instant = [&, mu = mu](const reduction::OrbitPoint& at) {
       const double left = flow.orbit({at.u, at.v}).stop_time();
       return portraits::PortraitOrbit::Instant{at.u, at.v, at.ln_v, at.ln_v - std::log(mu * at.u), left};
     };

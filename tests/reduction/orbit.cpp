@@ -311,7 +311,7 @@ TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]
         const double end = orbit.chart().log_ratio(orbit.start_coordinate() - 3);
         // Over panels on either side of k = 1.
         const auto [bottom, top] = std::minmax({ln_k0, end});
-        const auto by_quadrature = [&](auto of_point) {
+        const auto by_quadrature = [&, bottom = bottom, top = top](auto of_point) {
           const double kink = std::clamp(0.0, bottom, top);
           return integral_between(system, orbit, bottom, kink, of_point) +
                  integral_between(system, orbit, kink, top, of_point);

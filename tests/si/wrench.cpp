@@ -122,7 +122,7 @@ TEST_CASE("next to a kink the Jacobian is symmetric as far as differences are, a
       for (double k = 0.2; k < 5; k *= std::abs(k - 1) < 0.01 ? 1.0001 : 1.01) {
         const double sliding = std::sqrt(std::max(0.0, std::pow(k * pivoting, 2) - 1));
         const Vector3d motion = patch.creep * Vector3d(sliding, 0, pivoting / patch.radius);
-        const Matrix3d jacobian = arm.asDiagonal() * friction(motion, load, patch).jacobian * arm.asDiagonal();
+        const Matrix3d jacobian = arm.asDiagonal() * friction(motion, normal_force, patch).jacobian * arm.asDiagonal();
         asymmetry = std::max(asymmetry, (jacobian - jacobian.transpose()).norm() / jacobian.norm());
         size = std::max(size, jacobian.norm() * patch.creep / limit);
       }

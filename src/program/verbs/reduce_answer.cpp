@@ -241,7 +241,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   }
   answer.members.update({{"rays", rays}, {"kind", plane.kind()}, {"tau_stop", stop.tau}, {"routes", routes}});
 
-  answer.text = [=, members = answer.members](const Digits& digits) {
+  answer.text = [=, system = system, state = state, members = answer.members](const Digits& digits) {
     const double mu = system.mu(), chi = system.inertia().chi, gamma = system.inertia().gamma;
     const double sliding = 2 * chi / (3 * pi), pivoting = 2 * gamma * mu / (3 * pi), r = system.r();
     std::string text = fmt::format("system      law {}, mu = {}, chi = {}, gamma = {}, r = {}; k = v/({} |u|)\n",
