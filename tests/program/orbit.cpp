@@ -105,6 +105,42 @@ TEST_CASE("beside the state what it is for small mu", "[cli]") {
   }
 }
 
+TEST_CASE("orbit --reduction: canonical coordinates, and the first integral that does not change", "[cli]") {
+  const auto integral_of = [](const std::string& options) {
+    const auto orbit = json_of("orbit --reduction --format json --samples 60 " + options);
+    const auto all = [&](const char* name) { return orbit.at(name); };
+    INFO(options);
+    const double first = all("integral")[0];
+    for (std::size_t i = 0; i < 59; ++i) {
+      const double u = all("u")[i], v = all("v")[i], q = all("q")[i];
+      CHECK(q * u == Approx(v).epsilon(1e-14).margin(0));
+      CHECK(all("p")[i] == all("ln_v")[i]);
+      CHECK(all("integral")[i].get<double>() == Approx(first).epsilon(0).margin(1e-12));
+    }
+    CHECK(all("p")[59] == "-inf");
+    CHECK(all("integral")[59] == "inf");
+    return first;
+  };
+  for (const std::string law : {"--law pade --mu 0.9", "--law exact --mu 0.9", "--law uniform --body disc"}) {
+    const double one = integral_of(law + " --u0 -0.5 --v0 2"), three = integral_of(law + " --u0 -1.5 --v0 6");
+    CHECK(three - one == Approx(std::log(3)).epsilon(1e-13));
+  }
+  // p goes on where v underflows.
+  const auto small = json_of("orbit --reduction --mu 0.01 --u0 1 --v0 1 --time-left 80 --format json");
+  CHECK(small.at("v")[0] == 0);
+  CHECK(small.at("p")[0].get<double>() < -800);
+  CHECK(small.at("integral")[0].get<double>() ==
+        Approx(json_of("reduce --mu 0.01 --u0 1 --v0 1 --format json").at("first_integral").get<double>())
+            .epsilon(0)
+            .margin(1e-12));
+  const auto ray =
+      json_of("orbit --reduction --law uniform --body disc --u0 1 --v0 0.653001789205597639 --samples 3 --format json");
+  CHECK(ray.at("integral") == nlohmann::json::parse(R"(["inf", "inf", "inf"])"));
+  const auto axis = rows_of(run_program("orbit --reduction --mu 0.3 --u0 0 --v0 1 --at 0").out);
+  CHECK(std::vector(axis[0].end() - 3, axis[0].end()) == std::vector<std::string>{"q", "p", "integral"});
+  CHECK(std::vector(axis[1].end() - 3, axis[1].end()) == std::vector<std::string>{"inf", "0", "inf"});
+}
+
 TEST_CASE("a ball has seconds in its last column", "[cli]") {
   const auto rows = rows_of(run_program("orbit --ball pool --samples 2").out);
   REQUIRE(rows.size() == 3);

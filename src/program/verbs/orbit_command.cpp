@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/instants_option.hpp"
@@ -11,6 +17,24 @@
 namespace contensou::program {
 
 namespace {
+
+/// q = v/u, p = ln v and the first integral on every row. Where the integral has no value, on the axes, on an
+/// invariant ray and at rest, it is infinite.
+std::array<Column, 3> canonical_columns(const GivenStart& start, const reduction::OrbitColumns& motion) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const reduction::Flow flow(start.system);
+  Eigen::ArrayXd integral = Eigen::ArrayXd::Constant(motion.rows(), infinity);
+  for (Eigen::Index i = 0; i < motion.rows(); ++i) {
+    const bool on_ray = std::ranges::any_of(flow.terminal().rays, [k = motion.k[i]](const auto& ray) {
+      return std::abs(k / ray.k - 1) <= 4 * std::numeric_limits<double>::epsilon();
+    });
+    if (on_ray || motion.u[i] == 0 || !std::isfinite(motion.ln_v[i])) continue;
+    integral[i] = flow.log_first_integral(motion.u[i], motion.ln_v[i]);
+  }
+  const double factor = start.system.mu() * (start.state.u < 0 ? -1 : 1);
+  // + 0: not -0
+  return {{{"q", factor * motion.k + 0.0}, {"p", motion.ln_v}, {"integral", integral}}};
+}
 
 class OrbitCommand final : public Verb {
  public:
@@ -28,6 +52,9 @@ class OrbitCommand final : public Verb {
     app.add_flag("--estimate", estimate_,
                  "beside it the asymptotic solution for small mu: u_estimate, with a relative error of the order mu^4, "
                  "v_estimate and ln_v_estimate, of the order mu^2");
+    app.add_flag("--reduction", reduction_,
+                 "and columns q = v/u, p = ln v, in which the symmetry shifts p alone, and integral, the first "
+                 "integral ln |u| - ln w(k)");
     output_.add(app);
   }
 
@@ -64,6 +91,9 @@ class OrbitCommand final : public Verb {
       const bool given = at != nullptr && at->in_seconds;  // as they were typed, not there and back
       answer.columns.push_back({"t", given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds))});
     }
+    if (reduction_) {
+      for (Column& column : canonical_columns(start, motion)) answer.columns.push_back(std::move(column));
+    }
     output.write(answer);
     return ExitStatus::done;
   }
@@ -95,6 +125,7 @@ class OrbitCommand final : public Verb {
   InstantsOption instants_;
   ArgumentOf<InstantsOption::Times> time_left_;
   bool estimate_ = false;
+  bool reduction_ = false;
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};
 };
 
