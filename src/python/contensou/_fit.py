@@ -25,7 +25,7 @@ class Estimate(NamedTuple):
 
     @property
     def determined(self) -> bool:
-        return np.isfinite(self.standard_error)
+        return bool(np.isfinite(self.standard_error))
 
 
 class Combination(NamedTuple):

@@ -267,8 +267,8 @@ def stop_time(
     if len(values) >= 1000:
         ends = [Flow(float(value), law, body) for value in (values[0], values[-1])]  # they refuse what is no mu
         every = np.empty(u.shape)
-        ends[0]._core.stop_times_of_mus(
-            *(np.ascontiguousarray(each, float) for each in (mu, u, v)), every)
+        mus, us, vs = (np.ascontiguousarray(each, float) for each in (mu, u, v))
+        ends[0]._core.stop_times_of_mus(mus, us, vs, every)
         taus[...] = every
         return taus[()] if out is None else out
     found = [Flow(float(value), law, body).stop_time(u=u[group == i], v=v[group == i], threads=threads)
