@@ -26,7 +26,7 @@ const std::vector<Output> outputs{
     {"law --k 1", "a law", of_answers},
     {"check --mu 0.3 --u0 1 --v0 1", "a table of checks", of_answers},
     {"terminal --mu 0.3", "a terminal ratio", {"txt", "csv", "json", "svg", "pdf", "png", "eps", "gp", "tex"}},
-    {"reduce --mu 0.3 --u0 1 --v0 1", "a reduction", of_answers},
+    {"reduce --mu 0.3 --u0 1 --v0 1", "a reduction", {"txt", "csv", "json", "svg", "pdf", "png", "eps", "gp", "tex"}},
     {"fit - --ball pool --noise slip=0.1,spin=1 --free slip,spin", "a fit", {"txt", "csv", "json", "toml"}},
     {"fit --plan --ball pool --fps 100 --until 0.5 --noise slip=0.01,spin=1", "a plan", of_answers},
     {"roll --ball pool --samples 3", "a motion", of_answers},

@@ -176,3 +176,20 @@ TEST_CASE("reduce rejects what makes no sense", "[cli]") {
   check_rejected(system + " --u0 1 --v0 1 --param sin=1", "'sin' cannot name a parameter");
   check_rejected(system + " --u0 1 --v0 1 --param a=1 --param a=2", "'a' is given twice");
 }
+
+TEST_CASE("reduce draws plane and strip where the ending is a picture's", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string file = scratch.file("reduce.svg");
+  CHECK(run_program("reduce --mu 0.3 --u0 -1 --v0 1 --size single -o " + file).status == 0);
+  CHECK_THAT(read_file(file), Contains("orbit of the start") && Contains("ln 2"));
+  const Run drawn = reduce("u' = -2*u; v' = -v", {"--u0", "1", "--v0", "1", "--format", "gp"});
+  CHECK(drawn.status == 0);
+  CHECK_THAT(drawn.out, Contains("orbits of other sectors"));
+  const Run none =
+      reduce("u' = -v - 0.3*sign(u); v' = u - 0.1*v^3 - 0.2", {"--u0", "1", "--v0", "1", "--format", "svg"});
+  CHECK(none.status == 1);
+  CHECK(none.out.empty());
+  CHECK_THAT(none.err, Contains("no scaling was found"));
+  check_rejected("reduce --mu 0.3 --u0 0 --v0 1 --format svg", "another start is needed");
+  check_rejected("reduce --mu 0.3 --u0 1 --v0 1 --dpi 300", "--dpi: text is no picture");
+}

@@ -1,8 +1,11 @@
+#include <cstdio>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "contensou/portraits/reduction_figure.hpp"
 #include "input/planar_system.hpp"
+#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
@@ -30,22 +33,47 @@ class ReduceCommand final : public Verb {
                     true);
     start_.add(app);
     law_.add(app);
+    figure_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
-    const auto [answer, found] = read();
-    output.write(answer);
-    return found ? ExitStatus::done : ExitStatus::check_failed;
+    figure_.require_picture(output);
+    if (system_.given()) return run_system(output);
+    if (parameters_.given()) throw BadInput("--param is for the formulas of --system: add it, or leave it out");
+    const GivenStart start = start_.read(law_.read(start_.standard_law()));
+    if (!output.picture()) return write(reduce_answer(start), output);
+    return draw(portraits::reduction_figure(reduction::Flow(start.system), start.state, figure_.size()), output);
   }
 
  private:
-  ReduceAnswer read() {
-    if (!system_.given()) {
-      if (parameters_.given()) throw BadInput("--param is for the formulas of --system: add it, or leave it out");
-      return reduce_answer(start_.read(law_.read(start_.standard_law())));
+  ExitStatus run_system(const Output& output) {
+    const reduction::PlanarField field = read_field();
+    const Eigen::Vector2d start = start_.read_point();
+    if (!output.picture()) return write(reduce_answer(field, system_.text(), start), output);
+    const reduction::PlanarSymmetries found = reduction::find_symmetries(field, start);
+    if (!found.scaling) {
+      fmt::print(stderr,
+                 "contensou: --system: no scaling was found, so there is nothing to draw; without a picture "
+                 "reduce says what was found\n");
+      return ExitStatus::check_failed;
     }
+    const reduction::PlanarReduction plane(field, *found.scaling, start, found.residual);
+    return draw(portraits::reduction_figure(field, plane, start, system_.text(), figure_.size()), output);
+  }
+
+  static ExitStatus write(const ReduceAnswer& reduced, const Output& output) {
+    output.write(reduced.answer);
+    return reduced.found ? ExitStatus::done : ExitStatus::check_failed;
+  }
+
+  ExitStatus draw(portraits::Figure figure, const Output& output) {
+    output.write({figure_.apply(std::move(figure), output.format)});
+    return ExitStatus::done;
+  }
+
+  reduction::PlanarField read_field() {
     if (law_.given()) throw BadInput("--system and --law exclude each other: friction is in the formulas");
     std::map<std::string, double> parameters;
     for (const auto& [name, value] : parameters_.all()) {
@@ -53,21 +81,19 @@ class ReduceCommand final : public Verb {
         throw BadInput(fmt::format("--param: {} is given twice", quotation(name)));
       }
     }
-    const reduction::PlanarField field = [&] {
-      try {
-        return parse_planar_system(system_.text(), parameters);
-      } catch (const BadInput& error) {
-        throw BadInput(fmt::format("--system: {}", error.what()));
-      }
-    }();
-    return reduce_answer(field, system_.text(), start_.read_point());
+    try {
+      return parse_planar_system(system_.text(), parameters);
+    } catch (const BadInput& error) {
+      throw BadInput(fmt::format("--system: {}", error.what()));
+    }
   }
 
   Argument system_;
   ArgumentOf<std::pair<std::string, double>> parameters_;
   StartOptions start_;
   LawOption law_;
-  OutputOptions output_{{{"a reduction", answer_formats("text")}}};
+  FigureOptions figure_;
+  OutputOptions output_{{{"a reduction", with_pictures(answer_formats("text"))}}};
 };
 
 const RegisteredVerb<ReduceCommand> reduce_verb("reduce", "The symmetry of a planar system found, its motion solved",

@@ -1,0 +1,132 @@
+#include "contensou/portraits/reduction_figure.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "figures.hpp"
+
+using namespace contensou;
+using namespace contensou::portraits;
+using Eigen::Vector2d;
+using std::numbers::ln2, std::numbers::pi;
+
+namespace {
+
+/// The lines of one orbit and its copies, from the smallest on; the start's own is the fourth.
+std::vector<const Lines*> by_size(const Panel& panel) {
+  std::vector<const Lines*> all;
+  const auto first = &layer(panel, "its copies");
+  const auto last = &layer(panel, "orbit of the start");
+  for (const Lines* lines = first; lines <= last; ++lines) all.push_back(lines);
+  REQUIRE(all.size() == 7);
+  std::rotate(all.begin() + 3, all.end() - 1, all.end());
+  return all;
+}
+
+/// That the strip's lines are shifts by ln 2, and of one colour with those of the plane.
+void check_shifts(const Figure& figure) {
+  REQUIRE(figure.panels.size() == 2);
+  const auto in_plane = by_size(figure.panels[0]), in_strip = by_size(figure.panels[1]);
+  for (std::size_t i = 0; i < 7; ++i) {
+    CHECK(in_plane[i]->stroke.colour.rgb == in_strip[i]->stroke.colour.rgb);
+    CHECK((in_strip[i]->stroke.width > 2) == (i == 3));
+    REQUIRE(in_strip[i]->lines.size() == in_strip[3]->lines.size());
+    for (std::size_t j = 0; j < in_strip[i]->lines.size(); ++j) {
+      const Polyline &line = in_strip[i]->lines[j], &own = in_strip[3]->lines[j];
+      REQUIRE(line.size() == own.size());
+      for (std::size_t n = 0; n < line.size(); ++n) {
+        CHECK(line[n].x == own[n].x);
+        CHECK(std::abs(line[n].y - own[n].y - (static_cast<double>(i) - 3) * ln2) < 1e-9);
+      }
+    }
+  }
+}
+
+/// Of a linear system, which SVD has nothing to do with.
+Figure figure_of(const Eigen::Matrix2d& matrix, const Vector2d& start) {
+  const reduction::PlanarField field = [matrix](const Vector2d& x) { return Vector2d(matrix * x); };
+  const reduction::Generator scaling{0, Eigen::Matrix2d::Identity(), Vector2d::Zero()};
+  return reduction_figure(field, reduction::PlanarReduction(field, scaling, start), start, "linear");
+}
+
+Eigen::Matrix2d matrix(double a, double b, double c, double d) { return (Eigen::Matrix2d() << a, b, c, d).finished(); }
+
+}  // namespace
+
+TEST_CASE("a copy in plane and strip is the motion from the start so many times as large", "[route]") {
+  for (const char* law : {"exact", "pade", "uniform"}) {
+    for (const reduction::State start : {reduction::State{1, 1}, {-0.2, 3}, {5, 0.01}}) {
+      const double mu = law == std::string("uniform") ? 1 : 0.3;
+      const reduction::Inertia body = mu == 1 ? reduction::Inertia{.chi = 1, .gamma = 2} : reduction::Inertia{};
+      const reduction::Flow flow({*reduction::find_law(law), mu, body});
+      const Figure figure = reduction_figure(flow, start);
+      INFO(law << " from " << start.u << ", " << start.v);
+      check_shifts(figure);
+      const auto in_plane = by_size(figure.panels[0]), in_strip = by_size(figure.panels[1]);
+      int seen = 0;
+      for (std::size_t i = 0; i < 7; ++i) {
+        const double factor = std::exp2(static_cast<double>(i) - 3);
+        const reduction::Orbit orbit = flow.orbit({factor * start.u, factor * start.v});
+        const Polyline &plane = in_plane[i]->lines[0], &strip = in_strip[i]->lines[0];
+        REQUIRE(plane.size() == strip.size());
+        for (std::size_t n = 401; n < plane.size(); n += 4) {  // after the start
+          const auto at = orbit.at_log_ratio(strip[n].x);
+          if (at.v < 1e-200 || std::abs(at.k / std::exp(strip.back().x) - 1) < 1e-3) continue;
+          CHECK(strip[n].y == Approx(at.ln_v).epsilon(0).margin(1e-9));
+          CHECK(plane[n].x == Approx(at.u).epsilon(1e-9));
+          CHECK(plane[n].y == Approx(at.v).epsilon(1e-9));
+          ++seen;
+        }
+        CHECK(plane[400].x == Approx(factor * start.u).epsilon(1e-12));
+        CHECK(plane[400].y == Approx(factor * start.v).epsilon(1e-12));
+        CHECK(plane.front().y > plane.back().y);
+      }
+      CHECK(seen > 50);
+    }
+  }
+}
+
+TEST_CASE("a node, a saddle, a focus and a centre are reduced as is known of them", "[exact]") {
+  // u = v^2, u v = 1 and r = exp(-a angle), up to a constant on each orbit.
+  const auto check = [](const Figure& figure, auto integral, bool inwards) {
+    check_shifts(figure);
+    const auto lines = by_size(figure.panels[0]);
+    for (const Lines* copy : lines) {
+      const Polyline& line = copy->lines.front();
+      for (std::size_t n = 0; n < line.size(); n += 7) {
+        CHECK(integral(line[n]) == Approx(integral(line[line.size() / 2])).epsilon(1e-9));
+      }
+      if (inwards) CHECK(std::hypot(line.front().x, line.front().y) > std::hypot(line.back().x, line.back().y));
+    }
+  };
+  const auto node = figure_of(matrix(-2, 0, 0, -1), {1, 1});
+  check(
+      node, [](Point x) { return x.x / (x.y * x.y); }, true);
+  CHECK(layer(node.panels[0], "orbits of other sectors").lines.size() == 3);
+  CHECK(layer(node.panels[1], "rays").lines.size() == 5);  // -pi and pi are the same
+  check(
+      figure_of(matrix(1, 0, 0, -1), {-2, 0.5}), [](Point x) { return x.x * x.y; }, false);
+  const double a = 0.1;
+  const auto angle = [](Point x) { return std::atan2(x.y, x.x) + (x.y < 0 ? 2 * pi : 0); };
+  check(
+      figure_of(matrix(-a, -1, 1, -a), {-1, -1}),
+      [&](Point x) { return std::hypot(x.x, x.y) * std::exp(a * angle(x)); }, true);
+  check(
+      figure_of(matrix(0, -1, 1, 0), {1, -1}), [](Point x) { return std::hypot(x.x, x.y); }, false);
+}
+
+TEST_CASE("what the symmetry moves along itself has no strip", "[limit]") {
+  const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
+  for (const reduction::State start : {reduction::State{0, 1}, {1, 0}, {0, 0}}) {
+    CHECK_THROWS_AS(reduction_figure(flow, start), std::domain_error);
+  }
+  const reduction::Flow puck({*reduction::find_law("uniform"), 1, {.chi = 1, .gamma = 2}});
+  CHECK_THROWS_AS(reduction_figure(puck, {1, puck.terminal().rays[0].k}), std::domain_error);
+  CHECK_THROWS_AS(figure_of(matrix(-1, 0, 0, -1), {1, 1}), std::domain_error);  // a star
+  CHECK_THROWS_AS(figure_of(matrix(-1, 0, 0, -2), {0, 1}), std::domain_error);
+}
