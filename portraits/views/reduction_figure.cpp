@@ -2,40 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
 #include "views/palette.hpp"
+#include "views/reduced_orbits.hpp"
 
 namespace contensou::portraits {
 
-namespace {
+using std::numbers::ln2;
 
-using Eigen::Vector2d;
-using std::numbers::ln2, std::numbers::pi;
-
-constexpr int most_doublings = 3;           ///< of the start's orbit, and halvings
-constexpr double below = 4.5, above = 3.2;  ///< the start, of the strip in p
-constexpr double beyond = 12;               ///< the start, of lines in p
-constexpr double widths = 2.2;              ///< of the plane's window, in those of the start
-
-/// What a figure is drawn from: lines (x, p) of the strip, in the way of the motion, and where the plane has them.
-struct Reduced {
-  Panel plane = {}, strip = {};
-  Point start;                                ///< of the strip
-  std::vector<Polyline> orbit;                ///< of the start
-  std::vector<Polyline> elsewhere = {};       ///< orbits of other sectors
-  std::vector<double> rays = {};              ///< their x
-  std::function<Point(Point)> in_plane = {};  ///< of a point of the strip
-};
-
-Figure drawn(Reduced from, const std::string& title, const AskedSize& size) {
+Figure draw(ReducedOrbits from, const std::string& title, const AskedSize& size) {
+  constexpr int most_doublings = 3;  // of the start's orbit, and halvings
   const Palette colours = palette(false);
   const auto mapped = [&](Polyline line) {
     std::ranges::transform(line, line.begin(), from.in_plane);
@@ -64,7 +46,7 @@ Figure drawn(Reduced from, const std::string& title, const AskedSize& size) {
     return line;
   };
   Lines rays{{}, {colours.invariant, 1.2, true}, "rays"};
-  for (double x : from.rays) rays.lines.push_back(upright(x, -beyond, beyond));
+  for (double x : from.rays) rays.lines.push_back(upright(x, -orbits_beyond, orbits_beyond));
   if (!rays.lines.empty()) {
     from.strip.lines.push_back(rays);
     std::ranges::transform(rays.lines, rays.lines.begin(), mapped);
@@ -102,19 +84,17 @@ Figure drawn(Reduced from, const std::string& title, const AskedSize& size) {
   return figure;
 }
 
-[[noreturn]] void refuse_ray() {
+void refuse_ray() {
   throw std::domain_error(
       "the start lies on an axis or on an invariant ray, which the symmetry moves along itself: another start is "
       "needed");
 }
 
-}  // namespace
-
 Figure reduction_figure(const reduction::Flow& flow, reduction::State start, const AskedSize& size) {
   const double ln_u = std::log(std::abs(start.u)), ln_v = std::log(start.v), ln_mu = std::log(flow.system().mu());
   if (!std::isfinite(ln_u) || !std::isfinite(ln_v)) refuse_ray();
   const double ln_k = ln_v - ln_mu - ln_u, sign = start.u < 0 ? -1 : 1;
-  Reduced from{.start = {ln_k, ln_v}, .orbit = {{}}};
+  ReducedOrbits from{.start = {ln_k, ln_v}, .orbit = std::vector<Polyline>(1)};
   for (const auto& ray : flow.terminal().rays) {
     from.rays.push_back(std::log(ray.k));
     if (std::abs(from.rays.back() - ln_k) < 1e-12) refuse_ray();
@@ -125,87 +105,28 @@ Figure reduction_figure(const reduction::Flow& flow, reduction::State start, con
     const double x = curve.chart().log_ratio(there);
     return Point{x, integral + curve.ln_w(there) + ln_mu + x};
   };
-  constexpr int upstream = 400, most = 1200;
+  // Finer about k = 1. For small mu u falls while k falls by thousands of powers of e.
+  constexpr int upstream = 400, most = 4000;
   for (int i = upstream; i > 0; --i) from.orbit[0].push_back(at(xi + 0.05 * i));
-  // For small mu u falls while k falls by hundreds of powers of e: steps grow.
-  double step = 0.05, there = xi;
-  for (int i = 0; i < most && from.orbit[0].back().y - from.orbit[0].back().x > ln_u + ln_mu - beyond; ++i) {
+  double there = xi;
+  for (int i = 0; i < most && from.orbit[0].back().y - from.orbit[0].back().x > ln_u + ln_mu - orbits_beyond; ++i) {
     from.orbit[0].push_back(at(there));
-    there -= step *= 1.01;
+    there -= 0.05 + 0.02 * std::max(0.0, std::abs(there) - 8);
   }
   from.in_plane = [=](Point point) { return Point{sign * std::exp(point.y - point.x - ln_mu), std::exp(point.y)}; };
-  const double width = widths * start.u;
+  const double width = plane_widths * start.u;
   from.plane.x = {"{/:Italic u}", std::min(width, 0.0), std::max(width, 0.0), false, {}};
-  from.plane.y = {"{/:Italic v}", 0, widths * start.v, false, {}};
+  from.plane.y = {"{/:Italic v}", 0, plane_widths * start.v, false, {}};
   from.strip.x = {"ln {/:Italic k},  {/:Italic k = v}/({/:Italic μ}|{/:Italic u}|)",
                   std::min(ln_k, 0.0) - 4,
                   std::max(ln_k, 0.0) + 3,
                   false,
                   {}};
-  from.strip.y = {"{/:Italic p} = ln {/:Italic v}", ln_v - below, ln_v + above, false, {}};
-  return drawn(std::move(from),
-               fmt::format("The reduction of (2.6),  {{/:Italic μ}} = {:.3g},  law: {}", flow.system().mu(),
-                           literal(flow.system().law().name())),
-               size);
-}
-
-Figure reduction_figure(const reduction::PlanarField& field, const reduction::PlanarReduction& plane,
-                        const Vector2d& start, const std::string& name, const AskedSize& size) {
-  if (plane.kind() == "bordered") throw std::domain_error("the field has borders or jumps: its sectors are not drawn");
-  if (start == plane.centre() || plane.star()) refuse_ray();
-  const auto [q, p, slope] = plane.canonical(start);
-  const auto level = [&](double angle) { return plane.first_integral(plane.point(angle, 0)); };
-  const double integral = plane.first_integral(start);  // throws on a ray
-  /// From angle to angle, in the way of the motion.
-  const auto line = [&](const std::vector<double>& angles, double constant) {
-    Polyline points;
-    for (double angle : angles) points.push_back({angle, constant - level(angle)});
-    const Point &a = points[points.size() / 2], &b = points[points.size() / 2 + 1];
-    const Vector2d here = plane.point(a.x, a.y), next = plane.point(b.x, b.y);
-    if (field(here).dot(next - here) < 0) std::ranges::reverse(points);
-    return points;
-  };
-  Reduced from{.start = {q, p}, .orbit = {}};
-  std::vector<double> angles;
-  if (plane.rays().empty()) {
-    // Turns are copies of one another, too.
-    constexpr int pieces = 400;
-    constexpr double margin = 1e-9;  // L goes on from 2 pi to 0 by a turn
-    for (int i = 0; i <= pieces; ++i) angles.push_back(margin + (2 * pi - 2 * margin) * i / pieces);
-    if (q < 0) from.start.x += 2 * pi;
-    const Polyline turn = line(angles, integral);
-    const double growth = std::abs(turn.back().y - turn.front().y);
-    const int turns = growth < 1e-9 ? 0 : static_cast<int>(std::min(40.0, std::ceil(beyond / growth)));
-    for (int i = -turns; i <= turns; ++i) {
-      from.orbit.push_back(turn);
-      for (Point& point : from.orbit.back()) point.y += i * growth;
-    }
-  }
-  for (std::size_t i = 0; i < plane.rays().size(); ++i) {
-    const bool last = i + 1 == plane.rays().size();
-    const double left = plane.rays()[i].q, right = last ? plane.rays()[0].q + 2 * pi : plane.rays()[i + 1].q;
-    const double middle = (left + right) / 2, start_q = q < left ? q + 2 * pi : q;
-    from.rays.push_back(left);
-    if (last) from.rays.push_back(right);
-    angles.clear();
-    constexpr int half = 500;  // closer and closer to the rays
-    for (int j = -half; j <= half; ++j) angles.push_back(left + (right - left) / (1 + std::exp(-0.05 * j)));
-    const bool of_start = start_q < right && (i == 0 || q > left || last) && start_q > left;
-    if (of_start) from.start.x = start_q;
-    (of_start ? from.orbit : from.elsewhere).push_back(line(angles, of_start ? integral : p + level(middle)));
-  }
-  from.in_plane = [plane](Point point) {
-    const Vector2d x = plane.point(point.x, point.y);
-    return Point{x[0], x[1]};
-  };
-  const Vector2d centre = plane.centre();
-  const double half = widths * (start - centre).lpNorm<Eigen::Infinity>(), first = from.rays.empty() ? 0 : from.rays[0];
-  from.plane.x = {"{/:Italic u}", centre[0] - half, centre[0] + half, false, {}};
-  from.plane.y = {"{/:Italic v}", centre[1] - half, centre[1] + half, false, {}};
-  from.plane.to_scale = true;
-  from.strip.x = {"{/:Italic q}, the angle", first, first + 2 * pi, false, {}};
-  from.strip.y = {"{/:Italic p}", p - below, p + above, false, {}};
-  return drawn(std::move(from), "The reduction of  " + literal(name), size);
+  from.strip.y = {"{/:Italic p} = ln {/:Italic v}", ln_v - strip_below, ln_v + strip_above, false, {}};
+  return draw(std::move(from),
+              fmt::format("The reduction of (2.6),  {{/:Italic μ}} = {:.3g},  law: {}", flow.system().mu(),
+                          literal(flow.system().law().name())),
+              size);
 }
 
 }  // namespace contensou::portraits
