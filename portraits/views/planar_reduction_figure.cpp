@@ -19,7 +19,13 @@ Figure reduction_figure(const reduction::PlanarField& field, const reduction::Pl
   if (start == plane.centre() || plane.star()) refuse_ray();
   const auto [q, p, slope] = plane.canonical(start);
   const auto level = [&](double angle) { return plane.first_integral(plane.point(angle, 0)); };
-  const double integral = plane.first_integral(start);  // throws on a ray
+  const double integral = [&] {
+    try {
+      return plane.first_integral(start);
+    } catch (const std::domain_error&) {
+      refuse_ray();
+    }
+  }();
   /// From angle to angle, in the way of the motion.
   const auto line = [&](const std::vector<double>& angles, double constant) {
     Polyline points;

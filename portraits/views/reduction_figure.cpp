@@ -55,7 +55,7 @@ Figure draw(ReducedOrbits from, const std::string& title, const AskedSize& size)
   if (!from.elsewhere.empty()) add(from.elsewhere, 0, {colours.isochrone, 1.2}, "orbits of other sectors");
   for (int i = -most_doublings; i <= most_doublings; ++i) {
     const double place = 0.5 + 0.5 * i / most_doublings;
-    const std::string legend = i == -most_doublings ? "its copies, 1/8 to 8 times as large" : "";
+    const std::string legend = i == -most_doublings ? "its copies by {/:Italic X}, ln 2 apart" : "";
     if (i != 0) add(from.orbit, i * ln2, {viridis(0.85 * place), 1.5}, legend);
   }
   add(from.orbit, 0, {colours.highlight, 3.2}, "orbit of the start");

@@ -132,6 +132,23 @@ TEST_CASE("a node, a saddle, a focus and a centre are reduced as is known of the
       figure_of(matrix(0, -1, 1, 0), {1, -1}), [](Point x) { return std::hypot(x.x, x.y); }, false);
 }
 
+TEST_CASE("a scaling with two weights moves along curves", "[exact]") {
+  // u' = v, v' = -sign(u): |u| + v^2/2 is constant, and X = t d/dt + 2 u d/du + v d/dv.
+  const reduction::PlanarField field = [](const Vector2d& x) {
+    return Vector2d(x[1], x[0] > 0 ? -1 : x[0] < 0 ? 1 : 0);
+  };
+  const reduction::Generator scaling{0.5, matrix(1, 0, 0, 0.5), Vector2d::Zero()};
+  const Vector2d start(1, 2);
+  const Figure figure = reduction_figure(field, reduction::PlanarReduction(field, scaling, start), start, "weights");
+  check_shifts(figure);
+  const auto in_plane = by_size(figure.panels[0]);
+  for (std::size_t i = 0; i < 7; ++i) {
+    for (const Point& x : in_plane[i]->lines[0]) {
+      CHECK(std::abs(x.x) + x.y * x.y / 2 == Approx(3 * std::exp2(static_cast<double>(i) - 3)).epsilon(1e-9));
+    }
+  }
+}
+
 TEST_CASE("what the symmetry moves along itself has no strip", "[limit]") {
   const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
   for (const reduction::State start : {reduction::State{0, 1}, {1, 0}, {0, 0}}) {
