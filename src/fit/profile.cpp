@@ -72,7 +72,7 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
   std::ranges::sort(found, {}, [](const auto& each) { return each.first; });
   // The best, and the best of another part.
   std::vector<VectorXd> starts;
-  constexpr std::size_t most = 3;
+  constexpr std::size_t most = 6;
   for (auto& [cost, parameters] : found) {
     const bool is_new = std::ranges::none_of(starts, [&parameters = parameters](const VectorXd& start) {
       return (start - parameters).head<2>().cwiseAbs().maxCoeff() < 0.5;
