@@ -91,16 +91,21 @@ std::string line_on(const Estimate& estimate, const Digits& digits) {
   if (!estimate.free)
     return fmt::format("{:<{}}{:>{}}  given\n", name, name_width, number(estimate.value), digits.width());
   const auto& [low, high] = estimate.interval;
-  const bool is_size = static_cast<int>(estimate.parameter) < fit::shared_parameters;
-  const bool no_end = !estimate.determined() && std::isinf(high) && (is_size ? low == 0 : std::isinf(low));
-  const std::string interval = no_end ? "not determined" : fmt::format("{} to {}", number(low), number(high));
+  const std::string interval = fmt::format("{} to {}", number(low), number(high));
   if (!estimate.determined()) {
-    return fmt::format("{:<{}}{:>{}}{:>12}{:>12}   {}\n", name, name_width, "?", digits.width(), "?", "", interval);
+    const bool from_below = std::isinf(low) || low == 0, from_above = std::isinf(high);
+    const std::string known = from_below && from_above ? ""
+                              : from_above             ? fmt::format(": {} or more", number(low))
+                              : std::isinf(low)        ? fmt::format(": {} or less", number(high))
+                                                       : ": " + interval;
+    return fmt::format("{:<{}}{:>{}}{:>12}{:>12}   not determined{}\n", name, name_width, "?", digits.width(), "?", "",
+                       known);
   }
+  const bool with_error = !estimate.skewed();
   const double percent = 100 * estimate.standard_error / std::abs(estimate.value);
   return fmt::format("{:<{}}{:>{}}{:>12}{:>12}   {}\n", name, name_width, number(estimate.value), digits.width(),
-                     Digits{std::min(digits.count, 3)}(estimate.standard_error / unit),
-                     std::isfinite(percent) ? fmt::format("{:.2g} %", percent) : "", interval);
+                     with_error ? Digits{std::min(digits.count, 3)}(estimate.standard_error / unit) : "",
+                     with_error && std::isfinite(percent) ? fmt::format("{:.2g} %", percent) : "", interval);
 }
 
 std::string table_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const Digits& digits) {

@@ -121,8 +121,9 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
     panel->x.high = last > first ? last : first + 1;
   }
   widen(y, 0.06);
-  pair.residuals.y.low = -1.1 * residual_border;
-  pair.residuals.y.high = 1.1 * residual_border;
+  // Room for an arrow at the border, also where the panel is flat.
+  pair.residuals.y.low = -1.25 * residual_border;
+  pair.residuals.y.high = 1.25 * residual_border;
   pair.residuals.y.ticks = {{-3, "−3"}, {0, "0"}, {3, "3"}};
   pair.residuals.lines.push_back({{{{pair.residuals.x.low, 0}, {pair.residuals.x.high, 0}}}, {fit_colour, 1.2}, ""});
   return pair;
@@ -162,11 +163,13 @@ Panel confidence_panel(const fit::Fit& fit) {
   return panel;
 }
 
-/// A number with its error.
+/// A number with its error, or with its interval where no single error tells that.
 std::string with_error(const fit::Estimate& estimate, double unit) {
-  const double error = estimate.standard_error * unit;
   if (!estimate.free) return fmt::format("{:.4g}", estimate.value * unit);
-  return std::isfinite(error) ? fmt::format("{:.4g} ± {:.2g}", estimate.value * unit, error) : "not determined";
+  if (!estimate.determined()) return "not determined";
+  const auto& [low, high] = estimate.interval;
+  if (estimate.skewed()) return fmt::format("{:.3g} to {:.3g}", low * unit, high * unit);
+  return fmt::format("{:.4g} ± {:.2g}", estimate.value * unit, estimate.standard_error * unit);
 }
 
 /// What was found, in words.

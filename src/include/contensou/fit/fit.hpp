@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -62,6 +63,12 @@ struct Estimate {
   bool free;
 
   bool determined() const { return std::isfinite(standard_error); }
+
+  /// Whether one end of the interval is more than twice as far as the other: then no single error tells it.
+  bool skewed() const {
+    const double below = value - interval.low, above = interval.high - value;
+    return std::max(below, above) > 2 * std::min(below, above);
+  }
 };
 
 /// The noise of an observable.
