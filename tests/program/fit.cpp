@@ -215,8 +215,7 @@ TEST_CASE("three values of slip bound the friction and leave patch and spin open
 }
 
 TEST_CASE("an interval that reaches much farther to one side has no single error, an open one no end", "[cli]") {
-  const std::string text =
-      run_program("fit - --ball pool --noise slip=0.01", "t,slip\n0,1\n0.1,0.3\n0.2,0\n").out;
+  const std::string text = run_program("fit - --ball pool --noise slip=0.01", "t,slip\n0,1\n0.1,0.3\n0.2,0\n").out;
   std::smatch found;
   REQUIRE(std::regex_search(text, found, std::regex("\npatch_radius, mm +[?] +[?] +not determined.*\n")));
   CHECK(std::regex_search(text, std::regex("\nspin, rad/s +[?] +[?] +not determined.*\n")));
