@@ -120,7 +120,7 @@ program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr)
     if (i == chosen || orbits[i].u == 0 || orbits[i].v == 0) continue;
     request.through.push_back(request.window ? inside(question.flow, orbits[i], *request.window) : orbits[i]);
   }
-  request.isochrones = asked["isochrones"].as<int>();
+  if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // else as many as the program draws unasked
   if (has("against")) request.comparison = law_of(asked["against"].as<std::string>());
   const auto field = asked["field"].as<std::string>();
   using Field = portraits::PortraitStyle::Field;
