@@ -177,6 +177,14 @@ TEST_CASE("reduce rejects what makes no sense", "[cli]") {
   check_rejected(system + " --u0 1 --v0 1 --param a=1 --param a=2", "'a' is given twice");
 }
 
+TEST_CASE("reduce: a scaling that is lost in rounding is told, with a start that shows it", "[cli]") {
+  const Run lost = run_program("reduce --mu 1e-8 --u0 1 --v0 10");
+  CHECK(lost.status == 3);
+  CHECK(lost.out.empty());
+  CHECK_THAT(lost.err, Contains("lost in rounding") && Contains("--v0 near 1e-08 times --u0"));
+  CHECK(run_program("reduce --mu 1e-8 --u0 1 --v0 1e-8").status == 0);
+}
+
 TEST_CASE("reduce draws plane and strip where the ending is a picture's", "[cli]") {
   const TemporaryDirectory scratch;
   const std::string file = scratch.file("reduce.svg");

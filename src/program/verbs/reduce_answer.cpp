@@ -197,8 +197,11 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   const Vector2d start(state.u, state.v);
   const PlanarSymmetries found = reduction::find_symmetries(reduction::planar_field(system), start);
   if (!found.scaling) {
-    throw std::runtime_error(
-        fmt::format("the scaling of (2.6) was not found under law {}: is it homogeneous?", system.law().name()));
+    // A law has been found homogeneous when it was made: here only rounding can hide the scaling.
+    throw std::runtime_error(fmt::format(
+        "the scaling of (2.6) is lost in rounding around this start, where one speed changes too slowly beside the "
+        "other: it is the same for all starts, and one with --v0 near {} times --u0 may show it",
+        system.mu()));
   }
   const PlanarReduction plane(reduction::planar_field(system), *found.scaling, start, found.residual);
   const reduction::Flow flow(system);
