@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/portrait_spec.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
@@ -32,7 +33,6 @@
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
-#include "program/options/portrait_spec.hpp"
 
 namespace contensou::page {
 
@@ -93,7 +93,7 @@ State inside(const Flow& flow, State start, const portraits::Window& window) {
 
 /// The question of portrait_request.js.
 /// @param known  the flow, where it is known
-program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr) {
+answers::PortraitSpec question_of(const val& asked, const Flow* known = nullptr) {
   const auto has = [&](const char* key) { return !asked[key].isNull(); };
   std::optional<si::Experiment> experiment;
   if (has("ball")) {
@@ -106,7 +106,7 @@ program::PortraitSpec question_of(const val& asked, const Flow* known = nullptr)
     return ReducedSystem(law, experiment ? si::patch_ratio(*experiment, law) : asked["mu"].as<double>(),
                          {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()});
   };
-  program::PortraitSpec question{.flow = flow(), .experiment = experiment};
+  answers::PortraitSpec question{.flow = flow(), .experiment = experiment};
   portraits::PortraitRequest& request = question.request;
   request.view = portraits::find_view(asked["view"].as<std::string>());
   if (has("window")) {
@@ -146,7 +146,7 @@ class Plane {
   /// for the page to draw: their motions from start to stop, and in each panel the line and where its arrow is.
   val portrait(const val& asked) {
     return answer([&] {
-      program::PortraitSpec question = question_of(asked, &flow());
+      answers::PortraitSpec question = question_of(asked, &flow());
       question.request.drawn_only = true;
       question.style.asked = false;
       const portraits::PhasePortrait portrait = question.portrait();
@@ -433,7 +433,7 @@ val views() {
 /// The file that the program writes when asked so, ending in tex or json.
 std::string portrait_file(const val& asked, const std::string& ending) {
   return answer([&] {
-    const program::PortraitSpec question = question_of(asked);
+    const answers::PortraitSpec question = question_of(asked);
     const portraits::PhasePortrait portrait = question.portrait();
     return ending == "tex" ? portraits::pgfplots(question.figure(portrait))
                            : portraits::to_json(portrait, question.source());

@@ -5,12 +5,12 @@
 
 #include <emscripten/bind.h>
 
+#include "answers/csv.hpp"
+#include "answers/fit_answer.hpp"
+#include "answers/track_file.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/experiment.hpp"
-#include "input/csv.hpp"
-#include "input/track_file.hpp"
 #include "javascript.hpp"
-#include "verbs/fit_answer.hpp"
 
 namespace contensou::page {
 
@@ -25,12 +25,12 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
     experiment.ball.name = ball["title"].as<std::string>();
     if (experiment.ball.body.lies_flat()) throw std::domain_error("a film is fitted for a ball: choose one that rolls");
     std::vector<reduction::Law> tried;
-    for (const std::string& law : program::split(laws, ',')) tried.push_back(law_of(law));
-    program::CsvReader table(text, name);
+    for (const std::string& law : answers::split(laws, ',')) tried.push_back(law_of(law));
+    answers::CsvReader table(text, name);
     std::string notes;
     fit::FitRequest request{.ball = experiment, .law = tried.front(), .tracks = {}};
     request.tracks.push_back(
-        program::read_track(table, name, {}, [&](const std::string& note) { notes += note + "\n"; }));
+        answers::read_track(table, name, {}, [&](const std::string& note) { notes += note + "\n"; }));
     const std::vector<fit::Fit> fits = fit::fit_laws(request, tried);
     const auto& start = fits.front().ball;
     const Eigen::Vector2d slip = si::slip_velocity_at_start(start), velocity = si::velocities_of(start.start).velocity;
@@ -42,7 +42,7 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
       if (series.observable == fit::Observable::spin) measured.set("spin", column(series.value));
     }
     const auto value = [&](fit::Parameter parameter) { return fits.front().estimate(parameter).value; };
-    return object("notes", notes, "report", program::report_on(fits, request.tracks, false, {6}), "law",
+    return object("notes", notes, "report", answers::report_on(fits, request.tracks, false, {6}), "law",
                   fits.front().law, "friction", value(fit::Parameter::friction), "patch",
                   value(fit::Parameter::patch_radius), "slip", slip.norm(), "spin", si::spin_at_start(start),
                   "velocityX", velocity.dot(along), "velocityY", along.x() * velocity.y() - along.y() * velocity.x(),

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/parse.hpp"
 #include "contensou/si/run_file.hpp"
-#include "input/parse.hpp"
 #include "output/help.hpp"
 #include "output/interruption.hpp"
 #include "output/output.hpp"

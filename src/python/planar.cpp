@@ -8,9 +8,9 @@
 
 #include <pybind11/eigen.h>
 
+#include "answers/planar_system.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
-#include "input/planar_system.hpp"
 #include "values.hpp"
 
 namespace contensou::python {
@@ -103,7 +103,7 @@ void bind_planar(py::module_& module) {
                   })
       .def_static("of_text",
                   [](const std::string& text, const std::map<std::string, double>& parameters, double u, double v) {
-                    return Planar(program::parse_planar_system(text, parameters), {u, v});
+                    return Planar(answers::parse_planar_system(text, parameters), {u, v});
                   })
       .def_static("of_flow",
                   [](const reduction::Flow& flow, double u, double v) {

@@ -1,10 +1,10 @@
 // contensou::portraits in Python: a portrait as data, as a figure and as a file.
 #include <algorithm>
 
+#include "answers/portrait_spec.hpp"
 #include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/si/scaling.hpp"
-#include "options/portrait_spec.hpp"
 #include "values.hpp"
 
 namespace contensou::python {
@@ -116,7 +116,7 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experi
                      const std::optional<std::string>& title) {
   using Arrows = PortraitStyle::Arrows;
   using Field = PortraitStyle::Field;
-  program::PortraitSpec asked{.flow = flow, .experiment = experiment};
+  answers::PortraitSpec asked{.flow = flow, .experiment = experiment};
   if (start) asked.start = reduction::State{start->first, start->second};
   if (experiment) asked.start = si::reduced_start(*experiment);
   std::vector<std::pair<std::string, portraits::View>> views;

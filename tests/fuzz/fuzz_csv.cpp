@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "answers/csv.hpp"
 #include "finding.hpp"
-#include "input/csv.hpp"
 
 using namespace contensou;
-using program::BadLine;
+using answers::BadLine;
 
 namespace {
 
@@ -25,7 +25,7 @@ struct Table {
   std::string complaint;  ///< without the name of the text
   bool operator==(const Table&) const = default;
 
-  void add(const program::CsvRow& row, long before = 0) {
+  void add(const answers::CsvRow& row, long before = 0) {
     Row& added = rows.emplace_back(Row{row.line() - before, std::string(row.text()), {}});
     for (std::size_t i = 0; i < row.size(); ++i) added.fields.emplace_back(row[i]);
   }
@@ -44,8 +44,8 @@ std::string message_of(const BadLine& error, std::string_view name, long lines_b
 template <class Cut>
 Table parsed(std::string_view text, Cut cut) {
   Table table;
-  program::CsvParser parser(source);
-  program::CsvBlock block;
+  answers::CsvParser parser(source);
+  answers::CsvBlock block;
   try {
     while (!text.empty()) {
       const std::size_t size = std::min<std::size_t>(cut(), text.size());
@@ -65,8 +65,8 @@ Table read(std::string_view text, std::size_t before) {
   const fuzz::MemoryFile file(fmt::format("#{:.^{}}\n{}", "", before, text));
   Table table;
   try {
-    program::CsvReader reader(file.path());
-    std::optional<program::CsvBlock> block(std::in_place);
+    answers::CsvReader reader(file.path());
+    std::optional<answers::CsvBlock> block(std::in_place);
     Row header{reader.header_line() - 1, "", reader.names()};
     table.rows.push_back(std::move(header));
     while (reader.next(*block)) {

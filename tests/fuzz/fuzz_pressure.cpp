@@ -3,15 +3,15 @@
 #include <stdexcept>
 #include <typeinfo>
 
+#include "answers/pressure_profile.hpp"
 #include "finding.hpp"
-#include "options/pressure_profile.hpp"
 
 using namespace contensou;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fuzz::MemoryFile file(fuzz::text_of(data, size));
   try {
-    const reduction::Law law = program::read_pressure_profile(file.path());
+    const reduction::Law law = answers::read_pressure_profile(file.path());
     const double most = law.pivoting_moment();
     fuzz::require(most > 0 && std::isfinite(law.force_slope()), "pure pivoting");
     for (int i = -80; i <= 80; ++i) {

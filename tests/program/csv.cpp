@@ -1,4 +1,4 @@
-#include "input/csv.hpp"
+#include "answers/csv.hpp"
 
 #include <algorithm>
 #include <string>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "input/parse.hpp"
+#include "answers/parse.hpp"
 
-using namespace contensou::program;
+using namespace contensou::answers;
 using Catch::Matchers::Equals;
 
 namespace {

@@ -8,8 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "answers/parse.hpp"
 #include "exit_status.hpp"
-#include "input/parse.hpp"
 
 namespace contensou::program {
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "answers/csv.hpp"
 #include "contensou/si/quantity.hpp"
-#include "input/csv.hpp"
 
 namespace contensou::program {
 

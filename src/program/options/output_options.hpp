@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "answers/answer.hpp"
 #include "contensou/portraits/gnuplot.hpp"
 #include "options/argument.hpp"
-#include "output/answer.hpp"
 
 namespace contensou::program {
 

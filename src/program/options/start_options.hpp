@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "answers/given_start.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/body.hpp"
 #include "contensou/si/catalogue.hpp"
@@ -42,16 +43,6 @@ class BodyOptions {
 /// The built-in ball of a name.
 /// @throws NotAllowed  for an unknown name
 const si::CatalogueEntry& require_ball(const std::string& name);
-
-/// The start that the command line gives.
-struct GivenStart {
-  reduction::ReducedSystem system;
-  reduction::State state;
-  std::optional<si::Experiment> experiment;  ///< where it came from, if it is a ball in SI units
-
-  bool at_rest() const { return state.u == 0 && state.v == 0; }
-  bool slides_and_spins() const { return state.u != 0 && state.v != 0; }
-};
 
 /// --mu, --u0, --v0 and --body, or --ball with its overrides.
 class StartOptions {

@@ -11,7 +11,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "output/answer.hpp"
+#include "answers/answer.hpp"
 #include "output/ordered_work.hpp"
 
 namespace contensou::program {

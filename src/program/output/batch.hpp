@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "answers/csv.hpp"
 #include "exit_status.hpp"
-#include "input/csv.hpp"
 #include "output/output.hpp"
 #include "output/progress.hpp"
 

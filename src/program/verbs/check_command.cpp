@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "answers/check_against.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
-#include "verbs/check_against.hpp"
 
 namespace contensou::program {
 
@@ -188,7 +188,12 @@ class CheckCommand final : public Verb {
   /// A motion in a table against that of the law.
   ExitStatus compare(const Output& output) const {
     const Law law = law_.read(start_.standard_law());
-    const MotionsBeside motions = compare_with_motions(against_, start_, law, tolerance_.value_or(standard_tolerance));
+    if (!start_.ball_given()) {
+      against_.reject("slip and spin are those of a ball in SI units: add --ball NAME|FILE.toml");
+    }
+    const si::Experiment ball = start_.read_ball(law, at_rest(against_.name()));
+    const MotionsBeside motions = compare_with_motions(against_.text(), ball, start_.given_values(), law,
+                                                       tolerance_.value_or(standard_tolerance));
     const auto row = [&](const std::string& name, const Deviation& off) {
       return Row{law.name(),
                  {name, off.relative, tolerance_.value_or(standard_tolerance)},

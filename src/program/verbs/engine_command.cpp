@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
+#include "answers/engine_members.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
-#include "verbs/engine_members.hpp"
 
 namespace contensou::program {
 

@@ -8,17 +8,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/fit_answer.hpp"
+#include "answers/fit_figure.hpp"
+#include "answers/track_file.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/run_file.hpp"
-#include "input/track_file.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
-#include "verbs/fit_answer.hpp"
-#include "verbs/fit_figure.hpp"
 
 namespace contensou::program {
 

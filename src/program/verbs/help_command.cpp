@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/answer.hpp"
+#include "answers/law_forms.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/si/quantity.hpp"
 #include "options/law_option.hpp"
-#include "output/answer.hpp"
 #include "output/help.hpp"
 #include "output/output.hpp"
 #include "output/theory.hpp"

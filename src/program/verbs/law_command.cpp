@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "answers/csv.hpp"
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "input/csv.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "answers/ball_answer.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/si/scaling.hpp"
@@ -12,7 +13,6 @@
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
-#include "verbs/ball_answer.hpp"
 
 namespace contensou::program {
 

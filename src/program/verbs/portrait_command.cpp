@@ -8,14 +8,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/phase_plane_answer.hpp"
+#include "answers/portrait_spec.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
-#include "options/portrait_spec.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
-#include "verbs/phase_plane_answer.hpp"
 
 namespace contensou::program {
 

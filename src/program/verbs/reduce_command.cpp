@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "answers/planar_system.hpp"
+#include "answers/reduce_answer.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
-#include "input/planar_system.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
-#include "verbs/reduce_answer.hpp"
 
 namespace contensou::program {
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "answers/ball_answer.hpp"
+#include "answers/law_forms.hpp"
 #include "contensou/portraits/roll_figure.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/ball_motion.hpp"
@@ -23,7 +25,6 @@
 #include "options/start_options.hpp"
 #include "output/batch.hpp"
 #include "verb.hpp"
-#include "verbs/ball_answer.hpp"
 
 namespace contensou::program {
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "answers/stop_answer.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/bulk_options.hpp"
 #include "options/law_option.hpp"
@@ -8,7 +9,6 @@
 #include "options/start_options.hpp"
 #include "output/batch.hpp"
 #include "verb.hpp"
-#include "verbs/stop_answer.hpp"
 #include "verbs/stop_times.hpp"
 
 namespace contensou::program {

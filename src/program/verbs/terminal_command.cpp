@@ -1,12 +1,12 @@
 #include <optional>
 
+#include "answers/phase_plane_answer.hpp"
 #include "contensou/portraits/rays_figure.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
-#include "verbs/phase_plane_answer.hpp"
 
 namespace contensou::program {
 

@@ -1,0 +1,139 @@
+#include "answers/answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "contensou/portraits/json.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+/// A line for the names and one for each row, every cell written by the caller.
+template <class Write>
+std::string table(const std::vector<Column>& columns, std::string_view separator, Write write) {
+  std::string text;
+  for (Eigen::Index row = -1; row < columns.front().values.size(); ++row) {
+    for (const Column& column : columns) {
+      row < 0 ? write(text, column.name) : write(text, column.values[row]);
+      text += &column == &columns.back() ? "\n" : separator;
+    }
+  }
+  return text;
+}
+
+std::string as_text(const std::vector<Column>& columns, Digits digits) {
+  return table(columns, "", [&](std::string& text, const auto& cell) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(cell)>, double>) {
+      fmt::format_to(std::back_inserter(text), "{:>{}.{}g}", cell, digits.width(), digits.count);
+    } else {
+      fmt::format_to(std::back_inserter(text), "{:>{}}", cell, digits.width());
+    }
+  });
+}
+
+std::string as_csv(const std::vector<Column>& columns) {
+  return table(columns, ",",
+               [](std::string& text, const auto& cell) { fmt::format_to(std::back_inserter(text), "{}", cell); });
+}
+
+void append_fields(const Json& row, std::vector<std::string>& names, std::vector<std::string>& values) {
+  for (const auto& [name, value] : row.items()) {
+    if (value.is_object()) {
+      append_fields(value, names, values);
+      continue;
+    }
+    names.push_back(name);
+    values.push_back(value.is_string()    ? value.get<std::string>()
+                     : value.is_boolean() ? (value ? "yes" : "no")
+                                          : fmt::format("{}", value.get<double>()));
+  }
+}
+
+std::string as_csv(const std::vector<Json>& rows) {
+  std::string text;
+  for (const Json& row : rows) {
+    std::vector<std::string> names, values;
+    append_fields(row, names, values);
+    if (text.empty()) text = csv_line(names);
+    text += csv_line(values);
+  }
+  return text;
+}
+
+std::string remarks(Json members) {
+  std::string text;
+  if (!members.empty()) members["version"] = CONTENSOU_VERSION;
+  for (const auto& [name, value] : members.items()) {
+    text += fmt::format("# {}: ", name);
+    portraits::append_json(text, value);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string as_json(const Answer& answer, Digits /*all*/) {
+  Json document{{"schema", 1}, {"version", CONTENSOU_VERSION}};
+  document.update(answer.members);
+  for (const auto& [name, values] : answer.columns) document[name] = std::vector(values.begin(), values.end());
+  return portraits::json_document(document);
+}
+
+std::string as_csv(const Answer& answer, Digits /*all*/) {
+  return answer.columns.empty() ? as_csv(answer.rows) : remarks(answer.remarks) + as_csv(answer.columns);
+}
+
+std::string as_text(const Answer& answer, Digits digits) {
+  if (answer.text) return answer.text(digits);
+  return answer.columns.empty() ? as_csv(answer.rows) : as_text(answer.columns, digits);
+}
+
+struct AnswerFormat {
+  std::string_view name;
+  std::string (*written)(const Answer&, Digits);
+};
+
+constexpr AnswerFormat all_answer_formats[]{{"text", as_text}, {"csv", as_csv}, {"json", as_json}};
+
+}  // namespace
+
+std::string Digits::operator()(double value) const { return fmt::format("{:.{}g}", value, count); }
+
+std::vector<std::string> answer_formats(const std::string& standard) {
+  std::vector<std::string> formats;
+  for (const AnswerFormat& format : all_answer_formats) formats.emplace_back(format.name);
+  const auto place = std::ranges::find(formats, standard);
+  std::rotate(formats.begin(), place, place + 1);
+  return formats;
+}
+
+std::string render(const Answer& answer, const std::string& format, Digits digits) {
+  return std::ranges::find(all_answer_formats, format, &AnswerFormat::name)->written(answer, digits);
+}
+
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (const std::string& field : fields) {
+    const bool first = &field == &fields.front();
+    if (!first) line += ',';
+    const bool comment = first && field.starts_with('#');
+    const bool blank = fields.size() == 1 && field.empty();
+    if (!comment && !blank && field.find_first_of(",\"\r\n") == std::string::npos) {
+      line += field;
+      continue;
+    }
+    line += '"';
+    for (char letter : field) line += letter == '"' ? "\"\"" : std::string(1, letter);
+    line += '"';
+  }
+  return line + '\n';
+}
+
+double or_infinity(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
+
+}  // namespace contensou::answers

@@ -1,0 +1,39 @@
+#include "answers/ball_answer.hpp"
+
+#include <fmt/format.h>
+
+#include "contensou/si/quantity.hpp"
+#include "contensou/si/scaling.hpp"
+
+namespace contensou::answers {
+
+Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law) {
+  const auto& [ball, contact, start, environment] = experiment;
+  Json members{{"name", ball.name},
+               {"body", ball.body.name},
+               {"radius", ball.radius},
+               {"mass", ball.mass},
+               {"friction", contact.friction},
+               {"gravity", environment.gravity},
+               {"patch_radius", si::patch_radius_of(experiment, law)}};
+  for (const auto& [quantity, values] : si::given_by(experiment)) {
+    if (quantity->section == si::slip.section) continue;
+    members[std::string(quantity->name)] = values.size() == 1 ? Json(values[0]) : Json(values);
+  }
+  return members;
+}
+
+std::string ball_heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
+  const auto& [ball, contact, start, environment] = experiment;
+  return fmt::format(
+      "{}: {}radius {} m, mass {} kg, friction {}, {}\n"
+      "patch radius {} m, {}: mu = {}\n",
+      ball.name, ball.body.lies_flat() ? fmt::format("{}, ", ball.body.name) : "", digits(ball.radius),
+      digits(ball.mass), digits(contact.friction),
+      environment.load ? fmt::format("load {} N", digits(*environment.load))
+                       : fmt::format("gravity {} m/s^2", digits(environment.gravity)),
+      digits(si::patch_radius_of(experiment, law)), si::origin_of(contact.patch),
+      digits(si::patch_ratio(experiment, law)));
+}
+
+}  // namespace contensou::answers

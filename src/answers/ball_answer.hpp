@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "answers/answer.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/experiment.hpp"
+
+namespace contensou::answers {
+
+/// The ball of an answer in SI units: its name and values, its patch radius under the law and what that follows from.
+Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law);
+
+/// The same for people, in two lines.
+std::string ball_heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits);
+
+}  // namespace contensou::answers

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "answers/csv.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/description.hpp"
+#include "contensou/si/experiment.hpp"
+
+namespace contensou::answers {
+
+/// How far slip or spin of a table is from that of a model.
+struct Deviation {
+  double error = 0;                                         ///< the worst, in m/s or rad/s
+  double relative = 0;                                      ///< the same, of the start
+  double t = std::numeric_limits<double>::infinity();       ///< s in the table, of the worst row
+  double leaves = std::numeric_limits<double>::infinity();  ///< s in the table, of the first row beyond the tolerance
+};
+
+/// A model of the motion beside a table.
+struct ModelBeside {
+  std::string name;
+  Deviation slip, spin;
+
+  double worst() const;  ///< relative
+};
+
+/// A table of t, slip and spin beside the motions of a ball that starts as it does.
+struct MotionsBeside {
+  si::SlipAndSpin start;
+  double slip_unit, spin_unit;      ///< what errors are shares of, in m/s and rad/s
+  std::vector<ModelBeside> models;  ///< the law's own first
+
+  /// The model that is closest, the law's own before others as close.
+  const ModelBeside& nearest() const;
+};
+
+/// @param path       of a file with columns t, slip and spin (or wz, as roll calls it), in SI units; "-" is standard input
+/// @param ball       starts as the first row says
+/// @param values     in place of those of the first row
+/// @param tolerance  a share of the start
+/// @throws BadLine            for a mistake in the table, a start among them that the ball cannot have
+/// @throws std::system_error  if the file cannot be read
+MotionsBeside compare_with_motions(const std::string& path, const si::Experiment& ball, const si::Description& values,
+                                   const reduction::Law& law, double tolerance);
+
+}  // namespace contensou::answers

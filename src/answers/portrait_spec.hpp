@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/si/experiment.hpp"
+
+namespace contensou::answers {
+
+/// Everything that a portrait is asked for by: the options of `portrait`, or the state of the page. Equal questions
+/// have equal answers, so that the page's command line draws what the page shows.
+struct PortraitSpec {
+  reduction::Flow flow;
+  std::optional<reduction::State> start = {};     ///< of the highlighted orbit
+  std::optional<si::Experiment> experiment = {};  ///< where mu and start came from, if it is a ball in SI units
+  portraits::PortraitRequest request = {};        ///< highlight and time unit follow from start and experiment
+  portraits::PortraitStyle style = {};
+
+  /// @throws std::domain_error  as phase_portrait
+  portraits::PhasePortrait portrait() const;
+
+  /// The drawing of that portrait, with the units of a ball.
+  portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
+
+  /// And the map of each of its panels.
+  portraits::MappedFigure mapped_figure(const portraits::PhasePortrait& portrait) const;
+
+  /// What its data say about where they come from.
+  portraits::PortraitSource source() const;
+
+ private:
+  portraits::PortraitCaption caption(const portraits::PhasePortrait& portrait) const;
+};
+
+}  // namespace contensou::answers

@@ -1,0 +1,288 @@
+#include "answers/reduce_answer.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
+#include "contensou/reduction/similarity.hpp"
+
+namespace contensou::answers {
+
+using Eigen::Vector2d;
+using reduction::Generator;
+using reduction::PlanarEnd;
+using reduction::PlanarReduction;
+using reduction::PlanarSymmetries;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// In the order of PlanarEnd.
+constexpr std::string_view ends[]{"centre", "infinity", "rest", "border", "periodic"};
+
+Json json_of(const Generator& x) {
+  return {{"time", x.time},
+          {"matrix", {{x.matrix(0, 0), x.matrix(0, 1)}, {x.matrix(1, 0), x.matrix(1, 1)}}},
+          {"shift", {x.shift[0], x.shift[1]}}};
+}
+
+/// A sum of such terms as one writes it: no zeros, no ones.
+std::string sum(std::initializer_list<std::pair<double, std::string_view>> terms, const Digits& digits) {
+  std::string text;
+  for (const auto& [factor, name] : terms) {
+    if (factor == 0) continue;
+    text += text.empty() ? (factor < 0 ? "-" : "") : factor < 0 ? " - " : " + ";
+    const double size = std::abs(factor);
+    if (name.empty()) {
+      text += digits(size);
+    } else {
+      text += size == 1 ? std::string(name) : fmt::format("{} {}", digits(size), name);
+    }
+  }
+  return text.empty() ? "0" : text;
+}
+
+/// c t d/dt + ... in the names of time and coordinates.
+std::string text_of(const Generator& x, std::string_view time, const Digits& digits) {
+  std::string text;
+  const auto add = [&](std::string factor, std::string_view name) {
+    if (factor == "0") return;
+    const bool several = factor.find(" + ") != std::string::npos || factor.find(" - ") != std::string::npos;
+    const bool negative = !several && factor.starts_with('-');
+    if (several) factor = "(" + factor + ")";
+    if (negative) factor.erase(0, 1);
+    text += text.empty() ? (negative ? "-" : "") : negative ? " - " : " + ";
+    text += fmt::format("{} d/d{}", factor, name);
+  };
+  add(sum({{x.time, time}}, digits), time);
+  add(sum({{x.matrix(0, 0), "u"}, {x.matrix(0, 1), "v"}, {x.shift[0], ""}}, digits), "u");
+  add(sum({{x.matrix(1, 0), "u"}, {x.matrix(1, 1), "v"}, {x.shift[1], ""}}, digits), "v");
+  return text;
+}
+
+Json members_of(const PlanarSymmetries& found) {
+  Json generators = Json::array();
+  for (const Generator& x : found.generators) generators.push_back(json_of(x));
+  return {{"generators", generators},
+          {"singular_values", found.singular_values},
+          {"level", found.level},
+          {"gap", found.gap}};
+}
+
+std::string text_of(const PlanarSymmetries& found, std::string_view time, const Digits& digits) {
+  std::string text;
+  for (const Generator& x : found.generators) {
+    text += fmt::format("{:<12}X = {}\n", text.empty() ? "generator" : "", text_of(x, time, digits));
+  }
+  if (found.verdict == PlanarSymmetries::Verdict::none) {
+    text = "generator   none of the form X = c t d/dt + (A x + b) d/dx: no singular value is small\n";
+  } else if (found.verdict == PlanarSymmetries::Verdict::undecided) {
+    text = "generator   not decided: the field's noise, or its kinks, hide what one would leave\n";
+  }
+  text += "values      ";
+  for (double value : found.singular_values) text += fmt::format("{:.2g} ", value);
+  return text + fmt::format(
+                    "\n            singular ones of the determining equations at {} points; 0 is below {:.1g}, "
+                    "gap {:.1g}\n",
+                    found.points, found.level, found.gap);
+}
+
+/// A row of CSV: the members that are one number or text, and the first generator.
+Json row_of(const Json& members, const PlanarSymmetries& found) {
+  Json row;
+  for (const auto& [name, value] : members.items()) {
+    if (value.is_primitive() && !value.is_null()) row[name] = value;
+  }
+  if (members.contains("canonical")) row.update(members["canonical"]);
+  if (!found.generators.empty()) {
+    const Generator& x = found.generators.front();
+    row.update({{"time", x.time},
+                {"a11", x.matrix(0, 0)},
+                {"a12", x.matrix(0, 1)},
+                {"a21", x.matrix(1, 0)},
+                {"a22", x.matrix(1, 1)},
+                {"b1", x.shift[0]},
+                {"b2", x.shift[1]}});
+  }
+  return row;
+}
+
+std::string difference(double one, double other) {
+  if (one == other) return "the same";
+  return fmt::format("differs by {:.1e}", std::abs(one / other - 1));
+}
+
+}  // namespace
+
+ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::string& text, const Vector2d& start) {
+  if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
+  const PlanarSymmetries found = reduction::find_symmetries(field, start);
+  Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}};
+  answer.members.update(members_of(found));
+  std::function<std::string(const Digits&)> solution;
+  if (found.scaling) {
+    const PlanarReduction plane(field, *found.scaling, start, found.residual);
+    const auto orbit = plane.orbit(start);
+    const auto canonical = plane.canonical(start);
+    std::optional<double> integral;
+    try {
+      integral = plane.first_integral(start);
+    } catch (const std::domain_error&) {
+      // on a ray it has no value
+    }
+    Json rays = Json::array();
+    for (const auto& ray : plane.rays()) {
+      rays.push_back({{"angle", ray.q},
+                      {"attracts", ray.attracts},
+                      {"to_centre", ray.to_centre},
+                      {"radial", ray.radial},
+                      {"angular", ray.angular}});
+    }
+    if (start != plane.centre()) {
+      answer.members["canonical"] = {{"q", canonical.q}, {"p", canonical.p}, {"dp_dq", or_infinity(canonical.dp_dq)}};
+    }
+    if (integral) answer.members["first_integral"] = *integral;
+    answer.members.update({{"rays", rays}, {"kind", plane.kind()}});
+    if (plane.turn()) answer.members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
+    answer.members.update({{"end", ends[static_cast<std::size_t>(orbit.end())]},
+                           {"tau_stop", orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity}});
+    solution = [=](const Digits& digits) {
+      std::string lines =
+          fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]), plane.kind());
+      for (const auto& ray : plane.rays()) {
+        lines += fmt::format("ray         at the angle {}: {}, the motion on it goes {}\n", digits(ray.q),
+                             ray.attracts ? "attracts" : "repels", ray.to_centre ? "to the centre" : "away");
+      }
+      if (plane.turn()) {
+        lines += fmt::format("a turn      multiplies exp(p) by {} in {} of sigma, d sigma = exp(-c p) dt\n",
+                             digits(plane.turn()->factor), digits(plane.turn()->sigma));
+      }
+      lines += fmt::format("canonical   q = {} (angle), p = {}, dp/dq = {}\n", digits(canonical.q), digits(canonical.p),
+                           digits(canonical.dp_dq));
+      if (integral) lines += fmt::format("integral    p - L(q) = {}\n", digits(*integral));
+      const auto end = orbit.end();
+      lines += fmt::format(
+          "tau_stop    {}{}\n", digits(end == PlanarEnd::centre ? orbit.end_time() : infinity),
+          end == PlanarEnd::centre
+              ? (std::isfinite(orbit.end_time()) ? ", by quadrature" : ": it nears the centre for ever")
+          : end == PlanarEnd::infinity ? fmt::format(": it goes to infinity, in {}", digits(orbit.end_time()))
+          : end == PlanarEnd::periodic ? ": it returns"
+          : end == PlanarEnd::rest     ? ": it comes to rest elsewhere"
+                                       : ": it comes to a border of the field, or to a jump");
+      return lines;
+    };
+  } else if (!found.generators.empty()) {
+    solution = [](const Digits&) { return std::string("solution    none by quadrature: no generator is a scaling\n"); };
+  }
+  answer.text = [=](const Digits& digits) {
+    return fmt::format("system      {}\nstart       u = {}, v = {}\n{}{}", text, digits(start[0]), digits(start[1]),
+                       text_of(found, "t", digits), solution ? solution(digits) : "");
+  };
+  answer.rows = {row_of(answer.members, found)};
+  return {std::move(answer), !found.generators.empty()};
+}
+
+ReduceAnswer reduce_answer(const GivenStart& given) {
+  const auto& [system, state, experiment] = given;
+  if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
+  const Vector2d start(state.u, state.v);
+  const PlanarSymmetries found = reduction::find_symmetries(reduction::planar_field(system), start);
+  if (!found.scaling) {
+    // A law has been found homogeneous when it was made: here only rounding can hide the scaling.
+    throw std::runtime_error(fmt::format(
+        "the scaling of (2.6) is lost in rounding around this start, where one speed changes too slowly beside the "
+        "other: it is the same for all starts, and one with --v0 near {} times --u0 may show it",
+        system.mu()));
+  }
+  const PlanarReduction plane(reduction::planar_field(system), *found.scaling, start, found.residual);
+  const reduction::Flow flow(system);
+  const reduction::StopTime stop = flow.stop_time(state);
+
+  Json rays = Json::array();
+  const auto ends_at = [&](double k) {
+    return std::ranges::any_of(flow.terminal().ends, [k](const auto& end) { return end.k == k; });
+  };
+  rays.push_back({{"k", 0}, {"attracts", ends_at(0)}});
+  for (const auto& ray : flow.terminal().rays) rays.push_back({{"k", ray.k}, {"attracts", ray.attracts()}});
+  rays.push_back({{"k", infinity}, {"attracts", ends_at(infinity)}});
+
+  Json routes = Json::array();
+  for (reduction::Route route : reduction::routes(system)) {
+    try {
+      routes.push_back({{"name", name(route)}, {"tau_stop", reduction::stop_time(system, state, route).tau}});
+    } catch (const std::runtime_error&) {
+      // a stepper that did not come to the stop has nothing to say
+    }
+  }
+  routes.push_back({{"name", "section"}, {"tau_stop", plane.end_time(start)}});
+
+  Answer answer{.members = {{"law", system.law().name()},
+                            {"mu", system.mu()},
+                            {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
+                            {"u0", state.u},
+                            {"v0", state.v}}};
+  answer.members.update(members_of(found));
+  // The axes are rays themselves: there q and p are limits, and the first integral has no value.
+  std::optional<double> integral;
+  if (given.slides_and_spins()) {
+    const auto canonical = reduction::to_canonical(state);
+    integral = flow.log_first_integral(state.u, std::log(state.v));
+    answer.members["canonical"] = {
+        {"q", canonical.q}, {"p", canonical.p}, {"dp_dq", reduction::separated_slope(system, canonical.q)}};
+    answer.members["first_integral"] = *integral;
+  } else {
+    answer.members["canonical"] = {{"q", state.u == 0 ? infinity : 0.0}, {"p", std::log(state.v)}, {"dp_dq", infinity}};
+  }
+  answer.members.update({{"rays", rays}, {"kind", plane.kind()}, {"tau_stop", stop.tau}, {"routes", routes}});
+
+  answer.text = [=, system = system, state = state, members = answer.members](const Digits& digits) {
+    const double mu = system.mu(), chi = system.inertia().chi, gamma = system.inertia().gamma;
+    const double sliding = 2 * chi / (3 * pi), pivoting = 2 * gamma * mu / (3 * pi), r = system.r();
+    std::string text = fmt::format("system      law {}, mu = {}, chi = {}, gamma = {}, r = {}; k = v/({} |u|)\n",
+                                   system.law().name(), digits(mu), digits(chi), digits(gamma), digits(r), digits(mu));
+    text += fmt::format("(2.6)       du/dtau = -{} Psi(k) sign(u),  dv/dtau = -{} Phi(k)\n", digits(pivoting),
+                        digits(sliding));
+    text += fmt::format("(2.7)       du/dbeta = W du/dtau,  dv/dbeta = W dv/dtau,  smooth at u = v = 0\n");
+    text += fmt::format("(2.8)       dtau = W dbeta,  W = ({} |u| + {} v) ({} |u| + {} v)\n", digits(16 * mu),
+                        digits(15 * pi), digits(8 * mu), digits(3 * pi));
+    text += fmt::format("start       u = {}, v = {}, k = {}\n", digits(state.u), digits(state.v),
+                        digits(state.v / (mu * std::abs(state.u))));
+    text += text_of(found, "tau", digits);
+    const Json& canonical = members.at("canonical");
+    text +=
+        fmt::format("canonical   q = v/u = {}, p = ln v = {}, dp/dq = {}\n", digits(canonical.at("q").get<double>()),
+                    digits(canonical.at("p").get<double>()), digits(canonical.at("dp_dq").get<double>()));
+    if (integral)
+      text += fmt::format("integral    ln |u| - ln w(k) = {}, the same along the orbit\n", digits(*integral));
+    if (integral && system.law().as<reduction::PadeLaw>() != nullptr && r < 2) {
+      const double a = r / (2 - r), b = a - r / (5 - r), A = 8 * (2 - r), B = 3 * pi * (5 - r);
+      const double k = state.v / (mu * std::abs(state.u));
+      text += fmt::format("orbit       |u| k^-{} ({} + {} k)^{} = {}\n", digits(a), digits(A), digits(B), digits(b),
+                          digits(std::exp(std::log(std::abs(state.u)) - a * std::log(k) + b * std::log(A + B * k))));
+    }
+    for (const Json& ray : members.at("rays")) {
+      text += fmt::format("ray         k = {}: {}\n", digits(ray.at("k").get<double>()),
+                          ray.at("attracts").get<bool>() ? "attracts" : "repels");
+    }
+    text += fmt::format("origin      {}, not smooth\n", plane.kind());
+    text += fmt::format("tau_stop    {}\n", digits(stop.tau));
+    for (const Json& route : members.at("routes")) {
+      text += fmt::format("  {:<12}{:.15g}, {}\n", route.at("name").get<std::string>(),
+                          route.at("tau_stop").get<double>(), difference(route.at("tau_stop").get<double>(), stop.tau));
+    }
+    return text;
+  };
+  answer.rows = {row_of(answer.members, found)};
+  return {std::move(answer), true};
+}
+
+}  // namespace contensou::answers

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "answers/answer.hpp"
+#include "answers/errors.hpp"
+#include "answers/given_start.hpp"
+#include "contensou/reduction/planar_symmetry.hpp"
+
+namespace contensou::answers {
+
+/// Symmetries, canonical coordinates and solution of a system at a start.
+struct ReduceAnswer {
+  Answer answer;
+  bool found;  ///< a generator
+};
+
+/// Of (2.6), beside what the other routes say.
+/// @throws BadInput  for a start at rest
+ReduceAnswer reduce_answer(const GivenStart& start);
+
+/// Of any field.
+/// @param text  of the field, for the answer
+ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::string& text, const Eigen::Vector2d& start);
+
+}  // namespace contensou::answers

@@ -1,0 +1,308 @@
+#include "answers/stop_answer.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "answers/ball_answer.hpp"
+#include "answers/law_forms.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/small_mu.hpp"
+#include "contensou/reduction/tabulated_pressure_law.hpp"
+#include "contensou/si/motion.hpp"
+#include "contensou/si/scaling.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+struct OtherLaw {
+  std::string law;
+  double tau;
+};
+
+/// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say
+/// nothing, nor where only one speed is: there they are one law.
+std::optional<OtherLaw> other_law(const GivenStart& start) {
+  const auto& [system, state, experiment] = start;
+  const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
+  if (!start.slides_and_spins() || (!is_pade && !system.law().as<reduction::HertzLaw>())) return std::nullopt;
+  const reduction::Law& other = reduction::paper_laws()[is_pade ? 0 : 1];
+  const reduction::Flow flow({other, system.mu(), system.inertia()});
+  return OtherLaw{other.name(), flow.stop_time(state).tau};
+}
+
+/// What a table of pressures says with every other row left out: interpolation costs no more if its rows sample a curve.
+struct CoarserTable {
+  Eigen::Index rows;
+  double tau;
+};
+
+std::optional<CoarserTable> coarser_table(const GivenStart& start) {
+  const auto& [system, state, experiment] = start;
+  const auto* table = system.law().as<reduction::TabulatedPressureLaw>();
+  if (table == nullptr || !start.slides_and_spins()) return std::nullopt;
+  const auto coarser = table->coarser();
+  if (!coarser) return std::nullopt;
+  const reduction::Flow flow({*coarser, system.mu(), system.inertia()});
+  return CoarserTable{coarser->rows(), flow.stop_time(state).tau};
+}
+
+struct StopReport {
+  GivenStart start;
+  reduction::StopTime stop;
+  double sliding_only;                             ///< tau of a body that did not pivot
+  double pivoting_only;                            ///< tau of a body that did not slide
+  std::optional<OtherLaw> other;                   ///< the other law of the paper, beside one of its laws
+  std::optional<CoarserTable> coarser;             ///< of a law that is a table of pressures
+  std::vector<reduction::StopEstimate> estimates;  ///< for small mu
+  double slip_length;                              ///< m, of a ball
+};
+
+/// The integral of v dtau until the stop.
+double slip_length(const reduction::Flow& flow, reduction::State start) {
+  const reduction::Orbit orbit = flow.orbit(start);
+  return orbit.slip_length(orbit.stop_time());
+}
+
+/// What an estimate is too long by; 0 where both are infinite.
+double error_of(const reduction::StopEstimate& estimate, const reduction::StopTime& stop) {
+  return estimate.tau == stop.tau ? 0 : estimate.tau - stop.tau;
+}
+
+Json members_of(const StopReport& report) {
+  const auto& [system, state, experiment] = report.start;
+  const double tau = report.stop.tau;
+  Json members{
+      {"law", system.law().name()},
+      {"route", name(report.stop.route)},
+      {"mu", system.mu()},
+      {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
+      {"u0", state.u},
+      {"v0", state.v},
+      {"tau_stop", tau},
+      {"accuracy", report.stop.accuracy},
+      {"T_stop", tau / (1.5 * std::numbers::pi)},  // f g t, without the paper's factor 3 pi/2
+      {"bounds", {report.stop.bounds.lower, report.stop.bounds.upper}},
+      {"limits", {{"sliding_only", report.sliding_only}, {"pivoting_only", report.pivoting_only}}},
+  };
+  if (report.other) members["other_law"] = {{"law", report.other->law}, {"tau_stop", report.other->tau}};
+  if (report.coarser) members["coarser_table"] = {{"rows", report.coarser->rows}, {"tau_stop", report.coarser->tau}};
+  for (const reduction::StopEstimate& estimate : report.estimates) {
+    members["estimates"].push_back(
+        {{"name", estimate.name}, {"tau_stop", estimate.tau}, {"error", error_of(estimate, report.stop)}});
+  }
+  if (experiment) {
+    const auto [velocity, angular_velocity] = si::final_motion(*experiment);
+    members["ball"] = members_of_ball(*experiment, system.law());
+    members["slip"] = si::slip_at_start(*experiment);
+    members["spin"] = si::spin_at_start(*experiment);
+    members["slip_length"] = report.slip_length;
+    members["t_stop"] = si::seconds(*experiment, tau);
+    members["final"] = {{"velocity", std::vector(velocity.begin(), velocity.end())},
+                        {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
+  }
+  return members;
+}
+
+/// The members as columns of CSV.
+Json row_of(const Json& members) {
+  Json row;
+  for (const auto& [column, place] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"law", "/law"},
+                                                                  {"route", "/route"},
+                                                                  {"mu", "/mu"},
+                                                                  {"u0", "/u0"},
+                                                                  {"v0", "/v0"},
+                                                                  {"tau_stop", "/tau_stop"},
+                                                                  {"lower", "/bounds/0"},
+                                                                  {"upper", "/bounds/1"},
+                                                                  {"sliding_only", "/limits/sliding_only"},
+                                                                  {"pivoting_only", "/limits/pivoting_only"},
+                                                                  {"chi", "/body/chi"},
+                                                                  {"gamma", "/body/gamma"},
+                                                                  {"T_stop", "/T_stop"},
+                                                                  {"accuracy", "/accuracy"},
+                                                                  {"other_law", "/other_law/law"},
+                                                                  {"other_tau", "/other_law/tau_stop"},
+                                                                  {"coarser_tau", "/coarser_table/tau_stop"},
+                                                                  {"t_stop", "/t_stop"}}) {
+    const Json::json_pointer pointer(place);
+    if (members.contains(pointer)) row[column] = members[pointer];
+  }
+  for (const Json& estimate : members.value("estimates", Json::array())) {
+    const auto name = estimate["name"].get<std::string>();
+    row["tau_" + name] = estimate["tau_stop"];
+    row["error_" + name] = estimate["error"];
+  }
+  return row;
+}
+
+/// The report for people.
+class Text {
+ public:
+  Text(const StopReport& report, const Digits& digits) : report_(report), number_(digits) {}
+
+  std::string all() const {
+    if (report_.start.at_rest()) {
+      return heading() + "\nstop time 0: the ball neither slides nor spins; it rolls already, or rests\n";
+    }
+    return heading() + "\n" + times() + "\n" + estimates() + methods() + ending();
+  }
+
+ private:
+  std::string heading() const {
+    const auto& [system, state, experiment] = report_.start;
+    if (!experiment) {
+      return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}", number_(system.mu()),
+                         number_(state.u), number_(state.v), is_ball() ? "" : body_line());
+    }
+    return ball_heading(*experiment, system.law(), number_) +
+           fmt::format("slip {} m/s, spin {} rad/s: u0 = {} m/s, v0 = {} m/s\n",
+                       number_(si::slip_at_start(*experiment)), number_(si::spin_at_start(*experiment)),
+                       number_(state.u), number_(state.v));
+  }
+
+  bool is_ball() const {
+    const auto [chi, gamma] = system_.inertia();
+    return chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
+  }
+
+  /// The law, if it is a table of pressures: such a one has bends, at which its accuracy is not proved.
+  const reduction::TabulatedPressureLaw* table() const { return system_.law().as<reduction::TabulatedPressureLaw>(); }
+
+  std::string body_line() const {
+    const auto [chi, gamma] = system_.inertia();
+    return fmt::format("body with chi = {}, gamma = {}: r = gamma mu^2/chi = {}\n", number_(chi), number_(gamma),
+                       number_(system_.r()));
+  }
+
+  /// A line of the table of times: of a ball, seconds first.
+  template <class Cell>
+  std::string line(const std::string& label, const Cell& seconds, const Cell& tau, const std::string& note = "") const {
+    const auto cell = [&](const Cell& value) {
+      if constexpr (std::is_same_v<Cell, double>)
+        return number_(value);
+      else
+        return value;
+    };
+    std::string text = fmt::format("{:<18}", label);
+    if (report_.start.experiment) text += fmt::format("{:>{}}", cell(seconds), number_.width());
+    return text + fmt::format("{:>{}}", cell(tau), number_.width()) + (note.empty() ? "" : "    " + note) + "\n";
+  }
+
+  std::string times() const {
+    const auto& experiment = report_.start.experiment;
+    const auto row = [&](const std::string& label, double tau, const std::string& note = "") {
+      return line(label, experiment ? si::seconds(*experiment, tau) : tau, tau, note);
+    };
+    const double tau = report_.stop.tau;
+    std::string text = line<std::string>("", "t* (s)", experiment ? "tau* (m/s)" : "tau*") +
+                       row("slip and spin end", tau,
+                           std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
+                                           : fmt::format("numerical error {} {:.0e} of it", table() ? "some" : "below",
+                                                         rounded_up(report_.stop.accuracy)));
+    if (!report_.start.slides_and_spins()) return text;
+    text += row("at least", report_.stop.bounds.lower) + row("at most", report_.stop.bounds.upper) +
+            row("sliding only", report_.sliding_only, "limit u0 = 0") +
+            row("spinning only", report_.pivoting_only, "limit v0 = 0");
+    const auto beside = [&](const std::string& label, double other, const std::string& more) {
+      const double percent = 100 * (other / tau - 1);
+      const bool comparable = tau > 0 && std::isfinite(tau) && std::isfinite(other);
+      const std::string change =
+          comparable ? fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer") : "";
+      text += row(label, other, change + more);
+    };
+    if (report_.other) beside("law " + report_.other->law, report_.other->tau, "");
+    if (report_.coarser) {
+      beside(fmt::format("with {} rows", report_.coarser->rows), report_.coarser->tau,
+             fmt::format(": what interpolation between all {} may cost", table()->rows()));
+    }
+    return text;
+  }
+
+  /// To one digit.
+  static double rounded_up(double x) {
+    const double place = std::pow(10, std::floor(std::log10(x)));
+    return place * std::ceil(x / place - 1e-9);
+  }
+
+  std::string estimates() const {
+    if (report_.estimates.empty()) return "";
+    const double r = system_.r();
+    const double limit = system_.law().force_slope() / system_.law().pivoting_moment();
+    const int width = number_.width();
+    std::string text =
+        fmt::format("{:<18}{:>{}}{:>{}}    r = gamma mu^2/chi = {}{}\n", "for small mu", "tau*", width, "error", width,
+                    number_(r), r > 0.1 * limit ? ": not small, trust none of these" : "");
+    for (const reduction::StopEstimate& estimate : report_.estimates) {
+      text += fmt::format("{:<18}{:>{}}{:>{}.2g}    {}\n", estimate.name, number_(estimate.tau), width,
+                          error_of(estimate, report_.stop), width, estimate.formula);
+    }
+    return text + "\n";
+  }
+
+  std::string methods() const {
+    const reduction::Law& law = system_.law();
+    return fmt::format(
+        "tau*   the paper's time, (3 pi/2) f g t: it has the unit of a speed\nlaw    {}{}\nroute  {}: {}\n", law.name(),
+        law.as<reduction::PadeLaw>() ? fmt::format(": the paper's approximation,\n       {}", cost_of_pade) : "",
+        name(report_.stop.route), description(report_.stop.route));
+  }
+
+  std::string ending() const {
+    const auto& [system, state, experiment] = report_.start;
+    if (!experiment) {
+      const double chi = system.inertia().chi;
+      if (chi == 1) return "then   it lies still\n";
+      return fmt::format("then   it rolls; the centre's velocity has changed by {} = {} along the slip\n",
+                         is_ball() ? "-2 v0/7" : "-v0/chi", number_(0 - state.v / chi));
+    }
+    if (experiment->ball.body.lies_flat()) {
+      return fmt::format("then   it lies still, {} m from its start\n", number_(report_.slip_length));
+    }
+    const auto [velocity, angular_velocity] = si::final_motion(*experiment);
+    return fmt::format(
+        "then   it rolls: velocity {} m/s, angular velocity {} 1/s\n       ({}, z up)\n", number_.list(velocity),
+        number_.list(angular_velocity),
+        std::holds_alternative<si::SlipAndSpin>(experiment->start) ? "x along the initial slip" : "axes of the start");
+  }
+
+  const StopReport& report_;
+  const reduction::ReducedSystem& system_ = report_.start.system;
+  const Digits& number_;
+};
+
+}  // namespace
+
+Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate) {
+  using Estimates = std::vector<reduction::StopEstimate>;
+  const auto& [system, state, experiment] = start;
+  const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;
+  std::optional<reduction::Flow> flow;
+  if (route == reduction::Route::quadrature) {
+    flow = reduction::Flow::by_quadrature(system);
+  } else if (!stepped || experiment) {
+    flow = system;
+  }
+  const StopReport report{start,
+                          stepped ? reduction::stop_time(system, state, route) : flow->stop_time(state),
+                          system.sliding_limit(state.v),
+                          system.pivoting_limit(state.u),
+                          other_law(start),
+                          coarser_table(start),
+                          estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
+                          experiment ? si::seconds(*experiment, slip_length(*flow, state)) : 0};
+  const Json members = members_of(report);
+  return {.members = members, .rows = {row_of(members)}, .text = [=](const Digits& digits) {
+            return Text(report, digits).all();
+          }};
+}
+
+}  // namespace contensou::answers

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "answers/answer.hpp"
+#include "answers/given_start.hpp"
+#include "contensou/reduction/flow.hpp"
+
+namespace contensou::answers {
+
+/// Everything that `stop` says about one start.
+/// @param estimate  also the estimates for small mu
+Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate);
+
+}  // namespace contensou::answers

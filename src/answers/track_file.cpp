@@ -1,0 +1,199 @@
+#include "answers/track_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "contensou/si/quantity.hpp"
+#include "text/nearest_name.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+constexpr std::string_view deviation = "_sd";
+constexpr const char* frame = "frame";
+
+/// A name of the header, with the unit in brackets behind it.
+struct Heading {
+  std::string name, unit;
+};
+
+Heading heading_of(std::string_view text) {
+  text = without_spaces(text);
+  const std::size_t open = text.find_first_of("[(");
+  if (open == std::string_view::npos || (text.back() != ']' && text.back() != ')')) return {std::string(text), ""};
+  return {std::string(without_spaces(text.substr(0, open))),
+          std::string(without_spaces(text.substr(open + 1, text.size() - open - 2)))};
+}
+
+/// How many SI units one of that unit is; an angle's is the radian.
+/// @throws NotAllowed
+double factor_of(const std::string& unit, std::string_view si_unit) {
+  if (unit.empty()) return 1;
+  const bool angle = si_unit == "rad";
+  const si::Dimension& dimension = *si::find_dimension(angle ? "deg" : si_unit);
+  const auto value = si::parse_quantity("1 " + unit, dimension);
+  if (!value) throw BadInput(fmt::format("{} is no unit of it: use {}", quotation(unit), si::units_of(dimension)));
+  return angle ? *value * (std::numbers::pi / 180) : *value;
+}
+
+/// Of a field: empty, and what numpy and R write for it, was not.
+bool is_measured(std::string_view field) {
+  field = without_spaces(field);
+  for (std::string_view nothing : {"", "nan", "NaN", "NAN", "NA"}) {
+    if (field == nothing) return false;
+  }
+  return true;
+}
+
+struct TrackColumn {
+  CsvColumn column;
+  std::string unit = {};  ///< as it stands there
+  double factor = 1;
+};
+
+struct SeriesColumns {
+  fit::Observable observable;
+  TrackColumn value;
+  std::optional<TrackColumn> sd;
+};
+
+/// Whether a length or speed without a unit seems to be in mm.
+std::string unit_doubt(const SeriesColumns& of, const fit::Series& series) {
+  constexpr double too_much = 30;  // m or m/s, of a ball that is filmed
+  const std::string_view unit = fit::kind_of(of.observable).unit;
+  if (!of.value.unit.empty() || (unit != "m" && unit != "m/s")) return "";
+  double largest = 0;
+  for (double value : series.value) largest = std::max(largest, std::isnan(value) ? 0 : std::abs(value));
+  if (largest < too_much) return "";
+  return fmt::format("{0} is up to {1:.4g} {2}; is it in mm? Then call it '{0} [m{2}]'", of.value.column.name, largest,
+                     unit);
+}
+
+}  // namespace
+
+std::vector<std::string> observable_names() {
+  std::vector<std::string> names;
+  for (const fit::ObservableKind& kind : fit::observable_kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+fit::Track read_track(CsvReader& table, const std::string& track_name, const TrackRequest& request,
+                      const std::function<void(const std::string&)>& note, NoiseByName* unused) {
+  std::vector<std::string> known{"t", frame};
+  for (const std::string& name : observable_names()) known.push_back(name);
+  std::set<std::string> unread;
+  std::vector<Heading> headings;
+  for (const std::string& name : table.names()) {
+    headings.push_back(heading_of(name));
+    std::string base = headings.back().name;
+    if (base.ends_with(deviation)) base.resize(base.size() - deviation.size());
+    const bool is_time = base == "t" || base == frame;
+    const bool is_read = is_time ? base == headings.back().name : std::ranges::find(known, base) != known.end();
+    if (!is_read) unread.insert(headings.back().name);
+  }
+  const auto fail = [&](const std::string& message) { throw table.complaint(table.header_line(), message); };
+  const auto column = [&](const std::string& name, std::string_view si_unit) -> std::optional<TrackColumn> {
+    std::optional<TrackColumn> found;
+    for (std::size_t i = 0; i < headings.size(); ++i) {
+      if (headings[i].name != name) continue;
+      if (found) fail(fmt::format("two columns are called '{}'; one is allowed", name));
+      try {
+        found = {{table.names()[i], i}, headings[i].unit, factor_of(headings[i].unit, si_unit)};
+      } catch (const BadInput& error) {
+        fail(fmt::format("column {}: {}", quotation(table.names()[i]), error.what()));
+      }
+    }
+    return found;
+  };
+
+  auto time = column("t", "s");
+  if (const auto frames = column(frame, "s"); frames && !time) {
+    if (!frames->unit.empty()) fail("frames are numbers, without a unit");
+    if (!request.fps) fail("frames are numbered here: --fps N says how many are in a second");
+    time = frames;
+    time->factor = 1 / *request.fps;
+  } else if (request.fps && time) {
+    fail("--fps is of a column frame; here is t");
+  }
+  std::vector<SeriesColumns> columns;
+  for (const auto& [observable, name, unit, meaning] : fit::observable_kinds()) {
+    const auto value = column(std::string(name), unit);
+    auto sd = column(fmt::format("{}{}", name, deviation), unit);
+    if (value && sd && sd->unit.empty()) sd->factor = value->factor;
+    if (value) columns.push_back({observable, *value, sd});
+    if (!value && sd)
+      fail(fmt::format("column {0}{1} is the standard deviation of {0}, which is not there", name, deviation));
+  }
+  if (!time || columns.empty()) {
+    std::string hints;
+    for (const std::string& name : unread) {
+      if (const std::string nearest = nearest_name(name, known); !nearest.empty())
+        hints += fmt::format("; {} is not read: did you mean '{}'?", quotation(name), nearest);
+    }
+    const bool separator = table.names().size() == 1 && table.names().front().find_first_of(";\t") != std::string::npos;
+    fail(
+        fmt::format("a track has a column t and one or more of {}, each with NAME{} where its errors are known; no {} "
+                    "here{}{}",
+                    fmt::join(observable_names(), ", "), deviation, time ? "other column of these is" : "t is", hints,
+                    separator ? "; a comma must separate columns" : ""));
+  }
+  if (time->column.name != frame) {
+    for (const Heading& heading : headings) {
+      if (heading.name == frame) unread.insert(frame);
+    }
+  }
+  for (const std::string& name : unread)
+    note(fmt::format("{}: column {} is not read", escaped(track_name), quotation(name)));
+
+  fit::Track track{.name = track_name};
+  std::vector<double> t;
+  std::vector<std::vector<double>> values(columns.size()), deviations(columns.size());
+  double last = -INFINITY;
+  table.for_each_row([&](const CsvRow& row) {
+    const double now = time->factor * table.number(row, time->column);
+    if (now <= last) throw table.complaint(row.line(), fmt::format("t must increase: {} follows {}", now, last));
+    last = now;
+    const bool left_out = now < request.from.value_or(-INFINITY) || now > request.until.value_or(INFINITY);
+    if (!left_out) t.push_back(now);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto& [observable, value, sd] = columns[i];
+      const bool measured = is_measured(row[value.column.place]);
+      const double number = measured ? value.factor * table.number(row, value.column) : NAN;
+      double error = 1;
+      if (sd && measured) error = sd->factor * table.number(row, sd->column);
+      if (!(error > 0)) {
+        throw table.complaint(row.line(),
+                              fmt::format("{}: a standard deviation > 0 is required, got {}", sd->column.name, error));
+      }
+      if (left_out) continue;
+      values[i].push_back(number);
+      if (sd) deviations[i].push_back(error);
+    }
+  });
+  if (t.empty()) throw BadInput(fmt::format("{}: no row has a time between --from and --until", escaped(track_name)));
+  const auto array = [](const std::vector<double>& numbers) {
+    return Eigen::ArrayXd(Eigen::Map<const Eigen::ArrayXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size())));
+  };
+  track.t = array(t);
+  track.start = request.from.value_or(t.front());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    fit::Series series{columns[i].observable, array(values[i]), array(deviations[i])};
+    const auto noise = request.noise.find(std::string(fit::kind_of(series.observable).name));
+    if (series.sd.size() == 0 && noise != request.noise.end()) {
+      series.sd = Eigen::ArrayXd::Constant(track.t.size(), noise->second);
+      if (unused != nullptr) unused->erase(noise->first);
+    }
+    if (const std::string doubt = unit_doubt(columns[i], series); !doubt.empty())
+      note(fmt::format("{}: {}", escaped(track_name), doubt));
+    track.series.push_back(std::move(series));
+  }
+  return track;
+}
+
+}  // namespace contensou::answers
