@@ -76,73 +76,82 @@ double error_of(const reduction::StopEstimate& estimate, const reduction::StopTi
   return estimate.tau == stop.tau ? 0 : estimate.tau - stop.tau;
 }
 
-Json members_of(const StopReport& report) {
-  const auto& [system, state, experiment] = report.start;
-  const double tau = report.stop.tau;
-  Json members{
-      {"law", system.law().name()},
-      {"route", name(report.stop.route)},
-      {"mu", system.mu()},
-      {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
-      {"u0", state.u},
-      {"v0", state.v},
-      {"tau_stop", tau},
-      {"accuracy", report.stop.accuracy},
-      {"T_stop", tau / (1.5 * std::numbers::pi)},  // f g t, without the paper's factor 3 pi/2
-      {"bounds", {report.stop.bounds.lower, report.stop.bounds.upper}},
-      {"limits", {{"sliding_only", report.sliding_only}, {"pivoting_only", report.pivoting_only}}},
-  };
-  if (report.other) members["other_law"] = {{"law", report.other->law}, {"tau_stop", report.other->tau}};
-  if (report.coarser) members["coarser_table"] = {{"rows", report.coarser->rows}, {"tau_stop", report.coarser->tau}};
-  for (const reduction::StopEstimate& estimate : report.estimates) {
-    members["estimates"].push_back(
-        {{"name", estimate.name}, {"tau_stop", estimate.tau}, {"error", error_of(estimate, report.stop)}});
-  }
-  if (experiment) {
-    const auto [velocity, angular_velocity] = si::final_motion(*experiment);
-    members["ball"] = members_of_ball(*experiment, system.law());
-    members["slip"] = si::slip_at_start(*experiment);
-    members["spin"] = si::spin_at_start(*experiment);
-    members["slip_length"] = report.slip_length;
-    members["t_stop"] = si::seconds(*experiment, tau);
-    members["final"] = {{"velocity", std::vector(velocity.begin(), velocity.end())},
-                        {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
-  }
-  return members;
-}
+constexpr auto of_ball = [](const StopReport& report, auto value) {
+  return report.start.experiment ? Json(value(*report.start.experiment)) : Json();
+};
 
-/// The members as columns of CSV.
-Json row_of(const Json& members) {
-  Json row;
-  for (const auto& [column, place] :
-       std::initializer_list<std::pair<const char*, const char*>>{{"law", "/law"},
-                                                                  {"route", "/route"},
-                                                                  {"mu", "/mu"},
-                                                                  {"u0", "/u0"},
-                                                                  {"v0", "/v0"},
-                                                                  {"tau_stop", "/tau_stop"},
-                                                                  {"lower", "/bounds/0"},
-                                                                  {"upper", "/bounds/1"},
-                                                                  {"sliding_only", "/limits/sliding_only"},
-                                                                  {"pivoting_only", "/limits/pivoting_only"},
-                                                                  {"chi", "/body/chi"},
-                                                                  {"gamma", "/body/gamma"},
-                                                                  {"T_stop", "/T_stop"},
-                                                                  {"accuracy", "/accuracy"},
-                                                                  {"other_law", "/other_law/law"},
-                                                                  {"other_tau", "/other_law/tau_stop"},
-                                                                  {"coarser_tau", "/coarser_table/tau_stop"},
-                                                                  {"t_stop", "/t_stop"}}) {
-    const Json::json_pointer pointer(place);
-    if (members.contains(pointer)) row[column] = members[pointer];
-  }
-  for (const Json& estimate : members.value("estimates", Json::array())) {
-    const auto name = estimate["name"].get<std::string>();
-    row["tau_" + name] = estimate["tau_stop"];
-    row["error_" + name] = estimate["error"];
-  }
-  return row;
-}
+constexpr Field<StopReport> fields[]{
+    {"law", "", nullptr, [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
+    {"route", "", nullptr, [](const StopReport& r) -> Json { return name(r.stop.route); }},
+    {"mu", "", nullptr, [](const StopReport& r) -> Json { return r.start.system.mu(); }},
+    {"body", "", "1 + m R^2/J, m R^2/J_z",
+     [](const StopReport& r) -> Json {
+       const auto [chi, gamma] = r.start.system.inertia();
+       return {{"chi", chi}, {"gamma", gamma}};
+     },
+     nullptr, 1, " {`chi`, `gamma`}"},
+    {"u0", "speed", "R omega_z at the start", [](const StopReport& r) -> Json { return r.start.state.u; }},
+    {"v0", "speed", "sliding speed at the start", [](const StopReport& r) -> Json { return r.start.state.v; }},
+    {"tau_stop", "speed", "when slip and spin end", [](const StopReport& r) -> Json { return r.stop.tau; }},
+    {"accuracy", "", "relative error of tau_stop", [](const StopReport& r) -> Json { return r.stop.accuracy; }, nullptr,
+     3},
+    // f g t, without the paper's factor 3 pi/2
+    {"T_stop", "speed", "f g t_stop = 2 tau_stop/(3 pi)",
+     [](const StopReport& r) -> Json { return r.stop.tau / (1.5 * std::numbers::pi); }, nullptr, 2},
+    {"bounds", "speed", "of tau_stop, proved",
+     [](const StopReport& r) {
+       return Json::array({r.stop.bounds.lower, r.stop.bounds.upper});
+     },
+     "lower,upper", 0, " [lower, upper]"},
+    {"limits", "speed", "tau_stop of a body with u0 = 0, with v0 = 0",
+     [](const StopReport& r) -> Json {
+       return {{"sliding_only", r.sliding_only}, {"pivoting_only", r.pivoting_only}};
+     },
+     nullptr, 0, " {`sliding_only`, `pivoting_only`}"},
+    {"other_law", "speed", "beside exact pade, beside pade exact",
+     [](const StopReport& r) -> Json {
+       if (!r.other) return {};
+       return {{"law", r.other->law}, {"tau_stop", r.other->tau}};
+     },
+     "other_law,other_tau", 4, " {`law`, `tau_stop`}"},
+    {"coarser_table", "1; speed",
+     "of a pressure in a table, with every other row left out: what interpolation may cost",
+     [](const StopReport& r) -> Json {
+       if (!r.coarser) return {};
+       return {{"rows", r.coarser->rows}, {"tau_stop", r.coarser->tau}};
+     },
+     ",coarser_tau", 4, " {`rows`, `tau_stop`}"},
+    {"estimates", "speed", "with --estimate; * is its name, such as E1",
+     [](const StopReport& r) {
+       Json estimates;
+       for (const reduction::StopEstimate& of : r.estimates) {
+         estimates.push_back({{"name", of.name}, {"tau_stop", of.tau}, {"error", error_of(of, r.stop)}});
+       }
+       return estimates;
+     },
+     "tau_*,error_*", 4, " [{`name`, `tau_stop`, `error`}]"},
+    {"ball", "m; kg; 1; m/s^2; m", "its values; and, as in run files, what its patch follows from",
+     [](const StopReport& r) {
+       return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });
+     },
+     "", 0, " {`name`, `body`, `radius`, `mass`, `friction`, `gravity`, `patch_radius`, ...}"},
+    {"slip", "m/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::slip_at_start); }, ""},
+    {"spin", "1/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::spin_at_start); }, ""},
+    {"slip_length", "m", "slid by the contact point of a ball",
+     [](const StopReport& r) { return of_ball(r, [&](const auto& /*ball*/) { return r.slip_length; }); }, ""},
+    {"t_stop", "s", "of a ball, when slip and spin end",
+     [](const StopReport& r) { return of_ball(r, [&](const auto& ball) { return si::seconds(ball, r.stop.tau); }); },
+     nullptr, 4},
+    {"final", "m/s, 1/s", "of a ball: how it rolls then",
+     [](const StopReport& r) {
+       return of_ball(r, [](const auto& ball) -> Json {
+         const auto [velocity, angular_velocity] = si::final_motion(ball);
+         return {{"velocity", std::vector(velocity.begin(), velocity.end())},
+                 {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
+       });
+     },
+     "", 0, " {`velocity` [x, y], `angular_velocity` [x, y, z]}"},
+};
 
 /// The report for people.
 class Text {
@@ -281,6 +290,8 @@ class Text {
 
 }  // namespace
 
+std::vector<FieldText> stop_fields() { return texts_of(fields); }
+
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate) {
   using Estimates = std::vector<reduction::StopEstimate>;
   const auto& [system, state, experiment] = start;
@@ -299,8 +310,7 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           coarser_table(start),
                           estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
                           experiment ? si::seconds(*experiment, slip_length(*flow, state)) : 0};
-  const Json members = members_of(report);
-  return {.members = members, .rows = {row_of(members)}, .text = [=](const Digits& digits) {
+  return {.members = members_of(fields, report), .rows = {row_of(fields, report)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();
           }};
 }

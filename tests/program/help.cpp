@@ -5,11 +5,13 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "answers/fields.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "output/formula.hpp"
 #include "run_program.hpp"
@@ -70,6 +72,23 @@ TEST_CASE("topics of help", "[cli]") {
   check_rejected("help unit",
                  "no such topic (did you mean 'units'?); topics: laws, views, units, files, theory, balls, check");
   check_rejected("help stop law", "unexpected argument 'law'");
+}
+
+TEST_CASE("the table of fields in src/README.md is that of the answers", "[table]") {
+  std::string table = "| verb | field | unit | |\n|---|---|---|---|\n";
+  for (const auto& [verb, fields] : contensou::answers::field_table()) {
+    std::string first = verb == "all" ? verb : fmt::format("`{}`", verb);
+    for (const auto& [names, unit, meaning] : fields) {
+      const std::string cell = std::exchange(first, "");
+      table += fmt::format("|{}{} | {} |{}{} | {} |\n", cell.empty() ? "" : " ", cell, names, unit.empty() ? "" : " ",
+                           unit, meaning);
+    }
+  }
+  const auto path = std::filesystem::path(CONTENSOU_README).parent_path() / "src/README.md";
+  std::stringstream readme;
+  readme << std::ifstream(path).rdbuf();
+  INFO("It has to hold this:\n" << table);
+  CHECK(readme.str().find("\n\n" + table + "\n") != std::string::npos);
 }
 
 TEST_CASE("formulas of TeX as plain text", "[table]") {

@@ -1,12 +1,11 @@
 #include "output/help.hpp"
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 
 #include <fmt/format.h>
 
-#include "field_table.hpp"
+#include "answers/fields.hpp"
 
 namespace contensou::program {
 
@@ -46,19 +45,14 @@ std::string help_entry(std::string_view name, std::string_view meaning) {
 }
 
 std::string help_on_fields(const std::string& verb) {
-  std::string text, subject;
-  std::istringstream rows(field_table);
-  for (std::string row; std::getline(rows, row);) {
-    std::erase(row, '`');
-    std::array<std::string, 5> cells;  // the first is empty: it is what stands before the first bar
-    std::istringstream line(row);
-    for (std::string& cell : cells) std::getline(line, cell, '|');
-    for (std::string& cell : cells) CLI::detail::trim(cell);
-    const auto& [none, of, fields, unit, meaning] = cells;
-    if (!of.empty()) subject = of;
-    if (subject != verb && !subject.starts_with(verb + " ")) continue;
-    if (!of.empty()) text += of == verb ? "\nColumns and fields:\n" : fmt::format("\nColumns of {}:\n", of);
-    text += help_entry(fields, unit.empty() ? meaning : fmt::format("{} ({})", meaning, unit));
+  std::string text;
+  for (auto& [of, fields] : answers::field_table()) {
+    if (of != verb && !of.starts_with(verb + " ")) continue;
+    text += of == verb ? "\nColumns and fields:\n" : fmt::format("\nColumns of {}:\n", of);
+    for (auto& [names, unit, meaning] : fields) {
+      std::erase(names, '`');
+      text += help_entry(names, unit.empty() ? meaning : fmt::format("{} ({})", meaning, unit));
+    }
   }
   return text;
 }

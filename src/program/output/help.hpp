@@ -16,7 +16,7 @@ std::string help_paragraph(std::string_view text, std::size_t indent = 0);
 /// A name and, beside or below it, what it means, in lines of at most 80 columns.
 std::string help_entry(std::string_view name, std::string_view meaning);
 
-/// The columns and fields that a verb writes, from the table in src/README.md; empty if it has none.
+/// The columns and fields that a verb reads and writes; empty if it has none.
 std::string help_on_fields(const std::string& verb);
 
 /// How CLI11 writes the help of a verb.

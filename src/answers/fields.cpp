@@ -1,0 +1,172 @@
+#include "answers/fields.hpp"
+
+#include "answers/stop_answer.hpp"
+
+namespace contensou::answers {
+
+std::vector<VerbFields> field_table() {
+  return {
+      {"all",
+       {
+           {"`law`, `route`", "", "names"},
+           {"`mu`", "", "patch radius over R"},
+       }},
+      {"stop", stop_fields()},
+      {"stop --batch",
+       {
+           {"in: `mu`, `u0`, `v0`; out: `tau_stop`", "speed", "all other columns pass through"},
+           {"with --ball in: `slip`, `spin`; out: `t_stop`", "m/s, 1/s; s", "the same in SI units"},
+       }},
+      {"orbit",
+       {
+           {"`tau`, `u`, `v`, `ln_v`", "speed", "ln_v does not underflow"},
+           {"`k`, `beta`", "", "v/(mu abs(u)); the regularised time (2.8), 0 at the start"},
+           {"`u_estimate`, `v_estimate`, `ln_v_estimate`", "speed",
+            "with --estimate: the asymptotic solution for small mu at the same tau; 0 from its own stop, E1, on"},
+           {"`t`, JSON `ball`; `tau_left`", "s; speed", "of a ball, as of stop; with --time-left"},
+           {"`q`, `p`; `integral`", "",
+            "with --reduction: v/u and ln v; ln abs(u) - ln w(k), the same on every row; inf where it has no value: on "
+            "the axes, on a ray, at rest"},
+       }},
+      {"law",
+       {
+           {"`k`, `phi`, `psi`", "", "force over f N, moment over f N times patch radius"},
+       }},
+      {"roll",
+       {
+           {"`t`; `x`, `y`", "s; m", "time; place of the centre, 0 at the start"},
+           {"`vx`, `vy`; `wx`, `wy`, `wz`", "m/s; 1/s", "velocity of the centre, angular velocity, z up"},
+           {"`slip`; `energy`", "m/s; J", "speed of the contact point; kinetic energy"},
+           {"`ball`", "", "as of stop"},
+           {"`velocity`, `angular_velocity`", "m/s; 1/s", "at the start"},
+           {"`t_stop`", "s", "when slip and spin end"},
+           {"`integrated` {`t_stop`, `slip_length`, `turns`, `steps`}", "s; m; 1; 1",
+            "with --route integrated, by it; its rows are, too, and all other events of the reduced route"},
+           {"`rolls_after` {`t`, `x`, `y`, `threshold`}", "s, m, m, m/s",
+            "when and where the slip is below the threshold: --rolling-below, 0.001 m/s unless it is given"},
+           {"`spin_ends` {`t`, `x`, `y`}", "s, m, m", "0 without spin"},
+           {"`rest` {`t`, `x`, `y`}", "s, m, m", "of the centre, with --rolling-friction"},
+           {"`slip_length`; `turns`; `path`", "m; 1; m",
+            "slid by the contact point; about the vertical; of the centre until it rolls"},
+           {"`energy_balance` {`start`, `lost_sliding`, `lost_spinning`, `kept`}", "J", "kept: for rolling"},
+           {"`textbook`", "", "the same events, by the same threshold, where slip and spin do not know of each other"},
+       }},
+      {"roll --batch",
+       {
+           {"in: `slip`, `spin`, or `vx`, `vy`, `wx`, `wy`, `wz`", "m/s, 1/s",
+            "the start; all other columns pass through"},
+           {"out: `t_rolls`, `x_rolls`, `y_rolls`", "s, m, m",
+            "when and where the slip is below --rolling-below, 0.001 m/s unless it is given"},
+           {"`t_spin_ends`, `x_spin_ends`, `y_spin_ends`", "s, m, m", "when and where the spin ends; 0 without spin"},
+           {"`slip_length`, `turns`, `path`", "m, 1, m",
+            "slid by the contact point; about the vertical; of the centre until it rolls"},
+           {"`t_rest`, `x_rest`, `y_rest`", "s, m, m", "rest of the centre, with --rolling-friction"},
+       }},
+      {"portrait",
+       {
+           {"CSV `kind`, `index`; `u`, `v`, `ln_v`; `k`", "; speed; 1",
+            "orbit, highlight, through, isochrone; number of the line; states on it"},
+           {"`tau` (JSON `tau_left`, `tau_stop`); `t`", "speed; s", "time left; of a ball"},
+           {"`view`, `window` [U, V], `version`, `ball`, `seconds_per_tau`", "",
+            "where it comes from; the last two of a ball"},
+       }},
+      {"sweep",
+       {
+           {"`mu`, `u0`, `v0`, `tau_stop`; with --ball `spin`, `slip`, `t_stop`", "speed; 1/s, m/s, s",
+            "npy: the times alone, shape (N_v0, N_u0) or (N_mu, N_v0, N_u0); (N_slip, N_spin)"},
+       }},
+      {"check",
+       {
+           {"`checks` [{`law`, `check`, `measured`, `allowed`, `passed`}]; CSV `verdict` ok or FAIL", "",
+            "measured must not exceed allowed"},
+       }},
+      {"check --against",
+       {
+           {"in: `t`; `slip`; `spin` or `wz`", "s; m/s; rad/s", "rows in order of time, the first is the start"},
+           {"in `checks`: `error`; `t`; `leaves`", "m/s or rad/s; s; s",
+            "the worst error; its row; the first row off by more than allowed, or inf"},
+           {"`start` {`slip`, `spin`}", "m/s, rad/s", "of all models"},
+           {"`models` [{`model`, `slip`, `spin`}]; `nearest`", "",
+            "worst errors as shares of the start; the law's own first; an engine's elliptic cone is elliptic, its box "
+            "is the textbook"},
+       }},
+      {"terminal",
+       {
+           {"`r`; `r_low`, `r_high`", "", "gamma mu^2/chi; where the regime changes"},
+           {"`limit`; `k_star`; `k_star_accuracy`; `ends`", "",
+            "zero, ray or infinity; what k tends to; its relative error; all ends with their starts `k_from` to "
+            "`k_to`"},
+       }},
+      {"reduce",
+       {
+           {"`system`", "", "--system, in place of law, mu and body"},
+           {"`generators` [{`time`: c, `matrix`: A, `shift`: b}]; CSV `time`, `a11` ... `b2`", "",
+            "c t d/dt + (A x + b) d/dx, x = (u, v); the first is what is reduced by"},
+           {"`singular_values`; `level`; `gap`", "",
+            "of the determining equations, over the largest; what counts as 0 is below level; how far the others are"},
+           {"`canonical` {`q`, `p`, `dp_dq`}; `first_integral`", "",
+            "v/u and ln v; of a system the angle of a direction and ln of the distance, over those of the start; p "
+            "less its value on one orbit"},
+           {"`rays` [{`k` or `angle`, `attracts`}]", "",
+            "also `to_centre`, `radial`, `angular`: the motion on it, eigenvalues along it and across"},
+           {"`kind`; `turn` {`factor`, `sigma`}", "",
+            "node, saddle, focus, ... of the blown-up centre; of a focus a turn"},
+           {"`tau_stop`; `end`; `routes` [{`name`, `tau_stop`}]", "speed",
+            "inf where the centre is not reached; section: by the general way"},
+       }},
+      {"fit",
+       {
+           {"in: `t`; `slip`, `x`, `y`, `vx`, `vy`", "s; m/s, m, m, m/s, m/s", "any of them; others are not read"},
+           {"in: `spin`, `angle`; NAME`_sd`", "rad/s, rad", "about the vertical; standard deviation of NAME"},
+           {"`friction`, `patch_radius`, `slip`, `spin`", "1, m, m/s, 1/s",
+            "the last two of the first track, at its start"},
+           {"each {`value`, `standard_error`, `low`, `high`, `determined`}", "",
+            "and the 95 % interval; where not determined, value is any of many and standard_error inf"},
+           {"`fits`; `misfits`; `remarks`", "",
+            "whether this may be the motion of the data, and if not why (status 1); what else is to be known"},
+           {"`correlation`; `profiled`", "",
+            "of friction and patch_radius; whether their intervals are by profile likelihood"},
+           {"`reduced_chi2`, `degrees_of_freedom`", "", "1 where the noise is estimated"},
+           {"`only` {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}", "",
+            "the one combination of the two that the data determine, where they do no more"},
+           {"`tracks` [{`file`, `start`, `slip`, ...}]", "",
+            "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start"},
+           {"`noise` {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`}}", "", "of each column"},
+           {"`half_turn_spin`, `other_spins`", "rad/s",
+            "of a track with an angle: from where on its turns are found by trial; spins that fit as well by other "
+            "turns"},
+           {"`laws` [{`law`, `aic`, `friction`, `patch_radius`, `reduced_chi2`}]", "", "the best first"},
+           {"CSV `law`, `track`, `parameter`, `value`, `standard_error`, `low`, `high`, `determined`", "",
+            "a row each"},
+       }},
+      {"balls",
+       {
+           {"`name`, `description`, `sources`; `body`, `law`", "", "ball or disc; its own"},
+           {"`radius`, `patch_radius`; `mass`; `friction`, `mu`; `slip`, `spin`; `gravity`",
+            "m; kg; 1; m/s, 1/s; m/s^2", "the typical start"},
+       }},
+      {"engine",
+       {
+           {"`radius`, `patch_radius`; `mass`, `load`; `friction`, `pivoting_moment`; `slip`, `spin`",
+            "m; kg, N; 1; m/s, 1/s", "of the ball"},
+           {"`moment_arm`", "m", "f a Psi(0), the moment of spinning over the load; of a setting its greatest"},
+           {"`t_slip`, `t_spin`", "s",
+            "until 1e-3 of slip and spin is left: under the law (CSV `law_t_slip`, `law_t_spin`), of a setting in that "
+            "engine"},
+           {"`engines` [{`name`, `title`, `repository`, `version`, ...}]", "",
+            "CSV has a row for each setting, with `engine`"},
+           {"... `limit`, `combination`, `needs`, `remarks`, `sources`", "", "texts"},
+           {"... `parameters` {NAME {`value`, `unit`, `formula`}}", "",
+            "what to type in, that of the moment last (CSV `parameter`, `value`)"},
+           {"... `settings` [{`setting`, `cone`, `moment_arm`, `t_slip`, `t_spin`}]", "",
+            "the one nearest to the law first; cone elliptic, box, pyramid or none"},
+       }},
+      {"paper",
+       {
+           {"`equation`, `statement`, `printed`, `computed`, `verdict`, `recorded`, `correction`, `at`", "",
+            "JSON: in `claims`"},
+       }},
+  };
+}
+
+}  // namespace contensou::answers
