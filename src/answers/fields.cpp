@@ -1,5 +1,7 @@
 #include "answers/fields.hpp"
 
+#include "answers/check_answer.hpp"
+#include "answers/phase_plane_answer.hpp"
 #include "answers/stop_answer.hpp"
 
 namespace contensou::answers {
@@ -70,33 +72,15 @@ std::vector<VerbFields> field_table() {
            {"`view`, `window` [U, V], `version`, `ball`, `seconds_per_tau`", "",
             "where it comes from; the last two of a ball"},
        }},
+      {"portrait --facts", phase_plane_fields()},
       {"sweep",
        {
            {"`mu`, `u0`, `v0`, `tau_stop`; with --ball `spin`, `slip`, `t_stop`", "speed; 1/s, m/s, s",
             "npy: the times alone, shape (N_v0, N_u0) or (N_mu, N_v0, N_u0); (N_slip, N_spin)"},
        }},
-      {"check",
-       {
-           {"`checks` [{`law`, `check`, `measured`, `allowed`, `passed`}]; CSV `verdict` ok or FAIL", "",
-            "measured must not exceed allowed"},
-       }},
-      {"check --against",
-       {
-           {"in: `t`; `slip`; `spin` or `wz`", "s; m/s; rad/s", "rows in order of time, the first is the start"},
-           {"in `checks`: `error`; `t`; `leaves`", "m/s or rad/s; s; s",
-            "the worst error; its row; the first row off by more than allowed, or inf"},
-           {"`start` {`slip`, `spin`}", "m/s, rad/s", "of all models"},
-           {"`models` [{`model`, `slip`, `spin`}]; `nearest`", "",
-            "worst errors as shares of the start; the law's own first; an engine's elliptic cone is elliptic, its box "
-            "is the textbook"},
-       }},
-      {"terminal",
-       {
-           {"`r`; `r_low`, `r_high`", "", "gamma mu^2/chi; where the regime changes"},
-           {"`limit`; `k_star`; `k_star_accuracy`; `ends`", "",
-            "zero, ray or infinity; what k tends to; its relative error; all ends with their starts `k_from` to "
-            "`k_to`"},
-       }},
+      {"check", check_fields()},
+      {"check --against", check_against_fields()},
+      {"terminal", terminal_fields()},
       {"reduce",
        {
            {"`system`", "", "--system, in place of law, mu and body"},

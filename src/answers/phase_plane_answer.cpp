@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/text_table.hpp"
 #include "contensou/reduction/phase_plane.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 
@@ -47,26 +48,106 @@ std::size_t usual_end(const TerminalRatios& ratios) {
   return static_cast<std::size_t>(std::ranges::max_element(ratios.ends, {}, sector) - ratios.ends.begin());
 }
 
-/// r_low, r_high, rays and ends; of each end limit, k_star with its relative error, k_from and k_to. These five stand
-/// before them, too, for the usual end.
+/// An end, and the relative error of its k*.
+struct End {
+  TerminalRatio ratio;
+  double accuracy;
+};
+
+End end_of(const TerminalRatios& ratios, const TerminalRatio& end) {
+  const auto ray = std::ranges::find(ratios.rays, end.k, &InvariantRay::k);
+  return {end, ray == ratios.rays.end() ? 0 : ray->accuracy};
+}
+
+constexpr Field<ReducedSystem> system_fields[]{
+    {"law", "", nullptr, [](const ReducedSystem& system) -> Json { return system.law().name(); }},
+    {"r", "", "gamma mu^2/chi", [](const ReducedSystem& system) -> Json { return system.r(); }},
+};
+constexpr Field<TerminalRatios> regime_fields[]{
+    {"r_low", "", "Phi/(k Psi) at k = 0, where the regime changes",
+     [](const TerminalRatios& ratios) -> Json { return ratios.low; }},
+    {"r_high", "", "Phi/(k Psi) at k = infinity, where it changes again",
+     [](const TerminalRatios& ratios) -> Json { return ratios.high; }},
+};
+constexpr Field<End> end_fields[]{
+    {"limit", "", "zero, ray or infinity: of k, for most starts; CSV has a row for each end",
+     [](const End& end) -> Json { return text_of(limits, end.ratio.regime); }},
+    {"k_star", "", "what k tends to", [](const End& end) -> Json { return end.ratio.k; }},
+    {"k_star_accuracy", "", "its relative error", [](const End& end) -> Json { return end.accuracy; }, nullptr, 1},
+    {"k_from", "", "the starts that end there: from this k", [](const End& end) -> Json { return end.ratio.from; }},
+    {"k_to", "", "to this", [](const End& end) -> Json { return end.ratio.to; }},
+};
+constexpr Field<TerminalRatios> list_fields[]{
+    {"rays", "", "all k at which a half-line is an orbit",
+     [](const TerminalRatios& ratios) {
+       Json rays = Json::array();
+       for (const InvariantRay& ray : ratios.rays) {
+         rays.push_back({{"k", ray.k}, {"attracts", ray.attracts()}, {"accuracy", ray.accuracy}});
+       }
+       return rays;
+     },
+     "", 0, " [{`k`, `attracts`, `accuracy`}]"},
+    {"ends", "", "all ends",
+     [](const TerminalRatios& ratios) {
+       Json ends = Json::array();
+       for (const TerminalRatio& end : ratios.ends) ends.push_back(members_of(end_fields, end_of(ratios, end)));
+       return ends;
+     },
+     "", 0, " [{`limit`, ...}]"},
+};
+
+/// What both answers say; of the ends the usual one stands before the others.
 Json members_of(const TerminalRatios& ratios) {
-  Json rays = Json::array(), ends = Json::array();
-  for (const InvariantRay& ray : ratios.rays) {
-    rays.push_back({{"k", ray.k}, {"attracts", ray.attracts()}, {"accuracy", ray.accuracy}});
-  }
-  for (const TerminalRatio& end : ratios.ends) {
-    const auto ray = std::ranges::find(ratios.rays, end.k, &InvariantRay::k);
-    ends.push_back({{"limit", text_of(limits, end.regime)},
-                    {"k_star", end.k},
-                    {"k_star_accuracy", ray == ratios.rays.end() ? 0.0 : ray->accuracy},
-                    {"k_from", end.from},
-                    {"k_to", end.to}});
-  }
-  Json members{{"r_low", ratios.low}, {"r_high", ratios.high}};
-  members.update(ends[usual_end(ratios)]);
-  members.update({{"rays", rays}, {"ends", ends}});
+  Json members = members_of(regime_fields, ratios);
+  members.update(members_of(end_fields, end_of(ratios, ratios.ends[usual_end(ratios)])));
+  members.update(members_of(list_fields, ratios));
   return members;
 }
+
+/// Along what and how closely orbits enter the origin at an end.
+Json tangent_of(const PhasePlane& plane, std::size_t end) {
+  const auto& [direction, k, order] = plane.tangents[end];
+  return {{"half_line", name(direction)}, {"k", k}, {"contact_order", order}};
+}
+
+constexpr Field<SingularPoint> point_fields[]{
+    {"half_line", "", "u = 0, v = 0 or the ray",
+     [](const SingularPoint& point) -> Json { return name(point.direction); }},
+    {"place", "", "origin or infinity", [](const SingularPoint& point) -> Json { return name(point.place); }},
+    {"k", "", "of the half-line", [](const SingularPoint& point) -> Json { return point.k; }},
+    {"q", "", "v/abs(u)", [](const SingularPoint& point) -> Json { return point.q; }},
+    {"eigenvalues", "", "of (2.7), along the half-line and across",
+     [](const SingularPoint& point) -> Json {
+       return {{"radial", point.radial}, {"angular", point.angular}};
+     },
+     nullptr, 0, " {`radial`, `angular`}"},
+    {"kind", "", "stable node, saddle, ...", [](const SingularPoint& point) -> Json { return name(point.kind); }},
+    {"separatrix", "", "whether the half-line is one",
+     [](const SingularPoint& point) -> Json { return point.kind == reduction::SingularKind::saddle; }},
+};
+constexpr Field<PhasePlane> plane_fields[]{
+    {"mu_low", "", "r_low as a patch ratio of this body", [](const PhasePlane& plane) -> Json { return plane.mu_low; },
+     ""},
+    {"mu_high", "", "r_high as one", [](const PhasePlane& plane) -> Json { return plane.mu_high; }, ""},
+    {"tangent", "", "the half-line along which most orbits enter the origin",
+     [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["half_line"]; }, ""},
+    {"contact_order", "", "the power of the speed by which they leave it",
+     [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["contact_order"]; }, ""},
+    {"tangents", "", "both, at each end",
+     [](const PhasePlane& plane) {
+       Json tangents = Json::array();
+       for (std::size_t i = 0; i < plane.tangents.size(); ++i) tangents.push_back(tangent_of(plane, i));
+       return tangents;
+     },
+     "", 0, " [{`half_line`, `k`, `contact_order`}]"},
+    {"singular_points", "", "of the regularised plane; a row of CSV each",
+     [](const PhasePlane& plane) {
+       Json points = Json::array();
+       for (const SingularPoint& point : plane.points) points.push_back(members_of(point_fields, point));
+       return points;
+     },
+     "", 0, " [...]"},
+};
 
 /// The law, what r is made of, and where there are rays.
 std::string heading(const ReducedSystem& system, const TerminalRatios& ratios, std::string_view rays,
@@ -103,16 +184,14 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
   std::string text =
       fmt::format("{}, the r of {} < mu < {}\n\n", heading(system, plane.terminal, "v = k mu |u| ", digits),
                   digits(plane.mu_low), digits(plane.mu_high));
-  const auto line = [&](auto direction, auto place, const std::array<std::string, 4>& numbers, auto kind) {
-    text += fmt::format("{:<11}{:<9}", direction, place);
-    for (const std::string& number : numbers) text += fmt::format("{:>{}}", number, digits.width());
-    text += fmt::format("  {}\n", kind);
-  };
-  line("half-line", "at", {"k", "q = v/|u|", "radial", "angular"}, "kind");
+  const TextTable::Column number = TextTable::right(digits.width());
+  TextTable table({TextTable::left(11), TextTable::left(9), number, number, number, number});
+  table.add({"half-line", "at", "k", "q = v/|u|", "radial", "angular", "  kind"});
   for (const SingularPoint& point : plane.points) {
-    line(name(point.direction), name(point.place),
-         {digits(point.k), digits(point.q), digits(point.radial), digits(point.angular)}, name(point.kind));
+    table.add({std::string(name(point.direction)), std::string(name(point.place)), digits(point.k), digits(point.q),
+               digits(point.radial), digits(point.angular), fmt::format("  {}", name(point.kind))});
   }
+  text += table.text();
   text +=
       "\n"
       "radial, angular   eigenvalues of (2.7) in |u| and q = v/|u| (at u = 0 in v and |u|/v), divided by |u| (v);\n"
@@ -134,48 +213,37 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
 
 Answer terminal_answer(const ReducedSystem& system) {
   const TerminalRatios ratios = reduction::terminal_ratios(system.law(), system.r());
-  Answer answer{.members = {{"law", system.law().name()}, {"r", system.r()}},
+  Answer answer{.members = members_of(system_fields, system),
                 .text = [=](const Digits& digits) { return as_text(system, ratios, digits); }};
   answer.members.update(members_of(ratios));
-  for (const Json& end : answer.members["ends"]) {
-    answer.rows.push_back(
-        {{"law", system.law().name()}, {"r", system.r()}, {"r_low", ratios.low}, {"r_high", ratios.high}});
-    answer.rows.back().update(end);
-    answer.rows.back().erase("k_star_accuracy");
-    answer.rows.back()["k_star_accuracy"] = end["k_star_accuracy"];
+  for (const TerminalRatio& end : ratios.ends) {
+    Json& row = answer.rows.emplace_back(row_of(system_fields, system));
+    row.update(row_of(regime_fields, ratios));
+    row.update(row_of(end_fields, end_of(ratios, end)));
   }
   return answer;
 }
 
+std::vector<FieldText> terminal_fields() {
+  return joined({texts_of(system_fields), texts_of(regime_fields), texts_of(end_fields), texts_of(list_fields)});
+}
+
 Answer phase_plane_answer(const ReducedSystem& system) {
   const PhasePlane plane = reduction::phase_plane(system);
-  Answer answer{.text = [=](const Digits& digits) { return as_text(system, plane, digits); }};
-  for (const SingularPoint& point : plane.points) {
-    answer.rows.push_back({{"half_line", name(point.direction)},
-                           {"place", name(point.place)},
-                           {"k", point.k},
-                           {"q", point.q},
-                           {"eigenvalues", {{"radial", point.radial}, {"angular", point.angular}}},
-                           {"kind", name(point.kind)},
-                           {"separatrix", point.kind == reduction::SingularKind::saddle}});
-  }
-  Json tangents = Json::array();
-  for (const auto& [direction, k, order] : plane.tangents) {
-    tangents.push_back({{"half_line", name(direction)}, {"k", k}, {"contact_order", order}});
-  }
-  const Json& usual = tangents[usual_end(plane.terminal)];
-  answer.members = {{"law", system.law().name()},
-                    {"mu", system.mu()},
-                    {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
-                    {"r", system.r()}};
+  Answer answer{.members = {{"law", system.law().name()},
+                            {"mu", system.mu()},
+                            {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
+                            {"r", system.r()}},
+                .text = [=](const Digits& digits) { return as_text(system, plane, digits); }};
   answer.members.update(members_of(plane.terminal));
-  answer.members.update({{"mu_low", plane.mu_low},
-                         {"mu_high", plane.mu_high},
-                         {"tangent", usual["half_line"]},
-                         {"contact_order", usual["contact_order"]},
-                         {"tangents", tangents},
-                         {"singular_points", answer.rows}});
+  answer.members.update(members_of(plane_fields, plane));
+  for (const SingularPoint& point : plane.points) answer.rows.push_back(row_of(point_fields, point));
   return answer;
+}
+
+std::vector<FieldText> phase_plane_fields() {
+  return joined(
+      {{{"JSON `r`, `r_low`, ..., `ends`", "", "as of terminal"}}, texts_of(plane_fields), texts_of(point_fields)});
 }
 
 }  // namespace contensou::answers

@@ -45,4 +45,10 @@ FieldText text_of(const std::string& name, const char* columns, const char* unit
   return {names, unit, meaning};
 }
 
+std::vector<FieldText> joined(const std::vector<std::vector<FieldText>>& lists) {
+  std::vector<FieldText> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 }  // namespace contensou::answers

@@ -78,4 +78,7 @@ std::vector<FieldText> texts_of(const Field<Result> (&fields)[count]) {
   return texts;
 }
 
+/// One list after the other.
+std::vector<FieldText> joined(const std::vector<std::vector<FieldText>>& lists);
+
 }  // namespace contensou::answers

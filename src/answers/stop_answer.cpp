@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "answers/ball_answer.hpp"
 #include "answers/law_forms.hpp"
+#include "answers/text_table.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
@@ -184,7 +184,9 @@ class Text {
   }
 
   /// The law, if it is a table of pressures: such a one has bends, at which its accuracy is not proved.
-  const reduction::TabulatedPressureLaw* table() const { return system_.law().as<reduction::TabulatedPressureLaw>(); }
+  const reduction::TabulatedPressureLaw* pressures() const {
+    return system_.law().as<reduction::TabulatedPressureLaw>();
+  }
 
   std::string body_line() const {
     const auto [chi, gamma] = system_.inertia();
@@ -192,48 +194,45 @@ class Text {
                        number_(system_.r()));
   }
 
-  /// A line of the table of times: of a ball, seconds first.
-  template <class Cell>
-  std::string line(const std::string& label, const Cell& seconds, const Cell& tau, const std::string& note = "") const {
-    const auto cell = [&](const Cell& value) {
-      if constexpr (std::is_same_v<Cell, double>)
-        return number_(value);
-      else
-        return value;
-    };
-    std::string text = fmt::format("{:<18}", label);
-    if (report_.start.experiment) text += fmt::format("{:>{}}", cell(seconds), number_.width());
-    return text + fmt::format("{:>{}}", cell(tau), number_.width()) + (note.empty() ? "" : "    " + note) + "\n";
-  }
-
   std::string times() const {
     const auto& experiment = report_.start.experiment;
+    const TextTable::Column number = TextTable::right(number_.width());
+    TextTable table(experiment ? std::vector{TextTable::left(18), number, number}
+                               : std::vector{TextTable::left(18), number});
+    /// Of a ball, seconds first.
+    const auto line = [&](const std::string& label, const std::string& seconds, const std::string& tau,
+                          const std::string& note) {
+      std::vector<std::string> cells{label, tau, note.empty() ? "" : "    " + note};
+      if (experiment) cells.insert(cells.begin() + 1, seconds);
+      table.add(std::move(cells));
+    };
     const auto row = [&](const std::string& label, double tau, const std::string& note = "") {
-      return line(label, experiment ? si::seconds(*experiment, tau) : tau, tau, note);
+      line(label, experiment ? number_(si::seconds(*experiment, tau)) : "", number_(tau), note);
     };
     const double tau = report_.stop.tau;
-    std::string text = line<std::string>("", "t* (s)", experiment ? "tau* (m/s)" : "tau*") +
-                       row("slip and spin end", tau,
-                           std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
-                                           : fmt::format("numerical error {} {:.0e} of it", table() ? "some" : "below",
-                                                         rounded_up(report_.stop.accuracy)));
-    if (!report_.start.slides_and_spins()) return text;
-    text += row("at least", report_.stop.bounds.lower) + row("at most", report_.stop.bounds.upper) +
-            row("sliding only", report_.sliding_only, "limit u0 = 0") +
-            row("spinning only", report_.pivoting_only, "limit v0 = 0");
+    line("", "t* (s)", experiment ? "tau* (m/s)" : "tau*", "");
+    row("slip and spin end", tau,
+        std::isinf(tau) ? "beyond the largest double: use a larger unit of speed"
+                        : fmt::format("numerical error {} {:.0e} of it", pressures() ? "some" : "below",
+                                      rounded_up(report_.stop.accuracy)));
+    if (!report_.start.slides_and_spins()) return table.text();
+    row("at least", report_.stop.bounds.lower);
+    row("at most", report_.stop.bounds.upper);
+    row("sliding only", report_.sliding_only, "limit u0 = 0");
+    row("spinning only", report_.pivoting_only, "limit v0 = 0");
     const auto beside = [&](const std::string& label, double other, const std::string& more) {
       const double percent = 100 * (other / tau - 1);
       const bool comparable = tau > 0 && std::isfinite(tau) && std::isfinite(other);
       const std::string change =
           comparable ? fmt::format("{:.2g} % {}", std::abs(percent), percent < 0 ? "shorter" : "longer") : "";
-      text += row(label, other, change + more);
+      row(label, other, change + more);
     };
     if (report_.other) beside("law " + report_.other->law, report_.other->tau, "");
     if (report_.coarser) {
       beside(fmt::format("with {} rows", report_.coarser->rows), report_.coarser->tau,
-             fmt::format(": what interpolation between all {} may cost", table()->rows()));
+             fmt::format(": what interpolation between all {} may cost", pressures()->rows()));
     }
-    return text;
+    return table.text();
   }
 
   /// To one digit.
@@ -246,15 +245,16 @@ class Text {
     if (report_.estimates.empty()) return "";
     const double r = system_.r();
     const double limit = system_.law().force_slope() / system_.law().pivoting_moment();
-    const int width = number_.width();
-    std::string text =
-        fmt::format("{:<18}{:>{}}{:>{}}    r = gamma mu^2/chi = {}{}\n", "for small mu", "tau*", width, "error", width,
-                    number_(r), r > 0.1 * limit ? ": not small, trust none of these" : "");
+    const TextTable::Column number = TextTable::right(number_.width());
+    TextTable table({TextTable::left(18), number, number});
+    table.add({"for small mu", "tau*", "error",
+               fmt::format("    r = gamma mu^2/chi = {}{}", number_(r),
+                           r > 0.1 * limit ? ": not small, trust none of these" : "")});
     for (const reduction::StopEstimate& estimate : report_.estimates) {
-      text += fmt::format("{:<18}{:>{}}{:>{}.2g}    {}\n", estimate.name, number_(estimate.tau), width,
-                          error_of(estimate, report_.stop), width, estimate.formula);
+      table.add({std::string(estimate.name), number_(estimate.tau),
+                 fmt::format("{:.2g}", error_of(estimate, report_.stop)), fmt::format("    {}", estimate.formula)});
     }
-    return text + "\n";
+    return table.text() + "\n";
   }
 
   std::string methods() const {

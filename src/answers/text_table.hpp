@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace contensou::answers {
+
+/// A table for people: lines of cells, each padded to the width of its column.
+class TextTable {
+ public:
+  struct Column {
+    std::size_t width;  ///< 0: that of its widest cell
+    char align;         ///< < or >
+  };
+
+  /// What stands beside a table of numbers, at the left; and numbers.
+  static Column left(int width = 0) { return {static_cast<std::size_t>(width), '<'}; }
+  static Column right(int width) { return {static_cast<std::size_t>(width), '>'}; }
+
+  explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+  /// A line. Cells beyond the last column stand as they are.
+  void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
+
+  std::string text() const;
+
+ private:
+  std::vector<Column> columns_;
+  std::vector<std::vector<std::string>> lines_;
+};
+
+}  // namespace contensou::answers
