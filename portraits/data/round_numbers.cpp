@@ -57,24 +57,27 @@ std::vector<double> round_ratios(double low, double high, double few_decades) {
   return result;
 }
 
-std::string number(double value, int digits) {
+Text number(double value, int digits) {
   if (value == 0) return "0";
   const std::string rounded = fmt::format("{:.{}g}", value, digits);
   std::from_chars(rounded.data(), rounded.data() + rounded.size(), value);
   const double exponent = std::floor(std::log10(std::abs(value)) + 1e-9);
   if (exponent >= -3 && exponent < 5) return fmt::format("{:.{}g}", value, std::max(digits, 5));
   const double mantissa = value / std::pow(10, exponent);
-  if (std::abs(mantissa - 1) < 1e-6) return fmt::format("10^{{{}}}", exponent);
-  return fmt::format("{:.{}g}·10^{{{}}}", mantissa, digits > 5 ? digits : 3, exponent);
+  if (std::abs(mantissa - 1) < 1e-6) return "10" + sup(fmt::format("{}", exponent));
+  return fmt::format("{:.{}g}·10", mantissa, digits > 5 ? digits : 3) + sup(fmt::format("{}", exponent));
 }
 
-std::vector<std::string> powers_of_ten(const std::vector<double>& values) {
-  std::vector<std::string> plain, powers;
+std::vector<Text> powers_of_ten(const std::vector<double>& values) {
+  std::vector<Text> plain, powers;
   for (double value : values) {
     plain.push_back(number(value));
-    powers.push_back(fmt::format("10^{{{:.0f}}}", std::log10(value)));
+    powers.push_back("10" + sup(fmt::format("{:.0f}", std::log10(value))));
   }
-  return std::ranges::none_of(plain, [](const std::string& text) { return text.starts_with("10^"); }) ? plain : powers;
+  return std::ranges::none_of(plain,
+                              [&](const Text& text) { return text.runs().size() > 1 && text.runs()[0].words == "10"; })
+             ? plain
+             : powers;
 }
 
 }  // namespace contensou::portraits

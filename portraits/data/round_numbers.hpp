@@ -1,8 +1,9 @@
 #pragma once
 
 #include <initializer_list>
-#include <string>
 #include <vector>
+
+#include "contensou/portraits/text.hpp"
 
 namespace contensou::portraits {
 
@@ -25,11 +26,11 @@ std::vector<double> multiples(double low, double high, double step);
 /// are many, with 2 and 5 between them over fewer decades than given, and multiples of a step over less than 0.7.
 std::vector<double> round_ratios(double low, double high, double few_decades);
 
-/// A number as people write it; large and small ones with their power of ten, in the markup of a figure.
+/// A number as people write it; large and small ones with their power of ten.
 /// @param digits  at most so many are shown; up to 5 of them, 3 before a power of ten
-std::string number(double value, int digits = 5);
+Text number(double value, int digits = 5);
 
 /// Powers of ten, all written in one way: plainly where number() writes each of them so.
-std::vector<std::string> powers_of_ten(const std::vector<double>& values);
+std::vector<Text> powers_of_ten(const std::vector<double>& values);
 
 }  // namespace contensou::portraits

@@ -28,6 +28,7 @@
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
+#include "drawing/characters.hpp"
 
 namespace contensou::portraits {
 
@@ -105,12 +106,41 @@ Canvas canvas(const Figure& figure, double letter, PictureFormat format) {
       terminal.symbol > 0 ? terminal.symbol / per_mm : 0.75 * letter};
 }
 
-/// Text as a gnuplot string: between single quotes nothing is run and only the quote itself is special. Control
-/// characters would end the line. Bytes that are not UTF-8 become U+FFFD, as nlohmann's writer does it.
+void replace_all(std::string& text, std::string_view old, std::string_view with) {
+  for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += with.size()) {
+    text.replace(at, old.size(), with);
+  }
+}
+
+/// A text in gnuplot's enhanced markup, whose signs are taken as they are after a backslash. It breaks no lines.
+std::string enhanced(const Text& text, double size) {
+  constexpr std::string_view signs = "\\^_{}@&~";
+  std::string result = fmt::format("{{/*{:.3g} ", size);
+  bool italic = false;
+  const auto turn = [&](bool to_italic) {
+    if (italic != to_italic) result += to_italic ? "{/:Italic " : "}";
+    italic = to_italic;
+  };
+  for (const Run& run : text.runs()) {
+    turn(run.italic);
+    if (run.level != 0) result += run.level > 0 ? "^{" : "_{";
+    std::string words = with_minus_signs(run.words);
+    replace_all(words, no_break_space, " ");
+    for (char c : words) {
+      if (signs.find(c) != std::string_view::npos) result += '\\';
+      result += c;
+    }
+    if (run.level != 0) result += '}';
+  }
+  turn(false);
+  return result + '}';
+}
+
+/// A gnuplot string: between single quotes nothing is run and only the quote itself is special. Control characters would
+/// end the line. Bytes that are not UTF-8 become U+FFFD, as nlohmann's writer does it.
 std::string quoted(const std::string& text) {
   using nlohmann::json;
-  const std::string valid =
-      json::parse(json(with_minus_signs(text)).dump(-1, ' ', false, json::error_handler_t::replace));
+  const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
   std::string result = "'";
   for (char c : valid) {
     if (c == '\'') result += '\'';
@@ -223,7 +253,8 @@ class Script {
     put("set {0}range [*:*]\n{3} logscale {0}\nset {0}range [{1:.8g}:{2:.8g}]\n", which, axis.low, axis.high,
         axis.logarithmic ? "set" : "unset");
     std::vector<std::string> places;
-    for (const auto& [at, text] : ticks) places.push_back(fmt::format("{} {:.8g}", quoted("{/*0.9 " + text + "}"), at));
+    for (const auto& [at, text] : ticks)
+      places.push_back(fmt::format("{} {:.8g}", quoted(enhanced(text, tick_size)), at));
     if (ticks.empty())
       put("unset {}tics\n", which);
     else
@@ -260,7 +291,7 @@ class Script {
     axis("y", panel.y, place.y);
     put("unset label\n");
     for (const auto& [point, text, label_colour, align] : panel.labels) {
-      put("set label {} at {:.8g},{:.8g} {} front boxed tc {}\n", quoted("{/*0.85 " + text + "}"), point.x, point.y,
+      put("set label {} at {:.8g},{:.8g} {} front boxed tc {}\n", quoted(enhanced(text, label_size)), point.x, point.y,
           alignment(align), colour(label_colour));
     }
 
@@ -316,9 +347,8 @@ class Script {
         "unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n",
         figure_.size.width_mm, figure_.size.height_mm);
     for (const PlacedText& text : layout_.texts) {
-      put("set label {} at {} {}{} tc {}\n", quoted(fmt::format("{{/*{:.3g} {}}}", text.size, text.text)),
-          at(text.at.x, text.at.y), alignment(text.align), text.turned ? " rotate by 90" : "",
-          text.faint ? colour(figure_.theme.faint) : ink_);
+      put("set label {} at {} {}{} tc {}\n", quoted(enhanced(text.text, text.size)), at(text.at.x, text.at.y),
+          alignment(text.align), text.turned ? " rotate by 90" : "", text.faint ? colour(figure_.theme.faint) : ink_);
     }
     for (std::size_t i = 0; i < layout_.colours.size(); ++i) {
       const auto& [left, bottom, width, height] = layout_.colours[i];
@@ -441,12 +471,6 @@ std::ptrdiff_t count(std::string_view text, std::string_view part) {
   std::ptrdiff_t found = 0;
   for (std::size_t at = 0; (at = text.find(part, at)) != std::string_view::npos; at += part.size()) ++found;
   return found;
-}
-
-void replace_all(std::string& text, std::string_view old, std::string_view with) {
-  for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += with.size()) {
-    text.replace(at, old.size(), with);
-  }
 }
 
 /// The size of the page in millimetres; and italics cut a text into pieces, at whose ends some SVG viewers drop spaces

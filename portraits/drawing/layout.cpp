@@ -170,7 +170,7 @@ std::optional<Arrow> short_arrow(const Panel& panel, const Box& box, const Arrow
 
 std::vector<LegendEntry> legend_entries(const Figure& figure) {
   std::vector<LegendEntry> entries;
-  const auto entry = [&](const std::string& text) -> LegendEntry& {
+  const auto entry = [&](const Text& text) -> LegendEntry& {
     const auto found = std::ranges::find(entries, text, &LegendEntry::text);
     return found != entries.end() ? *found : entries.emplace_back(LegendEntry{text, nullptr, nullptr});
   };
@@ -210,42 +210,41 @@ Point panel_size(const PaperSize& figure, int panels) {
 
 namespace {
 
-/// A text in lines of at most that many sizes of letters, broken at spaces outside braces.
-std::vector<std::string> broken(const std::string& text, double width) {
-  std::vector<std::string> lines, words{""};
-  int depth = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    depth += text[i] == '{' ? 1 : text[i] == '}' ? -1 : 0;
-    if (text[i] == '\\' && i + 1 < text.size()) words.back() += text[i++];
-    if (depth > 0 || text[i] != ' ') words.back() += text[i];
-    // A run of spaces is no place to break twice.
-    if (depth <= 0 && text[i] == ' ' && i + 1 < text.size() && text[i + 1] == ' ')
-      words.back() += ' ';
-    else if (depth <= 0 && text[i] == ' ')
-      words.emplace_back();
+/// A text in lines of at most that many sizes of letters.
+std::vector<Text> broken(const Text& text, double width) {
+  std::vector<Text> lines, words(1);
+  for (const Run& run : text.runs()) {
+    for (std::size_t begin = 0; begin <= run.words.size();) {
+      std::size_t end = std::min(run.words.find(' ', begin), run.words.size());
+      // Of several spaces one is a place to break.
+      while (end + 1 < run.words.size() && run.words[end + 1] == ' ') ++end;
+      words.back() += Text(Run{run.words.substr(begin, end - begin), run.italic, run.level});
+      if (end < run.words.size()) words.emplace_back();
+      begin = end + 1;
+    }
   }
-  for (const std::string& word : words) {
-    const std::string longer = lines.empty() ? word : lines.back() + ' ' + word;
+  for (const Text& word : words) {
+    const Text longer = lines.empty() ? word : lines.back() + " " + word;
     if (!lines.empty() && text_width(longer) <= width)
       lines.back() = longer;
     else
       lines.push_back(word);
   }
-  return text.empty() ? std::vector<std::string>{} : lines;
+  return text.empty() ? std::vector<Text>{} : lines;
 }
 
-/// Sizes of letters, in which lengths below are given: of a line of text, and of a number beside a tick.
-constexpr double line_height = 1.45, tick_size = 0.9;
+/// Sizes of letters, in which lengths below are given: of a line of text.
+constexpr double line_height = 1.45;
 
 /// The ticks of an axis of that length, as many as leave room between their texts.
 std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
-  const auto room = [&](const std::string& text) { return upright ? 1.5 : tick_size * text_width(text) + 1.2; };
+  const auto room = [&](const Text& text) { return upright ? 1.5 : tick_size * text_width(text) + 1.2; };
   std::vector<Axis::Tick> all = axis.ticks;
   if (all.empty() && axis.logarithmic) {
     constexpr double few_decades = 2.5, same = 1e-9;
     const std::vector<double> round = round_ratios(axis.low * (1 - same), axis.high * (1 + same), few_decades);
     const bool are_powers = axis.high / axis.low >= std::pow(10, few_decades);
-    std::vector<std::string> names = are_powers ? powers_of_ten(round) : std::vector<std::string>{};
+    std::vector<Text> names = are_powers ? powers_of_ten(round) : std::vector<Text>{};
     for (std::size_t i = 0; i < round.size(); ++i) all.push_back({round[i], are_powers ? names[i] : number(round[i])});
   } else if (all.empty()) {
     const double range = axis.high - axis.low;
@@ -304,13 +303,13 @@ class Compositor {
     return {left * em_, bottom * em_, width * em_, height * em_};
   }
 
-  void text(const std::string& text, double x, double y, double size = 1, Label::Align align = Label::Align::centre,
+  void text(const Text& text, double x, double y, double size = 1, Label::Align align = Label::Align::centre,
             bool faint = false, bool turned = false) {
     if (!text.empty()) layout_.texts.push_back({text, {x * em_, y * em_}, size, align, faint, turned});
   }
 
-  void heading(const std::string& all, double size, bool faint) {
-    for (const std::string& line : broken(all, (width_ - 1.5) / size)) {
+  void heading(const Text& all, double size, bool faint) {
+    for (const Text& line : broken(all, (width_ - 1.5) / size)) {
       text(line, width_ / 2, top_ - 0.5 * line_height * size, size, Label::Align::centre, faint);
       top_ -= line_height * size;
     }
@@ -404,9 +403,9 @@ class Compositor {
     }
     place.box = mm(box.left, box.bottom, box.width, box.height);
     const double middle = box.left + box.width / 2;
-    const std::vector<std::string> title = broken(panel.title, strip - 1);
+    const std::vector<Text> title = broken(panel.title, strip - 1);
     double y = box.bottom + box.height + 0.5 + line_height * (static_cast<double>(title.size()) - 0.5);
-    for (const std::string& line : title) {
+    for (const Text& line : title) {
       // Inside its strip.
       const double half = text_width(line) / 2;
       text(line, std::clamp(middle, left + half, std::max(left + half, left + strip - half)), y);
@@ -415,9 +414,9 @@ class Compositor {
     if (panel.bare) return;
     place.x = ticks(panel.x, box.width, false);
     text(panel.x.name, middle, box.bottom - 3);
-    const std::vector<std::string> name = broken(panel.y.name, box.height + 2);
+    const std::vector<Text> name = broken(panel.y.name, box.height + 2);
     double x = box.left - 1.3 - widest(place.y) - line_height * (static_cast<double>(name.size()) - 0.5);
-    for (const std::string& line : name) {
+    for (const Text& line : name) {
       text(line, x, box.bottom + box.height / 2, 1, Label::Align::centre, false, true);
       x += line_height;
     }
@@ -433,10 +432,10 @@ class Compositor {
     const Box& first = layout_.panels.front().box;
     const double total = (first.bottom + first.height) / em_ - bottom;
     const double left = width_ - room + 0.8;
-    const std::vector<std::string> name = broken(bar.name, room - 0.8);
+    const std::vector<Text> name = broken(bar.name, room - 0.8);
     const double height = std::min(0.75 * total, total - line_height * static_cast<double>(name.size()) - 0.6);
     double y = bottom + height + 0.6 + line_height * (static_cast<double>(name.size()) - 0.5);
-    for (const std::string& line : name) {
+    for (const Text& line : name) {
       text(line, left, y, 1, Label::Align::left);
       y -= line_height;
     }

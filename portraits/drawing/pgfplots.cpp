@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "drawing/characters.hpp"
 
 namespace contensou::portraits {
 
@@ -29,73 +30,29 @@ constexpr std::string_view signs =
     " Ω\\Omega ·\\cdot{} ×\\times ∝\\propto ∞\\infty ≤\\le ≥\\ge →\\to −- ±\\pm °{}^\\circ …\\ldots"
     " ′' || << >> ";
 
-/// Reads a figure's text (figure.hpp) and writes TeX.
-class Reader {
- public:
-  explicit Reader(std::string_view text) : text_(text) {}
-
-  /// Up to the closing brace or the end.
-  std::string read(bool mathematics) {
-    std::string tex;
-    while (at_ < text_.size() && text_[at_] != '}') tex += piece(mathematics);
-    return tex;
+/// A character of a text, or of mathematics, as TeX has it.
+std::string tex_character(std::string_view one, bool mathematics) {
+  const auto first = static_cast<unsigned char>(one.front());
+  if (one == no_break_space) return "~";
+  if (const std::size_t sign = signs.find(fmt::format(" {}", one)); first > ' ' && sign != signs.npos) {
+    const std::size_t tex = sign + 1 + one.size();
+    const std::string_view math = signs.substr(tex, signs.find(' ', tex) - tex);
+    return mathematics ? fmt::format("{}{}", math, math[0] == '\\' ? " " : "")
+                       : fmt::format("\\ensuremath{{{}}}", math);
   }
-
- private:
-  std::string piece(bool mathematics) {
-    const char c = text_[at_];
-    if (c == '{') return group(mathematics);
-    if (c == '_' || c == '^') {
-      ++at_;
-      const std::string below = at_ < text_.size() ? (text_[at_] == '{' ? group(true) : character(true)) : "";
-      const std::string index = fmt::format("{}{{{}}}", c, below);
-      return mathematics ? index : fmt::format("\\ensuremath{{{}}}", index);
-    }
-    if (c == '\\' && at_ + 1 < text_.size()) ++at_;
-    return character(mathematics);
+  if (first >= 0xC3 && first <= 0xC5 && one.size() == 2) return std::string(one);  // Latin with accents
+  if (first >= 0x80) {
+    throw std::domain_error(fmt::format(
+        "pgfplots: LaTeX has no letter for '{}': leave it out of the title, or write svg or pdf, which have all", one));
   }
-
-  std::string group(bool mathematics) {
-    ++at_;
-    bool italic = false;
-    if (text_.substr(at_).starts_with("/")) {  // {/:Italic ...} or {/*0.85 ...}
-      italic = text_.substr(at_).starts_with("/:Italic");
-      at_ = std::min(text_.find(' ', at_), text_.size() - 1) + 1;
-    }
-    const std::string inside = read(mathematics || italic);
-    if (at_ < text_.size()) ++at_;
-    return italic && !mathematics ? fmt::format("\\ensuremath{{{}}}", inside) : inside;
-  }
-
-  std::string character(bool mathematics) {
-    const auto first = static_cast<unsigned char>(text_[at_]);
-    const std::size_t size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    const std::string one(text_.substr(at_, size));
-    at_ += size;
-    if (const std::size_t sign = signs.find(" " + one); first > ' ' && sign != signs.npos) {
-      const std::size_t tex = sign + 1 + one.size();
-      const std::string_view math = signs.substr(tex, signs.find(' ', tex) - tex);
-      return mathematics ? fmt::format("{}{}", math, math[0] == '\\' ? " " : "")
-                         : fmt::format("\\ensuremath{{{}}}", math);
-    }
-    if (first >= 0xC3 && first <= 0xC5 && one.size() == 2) return one;  // Latin with accents
-    if (first >= 0x80) {
-      throw std::domain_error(fmt::format(
-          "pgfplots: LaTeX has no letter for '{}': leave it out of the title, or write svg or pdf, which have all",
-          one));
-    }
-    if (first < ' ') return " ";
-    if (one == "*" && mathematics) return "{*}";
-    if (one == "\\") return mathematics ? "\\backslash " : "\\textbackslash{}";
-    if (one == "~") return "\\textasciitilde{}";
-    if (one == "^") return "\\textasciicircum{}";
-    if (std::string_view("#$%&_{}").find(one) != std::string_view::npos) return "\\" + one;
-    return one;
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
+  if (first < ' ') return " ";
+  if (one == "*" && mathematics) return "{*}";
+  if (one == "\\") return mathematics ? "\\backslash " : "\\textbackslash{}";
+  if (one == "~") return "\\textasciitilde{}";
+  if (one == "^") return "\\textasciicircum{}";
+  if (std::string_view("#$%&_{}").find(one) != std::string_view::npos) return fmt::format("\\{}", one);
+  return std::string(one);
+}
 
 class Writer {
  public:
@@ -245,10 +202,22 @@ class Writer {
 
 }  // namespace
 
-std::string tex_text(std::string_view text) {
-  const std::string with_signs = with_minus_signs(text);
-  Reader reader(with_signs);
-  return reader.read(false);
+std::string tex_text(const Text& text) {
+  std::string tex;
+  bool mathematics = false;
+  const auto turn = [&](bool to_mathematics) {
+    if (mathematics != to_mathematics) tex += to_mathematics ? "\\ensuremath{" : "}";
+    mathematics = to_mathematics;
+  };
+  for (const Run& run : text.runs()) {
+    turn(run.italic || run.level != 0);
+    if (run.level != 0) tex += run.level > 0 ? "^{" : "_{";
+    const std::string words = with_minus_signs(run.words);
+    for (const std::string_view character : characters(words)) tex += tex_character(character, mathematics);
+    if (run.level != 0) tex += '}';
+  }
+  turn(false);
+  return tex;
 }
 
 std::string pgfplots(const Figure& figure) {

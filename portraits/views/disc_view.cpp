@@ -147,9 +147,9 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   add_turning(panel, drawing, map);
   add_points(panel, drawing, map);
   const Colour ink = drawing.palette.theme.ink;
-  panel.labels.push_back({{1.03, -0.07}, "{/:Italic u} → ∞", ink, Label::Align::centre});
-  panel.labels.push_back({{-1.03, -0.07}, "{/:Italic u} → −∞", ink, Label::Align::centre});
-  panel.labels.push_back({{0, 1.08}, "{/:Italic v} → ∞", ink, Label::Align::centre});
+  panel.labels.push_back({{1.03, -0.07}, math("u → ∞"), ink, Label::Align::centre});
+  panel.labels.push_back({{-1.03, -0.07}, math("u → −∞"), ink, Label::Align::centre});
+  panel.labels.push_back({{0, 1.08}, math("v → ∞"), ink, Label::Align::centre});
   if (hole > 0) {
     panel.labels.push_back({{0, 0.42 * hole}, "the stop", ink, Label::Align::centre});
   } else {
@@ -169,7 +169,7 @@ std::vector<MappedPanel> blowup_view(const Drawing& drawing) {
   polar.panel.title = "inner half-circle: the origin; outer: infinity";
 
   MappedPanel chart = contact_panel(drawing, true);
-  chart.panel.title = "the chart {/:Italic u}, ln {/:Italic k}; {/:Italic u} = 0 is the origin";
+  chart.panel.title = "the chart " + math("u") + ", ln " + math("k") + "; " + math("u = 0") + " is the origin";
   return {std::move(polar), std::move(chart)};
 }
 

@@ -44,12 +44,12 @@ Polyline curve(const reduction::Law& law, double reduction::Resistance::*part) {
 
 Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size) {
   Panel panel;
-  panel.x = {"{/:Italic k = v}/({/:Italic ε}|{/:Italic ω_z}|)", 0, max_k, false, {}};
-  panel.y = {"{/:Italic Φ = F}/({/:Italic N f}),   {/:Italic Ψ = M}/({/:Italic N f ε})", 0, 1.05, false, {}};
+  panel.x = {math("k = v/(ε|ω") + sub(math("z")) + "|)", 0, max_k, false, {}};
+  panel.y = {math("Φ = F/(N f)") + ",   " + math("Ψ = M/(N f ε)"), 0, 1.05, false, {}};
   panel.lines.push_back({{{{0, 1}, {max_k, 1}}, {{1, 0}, {1, 1.05}}}, {law_guide, 0.8, true}, ""});
   for (const reduction::Law& law : laws) {
-    const std::string name = literal(law.name(), 20);
-    const std::string force = "{/:Italic Φ}, " + name, moment = "{/:Italic Ψ}, " + name;
+    const std::string name = shortened(law.name(), 20);
+    const Text force = math("Φ") + ", " + name, moment = math("Ψ") + ", " + name;
     panel.lines.push_back({{curve(law, &reduction::Resistance::force)}, stroke_of(law, law_force), force});
     panel.lines.push_back({{curve(law, &reduction::Resistance::moment)}, stroke_of(law, law_moment), moment});
     // Moments are told from forces by circles.
@@ -63,8 +63,8 @@ Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size
   if (laws.size() == 2) {
     figure.subtitle = "Zh98, Fig. 2: the exact law (1.3), (1.5) and its Padé approximation (1.4), (1.6)";
     panel.labels = {
-        {{0.5, 0.82}, "force  {/:Italic Φ}", law_force, Label::Align::centre},
-        {{2.5, 0.2}, "moment  {/:Italic Ψ}", law_moment, Label::Align::centre},
+        {{0.5, 0.82}, "force  " + math("Φ"), law_force, Label::Align::centre},
+        {{2.5, 0.2}, "moment  " + math("Ψ"), law_moment, Label::Align::centre},
         {{0.07, 0.64}, "3π/16", law_moment, Label::Align::left},
         {{1.04, 0.32}, "the centre of rotation leaves the patch", law_guide, Label::Align::left},
     };
@@ -78,8 +78,8 @@ Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size
 
 Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const AskedSize& size) {
   Panel panel;
-  panel.x = {"moment {/:Italic Ψ}/{/:Italic Ψ}(0) = {/:Italic M}/{/:Italic M}_{max}", 0, 1.04, false, {}};
-  panel.y = {"force {/:Italic Φ} = {/:Italic F}/({/:Italic N f})", 0, 1.04, false, {}};
+  panel.x = {"moment " + math("Ψ/Ψ(0) = M/M") + sub("max"), 0, 1.04, false, {}};
+  panel.y = {"force " + math("Φ = F/(N f)"), 0, 1.04, false, {}};
   panel.to_scale = true;
   Polyline ellipse;
   constexpr int steps = 90;
@@ -95,7 +95,7 @@ Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const Asked
     }
     line.push_back({0, 1});
     const double fraction = 0.8 * static_cast<double>(panel.lines.size() - 2) / static_cast<double>(laws.size());
-    panel.lines.push_back({{std::move(line)}, stroke_of(law, viridis(fraction)), literal(law.name(), 20)});
+    panel.lines.push_back({{std::move(line)}, stroke_of(law, viridis(fraction)), shortened(law.name(), 20)});
   }
   Figure figure;
   figure.title = "The limit surface of a circular patch";

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "data/round_numbers.hpp"
 
 namespace contensou::portraits {
@@ -99,7 +97,7 @@ ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption) {
   std::vector<double> begins;
   for (std::size_t band : bands.marked) begins.push_back(bands.begin(band) / caption.time_unit);
   const bool equal = begins.front() == 0;
-  const std::vector<std::string> powers = equal ? std::vector<std::string>{} : powers_of_ten(begins);
+  const std::vector<Text> powers = equal ? std::vector<Text>{} : powers_of_ten(begins);
   // Bands are equal on the bar.
   for (std::size_t i = 0; i < begins.size(); ++i) {
     bar.ticks.push_back({static_cast<double>(bands.marked[i]) / static_cast<double>(bands.colours.size()),
@@ -108,9 +106,9 @@ ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption) {
   return bar;
 }
 
-std::string time_left(const PortraitCaption& caption) {
+Text time_left(const PortraitCaption& caption) {
   const std::string& unit = caption.time_unit_name;
-  return fmt::format("time left {}{}{}", caption.time_symbol, unit.empty() ? "" : ", ", unit);
+  return "time left " + caption.time_symbol + (unit.empty() ? "" : ", " + unit);
 }
 
 }  // namespace contensou::portraits

@@ -43,7 +43,7 @@ TimeBands logarithmic_bands(double shortest, double longest, double unit, const 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption);
 
 /// The time left in a legend, with its symbol and unit.
-std::string time_left(const PortraitCaption& caption);
+Text time_left(const PortraitCaption& caption);
 
 /// The orbit of the start that is asked for is heavier than those through points.
 inline Stroke asked_stroke(const Palette& palette, bool of_start) { return {palette.highlight, of_start ? 3.4 : 2.0}; }

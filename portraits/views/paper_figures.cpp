@@ -32,7 +32,7 @@ Polyline arc(Point centre, double rx, double ry, double from, double to) {
 class Sketch {
  public:
   /// @param usual  size, whose shape is kept unless both sides are asked for
-  Sketch(std::string title, std::string subtitle, const PaperSize& usual, const AskedSize& size) {
+  Sketch(Text title, Text subtitle, const PaperSize& usual, const AskedSize& size) {
     figure_.title = std::move(title);
     figure_.subtitle = std::move(subtitle);
     const double width = size.width_mm.value_or(usual.width_mm);
@@ -42,7 +42,7 @@ class Sketch {
 
   void line(Polyline line, Stroke stroke) { panel_.lines.push_back({{std::move(line)}, stroke, ""}); }
   void dot(Point at, Colour colour = ink) { panel_.marks.push_back({{at}, colour, 0.7}); }
-  void label(Point at, std::string text, Colour colour = ink, Label::Align align = Label::Align::centre) {
+  void label(Point at, Text text, Colour colour = ink, Label::Align align = Label::Align::centre) {
     panel_.labels.push_back({at, std::move(text), colour, align});
   }
 
@@ -74,8 +74,6 @@ class Sketch {
   Panel panel_;
 };
 
-std::string italic(const std::string& text) { return "{/:Italic " + text + "}"; }
-
 }  // namespace
 
 Figure patch_drawing(const AskedSize& size) {
@@ -84,7 +82,7 @@ Figure patch_drawing(const AskedSize& size) {
   constexpr Point O{0, 0};
   constexpr Point C{0, -h};
   Sketch sketch("The contact patch and its centre of velocity",
-                "Zh98, Fig. 1: every element slips across its radius vector " + italic("r") + " from " + italic("C"),
+                "Zh98, Fig. 1: every element slips across its radius vector " + math("r") + " from " + math("C"),
                 {150, 140}, size);
 
   const auto polar = [&](double r, double theta) {
@@ -103,7 +101,7 @@ Figure patch_drawing(const AskedSize& size) {
   for (double side : {-1.0, 1.0}) sketch.line({C, polar(1.75, side * last)}, {guide, 0.9, true});
   sketch.line({C, {0, 1.25}}, {guide, 0.9, true});
   sketch.line(arc(C, 0.62, 0.62, pi / 2, pi / 2 + last), {guide, 1, false});
-  sketch.label({C.x - 0.15, C.y + 0.47}, italic("θ") + "*", guide);
+  sketch.label({C.x - 0.15, C.y + 0.47}, math("θ*"), guide);
 
   // A chord and an element on it.
   constexpr double theta = 0.33;
@@ -112,12 +110,12 @@ Figure patch_drawing(const AskedSize& size) {
   sketch.line({C, polar(middle + half + 0.12, theta)}, {ink, 1, false});
   sketch.dot(polar(middle - half, theta));
   sketch.dot(polar(middle + half, theta));
-  sketch.label({polar(middle - half, theta).x + 0.14, polar(middle - half, theta).y - 0.1}, italic("q_−"));
-  sketch.label({polar(middle + half, theta).x + 0.19, polar(middle + half, theta).y + 0.03}, italic("q_+"));
+  sketch.label({polar(middle - half, theta).x + 0.14, polar(middle - half, theta).y - 0.1}, math("q") + sub("−"));
+  sketch.label({polar(middle + half, theta).x + 0.19, polar(middle + half, theta).y + 0.03}, math("q") + sub("+"));
   sketch.line(arc(C, 0.45, 0.45, pi / 2, pi / 2 - theta), {ink, 1.2, false});
-  sketch.label({C.x + 0.11, C.y + 0.58}, italic("θ"));
+  sketch.label({C.x + 0.11, C.y + 0.58}, math("θ"));
   const Point label_r = polar(1.2, theta);
-  sketch.label({label_r.x + 0.13, label_r.y - 0.03}, italic("r"));
+  sketch.label({label_r.x + 0.13, label_r.y - 0.03}, math("r"));
 
   constexpr double r = 1.95;
   constexpr double dr = 0.075;
@@ -131,32 +129,32 @@ Figure patch_drawing(const AskedSize& size) {
   const Point along{std::cos(theta), -std::sin(theta)};  // of the slip there
   sketch.arrow({P, {P.x + 0.55 * along.x, P.y + 0.55 * along.y}}, velocity_colour, 1.8);
   sketch.arrow({P, {P.x - 0.42 * along.x, P.y - 0.42 * along.y}}, force_colour, 2.2);
-  sketch.label({P.x - 0.5 * along.x, P.y - 0.5 * along.y + 0.1}, italic("dF"), force_colour);
-  sketch.label({P.x + 0.72 * along.x, P.y + 0.72 * along.y - 0.01}, italic("ω r"), velocity_colour);
+  sketch.label({P.x - 0.5 * along.x, P.y - 0.5 * along.y + 0.1}, math("dF"), force_colour);
+  sketch.label({P.x + 0.72 * along.x, P.y + 0.72 * along.y - 0.01}, math("ω r"), velocity_colour);
 
   // The motion of the patch.
   sketch.arrow({O, {0.78, 0}}, velocity_colour, 2.4);
-  sketch.label({0.72, -0.13}, italic("v"), velocity_colour);
+  sketch.label({0.72, -0.13}, math("v"), velocity_colour);
   sketch.arrow(arc(O, 0.27, 0.27, pi * 1.05, pi * 0.2), velocity_colour, 1.6);
-  sketch.label({-0.3, 0.27}, italic("ω"), velocity_colour);
+  sketch.label({-0.3, 0.27}, math("ω"), velocity_colour);
   sketch.line({O, {std::cos(3.6), std::sin(3.6)}}, {ink, 1, false});
-  sketch.label({-0.52, -0.15}, italic("ε"));
+  sketch.label({-0.52, -0.15}, math("ε"));
   sketch.dot(O);
-  sketch.label({0.13, -0.13}, italic("O"));
+  sketch.label({0.13, -0.13}, math("O"));
   sketch.dot(C);
-  sketch.label({0.14, C.y - 0.06}, italic("C"));
+  sketch.label({0.14, C.y - 0.06}, math("C"));
 
   // h, beside the drawing.
   sketch.line({O, {-1.3, 0}}, {guide, 0.7, true});
   sketch.line({C, {-1.3, C.y}}, {guide, 0.7, true});
   sketch.distance({-1.22, -0.02}, {-1.22, C.y + 0.02});
-  sketch.label({-1.22, C.y / 2}, italic("h = v") + "/" + italic("ω"));
+  sketch.label({-1.22, C.y / 2}, math("h = v/ω"));
 
   // The axes of the plane.
   sketch.arrow({{1.3, C.y}, {1.75, C.y}}, ink, 1.2);
   sketch.arrow({{1.3, C.y}, {1.3, C.y + 0.45}}, ink, 1.2);
-  sketch.label({1.82, C.y + 0.02}, italic("x"));
-  sketch.label({1.3, C.y + 0.54}, italic("y"));
+  sketch.label({1.82, C.y + 0.02}, math("x"));
+  sketch.label({1.3, C.y + 0.54}, math("y"));
   return sketch.framed({0.12, -0.27}, 3.57, 3.2);
 }
 
@@ -166,8 +164,8 @@ Figure ball_drawing(const AskedSize& size) {
   constexpr double depth_y = 0.27;
   const auto seen = [](double x, double y) { return Point{x + depth_x * y, depth_y * y}; };
   Sketch sketch("The ball on the plane",
-                "Zh98, Fig. 3: it slides with " + italic("v") + ", spins with " + italic("ω_z") +
-                    " and touches on a spot of radius " + italic("ε = μR"),
+                "Zh98, Fig. 3: it slides with " + math("v") + ", spins with " + math("ω") + sub(math("z")) +
+                    " and touches on a spot of radius " + math("ε = μR"),
                 {190, 140}, size);
 
   // The ball hides what lies behind its outline, the circle of radius 1 about (0, 1).
@@ -211,25 +209,25 @@ Figure ball_drawing(const AskedSize& size) {
   constexpr double leaves = 2 * depth_y / (depth_x * depth_x + depth_y * depth_y);
   sketch.line({{0, 0}, seen(0, leaves)}, {guide, 0.9, true});
   sketch.arrow({seen(0, leaves), seen(0, 2.1)}, ink, 1.4);
-  sketch.label({0.12, 2.5}, italic("z"));
-  sketch.label({1.9, 0}, italic("x"));
-  sketch.label({seen(0, 2.1).x + 0.11, seen(0, 2.1).y + 0.02}, italic("y"));
+  sketch.label({0.12, 2.5}, math("z"));
+  sketch.label({1.9, 0}, math("x"));
+  sketch.label({seen(0, 2.1).x + 0.11, seen(0, 2.1).y + 0.02}, math("y"));
 
   // Its motion.
   sketch.arrow({seen(0, 0), seen(0.95, 0)}, velocity_colour, 2.6);
-  sketch.label({0.86, -0.14}, italic("v"), velocity_colour);
+  sketch.label({0.86, -0.14}, math("v"), velocity_colour);
   sketch.arrow(arc({0, 2.26}, 0.3, 0.1, -pi * 0.75, pi * 0.85), velocity_colour, 1.8);
-  sketch.label({0.47, 2.27}, italic("ω_z"), velocity_colour);
+  sketch.label({0.47, 2.27}, math("ω") + sub(math("z")), velocity_colour);
   sketch.arrow({seen(0, 0), seen(-0.72, 0)}, force_colour, 2.4);
-  sketch.label({-0.82, 0.02}, italic("F"), force_colour);
+  sketch.label({-0.82, 0.02}, math("F"), force_colour);
   sketch.dot({0, 0});
 
   sketch.line({centre, {-std::cos(0.7), 1 + std::sin(0.7)}}, {ink, 1, false});
-  sketch.label({-0.34, 1.42}, italic("R"));
+  sketch.label({-0.34, 1.42}, math("R"));
   sketch.dot(centre);
   sketch.line({seen(0, 0), seen(-eps * std::cos(1.0), -eps * std::sin(1.0))}, {ink, 1, false});
   sketch.line({seen(-eps * 0.3, -eps * 0.5), {-0.62, -0.24}}, {guide, 0.8, false});
-  sketch.label({-0.7, -0.27}, italic("ε"));
+  sketch.label({-0.7, -0.27}, math("ε"));
   return sketch.framed({0, 1.02}, 4.86, 3.3);
 }
 

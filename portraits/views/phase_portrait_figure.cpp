@@ -15,7 +15,7 @@ namespace {
 
 const ViewLayout& layout_of(View view) { return *std::ranges::find(view_layouts, view, &ViewLayout::view); }
 
-std::string body_name(const reduction::Inertia& inertia) {
+Text body_name(const reduction::Inertia& inertia) {
   const auto [chi, gamma] = inertia;
   if (chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma)
     return "Sliding and spinning ball";
@@ -24,12 +24,12 @@ std::string body_name(const reduction::Inertia& inertia) {
                      : flat && gamma == 1         ? "Puck, a ring"
                      : chi == 2.5 && gamma == 1.5 ? "Hollow ball"
                                                   : "Sliding and spinning body";
-  return fmt::format("{},  {{/:Italic χ}} = {:.4g}, {{/:Italic γ}} = {:.4g}", kind, chi, gamma);
+  return kind + (",  " + math("χ = ") + fmt::format("{:.4g}", chi)) + ", " + math("γ = ") +
+         fmt::format("{:.4g}", gamma);
 }
 
-std::string title(const PhasePortrait& portrait) {
-  return fmt::format("{},  {{/:Italic μ}} = {},  law: {}", body_name(portrait.system().inertia()),
-                     number(portrait.system().mu()), law_names(portrait));
+Text title(const PhasePortrait& portrait) {
+  return title_of(body_name(portrait.system().inertia()), number(portrait.system().mu()), law_names(portrait));
 }
 
 }  // namespace
@@ -52,8 +52,8 @@ const std::vector<View>& views() {
 }
 
 std::string law_names(const PhasePortrait& portrait) {
-  std::string names = literal(portrait.system().law().name());
-  for (const PhasePortrait& other : portrait.comparisons) names += " against " + literal(other.system().law().name());
+  std::string names = shortened(portrait.system().law().name());
+  for (const PhasePortrait& other : portrait.comparisons) names += " against " + shortened(other.system().law().name());
   return names;
 }
 
@@ -76,9 +76,7 @@ MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& c
   MappedFigure mapped;
   Figure& figure = mapped.figure;
   figure.title = caption.title.empty() ? title(portrait) : caption.title;
-  figure.subtitle = !caption.subtitle.empty() ? caption.subtitle
-                    : portrait.scale.linear() ? std::string(layout.shows)
-                                              : std::string(bent_shows);
+  figure.subtitle = !caption.subtitle.empty() ? caption.subtitle : portrait.scale.linear() ? layout.shows : bent_shows;
   figure.size = size;
   figure.theme = drawing.palette.theme;
   for (MappedPanel& shown : layout.panels(drawing)) {

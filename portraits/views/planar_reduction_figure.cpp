@@ -71,12 +71,12 @@ Figure reduction_figure(const reduction::PlanarField& field, const reduction::Pl
   const Vector2d centre = plane.centre();
   const double half = plane_widths * (start - centre).lpNorm<Eigen::Infinity>(),
                first = from.rays.empty() ? 0 : from.rays[0];
-  from.plane.x = {"{/:Italic u}", centre[0] - half, centre[0] + half, false, {}};
-  from.plane.y = {"{/:Italic v}", centre[1] - half, centre[1] + half, false, {}};
+  from.plane.x = {math("u"), centre[0] - half, centre[0] + half, false, {}};
+  from.plane.y = {math("v"), centre[1] - half, centre[1] + half, false, {}};
   from.plane.to_scale = true;
-  from.strip.x = {"{/:Italic q}, the angle", first, first + 2 * pi, false, {}};
-  from.strip.y = {"{/:Italic p}", p - strip_below, p + strip_above, false, {}};
-  return draw(std::move(from), "The reduction of  " + literal(name), size);
+  from.strip.x = {math("q") + ", the angle", first, first + 2 * pi, false, {}};
+  from.strip.y = {math("p"), p - strip_below, p + strip_above, false, {}};
+  return draw(std::move(from), "The reduction of  " + shortened(name), size);
 }
 
 }  // namespace contensou::portraits

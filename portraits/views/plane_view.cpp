@@ -23,7 +23,7 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
     const double power = step * std::round(decades / step);
     const double at = scale.height(power * std::log(10.0));
     if (std::exp(power * std::log(10.0)) < 0.7 * lowest * scale.top)
-      ticks.push_back({at, fmt::format("10^{{{}}}", power)});
+      ticks.push_back({at, "10" + sup(fmt::format("{}", power))});
   }
   for (double v : multiples(lowest * scale.top, scale.top * (1 + 1e-9), round_step(scale.top, 6))) {
     ticks.push_back({scale.height(std::log(v)), number(v, 3)});
@@ -32,16 +32,16 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
 }
 
 /// The half-plane with the sides of the window in units of u and v.
-MappedPanel half_plane(const Drawing& drawing, double unit, const std::string& name) {
+MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   Panel panel;
   const auto [U, V] = drawing.portrait.window;
   const SpeedScale scale = drawing.portrait.scale;
   const double x = unit * U, top = scale.linear() ? V : 1;
   panel.x = {drawing.speed(name), -x, x, false, {}};
-  panel.y = {drawing.speed("{/:Italic v}"), 0, top, false, {}};
+  panel.y = {drawing.speed(math("v")), 0, top, false, {}};
   if (!scale.linear()) {
     panel.y.name +=
-        fmt::format("  (shaded: height as {{/:Italic v^s}}, {{/:Italic s}} = {})", number(scale.exponent, 3));
+        "  (shaded: height as " + math("v") + sup(math("s")) + ", " + math("s = ") + number(scale.exponent, 3) + ")";
     panel.y.ticks = speed_ticks(scale);
     panel.regions.push_back({{{-x, 0}, {x, 0}, {x, 0.5}, {-x, 0.5}}, drawing.palette.region});
   }
@@ -86,21 +86,20 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   const int per_side = drawing.crowd(12);
   constexpr double reach = 3;
   Panel panel;
-  panel.x = {drawing.speed("{/:Italic u} = {/:Italic R ω_z}"), right_half ? 0 : -U, U, false, {}};
-  panel.y = {"ln {/:Italic k},   {/:Italic k = v}/({/:Italic μ}|{/:Italic u}|)", 0, 0, false, {}};
+  panel.x = {drawing.speed(math("u = R ω") + sub(math("z"))), right_half ? 0 : -U, U, false, {}};
+  panel.y = {"ln " + math("k") + ",   " + math("k = v/(μ|u|)"), 0, 0, false, {}};
   const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
   // Where orbits are seeded: at the top, or around the middle.
   const double top = std::log(portrait.window.v / (portrait.system().mu() * U));
   const double lowest = rays.empty() ? 2 : rays.front(), highest = rays.empty() ? 2 : rays.back();
   if (pivoting) {
     const double depth = std::max(order * std::log(shrinks), 8.0);
-    panel.title = fmt::format("orbits touch the axis {{/:Italic v}} = 0:  {{/:Italic k}} ∝ |{{/:Italic u}}|^{{{}}}",
-                              number(order, 4));
+    panel.title = "orbits touch the axis " + math("v = 0") + ":  " + math("k ∝ |u|") + sup(number(order, 4));
     panel.y.low = top - depth;
     panel.y.high = top + 0.02 * depth;
   } else {
-    panel.title = rays.empty()                          ? "orbits touch the axis {/:Italic u} = 0"
-                  : portrait.plane.tangents.size() == 1 ? "orbits touch the ray {/:Italic k} = {/:Italic k}*"
+    panel.title = rays.empty()                          ? "orbits touch the axis " + math("u = 0")
+                  : portrait.plane.tangents.size() == 1 ? "orbits touch the ray " + math("k = k*")
                                                         : "orbits touch one of several lines";
     panel.y.low = lowest - reach;
     panel.y.high = highest + reach;
@@ -141,18 +140,18 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
 }
 
 std::vector<MappedPanel> plane_view(const Drawing& drawing) {
-  return {half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}")};
+  return {half_plane(drawing, 1, math("u = R ω") + sub(math("z")))};
 }
 
 std::vector<MappedPanel> patch_view(const Drawing& drawing) {
-  return {half_plane(drawing, drawing.portrait.system().mu(), "{/:Italic μ u},  rim speed of the patch")};
+  return {half_plane(drawing, drawing.portrait.system().mu(), math("μ u") + ",  rim speed of the patch")};
 }
 
 std::vector<MappedPanel> pair_view(const Drawing& drawing) {
-  std::vector<MappedPanel> panels{half_plane(drawing, 1, "{/:Italic u} = {/:Italic R ω_z}"),
+  std::vector<MappedPanel> panels{half_plane(drawing, 1, math("u = R ω") + sub(math("z"))),
                                   contact_panel(drawing, false)};
   panels.front().panel.title =
-      drawing.portrait.scale.linear() ? "the plane of Zh98, Fig. 4" : "the plane, {/:Italic v} bent";
+      drawing.portrait.scale.linear() ? "the plane of Zh98, Fig. 4" : "the plane, " + math("v") + " bent";
   return panels;
 }
 
@@ -191,9 +190,8 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   const double height = panel.y.high - panel.y.low, width = panel.x.high - panel.x.low;
   panel.x.low = std::min(panel.x.low, std::max(panel.x.high - broad * height, panel.y.high - upstream_of_copies));
   panel.y.low = std::min(panel.y.low, panel.y.high - width / broad);
-  panel.x.name = fmt::format("ln({{/:Italic μ}}|{{/:Italic u}}|/{{/:Italic V}}),  {{/:Italic V}} = {} {}", number(V, 4),
-                             drawing.caption.speed_unit);
-  panel.y.name = "ln({/:Italic v}/{/:Italic V})";
+  panel.x.name = "ln(" + math("μ|u|/V") + "),  " + math("V = ") + number(V, 4) + " " + drawing.caption.speed_unit;
+  panel.y.name = "ln(" + math("v/V") + ")";
   // Minus infinity is a point far beyond the borders.
   const Point nowhere{11 * panel.x.low - 10 * panel.x.high, 11 * panel.y.low - 10 * panel.y.high};
   const PanelMap map{
@@ -219,8 +217,7 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   };
   layers.add_copies(copies, false);
   const double low = std::min(panel.x.low, panel.y.low), high = std::max(panel.x.high, panel.y.high);
-  layers.panel().lines.push_back(
-      {{{{low, low}, {high, high}}}, {drawing.palette.isochrone, 1.1, true}, "{/:Italic k} = 1"});
+  layers.panel().lines.push_back({{{{low, low}, {high, high}}}, {drawing.palette.isochrone, 1.1, true}, math("k = 1")});
   layers.add_invariant({}, [&](double ln_k) {
     return std::vector<Polyline>{{{panel.y.high - ln_k, panel.y.high}, {panel.y.low - ln_k, panel.y.low}}};
   });

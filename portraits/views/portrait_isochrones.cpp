@@ -80,7 +80,7 @@ void PortraitPanel::add_isochrones() {
   const double middle = panel_.x.low < 0 ? on_paper(panel_, {0, 0}).x : -1;
   for (auto piece = isochrones.begin(); piece != isochrones.end();) {
     const double time = piece->tau_stop;
-    const std::string text = number(time / drawing_.caption.time_unit);
+    const Text text = number(time / drawing_.caption.time_unit);
     LabelPlace place(drawing_.letter * (0.45 * text_width(text) + 0.15) / drawing_.panel_mm.x,
                      drawing_.letter * 0.7 / drawing_.panel_mm.y);
     for (; piece != isochrones.end() && piece->tau_stop == time; ++piece) {

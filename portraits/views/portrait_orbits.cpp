@@ -118,7 +118,7 @@ void PortraitPanel::add_coloured(const std::vector<Copy>& copies) {
   for (auto& [band, arrows] : heads) panel_.arrows.push_back({std::move(arrows.arrows), bands.colours[band]});
 }
 
-void PortraitPanel::add_plain(const std::vector<Copy>& copies, Stroke stroke, const std::string& legend) {
+void PortraitPanel::add_plain(const std::vector<Copy>& copies, Stroke stroke, const Text& legend) {
   Lines lines{{}, stroke, legend};
   Arrows arrows{{}, stroke.colour};
   for (const Copy& copy : copies) {

@@ -6,19 +6,15 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "contensou/portraits/layout.hpp"
 
 namespace contensou::portraits {
 
-std::string Drawing::speed(const std::string& name) const {
-  return caption.speed_unit.empty() ? name : fmt::format("{}, {}", name, caption.speed_unit);
+Text Drawing::speed(const Text& name) const {
+  return caption.speed_unit.empty() ? name : name + ", " + caption.speed_unit;
 }
 
-std::string law_legend(const PhasePortrait& portrait) {
-  return fmt::format("law {}", literal(portrait.system().law().name()));
-}
+Text law_legend(const PhasePortrait& portrait) { return "law " + shortened(portrait.system().law().name()); }
 
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait) {
   std::vector<double> ln_k;
@@ -94,7 +90,7 @@ void PortraitPanel::add_highlights() {
   if (portrait.highlight) {
     heads_.clear();
     const Stroke stroke = asked_stroke(drawing_.palette, true);
-    const std::string& legend = drawing_.caption.highlight;
+    const Text& legend = drawing_.caption.highlight;
     add_plain({{*portrait.highlight}}, stroke, legend);
     panel_.marks.push_back({{map_.line(*portrait.highlight).front()}, stroke.colour, 0.6, Marks::Shape::dot, legend});
   }
@@ -129,7 +125,7 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes,
     panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 1.8, false}, "invariant axes"});
     add_arrows(panel_.lines.back());
   }
-  Lines attracting{{}, {drawing_.palette.comparison, 3, false}, "invariant ray {/:Italic k} = {/:Italic k}*"};
+  Lines attracting{{}, {drawing_.palette.comparison, 3, false}, "invariant ray " + math("k = k*")};
   Lines repelling{{}, {drawing_.palette.comparison, 2.2, true}, "invariant ray that orbits leave"};
   for (const reduction::InvariantRay& of : drawing_.portrait.plane.terminal.rays) {
     Lines& lines = of.attracts_above || of.attracts_below ? attracting : repelling;

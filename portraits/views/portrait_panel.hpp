@@ -28,7 +28,7 @@ struct Drawing {
     return std::max(count / 2, std::min(count, static_cast<int>(count * panel_mm.x / 100)));
   }
   bool coloured() const { return style.colour_by_time && portrait.comparisons.empty(); }
-  std::string speed(const std::string& name) const;  ///< with its unit
+  Text speed(const Text& name) const;  ///< with its unit
 };
 
 using Instant = PortraitOrbit::Instant;
@@ -43,7 +43,7 @@ inline bool inside(Point place, double margin) {
 }
 
 /// The legend of a portrait's orbits where two laws are compared.
-std::string law_legend(const PhasePortrait& portrait);
+Text law_legend(const PhasePortrait& portrait);
 
 /// How many powers of e above k = 1 the one curve begins whose copies fill a panel.
 inline constexpr double upstream_of_copies = 14;
@@ -109,7 +109,7 @@ class PortraitPanel {
   void add_layers(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies);
   std::vector<Copy> filling(const reduction::Flow& flow, bool mirrored);
   void add_coloured(const std::vector<Copy>& copies);
-  void add_plain(const std::vector<Copy>& copies, Stroke stroke, const std::string& legend);
+  void add_plain(const std::vector<Copy>& copies, Stroke stroke, const Text& legend);
   Polyline line_of(const Copy& copy) const;
   Polyline line_of(const Isochrone& isochrone) const;
   Point place(double u, double v) const;

@@ -26,7 +26,7 @@ std::vector<MappedPanel> pair_view(const Drawing& drawing);
 
 /// Motions from five ratios at the start, of each law, and those asked for: what the views of motions are drawn from.
 void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
-                                                                  Stroke stroke, const std::string& legend)>& add);
+                                                                  Stroke stroke, const Text& legend)>& add);
 
 /// The ratios, growing: about where sliding alone takes as long as pivoting alone, and half-decades to both sides.
 std::vector<double> start_ratios(const PhasePortrait& portrait);
@@ -46,7 +46,7 @@ struct ViewLayout {
   /// The shortest and the longest time left that colours tell apart, in bands of equal ratio, where the plane is seen
   /// stretched. Null: in equal bands.
   std::pair<double, double> (*times)(const PhasePortrait&);
-  std::string_view shows;
+  Text shows;
 };
 
 /// The stop time of a state at distances x, y from the origin in logarithms: u = exp(x) V/mu, v = exp(y) V.
@@ -65,7 +65,7 @@ constexpr std::string_view plane_shows = "every orbit runs to the stop; the axes
 constexpr std::string_view bent_shows = "slip dies first, at nearly constant spin; then the spin runs down to the stop";
 
 /// All views, in the order in which they are listed.
-inline constexpr std::array view_layouts{
+inline const std::array view_layouts{
     ViewLayout{View::uv, "uv", "the paper's plane (u, v)", plane_view, 1, 190, 125, nullptr, plane_shows},
     ViewLayout{View::patch, "patch",
                "(mu u, v): the rim speed of pivoting and the speed of sliding, on axes that compare", patch_view, 1,
@@ -87,13 +87,14 @@ inline constexpr std::array view_layouts{
                2, 280, 112, far_times, "the origin, blown up: each half-line joins a saddle to a node"},
     ViewLayout{View::disc, "disc", "the Poincare disc: the whole half-plane, infinity included", disc_view, 1, 210, 125,
                far_times, "the Poincaré disc: every orbit is born at infinity and dies at the stop"},
-    ViewLayout{View::time, "time", "u, v and k against tau/tau*", time_view, 3, 270, 105, nullptr,
-               "by scaling only {/:Italic k}_0 = {/:Italic v}_0/({/:Italic μu}_0) matters"},
+    ViewLayout{
+        View::time, "time", "u, v and k against tau/tau*", time_view, 3, 270, 105, nullptr,
+        "by scaling only " + math("k") + sub("0") + math(" = v") + sub("0") + math("/(μu") + sub("0") + ") matters"},
     ViewLayout{
         View::regularised, "regularised",
         "u, ln v and tau against 1 + beta/beta_1, where 1/beta_1 = 40 mu^3 u0 + 105 pi v0 (ball, exact and pade)",
         regularised_view, 3, 270, 105, nullptr,
-        "in {/:Italic β} (2.7) has no denominator, and rest is never reached: (2.8) gives the finite stop back"},
+        "in " + math("β") + " (2.7) has no denominator, and rest is never reached: (2.8) gives the finite stop back"},
     ViewLayout{View::pair, "pair", "the plane beside (u, ln k)", pair_view, 2, 300, 125, nullptr, plane_shows},
 };
 

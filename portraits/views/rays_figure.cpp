@@ -32,7 +32,7 @@ double ratio_at(int i) { return std::pow(ends, 1.5 * (2.0 * i / pieces - 1)); }
 struct Drawn {
   double r;
   Stroke stroke;
-  std::string legend;
+  Text legend;
 };
 
 double force_over_moment(const reduction::Law& law, double k) {
@@ -40,10 +40,10 @@ double force_over_moment(const reduction::Law& law, double k) {
   return force / (k * moment);
 }
 
-Panel panel_over_k(const std::string& title) {
+Panel panel_over_k(const Text& title) {
   Panel panel;
   panel.title = title;
-  panel.x = {"{/:Italic k} = {/:Italic v}/({/:Italic μ}|{/:Italic u}|)", 1 / ends, ends, true, {}};
+  panel.x = {math("k = v/(μ|u|)"), 1 / ends, ends, true, {}};
   return panel;
 }
 
@@ -56,9 +56,9 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   const double top = std::max({low, high, largest.x, marked.value_or(low)});
   Panel panel;
   panel.title = "invariant rays";
-  panel.x = {"{/:Italic r} = {/:Italic γμ}^2/{/:Italic χ}", 0, 1.2 * top, false, {}};
+  panel.x = {math("r = γμ") + sup("2") + math("/χ"), 0, 1.2 * top, false, {}};
   if (top > 20 * bottom) panel.x = {panel.x.name, 0.5 * bottom, 2 * top, true, {}};
-  panel.y = {"{/:Italic k}*", 1 / ends, ends, true, {}};
+  panel.y = {math("k*"), 1 / ends, ends, true, {}};
   // r = Phi/(k Psi) grows along a ray that attracts.
   Lines attracting{{}, {curve_colour, 2.4}, "attracts"}, repelling{{}, {curve_colour, 1.4, true}, "repels"};
   for (std::size_t begin = 0; begin + 1 < points.size();) {
@@ -75,16 +75,16 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   for (Lines* lines : {&attracting, &repelling}) {
     if (!lines->lines.empty()) panel.lines.push_back(std::move(*lines));
   }
-  panel.labels = {{{low, 1.6 / ends}, "{/:Italic r}_{low}", guide_colour},
-                  {{high, ends / 1.6}, "{/:Italic r}_{high}", guide_colour}};
+  panel.labels = {{{low, 1.6 / ends}, math("r") + sub("low"), guide_colour},
+                  {{high, ends / 1.6}, math("r") + sub("high"), guide_colour}};
   if (marked) panel.lines.push_back({{{{*marked, 1 / ends}, {*marked, ends}}}, {marked_colour, 1.6, true, true}, ""});
   return panel;
 }
 
 /// D in units of its terms, with heads that say which way k goes.
 Panel ways(const reduction::Law& law, const std::vector<Drawn>& all) {
-  Panel panel = panel_over_k("{/:Italic k} falls where {/:Italic D} > 0");
-  panel.y = {"{/:Italic D}/({/:Italic Φ} + {/:Italic r k Ψ})", -1.05, 1.05, false, {}};
+  Panel panel = panel_over_k(math("k") + " falls where " + math("D > 0"));
+  panel.y = {math("D/(Φ + r k Ψ)"), -1.05, 1.05, false, {}};
   for (const auto& [r, stroke, legend] : all) {
     Polyline line;
     for (int i = 0; i <= pieces; ++i) {
@@ -106,8 +106,8 @@ Panel ways(const reduction::Law& law, const std::vector<Drawn>& all) {
 
 /// m between its bounds; a line ends at each ray.
 Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all) {
-  Panel panel = panel_over_k("time left = {/:Italic P} + {/:Italic m S}");
-  panel.y = {"{/:Italic m}", 0, 0, false, {}};
+  Panel panel = panel_over_k("time left = " + math("P + m S"));
+  panel.y = {math("m"), 0, 0, false, {}};
   for (const auto& [r, stroke, legend] : all) {
     const reduction::Flow flow({law, 1, {.chi = 1, .gamma = r}});
     Lines lines{{}, stroke, legend};
@@ -126,7 +126,7 @@ Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all) {
   if (const auto bounds = law.sliding_bounds()) {
     panel.y.high = std::max(panel.y.high, 1.08 * bounds->max);
     panel.y.low = bounds->min > 0 ? 0.8 * bounds->min : -0.04;
-    Lines borders{{}, {guide_colour, 1, false, true}, "bounds of {/:Italic m}"};
+    Lines borders{{}, {guide_colour, 1, false, true}, "bounds of " + math("m")};
     for (const double m : {bounds->min, bounds->max}) borders.lines.push_back({{1 / ends, m}, {ends, m}});
     panel.lines.insert(panel.lines.begin(), std::move(borders));
   }
@@ -140,7 +140,7 @@ Figure rays_figure(const reduction::Law& law, std::optional<double> r, const Ask
   const auto [low, high] = std::minmax(ratios.low, ratios.high);
   std::vector<Drawn> all;
   const auto add = [&](double value, Colour colour, double width, bool dashed, bool dotted) {
-    all.push_back({value, {colour, width, dashed, dotted}, fmt::format("{{/:Italic r}} = {}", number(value, 3))});
+    all.push_back({value, {colour, width, dashed, dotted}, math("r = ") + number(value, 3)});
   };
   add(0.5 * low, viridis(0), 2, false, false);
   if (high > 1.001 * low) add(std::sqrt(low * high), viridis(0.4), 1.8, true, false);
@@ -148,9 +148,9 @@ Figure rays_figure(const reduction::Law& law, std::optional<double> r, const Ask
   if (r) add(*r, marked_colour, 1.8, true, true);
 
   Figure figure;
-  figure.title = fmt::format("Where motions end,  law: {}", literal(law.name()));
+  figure.title = "Where motions end,  law: " + shortened(law.name());
   figure.subtitle =
-      "a ray is where {/:Italic Φ} = {/:Italic r k Ψ}; motions end on one that attracts, or with {/:Italic k} → 0 or ∞";
+      "a ray is where " + math("Φ = r k Ψ") + "; motions end on one that attracts, or with " + math("k") + " → 0 or ∞";
   figure.size = fitted({270, 105}, 3, size);
   figure.panels = {rays(law, ratios.low, ratios.high, r), ways(law, all), coefficients(law, all)};
   return figure;

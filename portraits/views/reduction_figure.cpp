@@ -16,14 +16,14 @@ namespace contensou::portraits {
 
 using std::numbers::ln2;
 
-Figure draw(ReducedOrbits from, const std::string& title, const AskedSize& size) {
+Figure draw(ReducedOrbits from, const Text& title, const AskedSize& size) {
   constexpr int most_doublings = 3;  // of the start's orbit, and halvings
   const Palette colours = palette(false);
   const auto mapped = [&](Polyline line) {
     std::ranges::transform(line, line.begin(), from.in_plane);
     return line;
   };
-  const auto add = [&](const std::vector<Polyline>& orbits, double up, Stroke stroke, const std::string& legend) {
+  const auto add = [&](const std::vector<Polyline>& orbits, double up, Stroke stroke, const Text& legend) {
     std::vector<Polyline> lines = orbits;
     for (Polyline& line : lines) {
       for (Point& point : line) point.y += up;
@@ -55,7 +55,7 @@ Figure draw(ReducedOrbits from, const std::string& title, const AskedSize& size)
   if (!from.elsewhere.empty()) add(from.elsewhere, 0, {colours.isochrone, 1.2}, "orbits of other sectors");
   for (int i = -most_doublings; i <= most_doublings; ++i) {
     const double place = 0.5 + 0.5 * i / most_doublings;
-    const std::string legend = i == -most_doublings ? "its copies by {/:Italic X}, ln 2 apart" : "";
+    const Text legend = i == -most_doublings ? "its copies by " + math("X") + ", ln 2 apart" : "";
     if (i != 0) add(from.orbit, i * ln2, {viridis(0.85 * place), 1.5}, legend);
   }
   add(from.orbit, 0, {colours.highlight, 3.2}, "orbit of the start");
@@ -66,19 +66,18 @@ Figure draw(ReducedOrbits from, const std::string& title, const AskedSize& size)
     const Point from_here = way[way.size() - 2], to = way.back();
     const Point middle = on_paper(*panel, between(way.front(), to, 0.5));
     panel->labels.push_back({from_paper(*panel, {middle.x + 0.02, middle.y}),
-                             panel == &from.plane ? "{/:Italic X}" : "{/:Italic X}: + ln 2", colours.invariant,
+                             panel == &from.plane ? math("X") : math("X") + ": + ln 2", colours.invariant,
                              Label::Align::left});
     panel->arrows.push_back({{{to, {to.x - from_here.x, to.y - from_here.y}}}, colours.invariant, 1.2});
     panel->marks.push_back({{way.front()}, colours.invariant, 0.9, Marks::Shape::circle, "start"});
-    panel->lines.push_back({{std::move(way)}, {colours.invariant, 2}, "what the symmetry {/:Italic X} does"});
+    panel->lines.push_back({{std::move(way)}, {colours.invariant, 2}, "what the symmetry " + math("X") + " does"});
   }
-  from.plane.title = "the plane: {/:Italic X} magnifies orbits";
-  from.strip.title = "the strip: {/:Italic X} shifts {/:Italic p} alone";
+  from.plane.title = "the plane: " + math("X") + " magnifies orbits";
+  from.strip.title = "the strip: " + math("X") + " shifts " + math("p") + " alone";
   Figure figure;
   figure.title = title;
-  figure.subtitle =
-      fmt::format("all orbits{} are one curve, moved by the symmetry {{/:Italic X}}; a colour is one orbit",
-                  from.rays.empty() ? "" : " between two rays");
+  figure.subtitle = Text(from.rays.empty() ? "all orbits" : "all orbits between two rays") +
+                    " are one curve, moved by the symmetry " + math("X") + "; a colour is one orbit";
   figure.size = fitted({180, 105}, 2, size);
   figure.panels = {std::move(from.plane), std::move(from.strip)};
   return figure;
@@ -115,17 +114,14 @@ Figure reduction_figure(const reduction::Flow& flow, reduction::State start, con
   }
   from.in_plane = [=](Point point) { return Point{sign * std::exp(point.y - point.x - ln_mu), std::exp(point.y)}; };
   const double width = plane_widths * start.u;
-  from.plane.x = {"{/:Italic u}", std::min(width, 0.0), std::max(width, 0.0), false, {}};
-  from.plane.y = {"{/:Italic v}", 0, plane_widths * start.v, false, {}};
-  from.strip.x = {"ln {/:Italic k},  {/:Italic k = v}/({/:Italic μ}|{/:Italic u}|)",
-                  std::min(ln_k, 0.0) - 4,
-                  std::max(ln_k, 0.0) + 3,
-                  false,
-                  {}};
-  from.strip.y = {"{/:Italic p} = ln {/:Italic v}", ln_v - strip_below, ln_v + strip_above, false, {}};
+  from.plane.x = {math("u"), std::min(width, 0.0), std::max(width, 0.0), false, {}};
+  from.plane.y = {math("v"), 0, plane_widths * start.v, false, {}};
+  from.strip.x = {
+      "ln " + math("k") + ",  " + math("k = v/(μ|u|)"), std::min(ln_k, 0.0) - 4, std::max(ln_k, 0.0) + 3, false, {}};
+  from.strip.y = {math("p") + " = ln " + math("v"), ln_v - strip_below, ln_v + strip_above, false, {}};
   return draw(std::move(from),
-              fmt::format("The reduction of (2.6),  {{/:Italic μ}} = {:.3g},  law: {}", flow.system().mu(),
-                          literal(flow.system().law().name())),
+              title_of("The reduction of (2.6)", fmt::format("{:.3g}", flow.system().mu()),
+                       shortened(flow.system().law().name())),
               size);
 }
 

@@ -71,36 +71,35 @@ std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
   const double border = std::pow(10, std::ceil(3 + std::log10(slow)));
   constexpr std::array<Quantity, 3> quantities{spin_left, log_slip_left, time_passed};
   std::vector<MappedPanel> panels(quantities.size());
-  panels[0].panel.title = "spinning  {/:Italic u}/{/:Italic u}_0";
+  panels[0].panel.title = "spinning  " + math("u/u") + sub("0");
   panels[0].panel.y = {"", 1e-2, 2, true, {}};
-  panels[1].panel.title = "sliding  ln({/:Italic v}/{/:Italic v}_0)";
+  panels[1].panel.title = "sliding  ln(" + math("v/v") + sub("0") + ")";
   panels[1].panel.y = {"", -1, 0, false, {}};
-  panels[2].panel.title = "time  {/:Italic τ}/{/:Italic τ}*";
+  panels[2].panel.title = "time  " + math("τ/τ*");
   panels[2].panel.y = {"", 0, 1.08, false, {}};
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    panels[i].panel.x = {"1 + {/:Italic β}/{/:Italic β}_1", 1, border, true, {}};
+    panels[i].panel.x = {"1 + " + math("β/β") + sub("1"), 1, border, true, {}};
     panels[i].map = map_of(portrait.flow, quantities[i]);
   }
 
   // Towards the stop u and v are powers of beta; of the two, the one that outlives the other goes like 1/beta.
   Lines powers_of_u{{}, {drawing.palette.comparison, 1, true}, "asymptotes"}, powers_of_v = powers_of_u;
-  add_courses(
-      drawing, [&](const PhasePortrait& of, const PortraitOrbit& orbit, Stroke stroke, const std::string& legend) {
-        const auto& terminal = of.plane.terminal;
-        const double end = terminal.end_of(std::exp(orbit.ln_k[0])).k, r = of.system().r();
-        std::vector<Polyline> lines;
-        for (std::size_t i = 0; i < panels.size(); ++i) {
-          lines.push_back(up_to(border, map_of(of.flow, quantities[i]).line(orbit)));
-          panels[i].panel.lines.push_back({{lines.back()}, stroke, legend});
-        }
-        if (lines[0].size() < 2 || lines[0].back().x < border) return;
-        const double u = at_border(border, lines[0], true), v = at_border(border, lines[1], false);
-        const double power_of_u = std::isinf(end) ? r / terminal.high : 1, power_of_v = end == 0 ? terminal.low / r : 1;
-        powers_of_u.lines.push_back({{1, u * std::pow(border, power_of_u)}, {border, u}});
-        powers_of_v.lines.push_back({{1, v + power_of_v * std::log(border)}, {border, v}});
-        panels[0].panel.y.low = std::min(panels[0].panel.y.low, u);
-        panels[1].panel.y.low = std::min(panels[1].panel.y.low, 1.02 * v);
-      });
+  add_courses(drawing, [&](const PhasePortrait& of, const PortraitOrbit& orbit, Stroke stroke, const Text& legend) {
+    const auto& terminal = of.plane.terminal;
+    const double end = terminal.end_of(std::exp(orbit.ln_k[0])).k, r = of.system().r();
+    std::vector<Polyline> lines;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      lines.push_back(up_to(border, map_of(of.flow, quantities[i]).line(orbit)));
+      panels[i].panel.lines.push_back({{lines.back()}, stroke, legend});
+    }
+    if (lines[0].size() < 2 || lines[0].back().x < border) return;
+    const double u = at_border(border, lines[0], true), v = at_border(border, lines[1], false);
+    const double power_of_u = std::isinf(end) ? r / terminal.high : 1, power_of_v = end == 0 ? terminal.low / r : 1;
+    powers_of_u.lines.push_back({{1, u * std::pow(border, power_of_u)}, {border, u}});
+    powers_of_v.lines.push_back({{1, v + power_of_v * std::log(border)}, {border, v}});
+    panels[0].panel.y.low = std::min(panels[0].panel.y.low, u);
+    panels[1].panel.y.low = std::min(panels[1].panel.y.low, 1.02 * v);
+  });
   panels[0].panel.lines.push_back(std::move(powers_of_u));
   panels[1].panel.lines.push_back(std::move(powers_of_v));
   panels[2].panel.lines.push_back({{{{1, 1}, {border, 1}}}, {drawing.palette.comparison, 1, true}, "asymptotes"});

@@ -99,9 +99,9 @@ Panel paths(const RollPicture& picture) {
 /// The path from above.
 Panel path_panel(const RollPicture& picture) {
   Panel panel = paths(picture);
-  for (auto [axis, letter] : {std::pair{&panel.x, 'x'}, {&panel.y, 'y'}}) {
+  for (auto [axis, letter] : {std::pair{&panel.x, "x"}, {&panel.y, "y"}}) {
     const auto [low, high] = widened(axis->low, axis->high, 0);
-    *axis = {fmt::format("{{/:Italic {}}}, m", letter), low, high, false, {}};
+    *axis = {math(letter) + ", m", low, high, false, {}};
   }
   panel.title = "the path on the table";
   const double shown = shown_time(picture);
@@ -118,7 +118,7 @@ void fill_panel(Figure& figure) {
   const double x = (path.x.high - path.x.low) / box.width, y = (path.y.high - path.y.low) / box.height;
   const double flat = std::min(x, y) / std::max(x, y);
   const double times = flat < flattest ? round_down(wanted / flat) : 1;
-  if (times > 1) (x < y ? path.x : path.y).name += fmt::format(" (stretched {} times)", number(times));
+  if (times > 1) (x < y ? path.x : path.y).name += " (stretched " + number(times) + " times)";
   widen(figure, 0, x < y ? 1 / times : times);
   path.to_scale = times == 1;
 }
@@ -156,7 +156,7 @@ Panel distance_panel(RollPicture picture, Point along) {
   Panel panel = paths(picture);
   const auto [low, high] = widened(panel.y.low, panel.y.high, panel.y.high > panel.y.low ? 0 : 1);
   panel.title = "the path is straight: distance along it";
-  panel.x = {"{/:Italic t}, s", 0, shown_time(picture), false, {}};
+  panel.x = {math("t") + ", s", 0, shown_time(picture), false, {}};
   panel.y = {"distance, m", low, high, false, {}};
   return panel;
 }
@@ -167,7 +167,7 @@ Panel speed_panel(const RollPicture& picture) {
   const bool logarithmic = picture.slow == 0 && first > 0 && last > long_spin * rolls;
   Panel panel;
   panel.title = "speeds; dashed: textbook, sliding and spinning uncoupled";
-  panel.x = {logarithmic ? "{/:Italic t}, s (logarithmic)" : "{/:Italic t}, s",
+  panel.x = {logarithmic ? math("t") + ", s (logarithmic)" : math("t") + ", s",
              logarithmic ? round_down(first / 10) : 0,
              last,
              logarithmic,
@@ -177,7 +177,7 @@ Panel speed_panel(const RollPicture& picture) {
   const double spin_to_slip = fastest > 0 ? picture.ball.rim.maxCoeff() / fastest : 1;
   const double spin_scale = spin_to_slip > 4 ? round_down(spin_to_slip) : 1;
   double top = 0;
-  const auto add = [&](Eigen::ArrayXd RollCurve::*column, Colour colour, Marks::Shape shape, const std::string& legend,
+  const auto add = [&](Eigen::ArrayXd RollCurve::*column, Colour colour, Marks::Shape shape, const Text& legend,
                        double scale = 1) {
     Marks marks{{}, colour, 0.8, shape, legend};
     for (const RollCurve* curve : {&picture.textbook, &picture.ball}) {
@@ -199,13 +199,14 @@ Panel speed_panel(const RollPicture& picture) {
           marks.points.push_back({t, before.y + (t - before.x) / (after->x - before.x) * (after->y - before.y)});
         }
       }
-      panel.lines.push_back({{std::move(line)}, {colour, dashed ? 1.6 : 2.4, dashed}, dashed ? "" : legend});
+      panel.lines.push_back({{std::move(line)}, {colour, dashed ? 1.6 : 2.4, dashed}, dashed ? Text() : legend});
     }
     panel.marks.push_back(std::move(marks));
   };
-  add(&RollCurve::slip, slip_colour, Marks::Shape::dot, "slip {/:Italic v}");
+  add(&RollCurve::slip, slip_colour, Marks::Shape::dot, "slip " + math("v"));
   add(&RollCurve::rim, rim_colour, Marks::Shape::circle,
-      "spin {/:Italic R}|{/:Italic ω_z}|" + (spin_scale > 1 ? " / " + number(spin_scale) : ""), spin_scale);
+      "spin " + math("R|ω") + sub(math("z")) + "|" + (spin_scale > 1 ? " / " + number(spin_scale) : Text()),
+      spin_scale);
   add(&RollCurve::speed, speed_colour, Marks::Shape::square, "speed of the centre");
   panel.y = {"m/s", 0, top > 0 ? 1.08 * top : 1, false, {}};
   return panel;
@@ -291,7 +292,8 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     Figure& frame = frames.emplace_back(whole);
     for (Panel& panel : frame.panels) panel = until(panel, static_cast<std::size_t>(i));
-    frame.panels.back().title = fmt::format("{{/:Italic t}} = {:.{}f} s, {}; grey: textbook", t[i], digits, pace);
+    frame.panels.back().title =
+        math("t = ") + fmt::format("{:.{}f}", t[i], digits) + fmt::format(" s, {}; grey: textbook", pace);
     for (int which : {0, 1}) {
       const RollCurve& curve = *curves[which];
       if (i > 0) {

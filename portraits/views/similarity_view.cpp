@@ -17,7 +17,7 @@ constexpr int max_count = 24;      // translates of a curve
 MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
                        const std::function<double(double x)>& ln_k_at) {
   const double middle = std::log(drawing.portrait.window.v);
-  axes.y = {"{/:Italic p} = ln {/:Italic v}", middle - half_height, middle + half_height, false, {}};
+  axes.y = {math("p") + " = ln " + math("v"), middle - half_height, middle + half_height, false, {}};
   const double below = middle - 100 * half_height;
   const PanelMap map{.place =
                          [abscissa, below](const Instant& at, const Instant&) {
@@ -60,8 +60,9 @@ MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<d
   Panel& panel = finished.panel;
   const double x = panel.x.low + 0.82 * (panel.x.high - panel.x.low);
   const double low = middle - half_height + 0.12 * 2 * half_height, high = low + 2 * step;
-  panel.lines.push_back(
-      {{{{x, low}, {x, high}}}, {drawing.palette.highlight, 2, false}, "symmetry {/:Italic p → p} + ln {/:Italic c}"});
+  panel.lines.push_back({{{{x, low}, {x, high}}},
+                         {drawing.palette.highlight, 2, false},
+                         "symmetry " + math("p → p") + " + ln " + math("c")});
   panel.arrows.push_back({{{{x, high}, {0, 1}}}, drawing.palette.highlight});
   return finished;
 }
@@ -76,11 +77,10 @@ std::vector<MappedPanel> similarity_view(const Drawing& drawing) {
   // A motion that is asked for begins inside.
   const double start = portrait.highlight && portrait.highlight->u[0] != 0 ? portrait.highlight->ln_k[0] : 0;
   Panel by_q, by_ratio;
-  by_q.title = "{/:Italic q = v}/{/:Italic u}: the symmetry moves {/:Italic p} alone";
-  by_q.x = {
-      "{/:Italic q = μk}", 0, mu * std::max(rays.empty() ? 4 : 3 * std::exp(high), 1.2 * std::exp(start)), false, {}};
-  by_ratio.title = "the same against ln {/:Italic k}";
-  by_ratio.x = {"ln {/:Italic k}", low - 4, std::max(high + 4, start + 1), false, {}};
+  by_q.title = math("q = v/u") + ": the symmetry moves " + math("p") + " alone";
+  by_q.x = {math("q = μk"), 0, mu * std::max(rays.empty() ? 4 : 3 * std::exp(high), 1.2 * std::exp(start)), false, {}};
+  by_ratio.title = "the same against ln " + math("k");
+  by_ratio.x = {"ln " + math("k"), low - 4, std::max(high + 4, start + 1), false, {}};
   std::vector<MappedPanel> panels;
   panels.push_back(translates(
       drawing, std::move(by_q), [mu](double ln_k) { return mu * std::exp(std::min(ln_k, 50.0)); },

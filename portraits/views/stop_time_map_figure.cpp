@@ -16,7 +16,7 @@ namespace {
 constexpr Colour isochrone_colour{0x1a1a1a};
 constexpr Colour ray_colour{0xb3003b};
 
-Axis axis(const std::string& name, const Eigen::ArrayXd& values, bool logarithmic) {
+Axis axis(const Text& name, const Eigen::ArrayXd& values, bool logarithmic) {
   return {name, values[0], values[values.size() - 1], logarithmic, {}};
 }
 
@@ -33,7 +33,7 @@ double between(const Eigen::ArrayXXd& values, double row_share, double column_sh
          y * ((1 - x) * values(i + 1, j) + x * values(i + 1, j + 1));
 }
 
-ColourMap colours(const StopTimeMap& map, const std::string& time) {
+ColourMap colours(const StopTimeMap& map, const Text& time) {
   constexpr int rows = 180, columns = 240;
   const bool logarithmic = map.axes.logarithmic;
   const Eigen::ArrayXXd values = logarithmic ? Eigen::ArrayXXd(map.tau.log()) : map.tau;
@@ -54,7 +54,7 @@ ColourMap colours(const StopTimeMap& map, const std::string& time) {
 
 Lines ray(const StopTimeMap& map) {
   const auto& [u0, v0, logarithmic] = map.axes;
-  Lines ray{{}, {ray_colour, 1.4, true}, "{/:Italic k} = 1"};
+  Lines ray{{}, {ray_colour, 1.4, true}, math("k = 1")};
   const double bottom = std::max(v0[0], 0.0), top = v0[v0.size() - 1];
   for (double side : {1.0, -1.0}) {
     // The part of v = mu |u| with u on this side and inside the map.
@@ -71,9 +71,8 @@ Lines ray(const StopTimeMap& map) {
 Figure draw(StopTimeMap map, const MapCaption& caption, const AskedSize& size) {
   constexpr double min_labelled = 0.15;
   Figure figure;
-  figure.title = !caption.title.empty()
-                     ? caption.title
-                     : fmt::format("When it stops,  {{/:Italic μ}} = {:.4g},  law: {}", map.mu, literal(map.law));
+  figure.title = !caption.title.empty() ? caption.title
+                                        : title_of("When it stops", fmt::format("{:.4g}", map.mu), shortened(map.law));
   figure.subtitle = caption.subtitle;
   figure.size = fitted({175, 130}, 1, size);
   // From here on in the units of the axes.

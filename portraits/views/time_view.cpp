@@ -40,7 +40,7 @@ std::vector<double> start_ratios(const PhasePortrait& portrait) {
 }
 
 void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
-                                                                  Stroke stroke, const std::string& legend)>& add) {
+                                                                  Stroke stroke, const Text& legend)>& add) {
   const PhasePortrait& portrait = drawing.portrait;
   const std::vector<double> ratios = start_ratios(portrait);
   const auto add_all = [&](const PhasePortrait& of, bool compared) {
@@ -49,15 +49,14 @@ void add_courses(const Drawing& drawing, const std::function<void(const PhasePor
       const double ln_k = std::log(ratios[i]);
       const Stroke stroke = compared ? Stroke{drawing.palette.comparison, 1.3, true}
                                      : Stroke{times[i * (times.size() - 1) / (ratios.size() - 1)], 1.8, false};
-      const std::string legend =
-          compared ? law_legend(of) : fmt::format("{{/:Italic k}}_0 = {}", number(std::exp(ln_k), 3));
+      const Text legend = compared ? law_legend(of) : math("k") + sub("0") + math(" = ") + number(std::exp(ln_k), 3);
       add(of, orbit_through(of.flow, ln_k, 0, 0), stroke, legend);
     }
   };
   add_all(portrait, false);
   for (const PhasePortrait& other : portrait.comparisons) add_all(other, true);
   if (!drawing.style.asked) return;
-  const auto add_asked = [&](const PortraitOrbit& orbit, bool of_start, const std::string& legend) {
+  const auto add_asked = [&](const PortraitOrbit& orbit, bool of_start, const Text& legend) {
     if (orbit.u[0] == 0 || orbit.v[0] == 0) return;
     add(portrait, orbit, asked_stroke(drawing.palette, of_start), legend);
   };
@@ -72,10 +71,10 @@ std::vector<MappedPanel> time_view(const Drawing& drawing) {
   MappedPanel sliding{{}, over_time([](const Instant& at, const Instant& start) { return at.v / start.v; })};
   MappedPanel ratio{{}, over_time(clamped_ln_k)};
   Panel &u = spinning.panel, &v = sliding.panel, &k = ratio.panel;
-  const std::string time = "{/:Italic τ}/{/:Italic τ}*";
-  u.title = "spinning  {/:Italic u}/{/:Italic u}_0";
-  v.title = "sliding  {/:Italic v}/{/:Italic v}_0";
-  k.title = "ln {/:Italic k}";
+  const Text time = math("τ/τ*");
+  u.title = "spinning  " + math("u/u") + sub("0");
+  v.title = "sliding  " + math("v/v") + sub("0");
+  k.title = "ln " + math("k");
   for (Panel* panel : {&u, &v}) panel->y = {"", 0, 1.04, false, {}};
   for (Panel* panel : {&u, &v, &k}) panel->x = {time, 0, 1, false, {}};
   const std::vector<double> rays = ray_log_ratios(portrait);
@@ -92,7 +91,7 @@ std::vector<MappedPanel> time_view(const Drawing& drawing) {
     k.y.high = highest + 6;
   }
 
-  add_courses(drawing, [&](const PhasePortrait&, const PortraitOrbit& orbit, Stroke stroke, const std::string& legend) {
+  add_courses(drawing, [&](const PhasePortrait&, const PortraitOrbit& orbit, Stroke stroke, const Text& legend) {
     for (MappedPanel* mapped : {&spinning, &sliding, &ratio}) {
       Polyline line = mapped->map.line(orbit);
       if (std::isnan(line.back().y)) line.pop_back();
@@ -100,7 +99,7 @@ std::vector<MappedPanel> time_view(const Drawing& drawing) {
     }
   });
   if (!rays.empty() && drawing.style.invariant) {
-    Lines lines{{}, {drawing.palette.comparison, 1.6, true}, rays.size() == 1 ? "{/:Italic k}*" : "invariant rays"};
+    Lines lines{{}, {drawing.palette.comparison, 1.6, true}, rays.size() == 1 ? math("k*") : "invariant rays"};
     for (double ln_k : rays) lines.lines.push_back({{0, ln_k}, {1, ln_k}});
     k.lines.push_back(std::move(lines));
   }

@@ -27,10 +27,10 @@ constexpr Eigen::Index most_marks = 250;
 /// Residuals beyond that many standard deviations are arrows at the border.
 constexpr double residual_border = 4;
 
-Panel empty(std::string title, std::string name) {
+Panel empty(portraits::Text title, portraits::Text name) {
   Panel panel;
   panel.title = std::move(title);
-  panel.x = {"{/:Italic t}, s", 0, 0, false, {}};
+  panel.x = {portraits::math("t") + ", s", 0, 0, false, {}};
   panel.y = {std::move(name), INFINITY, -INFINITY, false, {}};
   return panel;
 }
@@ -202,10 +202,10 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
 portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>& tracks,
                              const portraits::AskedSize& size) {
   portraits::Figure figure;
-  figure.title = fmt::format("{},  law: {}", portraits::literal(fit.ball.ball.name), portraits::literal(fit.law));
+  figure.title = fmt::format("{},  law: {}", portraits::shortened(fit.ball.ball.name), portraits::shortened(fit.law));
   figure.subtitle = fmt::format("friction {}, patch radius {} mm", with_error(fit.estimates[0], 1),
                                 with_error(fit.estimates[1], 1e3));
-  if (fit.only) figure.subtitle = fmt::format("these data determine {} only", portraits::literal(fit.only->name()));
+  if (fit.only) figure.subtitle = fmt::format("these data determine {} only", portraits::shortened(fit.only->name()));
   std::vector<Panel> below;  // residuals, and the words
   for (const fit::Noise& noise : fit.noise) {
     Pair pair = panels_of(fit, tracks, noise);

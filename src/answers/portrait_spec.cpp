@@ -34,22 +34,24 @@ portraits::PortraitSource PortraitSpec::source() const {
 }
 
 portraits::PortraitCaption PortraitSpec::caption(const portraits::PhasePortrait& portrait) const {
+  using portraits::math, portraits::sub;
   portraits::PortraitCaption caption;
   if (!start) return caption;
   const double stop = portrait.highlight ? portrait.highlight->tau_left[0] : 0;
   caption.highlight = "this motion";
   if (!experiment) {
-    caption.subtitle =
-        fmt::format("u_0 = {:g}, v_0 = {:g}: slip and spin end after τ* = {:.4g}", start->u, start->v, stop);
+    caption.subtitle = math("u") + sub("0") + math(" = ") + fmt::format("{:g}, ", start->u) + math("v") + sub("0") +
+                       math(" = ") + fmt::format("{:g}: slip and spin end after ", start->v) + math("τ* = ") +
+                       fmt::format("{:.4g}", stop);
     return caption;
   }
-  caption.title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(experiment->ball.name),
-                              flow.system().mu(), portraits::law_names(portrait));
+  caption.title = portraits::title_of(portraits::shortened(experiment->ball.name),
+                                      fmt::format("{:.4g}", flow.system().mu()), portraits::law_names(portrait));
   caption.subtitle =
       fmt::format("slip {:g} m/s, spin {:g} rad/s: they end after {:.3g} s", si::slip_at_start(*experiment),
                   si::spin_at_start(*experiment), si::seconds(*experiment, stop));
   caption.speed_unit = "m/s";
-  caption.time_symbol = "{/:Italic t}*";
+  caption.time_symbol = math("t*");
   caption.time_unit_name = "s";
   caption.time_unit = 1 / si::seconds(*experiment, 1);
   caption.highlight = experiment->ball.body.lies_flat() ? "this motion" : "this ball";

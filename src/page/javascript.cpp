@@ -71,6 +71,12 @@ val column(const std::vector<Polyline>& lines) {
   return column(numbers);
 }
 
+val text_value(const portraits::Text& text) {
+  return list(text.runs(), [](const portraits::Run& run) {
+    return object("words", portraits::with_minus_signs(run.words), "italic", run.italic, "level", run.level);
+  });
+}
+
 val figure_value(const portraits::Figure& figure) {
   val value =
       object("title", figure.title, "panels", list(figure.panels, panel_value), "ground", css(figure.theme.ground),

@@ -58,10 +58,15 @@ val list(const Range& range, Function value) {
   return result;
 }
 
+/// The runs of a text: {words, italic, level} of each.
+val text_value(const portraits::Text& text);
+
 inline void set_fields(val&) {}
 template <class Value, class... Rest>
 void set_fields(val& object, const char* key, const Value& value, const Rest&... rest) {
-  if constexpr (std::is_convertible_v<Value, std::string_view>) {
+  if constexpr (std::is_same_v<Value, portraits::Text>) {
+    object.set(key, text_value(value));
+  } else if constexpr (std::is_convertible_v<Value, std::string_view>) {
     object.set(key, std::string(std::string_view(value)));
   } else if constexpr (std::is_same_v<Value, val> || std::is_arithmetic_v<Value>) {
     object.set(key, value);
@@ -71,7 +76,7 @@ void set_fields(val& object, const char* key, const Value& value, const Rest&...
   set_fields(object, rest...);
 }
 
-/// An object from keys and values in turn; texts, numbers, columns and values of JavaScript.
+/// An object from keys and values in turn; texts of figures, strings, numbers, columns and values of JavaScript.
 template <class... KeysAndValues>
 val object(const KeysAndValues&... keys_and_values) {
   val result = val::object();

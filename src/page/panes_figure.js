@@ -1,6 +1,7 @@
 // v, u and k against time, one above the other.
 import { Frame } from "./frame.js";
 import { superscript } from "./numbers.js";
+import { italic } from "./runs.js";
 
 const deepest = -6;  // decades of k that are shown below 1, at least
 
@@ -38,7 +39,7 @@ function drawStill(surface, store, theme) {
   const starts = (key) => motions.map((motion) => motion[key][0]);
   const [lowestU, highestU] = [Math.min(0, ...starts("u")), Math.max(0, ...starts("u"))];
   const decades = starts("k").map(Math.log10).filter(Number.isFinite);
-  const name = (letter) => `{/:Italic ${letter}}${letter !== "k" && contact ? " (m/s)" : ""}`;
+  const name = (letter) => [italic(letter), letter !== "k" && contact ? " (m/s)" : ""];
   return [
     { key: "v", scale: Number, low: 0, high: 1.06 * Math.max(...starts("v"), Number.MIN_VALUE) },
     { key: "u", scale: Number, low: 1.06 * lowestU, high: 1.06 * highestU || (lowestU === 0 ? 1 : 0) },

@@ -1,7 +1,7 @@
 // The plane under the reader's hand: pointing, starting and choosing orbits, zooming.
 import { $, write } from "./dom.js";
 import { listen } from "./gestures.js";
-import { plain } from "./markup.js";
+import { plain } from "./runs.js";
 import { shown } from "./numbers.js";
 import { moved, startOf } from "./page_state.js";
 import { drawPortrait } from "./portrait_figure.js";

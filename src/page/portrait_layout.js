@@ -1,5 +1,6 @@
 // Where the parts of a figure of the library go on a surface of any size.
 import { Frame } from "./frame.js";
+import { plain, runsOf } from "./runs.js";
 import { widthOf } from "./surface.js";
 
 const narrowest = 230;  // pixels that a panel needs beside others
@@ -29,14 +30,25 @@ function toScale(place, { x, y }) {
   return { left: place.left + (place.width - width) / 2, top: place.top + (place.height - height) / 2, width, height };
 }
 
+/** The titles of the library are parts with ",  " between them. */
+function partsOf(title) {
+  const parts = [[]];
+  for (const run of runsOf(title)) {
+    run.words.split(/(?<=,) {2}/).forEach((words, i) => {
+      if (i > 0) parts.push([]);
+      parts[parts.length - 1].push({ ...run, words });
+    });
+  }
+  return parts;
+}
+
 /** {title, legend: {thing, left, row} of each part; bar; frames and titles, {x, y, size}, of the panels; ...} */
 export function layOut(figure, width, height, size) {
   const { panels, colourBar } = figure;
   const inner = width - 2 * margin;
   const lineHeight = 1.45 * size;
-  // The titles of the library are parts with ",  " between them.
   const widthOfPart = (part) => widthOf(part, { size, bold: true });
-  const title = setLines(figure.title.replaceAll(",  ", ",\n").split("\n"), inner, widthOfPart, 0.5 * size);
+  const title = setLines(partsOf(figure.title), inner, widthOfPart, 0.5 * size);
   let top = margin + lineHeight * rowsIn(title);
 
   let bar = null;
@@ -50,8 +62,8 @@ export function layOut(figure, width, height, size) {
     top = Math.max(top, barTop + 2.5 * size);
   }
 
-  const named = panels.flatMap(({ lines, marks }) => [...lines, ...marks]).filter(({ legend }) => legend !== "");
-  const entries = named.filter(({ legend }, i) => named.findIndex((first) => first.legend === legend) === i);
+  const named = panels.flatMap(({ lines, marks }) => [...lines, ...marks]).filter(({ legend }) => legend.length > 0);
+  const entries = named.filter(({ legend }, i) => named.findIndex((first) => plain(first.legend) === plain(legend)) === i);
   const sample = 2 * size;
   const legend = setLines(entries, inner, (entry) => sample + 0.4 * size + widthOf(entry.legend, { size }), 1.4 * size);
   const legendTop = height - margin - lineHeight * rowsIn(legend);
@@ -59,8 +71,8 @@ export function layOut(figure, width, height, size) {
   const rows = rowsOf(panels.length, width);
   const columns = panels.length / rows;
   const cell = { width: inner / columns, height: (legendTop - (legend.length ? 0.3 * size : 0) - top) / rows };
-  const above = panels.some((panel) => panel.title !== "") ? 1.9 * size : 0.6 * size;
-  const rangeOf = ({ name, low, high, ticks }) => ({ low, high, label: name || undefined, ticks });
+  const above = panels.some((panel) => panel.title.length > 0) ? 1.9 * size : 0.6 * size;
+  const rangeOf = ({ name, low, high, ticks }) => ({ low, high, label: name.length > 0 ? name : undefined, ticks });
   const frames = panels.map((panel, i) => {
     const [x, y] = [rangeOf(panel.x), rangeOf(panel.y)];
     const below = panel.bare ? 0.3 * size : (x.label ? 3.4 : 1.8) * size;

@@ -3,7 +3,7 @@ import { commandLine } from "./command_line.js";
 import { $, write } from "./dom.js";
 import { csvOfOrbits, csvOfRide, filmOf, filmType, pngOf, save, textFile } from "./exports.js";
 import { fillSelect, numberField } from "./fields.js";
-import { plain } from "./markup.js";
+import { plain } from "./runs.js";
 import { toFragment } from "./page_state.js";
 import { drawPanes } from "./panes_figure.js";
 import { drawPortrait } from "./portrait_figure.js";

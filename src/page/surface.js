@@ -1,7 +1,7 @@
 // What figures are drawn on: a canvas, or the text of an SVG file. Both take pixels, x to the right and y down.
 //
-// A line is a flat array x0, y0, x1, y1, ...; a text may have the library's markup.
-import { runsOf } from "./markup.js";
+// A line is a flat array x0, y0, x1, y1, ...; a text is as runs.js says.
+import { runsOf } from "./runs.js";
 
 const fonts = 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
 const mathematics = '"STIX Two Text", "Cambria Math", "DejaVu Serif", Georgia, serif';
@@ -14,7 +14,7 @@ const known = new Map();  // texts that were measured
 
 /** How wide a text is, and its runs with their fonts and places from the text's left end. */
 function setText(text, /** @type {any} */ { size, bold }) {
-  const key = `${size} ${bold} ${text}`;
+  const key = JSON.stringify([size, bold, text]);
   if (known.size > 2000) known.clear();
   if (known.has(key)) return known.get(key);
   measuring ??= document.createElement("canvas").getContext("2d");
@@ -23,8 +23,8 @@ function setText(text, /** @type {any} */ { size, bold }) {
     const pixels = size * (run.level === 0 ? 1 : scriptSize);
     const font = `${run.italic ? "italic " : ""}${bold ? "600 " : ""}${pixels}px ${run.italic ? mathematics : fonts}`;
     measuring.font = font;
-    set.runs.push({ text: run.text, font, left: set.width, down: scriptShift[run.level] * size });
-    set.width += measuring.measureText(run.text).width;
+    set.runs.push({ words: run.words, font, left: set.width, down: scriptShift[run.level] * size });
+    set.width += measuring.measureText(run.words).width;
   }
   known.set(key, set);
   return set;
@@ -108,7 +108,7 @@ export class CanvasSurface {
     for (const draw of halo ? ["strokeText", "fillText"] : ["fillText"]) {
       for (const run of runs) {
         context.font = run.font;
-        context[draw](run.text, left + run.left, y + run.down);
+        context[draw](run.words, left + run.left, y + run.down);
       }
     }
   }
@@ -162,7 +162,7 @@ export class SvgSurface {
       const shift = scriptShift[run.level] * size - down;
       down += shift;
       return `<tspan${shift ? ` dy="${coordinate(shift)}"` : ""}${run.level ? ` font-size="${coordinate(size * scriptSize)}"` : ""}` +
-        `${run.italic ? ` font-style="italic" font-family='${mathematics}'` : ""}>${escaped(run.text)}</tspan>`;
+        `${run.italic ? ` font-style="italic" font-family='${mathematics}'` : ""}>${escaped(run.words)}</tspan>`;
     });
     const place = `transform="translate(${coordinate(x)} ${coordinate(y)})${turned ? " rotate(-90)" : ""}" y="${coordinate(lower)}"`;
     this.parts.push(`<text ${place} font-family='${fonts}' font-size="${size}"${bold ? ' font-weight="600"' : ""} fill="${colour}"` +

@@ -40,33 +40,40 @@ py::list list_of(const Range& range, Function value) {
   return list;
 }
 
+/// Runs, each (words, italic, level).
+py::tuple text_of(const portraits::Text& text) {
+  return list_of(text.runs(),
+                 [](const portraits::Run& run) { return py::make_tuple(run.words, run.italic, run.level); });
+}
+
 py::list ticks_of(const std::vector<portraits::Axis::Tick>& ticks) {
-  return list_of(ticks, [](const portraits::Axis::Tick& tick) { return py::make_tuple(tick.at, tick.text); });
+  return list_of(ticks, [](const portraits::Axis::Tick& tick) { return py::make_tuple(tick.at, text_of(tick.text)); });
 }
 
 py::dict axis_of(const portraits::Axis& axis) {
-  return py::dict(py::arg("name") = axis.name, py::arg("low") = axis.low, py::arg("high") = axis.high,
+  return py::dict(py::arg("name") = text_of(axis.name), py::arg("low") = axis.low, py::arg("high") = axis.high,
                   py::arg("ticks") = ticks_of(axis.ticks));
 }
 
 py::dict dict_of(const Panel& panel) {
   static constexpr const char* shapes[] = {"dot", "circle", "square"};
   static constexpr const char* sides[] = {"left", "center", "right"};
-  return py::dict(py::arg("title") = panel.title, py::arg("x") = axis_of(panel.x), py::arg("y") = axis_of(panel.y),
-                  py::arg("bare") = panel.bare, py::arg("to_scale") = panel.to_scale,
+  return py::dict(py::arg("title") = text_of(panel.title), py::arg("x") = axis_of(panel.x),
+                  py::arg("y") = axis_of(panel.y), py::arg("bare") = panel.bare, py::arg("to_scale") = panel.to_scale,
                   py::arg("regions") = list_of(panel.regions,
                                                [](const portraits::Region& region) {
                                                  return py::dict(py::arg("border") = array_of(region.border),
                                                                  py::arg("colour") = colour_of(region.colour));
                                                }),
-                  py::arg("lines") = list_of(
-                      panel.lines,
-                      [](const portraits::Lines& layer) {
-                        return py::dict(py::arg("lines") = list_of(layer.lines, array_of),
-                                        py::arg("colour") = colour_of(layer.stroke.colour),
-                                        py::arg("width") = layer.stroke.width, py::arg("dashed") = layer.stroke.dashed,
-                                        py::arg("dotted") = layer.stroke.dotted, py::arg("legend") = layer.legend);
-                      }),
+                  py::arg("lines") = list_of(panel.lines,
+                                             [](const portraits::Lines& layer) {
+                                               return py::dict(py::arg("lines") = list_of(layer.lines, array_of),
+                                                               py::arg("colour") = colour_of(layer.stroke.colour),
+                                                               py::arg("width") = layer.stroke.width,
+                                                               py::arg("dashed") = layer.stroke.dashed,
+                                                               py::arg("dotted") = layer.stroke.dotted,
+                                                               py::arg("legend") = text_of(layer.legend));
+                                             }),
                   py::arg("arrows") = list_of(panel.arrows,
                                               [](const portraits::Arrows& layer) {
                                                 std::vector<Point> ends;
@@ -81,11 +88,11 @@ py::dict dict_of(const Panel& panel) {
                                                                py::arg("colour") = colour_of(layer.colour),
                                                                py::arg("size") = layer.size,
                                                                py::arg("shape") = shapes[static_cast<int>(layer.shape)],
-                                                               py::arg("legend") = layer.legend);
+                                                               py::arg("legend") = text_of(layer.legend));
                                              }),
                   py::arg("labels") = list_of(panel.labels, [](const portraits::Label& label) {
-                    return py::dict(py::arg("x") = label.at.x, py::arg("y") = label.at.y, py::arg("text") = label.text,
-                                    py::arg("colour") = colour_of(label.colour),
+                    return py::dict(py::arg("x") = label.at.x, py::arg("y") = label.at.y,
+                                    py::arg("text") = text_of(label.text), py::arg("colour") = colour_of(label.colour),
                                     py::arg("align") = sides[static_cast<int>(label.align)]);
                   }));
 }
@@ -93,12 +100,12 @@ py::dict dict_of(const Panel& panel) {
 py::dict dict_of(const Figure& figure) {
   const auto& bar = figure.colour_bar;
   return py::dict(
-      py::arg("title") = figure.title, py::arg("subtitle") = figure.subtitle,
+      py::arg("title") = text_of(figure.title), py::arg("subtitle") = text_of(figure.subtitle),
       py::arg("width_mm") = figure.size.width_mm, py::arg("height_mm") = figure.size.height_mm,
       py::arg("ground") = colour_of(figure.theme.ground), py::arg("ink") = colour_of(figure.theme.ink),
       py::arg("faint") = colour_of(figure.theme.faint),
       py::arg("panels") = list_of(figure.panels, [](const Panel& panel) { return dict_of(panel); }),
-      py::arg("colour_bar") = bar ? std::optional(py::dict(py::arg("name") = bar->name,
+      py::arg("colour_bar") = bar ? std::optional(py::dict(py::arg("name") = text_of(bar->name),
                                                            py::arg("colours") = list_of(bar->colours, colour_of),
                                                            py::arg("ticks") = ticks_of(bar->ticks)))
                                   : std::nullopt);
@@ -140,7 +147,7 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experi
   PhasePortrait data = asked.portrait();
   Figure figure = asked.figure(data);
   if (title) {
-    figure.title = portraits::literal(*title, 200);
+    figure.title = portraits::shortened(*title, 200);
     figure.subtitle = "";
   }
   return {std::move(data), std::move(figure), asked.source()};

@@ -49,7 +49,7 @@ async function assertSamePicture(what) {
       own: own.map(({ index, stop, u, v, panels }) => ({ ...state.orbits[index], chosen: index === state.chosen, stop, us: [...u], vs: [...v], line: [...panels[0].line] })),
       drawn: figure.panels[0].lines.flatMap(({ lines }) => Array.from({ length: lines.length / 2 }, (_, i) => i)
         .filter((i) => i === 0 || Number.isNaN(lines[2 * i - 1])).map((i) => [lines[2 * i], lines[2 * i + 1]])),
-      isochrones: figure.panels[0].lines.some(({ legend }) => legend.startsWith("time left")),
+      isochrones: figure.panels[0].lines.some(({ legend: [first] }) => first?.words.startsWith("time left")),
     };
   }, portrait.window[1]);
   assert.equal(portrait.view, state.view);
@@ -789,7 +789,7 @@ test("the command line draws the same picture", async () => {
 
 test("another law is drawn against the first, and leaves again", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5");
-  const legend = () => page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map((layer) => layer.legend).filter(Boolean));
+  const legend = () => page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map(({ legend }) => legend.map(({ words }) => words).join("")));
   assert.ok(!(await legend()).includes("law pade"));
   await page.selectOption("#against", "pade");
   assert.ok((await legend()).includes("law pade") && (await legend()).includes("law exact"));
@@ -812,7 +812,7 @@ test("another law is drawn against the first, and leaves again", async () => {
 
 test("fields and isochrones are switched where a view draws them", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5");
-  const legend = () => page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map((layer) => layer.legend).join(";"));
+  const legend = () => page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map(({ legend }) => legend.map(({ words }) => words).join("")).join(";"));
   assert.match(await legend(), /time left/);
   await page.uncheck("#isochrones");
   assert.doesNotMatch(await legend(), /time left/);

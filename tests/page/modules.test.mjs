@@ -4,12 +4,12 @@ import { test } from "node:test";
 import { commandLine } from "../../src/page/command_line.js";
 import { csvOfOrbits, csvOfRide, filmType } from "../../src/page/exports.js";
 import { Frame } from "../../src/page/frame.js";
-import { plain, runsOf } from "../../src/page/markup.js";
 import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
 import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, startOf, takeBall, toFragment } from "../../src/page/page_state.js";
 import { layOut, rowsOf } from "../../src/page/portrait_layout.js";
 import { portraitRequest } from "../../src/page/portrait_request.js";
 import { presets, tour } from "../../src/page/presets.js";
+import { italic, plain, runsOf } from "../../src/page/runs.js";
 import { Store } from "../../src/page/store.js";
 import { regimeOf, say } from "../../src/page/story.js";
 import { rideOn, rotation, turnedBy } from "../../src/page/turning.js";
@@ -61,12 +61,13 @@ test("ticks are round, inside, and as many as are wanted", () => {
   assert.deepEqual([tickText(0.30000000000000004, 0.1), tickText(-5, 5), tickText(1e-17, 0.1), tickText(2e6, 1e6)], ["0.3", "−5", "0", "2·10⁶"]);
 });
 
-test("markup becomes runs with their level, and text without them", () => {
-  assert.deepEqual(runsOf("{/:Italic u}_0 = 10^{-3}"), [
-    { text: "u", italic: true, level: 0 }, { text: "0", italic: false, level: -1 }, { text: " = 10", italic: false, level: 0 }, { text: "-3", italic: false, level: 1 },
+test("a text is a string, or strings and runs", () => {
+  const index = { words: "0", italic: false, level: -1 };
+  assert.deepEqual(runsOf([italic("u"), index, " = 10"]), [
+    { words: "u", italic: true, level: 0 }, index, { words: " = 10", italic: false, level: 0 },
   ]);
-  assert.equal(plain("a\\_b, {/*0.85 law {/:Italic k}*}"), "a_b, law k*");
-  for (const text of ["{", "_", "^", "\\", "a}b", "{/:Italic "]) assert.equal(typeof plain(text), "string");
+  assert.deepEqual(runsOf("a_b"), [{ words: "a_b", italic: false, level: 0 }]);
+  assert.equal(plain(["law ", italic("k"), "*"]), "law k*");
 });
 
 test("every state comes back from its link", () => {

@@ -15,7 +15,7 @@ namespace contensou::portraits {
 /// Of the panel's lines, those with a legend that begins so.
 inline const Lines& layer(const Panel& panel, const std::string& legend) {
   const auto found =
-      std::ranges::find_if(panel.lines, [&](const Lines& lines) { return lines.legend.starts_with(legend); });
+      std::ranges::find_if(panel.lines, [&](const Lines& lines) { return lines.legend.words().starts_with(legend); });
   REQUIRE(found != panel.lines.end());
   return *found;
 }

@@ -233,7 +233,7 @@ TEST_CASE("Text is data: nothing in it is run, and it cannot end its line", "[do
 
 TEST_CASE("Any text is XML in SVG", "[domain]") {
   portraits::Figure figure = sample();
-  figure.title = portraits::literal("]]> <b>&amp; \xff \xc3( \xed\xa0\x80 \xef\xbf\xbe \x01");
+  figure.title = std::string("]]> <b>&amp; \xff \xc3( \xed\xa0\x80 \xef\xbf\xbe \x01");
   const std::string svg = portraits::render(figure, PictureFormat::svg);
   CHECK(svg.find("]]&gt; &lt;b>&amp;amp; \xef\xbf\xbd \xef\xbf\xbd(") != std::string::npos);
   for (const char* bad : {"]]>", "\xff", "\xc3(", "\xed\xa0", "\xef\xbf\xbe", "\x01"}) {

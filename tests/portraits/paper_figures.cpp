@@ -63,10 +63,10 @@ bool has_circle(const Figure& figure, Point centre) {
 
 TEST_CASE("Fig. 1 and Fig. 3 are drawn inside their frames and to scale", "[paper_drawings]") {
   for (const Figure& figure : {patch_drawing(), ball_drawing()}) {
-    CAPTURE(figure.title);
+    CAPTURE(figure.title.words());
     check_framed(figure);
     check_scale(figure);
-    CHECK_THAT(figure.subtitle, Contains("Zh98, Fig."));
+    CHECK_THAT(figure.subtitle.words(), Contains("Zh98, Fig."));
   }
   CHECK(has_circle(patch_drawing(), {0, 0}));
   CHECK(has_circle(ball_drawing(), {0, 1}));

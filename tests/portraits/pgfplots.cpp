@@ -15,7 +15,7 @@
 #include "figures.hpp"
 
 using namespace contensou;
-using portraits::tex_text;
+using portraits::math, portraits::sub, portraits::sup, portraits::tex_text, portraits::Text;
 
 namespace {
 
@@ -26,18 +26,16 @@ std::string document(portraits::View view) {
 }  // namespace
 
 TEST_CASE("A figure's text is TeX's text", "[table]") {
-  const std::pair<const char*, const char*> cases[]{
+  const std::pair<Text, const char*> cases[]{
       {"plain", "plain"},
-      {"{/:Italic u} = {/:Italic R ω_z}", "\\ensuremath{u} = \\ensuremath{R \\omega _{z}}"},
-      {"10^{-3}", "10\\ensuremath{^{-3}}"},
-      {"{/*0.85 x}", "x"},
-      {"{/:Italic τ}*", "\\ensuremath{\\tau }*"},
-      {"{/:Italic τ*}", "\\ensuremath{\\tau {*}}"},
-      {"50 % & #1 $ a\\_b \\{c\\}", "50 \\% \\& \\#1 \\$ a\\_b \\{c\\}"},
-      {"\\\\input~", "\\textbackslash{}input\\textasciitilde{}"},
+      {math("u = R ω") + sub(math("z")), "\\ensuremath{u}~=~\\ensuremath{R~\\omega _{z}}"},
+      {"10" + sup("-3"), "10\\ensuremath{^{-3}}"},
+      {math("u") + sub("0"), "\\ensuremath{u_{0}}"},
+      {math("τ*"), "\\ensuremath{\\tau }*"},
+      {"50 % & #1 $ a_b {c}", "50 \\% \\& \\#1 \\$ a\\_b \\{c\\}"},
+      {"\\input~", "\\textbackslash{}input\\textasciitilde{}"},
       {"Poincaré → ∞", "Poincaré \\ensuremath{\\to} \\ensuremath{\\infty}"},
       {"ε = -2", "\\ensuremath{\\varepsilon} = \\ensuremath{-}2"},
-      {"{/:Italic", "\\ensuremath{}"},
       {"", ""},
   };
   for (const auto& [text, tex] : cases) CHECK(tex_text(text) == tex);

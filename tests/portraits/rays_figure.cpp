@@ -15,7 +15,7 @@ using namespace contensou::portraits;
 
 namespace {
 
-const Lines* lines_of(const Panel& panel, const std::string& legend) {
+const Lines* lines_of(const Panel& panel, const Text& legend) {
   const auto found = std::ranges::find(panel.lines, legend, &Lines::legend);
   return found == panel.lines.end() ? nullptr : &*found;
 }
@@ -61,7 +61,7 @@ TEST_CASE("heads point to smaller k where D > 0, and m lies between its bounds",
       CHECK(heads.arrows.size() == 4);
       for (const Arrow& head : heads.arrows) CHECK(head.at.y * head.direction.x < 0);
     }
-    CHECK(lines_of(figure.panels[2], "{/:Italic r} = 3") != nullptr);
+    CHECK(lines_of(figure.panels[2], math("r = 3")) != nullptr);
     for (const Lines& lines : figure.panels[2].lines) {
       for (const Polyline& line : lines.lines) {
         for (const Point& point : line) {

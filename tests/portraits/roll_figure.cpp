@@ -55,7 +55,7 @@ TEST_CASE("the path with the point from which it rolls, beside the speeds", "[ta
   for (int i = 0; i < 3; ++i) {
     CHECK(speeds.marks[i].shape == static_cast<Marks::Shape>(i));
     CHECK(speeds.marks[i].points.size() >= 7);
-    CHECK(speeds.marks[i].legend == layer(speeds, speeds.marks[i].legend).legend);
+    CHECK(speeds.marks[i].legend == layer(speeds, speeds.marks[i].legend.words()).legend);
   }
   for (const Point& point : speeds.marks[0].points) CHECK(point.y == Approx(1 - std::min(point.x, 1.0)).margin(1e-3));
   for (const Lines& layer : speeds.lines) {
@@ -76,7 +76,7 @@ TEST_CASE("a path is to scale; a flat one is stretched a round number of times, 
       picture.size.width_mm = width;
       const Figure figure = roll_figure(picture);
       CAPTURE(push, figure.size.width_mm);
-      const std::string& name = figure.panels[0].x.name;  // a path along y
+      const std::string name = figure.panels[0].x.name.words();  // a path along y
       const std::size_t note = name.find("(stretched ");
       CHECK((note == name.npos) == (push < 5));
       CHECK(figure.panels[0].to_scale == (push < 5));
@@ -86,7 +86,7 @@ TEST_CASE("a path is to scale; a flat one is stretched a round number of times, 
     }
   }
   const Figure wide = roll_figure({"", "", curve(0.1, 2.2), curve(0.1, 2.2)});
-  CHECK_THAT(wide.panels[0].y.name, Catch::Contains("(stretched 5 times)"));
+  CHECK_THAT(wide.panels[0].y.name.words(), Catch::Contains("(stretched 5 times)"));
   CHECK(stretched(wide) == Approx(5).epsilon(0.01));
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("a straight path is drawn against time", "[limit]") {
   const Panel path = roll_figure({"", "", curve(0, 2.2), curve(0, 2.2)}).panels[0];
   CHECK(path.x.low == 0);
   CHECK(path.x.high == Approx(1.6));
-  CHECK(path.title.find("straight") != std::string::npos);
+  CHECK(path.title.words().find("straight") != std::string::npos);
 }
 
 TEST_CASE("a ball that stays in its place has no path", "[limit]") {
@@ -112,14 +112,14 @@ TEST_CASE("a ball that stays in its place has no path", "[limit]") {
   still.rolls = 0;
   const Figure figure = roll_figure({"", "", still, still});
   REQUIRE(figure.panels.size() == 1);
-  CHECK(figure.panels[0].title.find("speeds") != std::string::npos);
+  CHECK(figure.panels[0].title.words().find("speeds") != std::string::npos);
 }
 
 TEST_CASE("a long spin is drawn on a logarithmic time axis", "[limit]") {
   const Panel speeds = roll_figure({"", "", curve(0.5, 30), curve(0.5, 30)}).panels[1];
   CHECK(speeds.x.logarithmic);
   CHECK(speeds.x.low == 0.1);
-  CHECK_THAT(speeds.x.name, Catch::Contains("logarithmic"));
+  CHECK_THAT(speeds.x.name.words(), Catch::Contains("logarithmic"));
 }
 
 TEST_CASE("a fast spin is drawn in a part of its size, and says so: the slip keeps its room", "[table]") {
@@ -127,7 +127,7 @@ TEST_CASE("a fast spin is drawn in a part of its size, and says so: the slip kee
   fast.rim = 23 * fast.slip;
   const Panel speeds = roll_figure({"", "", fast, fast}).panels[1];
   CHECK(speeds.y.high == Approx(1.08 * std::max(fast.speed.maxCoeff(), fast.rim.maxCoeff() / 20)));
-  CHECK(std::ranges::any_of(speeds.lines, [](const Lines& lines) { return lines.legend.ends_with(" / 20"); }));
+  CHECK(std::ranges::any_of(speeds.lines, [](const Lines& lines) { return lines.legend.words().ends_with(" / 20"); }));
 }
 
 TEST_CASE("a film of so many frames lasts as long as they do", "[table]") {
@@ -169,13 +169,13 @@ TEST_CASE("a film shows as much as has happened, and both balls as they have tur
     const auto& panels = frames[i].panels;
     REQUIRE(panels.size() == 4);
     CHECK(panels[0].lines[0].lines[0].size() == i + 1);
-    CHECK_THAT(panels[1].title, Catch::Contains("slowed 20 times"));
+    CHECK_THAT(panels[1].title.words(), Catch::Contains("slowed 20 times"));
     // Textbook, then this ball, each where it is and where it began to roll.
     REQUIRE(panels[0].marks.size() == 4);
     CHECK(panels[0].marks[2].points[0].x == Approx(ball.t[static_cast<Eigen::Index>(i)]));
     CHECK(panels[0].marks[3].points.size() == (i >= 46 ? 1 : 0));
     CHECK(panels[2].labels[0].text == (i >= 46 ? "rolls" : "slides 1.00 m/s"));
-    CHECK_THAT(panels[3].labels[0].text, Catch::StartsWith(i >= 69 ? "rolls" : "slides"));
+    CHECK_THAT(panels[3].labels[0].text.words(), Catch::StartsWith(i >= 69 ? "rolls" : "slides"));
   }
   const Point before = frames[0].panels[2].marks[0].points[0], after = frames[100].panels[2].marks[0].points[0];
   CHECK(after.x == Approx(-before.y).margin(1e-7));

@@ -69,7 +69,7 @@ void require_picture(const std::string& names, const Output& output) {
 
 portraits::Figure FigureOptions::apply(portraits::Figure figure, const std::string& format) const {
   if (title_.given()) {
-    figure.title = title_.text() == "none" ? "" : portraits::literal(title_.text(), 200);
+    figure.title = title_.text() == "none" ? "" : portraits::shortened(title_.text(), 200);
     figure.subtitle = "";
   }
   if (font_.given() && format == "tex")

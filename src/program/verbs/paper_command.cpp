@@ -64,10 +64,11 @@ struct NamedFigure {
 std::vector<NamedFigure> figures(const portraits::AskedSize& size) {
   const reduction::ReducedSystem system(reduction::PadeLaw{}, drawn_patch_ratio);
   portraits::PortraitCaption caption;
-  caption.title = fmt::format("Integral curves of d{{/:Italic v}}/d{{/:Italic u}},  {{/:Italic μ}} = {},  law: {}",
-                              drawn_patch_ratio, system.law().name());
-  caption.subtitle =
-      "Zh98, Fig. 4: all of them run into the origin, tangent to the {/:Italic u}-axis; {/:Italic u} = 0 stands alone";
+  using portraits::math;
+  caption.title = portraits::title_of("Integral curves of d" + math("v") + "/d" + math("u"),
+                                      fmt::format("{}", drawn_patch_ratio), system.law().name());
+  caption.subtitle = "Zh98, Fig. 4: all of them run into the origin, tangent to the " + math("u") + "-axis; " +
+                     math("u = 0") + " stands alone";
   return {{"fig1", portraits::patch_drawing(size)},
           {"fig2", portraits::law_figure(reduction::paper_laws(), size)},
           {"fig3", portraits::ball_drawing(size)},

@@ -210,21 +210,22 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
   const double textbook_rolls = textbook.rolls;
   const double slip = si::slip_at_start(experiment);
   const double spin = si::spin_at_start(experiment);
-  portraits::RollPicture picture{
-      .title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(experiment.ball.name),
-                           si::patch_ratio(experiment, law), portraits::literal(law.name())),
-      .subtitle = fmt::format("slip {:.4g} m/s, spin {:.4g} rad/s", slip, spin),
-      .ball = curve(experiment, roll.at_times(times), rolls),
-      .textbook = curve(experiment, textbook.at_times(times), textbook_rolls)};
+  portraits::RollPicture picture{.title = portraits::title_of(portraits::shortened(experiment.ball.name),
+                                                              fmt::format("{:.4g}", si::patch_ratio(experiment, law)),
+                                                              portraits::shortened(law.name())),
+                                 .subtitle = fmt::format("slip {:.4g} m/s, spin {:.4g} rad/s", slip, spin),
+                                 .ball = curve(experiment, roll.at_times(times), rolls),
+                                 .textbook = curve(experiment, textbook.at_times(times), textbook_rolls)};
+  const auto seconds = [](double time) { return portraits::unbroken(fmt::format("{:.3g} s", time)); };
   if (slip > 0) {
     picture.subtitle +=
-        fmt::format("; it rolls after {{{:.3g} s}}, the textbook's after {{{:.3g} s}}", rolls, textbook_rolls);
+        fmt::format("; it rolls after {}, the textbook's after {}", seconds(rolls), seconds(textbook_rolls));
   }
-  if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {{{:.3g} s}}", roll.stop_time());
+  if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {}", seconds(roll.stop_time()));
   if (whole.friction) {
     const auto& place = whole.friction->rest_position();
-    picture.subtitle += fmt::format("; it rests after {{{:.3g} s}} at {{({:.3g}, {:.3g}) m}}",
-                                    whole.friction->rest_time(), place.x(), place.y());
+    picture.subtitle += fmt::format("; it rests after {} at {}", seconds(whole.friction->rest_time()),
+                                    portraits::unbroken(fmt::format("({:.3g}, {:.3g}) m", place.x(), place.y())));
   }
   return picture;
 }

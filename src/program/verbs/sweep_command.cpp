@@ -364,15 +364,16 @@ class SweepCommand final : public Verb {
     };
     const reduction::Flow flow(system);
     tell_if_not_proved(flow.table());
+    using portraits::math, portraits::sub;
     portraits::MapCaption caption;
     if (grid.ball) {
       caption = {
-          .title = fmt::format("{},  {{/:Italic μ}} = {:.4g},  law: {}", portraits::literal(grid.ball->ball.name),
-                               system.mu(), portraits::literal(system.law().name())),
+          .title = portraits::title_of(portraits::shortened(grid.ball->ball.name), fmt::format("{:.4g}", system.mu()),
+                                       portraits::shortened(system.law().name())),
           .subtitle = "how long slip and spin last, from every start",
-          .u = "spin {/:Italic ω_z} at the start, rad/s",
-          .v = "slip {/:Italic v} at the start, m/s",
-          .time = "{/:Italic t}*, s",
+          .u = "spin " + math("ω") + sub(math("z")) + " at the start, rad/s",
+          .v = "slip " + math("v") + " at the start, m/s",
+          .time = math("t*") + ", s",
           .u_unit = grid.ball->ball.radius,
           .time_unit = 1 / si::seconds(*grid.ball, 1)};
     }

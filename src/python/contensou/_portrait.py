@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from os import PathLike
 from pathlib import Path
 from typing import Any, Iterable, Optional, Union
@@ -26,11 +25,18 @@ def _columns(value: Any) -> Any:
     return value
 
 
-def _mathtext(text: str) -> str:
+_Text = tuple[tuple[str, bool, int], ...]
+
+
+def _mathtext(text: _Text) -> str:
     """A text of a figure as matplotlib writes it."""
-    parts = re.split(r"{/:Italic ((?:[^{}]|{[^}]*})*)}", text.replace("$", r"\$"))
-    parts[::2] = [re.sub(r"([_^])({[^}]*}|.)", r"$\1{\2}$", part) for part in parts[::2]]
-    parts[1::2] = [f"${part}$".replace(" ", r"\ ") for part in parts[1::2]]
+    parts = []
+    for words, italic, level in text:
+        words = words.replace("$", r"\$")
+        if italic or level != 0:
+            words = (words if italic else rf"\mathrm{{{words}}}").replace("\u00a0", r"\ ")
+            words = f"${words}$" if level == 0 else f"${'^' if level > 0 else '_'}{{{words}}}$"
+        parts.append(words)
     return "".join(parts)
 
 
@@ -87,7 +93,8 @@ class Portrait:
 
     @property
     def figure(self) -> dict[str, Any]:
-        """The drawing as data: title, panels with axes, lines, arrows, marks, labels and regions in the units of the axes."""
+        """The drawing as data: title, panels with axes, lines, arrows, marks, labels and regions in the units of the axes.
+        A text is a tuple of runs (words, italic, level); level is 1 for a power, -1 for an index, else 0."""
         return self._core.figure()
 
     def plot(self, ax: Any = None) -> Any:
@@ -110,7 +117,7 @@ class Portrait:
         places = np.atleast_1d(ax)
         if len(places) != len(panels):
             raise ValueError(f"ax: {len(panels)} axes are needed, got {len(places)}")
-        listed: set[str] = set()  # each text once, as in the library's own legend
+        listed: set[_Text] = set()  # each text once, as in the library's own legend
         for panel, place in zip(panels, places):
             for layer in panel["lines"] + panel["marks"]:
                 text = layer["legend"]

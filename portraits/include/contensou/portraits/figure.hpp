@@ -3,8 +3,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "contensou/portraits/text.hpp"
 
 namespace contensou::portraits {
 
@@ -33,7 +34,7 @@ struct Stroke {
 struct Lines {
   std::vector<Polyline> lines;
   Stroke stroke;
-  std::string legend;  ///< empty: not in the legend
+  Text legend;  ///< empty: not in the legend
 };
 
 /// An arrow head that points along a direction, given in the units of the axes.
@@ -55,7 +56,7 @@ struct Marks {
   Colour colour;
   double size = 0.6;
   enum class Shape { dot, circle, square } shape = Shape::dot;
-  std::string legend = {};  ///< empty: not in the legend
+  Text legend = {};  ///< empty: not in the legend
 };
 
 /// A filled area under everything else.
@@ -67,7 +68,7 @@ struct Region {
 /// A text at a point of a panel, on the figure's ground so that it stays legible over lines.
 struct Label {
   Point at;
-  std::string text;
+  Text text;
   Colour colour;
   enum class Align { left, centre, right } align = Align::centre;
 };
@@ -77,9 +78,9 @@ struct Axis {
   /// A mark on the axis and its words.
   struct Tick {
     double at;
-    std::string text;
+    Text text;
   };
-  std::string name;
+  Text name;
   double low;
   double high;
   bool logarithmic = false;
@@ -97,7 +98,7 @@ struct ColourMap {
 /// One system of axes and what is drawn in it, in the order given: colours, regions, lines, arrows, marks, labels. Only
 /// labels may lie beyond the axes.
 struct Panel {
-  std::string title;
+  Text title;
   Axis x;
   Axis y;
   std::vector<Lines> lines;
@@ -112,7 +113,7 @@ struct Panel {
 
 /// What the colours of lines mean: a strip beside the panels.
 struct ColourBar {
-  std::string name;
+  Text name;
   std::vector<Colour> colours;    ///< from the bottom up, in steps of one height
   std::vector<Axis::Tick> ticks;  ///< at: fraction of the height
 };
@@ -131,11 +132,10 @@ struct Theme {
   double letters = 1;      ///< factor of the size of letters
 };
 
-/// A drawing as data: panels side by side under one title, a colour bar beside them, one legend below. Text is UTF-8; _
-/// and ^ begin an index or a power, {/:Italic x} is a letter in italics.
+/// A drawing as data: panels side by side under one title, a colour bar beside them, one legend below.
 struct Figure {
-  std::string title;
-  std::string subtitle;
+  Text title;
+  Text subtitle;
   PaperSize size = {};
   double dpi = 300;       ///< of a PNG
   std::string font = {};  ///< its name; empty: a sans-serif one. TeX keeps its own
@@ -149,15 +149,5 @@ struct Figure {
 struct AskedSize {
   std::optional<double> width_mm = {}, height_mm = {};
 };
-
-/// About how wide a text is as it is shown, in sizes of letters.
-double text_width(std::string_view text);
-
-/// The text with a minus sign for each hyphen that is one: before a digit, and not within a word.
-std::string with_minus_signs(std::string_view text);
-
-/// A text of somebody else's, such as a name, as a figure's text that shows just these characters; cut with an ellipsis
-/// after the given number of them.
-std::string literal(std::string_view text, std::size_t longest = 60);
 
 }  // namespace contensou::portraits

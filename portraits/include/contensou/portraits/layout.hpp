@@ -60,7 +60,7 @@ std::optional<Arrow> short_arrow(const Panel& panel, const Box& box, const Arrow
 
 /// What the legend lists: a text with the line and the marks that it names, or one of them.
 struct LegendEntry {
-  std::string text;
+  Text text;
   const Lines* lines;
   const Marks* marks;
 };
@@ -71,7 +71,7 @@ std::vector<LegendEntry> legend_entries(const Figure& figure);
 
 /// A text on the page by its middle, or by the middle of its left end.
 struct PlacedText {
-  std::string text;
+  Text text;
   Point at;         ///< mm
   double size = 1;  ///< in sizes of letters
   Label::Align align = Label::Align::centre;
@@ -114,6 +114,8 @@ void widen(Figure& figure, std::size_t panel, double times = 1);
 
 /// The width of a line, the length of an arrow's head and the width of a mark of size 1, in sizes of letters.
 inline constexpr double line_width = 0.074, head_length = 0.74, mark_size = 0.5;
+/// The size of a tick's text and of a label's.
+inline constexpr double tick_size = 0.9, label_size = 0.85;
 
 /// The size of letters in a figure of that width, 2.2 to 2.7 mm.
 double letter_mm(double width_mm);

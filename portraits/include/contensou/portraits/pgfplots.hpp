@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "contensou/portraits/figure.hpp"
 
@@ -12,8 +11,8 @@ namespace contensou::portraits {
 /// @throws std::domain_error  for a panel with a ColourMap, which is too much for TeX's memory; as tex_text
 std::string pgfplots(const Figure& figure);
 
-/// A figure's text as TeX: italics and indices become mathematics.
+/// A text as TeX: italics and indices become mathematics.
 /// @throws std::domain_error  for a character that is neither a Latin nor a Greek letter nor a known sign
-std::string tex_text(std::string_view text);
+std::string tex_text(const Text& text);
 
 }  // namespace contensou::portraits

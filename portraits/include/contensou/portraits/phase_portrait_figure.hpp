@@ -12,13 +12,13 @@ namespace contensou::portraits {
 
 /// Words and units of a drawing; the defaults are those of the paper's plane.
 struct PortraitCaption {
-  std::string title = {};                     ///< empty: the law and mu
-  std::string subtitle = {};                  ///< empty: what the view shows
-  std::string speed_unit = {};                ///< of u and v, "m/s" for a ball; empty: any one unit
-  std::string time_symbol = "{/:Italic τ}*";  ///< what isochrones are labelled with
-  std::string time_unit_name = {};            ///< "s" for a ball
-  double time_unit = 1;                       ///< in tau
-  std::string highlight = {};                 ///< legend of the highlighted orbit
+  Text title = {};                  ///< empty: the law and mu
+  Text subtitle = {};               ///< empty: what the view shows
+  std::string speed_unit = {};      ///< of u and v, "m/s" for a ball; empty: any one unit
+  Text time_symbol = math("τ*");    ///< what isochrones are labelled with
+  std::string time_unit_name = {};  ///< "s" for a ball
+  double time_unit = 1;             ///< in tau
+  Text highlight = {};              ///< legend of the highlighted orbit
 };
 
 /// What is drawn and how.

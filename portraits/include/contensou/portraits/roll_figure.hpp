@@ -23,8 +23,8 @@ struct RollCurve {
 
 /// What roll_figure draws.
 struct RollPicture {
-  std::string title;
-  std::string subtitle;
+  Text title;
+  Text subtitle;
   RollCurve ball;
   RollCurve textbook;  ///< the same start with sliding and spinning uncoupled
   AskedSize size = {};

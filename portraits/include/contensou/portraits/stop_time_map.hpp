@@ -35,10 +35,10 @@ StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, doub
 
 /// Words and units of a map's drawing; the defaults are the paper's.
 struct MapCaption {
-  std::string title = {};  ///< empty: mu and the law
-  std::string subtitle = "stop time {/:Italic τ}* of every start, in the unit of the speeds";
-  std::string u = "{/:Italic u}_0,  pivoting at the start", v = "{/:Italic v}_0,  sliding at the start";
-  std::string time = "{/:Italic τ}*";
+  Text title = {};  ///< empty: mu and the law
+  Text subtitle = "stop time " + math("τ*") + " of every start, in the unit of the speeds";
+  Text u = math("u") + sub("0") + ",  pivoting at the start", v = math("v") + sub("0") + ",  sliding at the start";
+  Text time = math("τ*");
   double u_unit = 1;     ///< of the axis, in u
   double time_unit = 1;  ///< in tau
 };
