@@ -23,28 +23,32 @@ Json list_of(const std::vector<std::string_view>& texts) {
   return list;
 }
 
+Json members_of(const si::FadeTimes& times) {
+  return {{"t_slip", times.slip}, {"t_spin", times.spin}, {"slip_length", times.slip_length}, {"turns", times.turns}};
+}
+
 Json members_of(const Engine& engine, const si::Experiment& experiment, const si::EngineContact& contact) {
+  const si::EngineUse& use = engine.use_of(experiment.ball.body);
   Json parameters = Json::object();
-  for (const auto& [name, unit, formula, value] : engine.parameters)
+  for (const auto& [name, unit, formula, value] : use.parameters)
     parameters[std::string(name)] = {{"value", value(contact)}, {"unit", unit}, {"formula", formula}};
   Json settings = Json::array();
-  for (const auto& [words, cone, moment_arm] : engine.settings) {
+  for (const auto& [words, cone, moment_arm, friction_share] : use.settings) {
     const double arm = moment_arm(contact);
-    const auto [slip, spin] = si::fade_times(experiment, cone, arm);
-    settings.push_back({{"setting", words},
-                        {"cone", arm > 0 ? si::name(cone) : "none"},
-                        {"moment_arm", arm},
-                        {"t_slip", slip},
-                        {"t_spin", spin}});
+    si::Experiment there = experiment;
+    there.contact.friction *= friction_share;
+    Json setting{{"setting", words}, {"cone", arm > 0 ? si::name(cone) : "none"}, {"moment_arm", arm}};
+    setting.update(members_of(si::fade_times(there, cone, arm)));
+    settings.push_back(setting);
   }
   return {{"name", engine.name},
           {"title", engine.title},
           {"repository", engine.repository},
           {"version", engine.version},
           {"parameters", parameters},
-          {"limit", engine.limit},
+          {"limit", use.limit},
           {"combination", engine.combination},
-          {"needs", list_of(engine.needs)},
+          {"needs", list_of(use.needs)},
           {"settings", settings},
           {"remarks", list_of(engine.remarks)},
           {"sources", list_of(engine.sources)}};
@@ -54,9 +58,9 @@ Json members_of(const Engine& engine, const si::Experiment& experiment, const si
 
 Json engine_members(const si::Experiment& experiment, const reduction::Law& law, const Engine* only) {
   const si::EngineContact contact = si::contact_of(experiment, law);
-  const auto [slip, spin] = si::fade_times(experiment, law);
   Json members{{"law", law.name()},
                {"ball", experiment.ball.name},
+               {"body", experiment.ball.body.name},
                {"radius", contact.radius},
                {"mass", experiment.ball.mass},
                {"load", experiment.environment.load.value_or(experiment.ball.mass * experiment.environment.gravity)},
@@ -65,10 +69,9 @@ Json engine_members(const si::Experiment& experiment, const reduction::Law& law,
                {"pivoting_moment", contact.pivoting_moment},
                {"moment_arm", contact.moment_arm()},
                {"slip", si::slip_at_start(experiment)},
-               {"spin", si::spin_at_start(experiment)},
-               {"t_slip", slip},
-               {"t_spin", spin},
-               {"engines", Json::array()}};
+               {"spin", si::spin_at_start(experiment)}};
+  members.update(members_of(si::fade_times(experiment, law)));
+  members["engines"] = Json::array();
   for (const Engine& engine : si::engines()) {
     if (only == nullptr || &engine == only) members["engines"].push_back(members_of(engine, experiment, contact));
   }

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -29,6 +31,9 @@
 // from v = w the stop takes v (1 + r)/r = v + w/r, in tau S(v) + P(u), and so it does from any start:
 //
 //     s - s0 = v0 + w0/r                                                     the sum of what the box takes the larger of
+//
+// Points, n of them at c/f from the middle with N/n each. Where the body turns often while its slip changes little, what
+// acts on each is its mean over a turn, and that is what a ring of that radius has: the law ring, with mu = c/(f R).
 
 namespace contensou::si {
 
@@ -36,9 +41,13 @@ namespace {
 
 using reduction::ReducedSystem;
 
+constexpr double turn = 2 * std::numbers::pi;
+
 FadeTimes fade_times(const Experiment& experiment, const BallMotion& motion) {
-  return {motion.slip_time(faded * slip_at_start(experiment)),
-          motion.spin_time(faded * std::abs(spin_at_start(experiment)))};
+  return {.slip = motion.slip_time(faded * slip_at_start(experiment)),
+          .spin = motion.spin_time(faded * std::abs(spin_at_start(experiment))),
+          .slip_length = motion.slip_length(),
+          .turns = std::abs(motion.spin_angle()) / turn};
 }
 
 double mu_of(const Experiment& experiment, double moment_arm) {
@@ -66,6 +75,9 @@ class PyramidMotion {
     return speed >= on_ray_ ? ray_ * ((from - speed) / (from - on_ray_)) : stop_ - (stop_ - ray_) * (speed / on_ray_);
   }
 
+  /// The integral over time of v or w, `from` at the start.
+  double integral(double from) const { return ((from + on_ray_) * ray_ + on_ray_ * (stop_ - ray_)) / 2; }
+
   double v0;  ///< m/s
   double w0;  ///< m/s
 
@@ -83,6 +95,8 @@ std::string_view name(Cone cone) {
       return "elliptic";
     case Cone::box:
       return "box";
+    case Cone::points:
+      return "points";
     default:
       return "pyramid";
   }
@@ -100,18 +114,30 @@ FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm)
   }
   const auto [u, v0] = reduced_start(experiment);
   const double u0 = std::abs(u);
+  const double spin = std::abs(spin_at_start(experiment));
   const double mu = mu_of(experiment, moment_arm);
-  const ReducedSystem system(reduction::EllipticLaw(1), mu > 0 ? mu : 1,
+  const bool is_law = cone == Cone::elliptic || cone == Cone::points;
+  const reduction::Law law =
+      cone == Cone::points ? *reduction::find_law("ring") : reduction::Law(reduction::EllipticLaw(1));
+  const ReducedSystem system(law, mu > 0 ? mu : 1,
                              experiment.ball.body.inertia);  // where mu is 0, its sliding is asked for
-  if (mu > 0 && cone == Cone::elliptic) return fade_times(experiment, BallMotion(experiment, reduction::Flow(system)));
-  FadeTimes times{
-      seconds(experiment, system.sliding_limit((1 - faded) * v0)),
-      mu > 0 ? seconds(experiment, system.pivoting_limit((1 - faded) * u0)) : std::numeric_limits<double>::infinity()};
+  if (mu > 0 && is_law) return fade_times(experiment, BallMotion(experiment, reduction::Flow(system)));
   if (mu > 0 && cone == Cone::pyramid) {
     const PyramidMotion motion(experiment, mu);
-    times = {motion.time(v0, faded * v0), motion.time(motion.w0, faded * motion.w0)};
+    return {.slip = v0 > 0 ? motion.time(v0, faded * v0) : 0,
+            .spin = u0 > 0 ? motion.time(motion.w0, faded * motion.w0) : 0,
+            .slip_length = motion.integral(v0),
+            .turns = motion.integral(motion.w0) / (mu * experiment.ball.radius) / turn};
   }
-  return {v0 > 0 ? times.slip : 0, u0 > 0 ? times.spin : 0};
+  const double slides = seconds(experiment, system.sliding_limit(v0));
+  double spins = 0;
+  if (u0 > 0) {
+    spins = mu > 0 ? seconds(experiment, system.pivoting_limit(u0)) : std::numeric_limits<double>::infinity();
+  }
+  return {.slip = (1 - faded) * slides,
+          .spin = (1 - faded) * spins,
+          .slip_length = v0 * slides / 2,
+          .turns = spin > 0 ? spin * spins / 2 / turn : 0};
 }
 
 SlipAndSpin speeds_under_pyramid(const Experiment& experiment, double moment_arm, double t) {

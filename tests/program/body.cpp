@@ -77,7 +77,6 @@ TEST_CASE("a puck in seconds", "[cli]") {
   CHECK(json_of("stop --format json --ball curling-stone --law exact").at("law") == "exact");
   check_rejected("roll --ball puck",
                  "--ball puck: a disc lies flat and never rolls; 'contensou stop' says when and where");
-  check_rejected("engine --ball puck", "never rolls");
   // A file is read once, so that it may be a pipe.
   const TemporaryDirectory scratch;
   CHECK(run_program("balls puck -o " + scratch.file("puck.toml")).status == 0);

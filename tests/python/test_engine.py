@@ -29,7 +29,7 @@ def test_engines_are_the_programs(changes, law, options):
     assert list(ours) == [engine["name"] for engine in theirs["engines"]]
     for engine in theirs["engines"]:
         for setting in engine["settings"]:
-            setting["t_spin"] = float(setting["t_spin"])
+            setting["t_spin"], setting["turns"] = float(setting["t_spin"]), float(setting["turns"])
         assert ours[engine["name"]] == {**{name: value for name, value in theirs.items() if name != "engines"}, **engine}
     assert ct.engine("bullet", ball, law=law) == ours["bullet"]
 

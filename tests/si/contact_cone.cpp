@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <boost/math/tools/minima.hpp>
@@ -44,7 +45,7 @@ FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) 
   constexpr double step = 2e-6;
   double v = v0;
   double w = w0;
-  FadeTimes times{0, 0};
+  FadeTimes times{0, 0, 0, 0};
   for (long i = 1; v > faded * v0 || w > faded * w0; ++i) {
     const auto loss = [&](double t) { return -border(t).force * f * v - border(t).moment * moment_arm * w; };
     const Point acts = border(boost::math::tools::brent_find_minima(loss, 0.0, 1.0, 26).first);
@@ -52,6 +53,8 @@ FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) 
     w = std::max(0.0, w - 2.5 * moment_arm * g / (R * R) * acts.moment * step);
     if (v > faded * v0) times.slip = static_cast<double>(i) * step;
     if (w > faded * w0) times.spin = static_cast<double>(i) * step;
+    times.slip_length += v * step;
+    times.turns += w * step / (2 * std::numbers::pi);
   }
   return times;
 }
@@ -72,8 +75,65 @@ TEST_CASE("under a cone acts what dissipates most", "[route]") {
       INFO(name(cone) << ", slip " << slip << ", spin " << spin);
       CHECK(times.slip == Approx(found.slip).epsilon(2e-3).margin(2e-5));
       CHECK(times.spin == Approx(found.spin).epsilon(2e-3).margin(2e-5));
+      CHECK(times.slip_length == Approx(found.slip_length).epsilon(2e-3).margin(1e-6));
+      CHECK(times.turns == Approx(found.turns).epsilon(2e-3).margin(1e-5));
     }
   }
+}
+
+namespace {
+
+/// A disc of radius a on four contact points at `arm` from its middle, each with a quarter of the load, in steps, as
+/// engines make them.
+/// @param twist  one row for the slip and one for the spin, each bounded for itself; else friction at each point
+FadeTimes in_steps(const Experiment& puck, double arm, bool twist) {
+  const double f = puck.contact.friction, a = puck.ball.radius, g = puck.environment.gravity;
+  constexpr double dt = 2e-5;
+  const double v0 = slip_at_start(puck), w0 = spin_at_start(puck);
+  Eigen::Vector2d v(v0, 0);
+  double w = w0, turned = 0;
+  FadeTimes times{0, 0, 0, 0};
+  for (long i = 1; v.norm() > faded * v0 || w > faded * w0; ++i) {
+    Eigen::Vector2d force = Eigen::Vector2d::Zero();  // over the mass
+    double moment = 0;                                // over the moment of inertia
+    for (int k = 0; k < 4; ++k) {
+      const double angle = turned + k * std::numbers::pi / 2;
+      const Eigen::Vector2d r = arm * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      const Eigen::Vector2d at_point = v + w * Eigen::Vector2d(-r.y(), r.x());
+      const Eigen::Vector2d friction = -f * g / 4 * (twist ? v : at_point).stableNormalized();
+      force += friction;
+      moment += (twist ? -f * g / 4 * arm : r.x() * friction.y() - r.y() * friction.x()) / (a * a / 2);
+    }
+    v = v.norm() > force.norm() * dt ? Eigen::Vector2d(v + force * dt) : Eigen::Vector2d::Zero();
+    w = std::max(0.0, w + moment * dt);
+    turned += w * dt;
+    if (v.norm() > faded * v0) times.slip = static_cast<double>(i) * dt;
+    if (w > faded * w0) times.spin = static_cast<double>(i) * dt;
+    times.slip_length += v.norm() * dt;
+  }
+  times.turns = turned / (2 * std::numbers::pi);
+  return times;
+}
+
+}  // namespace
+
+TEST_CASE("a puck on four contact points, in steps", "[route]") {
+  Experiment puck = find_ball("puck")->experiment;
+  puck.contact.friction = 0.1;
+  puck.start = SlipAndSpin{5, 100};
+  for (const double arm : {2 * puck.ball.radius / 3, puck.ball.radius}) {
+    for (const bool twist : {true, false}) {
+      const FadeTimes found = in_steps(puck, arm, twist);
+      const FadeTimes times = fade_times(puck, twist ? Cone::box : Cone::points, puck.contact.friction * arm);
+      INFO("arm " << arm << (twist ? ", a row of twist" : ", friction at each point"));
+      CHECK(times.slip == Approx(found.slip).epsilon(2e-3));
+      CHECK(times.spin == Approx(found.spin).epsilon(2e-3));
+      CHECK(times.slip_length == Approx(found.slip_length).epsilon(2e-3));
+      CHECK(times.turns == Approx(found.turns).epsilon(2e-3));
+    }
+  }
+  CHECK(in_steps(puck, puck.ball.radius, true).turns == Approx(15.46).epsilon(1e-3));
+  CHECK(in_steps(puck, 2 * puck.ball.radius / 3, true).turns == Approx(23.19).epsilon(1e-3));
 }
 
 TEST_CASE("the elliptic cone is a friction law", "[route]") {

@@ -41,8 +41,15 @@ const std::map<std::string_view, Limit> limits{
     // alpha = 5 u_sp g/(2 R) with u_sp = proportionality R, and alpha = (5/2) M/(m R^2)
     {"pooltool",
      [](const auto& typed, double radius) { return 5 * (typed[1] * radius) / (2 * radius) * 2 * radius * radius / 5; }},
+    {"box3d", [](const auto& typed, double radius) { return typed[1] * radius; }},
     {"tailuge", [](const auto& typed, double /*radius*/) { return 0.0055 * 2 / 3 * typed[1]; }},
 };
+
+std::vector<double> typed_into(const EngineUse& use, const EngineContact& contact) {
+  std::vector<double> typed;
+  for (const EngineParameter& parameter : use.parameters) typed.push_back(parameter.value(contact));
+  return typed;
+}
 
 }  // namespace
 
@@ -55,13 +62,32 @@ TEST_CASE("what is typed into an engine makes the moment of the law, whatever ba
             Approx(ball.experiment.contact.friction * patch_radius_of(ball.experiment, law) * law.pivoting_moment()));
       for (const Engine& engine : engines()) {
         INFO(engine.name << ", " << ball.name << ", " << law_name);
-        if (engine.parameters.empty()) continue;
-        std::vector<double> typed;
-        for (const EngineParameter& parameter : engine.parameters) typed.push_back(parameter.value(contact));
+        if (engine.ball.parameters.empty()) continue;
+        const std::vector<double> typed = typed_into(engine.ball, contact);
         CHECK(typed.front() == contact.friction);
         CHECK(limits.at(engine.name)(typed, contact.radius) == Approx(contact.moment_arm()).epsilon(1e-12));
-        CHECK(engine.settings.front().moment_arm(contact) == contact.moment_arm());
+        CHECK(engine.ball.settings.front().moment_arm(contact) == contact.moment_arm());
       }
+    }
+  }
+}
+
+TEST_CASE("of a body that lies flat the distance of the contact points is the moment", "[table]") {
+  const Experiment& puck = find_ball("puck")->experiment;
+  for (const char* law_name : {"uniform", "ring", "paraboloid"}) {
+    const EngineContact contact = contact_of(puck, *reduction::find_law(law_name));
+    for (const Engine& engine : engines()) {
+      INFO(engine.name << ", " << law_name);
+      if (engine.face.parameters.empty()) continue;
+      const std::vector<double> typed = typed_into(engine.face, contact);
+      REQUIRE(typed.size() == 2);
+      // bepuphysics2 divides friction by its four contact points.
+      const double friction = typed[0] / (engine.name == "bepu" ? 4 : 1);
+      CHECK(friction == Approx(contact.friction).epsilon(1e-15));
+      CHECK(friction * typed[1] == Approx(contact.moment_arm()).epsilon(1e-12));
+      CHECK(engine.face.settings[0].moment_arm(contact) == contact.moment_arm());
+      CHECK(engine.face.settings[0].friction_share == 1);
+      CHECK(engine.face.settings[1].moment_arm(contact) == Approx(contact.friction * puck.ball.radius));
     }
   }
 }
@@ -71,26 +97,34 @@ TEST_CASE("each engine says what it is, from where, and what it does", "[table]"
   for (const Engine& engine : engines()) {
     INFO(engine.name);
     CHECK(names.insert(engine.name).second);
-    CHECK(std::ranges::all_of(engine.name, [](unsigned char letter) { return std::islower(letter) != 0; }));
+    CHECK(std::ranges::all_of(engine.name,
+                              [](unsigned char letter) { return std::islower(letter) || std::isdigit(letter); }));
     CHECK(find_engine(engine.name) == &engine);
-    CHECK(engine.parameters.empty() == (limits.count(engine.name) == 0));
+    CHECK(engine.ball.parameters.empty() == (limits.count(engine.name) == 0));
     CHECK_FALSE(engine.title.empty());
     CHECK(std::ranges::count(engine.repository, '/') == 1);
     CHECK(engine.version.find_first_of("0123456789") != std::string_view::npos);
-    CHECK_FALSE(engine.limit.empty());
+    CHECK_FALSE(engine.ball.limit.empty());
+    CHECK(engine.face.limit.empty() == engine.face.settings.empty());
     CHECK_FALSE(engine.combination.empty());
-    REQUIRE_FALSE(engine.settings.empty());
+    REQUIRE_FALSE(engine.ball.settings.empty());
     REQUIRE_FALSE(engine.sources.empty());
     for (std::string_view source : engine.sources) CHECK(source.find('.') != std::string_view::npos);
   }
-  CHECK(find_engine("unreal") == nullptr);
+  CHECK(find_engine("havok") == nullptr);
+  for (const EngineAlias& alias : engine_aliases()) {
+    INFO(alias.name);
+    CHECK(names.insert(alias.name).second);
+    CHECK(find_engine(alias.name) == find_engine(alias.engine));
+    CHECK(find_engine(alias.name) != nullptr);
+  }
 }
 
 TEST_CASE("what is published as the radius or diameter of a patch is too much by what is left out", "[table]") {
   const Experiment& pool = find_ball("pool")->experiment;
   const EngineContact contact = contact_of(pool, *reduction::find_law("exact"));
   const auto times = [&](std::string_view engine, std::size_t setting) {
-    return find_engine(engine)->settings.at(setting).moment_arm(contact) / contact.moment_arm();
+    return find_engine(engine)->ball.settings.at(setting).moment_arm(contact) / contact.moment_arm();
   };
   CHECK(times("mujoco", 3) == Approx(2 / (0.2 * 3 * std::numbers::pi / 16)));  // 17
   CHECK(times("physx", 1) == Approx(16 / (3 * std::numbers::pi)));             // 1.7

@@ -25,8 +25,10 @@ def engine(name: str, ball: Ball, *, law: Optional[LawLike] = None) -> dict[str,
 
     parameters:      {name: {value, unit, formula}}, what to type in; that of the moment is the last
     needs:           switches without which they do nothing; combination: of the two bodies' numbers
-    settings:        [{setting, cone, moment_arm, t_slip, t_spin}], the one nearest to the law first, then what else is met
+    settings:        [{setting, cone, moment_arm, t_slip, t_spin, slip_length, turns}], the one nearest to the law first,
+                     then what else is met
     t_slip, t_spin:  s until 1e-3 of slip and spin is left, under the law
+    slip_length, turns:  m that the contact slides and turns about the vertical until then, under the law
     """
     return _told(name, ball, law)[0]
 

@@ -8,12 +8,13 @@
 namespace contensou::si {
 
 /// What the friction force F and the moment M about the normal of an engine's contact may be at once, where each alone
-/// may reach F0 = f N and M0 = c N (N the load, c a length). Comparison models, not friction laws: but for the ellipse,
-/// they are not functions of v/|omega|.
+/// may reach F0 = f N and M0 = c N (N the load, c a length). Comparison models, not friction laws: but for the ellipse and
+/// the points, they are not functions of v/|omega|.
 enum class Cone {
   elliptic,  ///< (F/F0)^2 + (M/M0)^2 <= 1
   box,       ///< F <= F0, M <= M0: the slip and the spin do not know of each other
   pyramid,   ///< F/F0 + M/M0 <= 1
+  points,    ///< points at c/f from the middle, friction f times its load at each: averaged over a turn, the law ring
 };
 
 std::string_view name(Cone cone);
@@ -21,10 +22,12 @@ std::string_view name(Cone cone);
 /// What share of slip and spin is left where FadeTimes count them as ended: an engine's never end to the last digit.
 inline constexpr double faded = 1e-3;
 
-/// s until slip and spin have fallen to `faded` of what they were at the start; 0 for what was 0, infinity for never.
+/// Until when and how far a body slides and spins.
 struct FadeTimes {
-  double slip;
-  double spin;
+  double slip;         ///< s until it has fallen to `faded` of what it was at the start; 0 for what was 0
+  double spin;         ///< s, likewise; infinity for never
+  double slip_length;  ///< m that the contact slides until it has stopped, of a body that lies flat its path
+  double turns;        ///< about the vertical until it has stopped; infinity for never
 };
 
 /// Under a friction law.

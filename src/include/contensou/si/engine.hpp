@@ -35,27 +35,46 @@ struct EngineSetting {
   std::string_view words;
   Cone cone;
   double (*moment_arm)(const EngineContact& contact);  ///< m, the greatest moment over the load; 0: it has no moment
+  double friction_share = 1;  ///< of the f that is meant, where the engine makes less of what is typed in
+};
+
+/// What is typed into an engine for a body, and what that does.
+struct EngineUse {
+  std::vector<EngineParameter> parameters;  ///< sliding first, the one that decides the moment last; empty without any
+  std::string_view limit;                   ///< of the moment M under the load N, in the engine's own words
+  std::vector<std::string_view> needs;      ///< switches without which the numbers do nothing
+  std::vector<EngineSetting> settings;      ///< the one that comes nearest to the law first, then what else is met
 };
 
 /// A physics engine whose contact has a moment about the normal, or has not.
 struct Engine {
-  std::string_view name;                    ///< one lower-case word
-  std::string_view title;                   ///< its own name
-  std::string_view repository;              ///< on github.com
-  std::string_view version;                 ///< that the rest was read in
-  std::vector<EngineParameter> parameters;  ///< sliding first, the one that decides the moment last; empty without any
-  std::string_view limit;                   ///< of the moment M under the load N, in the engine's own words
-  std::string_view combination;             ///< of the numbers of the two bodies
-  std::vector<std::string_view> needs;      ///< switches without which the numbers do nothing
-  std::vector<EngineSetting> settings;      ///< the one that comes nearest to the law first, then what else is met
-  std::vector<std::string_view> remarks;    ///< what goes wrong
-  std::vector<std::string_view> sources;    ///< FILE:LINES
+  std::string_view name;        ///< one lower-case word
+  std::string_view title;       ///< its own name
+  std::string_view repository;  ///< on github.com
+  std::string_view version;     ///< that the rest was read in
+  EngineUse ball;
+  EngineUse face;                ///< of a body that lies flat; no settings: it has none, or was not read for it
+  std::string_view combination;  ///< of the numbers of the two bodies
+  std::vector<std::string_view> remarks;  ///< what goes wrong
+  std::vector<std::string_view> sources;  ///< FILE:LINES
+
+  const EngineUse& use_of(const Body& body) const { return body.lies_flat() ? face : ball; }
+};
+
+/// A name under which an engine is met, too.
+struct EngineAlias {
+  std::string_view name;    ///< one lower-case word
+  std::string_view engine;  ///< that it stands on
+  std::string_view words;   ///< what it is
 };
 
 /// The engines that are known.
 const std::vector<Engine>& engines();
 
-/// The engine of that name; null if there is none.
+/// Names of programs that stand on one of the engines.
+const std::vector<EngineAlias>& engine_aliases();
+
+/// The engine of that name, or that a program of that name stands on; null if there is none.
 const Engine* find_engine(std::string_view name);
 
 }  // namespace contensou::si
