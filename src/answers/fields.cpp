@@ -1,6 +1,7 @@
 #include "answers/fields.hpp"
 
 #include "answers/check_answer.hpp"
+#include "answers/engine_answer.hpp"
 #include "answers/phase_plane_answer.hpp"
 #include "answers/stop_answer.hpp"
 
@@ -129,22 +130,7 @@ std::vector<VerbFields> field_table() {
            {"`radius`, `patch_radius`; `mass`; `friction`, `mu`; `slip`, `spin`; `gravity`",
             "m; kg; 1; m/s, 1/s; m/s^2", "the typical start"},
        }},
-      {"engine",
-       {
-           {"`radius`, `patch_radius`; `mass`, `load`; `friction`, `pivoting_moment`; `slip`, `spin`",
-            "m; kg, N; 1; m/s, 1/s", "of the ball"},
-           {"`moment_arm`", "m", "f a Psi(0), the moment of spinning over the load; of a setting its greatest"},
-           {"`t_slip`, `t_spin`", "s",
-            "until 1e-3 of slip and spin is left: under the law (CSV `law_t_slip`, `law_t_spin`), of a setting in that "
-            "engine"},
-           {"`engines` [{`name`, `title`, `repository`, `version`, ...}]", "",
-            "CSV has a row for each setting, with `engine`"},
-           {"... `limit`, `combination`, `needs`, `remarks`, `sources`", "", "texts"},
-           {"... `parameters` {NAME {`value`, `unit`, `formula`}}", "",
-            "what to type in, that of the moment last (CSV `parameter`, `value`)"},
-           {"... `settings` [{`setting`, `cone`, `moment_arm`, `t_slip`, `t_spin`}]", "",
-            "the one nearest to the law first; cone elliptic, box, pyramid or none"},
-       }},
+      {"engine", engine_fields()},
       {"paper",
        {
            {"`equation`, `statement`, `printed`, `computed`, `verdict`, `recorded`, `correction`, `at`", "",

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/engine_members.hpp"
+#include "answers/engine_answer.hpp"
 #include "contensou/portraits/json.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/ball_motion.hpp"
@@ -191,7 +191,7 @@ void bind_si(py::module_& module) {
         std::vector<std::pair<std::string, const si::Engine*>> engines;
         for (const si::Engine& engine : si::engines()) engines.emplace_back(engine.name, &engine);
         const si::Engine* const only = name ? one_of("engine", "engines", engines, *name) : nullptr;
-        return portraits::json_document(answers::engine_members(experiment, law, only));
+        return portraits::json_document(answers::engine_answer(experiment, law, only).members);
       },
       Released());
   module.attr("rolling_slip") = si::rolling_slip;
