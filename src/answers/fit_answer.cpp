@@ -59,9 +59,11 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
                       "turns were found by trial; more pictures a second would show them",
                       of, limit));
     }
-    for (double other : others) {
-      remarks.push_back(
-          fmt::format("{}a spin of {:.4g} rad/s, by other whole turns between two pictures, fits as well", of, other));
+    if (!others.empty()) {
+      remarks.push_back(fmt::format(
+          "{}a spin of {:.4g} rad/s, by other whole turns between two pictures, fits as well: another rate of "
+          "pictures, or how far the mark is blurred in one, tells which",
+          of, others.front()));
     }
   }
   if (fit.at_limit) {
@@ -230,10 +232,11 @@ std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::
     const std::string unit = best.only->patch_power == 0 ? "" : best.only->patch_power > 0 ? " mm" : " 1/mm";
     const double scale = std::pow(1e3, best.only->patch_power);
     const auto number = [&](double value) { return digits(scale * value); };
-    text += fmt::format("\nThese data determine {} only: {} +- {}{} ({:.2g} %), 95 % confidence {} to {}{}\n",
-                        best.only->name(), number(best.only->value),
-                        number(best.only->value * best.only->relative_error), unit, 100 * best.only->relative_error,
-                        number(best.only->interval.low), number(best.only->interval.high), unit);
+    text += fmt::format(
+        "\nOf friction and patch radius these data determine {} only: {} +- {}{} ({:.2g} %), 95 % confidence {} to "
+        "{}{}\n",
+        best.only->name(), number(best.only->value), number(best.only->value * best.only->relative_error), unit,
+        100 * best.only->relative_error, number(best.only->interval.low), number(best.only->interval.high), unit);
   }
   text += "\n" + table_of(best, tracks, digits) + "\n";
   const bool both = best.estimates[0].free && best.estimates[1].free;

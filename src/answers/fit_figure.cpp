@@ -205,7 +205,9 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>&
   figure.title = fmt::format("{},  law: {}", portraits::shortened(fit.ball.ball.name), portraits::shortened(fit.law));
   figure.subtitle = fmt::format("friction {}, patch radius {} mm", with_error(fit.estimates[0], 1),
                                 with_error(fit.estimates[1], 1e3));
-  if (fit.only) figure.subtitle = fmt::format("these data determine {} only", portraits::shortened(fit.only->name()));
+  if (fit.only)
+    figure.subtitle = fmt::format("of friction and patch radius these data determine {} only",
+                                  portraits::shortened(fit.only->name()));
   std::vector<Panel> below;  // residuals, and the words
   for (const fit::Noise& noise : fit.noise) {
     Pair pair = panels_of(fit, tracks, noise);

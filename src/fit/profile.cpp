@@ -18,11 +18,17 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-4;
 /// A sum of squares that is lower than the least by that much is a better estimate.
 constexpr double better_by = 0.01;
+/// Of its range, so near a number is at its limit; a limit counts where without it the sum of squares would fall by that
+/// share of the rise.
+constexpr double near_limit = 1e-6, telling = 0.1;
+constexpr Index patch_place = 1;
 /// Steps of a logarithm, and how much longer each is than the last.
 constexpr double widest = 1.2, growth = 1.6;
 /// How sharp an end is, of its distance from the estimate.
 constexpr double sharp = 2e-3;
 constexpr int most_refinements = 12;
+/// Where the valley is followed, and where its end is between two points or another valley is looked for.
+constexpr std::size_t most_starts = 6, few_starts = 2;
 
 }  // namespace
 
@@ -48,7 +54,8 @@ void Profile::spread() {
   }
 }
 
-std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, const VectorXd& foretold) const {
+std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, const VectorXd& foretold,
+                                         std::size_t most) const {
   // Of each part of the valley, by friction and patch radius, the nearest point on each side.
   struct Nearest {
     const VectorXd* parameters = nullptr;
@@ -72,7 +79,6 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
   std::ranges::sort(found, {}, [](const auto& each) { return each.first; });
   // The best, and the best of another part.
   std::vector<VectorXd> starts;
-  constexpr std::size_t most = 6;
   for (auto& [cost, parameters] : found) {
     const bool is_new = std::ranges::none_of(starts, [&parameters = parameters](const VectorXd& start) {
       return (start - parameters).head<2>().cwiseAbs().maxCoeff() < 0.5;
@@ -96,9 +102,9 @@ const VectorXd* Profile::nearest_guess(const Coordinate& number, double at) cons
   return nearest;
 }
 
-const Profile::Point& Profile::lowest(const Coordinate& number, double at, const VectorXd& foretold) {
+const Profile::Point& Profile::lowest(const Coordinate& number, double at, const VectorXd& foretold, std::size_t most) {
   Point found{{}, endless};
-  for (const VectorXd& start : starts_at(number, at, foretold)) {
+  for (const VectorXd& start : starts_at(number, at, foretold, most)) {
     const VectorXd parameters = search_.improved(number.moved(start, at), &number, tolerance);
     const double excess = search_.cost(parameters) - least_;
     if (excess < found.excess || found.parameters.size() == 0) found = {parameters, excess};
@@ -115,8 +121,8 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     double distance, height;  ///< from the estimate; the root of the sum's rise, less that of the allowed one
   };
   Reach inside{0, -std::sqrt(rise_)}, outside{endless, endless};
-  const auto look = [&](double distance, const VectorXd& foretold) {
-    const double excess = lowest(number, from + sign * distance, foretold).excess;
+  const auto look = [&](double distance, const VectorXd& foretold, std::size_t starts = few_starts) {
+    const double excess = lowest(number, from + sign * distance, foretold, starts).excess;
     const Reach found{distance, std::sqrt(std::max(0.0, excess)) - std::sqrt(rise_)};
     if (found.height < 0) {
       inside = found;
@@ -144,14 +150,14 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     const VectorXd foretold =
         ahead > 0 ? VectorXd(last + (distance - inside.distance) / ahead * (last - before)) : last;
     ahead = distance - inside.distance;
-    if (!look(distance, foretold)) break;
+    if (!look(distance, foretold, most_starts)) break;
     before = std::exchange(last, points_.back().parameters);
   }
   // Beyond its end another one may begin.
   double stride = number.of_contact() ? widest : room / 64;
   for (double distance = outside.distance; wide_ && distance < room && !better_; stride *= growth) {
     distance = std::min(room, distance + stride);
-    look(distance, last);
+    if (look(distance, points_.back().parameters)) last = points_.back().parameters;
   }
   if (inside.distance >= room) return sign * endless;
   // False position; an end that stays twice counts half (Illinois).
@@ -160,13 +166,37 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     const double length = outside.distance - inside.distance;
     const double share = -inside.height / (outside.height - inside.height);
     if (look(inside.distance + std::clamp(share, 0.02, 0.98) * length, last)) {
+      last = points_.back().parameters;
       if (std::exchange(side, -1) == -1) outside.height /= 2;
     } else if (std::exchange(side, 1) == 1) {
       inside.height /= 2;
     }
     if (better_) break;
   }
+  if (is_held_by_limit(number, last)) return sign * endless;
   return from + sign * (inside.distance + outside.distance) / 2;
+}
+
+bool Profile::is_held_by_limit(const Coordinate& number, const VectorXd& parameters) const {
+  const VectorXd limited = search_.model.limited(parameters);
+  for (Index place : search_.free) {
+    const auto [low, high] = search_.model.range(place);
+    if (place == number.place || !std::isfinite(high)) continue;
+    // No patch is larger than the ball: that limit is the number's own end.
+    const bool below = limited[place] - low < near_limit * (high - low);
+    const bool above = high - limited[place] < near_limit * (high - low) && place != patch_place;
+    if (!below && !above) continue;
+    VectorXd outward = VectorXd::Unit(limited.size(), place) * (above ? 1 : -1);
+    if (number.of_contact() && place < shared_parameters) {
+      const Eigen::Vector2d line(-number.powers[1], number.powers[0]);
+      if (line[place] == 0) continue;
+      outward.head<2>() = line * (outward[place] / line[place]);
+    }
+    // Of a speed twice as large as its limit, of e times the others.
+    if (place >= shared_parameters) outward *= std::abs(limited[place]);
+    if (-search_.slope(limited, outward) > telling * rise_) return true;
+  }
+  return false;
 }
 
 Interval Profile::of(const Coordinate& number, double error, double low, double high) {

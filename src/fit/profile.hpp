@@ -19,11 +19,15 @@ class Profile {
  public:
   /// @param search  with all standard deviations; kept by reference
   /// @param best    the estimate
-  /// @param rise    of the sum of squares
+  /// @param rise    of the sum of squares at the ends of an interval
   /// @param wide    whether there may be more than the valley about the estimate
   Profile(const Search& search, const Eigen::VectorXd& best, double rise, bool wide);
 
-  /// What a number may be; infinite where the data set no end.
+  /// The rise that counts from now on.
+  void set_rise(double rise) { rise_ = rise; }
+
+  /// What a number may be; infinite where the data set no end: also where the end is that of another number, which would
+  /// go beyond its limit.
   /// @param error   its standard error, by curvature; any where there is none
   /// @param low, high  its least and largest values that can be
   Interval of(const Coordinate& number, double error, double low, double high);
@@ -48,10 +52,15 @@ class Profile {
 
   /// The lowest sum of squares found with the number held there.
   /// @param foretold  where the valley seems to go
-  const Point& lowest(const Coordinate& number, double at, const Eigen::VectorXd& foretold);
+  /// @param most      starts
+  const Point& lowest(const Coordinate& number, double at, const Eigen::VectorXd& foretold, std::size_t most);
 
   /// Where to begin from, the best first: of the points found before, also along other numbers.
-  std::vector<Eigen::VectorXd> starts_at(const Coordinate& number, double at, const Eigen::VectorXd& foretold) const;
+  std::vector<Eigen::VectorXd> starts_at(const Coordinate& number, double at, const Eigen::VectorXd& foretold,
+                                         std::size_t most) const;
+
+  /// Whether the sum of squares would be lower there, with the number held, if another one could go beyond its limit.
+  bool is_held_by_limit(const Coordinate& number, const Eigen::VectorXd& parameters) const;
 
   /// The best guess with a value near that one.
   const Eigen::VectorXd* nearest_guess(const Coordinate& number, double at) const;

@@ -83,7 +83,10 @@ class Reporter {
         planned_(planned),
         parameters_(search.model.limited(solution)),
         values_(search.model.values(parameters_)) {
-    fit_.at_limit = parameters_ != solution;
+    fit_.at_limit = std::ranges::any_of(search.free, [&](Index place) {
+      const auto [low, high] = search.model.range(place);
+      return parameters_[place] <= low || parameters_[place] >= high;
+    });
   }
 
   Report report() {
@@ -112,8 +115,6 @@ class Reporter {
   /// Whether a number is known so badly that a parabola is no good model of the sum of squares.
   bool is_vague() const;
   bool needs_profile() const;
-  /// Whether a number of the contact is as good as unknown.
-  bool decides_little() const;
   void set_profiles();
   /// What is profiled, and between which ends.
   struct Number {
@@ -272,24 +273,13 @@ bool Reporter::needs_profile() const {
          std::max(deviation_[0], deviation_[1]) > hardly_nonlinear;
 }
 
-bool Reporter::decides_little() const {
-  if (std::ranges::any_of(inverse_.undecided, std::identity())) return true;
-  for (std::size_t i = 0; i < search_.free.size(); ++i) {
-    if (search_.free[i] < shared_parameters && deviation_[static_cast<Index>(i)] > unknown) return true;
-  }
-  return false;
-}
-
 void Reporter::set_profiles() {
   fit_.profiled = true;
   // Orbits as sharp as a film is.
   Search quick(request_, accuracy_of_guess);
   quick.weight = search_.weight;
   quick.guesses = search_.guesses;
-  // Where some number is not decided, others find more ways to follow the noise: chi^2 of two numbers bounds what that
-  // takes off the sum of squares (tests/fit/coverage.cpp).
-  constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
-  const double rise = quantile_ * quantile_ * variance_ * (decides_little() ? of_two_numbers : 1);
+  const double rise = quantile_ * quantile_ * variance_;
   const bool wide = is_vague();
   Profile profile(quick, parameters_, rise, wide);
   std::vector<Number> numbers;
@@ -304,8 +294,21 @@ void Reporter::set_profiles() {
   // The patch first: it is the number that most films tell least of, so that its valley is the longest.
   std::ranges::stable_sort(numbers, {},
                            [](const Number& number) { return number.coordinate.powers != Eigen::Vector2d(0, 1); });
+  // Of a slip or spin that nothing shows, with a friction that nothing ends, the best motion may be one of many.
+  constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
+  const auto rise_of = [&](const Number& number) {
+    if (!number.estimate || number.coordinate.of_contact()) return rise;
+    const Estimate& estimate = fit_.estimates[*number.estimate];
+    const auto is_open = [](const Number& each) {
+      return each.coordinate.powers == Eigen::Vector2d(1, 0) &&
+             (std::isinf(each.interval.low) || std::isinf(each.interval.high));
+    };
+    const bool many = !is_seen(estimate.parameter, estimate.track) && std::ranges::any_of(numbers, is_open);
+    return many ? of_two_numbers * rise : rise;
+  };
   for (int round = 0; round < 2; ++round) {
     for (Number& number : numbers) {
+      profile.set_rise(rise_of(number));
       if (round > 0 && !profile.reaches_beyond(number.coordinate, number.interval)) continue;
       number.interval = profile.of(number.coordinate, number.error, number.low, number.high);
       better_ = profile.better();

@@ -127,7 +127,9 @@ struct Functor {
   std::vector<Index> free = search.free;  ///< of the other inputs
   std::optional<Line> line = {};
 
-  Functor(const Search& of, VectorXd from, const Coordinate* held) : search(of), start(std::move(from)) {
+  Functor(const Search& of, VectorXd from, const Coordinate* held, const std::vector<Index>& kept)
+      : search(of), start(std::move(from)) {
+    std::erase_if(free, [&](Index place) { return std::ranges::count(kept, place) > 0; });
     if (held == nullptr) return;
     if (!held->of_contact()) {
       std::erase(free, held->place);
@@ -315,13 +317,39 @@ double Search::cost(const VectorXd& parameters) const {
   return request.robust ? all.unaryExpr(&softened).squaredNorm() : all.squaredNorm();
 }
 
+double Search::slope(const VectorXd& parameters, const VectorXd& direction) const {
+  VectorXd all = residuals(parameters);
+  if (request.robust) all = all.cwiseMax(-huber_bend).cwiseMin(huber_bend);
+  const VectorXd change = model.derivatives(parameters, free) * direction(free);
+  return 2 * all.dot(change.cwiseProduct(weight));
+}
+
+std::vector<Index> Search::pushed_out(const VectorXd& parameters) const {
+  std::vector<Index> pushed;
+  for (Index place : free) {
+    const auto [low, high] = model.range(place);
+    const bool below = parameters[place] <= low, above = parameters[place] >= high;
+    if (!below && !above) continue;
+    const double rising = slope(parameters, VectorXd::Unit(parameters.size(), place));
+    if (below ? rising > 0 : rising < 0) pushed.push_back(place);
+  }
+  return pushed;
+}
+
 VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double tolerance) const {
-  constexpr int most_ways_back = 3;
-  for (int i = 0; i < most_ways_back; ++i) {
-    // Beyond a limit nothing changes: no way back would be found from there. What is held finds its limits itself.
+  // A parameter that the sum of squares pushes beyond its limit is kept there while the others are improved, until it is
+  // pushed back: a step that is cut off at a limit is refused, and shorter and shorter ones would end the search too early.
+  constexpr int most_rounds = 5;
+  std::vector<Index> kept;
+  for (int i = 0; i < most_rounds; ++i) {
+    // What is held finds its limits itself.
     VectorXd limited = model.limited(parameters);
     if (held != nullptr && held->of_contact()) limited.head<2>() = parameters.head<2>();
-    Functor functor(*this, std::move(limited), held);
+    std::vector<Index> pushed = pushed_out(limited);
+    if (held != nullptr && held->of_contact()) std::erase_if(pushed, [](Index place) { return place < 2; });
+    if (i > 0 && limited == parameters && pushed == kept) break;
+    kept = std::move(pushed);
+    Functor functor(*this, std::move(limited), held, kept);
     VectorXd x = functor.first_inputs();
     if (x.size() == 0) return functor.start;
     Eigen::LevenbergMarquardt<Functor> method(functor);
@@ -331,10 +359,8 @@ VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double to
     method.minimize(x);
     if (!x.allFinite()) throw std::runtime_error("fit: the search for the parameters did not converge");
     parameters = functor.whole(x);
-    const bool beyond_line = functor.line && (x[0] < functor.line->low || x[0] > functor.line->high);
-    if (!beyond_line && (functor.line || model.limited(parameters) == parameters)) break;
   }
-  return parameters;
+  return model.limited(parameters);
 }
 
 double Search::estimate_noise(const VectorXd& parameters) {

@@ -73,7 +73,13 @@ class Search {
   /// Sum of squares of these, or twice Huber's loss.
   double cost(const Eigen::VectorXd& parameters) const;
 
-  /// Improves the free parameters by Levenberg and Marquardt's method.
+  /// The derivative of cost() along a direction.
+  double slope(const Eigen::VectorXd& parameters, const Eigen::VectorXd& direction) const;
+
+  /// The free parameters at a limit beyond which the sum of squares would be lower.
+  std::vector<Eigen::Index> pushed_out(const Eigen::VectorXd& parameters) const;
+
+  /// Improves the free parameters by Levenberg and Marquardt's method, between their limits.
   /// @param held       what stays as it is
   /// @param tolerance  of the sum of squares, relative
   /// @throws std::runtime_error  if they do not converge

@@ -18,6 +18,9 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 /// By how much Akaike's criterion of the one may be less than that of the other without a preference.
 constexpr double no_preference = 4;
+/// Of the surface about the vertical, m/s, unless the ball's own spin is faster: a table-tennis ball that turns 150 times
+/// a second, one of the fastest, has 19.
+constexpr double fastest_spin = 20;
 
 template <class AnyTrack>
 auto series_of(AnyTrack& track, Observable observable) -> decltype(track.series.data()) {
@@ -98,6 +101,9 @@ Turns set_turns(const FitRequest& request, Track& track) {
   const double usual = usual_time(steps), slow = slow_rate(steps, usual), own = si::spin_at_start(request.ball);
   const auto turns_more = [&](double rate) { return std::round((rate - slow) * usual / turn); };
   std::vector<double> more{0, -1, 1, -2, 2};
+  std::erase_if(more, [&](double each) {
+    return each != 0 && request.ball.ball.radius * std::abs(slow + each * turn / usual) > fastest_spin;
+  });
   if (const double by_ball = turns_more(own); !std::ranges::count(more, by_ball)) more.push_back(by_ball);
   if (!request.free.spin) more = {turns_more(own)};
 

@@ -71,7 +71,7 @@ test("a film of the spin alone determines a product, and says so; one of the cen
     document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
   }, text.split("\n").map((line) => line.split(",").filter((_, i) => i === 0 || i === 2).join(",")).join("\n"));
   await fitted();
-  assert.match(await report(), /These data determine .*friction.* patch_radius.* only/);
+  assert.match(await report(), /these data determine .*friction.* patch_radius.* only/);
   const times = Array.from({ length: 60 }, (_, i) => i / 120);
   const words = ["roll", "--ball", "pool", "--velocity", "0.9,0.9", "--angular-velocity", "-31,-108,105", "--law", "exact", "--at", times.join(","), "--format", "csv"];
   const rows = execFileSync(program, words, { encoding: "utf8" }).split("\n").filter((line) => /^[-\d]/.test(line)).map((line) => line.split(","));

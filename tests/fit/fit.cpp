@@ -77,6 +77,31 @@ TEST_CASE("positions and the angle alone give the ball, in any axes", "[route]")
   }
 }
 
+TEST_CASE("an interval has every value with which a fit anew is as good", "[route]") {
+  // x and y alone decide little: slip and friction change together over decades, to the limits of the model.
+  si::Experiment gel{.ball = {.name = "gel", .mass = 0.113, .radius = 0.03},
+                     .contact = {.friction = 0.5, .patch = si::PatchRadius{7.2e-3}},
+                     .start = si::SlipAndSpin{.slip = 0.5, .spin = 30}};
+  const std::vector<Seen> seen{{Observable::x, 0.001}, {Observable::y, 0.001}};
+  const Track film = track_of({gel}, ArrayXd::LinSpaced(120, 0, 119 / 120.0), seen);
+  std::mt19937_64 random(5);
+  int inside = 0;
+  for (int i = 0; i < 3; ++i) {
+    FitRequest request{.ball = gel, .law = reduction::HertzLaw{}, .tracks = {noisy(film, seen, random)}};
+    const Fit found = fit::fit(request);
+    const Interval interval = found.estimate(Parameter::slip).interval;
+    request.free = {.slip = false};
+    for (double slip : {0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
+      request.ball.start = si::SlipAndSpin{.slip = slip, .spin = 30};
+      if (fit::fit(request).chi2 - found.chi2 > 3.5) continue;
+      INFO("film " << i << ", slip " << slip << ", interval " << interval.low << " to " << interval.high);
+      CHECK((interval.low <= slip && slip <= interval.high));
+      ++inside;
+    }
+  }
+  CHECK(inside >= 6);
+}
+
 TEST_CASE("standard errors are Cramer and Rao's bound, for films of every kind", "[table]") {
   // By another program: the exact law, f = 0.2, eps = 2.827 mm, v0 = 1 m/s, 100 rad/s, errors 1 cm/s and 1 rad/s.
   struct Row {
