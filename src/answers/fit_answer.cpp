@@ -98,7 +98,7 @@ std::string line_on(const Estimate& estimate, const Digits& digits) {
     const bool from_below = std::isinf(low) || low == 0, from_above = std::isinf(high);
     const std::string known = from_below && from_above ? ""
                               : from_above             ? fmt::format(": {} or more", number(low))
-                              : std::isinf(low)        ? fmt::format(": {} or less", number(high))
+                              : from_below             ? fmt::format(": {} or less", number(high))
                                                        : ": " + interval;
     return fmt::format("{:<{}}{:>{}}{:>12}{:>12}   not determined{}\n", name, name_width, "?", digits.width(), "?", "",
                        known);

@@ -164,12 +164,13 @@ Panel confidence_panel(const fit::Fit& fit) {
 }
 
 /// A number with its error, or with its interval where no single error tells that.
-std::string with_error(const fit::Estimate& estimate, double unit) {
-  if (!estimate.free) return fmt::format("{:.4g}", estimate.value * unit);
+std::string with_error(const fit::Estimate& estimate, double scale, std::string_view unit = "") {
   if (!estimate.determined()) return "not determined";
+  const std::string of = unit.empty() ? "" : fmt::format(" {}", unit);
+  if (!estimate.free) return fmt::format("{:.4g}{}", estimate.value * scale, of);
   const auto& [low, high] = estimate.interval;
-  if (estimate.skewed()) return fmt::format("{:.3g} to {:.3g}", low * unit, high * unit);
-  return fmt::format("{:.4g} ± {:.2g}", estimate.value * unit, estimate.standard_error * unit);
+  if (estimate.skewed()) return fmt::format("{:.3g} to {:.3g}{}", low * scale, high * scale, of);
+  return fmt::format("{:.4g} ± {:.2g}{}", estimate.value * scale, estimate.standard_error * scale, of);
 }
 
 /// What was found, in words.
@@ -184,11 +185,11 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
     height -= 0.13;
   };
   line("friction " + with_error(fit.estimates[0], 1));
-  line("patch radius " + with_error(fit.estimates[1], 1e3) + " mm");
+  line("patch radius " + with_error(fit.estimates[1], 1e3, "mm"));
   line(fmt::format("their correlation {:.2f}", fit.correlation_of_contact()));
   if (tracks == 1) {
-    line("slip at the start " + with_error(fit.estimate(fit::Parameter::slip), 1) + " m/s");
-    line("spin at the start " + with_error(fit.estimate(fit::Parameter::spin), 1) + " rad/s");
+    line("slip at the start " + with_error(fit.estimate(fit::Parameter::slip), 1, "m/s"));
+    line("spin at the start " + with_error(fit.estimate(fit::Parameter::spin), 1, "rad/s"));
   }
   for (const fit::Noise& noise : fit.noise) {
     const auto& kind = fit::kind_of(noise.observable);
@@ -203,8 +204,8 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>&
                              const portraits::AskedSize& size) {
   portraits::Figure figure;
   figure.title = fmt::format("{},  law: {}", portraits::shortened(fit.ball.ball.name), portraits::shortened(fit.law));
-  figure.subtitle = fmt::format("friction {}, patch radius {} mm", with_error(fit.estimates[0], 1),
-                                with_error(fit.estimates[1], 1e3));
+  figure.subtitle = fmt::format("friction {}, patch radius {}", with_error(fit.estimates[0], 1),
+                                with_error(fit.estimates[1], 1e3, "mm"));
   if (fit.only)
     figure.subtitle = fmt::format("of friction and patch radius these data determine {} only",
                                   portraits::shortened(fit.only->name()));
