@@ -61,16 +61,10 @@ std::size_t TimeBands::band(double tau) const {
   return static_cast<std::size_t>(std::ranges::upper_bound(edges, tau) - edges.begin());
 }
 
-TimeBands linear_bands(const PhasePortrait& portrait, const Palette& palette) {
-  double longest = 0;
-  for (const PortraitOrbit& orbit : portrait.orbits) longest = std::max(longest, orbit.tau_left[0]);
-  for (const PortraitOrbit& orbit : portrait.through) longest = std::max(longest, orbit.tau_left[0]);
-  if (longest == 0 && portrait.highlight) longest = portrait.highlight->tau_left[0];
-  if (longest == 0) longest = 1;
+TimeBands linear_bands(double longest, double interval, const Palette& palette) {
   constexpr std::size_t per_interval = 3;
-  const double step = portrait.isochrones.empty() ? round_down(longest / 4) : portrait.isochrones.front().tau_stop;
   TimeBands bands;
-  bands.edges = multiples(0, longest, step / per_interval);
+  bands.edges = multiples(0, longest, interval / per_interval);
   bands.colours = spread(palette.times, bands.edges.size() + 1);
   for (std::size_t band = 0; band <= bands.edges.size(); band += per_interval) {
     if (band > 0) bands.arrows.push_back((bands.begin(bands.marked.back()) + bands.begin(band)) / 2);

@@ -35,9 +35,9 @@ struct TimeBands {
   double begin(std::size_t band) const { return band == 0 ? 0 : edges[band - 1]; }
 };
 
-/// Equal bands, some for each isochrone interval of the portrait; or bands of equal ratio from the shortest time to the
+/// Equal bands, some for each interval between isochrones; or bands of equal ratio from the shortest time to the
 /// longest, in tau, with edges at round multiples of the unit.
-TimeBands linear_bands(const PhasePortrait& portrait, const Palette& palette);
+TimeBands linear_bands(double longest, double interval, const Palette& palette);
 TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette);
 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption);

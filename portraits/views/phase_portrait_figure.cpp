@@ -28,6 +28,16 @@ Text body_name(const reduction::Inertia& inertia) {
          fmt::format("{:.4g}", gamma);
 }
 
+TimeBands bands_of(const PhasePortrait& portrait, const Palette& palette) {
+  double longest = 0;
+  for (const PortraitOrbit& orbit : portrait.orbits) longest = std::max(longest, orbit.tau_left[0]);
+  for (const PortraitOrbit& orbit : portrait.through) longest = std::max(longest, orbit.tau_left[0]);
+  if (longest == 0 && portrait.highlight) longest = portrait.highlight->tau_left[0];
+  if (longest == 0) longest = 1;
+  return linear_bands(
+      longest, portrait.isochrones.empty() ? round_down(longest / 4) : portrait.isochrones.front().tau_stop, palette);
+}
+
 Text title(const PhasePortrait& portrait) {
   return title_of(body_name(portrait.system().inertia()), number(portrait.system().mu()), law_names(portrait));
 }
@@ -64,10 +74,10 @@ Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, Portr
 MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& caption, PortraitStyle style) {
   const ViewLayout& layout = layout_of(portrait.view);
   const PaperSize size = fitted({layout.width_mm, layout.height_mm}, layout.panels_across, style.size);
-  Drawing drawing{portrait, caption, style, palette(style.screen), {}, panel_size(size, layout.panels_across), 0};
+  Drawing drawing{{palette(style.screen), {}, panel_size(size, layout.panels_across), 0}, portrait, caption, style};
   drawing.letter = letter_mm(size.width_mm) * drawing.palette.theme.letters;
   if (layout.times == nullptr) {
-    drawing.bands = linear_bands(portrait, drawing.palette);
+    drawing.bands = bands_of(portrait, drawing.palette);
   } else {
     const auto [shortest, longest] = layout.times(portrait);
     style.colour_by_time = style.colour_by_time && shortest < longest;

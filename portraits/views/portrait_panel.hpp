@@ -9,19 +9,15 @@
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
-#include "views/palette.hpp"
+#include "views/panel_layers.hpp"
 
 namespace contensou::portraits {
 
 /// What a view is drawn from.
-struct Drawing {
+struct Drawing : LayerLook {
   const PhasePortrait& portrait;
   const PortraitCaption& caption;
   const PortraitStyle& style;
-  Palette palette;
-  TimeBands bands;
-  Point panel_mm;  ///< the size of a panel on paper, about
-  double letter;   ///< the size of letters, mm
 
   /// So many lines as fill a panel of this width as well as that count a wide one.
   int crowd(int count) const {
@@ -36,11 +32,6 @@ using Instant = PortraitOrbit::Instant;
 /// The state by u and ln v, or by both logarithms where u > 0.
 Instant instant_at(double mu, double u, double ln_v);
 Instant instant_at_logarithms(double mu, double ln_k, double ln_v);
-
-/// Whether a place on paper (layout.hpp) is in its panel and at least so far from the border.
-inline bool inside(Point place, double margin) {
-  return place.x >= margin && place.x <= 1 - margin && place.y >= margin && place.y <= 1 - margin;
-}
 
 /// The legend of a portrait's orbits where two laws are compared.
 Text law_legend(const PhasePortrait& portrait);
@@ -61,16 +52,12 @@ struct MappedPanel {
 };
 
 /// A panel that fills with layers of the phase plane, placed by its map.
-class PortraitPanel {
+class PortraitPanel : public PanelLayers {
  public:
   PortraitPanel(const Drawing& drawing, Panel axes, PanelMap map)
-      : drawing_(drawing), panel_(std::move(axes)), map_(std::move(map)) {}
-
-  /// Where the arrow of an orbit that has none at equal times is: at that fraction of its length on paper; and how far
-  /// heads are apart at least, in sizes of letters.
-  void set_arrows(double fraction, double keep_off) {
-    arrow_fraction_ = fraction;
-    keep_off_ = keep_off;
+      : PanelLayers(drawing, drawing.style.arrows, std::move(axes)), drawing_(drawing), map_(std::move(map)) {
+    // Where v is bent it slides above the bend, and hardly any time passes.
+    early_arrows_ = !drawing.portrait.scale.linear();
   }
 
   /// An orbit, scaled by a factor; sign -1 mirrors it.
@@ -97,34 +84,19 @@ class PortraitPanel {
   void add_invariant(std::vector<Polyline> axes, const std::function<std::vector<Polyline>(double ln_k)>& ray);
   void add_field();
 
-  Panel& panel() { return panel_; }
   MappedPanel finished() && { return {std::move(panel_), std::move(map_)}; }
 
  private:
-  struct TimedArrow {
-    Arrow arrow;
-    double left;  ///< the time there
-  };
-
   void add_layers(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies);
   std::vector<Copy> filling(const reduction::Flow& flow, bool mirrored);
-  void add_coloured(const std::vector<Copy>& copies);
-  void add_plain(const std::vector<Copy>& copies, Stroke stroke, const Text& legend);
-  Polyline line_of(const Copy& copy) const;
+  TimedLine line_of(const Copy& copy) const;
+  std::vector<TimedLine> lines_of(const std::vector<Copy>& copies) const;
   Polyline line_of(const Isochrone& isochrone) const;
   Point place(double u, double v) const;
-  std::vector<TimedArrow> arrows_on(const Copy& copy, const Polyline& line);
-  std::vector<Point> on_paper_along(const Polyline& line, double step) const;
-  std::vector<Point> obstacles() const;
 
   const Drawing& drawing_;
-  Panel panel_;
   PanelMap map_;
-  double arrow_fraction_ = 0.3;
-  double keep_off_ = 2;
   std::deque<PortraitOrbit> traced_;  ///< that copies refer to
-  std::vector<Polyline> orbits_;      ///< that labels keep off
-  std::vector<Point> heads_;          ///< on paper
 };
 
 }  // namespace contensou::portraits

@@ -75,6 +75,7 @@ struct PlanarReduction::Solved {
   std::vector<SectorEnd> ends;  ///< counter-clockwise
   std::vector<Strip> strips;
   std::vector<PlanarRay> rays;
+  std::vector<PlanarSector> sectors;
   std::optional<PlanarTurn> turn;
   std::string_view kind;
 };
@@ -122,7 +123,7 @@ void PlanarReduction::Solved::scan() {
   if (std::ranges::none_of(probes, has_values)) {
     throw std::domain_error("PlanarReduction: the field has no values on the curve about the centre");
   }
-  star = std::ranges::all_of(probes, [&](const Probe& probe) { return probe.rates && is_zero(*probe.rates); });
+  star = std::ranges::all_of(probes, [&](const Probe& probe) { return !probe.rates || is_zero(*probe.rates); });
   if (star) {
     kind = classify();
     return;
@@ -185,6 +186,9 @@ void PlanarReduction::Solved::make_strips() {
     if (!middle) continue;
     const bool forward = middle->angular > 0;
     strips.emplace_back(field, ends[forward ? j : i], ends[forward ? i : j], forward ? -1.0 : 1.0, length, tolerance);
+    const double q = angle_of(ends[i].n);
+    sectors.push_back(forward ? PlanarSector{q, q + length, ends[i].ray, ends[j].ray}
+                              : PlanarSector{q + length, q, ends[j].ray, ends[i].ray});
     const Strip& strip = strips.back();
     slopes[i].first = forward ? strip.from_rate() : strip.to_rate();
     slopes[j].second = forward ? strip.to_rate() : strip.from_rate();
@@ -209,8 +213,8 @@ std::string_view PlanarReduction::Solved::classify() const {
     bool all_in = true, all_out = true;
     for (int i = 0; i < 64; ++i) {
       const auto rates = field(turned({1, 0}, 2 * pi * i / 64));
-      all_in &= rates && rates->radial < 0;
-      all_out &= rates && rates->radial > 0;
+      all_in &= !rates || rates->radial < 0;
+      all_out &= !rates || rates->radial > 0;
     }
     return of_sign(all_in, all_out, "stable star", "unstable star");
   }
@@ -267,6 +271,7 @@ const Generator& PlanarReduction::scaling() const { return solved_->scaling; }
 const Vector2d& PlanarReduction::centre() const { return solved_->field.centre(); }
 bool PlanarReduction::star() const { return solved_->star; }
 const std::vector<PlanarRay>& PlanarReduction::rays() const { return solved_->rays; }
+const std::vector<PlanarSector>& PlanarReduction::sectors() const { return solved_->sectors; }
 const PlanarTurn* PlanarReduction::turn() const { return solved_->turn ? &*solved_->turn : nullptr; }
 std::string_view PlanarReduction::kind() const { return solved_->kind; }
 

@@ -155,3 +155,53 @@ TEST_CASE("k of an orbit's last points is 0, or what is left of it", "[cli]") {
   CHECK(k.back() == 0);
   for (std::size_t i = 1; i < k.size(); ++i) CHECK((k[i] < k[i - 1] || k[i] == 0));
 }
+
+TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
+  // The twisting controller: dry friction and a relay, at rest after v0 (1/(a + b) + q/(a - b))/(1 - q) from u = 0,
+  // q^2 = (a - b)/(a + b).
+  const std::vector<std::string> twisting{
+      "portrait", "--system", "u' = v; v' = -a*sign(u) - b*sign(v)", "--param", "a=1", "--param", "b=0.5"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), twisting.begin(), twisting.end());
+    return run_program(more);
+  };
+  const Run run = with({"--u0", "0", "--v0", "1", "--format", "json", "-o", "-"});
+  REQUIRE(run.status == 0);
+  CHECK(run.err.empty());
+  const auto json = nlohmann::json::parse(run.out);
+  CHECK(json["kind"] == "stable focus");
+  CHECK(json["system"] == twisting[2]);
+  const double q = std::sqrt(1.0 / 3);
+  CHECK(json["highlight"][0]["tau_left"][0].get<double>() == Approx((1 / 1.5 + q / 0.5) / (1 - q)).epsilon(1e-12));
+  CHECK(json["isochrones"].size() >= 4);
+  CHECK(json["orbits"].size() >= 10);
+  const Run csv = with({"--window", "-1:2,0:1", "--orbits", "3", "--isochrones", "0", "--format", "csv", "-o", "-"});
+  CHECK_THAT(csv.out, Contains("# window: [[-1, 2], [0, 1]]\n") && Contains("\nkind,index,u,v,tau\norbit,0,"));
+  const Run script = with({"--through", "-0.5,-1", "--field", "--format", "gp", "-o", "-"});
+  CHECK(script.status == 0);
+  CHECK_THAT(script.out, Contains("through the points given") && Contains("direction of the motion"));
+
+  const TemporaryDirectory scratch;
+  const auto rejected = [&](const std::vector<std::string>& more, int status, const std::string& words) {
+    std::vector<std::string> all{"portrait", "--system", "u' = -u; v' = -3*v", "-o", scratch.file("p.gp")};
+    all.insert(all.end(), more.begin(), more.end());
+    const Run refused = run_program(all);
+    CHECK(refused.status == status);
+    CHECK(refused.out.empty());
+    CHECK_THAT(refused.err, Contains(words));
+    CHECK(scratch.names().empty());
+  };
+  rejected({"--law", "pade", "--view", "disc", "--facts"}, 2, "--system and --law, --view, --facts exclude each other");
+  rejected({"--mu", "0.3"}, 2, "--system and --mu exclude each other");
+  rejected({"--u0", "1"}, 2, "--v0 missing");
+  rejected({"--field", "regularised"}, 2, "--field regularised is of (2.7)");
+  rejected({"--window", "1:0,1:2"}, 2, "--window 1:0,1:2: a side");
+  rejected({"--window", "1:2"}, 2, "--window 1:2: a window is U,V or U1:U2,V1:V2");
+  rejected({"--window", "1,1", "--through", "3,0"}, 2, "(3, 0) lies outside the window -1 to 1 by -1 to 1");
+  check_rejected("portrait --mu 0.3 --param a=1", "--param is for the formulas of --system");
+  check_rejected("portrait --mu 0.3 --window 0:1,0:1", "--window 0:1,0:1: here it is U,V");
+  const Run none = run_program({"portrait", "--system", "u' = -u - u^3; v' = 1 - v*v", "-o", scratch.file("p.gp")});
+  CHECK(none.status == 1);
+  CHECK_THAT(none.err, Contains("no scaling was found") && Contains("least singular value") && Contains("reduce"));
+  CHECK(scratch.names().empty());
+}

@@ -17,6 +17,7 @@ class RouteOption {
   static const std::vector<reduction::Route>& every_route();
 
   bool given() const { return route_.given(); }
+  const Argument& argument() const { return route_; }
   reduction::Route value_or(reduction::Route standard) const { return route_.value_or(standard); }
 
   /// The route of that name; the system's best if none was given.

@@ -159,12 +159,16 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
   return {body_.read(law), {.u = *u0_, .v = *v0_}, std::nullopt};
 }
 
-Eigen::Vector2d StartOptions::read_point() const {
+void StartOptions::require_point_or_none() const {
   const std::string others = names_given({&body_.mu(), &body_.argument(), &ball_});
   if (!others.empty() || !override_names().empty()) {
     throw BadInput(fmt::format("--system and {} exclude each other: its numbers are in the formulas, or --param",
                                others.empty() ? override_names() : others));
   }
+}
+
+Eigen::Vector2d StartOptions::read_point() const {
+  require_point_or_none();
   for (const Argument* argument : {&u0_, &v0_}) {
     if (!argument->given())
       throw BadInput(fmt::format("{} missing: a start of --system is --u0 U --v0 V", argument->name()));

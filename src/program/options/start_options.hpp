@@ -82,6 +82,9 @@ class StartOptions {
   /// @throws BadInput  if one is missing, and for what a ball or a body has
   Eigen::Vector2d read_point() const;
 
+  /// Throws BadInput for what a ball or a body has.
+  void require_point_or_none() const;
+
   bool ball_given() const { return ball_.given(); }
 
   /// What the options of single values say.

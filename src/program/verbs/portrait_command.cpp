@@ -7,35 +7,54 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <Eigen/Core>
 
 #include "answers/phase_plane_answer.hpp"
 #include "answers/portrait_spec.hpp"
+#include "contensou/portraits/planar_portrait.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
+#include "options/system_option.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
 
 namespace {
 
+using Eigen::Vector2d;
 using portraits::View;
-using portraits::Window;
 using reduction::State;
 
-Window parse_window(const std::string& typed) {
-  const std::vector<double> sides = numbers(typed, 2, "U,V");
-  if (!(sides[0] > 0 && sides[1] > 0)) throw NotAllowed("both sides of the window must be positive");
-  return {sides[0], sides[1]};
+/// U,V, or U1:U2,V1:V2.
+struct AskedWindow {
+  Vector2d low, high;
+  bool symmetric;
+};
+
+AskedWindow parse_window(const std::string& typed) {
+  if (typed.find(':') == std::string::npos) {
+    const std::vector<double> sides = numbers(typed, 2, "U,V");
+    if (!(sides[0] > 0 && sides[1] > 0)) throw NotAllowed("both sides of the window must be positive");
+    return {{-sides[0], -sides[1]}, {sides[0], sides[1]}, true};
+  }
+  AskedWindow window{{}, {}, false};
+  const std::vector<std::string> ranges = split(typed, ',');
+  if (ranges.size() != 2) throw NotAllowed("a window is U,V or U1:U2,V1:V2");
+  for (int i : {0, 1}) {
+    const std::vector<std::string> ends = split(ranges[static_cast<std::size_t>(i)], ':');
+    if (ends.size() != 2) throw NotAllowed("a window is U,V or U1:U2,V1:V2");
+    window.low[i] = parse_number(ends[0]);
+    window.high[i] = parse_number(ends[1]);
+    if (!(window.low[i] < window.high[i])) throw NotAllowed("a side of the window begins below its end");
+  }
+  return window;
 }
 
-State parse_point(const std::string& typed) {
+Vector2d parse_point(const std::string& typed) {
   const std::vector<double> pair = numbers(typed, 2, "U,V");
-  if (pair[0] == 0 || !(pair[1] > 0)) {
-    throw NotAllowed("U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
-  }
   return {pair[0], pair[1]};
 }
 
@@ -53,6 +72,8 @@ auto at_most(int highest) {
 class PortraitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
+    system_.add(app);
+    parameters_.add(app);
     start_.add(app);
     law_.add(app);
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
@@ -66,6 +87,8 @@ class PortraitCommand final : public Verb {
   }
 
   ExitStatus run() override {
+    if (system_.given()) return run_system();
+    if (parameters_.given()) throw BadInput("--param is for the formulas of --system: add it, or leave it out");
     const bool has_start = !start_.without_motion();
     const reduction::Law law = law_.read(start_.standard_law());
     const GivenStart start = has_start ? start_.read(law) : GivenStart{start_.read_body(law), {}, {}};
@@ -78,12 +101,7 @@ class PortraitCommand final : public Verb {
     if (route == reduction::Route::direct) {
       throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
     }
-    for (const State& point : request_.through) {
-      if (request_.window && !(std::abs(point.u) <= request_.window->u && point.v <= request_.window->v)) {
-        throw BadInput(fmt::format("--through {},{}: outside the window {}; leave it out, or make it larger", point.u,
-                                   point.v, window_->typed()));
-      }
-    }
+    read_places();
     PortraitSpec question{
         .flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(system) : system,
         .start = has_start ? std::optional(start.state) : std::nullopt,
@@ -97,13 +115,73 @@ class PortraitCommand final : public Verb {
     if (output.picture()) {
       output.write({figure_.apply(question.figure(portrait), output.format)});
     } else {
-      output.write((output.format == "csv" ? portraits::to_csv : portraits::to_json)(portrait, question.source()));
+      const portraits::PortraitSource source = question.source();
+      output.write(output.format == "csv" ? to_csv(portrait, source) : to_json(portrait, source));
     }
     return ExitStatus::done;
   }
 
  private:
   using Style = portraits::PortraitStyle;
+
+  /// --window and --through, as the half-plane has them.
+  void read_places() {
+    if (window_) {
+      if (!window_->symmetric) window_argument_->reject("here it is U,V, which shows |u| <= U and 0 <= v <= V");
+      request_.window = portraits::Window{window_->high[0], window_->high[1]};
+    }
+    for (const Vector2d& point : through_) {
+      const std::string typed = fmt::format("--through {},{}", point[0], point[1]);
+      if (point[0] == 0 || !(point[1] > 0)) {
+        throw BadInput(typed + ": U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
+      }
+      if (request_.window && !(std::abs(point[0]) <= request_.window->u && point[1] <= request_.window->v)) {
+        throw BadInput(fmt::format("{}: outside the window {}; leave it out, or make it larger", typed,
+                                   window_argument_->typed()));
+      }
+      request_.through.push_back({point[0], point[1]});
+    }
+  }
+
+  ExitStatus run_system() {
+    std::string others = names_given({&law_.argument(), &against_.argument(), &route_.argument(), view_, scale_});
+    if (facts_) others += others.empty() ? "--facts" : ", --facts";
+    if (!others.empty()) {
+      throw BadInput(fmt::format(
+          "--system and {} exclude each other: those are of (2.6). The plane of u and v is what is drawn; 'contensou "
+          "reduce --system' says which rays, kind and times there are",
+          others));
+    }
+    const reduction::PlanarField field = system_.read(parameters_);
+    portraits::PlanarPortraitRequest request{
+        .through = through_, .orbits = request_.orbits_per_side, .isochrones = request_.isochrones};
+    if (style_.field == Style::Field::regularised) {
+      throw BadInput("--field regularised is of (2.7); with --system it is motion, or none");
+    }
+    start_.require_point_or_none();
+    if (!start_.without_motion()) request.highlight = start_.read_point();
+    const Output output = output_.read();
+    figure_.require_picture(output);
+    require_picture(names_of_looks(first_of_drawing_), output);
+    if (window_) request.window = {window_->low, window_->high};
+    // Where the field is sampled.
+    Vector2d around(1, 1);
+    if (window_) around = window_->low.cwiseAbs().cwiseMax(window_->high.cwiseAbs());
+    if (request.highlight && !request.highlight->isZero(0)) around = *request.highlight;
+    const auto plane = system_.solve(field, around);
+    if (!plane) return ExitStatus::check_failed;
+    if (window_ && window_->symmetric)
+      request.window = {plane->centre() + window_->low, plane->centre() + window_->high};
+    const portraits::PlanarPortrait portrait = portraits::planar_portrait(field, *plane, system_.text(), request);
+    if (output.picture()) {
+      style_.size = figure_.size();
+      output.write({figure_.apply(portraits::draw(portrait, style_), output.format)});
+    } else {
+      const portraits::PortraitSource source{.version = CONTENSOU_VERSION};
+      output.write(output.format == "csv" ? to_csv(portrait, source) : to_json(portrait, source));
+    }
+    return ExitStatus::done;
+  }
 
   /// What the portrait shows and how it looks.
   void add_looks(CLI::App& app) {
@@ -122,18 +200,23 @@ class PortraitCommand final : public Verb {
     app.option_defaults()->group("Picture");
     add("--view", "VIEW", fmt::format("{} (default uv). 'contensou help views' explains them", fmt::join(names, ", ")),
         into(request_.view, one_of(views, "view")));
+    view_ = &looks_.back();
     add("--scale", "SCALE",
         "of v in uv, patch and pair: linear, or bent, below the shading like v^s, on which every orbit runs straight "
         "into the stop (default where the plane would be a comb, of the ball mu < 0.48)",
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
-    add("--window", "U,V", "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled)",
-        into(request_.window, parse_window));
-    window_ = &looks_.back();
-    add("--orbits", "N", fmt::format("orbits on each side of u = 0, 0 to {} (default 12)", max_orbits),
+    scale_ = &looks_.back();
+    add("--window", "U,V",
+        "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled); of --system |v| <= V, or "
+        "U1:U2,V1:V2",
+        into(window_, parse_window));
+    window_argument_ = &looks_.back();
+    add("--orbits", "N",
+        fmt::format("orbits on each side of u = 0, 0 to {} (default 12); of --system all of them", max_orbits),
         into(request_.orbits_per_side, at_most(max_orbits)));
     add(
         "--through", "U,V", "also the orbit through this point; may be repeated",
-        [this](const std::string& typed) { request_.through.push_back(parse_point(typed)); }, true);
+        [this](const std::string& typed) { through_.push_back(parse_point(typed)); }, true);
     add("--isochrones", "N",
         fmt::format("so many isochrones of the stop time, 0 to {}, as nearly as round times allow (default about 7, in "
                     "a column 4)",
@@ -180,13 +263,18 @@ class PortraitCommand final : public Verb {
     return ExitStatus::done;
   }
 
+  SystemOption system_;
+  ParameterOptions parameters_;
   StartOptions start_;
   LawOption law_, against_;
   RouteOption route_;
   std::deque<Argument> looks_;
   std::size_t first_of_drawing_ = 0;  ///< in looks_, of what the data do not show
-  const Argument* window_ = nullptr;  ///< of looks_
-  portraits::PortraitRequest request_;
+  /// Of looks_.
+  const Argument *window_argument_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
+  std::optional<AskedWindow> window_;
+  std::vector<Vector2d> through_;
+  portraits::PortraitRequest request_;  ///< but for what the two above say
   Style style_;
   FigureOptions figure_;
   bool facts_ = false;

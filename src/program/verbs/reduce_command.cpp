@@ -1,36 +1,21 @@
-#include <cstdio>
-#include <map>
-
-#include <fmt/format.h>
-
-#include "answers/planar_system.hpp"
 #include "answers/reduce_answer.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
+#include "options/system_option.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
 
 namespace {
 
-std::pair<std::string, double> parse_parameter(const std::string& typed) {
-  const std::size_t equals = typed.find('=');
-  if (equals == std::string::npos) throw NotAllowed("a parameter is NAME=VALUE");
-  return {typed.substr(0, equals), parse_number(std::string_view(typed).substr(equals + 1))};
-}
-
 class ReduceCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    app.option_defaults()->group("Another system");
-    system_.add(app, "--system", "\"u' = F; v' = G\"",
-                "in place of (2.6): formulas in u and v with + - * / ^, |x|, hypot, sqrt, sign, exp, ...; "
-                "--u0 and --v0 of either sign are its start");
-    parameters_.add(app, "--param", "NAME=VALUE", "a parameter of the formulas; may be given often", parse_parameter,
-                    true);
+    system_.add(app);
+    parameters_.add(app);
     start_.add(app);
     law_.add(app);
     figure_.add(app);
@@ -49,18 +34,13 @@ class ReduceCommand final : public Verb {
 
  private:
   ExitStatus run_system(const Output& output) {
-    const reduction::PlanarField field = read_field();
+    if (law_.given()) throw BadInput("--system and --law exclude each other: friction is in the formulas");
+    const reduction::PlanarField field = system_.read(parameters_);
     const Eigen::Vector2d start = start_.read_point();
     if (!output.picture()) return write(reduce_answer(field, system_.text(), start), output);
-    const reduction::PlanarSymmetries found = reduction::find_symmetries(field, start);
-    if (!found.scaling) {
-      fmt::print(stderr,
-                 "contensou: --system: no scaling was found, so there is nothing to draw; without a picture "
-                 "reduce says what was found\n");
-      return ExitStatus::check_failed;
-    }
-    const reduction::PlanarReduction plane(field, *found.scaling, start, found.residual);
-    return draw(portraits::reduction_figure(field, plane, start, system_.text(), figure_.size()), output);
+    const auto plane = system_.solve(field, start);
+    if (!plane) return ExitStatus::check_failed;
+    return draw(portraits::reduction_figure(field, *plane, start, system_.text(), figure_.size()), output);
   }
 
   static ExitStatus write(const ReduceAnswer& reduced, const Output& output) {
@@ -73,23 +53,8 @@ class ReduceCommand final : public Verb {
     return ExitStatus::done;
   }
 
-  reduction::PlanarField read_field() {
-    if (law_.given()) throw BadInput("--system and --law exclude each other: friction is in the formulas");
-    std::map<std::string, double> parameters;
-    for (const auto& [name, value] : parameters_.all()) {
-      if (!parameters.emplace(name, value).second) {
-        throw BadInput(fmt::format("--param: {} is given twice", quotation(name)));
-      }
-    }
-    try {
-      return parse_planar_system(system_.text(), parameters);
-    } catch (const BadInput& error) {
-      throw BadInput(fmt::format("--system: {}", error.what()));
-    }
-  }
-
-  Argument system_;
-  ArgumentOf<std::pair<std::string, double>> parameters_;
+  SystemOption system_;
+  ParameterOptions parameters_;
   StartOptions start_;
   LawOption law_;
   FigureOptions figure_;

@@ -37,6 +37,12 @@ struct PlanarRay {
   double angular;  ///< dT/dq: the other one, of the side that is reached first counter-clockwise
 };
 
+/// Directions between two rays or borders, which no orbit crosses.
+struct PlanarSector {
+  double from, to;        ///< q in the way of the motion, at most 2 pi apart; it grows where from < to
+  bool from_ray, to_ray;  ///< else a border
+};
+
 /// What is always the same after a turn of a field without rays.
 struct PlanarTurn {
   double factor;  ///< by which exp(p) changes: of the distance, where A = 1
@@ -75,6 +81,8 @@ class PlanarReduction {
   bool star() const;
   /// In the order of q; none for a star.
   const std::vector<PlanarRay>& rays() const;
+  /// Counter-clockwise; none for a star, and where orbits turn for ever. Where the field has no values there is none.
+  const std::vector<PlanarSector>& sectors() const;
   /// Of a field without rays, stars and borders.
   const PlanarTurn* turn() const;
 

@@ -1,4 +1,4 @@
-// Layers of a portrait's panel: isochrones, and where their labels have room.
+// Layers of a panel: isochrones, and where their labels have room.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -6,7 +6,7 @@
 
 #include "contensou/portraits/layout.hpp"
 #include "data/round_numbers.hpp"
-#include "views/portrait_panel.hpp"
+#include "views/panel_layers.hpp"
 
 namespace contensou::portraits {
 
@@ -60,47 +60,39 @@ class LabelPlace {
 }  // namespace
 
 /// Points on paper that labels keep off, by growing x: orbits, also those that are drawn later on top, and arrows.
-std::vector<Point> PortraitPanel::obstacles() const {
+std::vector<Point> PanelLayers::obstacles(const std::vector<Polyline>& crossed) const {
   std::vector<Point> points = heads_;
-  std::vector<Polyline> crossed = orbits_;
-  for (const PortraitOrbit& orbit : drawing_.portrait.through) crossed.push_back(line_of({orbit}));
-  if (drawing_.portrait.highlight) crossed.push_back(line_of({*drawing_.portrait.highlight}));
-  for (const Polyline& orbit : crossed) std::ranges::copy(on_paper_along(orbit, 0.01), std::back_inserter(points));
+  const auto add = [&](const Polyline& line) {
+    std::ranges::copy(on_paper_along(line, 0.01), std::back_inserter(points));
+  };
+  std::ranges::for_each(orbits_, add);
+  std::ranges::for_each(crossed, add);
   std::erase_if(points, [](Point point) { return !inside(point, -1); });
   std::ranges::sort(points, {}, &Point::x);
   return points;
 }
 
-void PortraitPanel::add_isochrones() {
-  const std::vector<Isochrone>& isochrones = drawing_.portrait.isochrones;
-  if (isochrones.empty()) return;
-  Lines lines{{}, {drawing_.palette.isochrone, 1.1, true}, time_left(drawing_.caption)};
-  const std::vector<Point> points = obstacles();
+void PanelLayers::add_isochrones(const std::vector<TimedPiece>& pieces, const Text& legend, double unit,
+                                 const std::vector<Polyline>& crossed, double middle) {
+  Lines lines{{}, {look_.palette.isochrone, 1.1, true}, legend};
+  const std::vector<Point> points = obstacles(crossed);
   std::vector<Point> labels;
-  const double middle = panel_.x.low < 0 ? on_paper(panel_, {0, 0}).x : -1;
-  for (auto piece = isochrones.begin(); piece != isochrones.end();) {
-    const double time = piece->tau_stop;
-    const Text text = number(time / drawing_.caption.time_unit);
-    LabelPlace place(drawing_.letter * (0.45 * text_width(text) + 0.15) / drawing_.panel_mm.x,
-                     drawing_.letter * 0.7 / drawing_.panel_mm.y);
-    for (; piece != isochrones.end() && piece->tau_stop == time; ++piece) {
-      const Polyline line = line_of(*piece);
-      for (const Point& at : on_paper_along(line, 0.004)) {
+  for (auto piece = pieces.begin(); piece != pieces.end();) {
+    const double time = piece->time;
+    const Text text = number(time / unit);
+    LabelPlace place(look_.letter * (0.45 * text_width(text) + 0.15) / look_.panel_mm.x,
+                     look_.letter * 0.7 / look_.panel_mm.y);
+    for (; piece != pieces.end() && piece->time == time; ++piece) {
+      for (const Point& at : on_paper_along(piece->line, 0.004)) {
         if (inside(at, 0.05)) place.try_at(at, points, labels, middle);
       }
-      lines.lines.push_back(line);
+      lines.lines.push_back(piece->line);
     }
     if (!place.found()) continue;
     labels.push_back(place.where());
-    panel_.labels.push_back(
-        {from_paper(panel_, place.where()), text, drawing_.palette.theme.faint, Label::Align::centre});
+    panel_.labels.push_back({from_paper(panel_, place.where()), text, look_.palette.theme.faint, Label::Align::centre});
   }
-  panel_.lines.insert(panel_.lines.begin(), lines);
-  for (const PhasePortrait& other : drawing_.portrait.comparisons) {
-    Lines its_lines{{}, {drawing_.palette.comparison, 1.3, false, true}, lines.legend + ", " + law_legend(other)};
-    for (const Isochrone& isochrone : other.isochrones) its_lines.lines.push_back(line_of(isochrone));
-    panel_.lines.insert(panel_.lines.begin(), std::move(its_lines));
-  }
+  panel_.lines.insert(panel_.lines.begin(), std::move(lines));
 }
 
 }  // namespace contensou::portraits

@@ -1,0 +1,442 @@
+#include "contensou/portraits/planar_portrait.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+
+#include "contensou/portraits/layout.hpp"
+#include "data/round_numbers.hpp"
+
+namespace contensou::portraits {
+
+using Eigen::Vector2d;
+using reduction::PlanarEnd;
+using reduction::PlanarReduction;
+using reduction::PlanarSector;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The directions of a sector, or a turn where there are none: q at numbers x that grow in the way of the motion, dense
+/// towards both ends.
+struct Course {
+  std::function<double(double x)> q;
+  double low, high;  ///< of x
+};
+
+Course course_of(const PlanarSector& sector) {
+  // Nearer to a ray angles cannot be told apart; a border is known to some digits only.
+  const auto nearest = [](bool ray) { return ray ? 25.0 : 12.0; };
+  const auto q = [=, length = sector.to - sector.from](double x) {
+    return x < 0 ? sector.from + length / (1 + std::exp(-x)) : sector.to - length / (1 + std::exp(x));
+  };
+  return {q, -nearest(sector.from_ray), nearest(sector.to_ray)};
+}
+
+class PlanarTracer {
+ public:
+  PlanarTracer(const reduction::PlanarField& field, const PlanarReduction& plane, const PlanarWindow& window)
+      : field_(field), plane_(plane), window_(window) {
+    panel_.x = {"", window.low[0], window.high[0], false, {}};
+    panel_.y = {"", window.low[1], window.high[1], false, {}};
+    highest_ = -infinity;
+    lowest_ = infinity;
+    constexpr int pieces = 100;
+    for (int i = 0; i < 4 * pieces; ++i) {
+      const double s = static_cast<double>(i % pieces) / pieces;
+      const Point places[] = {{s, 0}, {1, s}, {1 - s, 1}, {0, 1 - s}};
+      border_.push_back(at(places[i / pieces]));
+      const double p = plane.canonical(border_.back()).p;
+      if (!std::isfinite(p)) continue;  // the centre
+      highest_ = std::max(highest_, p);
+      lowest_ = std::min(lowest_, p);
+    }
+    highest_ += 0.1;
+    // Nobody sees orbits move nearer to the centre.
+    constexpr double deep = 9;
+    lowest_ -= deep / plane.scaling().matrix.eigenvalues().real().minCoeff();
+    for (const PlanarSector& sector : plane.sectors()) courses_.push_back(course_of(sector));
+    if (plane.turn() != nullptr) read_turn();
+  }
+
+  /// The orbit through a point, or from there on, in pieces that lie in the window.
+  std::vector<PlanarPortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
+    std::vector<PlanarPortraitOrbit> pieces;
+    if (x == plane_.centre()) return pieces;
+    for (const Polyline& part : clipped(panel_, line(x, from_here))) {
+      if (part.size() < 2) continue;
+      const auto rows = static_cast<Eigen::Index>(part.size());
+      PlanarPortraitOrbit piece{Eigen::ArrayXd(rows), Eigen::ArrayXd(rows), Eigen::ArrayXd(rows)};
+      for (Eigen::Index i = 0; i < rows; ++i) {
+        const Point& point = part[static_cast<std::size_t>(i)];
+        piece.u[i] = point.x;
+        piece.v[i] = point.y;
+        piece.tau_left[i] = time_left({point.x, point.y});
+      }
+      // A chord may say otherwise in its last digits.
+      for (Eigen::Index i = 1; i < rows; ++i) piece.tau_left[i] = std::min(piece.tau_left[i], piece.tau_left[i - 1]);
+      pieces.push_back(std::move(piece));
+    }
+    return pieces;
+  }
+
+  /// Which sector a point is in; none without a value.
+  std::optional<std::size_t> sector(const Vector2d& x) const {
+    if (x == plane_.centre() || !has_value(x)) return std::nullopt;
+    const double q = plane_.canonical(x).q;
+    const std::vector<PlanarSector>& sectors = plane_.sectors();
+    for (std::size_t i = 0; i < sectors.size(); ++i) {
+      const auto [left, right] = std::minmax(sectors[i].from, sectors[i].to);
+      if ((q > left && q < right) || (q + 2 * pi > left && q + 2 * pi < right)) return i;
+    }
+    if (sectors.empty()) return 0;
+    return std::nullopt;
+  }
+
+  /// The lines of one time left.
+  std::vector<Isochrone> isochrones(const std::vector<double>& times) const {
+    const double c = plane_.scaling().time;
+    std::vector<Isochrone> result;
+    if (c == 0) return result;
+    std::vector<Polyline> curves;  // (q, ln of the time left at p = 0)
+    const auto add_curve = [&](const Course& course) {
+      Polyline curve;
+      constexpr int pieces = 400;
+      for (int i = 0; i <= pieces; ++i) {
+        const double q = course.q(course.low + (course.high - course.low) * i / pieces);
+        const double time = time_left(plane_.point(q, 0));
+        if (time > 0 && std::isfinite(time)) {
+          curve.push_back({q, std::log(time)});
+        } else if (!curve.empty()) {
+          curves.push_back(std::exchange(curve, {}));
+        }
+      }
+      if (!curve.empty()) curves.push_back(std::move(curve));
+    };
+    for (const Course& course : courses_) add_curve(course);
+    if (plane_.sectors().empty()) add_curve({[](double x) { return x; }, 0, 2 * pi});
+    for (double time : times) {
+      for (const Polyline& curve : curves) {
+        Polyline line;
+        for (const Point& at : curve) line.push_back(point(at.x, (std::log(time) - at.y) / c));
+        for (const Polyline& part : clipped(panel_, line)) {
+          const Eigen::Map<const Eigen::Array2Xd> columns(&part.front().x, 2, static_cast<Eigen::Index>(part.size()));
+          result.push_back({time, columns.row(0), columns.row(1)});
+        }
+      }
+    }
+    return result;
+  }
+
+  /// Finite times left on the border of the window, ascending.
+  std::vector<double> times_at_border() const {
+    std::vector<double> times;
+    for (const Vector2d& x : border_) {
+      if (has_value(x) && std::isfinite(time_left(x))) times.push_back(time_left(x));
+    }
+    std::ranges::sort(times);
+    return times;
+  }
+
+  /// Orbits that fill the window: each goes through the middle of the widest gap, and next its mirror images where they
+  /// have as much room, since most systems have some symmetry of that kind.
+  std::vector<PlanarPortraitOrbit> filling(std::optional<int> count) const;
+
+ private:
+  Vector2d at(Point place) const {
+    return window_.low + Vector2d(place.x, place.y).cwiseProduct(window_.high - window_.low);
+  }
+  Point place(const Vector2d& x) const {
+    const Vector2d part = (x - window_.low).cwiseQuotient(window_.high - window_.low);
+    return {part[0], part[1]};
+  }
+  Point point(double q, double p) const {
+    const Vector2d x = plane_.point(q, p);
+    return {x[0], x[1]};
+  }
+  bool has_value(const Vector2d& x) const {
+    try {
+      plane_.end_time(x);
+      return true;
+    } catch (const std::domain_error&) {
+      return false;
+    }
+  }
+  double time_left(const Vector2d& x) const {
+    try {
+      return plane_.end_time(x);
+    } catch (const std::domain_error&) {
+      return infinity;  // a chord has left the part of the plane that has values
+    }
+  }
+  /// p of the sector's curve.
+  double level(double q) const { return -plane_.first_integral(plane_.point(q, 0)); }
+
+  void read_turn() {
+    constexpr double margin = 1e-9;  // L jumps from 2 pi to 0 by a turn
+    growth_ = level(2 * pi - margin) - level(margin);
+    const Vector2d here = plane_.point(1, level(1)), next = plane_.point(1.001, level(1.001));
+    sense_ = field_(here).dot(next - here) > 0 ? 1 : -1;
+  }
+
+  Polyline line(const Vector2d& x, bool from_here) const {
+    const auto [q, p, slope] = plane_.canonical(x);
+    double integral = 0;
+    try {
+      integral = plane_.first_integral(x);
+    } catch (const std::domain_error&) {
+      return ray(q, from_here ? std::optional(p) : std::nullopt, std::nullopt);
+    }
+    if (plane_.turn() != nullptr) return spiral(q, p, integral, from_here);
+    const std::size_t index = sector(x).value();
+    const PlanarSector& sector = plane_.sectors()[index];
+    const Course& course = courses_[index];
+    const auto on_orbit = [&](double x_) { return std::pair(course.q(x_), integral + level(course.q(x_))); };
+    // Where the point is.
+    double fraction = (q - sector.from) / (sector.to - sector.from);
+    if (fraction < 0 || fraction > 1) fraction = (q + 2 * pi - sector.from) / (sector.to - sector.from);
+    const double here = std::clamp(std::log(fraction / (1 - fraction)), course.low, course.high);
+    Polyline line;
+    const auto begin = on_orbit(course.low), end = on_orbit(course.high);
+    if (!from_here && sector.from_ray && seen(begin.second)) line = ray(sector.from, std::nullopt, begin.second);
+    if (!from_here) refine(line, on_orbit, course.low, here);
+    line.push_back({x[0], x[1]});
+    refine(line, on_orbit, here, course.high);
+    if (sector.to_ray && seen(end.second)) {
+      const Polyline rest = ray(sector.to, end.second, std::nullopt);
+      line.insert(line.end(), rest.begin(), rest.end());
+    }
+    return line;
+  }
+
+  bool seen(double p) const { return p > lowest_ && p < highest_; }
+
+  /// R, whose sign is the way of the motion on a ray.
+  double radial_at(double q) const {
+    for (const auto& ray : plane_.rays()) {
+      if (std::abs(std::remainder(ray.q - q, 2 * pi)) < 1e-9) return ray.radial;
+    }
+    return plane_.end(plane_.point(q, 0)) == PlanarEnd::centre ? -1 : 1;
+  }
+
+  /// The motion on a ray, from one end of what is seen to the other or between two p.
+  Polyline ray(double q, std::optional<double> from, std::optional<double> to) const {
+    Polyline line;
+    const double radial = radial_at(q);
+    if (radial == 0) return line;
+    const bool inwards = radial < 0;
+    const double begin = from.value_or(inwards ? highest_ : lowest_), end = to.value_or(inwards ? lowest_ : highest_);
+    constexpr int pieces = 100;
+    for (int i = 0; i <= pieces; ++i) line.push_back(point(q, std::lerp(begin, end, static_cast<double>(i) / pieces)));
+    if (inwards && !to) line.push_back({plane_.centre()[0], plane_.centre()[1]});
+    return line;
+  }
+
+  template <class OnOrbit>
+  void refine(Polyline& line, const OnOrbit& on_orbit, double from, double to) const;
+
+  Polyline spiral(double q, double p, double integral, bool from_here) const;
+
+  const reduction::PlanarField& field_;
+  const PlanarReduction& plane_;
+  PlanarWindow window_;
+  Panel panel_;  ///< that clips
+  std::vector<Vector2d> border_;
+  double highest_, lowest_;  ///< p that is seen
+  std::vector<Course> courses_;
+  double growth_ = 0;  ///< of p in a counter-clockwise turn
+  double sense_ = 1;   ///< of the motion
+};
+
+/// Adds the orbit from one x to another, points no farther apart than can be seen.
+template <class OnOrbit>
+void PlanarTracer::refine(Polyline& line, const OnOrbit& on_orbit, double from, double to) const {
+  struct Place {
+    double x;
+    Point at;
+  };
+  const auto place_at = [&](double x) {
+    const auto [q, p] = on_orbit(x);
+    return Place{x, point(q, std::clamp(p, lowest_ - 1, highest_ + 1))};
+  };
+  const auto clamped = [&](Point at) {
+    const Point paper = on_paper(panel_, at);
+    return Point{std::clamp(paper.x, -1.0, 2.0), std::clamp(paper.y, -1.0, 2.0)};
+  };
+  const auto distance = [&](Point a, Point b) {
+    const Point here = clamped(a), there = clamped(b);
+    return std::hypot(here.x - there.x, here.y - there.y);
+  };
+  constexpr double near = 0.008, step = 0.5, closest = 1e-4;
+  Place last = place_at(from);
+  line.push_back(last.at);
+  std::vector<Place> open;
+  const int pieces = 1 + static_cast<int>(std::abs(to - from) / step);
+  for (int i = pieces; i > 0; --i) open.push_back(place_at(from + (to - from) * i / pieces));
+  while (!open.empty()) {
+    const Place next = open.back();
+    if (std::abs(next.x - last.x) > closest && distance(last.at, next.at) > near) {
+      open.push_back(place_at((last.x + next.x) / 2));
+      continue;
+    }
+    if (open.size() == 1 || distance(line.back(), next.at) > near / 4) line.push_back(next.at);
+    last = next;
+    open.pop_back();
+  }
+}
+
+Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_here) const {
+  if (q < 0) q += 2 * pi;
+  // p at an angle that goes on over the turns, so that it is p at q.
+  const auto on_orbit = [&](double angle) {
+    const double turns = std::floor(angle / (2 * pi)), rest = std::clamp(angle - 2 * pi * turns, 1e-9, 2 * pi - 1e-9);
+    return std::pair(rest, integral + level(rest) + growth_ * turns);
+  };
+  const double shrinking = growth_ * sense_;
+  constexpr double most = 12;
+  const auto turns = [&](double until) {
+    return shrinking == 0 ? 0 : std::clamp(std::ceil(std::abs((until - p) / shrinking)) + 1, 0.0, most);
+  };
+  Polyline line;
+  if (std::abs(growth_) < 1e-9) {
+    refine(line, on_orbit, q, q + sense_ * 2 * pi);
+    return line;
+  }
+  if (!from_here) refine(line, on_orbit, q - sense_ * 2 * pi * turns(shrinking < 0 ? highest_ : lowest_), q);
+  refine(line, on_orbit, q, q + sense_ * 2 * pi * turns(shrinking < 0 ? lowest_ : highest_));
+  return line;
+}
+
+std::vector<PlanarPortraitOrbit> PlanarTracer::filling(std::optional<int> count) const {
+  constexpr double gap = 0.055, first = 1e3;  // in sides of the window
+  constexpr int most = 80, across = 41;
+  struct Seed {
+    Point place;
+    std::size_t sector;
+    double border = first;  ///< to another sector, twice
+    double gap = first;     ///< to the nearest orbit of its sector, or to the border
+  };
+  const auto distance = [](Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); };
+  std::vector<Seed> seeds;
+  for (int i = 0; i < across; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const Point there{(i + 0.5) / across, (j + 0.5) / across};
+      if (const auto its = sector(at(there))) seeds.push_back({there, *its});
+    }
+  }
+  for (Seed& seed : seeds) {
+    for (const Seed& other : seeds) {
+      if (other.sector != seed.sector) seed.border = std::min(seed.border, 2 * distance(seed.place, other.place));
+    }
+    seed.gap += seed.border;
+  }
+  std::vector<PlanarPortraitOrbit> orbits;
+  std::vector<Point> mirrored;  // places to look at first
+  const Point centre = place(plane_.centre());
+  for (int traced = 0; traced < count.value_or(most) && !seeds.empty();) {
+    auto widest = std::ranges::max_element(seeds, {}, &Seed::gap);
+    const auto nearest = [&](Point there) {
+      return std::ranges::min_element(seeds, {}, [&](const Seed& seed) { return distance(seed.place, there); });
+    };
+    bool from_mirror = false;
+    while (!mirrored.empty() && !from_mirror) {
+      const auto its = nearest(mirrored.back());
+      mirrored.pop_back();
+      from_mirror = its->gap > 0.7 * widest->gap;
+      if (from_mirror) widest = its;
+    }
+    if (!count && widest->gap < gap) break;
+    const Point here = widest->place;
+    const std::size_t its_sector = widest->sector;
+    if (!from_mirror) {
+      mirrored = {{here.x, 2 * centre.y - here.y},
+                  {2 * centre.x - here.x, here.y},
+                  {2 * centre.x - here.x, 2 * centre.y - here.y}};
+    }
+    ++traced;
+    widest->gap = 0;
+    for (PlanarPortraitOrbit& piece : orbit(at(here))) {
+      for (Eigen::Index row = 0; row < piece.u.size(); ++row) {
+        const Point there = place({piece.u[row], piece.v[row]});
+        for (Seed& seed : seeds) {
+          if (seed.sector == its_sector) seed.gap = std::min({seed.gap, seed.border, distance(seed.place, there)});
+        }
+      }
+      orbits.push_back(std::move(piece));
+    }
+    std::erase_if(seeds, [&](const Seed& seed) { return seed.gap < (count ? 1e-9 : gap); });
+  }
+  return orbits;
+}
+
+PlanarWindow window_of(const PlanarReduction& plane, const PlanarPortraitRequest& request) {
+  if (request.window) return *request.window;
+  double half = 0;
+  const auto include = [&](const Vector2d& x) {
+    half = std::max(half, 1.2 * (x - plane.centre()).lpNorm<Eigen::Infinity>());
+  };
+  if (request.highlight) include(*request.highlight);
+  std::ranges::for_each(request.through, include);
+  const Vector2d sides = Vector2d::Constant(half > 0 ? half : 1);
+  return {plane.centre() - sides, plane.centre() + sides};
+}
+
+void require(const PlanarWindow& window, const PlanarPortraitRequest& request) {
+  if (request.orbits.value_or(0) < 0 || request.isochrones.value_or(0) < 0) {
+    throw std::domain_error(fmt::format("planar_portrait: numbers of orbits and isochrones must be >= 0, got {} and {}",
+                                        request.orbits.value_or(0), request.isochrones.value_or(0)));
+  }
+  const Vector2d sides = window.high - window.low;
+  if (!(sides.minCoeff() > 0) || !sides.allFinite() || !window.low.allFinite()) {
+    throw std::domain_error(
+        fmt::format("planar_portrait: the window must be finite and have two positive sides, got "
+                    "{} to {} by {} to {}",
+                    window.low[0], window.high[0], window.low[1], window.high[1]));
+  }
+  for (const Vector2d& x : request.through) {
+    if ((x - window.low).minCoeff() >= 0 && (window.high - x).minCoeff() >= 0) continue;
+    throw std::domain_error(
+        fmt::format("planar_portrait: the point ({}, {}) lies outside the window {} to {} by {} to {}", x[0], x[1],
+                    window.low[0], window.high[0], window.low[1], window.high[1]));
+  }
+}
+
+}  // namespace
+
+PlanarPortrait planar_portrait(reduction::PlanarField field, const PlanarReduction& plane, std::string name,
+                               const PlanarPortraitRequest& request) {
+  PlanarPortrait portrait{std::move(name), std::move(field), plane, window_of(plane, request), {}, {}, {}, {},
+                          request.through};
+  require(portrait.window, request);
+  const PlanarTracer tracer(portrait.field, portrait.plane, portrait.window);
+  portrait.orbits = tracer.filling(request.orbits);
+  if (request.highlight) {
+    plane.end(*request.highlight);  // is one with a value
+    portrait.highlight = tracer.orbit(*request.highlight, true);
+  }
+  for (const Vector2d& x : request.through) {
+    plane.end(x);
+    std::ranges::move(tracer.orbit(x), std::back_inserter(portrait.through));
+  }
+  const std::vector<double> times = tracer.times_at_border();
+  if (request.isochrones != 0 && !times.empty()) {
+    // Next to a ray that leads elsewhere times grow beyond all.
+    const double last = 0.95 * std::min(times.back(), 3 * times[times.size() / 2]);
+    constexpr int usual = 7;
+    const double step = request.isochrones ? step_for(last, *request.isochrones, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5})
+                                           : step_for(last, usual, {1, 2, 5});
+    portrait.isochrones = tracer.isochrones(multiples(0, last, step));
+  }
+  return portrait;
+}
+
+}  // namespace contensou::portraits

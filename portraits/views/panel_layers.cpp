@@ -1,0 +1,164 @@
+#include "views/panel_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+
+#include "contensou/portraits/layout.hpp"
+
+namespace contensou::portraits {
+
+std::vector<Point> PanelLayers::on_paper_along(const Polyline& line, double step) const {
+  std::vector<Point> points;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Point from = on_paper(panel_, line[i - 1]), to = on_paper(panel_, line[i]);
+    const int pieces = 1 + static_cast<int>(std::min(1 / step, std::hypot(to.x - from.x, to.y - from.y) / step));
+    for (int j = 0; j < pieces; ++j) points.push_back(between(from, to, static_cast<double>(j) / pieces));
+  }
+  if (!line.empty()) points.push_back(on_paper(panel_, line.back()));
+  return points;
+}
+
+void PanelLayers::add_coloured(const std::vector<TimedLine>& orbits) {
+  // A piece of line for each band that an orbit crosses; one layer for each band, the last moments on top.
+  const TimeBands& bands = look_.bands;
+  std::map<std::size_t, std::vector<Polyline>, std::greater<>> layers;
+  std::map<std::size_t, Arrows, std::greater<>> heads;
+  for (const TimedLine& orbit : orbits) {
+    const auto& [line, left] = orbit;
+    orbits_.push_back(line);
+    for (const auto& [arrow, time] : arrows_on(orbit)) heads[bands.band(time)].arrows.push_back(arrow);
+    Polyline piece{line.front()};
+    std::size_t band = bands.band(left[0]);
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const double before = left[i - 1], now = left[i];
+      const Point from = line[i - 1], to = line[i];
+      for (; band > 0 && now < bands.begin(band); --band) {
+        const Point cut = between(from, to, (before - bands.begin(band)) / (before - now));
+        piece.push_back(cut);
+        layers[band].push_back(std::exchange(piece, {cut}));
+      }
+      piece.push_back(to);
+    }
+    layers[band].push_back(std::move(piece));
+  }
+  for (auto& [band, lines] : layers) panel_.lines.push_back({std::move(lines), {bands.colours[band], 1.5, false}, ""});
+  for (auto& [band, arrows] : heads) panel_.arrows.push_back({std::move(arrows.arrows), bands.colours[band]});
+}
+
+void PanelLayers::add_plain(const std::vector<TimedLine>& orbits, Stroke stroke, const Text& legend) {
+  Lines lines{{}, stroke, legend};
+  Arrows arrows{{}, stroke.colour};
+  for (const TimedLine& orbit : orbits) {
+    lines.lines.push_back(orbit.line);
+    orbits_.push_back(orbit.line);
+    if (stroke.dashed) continue;
+    for (const TimedArrow& timed : arrows_on(orbit)) arrows.arrows.push_back(timed.arrow);
+  }
+  panel_.lines.push_back(std::move(lines));
+  panel_.arrows.push_back(std::move(arrows));
+}
+
+/// Heads where equal times are left, halfway between isochrones; at least one on an orbit, where it is seen best.
+std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orbit) {
+  const auto& [line, times] = orbit;
+  using Style = PortraitStyle::Arrows;
+  std::vector<TimedArrow> result;
+  if (arrows_ == Style::none) return result;
+  const auto has_room = [&](const Arrow& arrow) {
+    const Point at = on_paper(panel_, arrow.at);
+    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !inside(at, 0.03)) return false;
+    const auto crowds = [&](Point other) {
+      return std::hypot((other.x - at.x) * look_.panel_mm.x, (other.y - at.y) * look_.panel_mm.y) <
+             keep_off_ * look_.letter;
+    };
+    if (std::ranges::any_of(heads_, crowds)) return false;
+    heads_.push_back(at);
+    return true;
+  };
+  // With the time of the nearest row.
+  const auto add_there = [&](const Arrow& arrow) {
+    if (!has_room(arrow)) return;
+    const auto nearest =
+        std::ranges::min_element(line, {}, [&](Point point) { return paper_distance(panel_, point, arrow.at); });
+    result.push_back({arrow, times[static_cast<std::size_t>(nearest - line.begin())]});
+  };
+  if (arrows_ == Style::time) {
+    // In the order of the motion, along which the time left falls.
+    for (auto time = look_.bands.arrows.rbegin(); time != look_.bands.arrows.rend(); ++time) {
+      const auto place = std::ranges::lower_bound(times, *time, std::greater<>());
+      if (place == times.begin() || place == times.end()) continue;
+      const auto row = static_cast<std::size_t>(place - times.begin());
+      const double before = times[row - 1], now = times[row];
+      const Point from = line[row - 1], to = line[row];
+      const Arrow arrow{between(from, to, (before - *time) / (before - now)), {to.x - from.x, to.y - from.y}};
+      if (has_room(arrow)) result.push_back({arrow, *time});
+    }
+  }
+  const std::vector<Polyline> parts = clipped(panel_, line);
+  if (parts.empty()) return result;
+  if (early_arrows_ && arrows_ == Style::time) {
+    const Arrow arrow = arrow_along(panel_, parts.front(), 0.2);
+    if (on_paper(panel_, arrow.at).y > 0.6) add_there(arrow);
+  }
+  if (!result.empty()) return result;
+  for (double fraction : {arrow_fraction_, arrow_fraction_ + 0.1, arrow_fraction_ - 0.1}) {
+    add_there(arrow_along(panel_, parts.front(), fraction));
+    if (!result.empty()) break;
+  }
+  return result;
+}
+
+void PanelLayers::add_heads(const Lines& lines) {
+  if (arrows_ == PortraitStyle::Arrows::none) return;
+  Arrows arrows{{}, lines.stroke.colour};
+  for (const Polyline& line : lines.lines) {
+    for (const Polyline& part : clipped(panel_, line)) {
+      for (double fraction : {0.3, 0.7}) arrows.arrows.push_back(arrow_along(panel_, part, fraction));
+    }
+  }
+  panel_.arrows.push_back(std::move(arrows));
+}
+
+void PanelLayers::add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend) {
+  constexpr double cell_mm = 6.5;
+  const int columns = static_cast<int>(look_.panel_mm.x / cell_mm), rows = static_cast<int>(look_.panel_mm.y / cell_mm);
+  struct Needle {
+    Point at, direction;  ///< on paper, the direction of length 1
+    double size;
+  };
+  std::vector<Needle> needles;
+  double min_size = std::numeric_limits<double>::infinity(), max_size = 0;
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      const Point middle{(i + 0.5) / columns, (j + 0.5) / rows};
+      const auto drift = at(from_paper(panel_, middle));
+      if (!drift) continue;
+      const Point from = on_paper(panel_, drift->from), to = on_paper(panel_, drift->to);
+      const double x = to.x - from.x, y = to.y - from.y;
+      const double length = std::hypot(x, y);
+      if (!(length > 0) || !(drift->size > 0)) continue;
+      min_size = std::min(min_size, drift->size);
+      max_size = std::max(max_size, drift->size);
+      needles.push_back({middle, {x / length, y / length}, drift->size});
+    }
+  }
+  Lines lines{{}, {look_.palette.field, 1, false}, legend};
+  Arrows heads{{}, look_.palette.field, 0.6};
+  for (const Needle& needle : needles) {
+    const double fraction = max_size > min_size ? std::log(needle.size / min_size) / std::log(max_size / min_size) : 1;
+    const double cell = 1 / std::max(std::abs(needle.direction.x) * columns, std::abs(needle.direction.y) * rows);
+    const double half = (0.25 + 0.6 * fraction) / 2 * cell;
+    const Point tail{needle.at.x - half * needle.direction.x, needle.at.y - half * needle.direction.y};
+    const Point tip{needle.at.x + half * needle.direction.x, needle.at.y + half * needle.direction.y};
+    lines.lines.push_back({from_paper(panel_, tail), from_paper(panel_, tip)});
+    heads.arrows.push_back(arrow_along(panel_, lines.lines.back(), 1));
+  }
+  panel_.lines.insert(panel_.lines.begin(), std::move(lines));
+  panel_.arrows.insert(panel_.arrows.begin(), std::move(heads));
+}
+
+}  // namespace contensou::portraits

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "contensou/reduction/planar_reduction.hpp"
+#include "contensou/reduction/planar_symmetry.hpp"
+#include "options/argument.hpp"
+
+namespace contensou::program {
+
+/// --param: numbers for the letters of formulas.
+class ParameterOptions {
+ public:
+  void add(CLI::App& app);
+  bool given() const { return parameters_.given(); }
+
+  /// @throws BadInput  for a name that is given twice
+  std::map<std::string, double> read() const;
+
+ private:
+  ArgumentOf<std::pair<std::string, double>> parameters_;
+};
+
+/// --system: a planar system by its formulas, in place of (2.6).
+class SystemOption {
+ public:
+  void add(CLI::App& app);
+  bool given() const { return system_.given(); }
+  const std::string& text() const { return system_.text(); }
+
+  /// @throws BadInput  as parse_planar_system
+  reduction::PlanarField read(const ParameterOptions& parameters) const;
+
+  /// The system solved by its scaling, for a picture; none, and on standard error why, where none was found.
+  std::optional<reduction::PlanarReduction> solve(const reduction::PlanarField& field,
+                                                  const Eigen::Vector2d& around) const;
+
+ private:
+  Argument system_;
+};
+
+}  // namespace contensou::program

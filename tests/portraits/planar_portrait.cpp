@@ -1,0 +1,163 @@
+#include "contensou/portraits/planar_portrait.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "contensou/reduction/planar_symmetry.hpp"
+#include "figures.hpp"
+
+using namespace contensou;
+using namespace contensou::portraits;
+using Catch::Matchers::Contains;
+using Eigen::Vector2d;
+using reduction::PlanarField;
+using reduction::PlanarReduction;
+
+namespace {
+
+double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
+PlanarPortrait portrait_of(const PlanarField& field, const PlanarPortraitRequest& request = {}) {
+  const Vector2d around(1, 1);
+  const reduction::PlanarSymmetries found = reduction::find_symmetries(field, around);
+  REQUIRE(found.scaling);
+  return planar_portrait(field, PlanarReduction(field, *found.scaling, around, found.residual), "a system", request);
+}
+
+/// That every step of the orbits goes along the field, in the window and in the time that it says.
+void check_motions(const PlanarField& field, const PlanarPortrait& portrait) {
+  REQUIRE(portrait.orbits.size() >= 8);
+  for (const PlanarPortraitOrbit& orbit : portrait.orbits) {
+    REQUIRE(orbit.u.size() >= 2);
+    for (Eigen::Index i = 0; i < orbit.u.size(); ++i) {
+      const Vector2d here(orbit.u[i], orbit.v[i]);
+      CHECK((here - portrait.window.low).minCoeff() >= -1e-9);
+      CHECK((portrait.window.high - here).minCoeff() >= -1e-9);
+      if (i == 0) continue;
+      const Vector2d last(orbit.u[i - 1], orbit.v[i - 1]), step = here - last, rate = field((here + last) / 2);
+      // Where a field is not smooth a chord may cut a corner.
+      if (step.norm() < 1e-5 || here.norm() < 0.1 || here[0] * last[0] <= 0 || here[1] * last[1] <= 0) continue;
+      INFO("from " << last.transpose() << " to " << here.transpose());
+      CHECK(step.dot(rate) > 0.99 * step.norm() * rate.norm());
+      if (!std::isfinite(orbit.tau_left[i - 1])) continue;
+      CHECK(orbit.tau_left[i - 1] - orbit.tau_left[i] == Approx(step.norm() / rate.norm()).epsilon(0.05).margin(1e-4));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("orbits of any planar system go along its field, in its time", "[physics]") {
+  const PlanarField fields[] = {
+      [](const Vector2d& x) { return Vector2d(-x[0], -3 * x[1]); },                            // a node
+      [](const Vector2d& x) { return Vector2d(x[0], -x[1]); },                                 // a saddle
+      [](const Vector2d& x) { return Vector2d(x[1], -x[0] - x[1]); },                          // a focus
+      [](const Vector2d& x) { return Vector2d(x[1], -x[0] * x[0] * x[0]); },                   // a centre
+      [](const Vector2d& x) { return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]); },  // a dipole
+      [](const Vector2d& x) { return Vector2d(x[0] * x[0], x[1] * x[1]); },                    // blow-up
+      [](const Vector2d& x) -> Vector2d { return Vector2d(-x[0], -2 * x[1]) * std::pow(x.norm(), -1.5); },
+      [](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - 0.5 * sign(x[1])); },  // dry friction and a relay
+      [](const Vector2d& x) { return Vector2d(std::sqrt(x[0]), 1 - x[1] / std::sqrt(x[0])); },  // has values for u > 0
+  };
+  for (const PlanarField& field : fields) {
+    INFO("field " << &field - fields);
+    check_motions(field, portrait_of(field));
+    check_motions(field, portrait_of(field, {.window = PlanarWindow{{-2, -0.5}, {1, 1}}}));
+  }
+}
+
+TEST_CASE("isochrones of dry friction of degree -1/2 are circles", "[physics]") {
+  // x' = -x |x|^(-3/2): |x|^(3/2) falls at the rate 3/2.
+  const PlanarPortrait portrait =
+      portrait_of([](const Vector2d& x) -> Vector2d { return -x * std::pow(x.norm(), -1.5); });
+  CHECK(portrait.plane.kind() == "stable star");
+  REQUIRE(portrait.isochrones.size() >= 4);
+  for (const Isochrone& isochrone : portrait.isochrones) {
+    for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
+      const double r = std::hypot(isochrone.u[i], isochrone.v[i]),
+                   on_border = std::abs(std::max(std::abs(isochrone.u[i]), std::abs(isochrone.v[i])) - 1);
+      if (on_border < 1e-12) continue;  // where a chord is cut
+      CHECK(std::pow(r, 1.5) == Approx(1.5 * isochrone.tau_stop).epsilon(1e-11));
+    }
+  }
+  CHECK(portrait_of(portrait.field, {.isochrones = 0}).isochrones.empty());
+  // A linear system takes for ever.
+  CHECK(portrait_of([](const Vector2d& x) -> Vector2d { return -x; }).isochrones.empty());
+}
+
+TEST_CASE("the orbit of a start begins there, one through a point at the border", "[route]") {
+  const PlanarField twisting = [](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - 0.5 * sign(x[1])); };
+  const PlanarPortrait portrait =
+      portrait_of(twisting, {.highlight = Vector2d(0.5, 1), .through = {Vector2d(-0.2, 0.3)}, .orbits = 5});
+  CHECK(portrait.window.low == Vector2d(-1.2, -1.2));
+  REQUIRE(portrait.highlight.size() == 1);
+  CHECK(portrait.highlight[0].u[0] == Approx(0.5));
+  CHECK(portrait.highlight[0].v[0] == Approx(1.0));
+  CHECK(portrait.highlight[0].tau_left[0] == portrait.plane.end_time({0.5, 1}));
+  REQUIRE(!portrait.through.empty());
+  const PlanarPortraitOrbit& first = portrait.through.front();
+  CHECK(std::max(std::abs(first.u[0]), std::abs(first.v[0])) == Approx(1.2));
+  double nearest = 1;
+  for (const PlanarPortraitOrbit& piece : portrait.through) {
+    nearest = std::min(nearest, ((piece.u + 0.2).square() + (piece.v - 0.3).square()).minCoeff());
+  }
+  CHECK(nearest < 1e-12);
+  CHECK(portrait.orbits.size() >= 5);
+}
+
+TEST_CASE("a planar portrait is refused where there is nothing to show", "[input]") {
+  const PlanarField field = [](const Vector2d& x) { return Vector2d(std::sqrt(x[0]), -std::sqrt(x[0])); };
+  CHECK_THROWS_WITH(portrait_of(field, {.window = PlanarWindow{{0, 0}, {0, 1}}}), Contains("two positive sides"));
+  CHECK_THROWS_WITH(portrait_of(field, {.window = PlanarWindow{{0, 0}, {1, INFINITY}}}), Contains("finite"));
+  CHECK_THROWS_WITH(portrait_of(field, {.window = PlanarWindow{{0, 0}, {1, 1}}, .through = {{2, 0}}}),
+                    Contains("(2, 0) lies outside the window 0 to 1 by 0 to 1"));
+  CHECK_THROWS_WITH(portrait_of(field, {.orbits = -1}), Contains(">= 0, got -1 and 0"));
+  CHECK_THROWS_WITH(portrait_of(field, {.highlight = Vector2d(-1, 1)}), Contains("no value"));
+}
+
+TEST_CASE("the data of a planar portrait say what it is", "[output]") {
+  const PlanarPortrait portrait =
+      portrait_of([](const Vector2d& x) { return Vector2d(-x[0], -3 * x[1]); }, {.orbits = 8});
+  const auto json = nlohmann::json::parse(to_json(portrait, {.version = "1.2"}));
+  CHECK(json["schema"] == 1);
+  CHECK(json["system"] == "a system");
+  CHECK(json["kind"] == "stable node");
+  CHECK(json["version"] == "1.2");
+  CHECK(json["window"] == nlohmann::json::parse("[[-1, 1], [-1, 1]]"));
+  CHECK(json["rays"].size() == 4);
+  CHECK(json["orbits"].size() == 8);
+  CHECK(json["orbits"][0]["tau_left"][0] == "inf");
+  CHECK(json["isochrones"].empty());
+  for (const auto& orbit : json["orbits"]) {
+    // v/u^3 is constant.
+    const double first = orbit["v"][0].get<double>() / std::pow(orbit["u"][0].get<double>(), 3);
+    const std::size_t middle = orbit["u"].size() / 2;
+    const double u = orbit["u"][middle], v = orbit["v"][middle];
+    CHECK(v == Approx(first * u * u * u).epsilon(0.02).margin(1e-9));
+  }
+  const std::string csv = to_csv(portrait);
+  CHECK_THAT(csv, Contains("# kind: \"stable node\"\n") && Contains("\nkind,index,u,v,tau\norbit,0,"));
+}
+
+TEST_CASE("a planar portrait as a drawing", "[output]") {
+  const PlanarPortrait portrait =
+      portrait_of([](const Vector2d& x) -> Vector2d { return Vector2d(-x[0], -2 * x[1]) * std::pow(x.norm(), -1.5); });
+  const Figure figure = draw(portrait, {.field = PortraitStyle::Field::motion});
+  CHECK(figure.title == Text("a system"));
+  CHECK_THAT(figure.subtitle.words(), Contains("stable node"));
+  REQUIRE(figure.panels.size() == 1);
+  CHECK(figure.colour_bar.has_value());
+  const Panel& panel = figure.panels[0];
+  CHECK(panel.to_scale);
+  CHECK(layer(panel, "ray that orbits come to").lines.size() == 2);
+  CHECK(layer(panel, "ray that orbits leave").lines.size() == 2);
+  CHECK(layer(panel, "time left").lines.size() == portrait.isochrones.size());
+  CHECK(layer(panel, "direction").lines.size() > 100);
+  CHECK_FALSE(draw(portrait, {.colour_by_time = false}).colour_bar.has_value());
+  const PlanarPortrait linear = portrait_of([](const Vector2d& x) { return Vector2d(x[0], -x[1]); });
+  CHECK_FALSE(draw(linear).colour_bar.has_value());
+  CHECK(layer(draw(linear).panels[0], "orbits").lines.size() == linear.orbits.size());
+}
