@@ -87,7 +87,11 @@ Panel paths(const RollPicture& picture) {
       std::tie(panel.x.low, panel.x.high) = std::minmax({panel.x.low, panel.x.high, point.x});
       std::tie(panel.y.low, panel.y.high) = std::minmax({panel.y.low, panel.y.high, point.y});
     }
-    panel.lines.push_back({{std::move(path)}, stroke, is_ball ? "this ball" : "textbook"});
+    panel.lines.push_back({{std::move(path)},
+                           stroke,
+                           !is_ball            ? "textbook"
+                           : picture.lies_flat ? "this body"
+                                               : "this ball"});
     // This ball's on top.
     if (curve->rolls > 0) {
       panel.marks.insert(panel.marks.begin(), {{at_time(*curve, curve->rolls)}, stroke.colour, size});
@@ -226,7 +230,7 @@ Panel until(const Panel& whole, std::size_t frame) {
 /// A ball of radius 1 from above: a circle through what was its top, half of it thick, so that a turn is told from its
 /// opposite, and a spot on that half; what it does beside that.
 Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eigen::Index frame, Colour colour,
-                      const char* name) {
+                      const char* name, bool lies_flat) {
   using Eigen::Vector3d;
   constexpr int pieces = 72;
   const auto circle = [&](const Vector3d& one, const Vector3d& other, double part = 1) {
@@ -253,7 +257,10 @@ Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eig
   const Vector3d spot = (x + z).normalized();
   if (spot.z() > 0) panel.marks.push_back({{{spot.x(), spot.y()}}, slip_colour, 2});
   const std::string slides = fmt::format("slides {:.2f} m/s", curve.slip[frame]);
-  panel.labels = {{{1.3, 0.25}, curve.t[frame] >= curve.rolls ? "rolls" : slides, path_colour, Label::Align::left},
+  panel.labels = {{{1.3, 0.25},
+                   curve.t[frame] >= curve.rolls ? (lies_flat ? "rests" : "rolls") : slides,
+                   path_colour,
+                   Label::Align::left},
                   {{1.3, -0.25},
                    fmt::format("spins {:.1f} rad/s", curve.angular_velocity(2, frame)),
                    path_colour,
@@ -303,12 +310,21 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
       }
       const Colour colour = which == 0 ? path_colour : textbook_colour;
       frame.panels.push_back(ball_from_above(curve, turned[which], i, colour,
-                                             which == 0 ? "this ball, from above" : "the textbook's, from above"));
+                                             which == 1          ? "the textbook's, from above"
+                                             : picture.lies_flat ? "this body, from above"
+                                                                 : "this ball, from above",
+                                             picture.lies_flat));
       if (!moves) continue;
       // Where it is, and where it began to roll; this ball's on top.
       Panel& path = frame.panels.front();
       const Polyline& line = path.lines[static_cast<std::size_t>(which)].lines.front();
-      Marks rolls{{}, colour, 1.6, Marks::Shape::circle, which == 0 ? "rolls from here" : ""};
+      Marks rolls{{},
+                  colour,
+                  1.6,
+                  Marks::Shape::circle,
+                  which == 1          ? ""
+                  : picture.lies_flat ? "rests here"
+                                      : "rolls from here"};
       const auto at = static_cast<std::size_t>((t < curve.rolls).count());
       if (at < line.size()) rolls.points.push_back(line[at]);
       path.marks.insert(path.marks.begin(), {Marks{{line.back()}, colour, 1.6}, rolls});

@@ -1,7 +1,8 @@
 // Notation: V, omega velocities of ball and centre, c = (Vx - R omega_y, Vy + R omega_x) that of the contact point,
 // (2.1), v = |c|, e = c/v, alpha the angle from that of the start to it. Friction is the force -f N Phi e at the contact point, the moment
 // -f N eps Psi sign(omega_z) about the vertical:
-//   m V' = F,   J omega_x' = R F_y,  J omega_y' = -R F_x,  J omega_z' = M                    (2.5)
+//   m V' = F,   J omega_x' = R F_y,  J omega_y' = -R F_x,  J_z omega_z' = M                  (2.5)
+// with R^2/J = (chi - 1)/m, J_z = m R^2/gamma: of a ball J = J_z = (2/5) m R^2, of a body that lies flat 1/J is 0.
 // Units of the integration: speed scale for R omega, time scale T for t, their product for the position, the slip
 // length without spin for the slip length.
 #include "contensou/si/integrated_motion.hpp"
@@ -40,7 +41,9 @@ constexpr long step_limit = 1'000'000;
 /// The equations with the values of one experiment.
 struct Ballistics {
   const reduction::Law& law;
-  double R, m, J;
+  double R, m;
+  double tilting;  ///< R^2/J in 1/kg
+  double J_z;
   double normal_friction;  ///< f N
   double eps;
   double turn;     ///< sign of omega_z
@@ -49,6 +52,8 @@ struct Ballistics {
   double time_scale;
   double slip_scale;
 
+  /// 1/kg, of the contact point: its acceleration over the force.
+  double mobility() const { return 1 / m + tilting; }
   double slip(const Values& x) const { return speed_scale * std::exp(x[0]); }
   double spin(const Values& x) const { return speed_scale * std::exp(x[2]) / R; }  // |omega_z|
   Vector2d direction(const Values& x) const {
@@ -75,12 +80,12 @@ struct Ballistics {
     const Vector2d e = direction(x);
     const Vector2d force = -normal_friction * phi * e;
     const Vector2d acceleration = force / m;
-    const Vector2d turning = R / J * Vector2d(force.y(), -force.x());
+    const Vector2d turning = tilting / R * Vector2d(force.y(), -force.x());
     const Vector2d contact = acceleration + R * Vector2d(-turning.y(), turning.x());
     const Vector2d centre = velocity(x);
     rate[0] = contact.dot(e) / v;
     rate[1] = (e.x() * contact.y() - e.y() * contact.x()) / v;
-    rate[2] = -normal_friction * eps * psi / (J * omega);
+    rate[2] = -normal_friction * eps * psi / (J_z * omega);
     rate[3] = R / speed_scale * turning.x();
     rate[4] = R / speed_scale * turning.y();
     const double length = speed_scale * time_scale;
@@ -91,11 +96,11 @@ struct Ballistics {
     for (double& value : rate) value *= time_scale;
   }
 
-  double slip_time_left(double v) const { return v / (normal_friction * (1 / m + R * R / J)); }
+  double slip_time_left(double v) const { return v / (normal_friction * mobility()); }
   /// ln k, k = v/(eps |omega_z|).
   double log_ratio(const Values& x) const { return x[0] - x[2] + std::log(R / eps); }
 
-  double spin_time_left(double omega) const { return omega * J / (normal_friction * eps * law.pivoting_moment()); }
+  double spin_time_left(double omega) const { return omega * J_z / (normal_friction * eps * law.pivoting_moment()); }
 };
 
 /// The rest of a motion from where one of the two frictions is all there is. Its decline is linear in time.
@@ -111,10 +116,10 @@ class Tail {
     if (slides_) {
       constexpr double fast = 0x1p100;
       const double moment = fast * ball.law(reduction::Slip{fast, 1}).moment;  // k Psi at infinity
-      other_slope_ = ball.eps * ball.eps * moment / (ball.J * (1 / ball.m + ball.R * ball.R / ball.J));
+      other_slope_ = ball.eps * ball.eps * moment / (ball.J_z * ball.mobility());
     } else {
-      other_slope_ = (1 / ball.m + ball.R * ball.R / ball.J) * ball.law.force_slope() * ball.J /
-                     (ball.eps * ball.eps * ball.law.pivoting_moment());
+      other_slope_ =
+          ball.mobility() * ball.law.force_slope() * ball.J_z / (ball.eps * ball.eps * ball.law.pivoting_moment());
     }
   }
 
@@ -127,7 +132,7 @@ class Tail {
     const double mean = (1 + share) / 2 * passed;  // time at the first speed for the same way
     const double v = slides_ ? ball_.slip(from_) : 0;
     const double omega = slides_ ? 0 : ball_.spin(from_);
-    const double part = ball_.R * ball_.R / ball_.J / (1 / ball_.m + ball_.R * ball_.R / ball_.J);  // to rotation
+    const double part = ball_.tilting / ball_.mobility();  // to rotation
     const Vector2d e = ball_.direction(from_);
     const double length = ball_.speed_scale * ball_.time_scale;
     Values x = from_;
@@ -196,8 +201,6 @@ std::vector<Eigen::Index> increasing(const Eigen::ArrayXd& times) {
 IntegratedMotion integrate_motion(const Experiment& experiment, const reduction::Law& law,
                                   const Eigen::ArrayXd& times) {
   require_experiment(experiment);
-  if (experiment.ball.body.lies_flat())
-    throw std::domain_error("integrate_motion: it is of a ball, not of a body that lies flat");
   for (double t : times) {
     if (t >= 0 && std::isfinite(t)) continue;
     throw std::domain_error(fmt::format("integrate_motion: times must be finite and >= 0, in s; got {}", t));
@@ -216,11 +219,13 @@ IntegratedMotion integrate_motion(const Experiment& experiment, const reduction:
   }
 
   const double R = experiment.ball.radius;
+  const auto [chi, gamma] = experiment.ball.body.inertia;
   Ballistics ball{
       .law = law,
       .R = R,
       .m = experiment.ball.mass,
-      .J = 0.4 * experiment.ball.mass * R * R,
+      .tilting = (chi - 1) / experiment.ball.mass,
+      .J_z = experiment.ball.mass * R * R / gamma,
       .normal_friction = experiment.contact.friction * experiment.ball.mass * experiment.environment.gravity,
       .eps = patch_radius_of(experiment, law),
       .turn = std::copysign(1.0, spin),

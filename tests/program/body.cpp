@@ -75,8 +75,34 @@ TEST_CASE("a puck in seconds", "[cli]") {
 
   CHECK(json_of("stop --format json --ball curling-stone").at("law") == "ring");
   CHECK(json_of("stop --format json --ball curling-stone --law exact").at("law") == "exact");
-  check_rejected("roll --ball puck",
-                 "--ball puck: a disc lies flat and never rolls; 'contensou stop' says when and where");
+  // Slip, spin and rest end at once; the equations of motion by steps agree.
+  const json roll = json_of("roll --format json --route integrated --samples 9" + start);
+  CHECK(roll.at("t_stop") == stop.at("t_stop"));
+  CHECK(roll.at("integrated").at("t_stop").get<double>() == Approx(t).epsilon(1e-11));
+  CHECK_FALSE(roll.contains("rolls_after"));
+  CHECK(roll.at("rest").at("t").get<double>() == Approx(t).epsilon(1e-14));
+  CHECK(roll.at("rest").at("x").get<double>() == Approx(1.11578).epsilon(1e-5));
+  for (const char* name : {"slip_length", "path"})
+    CHECK(roll.at(name).get<double>() == Approx(roll.at("rest").at("x").get<double>()).epsilon(1e-9));
+  CHECK(roll.at("textbook").at("rest").at("t").get<double>() == Approx(2 / (0.2 * 9.80665)).epsilon(1e-12));
+  const json reduced_roll = json_of("roll --format json --samples 9" + start);
+  for (const char* column : {"x", "vx", "wz"}) {
+    for (std::size_t i = 0; i < 9; ++i) {
+      INFO(column << " " << i);
+      CHECK(roll.at(column)[i].get<double>() ==
+            Approx(reduced_roll.at(column)[i].get<double>()).epsilon(1e-10).margin(1e-10));
+    }
+  }
+  CHECK_THAT(run_program("roll --format text" + start).out,
+             Contains("its centre rests after") && Contains("then   it lies still") && !Contains("roll"));
+  const auto rolled =
+      rows_of(run_program("roll --ball puck --friction 0.2 --radius 0.04 --batch -", "slip,spin\n2,30\n").out);
+  CHECK(rolled[0][2] == "t_rest");
+  CHECK(std::stod(rolled[1][2]) == Approx(t).epsilon(1e-14));
+  check_rejected("roll --ball puck --strike 2", "--ball puck: a disc lies flat and never rolls");
+  check_rejected("roll --ball puck --rolling-below 1e-4", "--rolling-below 1e-4: a disc lies flat and never rolls");
+  check_rejected("roll --ball puck --rolling-friction 0.01", "never rolls: it has no rolling friction");
+  check_rejected("roll --ball puck --angular-velocity 1,0,3", "a disc lies flat and turns about the vertical only");
   // A file is read once, so that it may be a pipe.
   const TemporaryDirectory scratch;
   CHECK(run_program("balls puck -o " + scratch.file("puck.toml")).status == 0);

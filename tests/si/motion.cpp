@@ -81,5 +81,34 @@ TEST_CASE("a body that lies flat comes to rest, and loses all its energy", "[inv
 
   puck.start = Velocities{{1, 0}, {0, 1, 2}};
   CHECK_THROWS_WITH(require_experiment(puck), Catch::Matchers::Contains("turns about the vertical only"));
-  CHECK_THROWS_WITH(integrate_motion(find_ball("puck")->experiment, law, {}), Catch::Matchers::Contains("lies flat"));
+}
+
+TEST_CASE("a body that lies flat by the equations of motion in steps", "[route]") {
+  Experiment flat = find_ball("puck")->experiment;
+  for (const char* body : {"disc", "ring"}) {
+    for (const Body& known : bodies()) {
+      if (known.name == body) flat.ball.body = known;
+    }
+    const contensou::reduction::Law law = *contensou::reduction::find_law(law_of(flat));
+    for (const Velocities& start : {Velocities{{5, 0}, {0, 0, 100}},
+                                    {{-0.2, 0.3}, {0, 0, -100}},
+                                    {{1, 2}, {0, 0, 0}},
+                                    {{0, 0}, {0, 0, 40}},
+                                    {{5, 0}, {0, 0, 1e-3}}}) {
+      flat.start = start;
+      const BallMotion motion(flat, law);
+      const double stop = motion.stop_time();
+      const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(12, 0, 1.1 * stop);
+      const IntegratedMotion steps = integrate_motion(flat, law, times);
+      const MotionColumns points = motion.at_times(times);
+      INFO(body << ", vx " << start.velocity.x() << ", wz " << start.angular_velocity.z());
+      CHECK(steps.stop_time == Approx(stop).epsilon(1e-11));
+      CHECK(steps.spin_angle == Approx(motion.spin_angle()).epsilon(1e-10));
+      const double length = std::max(motion.slip_length(), 1e-12);
+      CHECK((steps.points.x - points.x).abs().maxCoeff() <= 1e-10 * length);
+      CHECK((steps.points.y - points.y).abs().maxCoeff() <= 1e-10 * length);
+      CHECK((steps.points.wz - points.wz).abs().maxCoeff() <= 1e-10 * 100);
+      CHECK(steps.points.wx.abs().maxCoeff() == 0);
+    }
+  }
 }

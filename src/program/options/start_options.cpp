@@ -241,9 +241,7 @@ si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const 
   const si::Experiment experiment = read_ball(law, between);
   if (!experiment.ball.body.lies_flat()) return experiment;
   ball_.reject(
-      fmt::format("a {} lies flat and never rolls; 'contensou stop' says when and where it lies still, 'contensou "
-                  "orbit' gives slip and spin in time",
-                  experiment.ball.body.name));
+      fmt::format("a {} lies flat and never rolls; 'contensou roll' gives its motion", experiment.ball.body.name));
 }
 
 std::string StartOptions::standard_law() const {

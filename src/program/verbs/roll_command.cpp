@@ -30,7 +30,7 @@ namespace contensou::program {
 
 namespace {
 
-/// The whole motion of a ball.
+/// The whole motion of a ball, or of a body that lies flat.
 struct Roll {
   si::Experiment experiment;
   reduction::Law law;
@@ -40,6 +40,7 @@ struct Roll {
   si::Course<si::BallMotion> whole{experiment, {experiment, law}, rolling_below, rolling_friction};
   si::Course<si::UncoupledMotion> textbook{experiment, {experiment, law}, rolling_below, rolling_friction};
 
+  bool lies_flat() const { return experiment.ball.body.lies_flat(); }
   double stop_time() const { return whole.motion.stop_time(); }
 
   si::MotionColumns at_times(const Eigen::ArrayXd& times) const {
@@ -55,10 +56,14 @@ struct Roll {
 
 Json members_of(const si::Event& event) { return {{"t", event.t}, {"x", event.place.x()}, {"y", event.place.y()}}; }
 
-Json members_of(const si::Events& events) {
+/// @param threshold  m/s, below which it rolls; null for what has none
+Json members_of(const si::Events& events, bool lies_flat, const double* threshold = nullptr) {
   const auto& [rolls, spin_ends, rest, slip_length, turns, path] = events;
-  Json members{{"rolls_after", members_of(rolls)}, {"spin_ends", members_of(spin_ends)}};
-  if (rest) members["rest"] = members_of(*rest);
+  Json members;
+  if (!lies_flat) members["rolls_after"] = members_of(rolls);
+  if (!lies_flat && threshold) members["rolls_after"]["threshold"] = *threshold;
+  members["spin_ends"] = members_of(spin_ends);
+  if (lies_flat || rest) members["rest"] = members_of(lies_flat ? rolls : *rest);
   members.update({{"slip_length", slip_length}, {"turns", turns}, {"path", path}});
   return members;
 }
@@ -101,18 +106,20 @@ std::string table(const Roll& roll, const Digits& digits) {
     line("  at", digits.list(first.place), digits.list(second.place), "  m");
   };
   line("", "law " + roll.law.name(), "textbook (uncoupled)", "");
-  event("rolls after", ours.rolls, theirs.rolls);
+  const bool flat = roll.lies_flat();
+  event(flat ? "its centre rests after" : "rolls after", ours.rolls, theirs.rolls);
   if (ours.rest) event("its centre rests after", *ours.rest, *theirs.rest);
   if (si::spin_at_start(roll.experiment) != 0) {
     event("spins no more after", ours.spin_ends, theirs.spin_ends);
     number("turned about vertical", ours.turns, theirs.turns, "turns");
   }
   number("length of slip", ours.slip_length, theirs.slip_length, "m");
-  number("path until it rolls", ours.path, theirs.path, "m");
+  number(flat ? "path until it rests" : "path until it rolls", ours.path, theirs.path, "m");
   const bool spins_too = si::spin_at_start(roll.experiment) != 0 && si::slip_at_start(roll.experiment) > 0;
-  text += fmt::format("\nrolls  once its slip is below {} m/s{} (--rolling-below){}\n", digits(roll.rolling_below),
-                      roll.rolling_below == si::rolling_slip ? ", which no eye tells from rolling" : "",
-                      spins_too ? ";\n       the last of it ends with the spin" : "");
+  if (!flat)
+    text += fmt::format("\nrolls  once its slip is below {} m/s{} (--rolling-below){}\n", digits(roll.rolling_below),
+                        roll.rolling_below == si::rolling_slip ? ", which no eye tells from rolling" : "",
+                        spins_too ? ";\n       the last of it ends with the spin" : "");
   if (roll.law.as<reduction::PadeLaw>() != nullptr)
     text += fmt::format("pade   the paper's approximation,\n       {}\n", cost_of_pade);
   return text;
@@ -122,6 +129,9 @@ std::string ending(const Roll& roll, const Digits& digits) {
   const si::Experiment& experiment = roll.experiment;
   const auto [velocity, angular_velocity] = si::final_motion(experiment);
   const auto [start, loss, kept] = energy_balance(experiment);
+  const std::string energy = fmt::format("energy {} J: {} lost by sliding, {} by spinning, {} kept\n", digits(start),
+                                         digits(loss.sliding), digits(loss.pivoting), digits(kept));
+  if (roll.lies_flat()) return "then   it lies still\n" + energy;
   std::string text = fmt::format("then   it rolls straight on: velocity {} m/s, angular velocity {} 1/s\n",
                                  digits.list(velocity), digits.list(angular_velocity));
   if (roll.rolling_friction > 0) {
@@ -132,8 +142,7 @@ std::string ending(const Roll& roll, const Digits& digits) {
     const double degrees = std::atan2(velocity.y(), velocity.x()) * (180 / std::numbers::pi);
     text += fmt::format("       at {} m/s, {} degrees from the x axis\n", digits(velocity.norm()), digits(degrees));
   }
-  return text + fmt::format("energy {} J: {} lost by sliding, {} by spinning, {} kept\n", digits(start),
-                            digits(loss.sliding), digits(loss.pivoting), digits(kept));
+  return text + energy;
 }
 
 portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionColumns& motion, double rolls) {
@@ -162,7 +171,7 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
                {"velocity", std::vector(velocity.begin(), velocity.end())},
                {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())},
                {"t_stop", roll.stop_time()}};
-  members.update(members_of(events_of(roll.whole)));
+  members.update(members_of(events_of(roll.whole), roll.lies_flat(), &roll.rolling_below));
   if (roll.integrated) {
     const si::IntegratedMotion by_steps = si::integrate_motion(roll.experiment, roll.law, {});
     members["integrated"] = {{"t_stop", by_steps.stop_time},
@@ -170,10 +179,9 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
                              {"turns", by_steps.spin_angle / (2 * std::numbers::pi)},
                              {"steps", by_steps.steps}};
   }
-  members["rolls_after"]["threshold"] = roll.rolling_below;
   members["energy_balance"] = {
       {"start", start}, {"lost_sliding", loss.sliding}, {"lost_spinning", loss.pivoting}, {"kept", kept}};
-  members["textbook"] = members_of(events_of(roll.textbook));
+  members["textbook"] = members_of(events_of(roll.textbook), roll.lies_flat());
   return {.members = members,
           .columns = {{"t", motion.t},
                       {"x", motion.x},
@@ -215,11 +223,12 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
                                                               portraits::shortened(law.name())),
                                  .subtitle = fmt::format("slip {:.4g} m/s, spin {:.4g} rad/s", slip, spin),
                                  .ball = curve(experiment, roll.at_times(times), rolls),
-                                 .textbook = curve(experiment, textbook.at_times(times), textbook_rolls)};
+                                 .textbook = curve(experiment, textbook.at_times(times), textbook_rolls),
+                                 .lies_flat = roll.lies_flat()};
   const auto seconds = [](double time) { return portraits::unbroken(fmt::format("{:.3g} s", time)); };
   if (slip > 0) {
-    picture.subtitle +=
-        fmt::format("; it rolls after {}, the textbook's after {}", seconds(rolls), seconds(textbook_rolls));
+    picture.subtitle += fmt::format("; it {} after {}, the textbook's after {}", roll.lies_flat() ? "rests" : "rolls",
+                                    seconds(rolls), seconds(textbook_rolls));
   }
   if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {}", seconds(roll.stop_time()));
   if (whole.friction) {
@@ -340,7 +349,9 @@ class RollCommand final : public Verb {
     }
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.standard_law());
-    const si::Experiment still = start_.read_rolling_ball(law, at_rest("--batch"));
+    const si::Experiment still = start_.read_ball(law, at_rest("--batch"));
+    require_rolling_options(still);
+    const std::string rolls = still.ball.body.lies_flat() ? "rest" : "rolls";
     const reduction::Flow flow(si::reduced_system(still, law));
     OutputFile output(out.path);
     CsvReader table(batch_.text());
@@ -352,8 +363,8 @@ class RollCommand final : public Verb {
                             "columns slip, spin and vx, vy, wx, wy, wz exclude each other: keep one kind of start");
     }
     BatchRequest request{.inputs = general ? velocities : along_x,
-                         .results = {"t_rolls", "x_rolls", "y_rolls", "t_spin_ends", "x_spin_ends", "y_spin_ends",
-                                     "slip_length", "turns", "path"},
+                         .results = {"t_" + rolls, "x_" + rolls, "y_" + rolls, "t_spin_ends", "x_spin_ends",
+                                     "y_spin_ends", "slip_length", "turns", "path"},
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long /*line*/) {
                                si::Experiment experiment = still;
@@ -389,11 +400,19 @@ class RollCommand final : public Verb {
     if (rest) add(*rest);
   }
 
+  /// @throws NotAllowed  for an option of rolling with a body that lies flat
+  void require_rolling_options(const si::Experiment& experiment) const {
+    if (!experiment.ball.body.lies_flat() || !rolling_below_.given()) return;
+    rolling_below_.reject(fmt::format("a {} lies flat and never rolls: leave it out", experiment.ball.body.name));
+  }
+
   si::Experiment read_shot(const reduction::Law& law) const {
     const std::string of_stroke = names_given({&tip_, &elevation_, &cue_mass_});
     if (!strike_.given()) {
       if (!of_stroke.empty()) throw BadInput(fmt::format("{} is of a stroke: add --strike SPEED", of_stroke));
-      return start_.read_rolling_ball(law);
+      const si::Experiment experiment = start_.read_ball(law);
+      require_rolling_options(experiment);
+      return experiment;
     }
     if (start_.overrides_start())
       throw BadInput(fmt::format("--strike is a start of its own: leave out {}", start_.start_names()));
@@ -425,7 +444,8 @@ class RollCommand final : public Verb {
   OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};
 };
 
-const RegisteredVerb<RollCommand> roll_verb("roll", "The whole motion of a ball: t,x,y,vx,vy,wx,wy,wz,slip,energy",
+const RegisteredVerb<RollCommand> roll_verb("roll",
+                                            "The whole motion of a ball or a puck: t,x,y,vx,vy,wx,wy,wz,slip,energy",
                                             "contensou roll --ball gel --slip 0.5 --spin 300 --format text");
 
 }  // namespace

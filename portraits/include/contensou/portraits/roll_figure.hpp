@@ -17,7 +17,7 @@ struct RollCurve {
   Eigen::ArrayXd slip;                     ///< speed of the contact point
   Eigen::ArrayXd rim;                      ///< R |omega_z|
   Eigen::ArrayXd speed;                    ///< of the centre
-  double rolls;                            ///< the time from which it rolls, as far as can be seen
+  double rolls;                            ///< the time from which it rolls, as far as can be seen, or rests
   Eigen::Matrix3Xd angular_velocity = {};  ///< z up; for a film
 };
 
@@ -29,6 +29,7 @@ struct RollPicture {
   RollCurve textbook;  ///< the same start with sliding and spinning uncoupled
   AskedSize size = {};
   double slow = 0;          ///< of a film: as many times slower than the ball; 0: no film
+  bool lies_flat = false;   ///< the body does not roll when its slip ends, it rests
   bool whole_path = false;  ///< up to the last row, not only to a little after the ball rolls
 };
 

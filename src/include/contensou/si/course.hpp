@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "contensou/si/motion.hpp"
@@ -16,19 +17,23 @@ struct Event {
   Eigen::Vector2d place;  ///< m
 };
 
-/// A motion with the instant when it rolls, and with rolling friction from then on if there is any.
+/// A motion with the instant when it rolls, and with rolling friction from then on if there is any. A body that lies
+/// flat does not roll: it comes to rest then.
 /// @tparam Motion  BallMotion or UncoupledMotion
 template <class Motion>
 struct Course {
   Motion motion;
-  double rolls;  ///< s until it does
+  double rolls;  ///< s until it does; of a body that lies flat until its centre rests
   std::optional<RollingFriction> friction;
 
-  /// @param rolling_below     m/s, >= 0: a ball that slips no faster rolls
+  /// @param rolling_below     m/s, >= 0: a ball that slips no faster rolls; not of a body that lies flat
   /// @param rolling_friction  u_r; 0: none
-  /// @throws std::domain_error  as slip_time, RollingFriction and require_finite_motion
+  /// @throws std::domain_error  as slip_time, RollingFriction and require_finite_motion, and for rolling friction of a
+  ///                            body that lies flat
   Course(const Experiment& experiment, Motion of_shot, double rolling_below, double rolling_friction)
-      : motion(std::move(of_shot)), rolls(motion.slip_time(rolling_below)) {
+      : motion(std::move(of_shot)), rolls(motion.slip_time(experiment.ball.body.lies_flat() ? 0 : rolling_below)) {
+    if (rolling_friction != 0 && experiment.ball.body.lies_flat())
+      throw std::domain_error("a body that lies flat never rolls: it has no rolling friction");
     double braked = std::max(rolls, motion.spin_end());
     require_finite_motion(experiment, braked);
     if (rolling_friction != 0) {
@@ -52,11 +57,11 @@ struct Course {
 
 /// What happens on a course.
 struct Events {
-  Event rolls, spin_ends;
+  Event rolls, spin_ends;     ///< as Course::rolls
   std::optional<Event> rest;  ///< with rolling friction
   double slip_length;         ///< m
   double turns;               ///< about the vertical
-  double path;                ///< m, of the centre until it rolls
+  double path;                ///< m, of the centre until it rolls or, lying flat, rests
 };
 
 template <class Motion>

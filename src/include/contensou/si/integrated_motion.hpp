@@ -14,7 +14,7 @@ struct IntegratedMotion {
   long steps = 0;
 };
 
-/// The equations of motion (2.5) of a ball under any friction law, with its position, integrated in SI by
+/// The equations of motion (2.5) of a ball, or of a body that lies flat, under any friction law, with its position, integrated in SI by
 /// Cash-Karp 5(4): a route of its own, that knows neither the reduction nor the first integrals.
 ///
 /// Force and torque act on the Cartesian velocities; the step is made in omega_x, omega_y, the position and, in place
@@ -23,7 +23,7 @@ struct IntegratedMotion {
 /// exact limit; beyond the stop the ball rolls.
 ///
 /// @param times  s, >= 0, in any order
-/// @throws std::domain_error   as require_experiment, for a body that lies flat, and if a time is negative or not finite
+/// @throws std::domain_error   as require_experiment, and if a time is negative or not finite
 /// @throws std::runtime_error  if the integration does not reach the stop
 ///
 /// Accuracy  1e-12 of the scales of the motion for mu from 1e-3 to 1.
