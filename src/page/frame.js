@@ -5,7 +5,7 @@ import { widthOf } from "./surface.js";
 export class Frame {
   /**
    * @typedef {{left: number, top: number, width: number, height: number}} Box  in pixels
-   * @typedef {{low: number, high: number, label?: Text, tick?: (value: number) => string, ticks?: Tick[]}} Range
+   * @typedef {{low: number, high: number, label?: Words, tick?: (value: number) => string, ticks?: Tick[]}} Range
    *   tick turns a tick into its text; ticks count if there are any; without a label nothing is written below the axis
    * @param {Box} place
    * @param {Range} x

@@ -32,6 +32,7 @@ function toScale(place, { x, y }) {
 
 /** The titles of the library are parts with ",  " between them. */
 function partsOf(title) {
+  /** @type {import("./runs.js").Run[][]} */
   const parts = [[]];
   for (const run of runsOf(title)) {
     run.words.split(/(?<=,) {2}/).forEach((words, i) => {

@@ -41,19 +41,19 @@ interface Ride {
 }
 interface Check { name: string; measured: number; allowed: number; passed: boolean }
 
-type Text = import("./runs.js").Text;
-interface Tick { at: number; text: Text }
-interface Axis { name: Text; low: number; high: number; ticks: Tick[] }
-interface Lines { lines: Float64Array; colour: string; width: number; dashed: boolean; legend: Text; shape?: undefined }
-interface Marks { points: Float64Array; colour: string; size: number; shape: string; legend: Text }
-interface Label { x: number; y: number; text: Text; colour: string; align: string }
+type Words = import("./runs.js").Text;
+interface Tick { at: number; text: Words }
+interface Axis { name: Words; low: number; high: number; ticks: Tick[] }
+interface Lines { lines: Float64Array; colour: string; width: number; dashed: boolean; legend: Words; shape?: undefined }
+interface Marks { points: Float64Array; colour: string; size: number; shape: string; legend: Words }
+interface Label { x: number; y: number; text: Words; colour: string; align: string }
 interface Panel {
-  title: Text; x: Axis; y: Axis; lines: Lines[]; marks: Marks[]; labels: Label[]; bare: boolean; toScale: boolean;
+  title: Words; x: Axis; y: Axis; lines: Lines[]; marks: Marks[]; labels: Label[]; bare: boolean; toScale: boolean;
   arrows: { arrows: Float64Array; colour: string }[]; regions: { border: Float64Array; colour: string }[];
 }
 interface Figure {
-  title: Text; panels: Panel[]; ground: string; ink: string; faint: string; line: number;
-  colourBar?: { name: Text; colours: string[]; ticks: Tick[] };
+  title: Words; panels: Panel[]; ground: string; ink: string; faint: string; line: number;
+  colourBar?: { name: Words; colours: string[]; ticks: Tick[] };
 }
 interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; moments: boolean; through: Speeds[] }
 
