@@ -4,8 +4,10 @@ import { drawLanes, drawPatch } from "./hero_figure.js";
 import { duration, length, shown } from "./numbers.js";
 import { say } from "./story.js";
 import { ScreenSurface } from "./screen_surface.js";
+import { borderOf, CanvasSurface, widthOf } from "./surface.js";
 import { rideOn } from "./turning.js";
 
+const titleLines = 3.8;  // of a film, in sizes of the text
 const fastest = 9;  // rad/s on the screen; a faster spin is drawn in a part of its size, so that its marks turn one way to the eye
 
 export class Hero {
@@ -17,7 +19,8 @@ export class Hero {
     /** @type {any[]} what is drawn, the ball without spin first */
     this.balls = [];
     this.player = player;
-    this.filmed = false;
+    /** @type {CanvasSurface | null} of the film that is being taken */
+    this.film = null;
     this.lanes = new ScreenSurface($("lanes"), (surface) => this.drawBalls(surface));
     this.patch = new ScreenSurface($("patch"), (surface) => this.drawPatch(surface));
     this.bars = ["this", "plain"].map((name) => {
@@ -71,6 +74,28 @@ export class Hero {
     if (this.store.ride) drawLanes(surface, { lanes: this.balls, radius: this.radius, unit: this.unit }, this.store.theme);
   }
 
+  /** The canvas of a film, on which the balls are drawn from now on under what is said of them, with the clock. */
+  beginFilm() {
+    const { lanes: { width, height }, store: { theme: { textSize } } } = this;
+    const ratio = globalThis.devicePixelRatio || 1;
+    const size = { width, height: height + titleLines * textSize };
+    const even = (side) => 2 * Math.round((ratio * side) / 2);  // as films need it
+    this.film = new CanvasSurface(Object.assign(document.createElement("canvas"), { width: even(size.width), height: even(size.height) }), size);
+    return this.film.canvas;
+  }
+
+  drawFilm(film) {
+    const { lanes, player, store: { now, theme, theme: { textSize } } } = this;
+    lanes.draw();
+    film.shape([borderOf(film)], { fill: theme.card });
+    const headline = $("headline").textContent;
+    const fitting = Math.min(1.6, (film.width - 8) / widthOf(headline, { size: textSize, bold: true }));
+    film.text(4, 1.7 * textSize, headline, { colour: theme.ink, size: fitting * textSize, bold: true });
+    const clock = [player.timeText(now.tau), $("pace").textContent].filter(Boolean).join(", ");
+    film.text(film.width - 4, 3.2 * textSize, clock, { colour: theme.soft, size: textSize, align: "right" });
+    film.context.drawImage(lanes.canvas, 0, titleLines * textSize, lanes.width, lanes.height);
+  }
+
   ballsNow() {
     const { store: { state, ride, timeFactor, end, theme }, rides } = this;
     const duration = end * timeFactor;
@@ -88,7 +113,7 @@ export class Hero {
     const { store: { ride, now }, unit } = this;
     if (!ride) return;
     this.balls = this.ballsNow();
-    if (this.filmed) this.lanes.draw();
+    if (this.film) this.drawFilm(this.film);
     else this.lanes.drawInSight();
     this.patch.drawInSight();
     $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +

@@ -69,11 +69,10 @@ export class Share {
       const type = filmType();
       if (!type) throw new Error("this browser takes no films");
       tell(`The film is being taken: ${Math.ceil(player.seconds)} s.`);
-      hero.filmed = true;
       try {
-        save(`balls.${/mp4|webm/.exec(type)}`, await filmOf($("lanes"), type, (done) => player.once(done)));
+        save(`balls.${/mp4|webm/.exec(type)}`, await filmOf(hero.beginFilm(), type, (done) => player.once(done)));
       } finally {
-        hero.filmed = false;
+        hero.film = null;
       }
       tell("The film is saved.");
     });
