@@ -4,14 +4,15 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Room -> the other rooms whose headers it may include. The program includes embedded_page.hpp, which the page gives it.
-set(house reduction portraits text si fit answers program python page)
+set(house reduction portraits text platform si fit answers program python page)
 set(reduction_uses "")
 set(portraits_uses reduction)
 set(text_uses "")
+set(platform_uses "")
 set(si_uses reduction text)
 set(fit_uses reduction si)
-set(answers_uses reduction portraits text si fit)
-set(program_uses reduction portraits text si fit answers page)
+set(answers_uses reduction portraits text platform si fit)
+set(program_uses reduction portraits text platform si fit answers page)
 set(python_uses reduction portraits text si fit answers)
 set(page_uses reduction portraits text si fit answers)
 
@@ -43,6 +44,9 @@ foreach(folder IN ITEMS reduction portraits src)
       # Another folder's private headers, by way of a relative path.
       if(include MATCHES "\"[^\"]*\\.\\./")
         list(APPEND faults "${name}: ${include}")
+      endif()
+      if(include MATCHES "<(sys/|unistd|fcntl|poll|csignal|signal)" AND NOT name MATCHES "^(src/platform|portraits/process)/")
+        list(APPEND faults "${name}: ${include}: what only POSIX has belongs in src/platform and portraits/process")
       endif()
       if(include MATCHES "gnuplot-iostream")
         list(APPEND gnuplot_files ${name})

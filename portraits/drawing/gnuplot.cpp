@@ -4,22 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <csignal>
-#include <cstring>
 #include <iomanip>
 #include <iostream>
 #include <iterator>
 #include <locale>
 #include <sstream>
+#include <system_error>
 #include <tuple>
 #include <utility>
 #include <vector>
-
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,6 +22,7 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "drawing/characters.hpp"
+#include "process/run_program.hpp"
 
 namespace contensou::portraits {
 
@@ -54,8 +48,6 @@ constexpr std::array formats{
 
 /// Seconds that gnuplot may take: a film takes 10, and a busy machine ten times as long.
 constexpr unsigned time_limit = 300;
-/// Its status where it cannot be run, as a shell's.
-constexpr int not_run = 127;
 
 /// A terminal of gnuplot, and how long things of length 1 come out in its unit: points of PDF and EPS, else dots.
 struct Terminal {
@@ -376,83 +368,21 @@ class Script {
   std::string text_;
 };
 
-/// A file in memory, for a program to read or to write.
-class MemoryFile {
- public:
-  MemoryFile() {
-    if (file_ < 0) fail();
+/// What is wrong with an end; empty: nothing.
+std::string complaint(const ProgramRun& run) {
+  switch (run.end) {
+    case ProgramRun::End::out_of_time:
+      return fmt::format("drew for more than {} s and was stopped; ask for less, or write .gp and draw it yourself",
+                         time_limit);
+    case ProgramRun::End::ended_by_signal:
+      return fmt::format("was ended by signal {}", run.number);
+    case ProgramRun::End::not_run:
+      return "was not found on PATH or cannot be run; install it (Debian: gnuplot-nox), or write .gp, .tex, .csv or "
+             ".json, which need none";
+    case ProgramRun::End::exited:
+      break;
   }
-  explicit MemoryFile(std::string_view content) : MemoryFile() {
-    while (!content.empty()) {  // a limit is met by the write after the one that it cuts short
-      const ssize_t written = ::write(file_, content.data(), content.size());
-      if (written < 0) fail();
-      content.remove_prefix(static_cast<std::size_t>(written));
-    }
-    ::lseek(file_, 0, SEEK_SET);
-  }
-  ~MemoryFile() { ::close(file_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  int get() const { return file_; }
-
-  std::string content() const {
-    std::string text(static_cast<std::size_t>(::lseek(file_, 0, SEEK_END)), '\0');
-    if (::pread(file_, text.data(), text.size(), 0) != std::ssize(text)) fail();
-    return text;
-  }
-
- private:
-  [[noreturn]] static void fail() {
-    throw GnuplotError(fmt::format("what gnuplot reads and writes does not fit: {}", std::strerror(errno)));
-  }
-
-  int file_ = ::memfd_create("contensou", MFD_CLOEXEC);
-};
-
-/// Runs a program, found on PATH, in no language. It ends with this one.
-/// @param command  its name and arguments
-/// @return  its status as of waitpid()
-int run(std::vector<const char*> command, const MemoryFile& input, const MemoryFile& output,
-        const MemoryFile& messages) {
-  command.push_back(nullptr);
-  std::vector<const char*> environment{"LC_ALL=C.UTF-8"};
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    if (!std::string_view(*variable).starts_with("LC_ALL=")) environment.push_back(*variable);
-  }
-  environment.push_back(nullptr);
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child == 0) {  // only what is async-signal-safe: other threads may hold locks
-    sigset_t none;
-    ::sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    std::signal(SIGALRM, SIG_DFL);
-    ::alarm(time_limit);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() == parent && ::dup2(input.get(), STDIN_FILENO) >= 0 && ::dup2(output.get(), STDOUT_FILENO) >= 0 &&
-        ::dup2(messages.get(), STDERR_FILENO) >= 0) {
-      ::execvpe(command.front(), const_cast<char**>(command.data()), const_cast<char**>(environment.data()));
-    }
-    ::_exit(not_run);
-  }
-  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // where nobody is told a status, the picture decides
-  while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return status;
-}
-
-/// What a status means; empty: success.
-std::string complaint(int status) {
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
-    return fmt::format("drew for more than {} s and was stopped; ask for less, or write .gp and draw it yourself",
-                       time_limit);
-  }
-  if (WIFSIGNALED(status)) return fmt::format("was ended by signal {}", WTERMSIG(status));
-  if (WEXITSTATUS(status) == not_run) {
-    return "was not found on PATH or cannot be run; install it (Debian: gnuplot-nox), or write .gp, .tex, .csv or "
-           ".json, which need none";
-  }
-  return status == 0 ? "" : fmt::format("ended with status {}", WEXITSTATUS(status));
+  return run.succeeded() ? "" : fmt::format("ended with status {}", run.number);
 }
 
 std::string first_lines(const std::string& text, int count) {
@@ -531,10 +461,14 @@ std::string script_of(const Figure& figure, PictureFormat format) {
 
 /// Has gnuplot draw a script.
 std::string drawn(const std::string& commands, PictureFormat format) {
-  const MemoryFile input(commands), output, errors;
-  std::string wrong = complaint(run({"gnuplot", "-d"}, input, output, errors));  // without ~/.gnuplot
-  const std::string messages = first_lines(errors.content(), 4);
-  std::string picture = output.content();
+  ProgramRun run;
+  try {
+    run = run_program({"gnuplot", "-d"}, commands, time_limit);  // without ~/.gnuplot
+  } catch (const std::system_error& error) {
+    throw GnuplotError(fmt::format("what gnuplot reads and writes does not fit: {}", error.code().message()));
+  }
+  std::string wrong = complaint(run), picture = std::move(run.output);
+  const std::string messages = first_lines(run.messages, 4);
   const auto& [ending, same, begin, end] = *std::ranges::find(formats, format, &Format::format);
   const std::string_view drawn = std::string_view(picture).substr(0, picture.find_last_not_of('\n') + 1);
   const bool whole = drawn.starts_with(begin) && drawn.ends_with(end);
@@ -561,9 +495,9 @@ std::string substitute_of(const std::string& font) {
   if (std::ranges::find(any, name) != any.end()) return "";
   // The last words of a name may be of its style: bold, italic.
   for (;; name.resize(name.find_last_of(' '))) {
-    const MemoryFile input, output, errors;
-    if (run({"fc-match", "--format=%{family}", name.c_str()}, input, output, errors) != 0) return "";
-    const std::string families = output.content();
+    const ProgramRun run = run_program({"fc-match", "--format=%{family}", name.c_str()}, "", time_limit);
+    if (!run.succeeded()) return "";
+    const std::string& families = run.output;
     if (("," + lower(families) + ",").find("," + name + ",") != std::string::npos) return "";
     if (substitute.empty()) substitute = families.substr(0, families.find(','));
     if (name.find(' ') == std::string::npos) return substitute;

@@ -1,16 +1,9 @@
 #include "answers/csv.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <iterator>
 #include <span>
-#include <system_error>
 #include <utility>
-
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -113,18 +106,13 @@ BadLine CsvParser::complaint(long line, std::string_view message) const {
   return BadLine(fmt::format("{}:{}: {}", source_, line, message));
 }
 
-CsvReader::CsvReader(int file, const std::string& path)
-    : file_(file), parser_(path == "-" ? "<stdin>" : escaped(path)) {}
-
-CsvReader::CsvReader(const std::string& path)
-    : CsvReader(path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), path) {
-  if (file_ < 0) fail();
-  struct stat status {};
-  if (::fstat(file_, &status) == 0 && S_ISREG(status.st_mode)) bytes_ = static_cast<double>(status.st_size);
+CsvReader::CsvReader(const std::string& path) : parser_(path == "-" ? "<stdin>" : escaped(path)) {
+  file_.emplace(path, parser_.source());
+  bytes_ = file_->size();
   read_header();
 }
 
-CsvReader::CsvReader(std::string text, const std::string& source) : file_(-1), parser_(escaped(source)) {
+CsvReader::CsvReader(std::string text, const std::string& source) : parser_(escaped(source)) {
   buffer_ = std::move(text);
   at_end_ = true;
   read_header();
@@ -147,32 +135,13 @@ void CsvReader::read_header() {
   first_ = std::move(first);
 }
 
-CsvReader::~CsvReader() {
-  if (file_ >= 0) ::close(file_);
-}
-
-void CsvReader::fail() const {
-  throw std::system_error(errno, std::generic_category(), "cannot read " + parser_.source());
-}
-
 void CsvReader::read_some() {
   const std::size_t before = buffer_.size();
-  buffer_.resize(before + block_size);
-  ssize_t size = 0;
-  do size = ::read(file_, buffer_.data() + before, block_size);
-  while (size < 0 && errno == EINTR);
-  if (size < 0) fail();
-  buffer_.resize(before + static_cast<std::size_t>(size));
-  bytes_read_ += static_cast<double>(size);
-  at_end_ = size == 0;
+  at_end_ = !file_->read(buffer_, block_size);
+  bytes_read_ += static_cast<double>(buffer_.size() - before);
 }
 
-bool CsvReader::ready_to_read() const {
-  pollfd file{.fd = file_, .events = POLLIN, .revents = 0};
-  return ::poll(&file, 1, 0) > 0;
-}
-
-bool CsvReader::ready() const { return first_.size() > 0 || fault_ || at_end_ || ready_to_read(); }
+bool CsvReader::ready() const { return first_.size() > 0 || fault_ || at_end_ || file_->ready(); }
 
 bool CsvReader::next(CsvBlock& block) {
   block = std::exchange(first_, {});
@@ -180,7 +149,7 @@ bool CsvReader::next(CsvBlock& block) {
     if (fault_) throw BadLine(*fault_);
     if (at_end_ && buffer_.empty()) return false;
     if (buffer_.empty()) read_some();
-    while (!at_end_ && buffer_.size() < block_size && ready_to_read()) read_some();
+    while (!at_end_ && buffer_.size() < block_size && file_->ready()) read_some();
     try {
       parser_.add(buffer_, block);
       if (at_end_) parser_.finish(block);

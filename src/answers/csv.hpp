@@ -11,6 +11,7 @@
 
 #include "answers/errors.hpp"
 #include "answers/parse.hpp"
+#include "platform/input_file.hpp"
 
 namespace contensou::answers {
 
@@ -123,7 +124,6 @@ class CsvReader {
   /// @param source  what messages call it
   /// @throws BadLine  as above
   CsvReader(std::string text, const std::string& source);
-  ~CsvReader();
   CsvReader(const CsvReader&) = delete;
   CsvReader& operator=(const CsvReader&) = delete;
 
@@ -160,18 +160,12 @@ class CsvReader {
   double fraction_read() const { return bytes_read_ / bytes_; }
 
  private:
-  CsvReader(int file, const std::string& path);
-
   void read_header();
-  [[noreturn]] void fail() const;
 
   /// Appends to the buffer what one read gives.
   void read_some();
 
-  /// Whether read_some does not have to wait.
-  bool ready_to_read() const;
-
-  int file_;
+  std::optional<platform::InputFile> file_;  ///< none: all is in the buffer
   CsvParser parser_;
   std::string buffer_;
   double bytes_ = std::numeric_limits<double>::quiet_NaN();  ///< of the file, if known

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <stdexcept>
-
 #include "answers/errors.hpp"
+#include "platform/file_failure.hpp"
 
 /// Makes of words what answers hold, and writes them.
 namespace contensou::program {
 
 using namespace answers;
+using namespace platform;
 
 /// What the program tells its caller.
 enum class ExitStatus {
@@ -16,11 +16,6 @@ enum class ExitStatus {
   bad_input = 2,
   numerical_failure = 3,
   file_failure = 4,
-};
-
-/// A file that cannot be read or written, or a gnuplot that is missing or failed; the message names it and the reason.
-struct FileFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 }  // namespace contensou::program

@@ -7,17 +7,15 @@
 #include <system_error>
 #include <vector>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "answers/parse.hpp"
 #include "contensou/si/run_file.hpp"
 #include "output/help.hpp"
-#include "output/interruption.hpp"
-#include "output/output.hpp"
+#include "platform/interruption.hpp"
+#include "platform/output_file.hpp"
+#include "platform/streams.hpp"
 #include "text/nearest_name.hpp"
 #include "verb.hpp"
 
@@ -212,11 +210,7 @@ ExitStatus guarded(const std::vector<std::string>& arguments) {
 }  // namespace contensou::program
 
 int main(int argc, char** argv) {
-  // The number of a closed standard stream must not become that of a file, which messages would be written into: what
-  // stands in for it here cannot be read or written.
-  int file = 0;
-  while (file >= 0 && file <= STDERR_FILENO) file = ::open("/dev/null", O_PATH);
-  ::close(file);
-  contensou::program::handle_ending_signals();
+  contensou::platform::occupy_closed_streams();
+  contensou::platform::handle_ending_signals();
   return static_cast<int>(contensou::program::guarded({argv + std::min(argc, 1), argv + argc}));
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-#include <unistd.h>
+#include "platform/streams.hpp"
 
 namespace contensou::program {
 
@@ -35,7 +35,7 @@ int BulkOptions::threads() const {
 }
 
 ShowProgress BulkOptions::progress(const std::string& output) const {
-  const bool watched = ::isatty(STDERR_FILENO) != 0 && (output != "-" || ::isatty(STDOUT_FILENO) == 0);
+  const bool watched = is_terminal(Stream::error) && (output != "-" || !is_terminal(Stream::output));
   return progress_.value_or(std::nullopt).value_or(watched ? ShowProgress::of_long_work : ShowProgress::never);
 }
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "output/output.hpp"
+#include "platform/output_file.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::program {

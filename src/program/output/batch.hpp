@@ -7,8 +7,8 @@
 
 #include "answers/csv.hpp"
 #include "exit_status.hpp"
-#include "output/output.hpp"
 #include "output/progress.hpp"
+#include "platform/output_file.hpp"
 
 namespace contensou::program {
 

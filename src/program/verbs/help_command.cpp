@@ -10,8 +10,8 @@
 #include "contensou/si/quantity.hpp"
 #include "options/law_option.hpp"
 #include "output/help.hpp"
-#include "output/output.hpp"
 #include "output/theory.hpp"
+#include "platform/output_file.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {

@@ -18,9 +18,9 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "options/figure_options.hpp"
 #include "options/output_options.hpp"
-#include "output/interruption.hpp"
-#include "output/output.hpp"
 #include "paper/statements.hpp"
+#include "platform/interruption.hpp"
+#include "platform/output_file.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {

@@ -22,8 +22,8 @@
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/ordered_work.hpp"
-#include "output/output.hpp"
 #include "output/progress.hpp"
+#include "platform/output_file.hpp"
 #include "verb.hpp"
 #include "verbs/stop_times.hpp"
 

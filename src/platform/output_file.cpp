@@ -1,4 +1,4 @@
-#include "output/output.hpp"
+#include "platform/output_file.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -13,10 +13,10 @@
 
 #include <fmt/format.h>
 
-#include "exit_status.hpp"
-#include "output/interruption.hpp"
+#include "platform/file_failure.hpp"
+#include "platform/interruption.hpp"
 
-namespace contensou::program {
+namespace contensou::platform {
 
 namespace {
 
@@ -93,7 +93,8 @@ void OutputFile::write(std::string_view content) {
 
 void OutputFile::finish() {
   const BlockedSignals wait;
-  if (!unfinished_.empty()) ::fchmod(file_, mode_);  // fails where a file system knows no permissions
+  if (!unfinished_.empty())
+    ::fchmod(file_, static_cast<mode_t>(mode_));  // fails where a file system knows no permissions
   if (::close(std::exchange(file_, -1)) != 0) fail(errno);
   if (unfinished_.empty()) return;
   if (std::rename(unfinished_.c_str(), target_.c_str()) != 0) fail(errno);
@@ -108,4 +109,4 @@ void write_output(const std::string& path, std::string_view content) {
   file.finish();
 }
 
-}  // namespace contensou::program
+}  // namespace contensou::platform

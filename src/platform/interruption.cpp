@@ -1,9 +1,10 @@
-#include "output/interruption.hpp"
+#include "platform/interruption.hpp"
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -11,7 +12,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace contensou::program {
+#include "platform/streams.hpp"
+
+namespace contensou::platform {
 
 namespace {
 
@@ -61,7 +64,7 @@ void handle_ending_signals() {
 
 int open_unfinished(const std::string& folder, const std::string& target, std::string& path) {
   // A terminal shows ^C, or a progress bar, in the line.
-  const char* new_line = ::isatty(STDERR_FILENO) != 0 ? "\n" : "";
+  const char* new_line = is_terminal(Stream::error) ? "\n" : "";
   std::snprintf(message.data(), message.size(), "%scontensou: interrupted: %s was not written, nothing is left of it\n",
                 new_line, target.c_str());
   // The name is in the handler's hands before the file exists: mkostemp fills it in, then creates the file.
@@ -77,11 +80,15 @@ int open_unfinished(const std::string& folder, const std::string& target, std::s
 
 void forget_unfinished() { is_unfinished = false; }
 
-BlockedSignals::BlockedSignals() {
+struct BlockedSignals::Signals {
+  sigset_t set;
+};
+
+BlockedSignals::BlockedSignals() : before_(std::make_unique<Signals>()) {
   const sigset_t ending = ending_signals();
-  ::pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  ::pthread_sigmask(SIG_BLOCK, &ending, &before_->set);
 }
 
-BlockedSignals::~BlockedSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+BlockedSignals::~BlockedSignals() { ::pthread_sigmask(SIG_SETMASK, &before_->set, nullptr); }
 
-}  // namespace contensou::program
+}  // namespace contensou::platform

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <csignal>
+#include <memory>
 #include <string>
 
-namespace contensou::program {
+namespace contensou::platform {
 
 /// From now on a signal that ends the program first removes the unfinished file and says so, and then ends the program
 /// as it does by itself (130 to a shell after Ctrl-C), also where the program is process 1 of a container. What is
@@ -30,7 +30,8 @@ class BlockedSignals {
   BlockedSignals& operator=(const BlockedSignals&) = delete;
 
  private:
-  sigset_t before_{};
+  struct Signals;
+  std::unique_ptr<Signals> before_;
 };
 
-}  // namespace contensou::program
+}  // namespace contensou::platform

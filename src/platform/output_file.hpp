@@ -4,9 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <sys/types.h>
-
-namespace contensou::program {
+namespace contensou::platform {
 
 /// Where results go, piece by piece. A file appears whole or not at all: it is written under another name in the same
 /// folder, then renamed; links stay and lead to the new file, which has the permissions of the old one. Standard
@@ -34,11 +32,11 @@ class OutputFile {
   std::string path_;
   std::string target_;      ///< the file that links lead to, so that it is replaced and they stay
   std::string unfinished_;  ///< its name until it is renamed; empty: written to directly
-  mode_t mode_ = 0;
+  unsigned mode_ = 0;       ///< permissions
   int file_ = -1;
 };
 
 /// Writes all of it as an OutputFile.
 void write_output(const std::string& path, std::string_view content);
 
-}  // namespace contensou::program
+}  // namespace contensou::platform

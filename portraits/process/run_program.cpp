@@ -1,0 +1,96 @@
+#include "process/run_program.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <iterator>
+#include <system_error>
+
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace contensou::portraits {
+
+namespace {
+
+/// The status of a program that cannot be run, as a shell's.
+constexpr int not_run = 127;
+
+/// A file in memory, for a program to read or to write.
+class MemoryFile {
+ public:
+  MemoryFile() {
+    if (file_ < 0) fail();
+  }
+  explicit MemoryFile(std::string_view content) : MemoryFile() {
+    while (!content.empty()) {  // a limit is met by the write after the one that it cuts short
+      const ssize_t written = ::write(file_, content.data(), content.size());
+      if (written < 0) fail();
+      content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    ::lseek(file_, 0, SEEK_SET);
+  }
+  ~MemoryFile() { ::close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  int get() const { return file_; }
+
+  std::string content() const {
+    std::string text(static_cast<std::size_t>(::lseek(file_, 0, SEEK_END)), '\0');
+    if (::pread(file_, text.data(), text.size(), 0) != std::ssize(text)) fail();
+    return text;
+  }
+
+ private:
+  [[noreturn]] static void fail() { throw std::system_error(errno, std::generic_category()); }
+
+  int file_ = ::memfd_create("contensou", MFD_CLOEXEC);
+};
+
+/// @return  its status as of waitpid()
+int run(std::vector<const char*> command, const MemoryFile& input, const MemoryFile& output, const MemoryFile& messages,
+        unsigned seconds) {
+  command.push_back(nullptr);
+  std::vector<const char*> environment{"LC_ALL=C.UTF-8"};
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!std::string_view(*variable).starts_with("LC_ALL=")) environment.push_back(*variable);
+  }
+  environment.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child == 0) {  // only what is async-signal-safe: other threads may hold locks
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    std::signal(SIGALRM, SIG_DFL);
+    ::alarm(seconds);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() == parent && ::dup2(input.get(), STDIN_FILENO) >= 0 && ::dup2(output.get(), STDOUT_FILENO) >= 0 &&
+        ::dup2(messages.get(), STDERR_FILENO) >= 0) {
+      ::execvpe(command.front(), const_cast<char**>(command.data()), const_cast<char**>(environment.data()));
+    }
+    ::_exit(not_run);
+  }
+  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // where nobody is told a status, the picture decides
+  while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return status;
+}
+
+}  // namespace
+
+ProgramRun run_program(std::vector<const char*> command, std::string_view input, unsigned seconds) {
+  const MemoryFile in(input), out, messages;
+  const int status = run(std::move(command), in, out, messages, seconds);
+  ProgramRun result{ProgramRun::End::exited, WEXITSTATUS(status), out.content(), messages.content()};
+  if (WIFSIGNALED(status)) {
+    result.number = WTERMSIG(status);
+    result.end = result.number == SIGALRM ? ProgramRun::End::out_of_time : ProgramRun::End::ended_by_signal;
+  } else if (result.number == not_run) {
+    result.end = ProgramRun::End::not_run;
+  }
+  return result;
+}
+
+}  // namespace contensou::portraits

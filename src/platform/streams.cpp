@@ -1,0 +1,16 @@
+#include "platform/streams.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace contensou::platform {
+
+bool is_terminal(Stream stream) { return ::isatty(stream == Stream::error ? STDERR_FILENO : STDOUT_FILENO) != 0; }
+
+void occupy_closed_streams() {
+  int file = 0;
+  while (file >= 0 && file <= STDERR_FILENO) file = ::open("/dev/null", O_PATH);
+  ::close(file);
+}
+
+}  // namespace contensou::platform
