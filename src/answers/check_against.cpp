@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "answers/headings.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/contact_cone.hpp"
@@ -16,26 +19,79 @@ namespace contensou::answers {
 
 namespace {
 
-struct Instant {
-  long line;
-  double t;  ///< s
-  si::SlipAndSpin speeds;
+/// The columns of a table that say a motion.
+class MotionColumns {
+ public:
+  /// @throws BadLine  if one is missing
+  MotionColumns(const CsvReader& table, const si::Ball& ball)
+      : table_(table), radius_(ball.radius), time_(needed(time_name(), "s")) {
+    slip_ = find_column(table, "slip", "m/s");
+    rigid_ = !slip_ && find_column(table, "vx", "m/s");
+    if (!rigid_ && !slip_) {
+      fail(
+          "no column is called 'slip': a motion has columns t (or time), slip and spin (or wz), or of a rigid body vx, "
+          "vy, wx, wy, wz");
+    }
+    if (rigid_) {
+      velocity_ = {needed("vx", "m/s"), needed("vy", "m/s")};
+      if (!ball.body.lies_flat()) turning_ = {needed("wx", "rad/s"), needed("wy", "rad/s")};
+    }
+    const auto spin = find_column(table, "spin", "rad/s"), wz = find_column(table, "wz", "rad/s");
+    spin_ = spin ? *spin : wz ? *wz : needed(rigid_ ? "wz" : "spin", "rad/s");
+    if (spin) same_ = wz;
+  }
+
+  Instant read(const CsvRow& row) const {
+    const auto value = [&](const SiColumn& column) { return column.factor * table_.number(row, column.column); };
+    Instant instant{row.line(), value(time_), {0, value(spin_)}};
+    if (same_) {
+      if (const double wz = value(*same_); wz != instant.speeds.spin) {
+        throw table_.complaint(instant.line,
+                               fmt::format("spin {} and wz {} are one angular velocity, and differ: leave one of "
+                                           "the columns out",
+                                           instant.speeds.spin, wz));
+      }
+    }
+    if (rigid_) {
+      double x = value(velocity_[0]), y = value(velocity_[1]);
+      if (!turning_.empty()) {
+        x -= radius_ * value(turning_[1]);
+        y += radius_ * value(turning_[0]);
+      }
+      instant.speeds.slip = std::hypot(x, y);
+    } else {
+      instant.speeds.slip = value(*slip_);
+    }
+    return instant;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw table_.complaint(table_.header_line(), message); }
+
+  const char* time_name() const {
+    const bool t = find_column(table_, "t", "s").has_value(), time = find_column(table_, "time", "s").has_value();
+    if (t && time) fail("columns t and time are both there: leave one of them out");
+    return time ? "time" : "t";
+  }
+
+  SiColumn needed(std::string_view name, std::string_view unit) const {
+    if (const auto column = find_column(table_, name, unit)) return *column;
+    return {table_.column(name)};  // says that there is none
+  }
+
+  const CsvReader& table_;
+  double radius_;
+  SiColumn time_, spin_{};
+  std::optional<SiColumn> slip_, same_;
+  bool rigid_ = false;
+  std::vector<SiColumn> velocity_, turning_;
 };
 
-std::vector<Instant> read_instants(CsvReader& table) {
-  const CsvColumn t = table.column("t"), slip = table.column("slip");
-  const bool both = table.has_column("spin") && table.has_column("wz");
-  const CsvColumn spin = table.column(!table.has_column("spin") && table.has_column("wz") ? "wz" : "spin");
-  const CsvColumn same = both ? table.column("wz") : spin;
+std::vector<Instant> read_instants(CsvReader& table, const si::Ball& ball) {
+  const MotionColumns columns(table, ball);
   std::vector<Instant> instants;
   table.for_each_row([&](const CsvRow& row) {
-    const Instant instant{row.line(), table.number(row, t), {table.number(row, slip), table.number(row, spin)}};
-    if (const double wz = table.number(row, same); wz != instant.speeds.spin) {
-      throw table.complaint(instant.line,
-                            fmt::format("spin {} and wz {} are one angular velocity, and differ: leave one of "
-                                        "the columns out",
-                                        instant.speeds.spin, wz));
-    }
+    const Instant instant = columns.read(row);
     if (instant.speeds.slip < 0)
       throw table.complaint(instant.line,
                             fmt::format("slip: a speed, 0 or more, is needed, got {}", instant.speeds.slip));
@@ -54,23 +110,19 @@ std::vector<Instant> read_instants(CsvReader& table) {
   return instants;
 }
 
-/// @param motion  slip and spin at a time in s from the start
-template <class Motion>
-ModelBeside beside(std::string name, const Motion& motion, const std::vector<Instant>& instants,
-                   const MotionsBeside& scale, double tolerance) {
-  ModelBeside model{std::move(name), {}, {}};
-  for (const auto& [line, t, speeds] : instants) {
-    const si::SlipAndSpin modelled = motion(t - instants.front().t);
+/// Compares a model with the rows.
+void compare(ModelBeside& model, const MotionsBeside& motions, double tolerance) {
+  for (const auto& [line, t, speeds] : motions.rows) {
+    const si::SlipAndSpin modelled = model.motion(t - motions.rows.front().t);
     const auto take = [&, at = t](Deviation& deviation, double error, double unit) {
       if (error > deviation.error || std::isinf(deviation.t)) {
         deviation = {.error = error, .relative = error / unit, .t = at, .leaves = deviation.leaves};
       }
       if (error / unit > tolerance) deviation.leaves = std::min(deviation.leaves, at);
     };
-    take(model.slip, std::abs(speeds.slip - modelled.slip), scale.slip_unit);
-    take(model.spin, std::abs(speeds.spin - modelled.spin), scale.spin_unit);
+    take(model.slip, std::abs(speeds.slip - modelled.slip), motions.slip_unit);
+    take(model.spin, std::abs(speeds.spin - modelled.spin), motions.spin_unit);
   }
-  return model;
 }
 
 }  // namespace
@@ -86,7 +138,7 @@ const ModelBeside& MotionsBeside::nearest() const {
 MotionsBeside compare_with_motions(const std::string& path, const si::Experiment& ball, const si::Description& values,
                                    const reduction::Law& law, double tolerance) {
   CsvReader table(path);
-  const std::vector<Instant> instants = read_instants(table);
+  const std::vector<Instant> instants = read_instants(table, ball.ball);
   const si::SlipAndSpin first = instants.front().speeds;
   si::Description first_row;
   first_row.set(si::slip, {first.slip}, {"", "slip of the first row", ""});
@@ -102,20 +154,25 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
     throw table.complaint(instants.front().line, "the ball is at rest in the first row: there is no motion to compare");
   }
   const double R = experiment.ball.radius;
-  MotionsBeside result{
-      {slip, si::spin_at_start(experiment)}, slip > 0 ? slip : R * spin, spin > 0 ? spin : slip / R, {}};
-  const auto add = [&](std::string name, const auto& motion) {
-    result.models.push_back(beside(std::move(name), motion, instants, result, tolerance));
+  MotionsBeside result{.rows = instants,
+                       .start = {slip, si::spin_at_start(experiment)},
+                       .slip_unit = slip > 0 ? slip : R * spin,
+                       .spin_unit = spin > 0 ? spin : slip / R,
+                       .models = {}};
+  const auto add = [&](std::string name, std::function<si::SlipAndSpin(double)> motion) {
+    ModelBeside model{std::move(name), std::move(motion)};
+    compare(model, result, tolerance);
+    result.models.push_back(std::move(model));
   };
   const auto speeds_of = [](const auto& motion) {
-    return [&motion](double t) {
+    return [motion](double t) {
       const si::MotionPoint point = motion.at_time(t);
       return si::SlipAndSpin{point.slip, point.angular_velocity.z()};
     };
   };
   add(law.name(), speeds_of(si::BallMotion(experiment, law)));
   add("textbook (uncoupled)", speeds_of(si::UncoupledMotion(experiment, law)));
-  add("pyramid (engines)", [&, arm = si::contact_of(experiment, law).moment_arm()](double t) {
+  add("pyramid (engines)", [experiment, arm = si::contact_of(experiment, law).moment_arm()](double t) {
     return si::speeds_under_pyramid(experiment, arm, t);
   });
   for (const reduction::Law& other : reduction::named_laws()) {

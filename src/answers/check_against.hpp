@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -22,13 +23,22 @@ struct Deviation {
 /// A model of the motion beside a table.
 struct ModelBeside {
   std::string name;
-  Deviation slip, spin;
+  std::function<si::SlipAndSpin(double)> motion;  ///< at a time in s from the first row
+  Deviation slip = {}, spin = {};
 
   double worst() const;  ///< relative
 };
 
-/// A table of t, slip and spin beside the motions of a ball that starts as it does.
+/// A row of a table.
+struct Instant {
+  long line;
+  double t;  ///< s
+  si::SlipAndSpin speeds;
+};
+
+/// A table of a ball's motion beside those of a ball that starts as it does.
 struct MotionsBeside {
+  std::vector<Instant> rows;
   si::SlipAndSpin start;
   double slip_unit, spin_unit;      ///< what errors are shares of, in m/s and rad/s
   std::vector<ModelBeside> models;  ///< the law's own first
@@ -37,7 +47,10 @@ struct MotionsBeside {
   const ModelBeside& nearest() const;
 };
 
-/// @param path       of a file with columns t, slip and spin (or wz, as roll calls it), in SI units; "-" is standard input
+/// The log of a rigid body: slip is |(vx - R wy, vy + R wx)|, Zh98 (2.1), of a body that lies flat |(vx, vy)|.
+///
+/// @param path       of a file with columns t (or time), slip and spin (or wz, as roll calls it), or, of a rigid body, vx, vy,
+///                   wx, wy, wz in place of slip and spin; in SI units or in those behind their names; "-" is standard input
 /// @param ball       starts as the first row says
 /// @param values     in place of those of the first row
 /// @param tolerance  a share of the start

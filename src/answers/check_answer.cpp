@@ -75,7 +75,7 @@ constexpr Field<MotionsBeside> beside_fields[]{
      "textbook",
      [](const MotionsBeside& motions) {
        Json models = Json::array();
-       for (const auto& [name, slip, spin] : motions.models) {
+       for (const auto& [name, motion, slip, spin] : motions.models) {
          models.push_back({{"model", name}, {"slip", slip.relative}, {"spin", spin.relative}});
        }
        return models;
@@ -138,7 +138,7 @@ std::string as_text(const MotionsBeside& motions, const Digits& digits) {
   const ModelBeside& own = motions.models.front();
   TextTable table({TextTable::left(), TextTable::right(digits.width()), TextTable::right(digits.width())});
   table.add({"worst share of the start", "slip", "spin"});
-  for (const auto& [name, slip, spin] : motions.models) {
+  for (const auto& [name, motion, slip, spin] : motions.models) {
     table.add({label(name), digits(slip.relative), digits(spin.relative)});
   }
   return fmt::format("\n{}{}\n{}\nnearest: {}\n", deviation_text("slip", "m/s", own.slip, digits),
@@ -163,7 +163,7 @@ BesideAnswer check_against_answer(const MotionsBeside& motions, const std::strin
   const auto row = [&](const char* name, const Deviation& off) {
     return CheckedLaw{law, {name, off.relative, tolerance}, off};
   };
-  const auto& [own, slip, spin] = motions.models.front();
+  const auto& [own, motion, slip, spin] = motions.models.front();
   const std::vector<CheckedLaw> rows{
       row(motions.start.slip > 0 ? "slip error / slip at start" : "slip error / R spin at start", slip),
       row(motions.start.spin != 0 ? "spin error / spin at start" : "R spin error / slip at start", spin)};
@@ -179,10 +179,12 @@ std::vector<FieldText> check_fields() {
 }
 
 std::vector<FieldText> check_against_fields() {
-  return joined(
-      {{{"in: `t`; `slip`; `spin` or `wz`", "s; m/s; rad/s", "rows in order of time, the first is the start"}},
-       texts_of(deviation_fields),
-       texts_of(beside_fields)});
+  return joined({{{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
+                   "rows in order of time, the first is the start; or in another unit, as in 'wz [rpm]'"},
+                  {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
+                   "of a rigid body, in place of slip and spin, z up; of one that lies flat without wx, wy"}},
+                 texts_of(deviation_fields),
+                 texts_of(beside_fields)});
 }
 
 }  // namespace contensou::answers

@@ -75,6 +75,11 @@ std::vector<VerbFields> field_table() {
            {"`view`, `window` [U, V], `version`, `ball`, `seconds_per_tau`", "",
             "where it comes from; the last two of a ball"},
        }},
+      {"portrait --system",
+       {
+           {"`system`, `kind`, `rays`; `centre`; `window`", "", "as `reduce` has them; [[U1, U2], [V1, V2]]"},
+           {"CSV `kind`, `index`, `u`, `v`, `tau`", "", "as `portrait` has them; inf where the centre is not reached"},
+       }},
       {"portrait --facts", phase_plane_fields()},
       {"sweep",
        {

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/si/quantity.hpp"
+#include "answers/headings.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::answers {
@@ -17,30 +16,6 @@ namespace {
 
 constexpr std::string_view deviation = "_sd";
 constexpr const char* frame = "frame";
-
-/// A name of the header, with the unit in brackets behind it.
-struct Heading {
-  std::string name, unit;
-};
-
-Heading heading_of(std::string_view text) {
-  text = without_spaces(text);
-  const std::size_t open = text.find_first_of("[(");
-  if (open == std::string_view::npos || (text.back() != ']' && text.back() != ')')) return {std::string(text), ""};
-  return {std::string(without_spaces(text.substr(0, open))),
-          std::string(without_spaces(text.substr(open + 1, text.size() - open - 2)))};
-}
-
-/// How many SI units one of that unit is; an angle's is the radian.
-/// @throws NotAllowed
-double factor_of(const std::string& unit, std::string_view si_unit) {
-  if (unit.empty()) return 1;
-  const bool angle = si_unit == "rad";
-  const si::Dimension& dimension = *si::find_dimension(angle ? "deg" : si_unit);
-  const auto value = si::parse_quantity("1 " + unit, dimension);
-  if (!value) throw BadInput(fmt::format("{} is no unit of it: use {}", quotation(unit), si::units_of(dimension)));
-  return angle ? *value * (std::numbers::pi / 180) : *value;
-}
 
 /// Of a field: empty, and what numpy and R write for it, was not.
 bool is_measured(std::string_view field) {
@@ -51,16 +26,10 @@ bool is_measured(std::string_view field) {
   return true;
 }
 
-struct TrackColumn {
-  CsvColumn column;
-  std::string unit = {};  ///< as it stands there
-  double factor = 1;
-};
-
 struct SeriesColumns {
   fit::Observable observable;
-  TrackColumn value;
-  std::optional<TrackColumn> sd;
+  SiColumn value;
+  std::optional<SiColumn> sd;
 };
 
 /// Whether a length or speed without a unit seems to be in mm.
@@ -98,18 +67,8 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     if (!is_read) unread.insert(headings.back().name);
   }
   const auto fail = [&](const std::string& message) { throw table.complaint(table.header_line(), message); };
-  const auto column = [&](const std::string& name, std::string_view si_unit) -> std::optional<TrackColumn> {
-    std::optional<TrackColumn> found;
-    for (std::size_t i = 0; i < headings.size(); ++i) {
-      if (headings[i].name != name) continue;
-      if (found) fail(fmt::format("two columns are called '{}'; one is allowed", name));
-      try {
-        found = {{table.names()[i], i}, headings[i].unit, factor_of(headings[i].unit, si_unit)};
-      } catch (const BadInput& error) {
-        fail(fmt::format("column {}: {}", quotation(table.names()[i]), error.what()));
-      }
-    }
-    return found;
+  const auto column = [&](const std::string& name, std::string_view si_unit) {
+    return find_column(table, name, si_unit);
   };
 
   auto time = column("t", "s");

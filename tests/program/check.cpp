@@ -173,6 +173,53 @@ TEST_CASE("an engine's pyramid is known for what it is", "[cli]") {
   CHECK_THAT(run.out, Contains("nearest: pyramid (engines)\n"));
 }
 
+TEST_CASE("the log of a rigid body is a motion, too, in any units", "[route]") {
+  // By the equations of motion, which know nothing of slip and spin; a shot that swerves. Its columns without slip.
+  const auto log_of = [](const std::string& ball, bool lies_flat, double time_unit, double speed, double turning) {
+    const auto json = json_of("roll --route integrated --format json --samples 80 " + ball);
+    std::string table = lies_flat ? "time [ms],x,y,vx [mm/s],vy [mm/s],wz [rpm]\n"
+                                  : "time [ms],x,y,vx [mm/s],vy [mm/s],wx [rpm],wy [rpm],wz [rpm]\n";
+    for (std::size_t i = 0; i < json.at("t").size(); ++i) {
+      const auto at = [&](const char* name) { return json.at(name)[i].get<double>(); };
+      table +=
+          fmt::format("{:.17g},{},{},{:.17g},{:.17g},", time_unit * at("t"), 0, 0, speed * at("vx"), speed * at("vy"));
+      if (!lies_flat) table += fmt::format("{:.17g},{:.17g},", turning * at("wx"), turning * at("wy"));
+      table += fmt::format("{:.17g}\n", turning * at("wz"));
+    }
+    return table;
+  };
+  const double rpm = 30 / std::acos(-1.0);
+  for (const std::string start : {"--ball gel --velocity 1,0.3 --angular-velocity 20,-50,100",
+                                  "--ball gel --velocity 1,2 --angular-velocity 10,0,0", "--ball puck"}) {
+    const bool puck = start == "--ball puck";
+    const std::string ball = puck ? "puck" : "gel";
+    INFO(start);
+    const Run run =
+        run_program("check --tolerance 1e-9 --against - --ball " + ball, log_of(start, puck, 1e3, 1e3, rpm));
+    INFO(run.out << run.err);
+    CHECK(run.status == 0);
+    CHECK_THAT(run.out, Contains(puck ? "nearest: uniform" : "nearest: exact"));
+    // In the wrong units it is another motion.
+    CHECK(run_program("check --against - --ball " + ball, log_of(start, puck, 1e3, 1e3, 1.1 * rpm)).status == 1);
+  }
+  // The contact point decides, not the centre: a ball that rolls does not slide.
+  const auto rolls = nlohmann::json::parse(
+      run_program("check --format json --ball pool --against -",
+                  "t,vx,vy,wx,wy,wz\n0,1,0,0,34.995625546806649,10\n1,1,0,0,34.995625546806649,0\n")
+          .out);
+  CHECK(rolls.at("start").at("slip") == 0);
+  CHECK(rolls.at("start").at("spin") == 10);
+}
+
+TEST_CASE("a table is drawn against the law", "[cli]") {
+  const std::string table = "t,slip,spin\n0,1,10\n1,0.2,9\n2,0,0\n";
+  const Run run = run_program("check --ball pool --against - -o - --format svg", table);
+  CHECK(run.status == 1);
+  for (const char* words : {"<svg", "law exact", "nearest", "slip, m/s", "table"}) CHECK_THAT(run.out, Contains(words));
+  check_rejected("check --ball pool -o check.svg", "a picture is of a table: add --against FILE");
+  check_rejected("check --ball pool --against - --size 80mm", "--size", table);
+}
+
 TEST_CASE("--slip and --spin are the start in place of the first row's", "[cli]") {
   const std::string motion = run_program("roll --ball pool --slip 2 --spin 50").out;
   CHECK(run_program("check --ball pool --slip 2 --against -", motion).status == 0);
@@ -191,6 +238,12 @@ TEST_CASE("mistakes in a table that is checked", "[cli]") {
   const std::vector<std::pair<std::string, std::string>> tables{
       {"", "<stdin>:1: empty input"},
       {"t,slip\n0,1\n", "<stdin>:1: no column is called 'spin'"},
+      {"t,spin\n0,1\n", "<stdin>:1: no column is called 'slip': a motion has columns t (or time), slip and spin"},
+      {"t,vx,vy,wx,wz\n0,1,0,0,0\n", "<stdin>:1: no column is called 'wy'"},
+      {"t,vx,wx,wy,wz\n0,1,0,0,0\n", "<stdin>:1: no column is called 'vy'"},
+      {"t,time,slip,spin\n0,0,1,1\n", "<stdin>:1: columns t and time are both there"},
+      {"t,slip [kg],spin\n0,0,1\n", "<stdin>:1: column 'slip [kg]': 'kg' is no unit of it"},
+      {"t,slip,slip [mm/s],spin\n0,0,0,1\n", "<stdin>:1: two columns are called 'slip'; one is allowed"},
       {"t,slip,spin\n", "<stdin>:1: two rows or more are needed, got 0"},
       {"t,slip,spin\n0,1,1\n", "<stdin>:2: two rows or more are needed, got 1"},
       {"t,slip,spin\n0,1,1\n1,-1,1\n", "<stdin>:3: slip: a speed, 0 or more, is needed, got -1"},

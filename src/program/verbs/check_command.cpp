@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "answers/check_answer.hpp"
+#include "answers/check_figure.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/verification.hpp"
+#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
@@ -25,9 +27,10 @@ class CheckCommand final : public Verb {
     app.option_defaults()->group("Against a table");
     against_.add(
         app, "--against", "FILE",
-        "with --ball: the motion in this CSV, of an engine or a camera, against that of the law; columns "
-        "t,slip,spin (or wz) in SI units; it starts as its first row, but for --slip and --spin; - is standard "
-        "input");
+        "with --ball: the motion in this CSV, of an engine or a camera, against that of the law; columns t (or "
+        "time), slip, spin (or wz), or of a rigid body vx, vy, wx, wy, wz in place of slip and spin, in SI units or "
+        "with a unit, as in 'wz [rpm]'; it starts as its first row, but for --slip and --spin; - is standard input; a "
+        "picture shows both");
     tolerance_.add(
         app, "--tolerance", "SHARE",
         fmt::format("of slip and spin at the start, by which they may be off (default {})", standard_tolerance),
@@ -36,12 +39,15 @@ class CheckCommand final : public Verb {
           if (!(share > 0)) throw NotAllowed("a share above 0 is needed");
           return share;
         });
+    figure_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
+    figure_.require_picture(output);
     if (against_.given()) return compare(output);
+    if (output.picture()) throw BadInput("a picture is of a table: add --against FILE, or leave it out");
     if (tolerance_.given()) throw BadInput("--tolerance is for a table: add --against FILE");
     const bool of_one_start = start_.given() || start_.body_argument().given();
     const bool one_law = law_.given() || start_.brings_law();
@@ -70,7 +76,11 @@ class CheckCommand final : public Verb {
     const double tolerance = tolerance_.value_or(standard_tolerance);
     const MotionsBeside motions = compare_with_motions(against_.text(), ball, start_.given_values(), law, tolerance);
     const auto [answer, passed] = check_against_answer(motions, law.name(), tolerance);
-    output.write(answer);
+    if (output.picture()) {
+      output.write({figure_.apply(check_figure(motions, ball.ball.name, figure_.size()), output.format)});
+    } else {
+      output.write(answer);
+    }
     return status_of(passed);
   }
 
@@ -84,7 +94,8 @@ class CheckCommand final : public Verb {
   LawOption law_;
   Argument against_;
   ArgumentOf<double> tolerance_;
-  OutputOptions output_{{{"a table of checks", answer_formats("text")}}};
+  FigureOptions figure_;
+  OutputOptions output_{{{"a table of checks", with_pictures(answer_formats("text"))}}};
 };
 
 const RegisteredVerb<CheckCommand> check_verb("check", "Every statement of the theory as a number that must be small",

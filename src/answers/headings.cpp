@@ -1,0 +1,44 @@
+#include "answers/headings.hpp"
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "contensou/si/quantity.hpp"
+
+namespace contensou::answers {
+
+Heading heading_of(std::string_view text) {
+  text = without_spaces(text);
+  const std::size_t open = text.find_first_of("[(");
+  if (open == std::string_view::npos || (text.back() != ']' && text.back() != ')')) return {std::string(text), ""};
+  return {std::string(without_spaces(text.substr(0, open))),
+          std::string(without_spaces(text.substr(open + 1, text.size() - open - 2)))};
+}
+
+double factor_of(const std::string& unit, std::string_view si_unit) {
+  if (unit.empty()) return 1;
+  const bool angle = si_unit == "rad";
+  const si::Dimension& dimension = *si::find_dimension(angle ? "deg" : si_unit);
+  const auto value = si::parse_quantity("1 " + unit, dimension);
+  if (!value) throw BadInput(fmt::format("{} is no unit of it: use {}", quotation(unit), si::units_of(dimension)));
+  return angle ? *value * (std::numbers::pi / 180) : *value;
+}
+
+std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit) {
+  const auto fail = [&](const std::string& message) { throw table.complaint(table.header_line(), message); };
+  std::optional<SiColumn> found;
+  for (std::size_t i = 0; i < table.names().size(); ++i) {
+    const auto [of, unit] = heading_of(table.names()[i]);
+    if (of != name) continue;
+    if (found) fail(fmt::format("two columns are called '{}'; one is allowed", name));
+    try {
+      found = {{table.names()[i], i}, unit, factor_of(unit, si_unit)};
+    } catch (const BadInput& error) {
+      fail(fmt::format("column {}: {}", quotation(table.names()[i]), error.what()));
+    }
+  }
+  return found;
+}
+
+}  // namespace contensou::answers

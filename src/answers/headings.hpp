@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "answers/csv.hpp"
+
+namespace contensou::answers {
+
+/// A name of a table's header, with the unit in brackets behind it, as in "spin [rpm]".
+struct Heading {
+  std::string name, unit;
+};
+
+Heading heading_of(std::string_view text);
+
+/// How many SI units one of that unit is; an angle's is the radian. 1 for none.
+/// @throws BadInput  for a unit of something else
+double factor_of(const std::string& unit, std::string_view si_unit);
+
+/// A column of numbers, and how many SI units one of it is.
+struct SiColumn {
+  CsvColumn column;
+  std::string unit = {};  ///< as it stands there
+  double factor = 1;
+};
+
+/// The column of that name, in whatever unit its heading has; nothing if there is none.
+/// @throws BadLine  for two of that name, or a unit of something else
+std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit);
+
+}  // namespace contensou::answers
