@@ -17,7 +17,7 @@ set(python_uses reduction portraits text si fit answers)
 set(page_uses reduction portraits text si fit answers)
 
 set(faults "")
-set(odeint_allowed reduction/steppers/direct_motion.cpp reduction/steppers/regularised_motion.cpp src/si/integrated_motion.cpp)
+set(odeint_allowed reduction/check/direct_motion.cpp reduction/check/regularised_motion.cpp src/si/integrated_motion.cpp)
 set(read 0)
 set(gnuplot_files "")
 set(odeint_files "")
@@ -59,7 +59,7 @@ foreach(folder IN ITEMS reduction portraits src)
 endforeach()
 
 # The rooms of reduction: a file may use its own room and those of the floors before it.
-set(floors numerics laws system "similarity symmetry steppers" "stop_times planar" check)
+set(floors numerics laws system similarity "motion planar" check)
 set(floor_count 0)
 foreach(floor IN LISTS floors)
   string(REPLACE " " ";" rooms "${floor}")

@@ -350,7 +350,7 @@ void require(Window window, const PortraitRequest& request) {
 
 PhasePortrait portrait_in(const Flow& flow, View view, Window window, const PortraitRequest& request,
                           const std::vector<double>& times) {
-  const reduction::PhasePlane plane = reduction::phase_plane(flow.system());
+  const reduction::PhasePlane plane = reduction::phase_plane(flow);
   const SpeedScale scale = scale_of(plane, view, window, request.linear || request.stepped);
   const OrbitTracer tracer(flow, window, scale, request.stepped);
   PhasePortrait portrait{flow, plane, view, window, scale, {}, {}, {}, {}, request.through, {}};

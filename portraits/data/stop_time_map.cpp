@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/stop_time_table.hpp"
 #include "data/isochrones.hpp"
 #include "data/round_numbers.hpp"
 
@@ -40,7 +39,8 @@ StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, doub
   StopTimeMap map{flow.system().law().name(), flow.system().mu(), axes, Eigen::ArrayXXd(rows, columns), {}};
   std::vector<double> row(static_cast<std::size_t>(columns));
   for (Eigen::Index i = 0; i < rows; ++i) {
-    flow.table().evaluate_row({u0.data(), row.size()}, v0[i], row);
+    const std::vector<double> same(row.size(), v0[i]);
+    flow.stop_times({u0.data(), row.size()}, same, row, 1, static_cast<std::size_t>(map.tau.size()));
     map.tau.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), columns).array();
   }
   if (!map.tau.allFinite()) {

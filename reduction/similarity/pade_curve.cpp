@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/pade_sliding_coefficient.hpp"
 #include "similarity/pade_relaxation.hpp"
 #include "similarity/regular_solution.hpp"
 
@@ -48,6 +47,29 @@ Fractions fractions(double z) {
   return {far / (1 + far), 1 / (1 + far), z - near, -near};
 }
 
+/// A series in powers of t, -1 to 1, whose last terms are below 1e-15 of its first.
+template <std::size_t size>
+double polynomial(const std::array<double, size>& c, double t) {
+  double sum = 0;
+  for (auto each = c.rbegin(); each != c.rend(); ++each) sum = sum * t + *each;
+  return sum;
+}
+
+// PadeRelaxation::connection for r from 0 to max_r as Chebyshev series, in powers of 2 r/max_r - 1. What they leave out
+// is below 1e-16. Of m: P = 2/(2 - r), d = r/(5 - r). Of o: P = (2 + r)/(2 - r), d = 2 r/(5 - r).
+constexpr std::array sliding_connection{0.13098133908826342,    0.14712431422470077,    0.017486965431931466,
+                                        0.0014499083005106165,  0.0001198768867676149,  1.6625834747415241e-5,
+                                        3.130776255969687e-6,   5.3173889915600616e-7,  7.6940519489395121e-8,
+                                        1.0257503490097274e-8,  1.4211779491235669e-9,  2.1984997067812908e-10,
+                                        3.6505220966190519e-11, 6.0420901922827937e-12, 9.5933282524153756e-13,
+                                        1.488034888643292e-13,  2.5955465978654164e-14, 4.1101966992535198e-15};
+constexpr std::array angle_connection{0.24892550007796566,    0.26987207903492529,    0.02587130371114608,
+                                      0.0058422212535475189,  0.0011461418060080496,  0.00027692027831482632,
+                                      6.0321050835561473e-5,  1.4927161439753676e-5,  3.6032802926373734e-6,
+                                      9.0123730537378386e-7,  2.2439123720855124e-7,  5.6878330088585043e-8,
+                                      1.4511188292045263e-8,  3.7232449571183477e-9,  9.0654855946386795e-10,
+                                      2.3253894823493883e-10, 8.7716262566022654e-11, 2.3291591138728139e-11};
+
 }  // namespace
 
 PadeCurve::PadeCurve(double r)
@@ -57,7 +79,9 @@ PadeCurve::PadeCurve(double r)
       a_(r / (2 - r)),
       e_(r / (5 - r)),
       log_ratio_(std::log(B_ / A_)),
-      half_beta_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)) {
+      half_beta_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)),
+      sliding_connection_(polynomial(sliding_connection, 2 * (r / max_r) - 1)),
+      angle_connection_(polynomial(angle_connection, 2 * (r / max_r) - 1)) {
   if (!(r > 0 && r <= max_r)) {
     throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", max_r, r));
   }
@@ -71,14 +95,18 @@ PadeCurve::PadeCurve(double r)
   }
 }
 
-double PadeCurve::limit() const { return min_ln_k; }
+double PadeCurve::linear_below() const { return min_ln_k; }
 
 double PadeCurve::ln_w(double ln_k) const {
   const auto at = fractions(ln_k + log_ratio_);
   return a_ * at.ln_x - e_ * at.ln_y;
 }
 
-double PadeCurve::sliding_coefficient(double ln_k) const { return pade_sliding_coefficient(r(), std::exp(ln_k)); }
+double PadeCurve::sliding_coefficient(double ln_k) const {
+  const double d = 5 - r();
+  const double T = d * (3 * pi / 8 * std::exp(ln_k)) / 2;
+  return value({2.5, 1, (2 - r()) / 2, 5 / d, 1.5 * r() / d, T, sliding_connection_});
+}
 
 double PadeCurve::slip_length_coefficient(double ln_k) const {
   return 8 / (3 * pi) * (1 - r() / 5 * angle_coefficient(ln_k));
@@ -88,7 +116,7 @@ double PadeCurve::angle_coefficient(double ln_k) const {
   const double c = 2 + r();
   const double d = 5 - r();
   const double T = d * (3 * pi / 8 * std::exp(ln_k)) / c;
-  return 5 / (5 + r()) * value({1 + 3 / c, 1, (2 - r()) / c, (5 + r()) / d, 6 * r() / (c * d), T});
+  return 5 / (5 + r()) * value({1 + 3 / c, 1, (2 - r()) / c, (5 + r()) / d, 6 * r() / (c * d), T, angle_connection_});
 }
 
 double PadeCurve::beta_coefficient(double ln_k) const {

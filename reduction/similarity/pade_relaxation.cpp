@@ -1,21 +1,16 @@
 // Notation (README (R28) to (R30)): with p = lambda, q = Q and T
 //   G = 1/(1 + X), X = a_1/(b_1 + a_2/(b_2 + ...)), b_n = 1 + n p                    (R29)
-//   eta = 1/(p + T), y = p eta, N = max(1, round(q)), d = q - N                      (R30)
+//   eta = 1/(p + T), y = p eta, d = q - 1                                             (R30)
 #include "similarity/pade_relaxation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
-
-#include <boost/math/special_functions/gamma.hpp>
 
 namespace contensou::reduction {
 
 namespace {
 
-/// Pairs of (R29), by the slower of its two rates of convergence. What they leave out of m is less than eps/8 but where p
-/// is next to 0, that is r next to 2 or 5: there it is 10 times as much at worst (T = 0.8), still within m's 5 ulp.
+/// Pairs of (R29), by the slower of its two rates of convergence: what they leave out of m is less than eps/8.
 int pairs_of_fraction(double p, double T) {
   // The first rate for t up to a bound, the binary exponents of t in mind.
   if (T < 0.015625 * p) return 4;
@@ -54,66 +49,17 @@ double by_fraction(const PadeRelaxation& at) {
                         : at.end + (at.begin - at.end) * (first / (first + second));
 }
 
-/// lnGamma(1 - d)/d for d < 1.
-double log_gamma_slope(double d) { return d == 0 ? std::numbers::egamma : std::log1p(boost::math::tgamma1pm1(-d)) / d; }
-
-/// log1p(d t)/d, also at d = 0.
-long double log1p_over(long double d, long double t) { return d * t == 0 ? t : std::log1p(d * t) / d; }
-
-/// [lnGamma(P) - lnGamma(P - d)]/d - ln P for P = 1/p: by Stirling's series, once P is raised to 14 or more. In long
-/// double, because what is raised comes off again.
-double log_gamma_quotient(long double p, long double d) {
-  long double raised = 0;  // [product of (1 - d/(P + i)) - 1]/d
-  long double shift = 0;
-  if (p > 1.0L / 14) {
-    const long double P = 1 / p;
-    const int steps = 1 + static_cast<int>(14 - P);
-    for (int i = 0; i < steps; ++i) raised -= (1 + d * raised) / (P + i);
-    shift = std::log1p(steps * p) + log1p_over(d, raised);
-    p = 1 / (P + steps);
-  }
-  // lnGamma(x) = (x - 1/2) ln x - x + 1/(12 x) - 1/(360 x^3) + ... at P and at P - d = 1/s.
-  const long double s = p / (1 - d * p);
-  const long double leading = (1 - (d + 0.5L) * p) * log1p_over(-d * p, 1.0L) - 1;
-  constexpr std::array<long double, 6> stirling{1.0L / 12,    -1.0L / 360, 1.0L / 1260,
-                                                -1.0L / 1680, 1.0L / 1188, -691.0L / 360360};
-  long double tail = 0;
-  long double bracket = 1;  // p^(n-1) + p^(n-2) s + ... + s^(n-1) = -(p^n - s^n)/(d p s), n = 1, 3, 5, ...
-  long double power = p;
-  for (long double coefficient : stirling) {
-    tail -= coefficient * p * s * bracket;
-    bracket = s * s * bracket + power * (p + s);
-    power *= p * p;
-  }
-  return static_cast<double>(leading + tail + shift);
-}
-
-/// By the series (R30) in y, its two infinities at integer q taken together.
-/// @param connection  of d, which is called for only where it counts
-template <class Connection>
-double by_series(const PadeRelaxation& at, Connection connection) {
-  const auto& [begin, end, p, q, excess, T] = at;
+/// By the series (R30) in y, its two infinities at Q = 1 taken together.
+double by_series(const PadeRelaxation& at) {
+  const auto& [begin, end, p, q, excess, T, connection] = at;
   const double eta = 1 / (p + T);
   if (eta == 0) return end;
   const double y = p * eta;
-  const double nearest = q < 1.5 ? 1 : std::round(q);
-  const double d = q - nearest;
-  // The sum below is at most of the size of eta^d, d >= -1/2 where there is a first sum.
-  const double negligible = 1e-18 * std::sqrt(eta);
-  double G = 0;
-  double factor = eta;
-  for (double n = 1; n < nearest; ++n) {
-    G += factor / (q - n);
-    factor *= (excess * eta + n * y) / (n - q);
-    if (std::abs(factor) < negligible) return end + (begin - end) * G;
-  }
-  const double constant = connection(d);
-  const double L = std::log(eta) + constant;
+  const double d = q - 1;
+  const double L = std::log(eta) + connection;
   // Where d L is not small, the power itself keeps a digit that the logarithm has lost, and q one that d has.
-  const auto power = [&, q = q] {
-    return (nearest == 1 ? std::pow(eta, q) / eta : std::pow(eta, d)) * std::exp(d * constant);
-  };
-  const double W = std::abs(d * L) < 0.5 ? expm1_over(d, L) : (power() - 1) / d;
+  const double W =
+      std::abs(d * L) < 0.5 ? expm1_over(d, L) : (std::pow(eta, q) / eta * std::exp(d * connection) - 1) / d;
   double sum = 0;
   double D = 0;
   double e = 1;
@@ -123,13 +69,7 @@ double by_series(const PadeRelaxation& at, Connection connection) {
     D = (D * (eta + (j - d) * y) * (1 + j) + e * (eta - y)) * inverse;
     e *= (eta + j * y) / (1 + j);
   }
-  return end + (begin - end) * (G + factor * sum);
-}
-
-template <class Connection>
-double value_by(const PadeRelaxation& at, Connection connection) {
-  if (at.T == 0) return at.begin;
-  return at.T < 3 * at.p || at.p + at.T < 1.5 ? by_fraction(at) : by_series(at, connection);
+  return end + (begin - end) * eta * sum;
 }
 
 }  // namespace
@@ -137,11 +77,8 @@ double value_by(const PadeRelaxation& at, Connection connection) {
 double expm1_over(double d, double t) { return std::abs(d * t) < 1e-17 ? t : std::expm1(d * t) / d; }
 
 double value(const PadeRelaxation& at) {
-  return value_by(at, [&](double d) { return log_gamma_quotient(at.p, d) + log_gamma_slope(d); });
-}
-
-double value(const PadeRelaxation& at, double connection) {
-  return value_by(at, [&](double) { return connection; });
+  if (at.T == 0) return at.begin;
+  return at.T < 3 * at.p || at.p + at.T < 1.5 ? by_fraction(at) : by_series(at);
 }
 
 }  // namespace contensou::reduction

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "numerics/later.hpp"
 #include "numerics/legendre_series.hpp"
 #include "similarity/regular_solution.hpp"
 
@@ -205,44 +206,52 @@ class QuadratureCurve::Panels {
   double upper_slope_ = 0;  ///< the same as xi -> infinity
 };
 
+struct QuadratureCurve::Parts {
+  Law law;
+  RegularSolution m;
+  Later<RegularSolution> n, o;
+  Later<BetaSolution> b;
+  Later<Panels> panels;
+
+  const Panels& panels_of(const QuadratureCurve& curve) const {
+    return panels.made([&] { return Panels(law, curve); });
+  }
+};
+
 QuadratureCurve::QuadratureCurve(const Law& law, double r, const TerminalChart& chart)
-    : SimilarityCurve(r, chart), law_(law), m_(std::make_unique<RegularSolution>(sliding_solution(law, r, chart))) {}
+    : SimilarityCurve(r, chart), parts_(new Parts{law, sliding_solution(law, r, chart), {}, {}, {}, {}}) {}
 
 QuadratureCurve::~QuadratureCurve() = default;
 
-const QuadratureCurve::Panels& QuadratureCurve::panels() const {
-  return panels_.made([this] { return Panels(law_, *this); });
-}
+double QuadratureCurve::linear_below() const { return parts_->panels_of(*this).limit(); }
 
-double QuadratureCurve::limit() const { return panels().limit(); }
-
-double QuadratureCurve::truncation() const { return m_->truncation(); }
+double QuadratureCurve::truncation() const { return parts_->m.truncation(); }
 
 double QuadratureCurve::accuracy() const { return rounding_of_stop_time(r()) + truncation(); }
 
-long QuadratureCurve::evaluations() const { return m_->evaluations(); }
+long QuadratureCurve::evaluations() const { return parts_->m.evaluations(); }
 
 double QuadratureCurve::sliding_coefficient(double xi) const {
   const double ln_k = chart().log_ratio(xi);
-  return ln_k > max_ln_k ? 1 : (*m_)(ln_k);
+  return ln_k > max_ln_k ? 1 : parts_->m(ln_k);
 }
 
 double QuadratureCurve::slip_length_coefficient(double xi) const {
-  const RegularSolution& n = n_.made([this] { return slip_length_solution(law_, r(), chart()); });
+  const RegularSolution& n = parts_->n.made([this] { return slip_length_solution(parts_->law, r(), chart()); });
   const double ln_k = chart().log_ratio(xi);
   return n(ln_k) * (1 + std::exp(std::min(ln_k, max_ln_k)));
 }
 
 double QuadratureCurve::angle_coefficient(double xi) const {
-  return o_.made([this] { return angle_solution(law_, r(), chart()); })(chart().log_ratio(xi));
+  return parts_->o.made([this] { return angle_solution(parts_->law, r(), chart()); })(chart().log_ratio(xi));
 }
 
-double QuadratureCurve::ln_w(double xi) const { return panels().ln_w(xi); }
+double QuadratureCurve::ln_w(double xi) const { return parts_->panels_of(*this).ln_w(xi); }
 
 double QuadratureCurve::beta_coefficient(double xi) const {
-  return b_.made([this] { return BetaSolution(law_, r(), chart()); })(chart().log_ratio(xi));
+  return parts_->b.made([this] { return BetaSolution(parts_->law, r(), chart()); })(chart().log_ratio(xi));
 }
 
-double QuadratureCurve::time_rate(double xi) const { return panels().time_rate(xi); }
+double QuadratureCurve::time_rate(double xi) const { return parts_->panels_of(*this).time_rate(xi); }
 
 }  // namespace contensou::reduction

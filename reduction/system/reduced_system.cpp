@@ -23,8 +23,10 @@ double positive(const char* name, double value) {
 
 }  // namespace
 
+bool is_state(State state) { return std::isfinite(state.u) && std::isfinite(state.v) && state.v >= 0; }
+
 void require_state(const char* function, State state) {
-  if (!std::isfinite(state.u) || !std::isfinite(state.v) || state.v < 0) {
+  if (!is_state(state)) {
     throw std::domain_error(
         fmt::format("{}: u and v must be finite and v >= 0, got u = {}, v = {}", function, state.u, state.v));
   }

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
 
-#include "contensou/reduction/pade_law.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/infinity.hpp"
 
@@ -148,13 +146,6 @@ TerminalRatios terminal_ratios(const Law& law, double r) {
   constexpr double fast = 0x1p100;
   const double low = law.force_slope() / law.pivoting_moment();
   const double high = 1 / (fast * law({fast, 1}).moment);
-  if (law.as<PadeLaw>()) {
-    // A + B k = 0, (R8).
-    if (r <= 2 * (1 + without_sign)) return {low, high, {}, ends_of({}, {1})};
-    if (r >= 5 * (1 - without_sign)) return {low, high, {}, ends_of({}, {-1})};
-    const std::vector<InvariantRay> ray{{8 * (r - 2) / (3 * std::numbers::pi * (5 - r)), true, true, 2 * eps}};
-    return {low, high, ray, ends_of(ray, {-1, 1})};
-  }
   Search found(law, r);
   auto ends = ends_of(found.rays, found.signs);
   return {low, high, std::move(found.rays), std::move(ends)};

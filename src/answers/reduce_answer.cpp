@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
-#include "contensou/reduction/similarity.hpp"
+#include "contensou/reduction/stop_time.hpp"
 
 namespace contensou::answers {
 

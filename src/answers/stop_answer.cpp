@@ -56,6 +56,7 @@ std::optional<CoarserTable> coarser_table(const GivenStart& start) {
 
 struct StopReport {
   GivenStart start;
+  reduction::Route route;
   reduction::StopTime stop;
   double sliding_only;                             ///< tau of a body that did not pivot
   double pivoting_only;                            ///< tau of a body that did not slide
@@ -82,7 +83,7 @@ constexpr auto of_ball = [](const StopReport& report, auto value) {
 
 constexpr Field<StopReport> fields[]{
     {"law", "", nullptr, [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
-    {"route", "", nullptr, [](const StopReport& r) -> Json { return name(r.stop.route); }},
+    {"route", "", nullptr, [](const StopReport& r) -> Json { return name(r.route); }},
     {"mu", "", nullptr, [](const StopReport& r) -> Json { return r.start.system.mu(); }},
     {"body", "", "1 + m R^2/J, m R^2/J_z",
      [](const StopReport& r) -> Json {
@@ -262,7 +263,7 @@ class Text {
     return fmt::format(
         "tau*   the paper's time, (3 pi/2) f g t: it has the unit of a speed\nlaw    {}{}\nroute  {}: {}\n", law.name(),
         law.as<reduction::PadeLaw>() ? fmt::format(": the paper's approximation,\n       {}", cost_of_pade) : "",
-        name(report_.stop.route), description(report_.stop.route));
+        name(report_.route), description(report_.route));
   }
 
   std::string ending() const {
@@ -303,6 +304,7 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
     flow = system;
   }
   const StopReport report{start,
+                          route,
                           stepped ? reduction::stop_time(system, state, route) : flow->stop_time(state),
                           system.sliding_limit(state.v),
                           system.pivoting_limit(state.u),

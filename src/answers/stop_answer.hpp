@@ -3,7 +3,7 @@
 #include "answers/answer.hpp"
 #include "answers/given_start.hpp"
 #include "answers/record.hpp"
-#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/stop_time.hpp"
 
 namespace contensou::answers {
 

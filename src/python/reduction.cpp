@@ -95,20 +95,12 @@ Flow flow_of(const std::optional<Law>& law, std::optional<double> mu,
 
 /// Into `out`, contiguous and as many as there are starts. What is no start becomes NaN.
 void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_t<double>& out, unsigned threads) {
-  constexpr std::size_t starts_that_pay_for_a_table = 1 << 15;
   const auto count = static_cast<std::size_t>(out.size());
   const double* const us = u.data();
   const double* const vs = v.data();
   double* const taus = out.mutable_data();
   const py::gil_scoped_release released;
-  if (count >= starts_that_pay_for_a_table || threads == 0) {
-    flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
-    return;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool is_state = std::isfinite(us[i]) && std::isfinite(vs[i]) && vs[i] >= 0;
-    taus[i] = is_state ? flow.stop_time({us[i], vs[i]}).tau : std::numeric_limits<double>::quiet_NaN();
-  }
+  flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
 }
 
 /// As stop_times, each start with a mu of its own. The flow is of one of them.
@@ -122,8 +114,8 @@ void stop_times_of_mus(const Flow& flow, const Numbers& mu, const Numbers& u, co
   const py::gil_scoped_release released;
   const reduction::StopTimesOfMu stop_time(flow.system().law(), flow.system().inertia());
   for (std::size_t i = 0; i < count; ++i) {
-    const bool is_state = std::isfinite(us[i]) && std::isfinite(vs[i]) && vs[i] >= 0;
-    taus[i] = is_state ? stop_time(mus[i], {us[i], vs[i]}) : std::numeric_limits<double>::quiet_NaN();
+    const reduction::State start{us[i], vs[i]};
+    taus[i] = is_state(start) ? stop_time(mus[i], start) : std::numeric_limits<double>::quiet_NaN();
   }
 }
 
@@ -142,7 +134,7 @@ py::tuple terminal(const Flow& flow) {
 
 py::list facts(const Flow& flow) {
   py::list points;
-  for (const reduction::SingularPoint& point : reduction::phase_plane(flow.system()).points) {
+  for (const reduction::SingularPoint& point : reduction::phase_plane(flow).points) {
     points.append(py::make_tuple(name(point.direction), name(point.place), point.k, point.q, point.radial,
                                  point.angular, name(point.kind)));
   }

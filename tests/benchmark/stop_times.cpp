@@ -22,12 +22,12 @@
 
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/reduction/stop_time_table.hpp"
+#include "contensou/reduction/stop_times_of_mu.hpp"
+#include "motion/stop_time_loop.hpp"
+#include "motion/stop_time_table.hpp"
 #include "reference_table.hpp"
 #include "rivals.hpp"
-#include "stop_times/stop_time_loop.hpp"
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -232,9 +232,16 @@ int main() {
     own_mu.span()[i] = std::exp(ln_mu(generator));
     own_v.span()[i] = own_mu.span()[i] * std::exp(ln_k(generator));
   }
+  const StopTimesOfMu of_mu(PadeLaw{}, homogeneous_ball);
   measure("own mu", [&] {
     for (std::size_t i = 0; i < own; ++i) {
-      benchmark::DoNotOptimize(pade_stop_time(own_mu.span()[i], {1, own_v.span()[i]}));
+      benchmark::DoNotOptimize(of_mu(own_mu.span()[i], {1, own_v.span()[i]}));
+    }
+  });
+  const Flow flow({PadeLaw{}, 0.1});
+  measure("one flow", [&] {
+    for (std::size_t i = 0; i < own; ++i) {
+      benchmark::DoNotOptimize(flow.stop_time({1, own_v.span()[i]}).tau);
     }
   });
   measure("own mu, exact", [] {

@@ -13,7 +13,6 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/stop_time_table.hpp"
 #include "figures.hpp"
 
 using namespace contensou;

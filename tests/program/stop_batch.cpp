@@ -240,17 +240,23 @@ struct RandomTable {
 
 }  // namespace
 
-TEST_CASE("a long batch has the bits of single calls, however many threads there are", "[route]") {
+TEST_CASE("a long batch has the stop times of single calls, and one set of bits however many threads there are",
+          "[route]") {
   const RandomTable table(100000);
   const Run one = run_program("stop --law pade --batch - --threads 1", table.csv);
   REQUIRE(one.status == 0);
   const auto rows = rows_of(one.out);
   REQUIRE(rows.size() == table.mu.size() + 1);
-  std::size_t different = 0;
+  std::size_t misplaced = 0, different = 0;
   for (std::size_t i = 0; i < table.mu.size(); ++i) {
-    const double tau = stop_time({PadeLaw{}, table.mu[i]}, table.starts[i], Route::closed).tau;
-    if (rows[i + 1].back() != shortest(tau) || rows[i + 1][1] != fmt::format("row {}", i)) ++different;
+    const double tau = Flow({PadeLaw{}, table.mu[i]}).stop_time(table.starts[i]).tau;
+    const bool single = i < 1000;  // from there on by a table for every mu
+    misplaced += rows[i + 1][1] != fmt::format("row {}", i);
+    if (single ? rows[i + 1].back() != shortest(tau) : !(std::abs(std::stod(rows[i + 1].back()) / tau - 1) < 2e-15)) {
+      ++different;
+    }
   }
+  CHECK(misplaced == 0);
   CHECK(different == 0);
   for (const std::string threads : {"2", "3", "16"}) {
     CHECK(run_program("stop --law pade --batch - --threads " + threads, table.csv).out == one.out);

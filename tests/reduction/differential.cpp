@@ -13,10 +13,10 @@
 
 #include "constants.hpp"
 #include "contensou/reduction/direct_motion.hpp"
-#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pressure_law.hpp"
-#include "contensou/reduction/stop_time_table.hpp"
+#include "contensou/reduction/stop_time.hpp"
+#include "motion/stop_time_table.hpp"
 
 using namespace contensou::reduction;
 
@@ -119,6 +119,7 @@ TEST_CASE("every door has one answer, within the accuracy that it states", "[dif
   for (int i = 0; i < systems; ++i) {
     const ReducedSystem system = questions.system();
     const Flow flow(system), by_quadrature = Flow::by_quadrature(system);
+    const StopTimeTable table(flow);
     for (int j = 0; j < starts; ++j, ++asked) {
       const State start = questions.start(flow);
       const auto where = [&] {
@@ -130,7 +131,7 @@ TEST_CASE("every door has one answer, within the accuracy that it states", "[dif
       const Orbit orbit = flow.orbit(start);
       std::vector<Door> doors{{"quadrature", quadrature.tau, quadrature.accuracy},
                               {"orbit", orbit.stop_time(), orbit.accuracy()},
-                              {"table", flow.table()(start.u, start.v), 4 * eps},
+                              {"table", table(start.u, start.v), 4 * eps},
                               {"mirrored", flow.stop_time({-start.u, start.v}).tau, 0}};
       if (j == 0) {
         for (Route route : {Route::direct, Route::regularised}) {

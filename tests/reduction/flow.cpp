@@ -11,7 +11,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/stop_time_table.hpp"
+#include "contensou/reduction/stop_time.hpp"
 
 using namespace contensou::reduction;
 using Catch::Matchers::Contains;
@@ -31,8 +31,8 @@ TEST_CASE("one flow answers for all motions of a system", "[flow][route]") {
         CAPTURE(law.name(), mu, start.u, start.v);
         CHECK(stop.tau == Approx(flow.orbit(start).stop_time()).epsilon(1e-14));
         CHECK(stop.tau == Approx(taus[i]).epsilon(2e-15));
-        CHECK(by_quadrature.stop_time(start).route == Route::quadrature);
-        CHECK(stop.route == (law.as<PadeLaw>() ? Route::closed : Route::quadrature));
+        CHECK(by_quadrature.is_by_quadrature());
+        CHECK(flow.is_by_quadrature() == (routes(system).front() == Route::quadrature));
       }
     }
   }
@@ -42,12 +42,11 @@ TEST_CASE("copies of a flow share what is solved, and its table is released", "[
   const Flow flow({HertzLaw{}, 0.3});
   const Flow copy = flow;
   CHECK(flow.solution().through(0) == copy.solution().through(0));
-  CHECK(&flow.table() == &copy.table());
   std::weak_ptr<const SimilarityCurve> curve;
   {
     const Flow other({HertzLaw{}, 0.4});
     curve = other.solution().through(0);
-    CHECK(other.table()(1, 1) == Approx(other.stop_time({1, 1}).tau).epsilon(1e-15));
+    CHECK(other.refused(Flow::many_starts) == 0);
   }
   CHECK(curve.expired());
 }

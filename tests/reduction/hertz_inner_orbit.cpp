@@ -1,4 +1,4 @@
-#include "contensou/reduction/hertz_inner_orbit.hpp"
+#include "check/hertz_inner_orbit.hpp"
 
 #include <cmath>
 #include <stdexcept>

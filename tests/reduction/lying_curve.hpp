@@ -30,7 +30,7 @@ class LyingCurve final : public reduction::SimilarityCurve {
   double beta_coefficient(double ln_k) const override {
     return lie_.beta_coefficient(ln_k, truth_->beta_coefficient(ln_k));
   }
-  double limit() const override { return -1e6; }  // it never comes there: every ln k is asked for
+  double linear_below() const override { return -1e6; }  // it never comes there: every ln k is asked for
   double time_rate(double ln_k) const override { return truth_->time_rate(ln_k); }
   double accuracy() const override { return truth_->accuracy(); }
 

@@ -55,7 +55,7 @@ TEST_CASE("the closed orbit is the printed one", "[pade_curve][route]") {
 }
 
 TEST_CASE("far out the logarithm of the rim speed has its slopes and m its limits", "[pade_curve][limit]") {
-  for (double r : {1e-8, 0.1, 1.0}) {
+  for (double r : {1e-8, 0.1, PadeCurve::max_r}) {
     const PadeCurve curve(r);
     CHECK((curve.ln_w(-800) - curve.ln_w(-1200)) / 400 == Approx(curve.a()).epsilon(1e-13));
     CHECK((curve.ln_w(1200) - curve.ln_w(800)) / 400 == Approx(curve.e()).epsilon(1e-13));
@@ -67,7 +67,7 @@ TEST_CASE("far out the logarithm of the rim speed has its slopes and m its limit
 
 TEST_CASE("the two series of the regularised time meet at x = 1/2", "[pade_curve][limit]") {
   WorstCase age("b");
-  for (double r : {1e-20, 1e-10, 1e-5, 1e-2, 0.2, 0.5, 5.0 / 7, 1.0}) {
+  for (double r : {1e-20, 1e-10, 1e-5, 1e-2, 0.2, 0.5, 5.0 / 7, PadeCurve::max_r}) {
     const PadeCurve curve(r);
     const double ln_k = std::log(curve.A() / curve.B());
     age.add(curve.beta_coefficient(ln_k - 1e-15), curve.beta_coefficient(ln_k + 1e-15), fmt::format("r = {}", r));

@@ -49,7 +49,7 @@ Eigen::Vector2d chart_field(const ReducedSystem& system, const SingularPoint& po
 TEST_CASE("Eigenvalues of the paper's system are those of the blow-up by hand", "[phase_plane][table]") {
   for (double mu : {1e-4, 0.1, 0.3, 1.0, 1.6, 1.7, 2.2, 2.6, 2.7, 5.0}) {
     CAPTURE(mu);
-    const PhasePlane plane = phase_plane({PadeLaw{}, mu});
+    const PhasePlane plane = phase_plane(ReducedSystem(PadeLaw{}, mu));
     const double A = 8 * (14 - 5 * mu * mu);
     const double B = 15 * pi * (7 - mu * mu);
     CHECK(plane.mu_low == Approx(std::sqrt(14.0 / 5)).epsilon(1e-14));
@@ -113,7 +113,7 @@ TEST_CASE("Every half-line joins a saddle to a node, and the regime says which",
   using enum SingularKind;
   for (const Law& law : named_laws()) {
     const TerminalRatios limits = terminal_ratios(law, 1);
-    const auto plane_at = [&](double r) { return phase_plane({law, 1, {1, r}}); };
+    const auto plane_at = [&](double r) { return phase_plane(ReducedSystem(law, 1, {1, r})); };
     const auto check = [&](const PhasePlane& plane, InvariantDirection tangent) {
       CAPTURE(law.name(), name(tangent));
       REQUIRE(plane.tangents.size() == 1);
@@ -142,7 +142,7 @@ TEST_CASE("Every half-line joins a saddle to a node, and the regime says which",
 TEST_CASE("Where two points merge the linear part says so", "[phase_plane][limit]") {
   for (const char* law : {"pade", "exact", "uniform"}) {
     const TerminalRatios limits = terminal_ratios(*find_law(law), 1);
-    const PhasePlane low = phase_plane({*find_law(law), 1, {1, limits.low}});
+    const PhasePlane low = phase_plane(ReducedSystem(*find_law(law), 1, {1, limits.low}));
     CAPTURE(law);
     CHECK(low.points.size() == 4);
     CHECK(low.tangents[0].direction == InvariantDirection::pivoting);
@@ -150,7 +150,7 @@ TEST_CASE("Where two points merge the linear part says so", "[phase_plane][limit
     const SingularPoint merged = point_of(low, InvariantDirection::pivoting, SingularPlace::origin);
     CHECK(merged.kind == SingularKind::degenerate);
     CHECK(merged.angular == 0);
-    const PhasePlane high = phase_plane({*find_law(law), 1, {1, limits.high}});
+    const PhasePlane high = phase_plane(ReducedSystem(*find_law(law), 1, {1, limits.high}));
     CHECK(high.points.size() == 4);
     CHECK(high.tangents[0].direction == InvariantDirection::sliding);
     CHECK(point_of(high, InvariantDirection::sliding, SingularPlace::infinity).kind == SingularKind::degenerate);
@@ -161,12 +161,14 @@ TEST_CASE("A ray at the kink k = 1 has the slope of the law there", "[phase_plan
   // Psi' = -k Phi' gives D' = Phi' (1 + r k^2) - r Psi; weight (16 + 15 pi)(8 + 3 pi), rate 2 chi/(3 pi).
   const double scale = 2 / (3 * pi) * (16 + 15 * pi) * (8 + 3 * pi);
   const auto angular = [](const char* law, double r) {
-    return point_of(phase_plane({*find_law(law), 1, {1, r}}), InvariantDirection::ray, SingularPlace::origin).angular;
+    return point_of(phase_plane(ReducedSystem(*find_law(law), 1, {1, r})), InvariantDirection::ray,
+                    SingularPlace::origin)
+        .angular;
   };
   CHECK(angular("exact", 4) == Approx(-scale * 6 * pi / 32).epsilon(1e-6));
   CHECK(angular("uniform", 3) == Approx(-scale * 8 / (3 * pi)).epsilon(1e-6));
   // The ring's force is steeper there than any line.
-  const PhasePlane ring = phase_plane({*find_law("ring"), 1, {1, 1}});
+  const PhasePlane ring = phase_plane(ReducedSystem(*find_law("ring"), 1, {1, 1}));
   CHECK(point_of(ring, InvariantDirection::ray, SingularPlace::origin).angular == -INFINITY);
   CHECK(point_of(ring, InvariantDirection::ray, SingularPlace::origin).kind == SingularKind::stable_node);
   CHECK(point_of(ring, InvariantDirection::ray, SingularPlace::infinity).kind == SingularKind::saddle);
@@ -202,7 +204,7 @@ TEST_CASE("Orbits touch their tangent to the order of contact", "[phase_plane][r
 }
 
 TEST_CASE("A patch ratio whose powers underflow has its kinds all the same", "[phase_plane][limit]") {
-  const PhasePlane plane = phase_plane({PadeLaw{}, 1e-150});
+  const PhasePlane plane = phase_plane(ReducedSystem(PadeLaw{}, 1e-150));
   CHECK(point_of(plane, InvariantDirection::pivoting, SingularPlace::origin).kind == SingularKind::stable_node);
   CHECK(point_of(plane, InvariantDirection::pivoting, SingularPlace::infinity).kind == SingularKind::saddle);
   CHECK(std::isfinite(plane.tangents[0].contact_order));

@@ -32,7 +32,7 @@ struct NoisyLaw {
 
 TEST_CASE("the quadrature of the Pade law is its closed form", "[quadrature_curve][route]") {
   WorstCase rim("ln w"), share("m"), age("b"), rate("c"), slip("n");
-  for (double r : {1e-20, 1e-8, 1e-4, 0.01, 0.1, 0.4, 5.0 / 7, 1.0}) {
+  for (double r : {1e-20, 1e-8, 1e-4, 0.01, 0.1, 0.4, 5.0 / 7, PadeCurve::max_r}) {
     const QuadratureCurve curve(PadeLaw{}, r);
     const PadeCurve closed(r);
     CHECK(curve.truncation() < 1e-14);

@@ -31,10 +31,9 @@ TEST_CASE("the solution that is used is the closed one where there is one", "[si
   CHECK(dynamic_cast<const QuadratureCurve*>(used(PadeLaw{}, 1.5).get()));
   CHECK(dynamic_cast<const QuadratureCurve*>(used(HertzLaw{}, 0.5).get()));
   CHECK(used(HertzLaw{}, 0.25)->r() == 0.25);
-  // Up to the r where it keeps its digits.
   CHECK(closed_solution(PadeLaw{}, 1e-20).through(0)->r() == 1e-20);
-  CHECK(closed_solution(PadeLaw{}, 1));
-  CHECK_FALSE(closed_solution(PadeLaw{}, std::nextafter(1.0, 2.0)));
+  CHECK(closed_solution(PadeLaw{}, PadeCurve::max_r));
+  CHECK_FALSE(closed_solution(PadeLaw{}, std::nextafter(PadeCurve::max_r, 1)));
   CHECK_FALSE(closed_solution(HertzLaw{}, 0.1));
 }
 

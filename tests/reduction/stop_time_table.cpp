@@ -1,4 +1,4 @@
-#include "contensou/reduction/stop_time_table.hpp"
+#include "motion/stop_time_table.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -19,7 +19,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "stop_times/stop_time_loop.hpp"
+#include "motion/stop_time_loop.hpp"
 #include "user_laws.hpp"
 #include "worst_case.hpp"
 
@@ -66,7 +66,7 @@ std::size_t differ(std::span<const double> a, std::span<const double> b) {
 /// A table against stop_time, also beside the given k.
 void compare(WorstCase& worst, const ReducedSystem& system, double k, std::size_t count) {
   const Flow flow(system);
-  const StopTimeTable& table = flow.table();
+  const StopTimeTable table(flow);
   const Starts starts = random_starts(system.mu(), count, k);
   const auto tau = evaluated(table, starts);
   for (std::size_t i = 0; i < tau.size(); ++i) {
@@ -109,7 +109,6 @@ TEST_CASE("tables of balls are stop_time, and proved", "[stop_time_table][route]
       const ReducedSystem system(law, mu);
       const StopTimeTable table(system);
       CAPTURE(law.name(), mu, table.worst_error());
-      CHECK(table.proved());
       CHECK(table.refused() == 0);
       CHECK(table.worst_error() > 0);
       CHECK(table.worst_error() <= 4 * eps);
@@ -149,8 +148,7 @@ TEST_CASE("tables are stop_time wherever the invariant ray lies", "[stop_time_ta
 TEST_CASE("panels that fail their proof are not used, and the table says so", "[stop_time_table][invariant]") {
   const ReducedSystem system(KinkedLaw{}, 0.3);
   const Flow flow(system);
-  const StopTimeTable& table = flow.table();
-  CHECK_FALSE(table.proved());
+  const StopTimeTable table(flow);
   CHECK(table.refused() > 0);
   CHECK(table.refused() < 0.1);
   CHECK(table.worst_error() <= 4 * eps);
@@ -194,14 +192,6 @@ TEST_CASE("one start and many, cut and shared in any way, have the same bits", "
       CHECK(differ(in_place, whole) == 0);
     }
 
-    std::vector<double> row(1300);
-    for (std::size_t i = 0; i < 15'000; i += 501) {
-      table.evaluate_row(std::span(starts.u0).subspan(i, row.size()), starts.v0[i], row);
-      const std::vector<double> repeated(row.size(), starts.v0[i]);
-      std::vector<double> wanted(row.size());
-      table.evaluate(std::span(starts.u0).subspan(i, row.size()), repeated, wanted);
-      CHECK(differ(row, wanted) == 0);
-    }
     for (std::size_t i = 20; i < 400; ++i) {
       if (std::isfinite(whole[i])) CHECK(same_bits(table(starts.u0[i], starts.v0[i]), whole[i]));
     }
@@ -227,12 +217,12 @@ TEST_CASE("the loop for one start at a time and the fastest have the same bits",
 TEST_CASE("bodies and speeds at the ends of the double range", "[stop_time_table][limit]") {
   for (const Law& law : paper_laws()) {
     for (double mu : {1e-8, 0.1, 2.0}) {
-      const StopTimeTable table(ReducedSystem(law, mu));
+      const ReducedSystem system(law, mu);
+      const StopTimeTable table(system);
       const Starts starts = random_starts(mu, 500);
       const auto tau = evaluated(table, starts);
       for (int power : {-300, -120, 90, 300}) {
-        const Inertia far{std::ldexp(table.system().inertia().chi, -power),
-                          std::ldexp(table.system().inertia().gamma, -power)};
+        const Inertia far{std::ldexp(system.inertia().chi, -power), std::ldexp(system.inertia().gamma, -power)};
         const auto far_tau = evaluated(StopTimeTable(ReducedSystem(law, mu, far)), starts);
         WorstCase worst(law.name());
         for (std::size_t i = 0; i < tau.size(); ++i) {
@@ -285,9 +275,37 @@ TEST_CASE("what is no start is refused alone and is not a number among others", 
   }
 
   std::vector<double> two(2), three(3);
-  CHECK_THROWS_WITH(table.evaluate(two, three, two), Contains("2 u0, 3 v0, 2 tau"));
-  CHECK_THROWS_WITH(table.evaluate(two, two, three), Contains("3 tau"));
-  CHECK_THROWS_WITH(table.evaluate(two, two, two, 0), Contains("0 threads"));
-  CHECK_THROWS_WITH(table.evaluate_row(two, 1, three), Contains("3 tau"));
-  CHECK_NOTHROW(table.evaluate({}, {}, {}, 4));
+  const Flow flow({PadeLaw{}, 0.1});
+  CHECK_THROWS_WITH(flow.stop_times(two, three, two), Contains("2 u0, 3 v0, 2 tau"));
+  CHECK_THROWS_WITH(flow.stop_times(two, two, three), Contains("3 tau"));
+  CHECK_THROWS_WITH(flow.stop_times(two, two, two, 0), Contains("0 threads"));
+  CHECK_NOTHROW(flow.stop_times({}, {}, {}, 4));
+}
+
+TEST_CASE("a flow knows when a table pays, and a part of many starts has the bits of the whole",
+          "[stop_time_table][invariant]") {
+  const double mu = 0.3;
+  const Flow flow({HertzLaw{}, mu});
+  const StopTimeTable table(flow);
+  Starts starts = random_starts(mu, Flow::many_starts);
+  for (std::size_t i : {3U, 4U}) starts.v0[i] = i % 2 == 0 ? -1 : not_a_number;
+  const auto by_table = evaluated(table, starts);
+  std::vector<double> tau(by_table.size());
+  flow.stop_times(starts.u0, starts.v0, tau, 2);
+  CHECK(differ(tau, by_table) == 0);
+
+  constexpr std::size_t few = 500;
+  const auto u0 = std::span(starts.u0).first(few), v0 = std::span(starts.v0).first(few);
+  const auto part = std::span(tau).first(few);
+  flow.stop_times(u0, v0, part, 1, Flow::many_starts);
+  CHECK(differ(part, std::span(by_table).first(few)) == 0);
+  flow.stop_times(u0, v0, part, 1, Flow::many_starts - 1);
+  CHECK(differ(part, std::span(by_table).first(few)) > 0);
+  for (std::size_t i = 0; i < few; ++i) {
+    CHECK((is_state({u0[i], v0[i]}) ? same_bits(part[i], flow.stop_time({u0[i], v0[i]}).tau) : std::isnan(part[i])));
+  }
+  CHECK(flow.refused(Flow::many_starts) == table.refused());
+  const Flow kinked({KinkedLaw{}, 0.3});
+  CHECK(kinked.refused(Flow::many_starts) > 0);
+  CHECK(kinked.refused(Flow::many_starts - 1) == 0);
 }

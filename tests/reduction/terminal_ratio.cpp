@@ -135,19 +135,21 @@ TEST_CASE("a ray that Phi/(k Psi) only touches attracts from one side", "[termin
   CHECK(touching.ends[1].from == touching.rays[0].k);
 }
 
-TEST_CASE("the ray of the Pade law is exact next to its ends", "[terminal_ratio][limit]") {
-  // 5 - r is exact in a double; k* lost 2e-8 of itself.
-  const double r = 4.99999996736674;
-  const double k = terminal_ratios(PadeLaw{}, r).rays.at(0).k;
-  CHECK(k == Approx(8 * (r - 2) / (3 * std::acos(-1.0) * (5 - r))).epsilon(1e-15));
-  // Of another law the stated accuracy is what is left.
+TEST_CASE("a ray next to an axis is as accurate as it says", "[terminal_ratio][limit]") {
   for (double gap : {1e-3, 1e-6, 1e-9}) {
-    const InvariantRay ray = terminal_ratios(HertzLaw{}, 2 * (1 + gap)).rays.at(0);
+    const double r = 2 * (1 + gap), far_r = 5 * (1 - gap);
+    const InvariantRay ray = terminal_ratios(HertzLaw{}, r).rays.at(0);
     // 4 (4 - s) = r (8 - 8 s + 3 s^2), s = k^2; the smaller root without subtraction, r - 2 = 2 gap.
-    const double r2 = 2 * (1 + gap), b = 8 * r2 - 4, c = 8 * (r2 - 2);
-    const double s = 2 * c / (b + std::sqrt(b * b - 12 * r2 * c));
+    const double b = 8 * r - 4, c = 8 * (r - 2);
+    const double s = 2 * c / (b + std::sqrt(b * b - 12 * r * c));
     CAPTURE(gap, ray.accuracy);
     CHECK(std::abs(ray.k / std::sqrt(s) - 1) <= ray.accuracy);
     CHECK(ray.accuracy < 1e-14 / gap);
+    // A + B k = 0, (R8).
+    for (double r_pade : {r, far_r}) {
+      const InvariantRay pade = terminal_ratios(PadeLaw{}, r_pade).rays.at(0);
+      CHECK(std::abs(pade.k / (8 * (r_pade - 2) / (3 * std::acos(-1.0) * (5 - r_pade))) - 1) <= pade.accuracy);
+      CHECK(pade.accuracy < 1e-14 / gap);
+    }
   }
 }

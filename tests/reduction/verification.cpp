@@ -18,9 +18,9 @@
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/reduction/stop_time_table.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "lying_curve.hpp"
+#include "motion/stop_time_table.hpp"
 #include "user_laws.hpp"
 
 using namespace contensou::reduction;
@@ -151,7 +151,7 @@ TEST_CASE("every law passes every check, in every regime", "[verification][route
   const auto all_pass = [](const ReducedSystem& system, const std::vector<State>& starts) {
     for (const State& from : starts) {
       const std::vector<Check> checks = verify(system, from);
-      CHECK(checks.size() >= 10);
+      CHECK(checks.size() >= 9);
       for (const Check& check : checks) {
         CAPTURE(system.law().name(), system.mu(), system.r(), from.u, from.v, check.name, check.measured,
                 check.allowed);
@@ -302,7 +302,6 @@ TEST_CASE("the exact law by the name of the other is the exact law", "[verificat
   CHECK(impostor.law().name() == "pade");
   CHECK(routes(impostor) == std::vector{Route::quadrature, Route::regularised, Route::direct});
   CHECK_FALSE(closed_solution(impostor.law(), impostor.r()));
-  CHECK_FALSE(closed_stop_time(impostor, start));
   CHECK(Flow(impostor).stop_time(start).tau == Flow(exact).stop_time(start).tau);
   CHECK(Flow(impostor).orbit(start).at_time(1).ln_v == Flow(exact).orbit(start).at_time(1).ln_v);
   CHECK(StopTimeTable(impostor)(start.u, start.v) == StopTimeTable(exact)(start.u, start.v));

@@ -1234,28 +1234,6 @@ def table_rays():
                    + [text(end), text(kappa * w * sigma), digits])
 
 
-# ---------------------------------------------------------------------------------------------
-# Special functions of the small-mu estimates
-# ---------------------------------------------------------------------------------------------
-
-def dilogarithm_integral(ln_z):
-    """Minus the integral of t/(1 - exp(-t)) over (0, ln(1 + z))."""
-    top = mp.log1p(mp.exp(ln_z))
-    pieces = max(1, int(mp.ceil(top)))
-    edges = [top * i / pieces for i in range(pieces + 1)]
-    return -mp.fsum(integrate(lambda t: t / -mp.expm1(-t), left, right) for left, right in zip(edges, edges[1:]))
-
-
-def table_dilogarithm():
-    """Li2(-exp(x))."""
-    yield ["x", "x_hex", "li2", "digits"]
-    for x in [-700.0, -50.0, -20.0, -5.0, -2.0, -1.0, -0.5, -0.1, -1e-9, 0.0, 1e-9, 0.1, 0.5, 1.0, 2.0, 5.0, 20.0, 50.0,
-              700.0]:
-        with mp.workdps(mp.dps + 10):
-            first, second = mp.re(mp.polylog(2, -mp.exp(mpf(x)))), dilogarithm_integral(mpf(x))
-        yield exact(x) + [text(first), check([(first, second)], "Li2(-exp(%r))" % x)]
-
-
 TABLES = {
     "laws": table_laws,
     "laws_pressure": table_laws_pressure,
@@ -1265,7 +1243,6 @@ TABLES = {
     "trajectory_hertz": lambda: trajectory_table("hertz", trajectory_points()),
     "bodies": table_bodies,
     "rays": table_rays,
-    "dilogarithm": table_dilogarithm,
 }
 
 

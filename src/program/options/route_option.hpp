@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/stop_time.hpp"
 #include "options/argument.hpp"
 
 namespace contensou::program {

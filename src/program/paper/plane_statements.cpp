@@ -1,10 +1,10 @@
 #include <boost/math/quadrature/exp_sinh.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/similarity.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "paper/statements.hpp"
@@ -131,7 +131,7 @@ std::vector<Statement> plane_statements(double mu) {
       {"", "tau*, by quadrature and by steps", stop_time(reduced, start, Route::quadrature).tau,
        integrate_directly(reduced, start).stop_time, stepping},
       {"", "for small mu there are asymptotics: order in mu of the error of E2", 5.,
-       std::log2(estimate_error(0.05) / estimate_error(0.025)), lower_bound, 0, "mu = 0.05, 0.025"},
+       std::log2(estimate_error(0.02) / estimate_error(0.01)), lower_bound, 0, "mu = 0.02, 0.01"},
   };
   for (Statement& statement : statements) {
     statement.at = mu;

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_stop_time.hpp"
+#include "contensou/reduction/stop_time.hpp"
 
 namespace contensou::program {
 
+using reduction::Flow;
 using reduction::Route;
 using reduction::State;
 
@@ -20,24 +21,21 @@ namespace {
 constexpr std::size_t max_curves = 256;
 constexpr std::size_t max_tables = 16;
 
-/// A table takes about as long to make as so many calls of a closed form or a curve.
-constexpr long starts_that_pay = 1 << 15;
-
 /// And StopTimesOfMu as long as so many curves.
 constexpr long mus_that_pay = 1000;
 
 }  // namespace
 
 void StopTimes::AtMu::row(std::span<const double> u0, double v0, std::span<double> taus) const {
-  if (table) return table->evaluate_row(u0, v0, taus);
+  if (flow) return flow->stop_times(u0, std::vector<double>(u0.size(), v0), taus, 1, starts);
   std::ranges::transform(u0, taus.begin(), [&](double u) { return one({.u = u, .v = v0}); });
 }
 
 StopTimes::StopTimes(const reduction::Law& law, reduction::Inertia body, long starts, long mus)
     : law_(law),
       body_(body),
-      by_table_(starts >= starts_that_pay),
-      many_mus_(!by_table_ && mus >= mus_that_pay && !law.as<reduction::PadeLaw>()) {}
+      starts_(static_cast<std::size_t>(starts)),
+      many_mus_(starts_ < reduction::Flow::many_starts && mus >= mus_that_pay) {}
 
 const reduction::StopTimesOfMu& StopTimes::of_every_mu() {
   std::call_once(of_every_mu_made_, [this] { of_every_mu_.emplace(law_, body_); });
@@ -46,25 +44,25 @@ const reduction::StopTimesOfMu& StopTimes::of_every_mu() {
 
 StopTimes::AtMu StopTimes::made(double mu) {
   const reduction::ReducedSystem system(law_, mu, body_);
-  if (by_table_) {
-    reduction::StopTimeTable table(system);
-    if (!table.proved() && !told_.exchange(true)) tell_if_not_proved(table);
-    return {.table = std::move(table), .one = {}};
-  }
-  if (many_mus_) return {.table = {}, .one = [mu, every = of_every_mu()](State start) { return every(mu, start); }};
+  if (many_mus_)
+    return {
+        .flow = {}, .one = [mu, every = of_every_mu()](State start) { return every(mu, start); }, .starts = starts_};
   const Route route = route_.read(system);
-  if (route != Route::quadrature) {
-    return {.table = {}, .one = [=](State start) { return reduction::stop_time(system, start, route).tau; }};
+  if (route == Route::regularised || route == Route::direct) {
+    return {.flow = {},
+            .one = [=](State start) { return reduction::stop_time(system, start, route).tau; },
+            .starts = starts_};
   }
-  return {.table = {},
-          .one = [flow = reduction::Flow::by_quadrature(system)](State start) { return flow.stop_time(start).tau; }};
+  Flow flow = route == Route::quadrature ? Flow::by_quadrature(system) : Flow(system);
+  if (flow.refused(starts_) > 0 && !told_.exchange(true)) tell_if_refused(flow, starts_);
+  return {.flow = std::move(flow), .one = {}, .starts = starts_};
 }
 
 std::shared_ptr<const StopTimes::AtMu> StopTimes::at(double mu) {
   std::shared_future<std::shared_ptr<const AtMu>> made_once;
   {
     const std::lock_guard lock(guard_);
-    if (known_.size() == (by_table_ ? max_tables : max_curves) && !known_.contains(mu)) known_.clear();
+    if (known_.size() == (starts_ > 0 ? max_tables : max_curves) && !known_.contains(mu)) known_.clear();
     auto& place = known_[mu];
     if (!place.valid()) {
       place = std::async(std::launch::deferred, [=, this] { return std::make_shared<const AtMu>(made(mu)); });
@@ -75,17 +73,16 @@ std::shared_ptr<const StopTimes::AtMu> StopTimes::at(double mu) {
 }
 
 double StopTimes::operator()(double mu, State start, long row) {
-  const bool is_pade = law_.as<reduction::PadeLaw>() != nullptr;
-  if (is_pade && route_.value_or(Route::closed) == Route::closed) return reduction::pade_stop_time(mu, start, body_);
   if (row >= mus_that_pay && !route_.given()) return of_every_mu()(mu, start);
-  return at(mu)->one(start);
+  return (*at(mu))(start);
 }
 
-void tell_if_not_proved(const reduction::StopTimeTable& table) {
-  if (table.proved()) return;
+void tell_if_refused(const Flow& flow, std::size_t starts) {
+  const double refused = flow.refused(starts);
+  if (refused == 0) return;
   std::fputs(fmt::format("contensou: the table of stop times misses 4 eps in {:.2g} % of its panels (law {}, mu = {}): "
                          "starts there are computed one by one\n",
-                         100 * table.refused(), table.system().law().name(), table.system().mu())
+                         100 * refused, flow.system().law().name(), flow.system().mu())
                  .c_str(),
              stderr);
 }

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "contensou/reduction/stop_time_table.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/stop_times_of_mu.hpp"
 #include "options/route_option.hpp"
 
@@ -21,8 +21,11 @@ class StopTimes {
  public:
   /// Those of one mu. Threads may share it.
   struct AtMu {
-    std::optional<reduction::StopTimeTable> table;
-    std::function<double(reduction::State)> one;  ///< start by start, where there is no table; throws as stop_time
+    std::optional<reduction::Flow> flow;
+    std::function<double(reduction::State)> one;  ///< start by start, where there is no flow; throws as stop_time
+    std::size_t starts = 0;                       ///< how many there are in all
+
+    double operator()(reduction::State start) const { return flow ? flow->stop_time(start).tau : one(start); }
 
     /// The stop times of (u0[i], v0).
     /// @param taus  as many as u0
@@ -33,7 +36,7 @@ class StopTimes {
   StopTimes(const reduction::Law& law, reduction::Inertia body, const RouteOption& route)
       : law_(law), body_(body), route_(route) {}
 
-  /// By the best route, for so many starts of each mu and so many mu: by a table where they pay for it.
+  /// By the best route, for so many starts of each mu and so many mu.
   StopTimes(const reduction::Law& law, reduction::Inertia body, long starts, long mus);
 
   /// @throws  as RouteOption::read and the making of the solution
@@ -52,16 +55,16 @@ class StopTimes {
   reduction::Law law_;
   reduction::Inertia body_;
   RouteOption route_;
-  bool by_table_ = false;
+  std::size_t starts_ = 0;  ///< of each mu of a grid
   bool many_mus_ = false;
   std::once_flag of_every_mu_made_;
   std::optional<reduction::StopTimesOfMu> of_every_mu_;
-  std::atomic<bool> told_ = false;  ///< that a table is not whole
+  std::atomic<bool> told_ = false;  ///< that some starts are slow
   std::mutex guard_;
   std::map<double, std::shared_future<std::shared_ptr<const AtMu>>> known_;
 };
 
-/// Says on standard error if some starts are computed one by one because the table's panels there fail their proof.
-void tell_if_not_proved(const reduction::StopTimeTable& table);
+/// Says on standard error if Flow::stop_times computes some of so many starts one by one.
+void tell_if_refused(const reduction::Flow& flow, std::size_t starts);
 
 }  // namespace contensou::program

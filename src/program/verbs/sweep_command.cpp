@@ -363,7 +363,7 @@ class SweepCommand final : public Verb {
       return Eigen::ArrayXd::NullaryExpr(range.count, [&](Eigen::Index i) { return range[i]; });
     };
     const reduction::Flow flow(system);
-    tell_if_not_proved(flow.table());
+    tell_if_refused(flow, static_cast<std::size_t>(grid.points()));
     using portraits::math, portraits::sub;
     portraits::MapCaption caption;
     if (grid.ball) {

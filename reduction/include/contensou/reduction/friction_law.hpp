@@ -30,8 +30,8 @@ namespace contensou::reduction {
 ///   - `kinks()`, every k where Phi or Psi is not smooth (1 unless stated: where the rim of the patch is at rest). A
 ///     kink that is not named costs accuracy of the steppers, and of the curves only time.
 ///
-/// A law says nothing of how motions under it are solved: closed forms are found by a law's type (closed_solution,
-/// closed_stop_time), never by its name.
+/// A law says nothing of how motions under it are solved: closed forms are found by a law's type (closed_solution),
+/// never by its name.
 template <class L>
 concept FrictionLaw = std::copy_constructible<L> && requires(const L& law, Slip slip) {
   { law(slip) } -> std::convertible_to<Resistance>;

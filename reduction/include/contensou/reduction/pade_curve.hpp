@@ -8,13 +8,14 @@ namespace contensou::reduction {
 
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
-/// Source    README (R8) orbit, (R9) time (Zh98 (2.6) carried to the end), (R11) regularised time, (R14) slip and angle.
+/// Source    README (R8) orbit, (R9) time (Zh98 (2.6) carried to the end), (R27) to (R30), (R11) regularised time, (R14)
+///           slip and angle.
 /// Accuracy  sliding_coefficient, slip_length_coefficient, angle_coefficient and beta_coefficient about 5 eps relative, ln_w
 ///           eps (|ln w| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
-  /// Largest r of the closed form: (R11) loses digits as r -> 2. A ball has r <= 5/7.
-  static constexpr double max_r = 1;
+  /// Largest r of the closed form: every ball with mu <= 1 has r <= 5/7.
+  static constexpr double max_r = 0.72;
 
   /// Of a series in powers of 1/2 or less.
   static constexpr int terms = 56;
@@ -28,7 +29,7 @@ class PadeCurve final : public SimilarityCurve {
   double angle_coefficient(double ln_k) const override;
   double beta_coefficient(double ln_k) const override;
   double time_rate(double ln_k) const override;
-  double limit() const override;
+  double linear_below() const override;
   double accuracy() const override { return rounding_of_stop_time(r()); }
 
   double A() const { return A_; }  ///< 8 (2 - r)
@@ -39,8 +40,10 @@ class PadeCurve final : public SimilarityCurve {
 
  private:
   double A_, B_, a_, e_;
-  double log_ratio_;  ///< ln(B/A)
-  double half_beta_;  ///< the integral of (R11) over (1/2, 1)
+  double log_ratio_;           ///< ln(B/A)
+  double half_beta_;           ///< the integral of (R11) over (1/2, 1)
+  double sliding_connection_;  ///< constants of (R30), for m
+  double angle_connection_;    ///< and for o
 
   /// (R11): terms 2, 3, .. of the integral from x to 1/2 are x^a far_beta_ less the sum of beta_terms_[n] x^n.
   std::array<double, terms> beta_terms_{};

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 
 namespace contensou::reduction {
@@ -72,6 +72,6 @@ struct PhasePlane {
 /// Accuracy  eigenvalues on the axes 1e-14 relative, on a ray 1e-11; 1e-6 where k* is within 1e-3 of 1, at which many
 ///           laws have a kink; on a ray whose k is less accurate, no better than that. r is taken for r_low or r_high
 ///           where TerminalRatios does not tell them apart.
-PhasePlane phase_plane(const ReducedSystem& system);
+PhasePlane phase_plane(const Flow& flow);
 
 }  // namespace contensou::reduction

@@ -1,15 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
-
-class BetaSolution;
-class RegularSolution;
 
 /// The similarity curve of any friction law, by quadrature of the separated equation.
 ///
@@ -46,34 +42,14 @@ class QuadratureCurve final : public SimilarityCurve {
 
   long evaluations() const override;
 
-  double limit() const override;
+  double linear_below() const override;
 
   ~QuadratureCurve() override;
 
  private:
-  /// A part that is made when it is first asked for, by the first thread.
-  template <class Part>
-  class Later {
-   public:
-    template <class Make>
-    const Part& made(Make make) const {
-      std::call_once(once_, [&] { part_ = std::make_unique<const Part>(make()); });
-      return *part_;
-    }
-
-   private:
-    mutable std::once_flag once_;
-    mutable std::unique_ptr<const Part> part_;
-  };
-
   class Panels;
-  const Panels& panels() const;
-
-  Law law_;
-  std::unique_ptr<const RegularSolution> m_;
-  Later<RegularSolution> n_, o_;
-  Later<BetaSolution> b_;
-  Later<Panels> panels_;
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
 };
 
 }  // namespace contensou::reduction

@@ -77,6 +77,9 @@ class ReducedSystem {
   double scaled_time_rate_;
 };
 
+/// Whether a motion can have it: u and v finite, v >= 0.
+bool is_state(State state);
+
 /// Rejects a state that no motion can have.
 /// @throws std::domain_error  if u or v is not finite or v < 0; the message begins with the function's name
 void require_state(const char* function, State state);

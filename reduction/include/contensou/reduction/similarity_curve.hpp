@@ -45,7 +45,7 @@ class SimilarityCurve {
   const TerminalChart& chart() const { return chart_; }
 
   /// Below this xi ln w is linear and the other functions are constant, to the last bit.
-  virtual double limit() const = 0;
+  virtual double linear_below() const = 0;
 
   SimilarityCurve(const SimilarityCurve&) = delete;
   SimilarityCurve& operator=(const SimilarityCurve&) = delete;

@@ -50,7 +50,8 @@ class SimilaritySolution {
 /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
 SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios);
 
-/// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::max_r; empty for all else.
+/// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::max_r; empty for all else. The one
+/// place that knows which laws have one.
 SimilaritySolution closed_solution(const Law& law, double r);
 
 }  // namespace contensou::reduction

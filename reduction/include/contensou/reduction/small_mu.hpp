@@ -25,20 +25,6 @@ struct CoefficientExpansion {
 ///           whose only kink is at k = 1. Cost: up to 3000 calls of the law.
 CoefficientExpansion coefficient_expansion(const Law& law, double ln_k);
 
-/// m(k; r) up to its term in r^0 and in r^1: what E1 and E2 are made of.
-struct CoefficientEstimates {
-  double first;
-  double second;
-};
-
-/// For PadeLaw, found by its type, the closed form (R22), whose factors keep their r; for any other law, from
-/// coefficient_expansion.
-///
-/// @param r     gamma mu^2/chi, 0 <= r < Phi'(0)/Psi(0); not checked
-/// @param ln_k  any finite number
-/// @throws std::domain_error  if ln_k is not finite
-CoefficientEstimates coefficient_estimates(const Law& law, double r, double ln_k);
-
 /// k first(k) = k - logarithm ln k - constant + O(1/k) as k -> infinity (README (R23)).
 struct FarCoefficient {
   double logarithm;

@@ -1,23 +1,21 @@
 #pragma once
 
-#include <optional>
 #include <string_view>
 #include <vector>
 
-#include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/flow.hpp"
 
 namespace contensou::reduction {
 
-/// The ways to a stop time. They share no code beyond the law.
+/// The ways to a stop time, for comparison: they share no code beyond the law.
 enum class Route {
-  closed,       ///< the law's closed form
+  closed,       ///< the law's closed form (closed_solution)
   quadrature,   ///< separated equation and time quadrature
   regularised,  ///< (2.7) and (2.8), stepped in beta
   direct,       ///< (2.6), stepped in tau
 };
 
 std::string_view name(Route route);
-std::optional<Route> find_route(std::string_view name);
 
 /// One sentence: what the route does, how accurate it is, what it cannot do.
 std::string_view description(Route route);
@@ -25,22 +23,8 @@ std::string_view description(Route route);
 /// The routes that can answer for this system, best first; the first is the default.
 std::vector<Route> routes(const ReducedSystem& system);
 
-/// A stop time and what is known of it.
-struct StopTime {
-  double tau;  ///< the paper's time; infinity where it exceeds the largest double
-  Route route;
-  double accuracy;   ///< relative error that the route answers for
-  long evaluations;  ///< of the friction law; 0 for a closed form
-  Bounds bounds;     ///< ReducedSystem::stop_time_bounds
-};
-
-/// The stop time in closed form, found by the law's type: pade_stop_time for PadeLaw, for every r; empty for all else.
-///
-/// @return  the paper's time; infinity where it exceeds the largest double
-/// @throws std::domain_error  if start is not a state (finite, v >= 0)
-std::optional<double> closed_stop_time(const ReducedSystem& system, State start);
-
-/// The time until u = v = 0 by one route, for comparison; Flow::stop_time has the best. 0 at rest.
+/// The time until u = v = 0 by one route, the system solved for this start alone; Flow::stop_time has the best. 0 at
+/// rest.
 ///
 /// @throws std::domain_error   if start is not a state (finite, v >= 0), or the system does not have the route
 /// @throws std::runtime_error  if a stepper did not reach the stop; the message is its outcome's sentence

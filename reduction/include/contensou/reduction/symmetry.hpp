@@ -12,7 +12,9 @@ namespace contensou::reduction {
 ///
 /// Each function returns the residual of that identity at a state, relative to |F|: 0 in exact arithmetic. The
 /// derivative along the generator is a central difference over exp(+-h), good to about 1e-9.
+/// @throws std::domain_error  where F has no value: at rest, for v < 0, dv/du also at u = 0
 
+/// Any field, by its degree n.
 double generator_residual(const std::function<Rate(State)>& field, int degree, State state);
 
 /// (2.6): degree 0.
@@ -23,8 +25,5 @@ double regularised_symmetry_residual(const ReducedSystem& system, State state);
 
 /// dv/du = w(u, v): the criterion u w_u + v w_v = 0.
 double slope_symmetry_residual(const ReducedSystem& system, State state);
-
-/// The finite transformation: |F(c u, c v) - c^n F(u, v)| relative to |c^n F(u, v)|, for a factor c > 0.
-double scaling_residual(const std::function<Rate(State)>& field, int degree, State state, double factor);
 
 }  // namespace contensou::reduction

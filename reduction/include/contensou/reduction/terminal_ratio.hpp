@@ -45,9 +45,9 @@ struct InvariantRay {
 /// The zeros of Phi - r k Psi beside k = 0 and k = infinity, and where k goes between them.
 ///
 /// k falls where Phi > r k Psi and grows where it is less (README (R2)), so that between two neighbours of 0, the rays
-/// and infinity every motion leaves the one and tends to the other. Under the named laws but potential8 and elliptic
-/// Phi/(k Psi) grows with k: there is one ray for low < r < high, it attracts, and there is one end. Under a pressure
-/// given as a table there may be several. For r <= 1/2 no pressure on a disc has a ray (README (R40)).
+/// and infinity every motion leaves the one and tends to the other. Under the pressures that have a name and under the
+/// Pade law Phi/(k Psi) grows with k: there is one ray for low < r < high, it attracts, and there is one end. Under a
+/// pressure given as a table there may be several. For r <= 1/2 no pressure on a disc has a ray (README (R40)).
 struct TerminalRatios {
   double low;                       ///< Phi/(k Psi) at k = 0, Phi'(0)/Psi(0)
   double high;                      ///< and at k = infinity
@@ -69,7 +69,7 @@ struct TerminalRatios {
 /// @param r  gamma mu^2/chi, > 0
 /// @throws std::domain_error  if r is not positive and finite
 ///
-/// Accuracy  InvariantRay::accuracy: 2e-15 where Phi/(k Psi) is steep; under the Pade law 2 ulp for every r.
+/// Accuracy  InvariantRay::accuracy: 2e-15 where Phi/(k Psi) is steep.
 /// Cost      700 evaluations of the law, at distances of 1/16 in ln k. Between two of them there may be two rays, if
 ///           Phi/(k Psi) has no more than one extremum there.
 TerminalRatios terminal_ratios(const Law& law, double r);

@@ -1,11 +1,8 @@
-#include "stop_times/stop_time_panels.hpp"
+#include "motion/stop_time_panels.hpp"
 
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_sliding_coefficient.hpp"
 
 namespace contensou::reduction {
 
@@ -87,7 +84,6 @@ class Fit {
 }  // namespace
 
 double sliding_coefficient(const Flow& flow, double k) {
-  if (flow.system().law().as<PadeLaw>()) return pade_sliding_coefficient(flow.system().r(), k);
   const double ln_k = std::log(k);
   const auto& curve = flow.solution().through(ln_k);
   return curve->sliding_coefficient(curve->chart().coordinate(ln_k));

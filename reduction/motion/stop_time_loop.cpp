@@ -1,4 +1,4 @@
-#include "stop_times/stop_time_loop.hpp"
+#include "motion/stop_time_loop.hpp"
 
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "contensou/reduction/similarity.hpp"
+#include "contensou/reduction/canonical_coordinates.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // Notation (README (R18)): tau* = P + m(k) S = (P/|u0|) |u0| + v0 M(k), M = (S/v0) m, k = v0/(mu |u0|)
-#include "contensou/reduction/stop_time_table.hpp"
+#include "motion/stop_time_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "stop_times/stop_time_loop.hpp"
-#include "stop_times/stop_time_panels.hpp"
+#include "motion/stop_time_loop.hpp"
+#include "motion/stop_time_panels.hpp"
 
 namespace contensou::reduction {
 
@@ -120,10 +120,6 @@ struct StopTimeTable::Stored {
 
 StopTimeTable::StopTimeTable(const Flow& flow) : stored_(std::make_shared<const Stored>(flow)) {}
 
-const ReducedSystem& StopTimeTable::system() const { return stored_->flow.system(); }
-
-bool StopTimeTable::proved() const { return stored_->refused == 0; }
-
 double StopTimeTable::worst_error() const { return stored_->worst; }
 
 double StopTimeTable::refused() const { return stored_->refused; }
@@ -136,25 +132,7 @@ double StopTimeTable::operator()(double u0, double v0) const {
 
 void StopTimeTable::evaluate(std::span<const double> u0, std::span<const double> v0, std::span<double> tau,
                              unsigned threads) const {
-  if (u0.size() != v0.size() || u0.size() != tau.size() || threads == 0) {
-    throw std::domain_error(
-        fmt::format("StopTimeTable::evaluate: arrays of one size and a thread or more are needed, got {} u0, {} v0, {} "
-                    "tau, {} threads",
-                    u0.size(), v0.size(), tau.size(), threads));
-  }
   run_shared(stored_->loop, u0, v0, tau, threads);
-}
-
-void StopTimeTable::evaluate_row(std::span<const double> u0, double v0, std::span<double> tau) const {
-  if (u0.size() != tau.size()) {
-    throw std::domain_error(fmt::format("StopTimeTable::evaluate_row: arrays of one size are needed, got {} u0, {} tau",
-                                        u0.size(), tau.size()));
-  }
-  std::array<double, 512> row;
-  row.fill(v0);
-  for (std::size_t i = 0; i < tau.size(); i += row.size()) {
-    run_fastest()(stored_->loop, &u0[i], row.data(), &tau[i], std::min(row.size(), tau.size() - i));
-  }
 }
 
 }  // namespace contensou::reduction

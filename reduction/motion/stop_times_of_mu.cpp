@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "contensou/reduction/flow.hpp"
-#include "stop_times/stop_time_loop.hpp"
-#include "stop_times/stop_time_panels.hpp"
+#include "motion/stop_time_loop.hpp"
+#include "motion/stop_time_panels.hpp"
 
 namespace contensou::reduction {
 

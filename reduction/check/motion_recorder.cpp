@@ -1,4 +1,4 @@
-#include "steppers/motion_recorder.hpp"
+#include "check/motion_recorder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "steppers/asymptotic_tail.hpp"
+#include "check/asymptotic_tail.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -64,12 +64,13 @@ std::string_view name(SingularKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-PhasePlane phase_plane(const ReducedSystem& system) {
+PhasePlane phase_plane(const Flow& flow) {
+  const ReducedSystem& system = flow.system();
   const Law& law = system.law();
   const double mu = system.mu();
   const double r = system.r();
   const auto [chi, gamma] = system.inertia();
-  const TerminalRatios terminal = terminal_ratios(law, r);
+  const TerminalRatios& terminal = flow.terminal();
   const auto weight = [](double k) { return (16 + 15 * pi * k) * (8 + 3 * pi * k); };  // of (2.8), over (mu u)^2
 
   // The sign of 1 - r/limit, 0 where they are not told apart.

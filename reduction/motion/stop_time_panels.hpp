@@ -4,11 +4,11 @@
 #include <functional>
 
 #include "contensou/reduction/flow.hpp"
-#include "stop_times/stop_time_loop.hpp"
+#include "motion/stop_time_loop.hpp"
 
 namespace contensou::reduction {
 
-/// m of README (R4) at k, by the closed form or the flow's curves.
+/// m of README (R4) at k.
 double sliding_coefficient(const Flow& flow, double k);
 
 /// k at x in [0, 1] of the way through a panel of StopTimePanels.

@@ -100,7 +100,10 @@ double Orbit::tau_of(double scaled) const { return std::ldexp(scaled / system_.s
 
 double Orbit::scaled_of(double tau) const { return std::ldexp(tau, -exponent_) * system_.scaled_time_rate(); }
 
-double Orbit::stop_time() const { return tau_of(whole()); }
+double Orbit::stop_time() const {
+  const double pivoting = system_.pivoting_limit(std::ldexp(u0_, -exponent_));
+  return std::ldexp(v_ == 0 ? pivoting : pivoting + m0_ * system_.sliding_limit(v_), exponent_);
+}
 
 double Orbit::accuracy() const { return on_axis() ? rounding_of_stop_time(0) : curve_->accuracy(); }
 
@@ -149,7 +152,7 @@ double Orbit::scaled_left_slope(double xi, const Progress& now) const {
 
 double Orbit::coordinate_at_left(double left) const {
   // Below the curve's limit the time left is a power of exp(xi).
-  const double limit = std::min(curve_->limit(), xi0_);
+  const double limit = std::min(curve_->linear_below(), xi0_);
   const Progress last = progress(limit);
   const double at_limit = scaled_left(limit, last);
   if (left <= at_limit) return limit + std::log(left / at_limit) * (at_limit / scaled_left_slope(limit, last));
@@ -163,7 +166,7 @@ double Orbit::coordinate_at_left(double left) const {
 }
 
 double Orbit::coordinate_at_elapsed(double elapsed) const {
-  const double limit = std::min(curve_->limit(), xi0_);
+  const double limit = std::min(curve_->linear_below(), xi0_);
   const Progress last = progress(limit);
   const double beyond = elapsed - scaled_elapsed(limit, last);
   if (beyond >= 0) {
@@ -287,7 +290,7 @@ Orbit::Instant Orbit::instant(double tau) const {
 double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction) const {
   const auto rest = [&](double xi) { return fallen(xi).*ln_speed - ln_fraction; };
   // Below the curve's limit both logarithms are linear.
-  const double limit = std::min(curve_->limit(), xi0_);
+  const double limit = std::min(curve_->linear_below(), xi0_);
   const double at_limit = rest(limit);
   if (at_limit >= 0) return limit - at_limit / (at_limit - rest(limit - 1));
   std::uintmax_t most = 200;

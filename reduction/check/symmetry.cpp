@@ -1,9 +1,6 @@
 #include "contensou/reduction/symmetry.hpp"
 
 #include <cmath>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 namespace contensou::reduction {
 
@@ -45,14 +42,6 @@ double slope_symmetry_residual(const ReducedSystem& system, State state) {
     return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
   };
   return std::abs(partial(1, 0) + partial(0, 1)) / std::abs(system.slope(state));
-}
-
-double scaling_residual(const std::function<Rate(State)>& field, int degree, State state, double factor) {
-  if (!(factor > 0)) throw std::domain_error(fmt::format("scaling_residual: the factor must be > 0, got {}", factor));
-  const Rate moved = field(scaled(state, factor));
-  const Rate here = field(state);
-  const double power = std::pow(factor, degree);
-  return size({moved.u - power * here.u, moved.v - power * here.v}) / (power * size(here));
 }
 
 }  // namespace contensou::reduction

@@ -13,7 +13,7 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "steppers/motion_recorder.hpp"
+#include "check/motion_recorder.hpp"
 
 namespace contensou::reduction {
 

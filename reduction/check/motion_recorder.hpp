@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "check/asymptotic_tail.hpp"
 #include "contensou/reduction/motion.hpp"
-#include "steppers/asymptotic_tail.hpp"
 
 namespace contensou::reduction {
 

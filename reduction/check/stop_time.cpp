@@ -9,11 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "contensou/reduction/direct_motion.hpp"
-#include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pade_stop_time.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
-#include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
 
@@ -38,9 +34,9 @@ constexpr std::array route_texts{
 
 const RouteText& text(Route route) { return *std::ranges::find(route_texts, route, &RouteText::route); }
 
-StopTime by_stepper(Route route, const Motion& motion, Bounds bounds) {
+StopTime by_stepper(const Motion& motion, Bounds bounds) {
   if (!motion.outcome.ok()) throw std::runtime_error(motion.outcome.sentence);
-  return {motion.stop_time, route, 1e-10, motion.evaluations, bounds};
+  return {motion.stop_time, 1e-10, motion.evaluations, bounds};
 }
 
 }  // namespace
@@ -49,20 +45,9 @@ std::string_view name(Route route) { return text(route).name; }
 
 std::string_view description(Route route) { return text(route).description; }
 
-std::optional<Route> find_route(std::string_view name) {
-  const auto found = std::ranges::find(route_texts, name, &RouteText::name);
-  if (found == route_texts.end()) return std::nullopt;
-  return found->route;
-}
-
-std::optional<double> closed_stop_time(const ReducedSystem& system, State start) {
-  if (!system.law().as<PadeLaw>()) return std::nullopt;
-  return pade_stop_time(system.mu(), start, system.inertia());
-}
-
 std::vector<Route> routes(const ReducedSystem& system) {
   std::vector<Route> found;
-  if (system.law().as<PadeLaw>()) found.push_back(Route::closed);
+  if (closed_solution(system.law(), system.r())) found.push_back(Route::closed);
   found.push_back(Route::quadrature);
   found.push_back(Route::regularised);
   found.push_back(Route::direct);
@@ -72,17 +57,17 @@ std::vector<Route> routes(const ReducedSystem& system) {
 StopTime stop_time(const ReducedSystem& system, State start, Route route) {
   switch (route) {
     case Route::closed: {
-      if (const auto tau = closed_stop_time(system, start)) {
-        return {*tau, route, rounding_of_stop_time(system.r()), 0, system.stop_time_bounds(start)};
-      }
-      throw std::domain_error(fmt::format("stop_time: law {} has no closed form", system.law().name()));
+      const Flow flow(system);
+      if (!flow.is_by_quadrature()) return flow.stop_time(start);
+      throw std::domain_error(
+          fmt::format("stop_time: law {} has no closed form at r = {}", system.law().name(), system.r()));
     }
     case Route::quadrature:
       return Flow::by_quadrature(system).stop_time(start);
     case Route::regularised:
-      return by_stepper(route, integrate_regularised(system, start), system.stop_time_bounds(start));
+      return by_stepper(integrate_regularised(system, start), system.stop_time_bounds(start));
     case Route::direct:
-      return by_stepper(route, integrate_directly(system, start), system.stop_time_bounds(start));
+      return by_stepper(integrate_directly(system, start), system.stop_time_bounds(start));
   }
   throw std::domain_error("stop_time: unknown route");
 }

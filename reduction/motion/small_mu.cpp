@@ -12,8 +12,6 @@
 #include <fmt/format.h>
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include "contensou/reduction/pade_law.hpp"
-#include "numerics/dilogarithm.hpp"
 #include "numerics/legendre_series.hpp"
 #include "similarity/regular_solution.hpp"
 
@@ -55,16 +53,6 @@ void for_each_panel(double low, double high, Visit visit) {
   }
 }
 
-/// (R22); its limit r -> 0 is m0.
-double pade_coefficient(double r, double ln_k) {
-  const double ln_z = ln_k + std::log(3 * pi * (5 - r) / (8 * (2 - r)));  // z = B k/A of (R8)
-  const double z = std::exp(ln_z);
-  if (z == 0) return 2.5;
-  const double log_1p = ln_z > 0 ? ln_z + std::log1p(1 / z) : std::log1p(z);
-  const double bracket = log_1p + r / 2 * dilogarithm_of_minus_exp(ln_z) + 3 * r / 20 * log_1p * log_1p;
-  return 1 + 1.5 * (2 / (2 - r)) * bracket / z;
-}
-
 }  // namespace
 
 CoefficientExpansion coefficient_expansion(const Law& law, double ln_k) {
@@ -97,12 +85,6 @@ CoefficientExpansion coefficient_expansion(const Law& law, double ln_k) {
   });
   const double k = std::exp(top);
   return {first / k, second / k};
-}
-
-CoefficientEstimates coefficient_estimates(const Law& law, double r, double ln_k) {
-  if (law.as<PadeLaw>() && std::isfinite(ln_k)) return {pade_coefficient(0, ln_k), pade_coefficient(r, ln_k)};
-  const CoefficientExpansion m = coefficient_expansion(law, ln_k);
-  return {m.first, m.first + r * m.second};
 }
 
 std::optional<FarCoefficient> far_coefficient(const Law& law) {
@@ -147,10 +129,11 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
     const double rim = on_axis ? 0 : sliding * std::exp(-ln_k) * (far->logarithm * ln_k + far->constant);
     estimates.push_back({"log", "E1 for k0 >> 1, P + S (1 - (c ln k0 + d)/k0)", pivoting + sliding - rim});
   }
-  const CoefficientEstimates m = on_axis ? CoefficientEstimates{} : coefficient_estimates(law, system.r(), ln_k);
+  const CoefficientExpansion m = on_axis ? CoefficientExpansion{} : coefficient_expansion(law, ln_k);
   const auto with_coefficient = [&](double value) { return start.v == 0 ? pivoting : pivoting + value * sliding; };
   estimates.push_back({"E1", "relative error O(mu^4 ln^2 mu)", start.u == 0 ? sliding : with_coefficient(m.first)});
-  estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)", start.u == 0 ? sliding : with_coefficient(m.second)});
+  estimates.push_back({"E2", "relative error O(mu^6 ln^3 mu)",
+                       start.u == 0 ? sliding : with_coefficient(m.first + system.r() * m.second)});
   return estimates;
 }
 

@@ -2,33 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
-#include <optional>
+#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/stop_time_table.hpp"
+#include "motion/stop_time_table.hpp"
+#include "numerics/later.hpp"
 
 namespace contensou::reduction {
 
 struct Flow::Solved {
-  ReducedSystem system;
-  TerminalRatios terminal = terminal_ratios(system.law(), system.r());
-  SimilaritySolution solution = {};
-  bool by_quadrature = false;
-  bool closed_time = false;  ///< stop times have a closed form of their own
+  explicit Solved(const ReducedSystem& given, SimilaritySolution found = {})
+      : system(given), solution(std::move(found)) {}
 
-  void solve_by_quadrature() {
-    solution = quadrature_solution(system.law(), system.r(), terminal);
-    by_quadrature = true;
+  static std::shared_ptr<const Solved> by_quadrature(const ReducedSystem& system) {
+    auto solved = std::make_shared<Solved>(system);
+    solved->solution = quadrature_solution(system.law(), system.r(), solved->terminal());
+    solved->is_by_quadrature = true;
+    return solved;
   }
+
+  const TerminalRatios& terminal() const {
+    return terminal_.made([this] { return terminal_ratios(system.law(), system.r()); });
+  }
+
+  ReducedSystem system;
+  SimilaritySolution solution;
+  bool is_by_quadrature = false;
+
+ private:
+  Later<TerminalRatios> terminal_;
 };
 
 struct Flow::Arrays {
-  std::once_flag made;
-  std::optional<StopTimeTable> table;
+  Later<StopTimeTable> table;
 };
 
 namespace {
@@ -62,35 +72,30 @@ void require_match(const ReducedSystem& system, const SimilaritySolution& soluti
 
 }  // namespace
 
-Flow::Flow(Solved solved)
-    : solved_(std::make_shared<const Solved>(std::move(solved))), arrays_(std::make_shared<Arrays>()) {}
+Flow::Flow(std::shared_ptr<const Solved> solved)
+    : solved_(std::move(solved)), arrays_(std::make_shared<const Arrays>()) {}
 
 Flow::Flow(const ReducedSystem& system)
-    : Flow([&] {
-        Solved solved{.system = system, .solution = closed_solution(system.law(), system.r())};
-        solved.closed_time = closed_stop_time(system, {0, 0}).has_value();
-        if (!solved.solution) solved.solve_by_quadrature();
-        return solved;
+    : Flow([&]() -> std::shared_ptr<const Solved> {
+        SimilaritySolution closed = closed_solution(system.law(), system.r());
+        if (!closed) return Solved::by_quadrature(system);
+        return std::make_shared<const Solved>(system, std::move(closed));
       }()) {}
 
-Flow Flow::by_quadrature(const ReducedSystem& system) {
-  Solved solved{.system = system};
-  solved.solve_by_quadrature();
-  return Flow(std::move(solved));
-}
+Flow Flow::by_quadrature(const ReducedSystem& system) { return Flow(Solved::by_quadrature(system)); }
 
 Flow::Flow(const ReducedSystem& system, SimilaritySolution solution)
-    : Flow(Solved{.system = system, .solution = std::move(solution)}) {
-  require_match(solved_->system, solved_->solution, solved_->terminal);
+    : Flow(std::make_shared<const Solved>(system, std::move(solution))) {
+  require_match(solved_->system, solved_->solution, solved_->terminal());
 }
 
 const ReducedSystem& Flow::system() const { return solved_->system; }
 
-const TerminalRatios& Flow::terminal() const { return solved_->terminal; }
+const TerminalRatios& Flow::terminal() const { return solved_->terminal(); }
 
 const SimilaritySolution& Flow::solution() const { return solved_->solution; }
 
-bool Flow::is_by_quadrature() const { return solved_->by_quadrature; }
+bool Flow::is_by_quadrature() const { return solved_->is_by_quadrature; }
 
 Orbit Flow::orbit(State start) const {
   constexpr double max_r = 1e250;
@@ -104,11 +109,8 @@ Orbit Flow::orbit(State start) const {
 }
 
 StopTime Flow::stop_time(State start) const {
-  const Solved& solved = *solved_;
-  if (solved.closed_time) return reduction::stop_time(solved.system, start, Route::closed);
-  const Orbit motion(solved.system, start, solved.solution);
-  const Route route = solved.by_quadrature ? Route::quadrature : Route::closed;
-  return {motion.stop_time(), route, motion.accuracy(), motion.evaluations(), solved.system.stop_time_bounds(start)};
+  const Orbit motion(system(), start, solution());
+  return {motion.stop_time(), motion.accuracy(), motion.evaluations(), system().stop_time_bounds(start)};
 }
 
 double Flow::log_first_integral(double u, double ln_v) const {
@@ -122,15 +124,26 @@ double Flow::log_first_integral(double u, double ln_v) const {
   return ln_u - curve.ln_w(curve.chart().coordinate(ln_k));
 }
 
-const StopTimeTable& Flow::table() const {
-  // The table keeps a flow of its own: one that kept this one would never be released.
-  std::call_once(arrays_->made, [this] { arrays_->table.emplace(Flow(Solved(*solved_))); });
-  return *arrays_->table;
+void Flow::stop_times(std::span<const double> u0, std::span<const double> v0, std::span<double> tau, unsigned threads,
+                      std::size_t whole) const {
+  if (u0.size() != v0.size() || u0.size() != tau.size() || threads == 0) {
+    throw std::domain_error(fmt::format(
+        "Flow::stop_times: arrays of one size and a thread or more are needed, got {} u0, {} v0, {} tau, {} "
+        "threads",
+        u0.size(), v0.size(), tau.size(), threads));
+  }
+  if (std::max(whole, tau.size()) >= many_starts) return table().evaluate(u0, v0, tau, threads);
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    const State start{u0[i], v0[i]};
+    tau[i] = is_state(start) ? stop_time(start).tau : std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
-void Flow::stop_times(std::span<const double> u0, std::span<const double> v0, std::span<double> tau,
-                      unsigned threads) const {
-  table().evaluate(u0, v0, tau, threads);
+double Flow::refused(std::size_t whole) const { return whole < many_starts ? 0 : table().refused(); }
+
+const StopTimeTable& Flow::table() const {
+  // The table keeps a flow of its own: one that kept this one would never be released.
+  return arrays_->table.made([this] { return StopTimeTable(Flow(solved_)); });
 }
 
 }  // namespace contensou::reduction
