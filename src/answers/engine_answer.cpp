@@ -22,7 +22,7 @@ struct Contact {
 };
 
 /// A number to type in.
-struct Parameter {
+struct EngineParameter {
   std::string_view name, unit, formula;
   double value;
 };
@@ -31,7 +31,7 @@ struct Parameter {
 struct EngineWithBall {
   const Engine* engine;
   const si::EngineUse* use;
-  std::vector<Parameter> parameters;
+  std::vector<EngineParameter> parameters;
   std::vector<Contact> settings;
 };
 
@@ -185,7 +185,7 @@ std::string heading(const Report& report, const Digits& digits) {
       digits(si::spin_at_start(experiment)), law.name(), digits(contact.pivoting_moment), digits(own.moment_arm));
 }
 
-std::string typed_in(const Parameter& parameter, const Digits& digits) {
+std::string typed_in(const EngineParameter& parameter, const Digits& digits) {
   const auto& [name, unit, formula, value] = parameter;
   return fmt::format("{} = {}{}{}", name, digits(value), unit.empty() ? "" : " ", unit);
 }
@@ -229,7 +229,7 @@ std::string text_of(const EngineWithBall& of, const Report& report, const Digits
   const Contact& own = report.own;
   std::string text = fmt::format("\n{}: github.com/{}, {}\n\n", engine.title, engine.repository, engine.version);
   std::vector<std::string> lines;
-  for (const Parameter& parameter : of.parameters) {
+  for (const EngineParameter& parameter : of.parameters) {
     lines.push_back(fmt::format("{}   ({})", typed_in(parameter, digits), parameter.formula));
   }
   if (lines.empty()) lines.emplace_back(of.settings.empty() ? not_read : "nothing: it has no such number");
