@@ -11,7 +11,7 @@ namespace contensou::answers {
 /// The ball of an answer in SI units: its name and values, its patch radius under the law and what that follows from.
 Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law);
 
-/// The same for people, in two lines.
+/// The ball of an answer for people, in two lines.
 std::string ball_heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits);
 
 }  // namespace contensou::answers

@@ -7,7 +7,7 @@
 
 namespace contensou::answers {
 
-/// What a verb reads and writes.
+/// The columns and fields that a verb reads and writes.
 struct VerbFields {
   std::string verb;  ///< with options, such as "stop --batch"; or "all"
   std::vector<FieldText> fields;

@@ -13,7 +13,7 @@ namespace contensou::answers {
 /// @param planned  of a film that is not made yet
 Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned);
 
-/// The same on one screen, and what the data do not decide.
+/// The answer as text on one screen, and what the data do not decide.
 std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned,
                       const Digits& digits);
 

@@ -25,7 +25,7 @@ bool is_number(std::string_view text);
 /// @throws BadInput  quoting the text, if it is not a number, does not fit a double, or is not finite where it must be
 double parse_number(std::string_view text, Infinity infinity = Infinity::forbidden);
 
-/// What stands between these marks.
+/// The parts of a text between these marks.
 std::vector<std::string> split(std::string_view text, char mark);
 
 /// Numbers between commas.

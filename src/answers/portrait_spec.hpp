@@ -24,7 +24,7 @@ struct PortraitSpec {
   /// The drawing of that portrait, with the units of a ball.
   portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
 
-  /// And the map of each of its panels.
+  /// The drawing, and the map of each of its panels.
   portraits::MappedFigure mapped_figure(const portraits::PhasePortrait& portrait) const;
 
   /// What its data say about where they come from.

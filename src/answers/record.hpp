@@ -25,7 +25,7 @@ struct Field {
   const char* meaning;           ///< none: it is told elsewhere, for all verbs
   Json (*value)(const Result&);  ///< null where this result has none
 
-  /// Of CSV, between commas: of the value, of the entries of an array, or of the members of an object; an entry without
+  /// Names of the columns of CSV, between commas: of the value, of the entries of an array, or of the members of an object; an entry without
   /// a name has none. In those of an array of objects * stands for the member "name". Without a text, as in JSON; an
   /// empty one: none.
   const char* columns = nullptr;
@@ -37,7 +37,7 @@ struct Field {
 /// @param columns  as Field's
 void append_columns(Json& row, const std::string& name, const char* columns, const Json& value);
 
-/// As the table of fields shows it.
+/// A field as the table of fields shows it.
 FieldText text_of(const std::string& name, const char* columns, const char* unit, const char* meaning,
                   const char* shape);
 
@@ -68,7 +68,7 @@ Json row_of(const Field<Result> (&fields)[count], const Result& result) {
   return row;
 }
 
-/// What is to be told of these fields.
+/// The fields that have a meaning, as texts.
 template <class Result, std::size_t count>
 std::vector<FieldText> texts_of(const Field<Result> (&fields)[count]) {
   std::vector<FieldText> texts;

@@ -17,11 +17,11 @@ struct ReduceAnswer {
   bool found;  ///< a generator
 };
 
-/// Of (2.6), beside what the other routes say.
+/// Reduces (2.6); beside it stands what the other routes say.
 /// @throws BadInput  for a start at rest
 ReduceAnswer reduce_answer(const GivenStart& start);
 
-/// Of any field.
+/// Reduces any field.
 /// @param text  of the field, for the answer
 ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::string& text, const Eigen::Vector2d& start);
 

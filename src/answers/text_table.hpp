@@ -14,7 +14,7 @@ class TextTable {
     char align;         ///< < or >
   };
 
-  /// What stands beside a table of numbers, at the left; and numbers.
+  /// Columns of words, at the left; and of numbers, at the right.
   static Column left(int width = 0) { return {static_cast<std::size_t>(width), '<'}; }
   static Column right(int width) { return {static_cast<std::size_t>(width), '>'}; }
 

@@ -14,7 +14,7 @@ namespace contensou::answers {
 /// Standard deviations by the name of an observable, or "stop" of a stop time; SI.
 using NoiseByName = std::map<std::string, double>;
 
-/// How a track is read.
+/// Options of reading a track.
 struct TrackRequest {
   NoiseByName noise = {};            ///< of columns that do not say it themselves
   std::optional<double> from = {};   ///< s, where the motion begins; else the first row's time

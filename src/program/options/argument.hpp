@@ -71,7 +71,7 @@ class ArgumentOf : public Argument {
   Value value_or(Value standard) const { return given() ? values_.front() : std::move(standard); }
   std::optional<Value> optional() const { return given() ? std::optional(values_.front()) : std::nullopt; }
 
-  /// Of each time that it was given.
+  /// The values of all times that it was given.
   const std::vector<Value>& all() const { return values_; }
 
  private:
@@ -97,7 +97,7 @@ inline auto quantity(std::string_view symbol) {
   return [=](const std::string& typed) { return parse_quantity(typed, symbol); };
 }
 
-/// The same of each text. A unit behind the last is of all of them, unless each has its own.
+/// Reads each text as parse_quantity. A unit behind the last is of all of them, unless each has its own.
 std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol);
 
 /// Reads so many numbers between commas.
@@ -110,7 +110,7 @@ std::vector<double> numbers(const std::string& typed, std::size_t count, const s
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-/// What is wrong with a name that is none of those there are.
+/// The complaint about a name that is none of those there are.
 /// @param kind  what the names are of, such as "law"; none: "one of them is needed"
 NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names);
 

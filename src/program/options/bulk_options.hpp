@@ -17,7 +17,7 @@ class BulkOptions {
   /// @param reason  follows "--threads " and " is for "
   void refuse(const std::string& reason) const;
 
-  /// As many as the machine runs at once if none were given.
+  /// The threads to compute with: as many as the machine runs at once if no number was given.
   int threads() const;
 
   /// When progress is to be shown: of long work, if standard error is a terminal to which no output goes, unless always

@@ -34,17 +34,17 @@ class InstantsOption {
 
   bool given() const { return at_.given() || samples_.given() || equidistant_; }
 
-  /// Those of --at, in the order given; null without it.
+  /// The instants of --at, in the order given; null without it.
   const Times* at() const { return at_.given() ? &*at_ : nullptr; }
 
-  /// That of --samples.
+  /// The number that --samples gives.
   std::optional<Eigen::Index> asked() const { return samples_.optional(); }
 
-  /// How many are wanted without --at.
+  /// The number of instants without --at.
   Eigen::Index samples() const { return samples_.value_or(standard_samples); }
   bool equidistant() const { return equidistant_; }
 
-  /// Those of --at, or as instants().
+  /// The instants of --at, or as instants().
   Eigen::ArrayXd between(double busy, double end) const {
     return at_.given() ? at_->values : instants(samples(), equidistant_ ? 0 : busy, end);
   }

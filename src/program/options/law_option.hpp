@@ -24,7 +24,7 @@ class LawOption {
   /// @throws std::system_error  if the file cannot be read
   reduction::Law read(const std::string& standard) const;
 
-  /// Those of several names between commas. Throws as read.
+  /// The laws of several names between commas. Throws as read.
   std::vector<reduction::Law> read_several(const std::string& standard) const;
 
  private:

@@ -51,7 +51,7 @@ class OutputOptions {
 
   void add(CLI::App& app);
 
-  /// What they say: the ending of the file decides the format, or else --format, or else the kind.
+  /// Reads the three options: the ending of the file decides the format, or else --format, or else the kind.
   /// @param place  of the kind
   /// @throws BadInput  if the format is not one of the kind's, if ending and --format disagree, if a file needs an
   ///                   ending, and for --digits with other than text

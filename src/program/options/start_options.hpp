@@ -49,7 +49,7 @@ class StartOptions {
  public:
   void add(CLI::App& app);
 
-  /// Of what si::quantities() are in options of every verb that takes a ball.
+  /// Whether a verb that takes a ball offers an option for a quantity.
   using Offer = bool (*)(const si::Quantity& quantity);
   static bool all_but_rolling(const si::Quantity& quantity) { return &quantity != &si::rolling_friction; }
   static bool all(const si::Quantity& /*quantity*/) { return true; }
@@ -87,7 +87,7 @@ class StartOptions {
 
   bool ball_given() const { return ball_.given(); }
 
-  /// What the options of single values say.
+  /// The values that single options give, --slip among them.
   si::Description given_values() const;
 
   /// Whether a start of the ball was given, such as --slip.
@@ -108,7 +108,7 @@ class StartOptions {
   /// @param between  values that take the place of the ball's own, and that options replace
   si::Experiment read_ball(const reduction::Law& law, const si::Description& between = {}) const;
 
-  /// What moves, without how: --mu, a --body with a mu of its own, or --ball is enough. Throws as read.
+  /// The body without its motion: --mu, a --body with a mu of its own, or --ball is enough. Throws as read.
   reduction::ReducedSystem read_body(const reduction::Law& law) const;
 
   /// --body, by itself.

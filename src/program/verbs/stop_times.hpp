@@ -19,7 +19,7 @@ namespace contensou::program {
 /// first thread that needs it, and kept for as many of them as take a bounded memory. Threads may share it.
 class StopTimes {
  public:
-  /// Those of one mu. Threads may share it.
+  /// The stop times of one mu. Threads may share it.
   struct AtMu {
     std::optional<reduction::Flow> flow;
     std::function<double(reduction::State)> one;  ///< start by start, where there is no flow; throws as stop_time

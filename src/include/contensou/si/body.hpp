@@ -24,7 +24,7 @@ struct Body {
   std::string complaint(double mu) const;
 };
 
-/// Those that have a name.
+/// The bodies that have a name.
 const std::vector<Body>& bodies();
 
 }  // namespace contensou::si

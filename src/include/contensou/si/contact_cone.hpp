@@ -19,7 +19,7 @@ enum class Cone {
 
 std::string_view name(Cone cone);
 
-/// What share of slip and spin is left where FadeTimes count them as ended: an engine's never end to the last digit.
+/// The share of slip and spin at which FadeTimes count them as ended: an engine's never end to the last digit.
 inline constexpr double faded = 1e-3;
 
 /// Until when and how far a body slides and spins.

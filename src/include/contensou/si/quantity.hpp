@@ -20,7 +20,7 @@ struct Quantity {
   std::string_view components = "";     ///< of a vector, between commas; empty for a number
   std::optional<double> standard = {};  ///< the value if none is given
 
-  /// How many numbers it is.
+  /// The number of its components.
   std::size_t count() const;
 };
 
@@ -66,7 +66,7 @@ const std::vector<const Quantity*>& quantities();
 /// Quantities of which only one way is given: those of a way belong together.
 using Ways = std::vector<std::vector<const Quantity*>>;
 
-/// What has several ways: the patch, the start, and what presses the ball on the plane.
+/// The parts of an experiment that can be given in several ways: the patch, the start, and what presses the ball on the plane.
 const std::vector<Ways>& alternatives();
 
 /// A unit that may stand behind a number: one of it is factor/divisor SI units.
@@ -76,7 +76,7 @@ struct Unit {
   double divisor = 1;
 };
 
-/// What is measured in one SI unit, or in degrees.
+/// A dimension: its SI unit (or degrees) and the other units that are read.
 struct Dimension {
   std::string_view name;    ///< as help calls a value
   std::string_view symbol;  ///< of the unit that a plain number has

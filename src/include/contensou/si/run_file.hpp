@@ -17,7 +17,7 @@ Description parse_run_file(std::string_view text, std::string_view source);
 /// @throws std::system_error  if it cannot be read
 std::string read_run_text(const std::string& path);
 
-/// The same of a file.
+/// Reads a file as the text of a run file.
 /// @throws RunFileError       as parse_run_file
 /// @throws std::system_error  if the file cannot be read
 Description read_run_file(const std::string& path);
