@@ -50,6 +50,15 @@ void Text::append(Run run) {
   }
 }
 
+Text::Text(Run run) { append(std::move(run)); }
+
+Text::Text(std::string_view words) : Text(Run{std::string(words)}) {}
+
+Text operator+(Text text, const Text& more) {
+  text += more;
+  return text;
+}
+
 Text& Text::operator+=(const Text& text) {
   const std::vector<Run> more = text.runs_;  // it may be this one
   for (const Run& run : more) append(run);

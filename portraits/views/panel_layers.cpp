@@ -64,7 +64,8 @@ void PanelLayers::add_plain(const std::vector<TimedLine>& orbits, Stroke stroke,
 
 /// Heads where equal times are left, halfway between isochrones; at least one on an orbit, where it is seen best.
 std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orbit) {
-  const auto& [line, times] = orbit;
+  const Polyline& line = orbit.line;
+  const std::vector<double>& times = orbit.left;
   using Style = PortraitStyle::Arrows;
   std::vector<TimedArrow> result;
   if (arrows_ == Style::none) return result;

@@ -30,6 +30,7 @@
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/course.hpp"
+#include "contensou/si/description.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
@@ -50,19 +51,18 @@ Law law_of(const std::string& name) {
 }
 
 si::Experiment experiment_of(const val& fields) {
-  const auto number = [&](const char* key) { return fields[key].as<double>(); };
-  const double patch = number("patch");
-  si::Experiment experiment{.ball = {.name = "ball", .mass = number("mass"), .radius = number("radius")},
-                            .contact = {.friction = number("friction"), .patch = si::PatchRadius{patch}},
-                            .start = si::Velocities{{number("velocityX"), number("velocityY")},
-                                                    {number("omegaX"), number("omegaY"), number("omegaZ")}},
-                            .environment = {.gravity = number("gravity")}};
-  const auto known_by = fields["patchBy"].as<std::string>();
-  if (known_by == "spin_deceleration") experiment.contact.patch = si::SpinDeceleration{patch};
-  if (known_by == "whole_face") experiment.contact.patch = si::WholeFace{};
-  experiment.ball.body = *std::ranges::find(si::bodies(), fields["body"].as<std::string>(), &si::Body::name);
-  si::require_experiment(experiment);
-  return experiment;
+  si::Description described;
+  for (const si::Quantity* quantity : si::quantities()) {
+    const std::string name(quantity->name);
+    const val given = fields[name];
+    if (given.isUndefined()) continue;
+    described.set(*quantity,
+                  quantity->count() == 1 ? std::vector{given.as<double>()}
+                                         : emscripten::convertJSArrayToNumberVector<double>(given),
+                  {"", name, ""});
+  }
+  described.set_body(fields["body"].as<std::string>(), {"", "body", ""});
+  return si::experiment_of(described);
 }
 
 namespace {

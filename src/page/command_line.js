@@ -27,7 +27,7 @@ export function commandLine(state, request, through, body, builtIn) {
   }
   const words = ["contensou", "portrait", ...ofBall];
   if (ball) {
-    words.push("--slip", ball.velocityX, "--spin", ball.omegaZ);
+    words.push("--slip", ball.velocity[0], "--spin", ball.angular_velocity[2]);
   } else {
     if (state.body !== "ball") words.push("--body", state.body === "own" ? `${state.chi},${state.gamma}` : state.body);
     if (body.mu === undefined) words.push("--mu", state.mu);
@@ -48,8 +48,8 @@ export function commandLine(state, request, through, body, builtIn) {
 
 /** The start of a roll, and what slows it down: slip along x at v, spin u/R, and what the reader says of the centre. */
 function motionOf(ball, start) {
-  const { velocityX, velocityY, omegaX, omegaY, omegaZ } = shotOf(ball, start);
+  const { velocity, angular_velocity: spin } = shotOf(ball, start);
   const rolling = ball.rollingFriction > 0 ? ["--rolling-friction", ball.rollingFriction] : [];
-  if (velocityX === start.v && velocityY === 0) return ["--slip", start.v, "--spin", omegaZ, ...rolling];
-  return ["--velocity", `${velocityX},${velocityY}`, "--angular-velocity", [omegaX, omegaY, omegaZ].join(","), ...rolling];
+  if (velocity[0] === start.v && velocity[1] === 0) return ["--slip", start.v, "--spin", spin[2], ...rolling];
+  return ["--velocity", velocity.join(), "--angular-velocity", spin.join(), ...rolling];
 }

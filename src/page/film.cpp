@@ -7,6 +7,7 @@
 
 #include "answers/csv.hpp"
 #include "answers/fit_answer.hpp"
+#include "answers/fit_figure.hpp"
 #include "answers/track_file.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/experiment.hpp"
@@ -17,7 +18,8 @@ namespace contensou::page {
 namespace {
 
 /// What the best law has found: {report, notes on columns that are not read, law, friction, patch, slip, spin, velocityX
-/// and velocityY of the centre, along the slip and across it, measured: {t, slip, spin}, without those that were not}.
+/// and velocityY of the centre, along the slip and across it, measured: {t, slip, spin}, without those that were not, and
+/// the figure of `contensou fit`}.
 /// @param laws  between commas
 val fit(const std::string& text, const std::string& name, const val& ball, const std::string& laws) {
   return answer([&] {
@@ -46,7 +48,8 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
                   fits.front().law, "friction", value(fit::Parameter::friction), "patch",
                   value(fit::Parameter::patch_radius), "slip", slip.norm(), "spin", si::spin_at_start(start),
                   "velocityX", velocity.dot(along), "velocityY", along.x() * velocity.y() - along.y() * velocity.x(),
-                  "measured", measured);
+                  "measured", measured, "figure",
+                  figure_value(answers::fit_figure(fits.front(), request.tracks, {.width_mm = 120})));
   });
 }
 

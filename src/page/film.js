@@ -1,13 +1,19 @@
 // A film of a ball that the reader gives to the page: the library finds its friction and its patch, and the ball takes them.
 import { $ } from "./dom.js";
 import { startOf } from "./page_state.js";
+import { drawPortrait } from "./portrait_figure.js";
+import { rowsOf } from "./portrait_layout.js";
 import { shotOf } from "./portrait_request.js";
+import { ScreenSurface } from "./screen_surface.js";
 
 export class Film {
   constructor(store, player, ask) {
     this.store = store;
     this.player = player;
     this.ask = ask;
+    /** @type {Figure | null} the data with the fitted motion, and what is left */
+    this.figure = null;
+    this.picture = new ScreenSurface($("film-fit"), (surface) => this.draw(surface));
     $("film").addEventListener("change", ({ target }) => this.read(target.files[0]));
     addEventListener("dragover", (event) => event.preventDefault());
     addEventListener("drop", (event) => {
@@ -17,12 +23,32 @@ export class Film {
     });
   }
 
+  draw(surface) {
+    if (!this.figure) throw new Error("no film has been fitted");
+    drawPortrait(surface, { figure: this.figure, own: [], isochrone: null, marker: null, cross: null }, this.store.theme);
+  }
+
+  redraw() {
+    if (this.figure) this.picture.drawInSight();
+  }
+
+  show(figure) {
+    const { picture, picture: { canvas } } = this;
+    this.figure = figure;
+    canvas.hidden = !figure;
+    if (!figure) return;
+    canvas.style.setProperty("--rows", String(rowsOf(figure, canvas.clientWidth)));
+    picture.measure();
+    this.redraw();
+  }
+
   async read(file) {
-    const say = (status, problem = "", report = "") => {
+    const say = (status, problem = "", { report = "", figure = null } = {}) => {
       $("film-status").textContent = status;
       $("film-problem").textContent = problem;
       $("film-report").textContent = report;
       $("film-report").hidden = !report;
+      this.show(figure);
       $("film-card").scrollIntoView({ block: "nearest" });
     };
     try {
@@ -30,8 +56,8 @@ export class Film {
       const text = await file.text();
       // What is said is seen before the work begins.
       await new Promise((seen) => setTimeout(seen, 50));
-      const report = this.fit(file.name, text);
-      say(`${file.name} is fitted: the ball above has its friction, patch, slip and spin now.`, "", report);
+      const found = this.fit(file.name, text);
+      say(`${file.name} is fitted: the ball above has its friction, patch, slip and spin now.`, "", found);
     } catch (error) {
       say("", error.message);
     }
@@ -39,7 +65,7 @@ export class Film {
     $("film").value = "";
   }
 
-  /** What the library finds, in words; the ball is then as it was found. */
+  /** What the library finds, in words and as a figure; the ball is then as it was found. */
   fit(name, text) {
     const { store: { library, request, state } } = this;
     if (!state.ball) throw new Error("A film is of a real ball: choose one above, its radius is needed.");
@@ -52,6 +78,6 @@ export class Film {
       ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch },
     }));
     this.player.toggle(this.player.moves);
-    return `${found.notes}${found.report}`;
+    return { report: `${found.notes}${found.report}`, figure: found.figure };
   }
 }

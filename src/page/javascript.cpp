@@ -78,9 +78,9 @@ val text_value(const portraits::Text& text) {
 }
 
 val figure_value(const portraits::Figure& figure) {
-  val value =
-      object("title", figure.title, "panels", list(figure.panels, panel_value), "ground", css(figure.theme.ground),
-             "ink", css(figure.theme.ink), "faint", css(figure.theme.faint), "line", figure.theme.line);
+  val value = object("title", figure.title, "panels", list(figure.panels, panel_value), "ground",
+                     css(figure.theme.ground), "ink", css(figure.theme.ink), "faint", css(figure.theme.faint), "line",
+                     figure.theme.line, "columns", figure.max_columns);
   if (const auto& bar = figure.colour_bar) {
     const auto colour = [](Colour of) { return val(css(of)); };
     value.set("colourBar",

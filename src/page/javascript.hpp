@@ -36,8 +36,7 @@ auto answer(Function function) {
 /// @throws std::domain_error  if there is no such law
 reduction::Law law_of(const std::string& name);
 
-/// The fields of a ball on the page, in SI units; `patch` is a radius in m or a spin deceleration in rad/s^2, or nothing
-/// where a body rests on its whole face.
+/// What the fields describe: its body, and quantities (si/quantity.hpp) by their names, in SI units.
 si::Experiment experiment_of(const val& fields);
 
 /// Float64Array.

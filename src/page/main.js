@@ -45,7 +45,8 @@ function start(library) {
   const orbits = makeOrbits(store, plane, { ask, stopText });
   const checks = new Checks(store);
   const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
-  const share = new Share(store, plane, hero, player, address);
+  const film = new Film(store, player, ask);
+  const share = new Share(store, plane, hero, player, address, film);
   const go = (fragment, step = 0) => ask((state) => Object.assign(state, fromFragment(fragment, library), { step, theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
   $("presets").append(...presets.map(({ title, fragment }) => {
     const link = make("a", { href: `#${fragment}`, textContent: title });
@@ -56,7 +57,6 @@ function start(library) {
     return link;
   }));
   const tour = new Tour(go);
-  new Film(store, player, ask);
 
   const panes = new ScreenSurface($("panes"), (surface) => drawPanes(surface, store, store.theme));
   const draw = () => {
@@ -80,6 +80,7 @@ function start(library) {
       share.show();
       plane.label();
       checks.show();
+      film.redraw();
       tour.show(store.state.step);
     }
     draw();

@@ -72,7 +72,7 @@ export class Plane {
 
   draw() {
     const { surface, surface: { canvas } } = this;
-    const rows = String(rowsOf(this.store.portrait.figure.panels.length, surface.width));
+    const rows = String(rowsOf(this.store.portrait.figure, surface.width));
     if (canvas.dataset.rows !== rows) {
       canvas.dataset.rows = rows;
       canvas.style.setProperty("--rows", rows);

@@ -6,8 +6,11 @@ import { widthOf } from "./surface.js";
 const narrowest = 230;  // pixels that a panel needs beside others
 export const margin = 8;
 
-/** Panels stand side by side where there is room, else one above the other. */
-export const rowsOf = (panels, width) => (width / panels < narrowest ? panels : 1);
+/** Panels stand side by side, as many as the figure wants, where there is room, else one above the other. */
+export function rowsOf({ panels, columns }, width) {
+  const beside = Math.min(columns, panels.length);
+  return width / beside < narrowest ? panels.length : Math.ceil(panels.length / beside);
+}
 
 /** Where things of those widths go in lines, `gap` between those of one line: {thing, left, row} of each. */
 function setLines(things, width, widthOfThing, gap) {
@@ -69,8 +72,8 @@ export function layOut(figure, width, height, size) {
   const legend = setLines(entries, inner, (entry) => sample + 0.4 * size + widthOf(entry.legend, { size }), 1.4 * size);
   const legendTop = height - margin - lineHeight * rowsIn(legend);
 
-  const rows = rowsOf(panels.length, width);
-  const columns = panels.length / rows;
+  const rows = rowsOf(figure, width);
+  const columns = Math.ceil(panels.length / rows);
   const cell = { width: inner / columns, height: (legendTop - (legend.length ? 0.3 * size : 0) - top) / rows };
   const above = panels.some((panel) => panel.title.length > 0) ? 1.9 * size : 0.6 * size;
   const rangeOf = ({ name, low, high, ticks }) => ({ low, high, label: name.length > 0 ? name : undefined, ticks });

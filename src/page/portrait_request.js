@@ -1,9 +1,11 @@
 // What the page asks the library to draw. command_line.js writes the same request as options of the program.
 import { startOf } from "./page_state.js";
 
-/** A ball with its start: it slips along x at v and spins with u = R omega. */
-export const shotOf = (ball, { u, v, along, across }) =>
-  ({ ...ball, velocityX: along, velocityY: across, omegaX: -across / ball.radius, omegaY: (along - v) / ball.radius, omegaZ: u / ball.radius });
+/** A ball with its start, by the names that the library has: it slips along x at v and spins with u = R omega. */
+export const shotOf = (ball, { u, v, along, across }) => ({
+  ...ball, slip: undefined, spin: undefined, [ball.patchBy]: ball.patch,
+  velocity: [along, across], angular_velocity: [0 - across, along - v, u].map((speed) => speed / ball.radius),
+});
 
 /** The same, but for how it turns forward: of that the plane knows nothing. */
 const plainly = ({ u, v }) => startOf(u, v);

@@ -12,13 +12,14 @@ import { SvgSurface } from "./surface.js";
 const widest = 12000;  // pixels; browsers have no larger canvas
 
 export class Share {
-  constructor(store, plane, hero, player, address) {
+  constructor(store, plane, hero, player, address, film) {
     this.store = store;
     const figures = {
       plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store.theme)],
       lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface)],
       patch: ["the patch", "patch", (surface) => hero.drawPatch(surface)],
       panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store, store.theme)],
+      "film-fit": ["the fit of a film", "fit", (surface) => film.draw(surface)],
     };
     fillSelect($("picture"), Object.entries(figures).map(([name, [title]]) => ({ name, title })));
     const picture = () => {

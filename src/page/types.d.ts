@@ -25,7 +25,7 @@ interface Contact { mu: number; patchRadius: number; spinDeceleration: number; s
 
 /** What one portrait is asked for by: portrait_request.js. */
 interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
-  screen: boolean; orbits: Speeds[]; ball: object & Ball & { velocityX: number; omegaZ: number } | null;
+  screen: boolean; orbits: Speeds[]; ball: object & Ball & { velocity: number[]; angular_velocity: number[] } | null;
 }
 
 /** Columns. */
@@ -52,7 +52,7 @@ interface Panel {
   arrows: { arrows: Float64Array; colour: string }[]; regions: { border: Float64Array; colour: string }[];
 }
 interface Figure {
-  title: Words; panels: Panel[]; ground: string; ink: string; faint: string; line: number;
+  title: Words; panels: Panel[]; ground: string; ink: string; faint: string; line: number; columns: number;
   colourBar?: { name: Words; colours: string[]; ticks: Tick[] };
 }
 interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; moments: boolean; through: Speeds[] }
@@ -66,7 +66,7 @@ interface Library {
 }
 /** Columns, SI, and the name of the ball; slip and spin where the film has them. */
 interface Measured { ball: string; t: Float64Array; slip?: Float64Array; spin?: Float64Array }
-interface Fitted { measured: Omit<Measured, "ball">; report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number }
+interface Fitted { measured: Omit<Measured, "ball">; report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number; figure: Figure }
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number): { terminalRatio: number; meaning: string };
   portrait(request: PortraitRequest): Portrait;

@@ -64,6 +64,9 @@ test("a film is fitted as the program fits it, and the ball takes what was found
 
 test("a film of the spin alone determines a product, and says so; one of the centre gives its velocity", async () => {
   await open("#ball=pool");
+  await page.selectOption("#picture", "film-fit");
+  await page.click("#save-svg");
+  assert.match(await page.textContent("#copied"), /could not be done: no film has been fitted/);
   const text = filmOf("pool", 40, 2, "0.2", "100");
   await page.evaluate((text) => {
     const data = new DataTransfer();
@@ -80,6 +83,15 @@ test("a film of the spin alone determines a product, and says so; one of the cen
   const { ball, orbits: [{ along, across }] } = await state();
   assertClose(Math.hypot(along, across), 0.9 * Math.SQRT2, 1e-4, "speed of the centre");
   assertClose(ball.friction, 0.2, 1e-3, "friction");
+  // Each column that was measured is drawn over its curve, with what is left below.
+  const svg = String(await saved("#save-svg"));
+  for (const name of ["x", "y", "spin"]) assert.match(svg, new RegExp(`>${name}: residual / sd<`));
+  const dots = Array.from(svg.matchAll(/<path d="([^"]*a1\.368 [^"]*)"/g), ([, path]) => path.split("M").length - 1);
+  assert.deepEqual(dots.filter((count) => count === 60).length, 6);
+  assert.ok((await page.locator("#film-fit").boundingBox()).height > 300);
+  await page.setInputFiles("#film", file("empty.csv", ""));
+  await page.waitForFunction(() => document.getElementById("film-problem").textContent !== "");
+  assert.ok(await page.locator("#film-fit").isHidden(), "of another film nothing is left");
   await close();
 });
 

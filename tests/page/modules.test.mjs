@@ -191,8 +191,8 @@ test("a request is what the state asks the library for", () => {
   const { against, ball, chi } = requestOf(state);
   assert.deepEqual([against, ball, chi], [null, null, 3.5], "a law is not compared with itself");
   takeBall(state, gel);
-  const { velocityX, omegaY, omegaZ } = requestOf(state).ball;
-  assert.deepEqual([velocityX, omegaY, omegaZ], [0.5, 0, 300]);
+  const { velocity, angular_velocity, patch_radius } = requestOf(state).ball;
+  assert.deepEqual([velocity, angular_velocity, patch_radius], [[0.5, 0], [0, 0, 300], 0.007]);
   assert.equal(requestOf({ ...state, orbits: [] }).ball, null, "without a motion only the mu of a ball");
 });
 
@@ -233,8 +233,9 @@ test("a frame leads from numbers to pixels and back, and a column breaks where i
 test("panels stand side by side where there is room, to scale where they are, and nothing overlaps", () => {
   const axis = { name: "", low: -1, high: 1, ticks: [] };
   const panel = { title: "", x: axis, y: { ...axis, low: 0 }, lines: [{ legend: "orbits" }], marks: [], bare: true, toScale: true };
-  const figure = { title: "one,  two", panels: [panel, panel], colourBar: { name: "time left", colours: ["#000000"], ticks: [] } };
-  assert.deepEqual([rowsOf(2, 500), rowsOf(2, 400)], [1, 2]);
+  const figure = { title: "one,  two", panels: [panel, panel], columns: 4, colourBar: { name: "time left", colours: ["#000000"], ticks: [] } };
+  const four = { panels: [panel, panel, panel, panel], columns: 2 };
+  assert.deepEqual([rowsOf(figure, 500), rowsOf(figure, 400), rowsOf(four, 500), rowsOf(four, 400)], [1, 2, 2, 4]);
   for (const [width, height] of [[900, 500], [320, 700]]) {
     const { frames, legend, legendTop } = layOut(figure, width, height, 13);
     for (const { left, top, width: wide, height: tall } of frames) {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace contensou::portraits {
@@ -24,9 +22,10 @@ struct Run {
 class Text {
  public:
   Text() = default;
-  explicit Text(Run run) { append(std::move(run)); }
-  template <std::convertible_to<std::string_view> Words>
-  Text(const Words& words) : Text(Run{std::string(std::string_view(words))}) {}
+  explicit Text(Run run);
+  Text(std::string_view words);
+  Text(const std::string& words) : Text(std::string_view(words)) {}
+  Text(const char* words) : Text(std::string_view(words)) {}
 
   /// Neighbours differ in their look, and none is empty.
   const std::vector<Run>& runs() const { return runs_; }
@@ -35,7 +34,7 @@ class Text {
   std::string words() const;
 
   Text& operator+=(const Text& text);
-  friend Text operator+(Text text, const Text& more) { return std::move(text += more); }
+  friend Text operator+(Text text, const Text& more);
   bool operator==(const Text&) const = default;
 
  private:
