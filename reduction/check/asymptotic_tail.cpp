@@ -11,10 +11,10 @@ std::optional<AsymptoticTail> AsymptoticTail::at(const ReducedSystem& system, co
   const double ln_k = state.ln_v - state.ln_w;
   const double pivoting_rate = system.r() * system.law().pivoting_moment();
   // Pure pivoting: v has become too small to be felt. Pure sliding: all pivoting would take no time.
-  if (ln_k < std::log(1e-17)) return AsymptoticTail(system, state, true);
+  if (system.drive() == 0 && ln_k < std::log(1e-17)) return AsymptoticTail(system, state, true);
   if (ln_k + std::log(pivoting_rate) > std::log(1e18)) return AsymptoticTail(system, state, false);
   // Neither, but next to nothing is left (k tends to a finite ratio, or very slowly to 0).
-  const double upper_bound = std::exp(state.ln_w) / pivoting_rate + std::exp(state.ln_v);
+  const double upper_bound = (std::exp(state.ln_w) / pivoting_rate + std::exp(state.ln_v)) / (1 - system.drive());
   if (upper_bound < 1e-17 * state.s) return AsymptoticTail(system, state, ln_k < 0);
   return std::nullopt;
 }
@@ -26,14 +26,14 @@ AsymptoticTail::AsymptoticTail(const ReducedSystem& system, const LogState& from
     const double w = std::exp(from.ln_w);
     left_ = w / pivoting_rate;
     ln_w_slope_ = 1;
-    ln_v_slope_ = law.force_slope() / pivoting_rate;
+    ln_v_slope_ = system.drive() > 0 ? 1 : law.force_slope() / pivoting_rate;
     beta_scale_ = left_ / (128 * w * w);
   } else {
     constexpr double fast = 0x1p100;
     const double v = std::exp(from.ln_v);
-    left_ = v;
+    left_ = v / (1 - system.drive());
     ln_v_slope_ = 1;
-    ln_w_slope_ = system.r() * fast * law({fast, 1}).moment;
+    ln_w_slope_ = system.r() * fast * law({fast, 1}).moment / (1 - system.drive());
     beta_scale_ = left_ / (45 * pi * pi * v * v);
   }
 }

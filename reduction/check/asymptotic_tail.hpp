@@ -19,7 +19,7 @@ struct LogState {
 /// The exact limit of the rest of a motion, from where one of the two frictions is all there is.
 ///
 /// k -> 0: w falls at the rate r Psi(0), v follows with the exponent of the linearised law. k -> infinity: v falls at
-/// the rate 1, w follows.
+/// the rate 1 - rho, w follows.
 class AsymptoticTail {
  public:
   /// The limit that holds at this state to better than 1e-17 of the whole time, if one does.

@@ -30,10 +30,11 @@ double separated_slope(const ReducedSystem& system, double q) {
   if (q == 0 || !std::isfinite(q)) {
     throw std::domain_error(fmt::format("separated_slope: q must be finite and not 0, got {}", q));
   }
-  // d ln v = -Phi ds/v and d ln k = -(Phi - r k Psi) ds/v (README (R2)), and q = mu k.
+  // d ln v = -(Phi - rho) ds/v and d ln k = -(Phi - rho - r k Psi) ds/v (README (R2), (R48)), and q = mu k.
   const double k = std::abs(q) / system.mu();
   const auto [force, moment] = system.law()(slip_of_ratio(k));
-  return force / (q * (force - system.r() * k * moment));
+  const double net = force - system.drive();
+  return net / (q * (net - system.r() * k * moment));
 }
 
 }  // namespace contensou::reduction

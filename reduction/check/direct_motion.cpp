@@ -1,4 +1,4 @@
-// In scaled units (README (R1)):  d ln w/ds = -r Psi/w,  d ln v/ds = -Phi/v,  and dbeta/ds = 1/W beside them.
+// In scaled units (README (R1)):  d ln w/ds = -r Psi/w,  d ln v/ds = -(Phi - rho)/v,  and dbeta/ds = 1/W beside them.
 #include "contensou/reduction/direct_motion.hpp"
 
 #include <algorithm>
@@ -50,7 +50,8 @@ struct DirectEquations {
     }
     const auto [force, moment] = system.law()(slip_of_ratio(k));
     rate[0] = -system.r() * (k > 1 ? k * moment / v : moment / w);
-    rate[1] = -(k > 1 ? force / v : force / k / w);
+    const double net = force - system.drive();
+    rate[1] = -(k > 1 ? net / v : net / k / w);
     const double weight = (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);
     rate[2] = std::exp(-x[2]) / (beta_unit * weight);
   }
@@ -76,6 +77,8 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   Values x{here.ln_w, here.ln_v, 0};
   double s = 0;
   double step = 1e-3 * std::max(std::exp(here.ln_w), std::exp(here.ln_v)) / std::max(1.0, 0.01 * system.r());
+  // What begins to creep changes ln v at the rate rho/v.
+  if (system.drive() > 0) step = std::min(step, 0.1 * std::exp(here.ln_v) / system.drive());
   const auto log_state = [&] { return LogState{x[0], x[1], s, beta_unit * std::expm1(x[2])}; };
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/terminal_ratio.hpp"
 #include "numerics/infinity.hpp"
 
 namespace contensou::reduction {
@@ -40,6 +41,10 @@ MotionRecorder::MotionRecorder(const char* caller, const ReducedSystem& system, 
   if (largest > 0) exponent_ = std::ilogb(largest);
   const double unit = exponent_ * std::log(2.0);
   start_ = {std::log(mu_) + std::log(std::abs(start.u)) - unit, std::log(start.v) - unit, 0, 0};
+  if (system.drive() > 0) {
+    const double least = least_log_ratio(system.law(), system.r(), system.drive());
+    start_.ln_v = std::max(start_.ln_v, start_.ln_w + least);
+  }
   time_scale_ = std::exp(start_.ln_w) / (system.r() * system.law().pivoting_moment()) + std::exp(start_.ln_v);
 
   // As it was given, not by way of its logarithms.

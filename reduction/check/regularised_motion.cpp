@@ -1,5 +1,5 @@
 // In scaled units (README (R1)) with the weight of (2.8), W = (16 w + 15 pi v)(8 w + 3 pi v):
-//   d ln w/dbeta = -W r Psi/w,  d ln v/dbeta = -W Phi/v,  ds/dbeta = W
+//   d ln w/dbeta = -W r Psi/w,  d ln v/dbeta = -W (Phi - rho)/v,  ds/dbeta = W
 #include "contensou/reduction/regularised_motion.hpp"
 
 #include <algorithm>
@@ -41,7 +41,8 @@ struct RegularisedEquations {
     // Weight over the larger speed, so that neither quotient divides by a speed that vanishes.
     const double weight = (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);
     rate[0] = -(k > 1 ? weight / v * (k * moment) : weight / w * moment) * system.r();
-    rate[1] = -(k > 1 ? weight / v * force : weight / w * (force / k));
+    const double net = force - system.drive();
+    rate[1] = -(k > 1 ? weight / v * net : weight / w * (net / k));
     rate[2] = weight / time_scale;
   }
 };
@@ -63,6 +64,11 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
   Values x{here.ln_w, here.ln_v, 0};
   const double speed = 16 * std::exp(x[0]) + 15 * pi * std::exp(x[1]);
   double step = 1e-3 / (speed * std::max(1.0, 0.01 * system.r()));
+  // What begins to creep changes ln v at the rate rho W/v.
+  if (system.drive() > 0) {
+    const double other = 8 * std::exp(x[0]) + 3 * pi * std::exp(x[1]);
+    step = std::min(step, 0.1 * std::exp(x[1]) / (system.drive() * speed * other));
+  }
   bool fresh = true;
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {

@@ -47,7 +47,7 @@ std::string_view description(Route route) { return text(route).description; }
 
 std::vector<Route> routes(const ReducedSystem& system) {
   std::vector<Route> found;
-  if (closed_solution(system.law(), system.r())) found.push_back(Route::closed);
+  if (closed_solution(system.law(), system.r(), system.drive())) found.push_back(Route::closed);
   found.push_back(Route::quadrature);
   found.push_back(Route::regularised);
   found.push_back(Route::direct);
@@ -59,8 +59,8 @@ StopTime stop_time(const ReducedSystem& system, State start, Route route) {
     case Route::closed: {
       const Flow flow(system);
       if (!flow.is_by_quadrature()) return flow.stop_time(start);
-      throw std::domain_error(
-          fmt::format("stop_time: law {} has no closed form at r = {}", system.law().name(), system.r()));
+      throw std::domain_error(fmt::format("stop_time: law {} has no closed form at r = {}{}", system.law().name(),
+                                          system.r(), system.drive() > 0 ? " with a drive" : ""));
     }
     case Route::quadrature:
       return Flow::by_quadrature(system).stop_time(start);

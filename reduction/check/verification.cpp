@@ -153,12 +153,12 @@ class Examination {
     add("first integral along (2.6)", drift(direct), stepping);
   }
 
-  /// |d ln w/d ln k| = r k Psi/|Phi - r k Psi|, README (R2).
+  /// |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2).
   double steepness(double ln_k) const {
     const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
     const auto [force, moment] = system_.law()(slip_of_ratio(k));
     const double drag = system_.r() * k * moment;
-    return drag / std::abs(force - drag);
+    return drag / std::abs(force - system_.drive() - drag);
   }
 
   /// Where k does not change, and says nothing about where a motion is.
@@ -192,8 +192,12 @@ class Examination {
     const double pivoting_rate = system_.r() * system_.law().pivoting_moment();
     const State almost_sliding{faint * std::min(1.0, pivoting_rate) * speed / system_.mu(), speed};
     const auto stop = [&](State start) { return flow_.orbit(start).stop_time(); };
-    add("limit of pure pivoting", relative(stop(almost_pivoting), system_.pivoting_limit(speed)), rounding);
-    add("limit of pure sliding", relative(stop(almost_sliding), system_.sliding_limit(speed)), rounding);
+    // With a drive, k = 0 is no limit: what begins there begins to creep.
+    const bool creeps = system_.drive() > 0;
+    const double pivoting = creeps ? stop({speed, 0}) : system_.pivoting_limit(speed);
+    add(creeps ? "start of creeping" : "limit of pure pivoting", relative(stop(almost_pivoting), pivoting), rounding);
+    const double sliding = system_.sliding_limit(speed) / (1 - system_.drive());
+    add("limit of pure sliding", relative(stop(almost_sliding), sliding), rounding);
   }
 
   void bounds() {
@@ -214,7 +218,7 @@ class Examination {
   }
 
   void inner_orbit() {
-    if (!system_.law().as<HertzLaw>() || !(system_.r() < 2)) return;
+    if (!system_.law().as<HertzLaw>() || !(system_.r() < 2) || system_.drive() > 0) return;
     const SimilarityCurve& curve = *flow_.solution().through(0);
     // ln w changes by r times a number of order 1, and more as r -> 2.
     double worst = 0;

@@ -20,13 +20,13 @@ struct Flow::Solved {
 
   static std::shared_ptr<const Solved> by_quadrature(const ReducedSystem& system) {
     auto solved = std::make_shared<Solved>(system);
-    solved->solution = quadrature_solution(system.law(), system.r(), solved->terminal());
+    solved->solution = quadrature_solution(system.law(), system.r(), solved->terminal(), system.drive());
     solved->is_by_quadrature = true;
     return solved;
   }
 
   const TerminalRatios& terminal() const {
-    return terminal_.made([this] { return terminal_ratios(system.law(), system.r()); });
+    return terminal_.made([this] { return terminal_ratios(system.law(), system.r(), system.drive()); });
   }
 
   ReducedSystem system;
@@ -55,9 +55,10 @@ double between(double k, double other) {
 
 void require_match(const ReducedSystem& system, const SimilaritySolution& solution, const TerminalRatios& terminal) {
   for (const auto& curve : solution.curves()) {
-    if (curve->r() == system.r()) continue;
+    if (curve->r() == system.r() && curve->drive() == system.drive()) continue;
     throw std::domain_error(
-        fmt::format("Flow: a solution for r = {} was given with a system of r = {}", curve->r(), system.r()));
+        fmt::format("Flow: a solution for r = {} and a drive of {} was given with a system of r = {} and a drive of {}",
+                    curve->r(), curve->drive(), system.r(), system.drive()));
   }
   for (const TerminalRatio& end : terminal.ends) {
     for (double far : {end.from, end.to}) {
@@ -77,7 +78,7 @@ Flow::Flow(std::shared_ptr<const Solved> solved)
 
 Flow::Flow(const ReducedSystem& system)
     : Flow([&]() -> std::shared_ptr<const Solved> {
-        SimilaritySolution closed = closed_solution(system.law(), system.r());
+        SimilaritySolution closed = closed_solution(system.law(), system.r(), system.drive());
         if (!closed) return Solved::by_quadrature(system);
         return std::make_shared<const Solved>(system, std::move(closed));
       }()) {}
@@ -132,14 +133,17 @@ void Flow::stop_times(std::span<const double> u0, std::span<const double> v0, st
         "threads",
         u0.size(), v0.size(), tau.size(), threads));
   }
-  if (std::max(whole, tau.size()) >= many_starts) return table().evaluate(u0, v0, tau, threads);
+  if (by_table(std::max(whole, tau.size()))) return table().evaluate(u0, v0, tau, threads);
   for (std::size_t i = 0; i < tau.size(); ++i) {
     const State start{u0[i], v0[i]};
     tau[i] = is_state(start) ? stop_time(start).tau : std::numeric_limits<double>::quiet_NaN();
   }
 }
 
-double Flow::refused(std::size_t whole) const { return whole < many_starts ? 0 : table().refused(); }
+double Flow::refused(std::size_t whole) const { return by_table(whole) ? table().refused() : 0; }
+
+// With a drive m, which the table holds, is not bounded.
+bool Flow::by_table(std::size_t starts) const { return starts >= many_starts && system().drive() == 0; }
 
 const StopTimeTable& Flow::table() const {
   // The table keeps a flow of its own: one that kept this one would never be released.

@@ -1,7 +1,7 @@
 // Notation (README (R1) to (R7)): w = mu |u|, s = scaled time, and with the curve's ln w, m, n, b, c at xi:
 //   s left    = w/(r Psi(0)) + v m                                (R4)
 //   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R5)
-//   slip left = v (v/2 + n w)                                     (R13)
+//   slip left = v (v/(2 (1 - rho)) + n w)                         (R13), (R50)
 //   angle left = w (w/(2 r Psi(0)) + o v)                         (R31)
 //   beta      = (3 pi/(2 chi)) (b/(w + v) - b0/(w0 + v0))         (R7)
 //   d(s left)/d xi = c (w + v)                                    (R3)
@@ -19,6 +19,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/roots.hpp>
 
+#include "contensou/reduction/terminal_ratio.hpp"
 #include "numerics/infinity.hpp"
 
 namespace contensou::reduction {
@@ -78,9 +79,18 @@ Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution&
   v_ = std::ldexp(v0_, -exponent_);
   if (on_axis()) {
     ln_k0_ = u0_ == 0 ? infinity : -infinity;
+    m0_ = 1 / (1 - system.drive());
     return;
   }
-  ln_k0_ = log_ratio(v0_, system.mu(), std::abs(u0_), v_, w_);
+  if (v0_ > 0) ln_k0_ = log_ratio(v0_, system.mu(), std::abs(u0_), v_, w_);
+  if (system.drive() > 0) {
+    const double least = least_log_ratio(system.law(), system.r(), system.drive());
+    if (v0_ == 0 || ln_k0_ < least) {
+      creeps_ = true;
+      ln_k0_ = least;
+      v_ = w_ * std::exp(least);
+    }
+  }
   curve_ = solution.through(ln_k0_);
   xi0_ = curve_->chart().coordinate(ln_k0_);
   m0_ = curve_->sliding_coefficient(xi0_);
@@ -108,6 +118,13 @@ double Orbit::stop_time() const {
 double Orbit::accuracy() const { return on_axis() ? rounding_of_stop_time(0) : curve_->accuracy(); }
 
 long Orbit::evaluations() const { return on_axis() ? 0 : curve_->evaluations(); }
+
+double Orbit::sliding(const Progress& now) const { return creeps_ ? std::ldexp(v_ * now.v, exponent_) : v0_ * now.v; }
+
+double Orbit::log_sliding(const Progress& now) const {
+  const double ln_v = creeps_ ? std::log(v_) + exponent_ * std::numbers::ln2 : std::log(v0_);
+  return ln_v + now.ln_v;
+}
 
 Orbit::Progress Orbit::fallen(double xi) const {
   const double ln_w = curve_->ln_w(xi) - ln_w0_;
@@ -139,7 +156,8 @@ double Orbit::scaled_elapsed(double xi, const Progress& now) const {
 }
 
 double Orbit::slip_left(double xi, const Progress& now) const {
-  return v_ * now.v * (v_ * now.v / 2 + curve_->slip_length_coefficient(xi) * w_ * now.w);
+  const double alone = v_ * now.v / (2 * (1 - system_.drive()));
+  return v_ * now.v * (alone + curve_->slip_length_coefficient(xi) * w_ * now.w);
 }
 
 double Orbit::turned_left(double xi, const Progress& now) const {
@@ -191,7 +209,8 @@ OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
   const double spent = (1 - fraction_left) / fraction_left;
   if (u0_ == 0) {
     const double v = v0_ * fraction_left;
-    return {tau, 0, v, std::log(v), infinity, quotient(spent / (45 * pi * pi * rate), v0_)};
+    const double fall = rate * (1 - system_.drive());
+    return {tau, 0, v, std::log(v), infinity, quotient(spent / (45 * pi * pi * fall), v0_)};
   }
   const double beta = quotient(spent / (128 * rate * pivoting_rate_), system_.mu() * std::abs(u0_));
   return {tau, u0_ * fraction_left, 0, -infinity, 0, beta};
@@ -203,21 +222,35 @@ double Orbit::beta(double xi, const Progress& now) const {
   constexpr double beside = 1e-3;
   constexpr double unchanged = 3e-7;
   const TerminalChart& chart = curve_->chart();
-  if (std::abs(ln_k0_ - chart.log_terminal_ratio()) < beside && std::abs(chart.log_ratio(xi) - ln_k0_) < unchanged) {
-    const double k = std::exp(chart.log_ratio(xi));
+  const double ln_k = chart.log_ratio(xi);
+  const auto at_ratio = [&](double k, const Progress& from) {
     const double weight = (16 + 15 * pi * k) * (8 + 3 * pi * k);
     const double pivoting_rate = system_.r() * system_.law()(slip_of_ratio(k)).moment;
-    return (1 / now.w - 1) / (w_ * weight * pivoting_rate);
+    return (1 / now.w - 1 / from.w) / (w_ * weight * pivoting_rate);
+  };
+  const double ln_k_star = chart.log_terminal_ratio();
+  if (std::abs(ln_k0_ - ln_k_star) < beside && std::abs(ln_k - ln_k0_) < unchanged) {
+    return at_ratio(std::exp(ln_k), at_start);
   }
-  return curve_->beta_coefficient(xi) / (w_ * now.w + v_ * now.v) - curve_->beta_coefficient(xi0_) / (w_ + v_);
+  const auto elapsed = [&](double there, const Progress& then) {
+    return curve_->beta_coefficient(there) / (w_ * then.w + v_ * then.v) - curve_->beta_coefficient(xi0_) / (w_ + v_);
+  };
+  // On the small ray of a drive w may fall by any factor while k does not tell.
+  constexpr double there_already = 1e-9;
+  if (system_.drive() > 0 && std::abs(ln_k - ln_k_star) < there_already) {
+    const double xi_then = chart.coordinate(ln_k_star + std::copysign(there_already, ln_k0_ - ln_k_star));
+    const Progress then = progress(xi_then);
+    return elapsed(xi_then, then) + at_ratio(std::exp(ln_k_star), then);
+  }
+  return elapsed(xi, now);
 }
 
 OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
-  if (tau == 0) return {tau, u0_, v0_, std::log(v0_), v_ / w_, 0};
+  if (tau == 0) return {tau, u0_, v0_, std::log(v0_), creeps_ ? v0_ / (system_.mu() * std::abs(u0_)) : v_ / w_, 0};
   return {.tau = tau,
           .u = u0_ * now.w,
-          .v = v0_ * now.v,
-          .ln_v = std::log(v0_) + now.ln_v,
+          .v = sliding(now),
+          .ln_v = log_sliding(now),
           .k = std::exp(curve_->chart().log_ratio(xi)),
           .beta = std::ldexp(std::max(0.0, beta(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
@@ -257,7 +290,7 @@ double Orbit::slip_length(double tau) const {
   const double stop = stop_time();
   if (on_axis()) {
     const double v = u0_ == 0 && tau < stop ? v_ * (1 - tau / stop) : 0;
-    return length_of((v_ - v) * (v_ + v) / 2);
+    return length_of((v_ - v) * (v_ + v) / 2 * m0_);
   }
   double slip = slip_left(xi0_, at_start);
   if (tau < stop) {
@@ -274,7 +307,7 @@ Orbit::Instant Orbit::instant(double tau) const {
   if (on_axis()) {
     const double left = tau < stop ? 1 - tau / stop : 0;
     const double square = (1 - left) * (1 + left) / 2;
-    if (u0_ == 0) return {0, v0_ * left, std::log(v0_ * left), length_of(v_ * v_ * square), 0};
+    if (u0_ == 0) return {0, v0_ * left, std::log(v0_ * left), length_of(v_ * v_ * square * m0_), 0};
     return {u0_ * left, 0, -infinity, 0, turning * length_of(w_ * pivoting_ * square)};
   }
   const double slip = slip_left(xi0_, at_start);
@@ -283,30 +316,48 @@ Orbit::Instant Orbit::instant(double tau) const {
   if (tau == 0) return {u0_, v0_, std::log(v0_), 0, 0};
   const double xi = coordinate_at_time(tau);
   const Progress now = progress(xi, left_at(tau));
-  return {u0_ * now.w, v0_ * now.v, std::log(v0_) + now.ln_v, length_of(slip - slip_left(xi, now)),
+  return {u0_ * now.w, sliding(now), log_sliding(now), length_of(slip - slip_left(xi, now)),
           turning * length_of(turned - turned_left(xi, now))};
 }
 
-double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction) const {
+double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction, double from) const {
   const auto rest = [&](double xi) { return fallen(xi).*ln_speed - ln_fraction; };
   // Below the curve's limit both logarithms are linear.
-  const double limit = std::min(curve_->linear_below(), xi0_);
+  const double limit = std::min(curve_->linear_below(), from);
   const double at_limit = rest(limit);
   if (at_limit >= 0) return limit - at_limit / (at_limit - rest(limit - 1));
+  const double at_from = from == xi0_ ? -ln_fraction : rest(from);
   std::uintmax_t most = 200;
   constexpr int digits = std::numeric_limits<double>::digits - 2;
-  const auto [low, high] = boost::math::tools::toms748_solve(rest, limit, xi0_, at_limit, -ln_fraction,
+  const auto [low, high] = boost::math::tools::toms748_solve(rest, limit, from, at_limit, at_from,
                                                              boost::math::tools::eps_tolerance<double>(digits), most);
   return low + (high - low) / 2;
 }
 
-double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double start) const {
-  if (start <= speed) return 0;
+double Orbit::coordinate_of_fastest() const {
+  const auto excess = [&](double ln_k) { return system_.law()(slip_of_ratio(std::exp(ln_k))).force - system_.drive(); };
+  const double at_begin = on_axis() ? 0 : excess(ln_k0_);
+  if (at_begin >= 0) return xi0_;
+  // k grows to its end, where friction is the larger.
+  constexpr double far = 60;
+  const double end = std::min(chart().log_terminal_ratio(), far);
+  const double at_end = excess(end);
+  if (at_end <= 0) return chart().coordinate(end);
+  std::uintmax_t most = 200;
+  constexpr int digits = std::numeric_limits<double>::digits - 2;
+  const auto [low, high] = boost::math::tools::toms748_solve(excess, ln_k0_, end, at_begin, at_end,
+                                                             boost::math::tools::eps_tolerance<double>(digits), most);
+  return chart().coordinate(low + (high - low) / 2);
+}
+
+double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double start, double from) const {
+  if (start <= speed && from == xi0_) return 0;
   if (speed == 0) return stop_time();
   const double fraction = speed / start;
   if (on_axis()) return stop_time() * (1 - fraction);
   const double ln_fraction = std::isnormal(fraction) ? std::log(fraction) : std::log(speed) - std::log(start);
-  const double xi = coordinate_of_fall(ln_speed, ln_fraction);
+  if (from != xi0_ && fallen(from).*ln_speed <= ln_fraction) return 0;
+  const double xi = coordinate_of_fall(ln_speed, ln_fraction, from);
   // Both speeds from the one that is known and from k.
   Progress now = fallen(xi);
   const double correction = ln_fraction - now.*ln_speed;
@@ -320,12 +371,12 @@ double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double star
 
 double Orbit::time_of_v(double v) const {
   if (!(v >= 0)) throw std::domain_error(fmt::format("Orbit::time_of_v: v must be >= 0, got {}", v));
-  return time_of_fall(&Progress::ln_v, v, v0_);
+  return time_of_fall(&Progress::ln_v, v, sliding(at_start), system_.drive() > 0 ? coordinate_of_fastest() : xi0_);
 }
 
 double Orbit::time_of_u(double u) const {
   if (!(u >= 0)) throw std::domain_error(fmt::format("Orbit::time_of_u: u must be >= 0, got {}", u));
-  return time_of_fall(&Progress::ln_w, u, std::abs(u0_));
+  return time_of_fall(&Progress::ln_w, u, std::abs(u0_), xi0_);
 }
 
 double Orbit::integral(const std::function<double(double)>& of_v, double tau, const std::vector<double>& edges) const {
@@ -334,7 +385,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
   const double end = std::min(tau, stop_time());
   const double last_value = of_v(0);
   const double at_rest = last_value * end;
-  if (end == 0 || v0_ == 0) return at_rest;
+  if (end == 0 || v_ == 0) return at_rest;
   std::vector<double> panels;
   std::function<double(double)> integrand;
   if (on_axis()) {
@@ -346,19 +397,20 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
     constexpr double ln_nothing = -50;
     constexpr double width = 2;
     constexpr double most = 64;
-    double last = coordinate_of_fall(&Progress::ln_v, ln_nothing);
+    double last = coordinate_of_fall(&Progress::ln_v, ln_nothing, xi0_);
     if (end < stop_time()) last = std::max(coordinate_at_time(end), last);
     for (double edge = xi0_; edge > last; edge -= std::max(width, (xi0_ - last) / most)) panels.push_back(edge);
     panels.push_back(last);
     for (double v : edges) {
-      if (v > 0 && v < v0_) panels.push_back(std::max(coordinate_of_fall(&Progress::ln_v, std::log(v / v0_)), last));
+      if (v > 0 && v < v0_)
+        panels.push_back(std::max(coordinate_of_fall(&Progress::ln_v, std::log(v / v0_), xi0_), last));
     }
     for (double k : system_.law().kinks()) {
       if (chart().reaches(std::log(k))) panels.push_back(std::clamp(chart().coordinate(std::log(k)), last, xi0_));
     }
     integrand = [&](double xi) {
       const Progress now = progress(xi);
-      return (of_v(v0_ * now.v) - last_value) * tau_of(scaled_left_slope(xi, now));
+      return (of_v(sliding(now)) - last_value) * tau_of(scaled_left_slope(xi, now));
     };
   }
   std::ranges::sort(panels);
@@ -394,7 +446,7 @@ void Orbit::require_coordinate(const char* function, double xi) const {
 Orbit::Remaining Orbit::remaining_at_coordinate(double xi) const {
   require_coordinate("remaining_at_coordinate", xi);
   const Progress now = progress(xi);
-  return {u0_ * now.w, v0_ * now.v, std::log(v0_) + now.ln_v, tau_of(scaled_left(xi, now))};
+  return {u0_ * now.w, sliding(now), log_sliding(now), tau_of(scaled_left(xi, now))};
 }
 
 OrbitPoint Orbit::at_coordinate(double xi) const {

@@ -22,6 +22,11 @@ namespace {
 using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
 
+void require_free(const char* function, const ReducedSystem& system) {
+  if (system.drive() == 0) return;
+  throw std::domain_error(fmt::format("{}: there is no estimate with a drive, got {}", function, system.drive()));
+}
+
 double coefficient_rate(const Law& law, double k) {
   const Slip slip = slip_of_ratio(k);
   return law.moment_deficit(slip) / law(slip).force;
@@ -109,6 +114,7 @@ std::optional<FarCoefficient> far_coefficient(const Law& law) {
 
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start) {
   require_state("small_mu_estimates", start);
+  require_free("small_mu_estimates", system);
   const Law& law = system.law();
   const double limit = law.force_slope() / law.pivoting_moment();
   if (!(system.r() < limit)) {
@@ -228,6 +234,7 @@ SmallMuMotion::SmallMuMotion(const ReducedSystem& system, State start)
       sliding_(system.sliding_limit(start.v)),
       pivoting_rate_(system.r() * system.law().pivoting_moment()) {
   require_state("SmallMuMotion", start);
+  require_free("SmallMuMotion", system);
   if (start.u == 0 || start.v == 0) return;
   // A rim slower than this changes nothing of the sliding.
   const double ln_w0 = std::max(std::log(system.mu()) + std::log(std::abs(start.u)), std::log(start.v) - max_ln_k);

@@ -1,4 +1,4 @@
-// Notation (README (R1) to (R7), (R26)): w = mu |u|, k = v/w, D = Phi - r k Psi, ' = d/dxi, q = (ln k)'/D > 0;
+// Notation (README (R1) to (R7), (R26)): w = mu |u|, k = v/w, D = Phi - rho - r k Psi, ' = d/dxi, q = (ln k)'/D > 0;
 //   (ln w)' = r k Psi q
 //   c = k q/(1 + k)
 #include "contensou/reduction/quadrature_curve.hpp"
@@ -21,7 +21,7 @@ using Samples = LegendreSeries::Samples;
 /// So near a ray, relative to k*, a double k is k* itself.
 constexpr double nearest = -37;
 
-/// Phi - r k Psi relative to its larger term: below this it is rounding.
+/// D relative to its larger term: below this it is rounding.
 constexpr double resolution = 128 * std::numeric_limits<double>::epsilon();
 
 /// The coefficients of the equations at one xi.
@@ -36,7 +36,8 @@ struct CurveCoefficients {
 /// ln w and c of one curve.
 class QuadratureCurve::Panels {
  public:
-  Panels(const Law& law, const QuadratureCurve& curve) : law_(law), r_(curve.r()), chart_(curve.chart()) {
+  Panels(const Law& law, const QuadratureCurve& curve)
+      : law_(law), r_(curve.r()), drive_(curve.drive()), chart_(curve.chart()) {
     solve(sample());
   }
 
@@ -77,8 +78,9 @@ class QuadratureCurve::Panels {
     const bool from_above = chart_.side() == TerminalChart::Side::above;
     const double end = chart_.log_terminal_ratio() * (from_above ? 1 : -1);
     const double far = chart_.log_far_ratio() * (from_above ? 1 : -1);
-    const double low = from_above ? min_ln_k : -max_ln_k;
-    const double high = from_above ? max_ln_k : -min_ln_k;
+    const double lowest = lowest_ln_k(law_, r_, drive_);
+    const double low = from_above ? lowest : -max_ln_k;
+    const double high = from_above ? max_ln_k : -lowest;
     const double near = std::isfinite(end) ? end + nearest : low;
     const double most = std::isfinite(far) ? far - nearest : std::max(high, high + end);
     const double kink = chart_.reaches(0) ? chart_.coordinate(0) : near;
@@ -112,9 +114,8 @@ class QuadratureCurve::Panels {
   struct Drag {
     double k;
     double rate;        ///< (ln k)'
-    double force;       ///< Phi
     double drag;        ///< r k Psi
-    double larger;      ///< of the two
+    double larger;      ///< of Phi and rho + r k Psi
     double difference;  ///< D, of the sign of the rate
   };
   Drag drag_at(double xi) const {
@@ -122,7 +123,8 @@ class QuadratureCurve::Panels {
     const double rate = chart_.log_ratio_rate(xi);
     const auto [force, moment] = law_(slip_of_ratio(k));
     const double drag = r_ * (k * moment);
-    return {k, rate, force, drag, std::max(force, drag), rate > 0 ? force - drag : drag - force};
+    const double against = drive_ + drag;
+    return {k, rate, drag, std::max(force, against), rate > 0 ? force - against : against - force};
   }
 
   double clearness(double xi) const {
@@ -132,7 +134,7 @@ class QuadratureCurve::Panels {
 
   /// @return  false where D is all rounding
   bool coefficients(double xi, CurveCoefficients& at) const {
-    const auto [k, rate, force, drag, larger, difference] = drag_at(xi);
+    const auto [k, rate, drag, larger, difference] = drag_at(xi);
     if (!frozen_ && !(difference > resolution * larger)) return false;
     // Where D has no digit from end to end, k changes as slowly as D tells.
     const double q = frozen_ ? 1 / (resolution * larger) : std::abs(rate) / difference;
@@ -197,7 +199,7 @@ class QuadratureCurve::Panels {
   }
 
   const Law& law_;
-  double r_;
+  double r_, drive_;
   TerminalChart chart_;
   std::vector<double> kinks_;  ///< in xi
   bool frozen_ = false;
@@ -218,8 +220,9 @@ struct QuadratureCurve::Parts {
   }
 };
 
-QuadratureCurve::QuadratureCurve(const Law& law, double r, const TerminalChart& chart)
-    : SimilarityCurve(r, chart), parts_(new Parts{law, sliding_solution(law, r, chart), {}, {}, {}, {}}) {}
+QuadratureCurve::QuadratureCurve(const Law& law, double r, const TerminalChart& chart, double drive)
+    : SimilarityCurve(r, chart, drive),
+      parts_(new Parts{law, sliding_solution(law, r, chart, drive), {}, {}, {}, {}}) {}
 
 QuadratureCurve::~QuadratureCurve() = default;
 
@@ -227,29 +230,38 @@ double QuadratureCurve::linear_below() const { return parts_->panels_of(*this).l
 
 double QuadratureCurve::truncation() const { return parts_->m.truncation(); }
 
-double QuadratureCurve::accuracy() const { return rounding_of_stop_time(r()) + truncation(); }
+double QuadratureCurve::accuracy() const { return (rounding_of_stop_time(r()) + truncation()) / (1 - drive()); }
 
 long QuadratureCurve::evaluations() const { return parts_->m.evaluations(); }
 
+double QuadratureCurve::rest_factor(double ln_k) const {
+  return reaches_rest(chart(), drive()) ? 1 + std::exp(-ln_k) : 1;
+}
+
 double QuadratureCurve::sliding_coefficient(double xi) const {
   const double ln_k = chart().log_ratio(xi);
-  return ln_k > max_ln_k ? 1 : parts_->m(ln_k);
+  if (ln_k > max_ln_k) return 1 / (1 - drive());
+  return parts_->m(ln_k) * rest_factor(ln_k);
 }
 
 double QuadratureCurve::slip_length_coefficient(double xi) const {
-  const RegularSolution& n = parts_->n.made([this] { return slip_length_solution(parts_->law, r(), chart()); });
+  const RegularSolution& n =
+      parts_->n.made([this] { return slip_length_solution(parts_->law, r(), chart(), drive()); });
   const double ln_k = chart().log_ratio(xi);
-  return n(ln_k) * (1 + std::exp(std::min(ln_k, max_ln_k)));
+  return n(ln_k) * (1 + std::exp(std::min(ln_k, max_ln_k))) * rest_factor(ln_k);
 }
 
 double QuadratureCurve::angle_coefficient(double xi) const {
-  return parts_->o.made([this] { return angle_solution(parts_->law, r(), chart()); })(chart().log_ratio(xi));
+  const double ln_k = chart().log_ratio(xi);
+  const RegularSolution& o = parts_->o.made([this] { return angle_solution(parts_->law, r(), chart(), drive()); });
+  return o(ln_k) * rest_factor(ln_k);
 }
 
 double QuadratureCurve::ln_w(double xi) const { return parts_->panels_of(*this).ln_w(xi); }
 
 double QuadratureCurve::beta_coefficient(double xi) const {
-  return parts_->b.made([this] { return BetaSolution(parts_->law, r(), chart()); })(chart().log_ratio(xi));
+  const BetaSolution& b = parts_->b.made([this] { return BetaSolution(parts_->law, r(), chart(), drive()); });
+  return b(chart().log_ratio(xi));
 }
 
 double QuadratureCurve::time_rate(double xi) const { return parts_->panels_of(*this).time_rate(xi); }

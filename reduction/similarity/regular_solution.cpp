@@ -1,8 +1,10 @@
-// Notation (README (R19), (R31)): z = +- ln k, growing away from the stop, D = Phi - r k Psi, |D| = +- D
-//   |D| dm/dz + Phi m               = 1 - Psi/Psi(0)
-//   |D| dn/dz + (Phi + r k Psi) n   = k (1 - Phi)
-//   |D| do/dz + (Phi + r k Psi) o   = 1 - Psi/Psi(0)
-//   |D| db/dz - h b                 = -g,  h = (r k Psi + k Phi)/(1 + k),  g = k (1 + k)/((16 + 15 pi k)(8 + 3 pi k))
+// Notation (README (R19), (R31), (R49), (R50)): z = +- ln k, growing away from the stop, F = Phi - rho,
+// D = F - r k Psi, |D| = +- D
+//   |D| dm/dz + F m               = 1 - Psi/Psi(0)
+//   |D| dn/dz + (F + r k Psi) n   = k (1 - Phi)/(1 - rho)
+//   |D| do/dz + (F + r k Psi) o   = 1 - Psi/Psi(0)
+//   |D| db/dz - h b               = -g,  h = (r k Psi + k F)/(1 + k),  g = k (1 + k)/((16 + 15 pi k)(8 + 3 pi k))
+// A function y = p m, p = p(k), has F - D p'/p in place of F, and p times the right side; so have n and o.
 #include "similarity/regular_solution.hpp"
 
 #include <algorithm>
@@ -15,6 +17,8 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/terminal_ratio.hpp"
+#include "numerics/infinity.hpp"
 #include "numerics/linear_ode.hpp"
 
 namespace contensou::reduction {
@@ -30,14 +34,14 @@ double sign_of(const TerminalChart& chart) { return chart.side() == TerminalChar
 
 /// z where panels meet on the way from the stop: multiples of a width at which series of their order still converge to
 /// the last bit far from k = 1, and the law's kinks.
-std::vector<double> edges_of(const Law& law, double r, const TerminalChart& chart) {
+std::vector<double> edges_of(const Law& law, double r, const TerminalChart& chart, double drive) {
   if (!(r > 0) || !std::isfinite(r)) {
     throw std::domain_error(fmt::format("QuadratureCurve: r = gamma mu^2/chi must be positive and finite, got {}", r));
   }
   constexpr double width = 2;
   constexpr double narrowest = 4 * std::numeric_limits<double>::epsilon();
   const double sign = sign_of(chart);
-  const auto [low, high] = std::minmax({sign * min_ln_k, sign * max_ln_k});
+  const auto [low, high] = std::minmax({sign * lowest_ln_k(law, r, drive), sign * max_ln_k});
   // Towards k = infinity, w counts beside v until k is beyond r, too.
   const double beyond = sign < 0 ? std::clamp(std::log(r), 0.0, highest_exponent - max_ln_k) : 0;
   const double begin = std::max(sign * chart.log_terminal_ratio(), low - beyond);
@@ -56,30 +60,39 @@ std::vector<double> edges_of(const Law& law, double r, const TerminalChart& char
 /// The law at one k, with the sign that D must have.
 struct Forces {
   double difference;  ///< |D|
-  double force;       ///< Phi
+  double force;       ///< F
   double drag;        ///< r k Psi
+  double sliding;     ///< Phi
 };
 
 class ForcesOnTheWay {
  public:
-  ForcesOnTheWay(const Law& law, double r, const TerminalChart& chart) : law_(law), r_(r), chart_(chart) {}
+  ForcesOnTheWay(const Law& law, double r, const TerminalChart& chart, double drive)
+      : law_(law), r_(r), drive_(drive), chart_(chart) {}
 
   Forces operator()(double k) const {
     /// D relative to its larger term: beyond this its sign is no rounding.
     constexpr double certainty = 1e-9;
     const double sign = sign_of(chart_);
-    const auto [force, moment] = law_(slip_of_ratio(k));
+    const auto [sliding, moment] = law_(slip_of_ratio(k));
     const double drag = r_ * (k * moment);
+    const double force = sliding - drive_;
     const double difference = sign * (force - drag);
-    if (difference < -certainty * std::max(force, drag)) {
+    const double larger = std::max(sliding, drive_ + drag);
+    if (difference < -certainty * larger) {
       throw std::domain_error(fmt::format(
-          "QuadratureCurve: Phi {} r k Psi must hold for every k between the terminal ratio {} and {}, but law {} has "
+          "QuadratureCurve: Phi {} {}r k Psi must hold for every k between the terminal ratio {} and {}, but law {} "
+          "has "
           "Phi = {}, r k Psi = {} at k = {} for r = {}: k tends to another ratio; routes regularised and direct answer",
-          sign > 0 ? '>' : '<', std::exp(chart_.log_terminal_ratio()), std::exp(chart_.log_far_ratio()), law_.name(),
-          force, drag, k, r_));
+          sign > 0 ? '>' : '<', drive_ > 0 ? fmt::format("{} + ", drive_) : "", std::exp(chart_.log_terminal_ratio()),
+          std::exp(chart_.log_far_ratio()), law_.name(), sliding, drag, k, r_));
     }
-    against_ = std::max(against_, -difference / std::max(force, drag));
-    return {std::max(difference, 0.0), force, drag};  // < 0: rounding
+    against_ = std::max(against_, -difference / larger);
+    // Next to the ray of a drive F is r k Psi, which for a small r is less than the rounding of Phi and rho.
+    const bool on_ray = drive_ > 0 && k == std::exp(chart_.log_terminal_ratio());
+    const double positive = !on_ray && difference > 0 ? difference : 0;  // < 0: rounding
+    const bool beside_a_ray = drive_ > 0 && positive < drag / 2;
+    return {positive, beside_a_ray ? drag + sign * positive : force, drag, sliding};
   }
 
   /// How far D has had the other sign, relative to its larger term; 0 as far as the law's own rounding explains it.
@@ -90,18 +103,24 @@ class ForcesOnTheWay {
 
  private:
   const Law& law_;
-  double r_;
+  double r_, drive_;
   const TerminalChart& chart_;
   mutable double against_ = 0;
 };
 
 }  // namespace
 
+double lowest_ln_k(const Law& law, double r, double drive) {
+  return drive > 0 ? std::min(min_ln_k, least_log_ratio(law, r, drive)) : min_ln_k;
+}
+
+bool reaches_rest(const TerminalChart& chart, double drive) { return drive > 0 && chart.log_far_ratio() == -infinity; }
+
 RegularSolution::RegularSolution(const std::function<Terms(double)>& equation, double direction,
-                                 const std::vector<double>& edges, double size)
+                                 const std::vector<double>& edges, double size, std::optional<double> start)
     : direction_(direction), size_(size), begin_(edges.front()) {
   const Terms at_begin = equation(std::exp(direction_ * begin_));
-  first_ = last_ = at_begin.source / at_begin.rate;
+  first_ = last_ = start ? *start : at_begin.source / at_begin.rate;
   for (std::size_t i = 1; i < edges.size(); ++i) march(equation, edges[i - 1], edges[i], 0);
 }
 
@@ -143,60 +162,67 @@ double RegularSolution::operator()(double ln_k) const {
   return panel.y(std::min(2 * ((z - panel.left) / (panel.right - panel.left)) - 1, 1.0));
 }
 
-RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart) {
-  const ForcesOnTheWay forces(law, r, chart);
-  const auto equation = [&](double k) -> RegularSolution::Terms {
-    const auto [difference, force, drag] = forces(k);
-    return {difference, force, law.moment_deficit(slip_of_ratio(k))};
+RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
+  const ForcesOnTheWay forces(law, r, chart, drive);
+  const auto equation = [&, to_rest = reaches_rest(chart, drive)](double k) -> RegularSolution::Terms {
+    const auto [difference, force, drag, sliding] = forces(k);
+    const double deficit = law.moment_deficit(slip_of_ratio(k));
+    if (to_rest) return {difference, (k * force + drag) / (1 + k), k / (1 + k) * deficit};
+    return {difference, force, deficit};
   };
-  RegularSolution m(equation, sign_of(chart), edges_of(law, r, chart), 1);
+  RegularSolution m(equation, sign_of(chart), edges_of(law, r, chart, drive), 1);
   m.truncation_ = std::max(m.truncation_, forces.against());
   return m;
 }
 
-RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart) {
+RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
   // With y = n/(1 + k): the slip v (v/2 + n w) feels errors of n relative to max(n, k).
-  const ForcesOnTheWay forces(law, r, chart);
-  const auto equation = [&](double k) -> RegularSolution::Terms {
-    const auto [difference, force, drag] = forces(k);
-    return {difference * (1 + k) / k, (force * (1 + 2 * k) + drag) / k, 1 - force};
+  const ForcesOnTheWay forces(law, r, chart, drive);
+  const auto equation = [&, to_rest = reaches_rest(chart, drive)](double k) -> RegularSolution::Terms {
+    const auto [difference, force, drag, sliding] = forces(k);
+    const double source = (1 - sliding) / (1 - drive);
+    if (to_rest) return {difference, 2 * (k * force + drag) / (1 + k), k / (1 + k) * (k / (1 + k)) * source};
+    return {difference * (1 + k) / k, (force * (1 + 2 * k) + drag) / k, source};
   };
-  return {equation, sign_of(chart), edges_of(law, r, chart), 1};
+  return {equation, sign_of(chart), edges_of(law, r, chart, drive), 1};
 }
 
-RegularSolution angle_solution(const Law& law, double r, const TerminalChart& chart) {
-  const ForcesOnTheWay forces(law, r, chart);
-  const auto equation = [&](double k) -> RegularSolution::Terms {
-    const auto [difference, force, drag] = forces(k);
-    return {difference, force + drag, law.moment_deficit(slip_of_ratio(k))};
+RegularSolution angle_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
+  const ForcesOnTheWay forces(law, r, chart, drive);
+  const auto equation = [&, to_rest = reaches_rest(chart, drive)](double k) -> RegularSolution::Terms {
+    const auto [difference, force, drag, sliding] = forces(k);
+    const double deficit = law.moment_deficit(slip_of_ratio(k));
+    if (to_rest) return {difference, (k * force + (2 + k) * drag) / (1 + k), k / (1 + k) * deficit};
+    return {difference, force + drag, deficit};
   };
-  return {equation, sign_of(chart), edges_of(law, r, chart), 1};
+  return {equation, sign_of(chart), edges_of(law, r, chart, drive), 1};
 }
 
 namespace {
 
 RegularSolution::Terms beta_terms(const ForcesOnTheWay& forces, double k) {
-  const auto [difference, force, drag] = forces(k);
+  const auto [difference, force, drag, sliding] = forces(k);
   return {difference, (drag + k * force) / (1 + k), k * ((1 + k) / ((16 + 15 * pi * k) * (8 + 3 * pi * k)))};
 }
 
-RegularSolution beta_solution(const Law& law, double r, const TerminalChart& chart) {
-  const ForcesOnTheWay forces(law, r, chart);
-  auto edges = edges_of(law, r, chart);
+RegularSolution beta_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
+  const ForcesOnTheWay forces(law, r, chart, drive);
+  auto edges = edges_of(law, r, chart, drive);
   std::ranges::reverse(edges);
   for (double& edge : edges) edge = -edge;
-  return {[&](double k) { return beta_terms(forces, k); }, -sign_of(chart), edges, 0};
+  const auto at_rest = reaches_rest(chart, drive) ? std::optional(0.0) : std::nullopt;
+  return {[&](double k) { return beta_terms(forces, k); }, -sign_of(chart), edges, 0, at_rest};
 }
 
 }  // namespace
 
-BetaSolution::BetaSolution(const Law& law, double r, const TerminalChart& chart)
-    : b_(beta_solution(law, r, chart)), sign_(sign_of(chart)), nearest_(edges_of(law, r, chart).front()) {
+BetaSolution::BetaSolution(const Law& law, double r, const TerminalChart& chart, double drive)
+    : b_(beta_solution(law, r, chart, drive)), sign_(sign_of(chart)), nearest_(edges_of(law, r, chart, drive).front()) {
   // Where h is small beside D, b is far from its limit long after all else is at its own. v no longer counts in w + v
   // where k -> 0, however small r is; nor does w where k -> infinity.
   const double k = std::exp(sign_ * nearest_);
-  const ForcesOnTheWay forces(law, r, chart);
-  const auto [difference, force, drag] = forces(k);
+  const ForcesOnTheWay forces(law, r, chart, drive);
+  const auto [difference, force, drag, sliding] = forces(k);
   auto terms = beta_terms(forces, k);
   if (std::isinf(chart.log_terminal_ratio())) terms.rate = sign_ > 0 ? drag : force;
   at_stop_ = terms.source / terms.rate;

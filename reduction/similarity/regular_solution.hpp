@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "contensou/reduction/friction_law.hpp"
@@ -14,12 +15,16 @@ namespace contensou::reduction {
 inline constexpr double min_ln_k = -40;
 inline constexpr double max_ln_k = 44;
 
+/// min_ln_k, or with a drive less.
+double lowest_ln_k(const Law& law, double r, double drive);
+
 /// When a panel is no longer halved, here and in QuadratureCurve.
 inline constexpr double panel_tolerance = 1e-15;
 inline constexpr int max_depth = 40;
 inline constexpr std::size_t max_panels = 50'000;  // a law with more noise than the tolerance would be halved for ever
 
-/// A quantity y that relaxes along a curve: |D| dy/dz + h y = g, D = Phi - r k Psi, h >= 0, z = +- ln k.
+/// A quantity y that relaxes along a curve: |D| dy/dz + h y = g, D = Phi - rho - r k Psi, z = +- ln k. h > 0 where the way
+/// begins, and the integral of h/|D| is bounded from below.
 ///
 /// The equation is singular where D vanishes, and y is the solution that is regular where its way begins: by
 /// collocation, panel after panel. D is not divided by: where all its digits are lost, y has all of its own.
@@ -36,8 +41,9 @@ class RegularSolution {
   /// @param edges      z where panels meet, increasing; y begins as g/h at the first
   /// @param size       errors of g count relative to it, and so do those of a smaller y: a law may have 1 - Psi/Psi(0)
   ///                   and 1 - Phi to eps of 1 only, and no time or slip feels more
+  /// @param start      y at the first edge, where D does not vanish there
   RegularSolution(const std::function<Terms(double k)>& equation, double direction, const std::vector<double>& edges,
-                  double size);
+                  double size, std::optional<double> start = {});
 
   /// y; beyond the edges, its value there.
   double operator()(double ln_k) const;
@@ -50,7 +56,7 @@ class RegularSolution {
   long evaluations() const { return evaluations_; }
 
  private:
-  friend RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart);
+  friend RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
   struct Panel {
     double left, right;
@@ -70,23 +76,27 @@ class RegularSolution {
   long evaluations_ = 0;
 };
 
-/// m of README (R4) between two neighbours of 0, the invariant rays and infinity: regular at the one that k tends to.
+/// Whether a curve reaches k = 0 with a drive, where m, n and o grow like 1/k: it has them times what follows here.
+bool reaches_rest(const TerminalChart& chart, double drive);
+
+/// m of README (R4) between two neighbours of 0, the invariant rays and infinity: regular at the one that k tends to. Times
+/// k/(1 + k) if reaches_rest.
 ///
-/// @param chart  on whose way Phi - r k Psi does not change its sign
+/// @param chart  on whose way Phi - rho - r k Psi does not change its sign
 /// @throws std::domain_error  if it does, or unless r > 0
-RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart);
+RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// n/(1 + k), n of (R13), on the same way.
-RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart);
+/// n/(1 + k), n of (R13) and (R50), on the same way. Times k/(1 + k) if reaches_rest.
+RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// o of (R31), on the same way.
-RegularSolution angle_solution(const Law& law, double r, const TerminalChart& chart);
+/// o of (R31), on the same way. Times k/(1 + k) if reaches_rest.
+RegularSolution angle_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
 /// b of (R7), on the same way, from far away towards the stop: there D has the other sign in its equation, and the
 /// regular solution is the one that is regular at the far end.
 class BetaSolution {
  public:
-  BetaSolution(const Law& law, double r, const TerminalChart& chart);
+  BetaSolution(const Law& law, double r, const TerminalChart& chart, double drive);
 
   double operator()(double ln_k) const;
 

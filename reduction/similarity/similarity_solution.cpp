@@ -23,14 +23,14 @@ const SimilaritySolution::Curve& SimilaritySolution::through(double ln_k) const 
   throw std::domain_error(fmt::format("SimilaritySolution: no curve through ln k = {}", ln_k));
 }
 
-SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios) {
+SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios, double drive) {
   std::vector<SimilaritySolution::Curve> curves;
   for (const TerminalRatio& end : ratios.ends) {
     for (double far : {end.from, end.to}) {
       if (far == end.k) continue;
       try {
         curves.push_back(
-            std::make_shared<QuadratureCurve>(law, r, TerminalChart::between(std::log(end.k), std::log(far))));
+            std::make_shared<QuadratureCurve>(law, r, TerminalChart::between(std::log(end.k), std::log(far)), drive));
       } catch (const std::domain_error& unexpected) {
         // Phi/(k Psi) changes too fast for terminal_ratios: no fault of the caller's.
         throw std::runtime_error(unexpected.what());
@@ -40,8 +40,8 @@ SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalR
   return SimilaritySolution(std::move(curves));
 }
 
-SimilaritySolution closed_solution(const Law& law, double r) {
-  if (law.as<PadeLaw>() && r <= PadeCurve::max_r) return std::make_shared<PadeCurve>(r);
+SimilaritySolution closed_solution(const Law& law, double r, double drive) {
+  if (drive == 0 && law.as<PadeLaw>() && r <= PadeCurve::max_r) return std::make_shared<PadeCurve>(r);
   return {};
 }
 

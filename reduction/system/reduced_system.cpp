@@ -21,6 +21,15 @@ double positive(const char* name, double value) {
   return value;
 }
 
+double allowed_drive(double drive) {
+  if (drive == 0 || (drive >= ReducedSystem::least_drive && drive < 1)) return drive;
+  const char* why = drive >= 1  ? "; friction cannot be larger than 1 in this unit, so that the body would never stop"
+                    : drive < 0 ? "; against the slip it would turn it round, and the motion is not one orbit"
+                                : "";
+  throw std::domain_error(fmt::format("ReducedSystem: the drive must be 0, or from {} to below 1, got {}{}",
+                                      ReducedSystem::least_drive, drive, why));
+}
+
 }  // namespace
 
 bool is_state(State state) { return std::isfinite(state.u) && std::isfinite(state.v) && state.v >= 0; }
@@ -32,10 +41,11 @@ void require_state(const char* function, State state) {
   }
 }
 
-ReducedSystem::ReducedSystem(const Law& law, double patch_ratio, Inertia inertia)
+ReducedSystem::ReducedSystem(const Law& law, double patch_ratio, Inertia inertia, double drive)
     : law_(law),
       mu_(positive("mu", patch_ratio)),
       inertia_{positive("chi", inertia.chi), positive("gamma", inertia.gamma)},
+      drive_(allowed_drive(drive)),
       // Below this r nothing but time depends on it, and time is had from mu itself (pivoting_limit).
       r_(std::max(inertia.gamma * patch_ratio * patch_ratio / inertia.chi, std::numeric_limits<double>::min())),
       scaled_time_rate_(2 * inertia.chi / (3 * pi)) {}
@@ -44,7 +54,7 @@ Rate ReducedSystem::field(State state) const {
   require_state("ReducedSystem::field", state);
   const Resistance resistance = law_({state.v, mu_ * std::abs(state.u)});
   const double spin_down = 2 * inertia_.gamma * mu_ / (3 * pi) * resistance.moment;
-  return {state.u == 0 ? 0.0 : -std::copysign(spin_down, state.u), -scaled_time_rate_ * resistance.force};
+  return {state.u == 0 ? 0.0 : -std::copysign(spin_down, state.u), scaled_time_rate_ * (drive_ - resistance.force)};
 }
 
 double ReducedSystem::regularising_weight(State state) const {
@@ -80,9 +90,12 @@ Bounds ReducedSystem::stop_time_bounds(State start) const {
   const double pivoting = pivoting_limit(start.u);
   const auto [min, max] = *law_.sliding_bounds();
   const double min_sliding = min == 0 ? 0 : min * sliding;  // sliding may be infinite
+  const double infinity = std::numeric_limits<double>::infinity();
   // Outwards by the rounding of these sums and of the stop time itself, so that it is never outside.
-  const double rounding = (8 + std::log1p(r_)) * std::numeric_limits<double>::epsilon();
-  return {std::max(pivoting + min_sliding, sliding) * (1 - rounding), (pivoting + max * sliding) * (1 + rounding)};
+  const double rounding = (8 + std::log1p(r_)) * std::numeric_limits<double>::epsilon() / (1 - drive_);
+  const double lower = std::max({pivoting, (pivoting + min_sliding) / (1 - min * drive_), sliding / (1 - drive_)});
+  const double upper = max * drive_ < 1 ? (pivoting + max * sliding) / (1 - max * drive_) : infinity;
+  return {lower * (1 - rounding), upper * (1 + rounding)};
 }
 
 }  // namespace contensou::reduction

@@ -1,4 +1,4 @@
-// Notation (README (R2)): x = ln k,  E = Phi/(r k Psi) - 1;  k falls where E > 0.
+// Notation (README (R2)): x = ln k,  E = Phi/(rho + r k Psi) - 1;  k falls where E > 0.
 #include "contensou/reduction/terminal_ratio.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct Sample {
 
 class Search {
  public:
-  Search(const Law& law, double r) : law_(law), r_(r) {
+  Search(const Law& law, double r, double drive) : law_(law), r_(r), drive_(drive) {
     sample();
     sharpen();
     collect();
@@ -45,12 +45,13 @@ class Search {
   double excess(double ln_k) const {
     const double k = std::exp(ln_k);
     const auto [force, moment] = law_(slip_of_ratio(k));
-    return force / (r_ * (k * moment)) - 1;
+    return force / (drive_ + r_ * (k * moment)) - 1;
   }
 
   void sample() {
     constexpr double fine = 16;
-    for (double x = -max_x; x <= max_x; x += std::abs(x + 0.01) < fine ? 1 / fine : 0.5) {
+    const double min_x = drive_ > 0 ? std::min(-max_x, least_log_ratio(law_, r_, drive_)) : -max_x;
+    for (double x = min_x; x <= max_x; x += std::abs(x + 0.01) < fine ? 1 / fine : 0.5) {
       samples_.push_back({x, excess(x)});
     }
   }
@@ -111,7 +112,7 @@ class Search {
   }
 
   const Law& law_;
-  double r_;
+  double r_, drive_;
   std::vector<Sample> samples_;
 };
 
@@ -139,14 +140,21 @@ TerminalRatio TerminalRatios::end_of(double k) const {
   return {k == 0 ? TerminalRegime::zero : std::isinf(k) ? TerminalRegime::infinity : TerminalRegime::ray, k, k, k};
 }
 
-TerminalRatios terminal_ratios(const Law& law, double r) {
+double least_log_ratio(const Law& law, double r, double drive) {
+  // There k grows at the rate rho/w, and friction is less than the drive by exp(44).
+  constexpr double distance = 44;
+  constexpr double least = -600;  // of a double, with room for what it is multiplied by
+  return std::max(std::log(drive) - std::log(law.force_slope() + r * law.pivoting_moment()) - distance, least);
+}
+
+TerminalRatios terminal_ratios(const Law& law, double r, double drive) {
   if (!(r > 0) || !std::isfinite(r)) {
     throw std::domain_error(fmt::format("terminal_ratios: r = gamma mu^2/chi must be positive and finite, got {}", r));
   }
   constexpr double fast = 0x1p100;
   const double low = law.force_slope() / law.pivoting_moment();
-  const double high = 1 / (fast * law({fast, 1}).moment);
-  Search found(law, r);
+  const double high = (1 - drive) / (fast * law({fast, 1}).moment);
+  Search found(law, r, drive);
   auto ends = ends_of(found.rays, found.signs);
   return {low, high, std::move(found.rays), std::move(ends)};
 }

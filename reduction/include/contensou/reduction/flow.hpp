@@ -99,6 +99,7 @@ class Flow {
 
  private:
   const StopTimeTable& table() const;
+  bool by_table(std::size_t starts) const;
 
   struct Solved;
   struct Arrays;

@@ -74,8 +74,8 @@ class Orbit {
   /// @throws std::domain_error  as at_time
   double slip_length(double tau) const;
 
-  /// tau when the sliding speed has fallen to v, when |u| has to a value >= 0; 0 where it starts no larger, and the stop
-  /// time for 0.
+  /// tau when the sliding speed has fallen to v, when |u| has to a value >= 0; 0 where it is never larger, and the stop
+  /// time for 0. With a drive the sliding speed may grow before it falls: tau from which on it is no larger.
   /// @throws std::domain_error  if the speed is negative or not a number
   double time_of_v(double v) const;
   double time_of_u(double u) const;
@@ -87,10 +87,10 @@ class Orbit {
   /// Accuracy  1e-10 of the integral of its absolute value.
   double integral(const std::function<double(double v)>& of_v, double tau, const std::vector<double>& edges = {}) const;
 
-  /// Whether the start is on u = 0 or v = 0, where k does not change.
-  bool on_axis() const { return v0_ == 0 || u0_ == 0; }
+  /// Whether the start is on u = 0 or v = 0, where k does not change. With a drive it does on v = 0.
+  bool on_axis() const { return u0_ == 0 || (v0_ == 0 && system_.drive() == 0); }
 
-  /// ln k at the start; +inf for u0 = 0, -inf for v0 = 0.
+  /// ln k at the start; +inf for u0 = 0; for v0 = 0 -inf, or with a drive least_log_ratio.
   double start_log_ratio() const { return ln_k0_; }
 
   /// xi at the start, where it is not on an axis.
@@ -127,7 +127,9 @@ class Orbit {
     double w, v;
   };
   static constexpr Progress at_start{0, 0, 1, 1};
-  Progress fallen(double xi) const;  ///< the logarithms alone
+  Progress fallen(double xi) const;               ///< the logarithms alone
+  double sliding(const Progress& now) const;      ///< v
+  double log_sliding(const Progress& now) const;  ///< ln v
   Progress progress(double xi) const;
   Progress progress(double xi, double left) const;
   double beta(double xi, const Progress& now) const;
@@ -138,8 +140,9 @@ class Orbit {
   double slip_left(double xi, const Progress& now) const;
   double turned_left(double xi, const Progress& now) const;
   double length_of(double scaled_square) const;
-  double coordinate_of_fall(double Progress::*ln_speed, double ln_fraction) const;
-  double time_of_fall(double Progress::*ln_speed, double speed, double start) const;
+  double coordinate_of_fall(double Progress::*ln_speed, double ln_fraction, double from) const;
+  double coordinate_of_fastest() const;  ///< where v is largest
+  double time_of_fall(double Progress::*ln_speed, double speed, double start, double from) const;
   double scaled_elapsed(double xi, const Progress& now) const;
   double scaled_left(double xi, const Progress& now) const;
   double scaled_left_slope(double xi, const Progress& now) const;
@@ -153,13 +156,14 @@ class Orbit {
   ReducedSystem system_;
   SimilaritySolution::Curve curve_;  ///< null on the axes
   double u0_, v0_;
-  int exponent_;     ///< speeds are divided by 2^exponent_ inside
-  double w_, v_;     ///< mu |u0| and v0, scaled
-  double pivoting_;  ///< P, scaled
+  bool creeps_ = false;  ///< begins so near v = 0 that a drive gives it v_ in no time
+  int exponent_;         ///< speeds are divided by 2^exponent_ inside
+  double w_, v_;         ///< mu |u0| and v0, scaled; where it begins to creep, v when it has begun
+  double pivoting_;      ///< P, scaled
   double ln_k0_;
   double xi0_ = 0;
   double ln_w0_ = 0;
-  double m0_ = 1;         ///< m(k0)
+  double m0_;             ///< m(k0)
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };
 

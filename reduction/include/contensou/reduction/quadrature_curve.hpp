@@ -24,8 +24,9 @@ class QuadratureCurve final : public SimilarityCurve {
   /// @param r         gamma mu^2/chi
   /// @param chart     between two neighbours of 0, the invariant rays and infinity, to the one that k tends to
   ///                  (terminal_ratios); the default is right for r up to Phi'(0)/Psi(0), and for every ball
-  /// @throws std::domain_error  unless r > 0, and Phi - r k Psi has the sign of this approach everywhere on its way
-  QuadratureCurve(const Law& law, double r, const TerminalChart& chart = TerminalChart::to_zero());
+  /// @param drive     rho of ReducedSystem
+  /// @throws std::domain_error  unless r > 0, and Phi - rho - r k Psi has the sign of this approach everywhere on its way
+  QuadratureCurve(const Law& law, double r, const TerminalChart& chart = TerminalChart::to_zero(), double drive = 0);
 
   double ln_w(double xi) const override;
   double sliding_coefficient(double xi) const override;
@@ -37,7 +38,8 @@ class QuadratureCurve final : public SimilarityCurve {
   /// Estimate of the relative error of sliding_coefficient from the last terms of the series.
   double truncation() const;
 
-  /// rounding_of_stop_time and truncation(): below 3e-15 for a smooth law, r < 1e4.
+  /// rounding_of_stop_time and truncation(): below 3e-15 for a smooth law, r < 1e4; with a drive over 1 - rho, which is
+  /// what it leaves of friction.
   double accuracy() const override;
 
   long evaluations() const override;
@@ -49,6 +51,10 @@ class QuadratureCurve final : public SimilarityCurve {
  private:
   class Panels;
   struct Parts;
+
+  /// 1/(k/(1 + k)) where m, n and o are kept as their products with k/(1 + k), else 1.
+  double rest_factor(double ln_k) const;
+
   std::unique_ptr<const Parts> parts_;
 };
 

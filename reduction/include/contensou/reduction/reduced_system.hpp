@@ -24,24 +24,33 @@ struct Bounds {
 };
 
 /// The paper's two equations (2.6) for any friction law and any axisymmetric body:
-///   dv/dtau = -(2 chi/(3 pi)) Phi(k),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|).
+///   dv/dtau = -(2 chi/(3 pi)) (Phi(k) - rho),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|).
+/// rho is a constant drive along the slip, 0 in the paper: rolling resistance of a ball that rolls the way it slides, a
+/// slope straight down (README, "A constant drive"). With it v = 0 is no orbit: a body that spins there begins to creep.
 ///
 /// Time is the paper's tau = (3 pi/2) f g t, a speed. A value: cheap to copy, never changes.
 class ReducedSystem {
  public:
   /// @param patch_ratio  mu = patch radius/R, > 0
-  /// @throws std::domain_error  if mu, chi or gamma is not a positive finite number
-  ReducedSystem(const Law& law, double patch_ratio, Inertia inertia = homogeneous_ball);
+  /// @param drive        rho: 0, or from least_drive to below 1; from 1 on the body would not stop
+  /// @throws std::domain_error  if mu, chi or gamma is not a positive finite number, or drive is not one that is allowed
+  ReducedSystem(const Law& law, double patch_ratio, Inertia inertia = homogeneous_ball, double drive = 0);
 
   const Law& law() const { return law_; }
   double mu() const { return mu_; }
   Inertia inertia() const { return inertia_; }
 
-  /// r = gamma mu^2/chi, the one number that the shape of the motion depends on (README (R1)); at least the
+  /// rho.
+  double drive() const { return drive_; }
+
+  /// Below this a drive moves nothing that a double shows, and its ray leaves their range.
+  static constexpr double least_drive = 1e-100;
+
+  /// r = gamma mu^2/chi, the one number beside rho that the shape of the motion depends on (README (R1)); at least the
   /// smallest normal double.
   double r() const { return r_; }
 
-  /// ds/dtau of the scaled time s = chi f g t (README (R1)), in which dv/ds = -Phi, dw/ds = -r Psi, w = mu |u|.
+  /// ds/dtau of the scaled time s = chi f g t (README (R1)), in which dv/ds = rho - Phi, dw/ds = -r Psi, w = mu |u|.
   double scaled_time_rate() const { return scaled_time_rate_; }
 
   /// d(u, v)/dtau, the right side of (2.6).
@@ -59,20 +68,22 @@ class ReducedSystem {
   /// @throws std::domain_error  at u = 0 and for v < 0
   double slope(State state) const;
 
-  /// S = 3 pi v/(2 chi): the stop time of a body that slides and does not pivot. Ball: 3 pi v/7.
+  /// S = 3 pi v/(2 chi): the stop time of a body that slides, does not pivot and is not driven. Ball: 3 pi v/7. With a
+  /// drive it is S/(1 - rho).
   double sliding_limit(double v) const;
 
   /// P = 3 pi |u|/(2 gamma mu Psi(0)): the stop time of a body that pivots and does not slide. Ball: 16 |u|/(5 mu).
   double pivoting_limit(double u) const;
 
-  /// Two-sided bound of the stop time from the law's own SlidingBounds and max(S, P) (README (R6)); widened by
-  /// (8 + ln(1 + r)) eps for rounding; [0, infinity] for a law that states none.
+  /// Two-sided bound of the stop time from the law's own SlidingBounds and max(S, P) (README (R6), with a drive (R52));
+  /// widened by (8 + ln(1 + r)) eps/(1 - rho) for rounding; [0, infinity] for a law that states none.
   Bounds stop_time_bounds(State start) const;
 
  private:
   Law law_;
   double mu_;
   Inertia inertia_;
+  double drive_;
   double r_;
   double scaled_time_rate_;
 };

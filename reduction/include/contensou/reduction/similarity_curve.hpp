@@ -9,8 +9,8 @@ namespace contensou::reduction {
 ///
 /// Scaling symmetry leaves nothing else to compute: orbits, stop times, the state at a given time and the regularised
 /// time follow by exponentials and sums (Orbit). k = v/w, w = mu |u|, s is the scaled time of README (R1). m, n
-/// and c are bounded however small r is; b too, but for its value 1/(128 r Psi(0)) at k = 0. xi may be any finite
-/// number: v underflows long before ln v does.
+/// and c are bounded however small r is; b too, but for its value 1/(128 r Psi(0)) at k = 0. With a drive rho, m, n and o
+/// grow like 1/k as k -> 0, where v times them is finite. xi may be any finite number: v underflows long before ln v does.
 class SimilarityCurve {
  public:
   virtual ~SimilarityCurve() = default;
@@ -18,10 +18,10 @@ class SimilarityCurve {
   /// ln w along the curve, up to a constant; grows with xi (README (R2)).
   virtual double ln_w(double xi) const = 0;
 
-  /// m: the time left is  P + m S  (README (R4)); 1 in the limit of pure sliding.
+  /// m: the time left is  P + m S  (README (R4)); 1/(1 - rho) in the limit of pure sliding.
   virtual double sliding_coefficient(double xi) const = 0;
 
-  /// n: the length of slip that is left, the integral of v ds, is  v (v/2 + n w)  (README (R13)).
+  /// n: the length of slip that is left, the integral of v ds, is  v (v/(2 (1 - rho)) + n w)  (README (R13), (R50)).
   virtual double slip_length_coefficient(double xi) const = 0;
 
   /// o: the angle that is left, the integral of w ds, is  w (w/(2 r Psi(0)) + o v)  (README (R31)).
@@ -42,6 +42,9 @@ class SimilarityCurve {
   /// r = gamma mu^2/chi.
   double r() const { return r_; }
 
+  /// rho.
+  double drive() const { return drive_; }
+
   const TerminalChart& chart() const { return chart_; }
 
   /// Below this xi ln w is linear and the other functions are constant, to the last bit.
@@ -51,10 +54,10 @@ class SimilarityCurve {
   SimilarityCurve& operator=(const SimilarityCurve&) = delete;
 
  protected:
-  SimilarityCurve(double r, const TerminalChart& chart) : r_(r), chart_(chart) {}
+  SimilarityCurve(double r, const TerminalChart& chart, double drive = 0) : r_(r), drive_(drive), chart_(chart) {}
 
  private:
-  double r_;
+  double r_, drive_;
   TerminalChart chart_;
 };
 

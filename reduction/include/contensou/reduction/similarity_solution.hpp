@@ -45,13 +45,13 @@ class SimilaritySolution {
 };
 
 /// By quadrature: for any law and r.
-/// @param ratios  terminal_ratios(law, r)
+/// @param ratios  terminal_ratios(law, r, drive)
 /// @throws std::domain_error   unless r is positive and finite
 /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
-SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios);
+SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios, double drive = 0);
 
 /// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::max_r; empty for all else. The one
 /// place that knows which laws have one.
-SimilaritySolution closed_solution(const Law& law, double r);
+SimilaritySolution closed_solution(const Law& law, double r, double drive = 0);
 
 }  // namespace contensou::reduction

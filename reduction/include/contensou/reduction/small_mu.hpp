@@ -52,8 +52,8 @@ struct StopEstimate {
 ///
 /// On the axes all of them are exact.
 ///
-/// @throws std::domain_error  if start is not a state, or r >= Phi'(0)/Psi(0): there k does not tend to 0, and
-///                            nothing is small
+/// @throws std::domain_error  if start is not a state, with a drive, or for r >= Phi'(0)/Psi(0): there k does not tend to
+///                            0, and nothing is small
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start);
 
 /// The motion from one start to the leading order for r = gamma mu^2/chi far below r_low = Phi'(0)/Psi(0), for any law
@@ -73,7 +73,7 @@ class SmallMuMotion {
   };
 
   /// Calls the law as often as coefficient_expansion does.
-  /// @throws std::domain_error  if start is not a state
+  /// @throws std::domain_error  if start is not a state, or with a drive
   SmallMuMotion(const ReducedSystem& system, State start);
 
   /// E1 of small_mu_estimates.

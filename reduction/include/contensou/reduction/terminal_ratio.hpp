@@ -28,7 +28,7 @@ constexpr std::string_view meaning(TerminalRegime regime) {
 struct TerminalRatio {
   TerminalRegime regime;
   double k;     ///< 0, that of the ray, or infinity
-  double from;  ///< every start with from < k < to goes there; both are invariant themselves
+  double from;  ///< every start with from < k < to goes there; both are invariant themselves, but for 0 with a drive
   double to;
 };
 
@@ -50,7 +50,7 @@ struct InvariantRay {
 /// pressure given as a table there may be several. For r <= 1/2 no pressure on a disc has a ray (README (R40)).
 struct TerminalRatios {
   double low;                       ///< Phi/(k Psi) at k = 0, Phi'(0)/Psi(0)
-  double high;                      ///< and at k = infinity
+  double high;                      ///< (Phi - rho)/(k Psi) at k = infinity
   std::vector<InvariantRay> rays;   ///< by growing k
   std::vector<TerminalRatio> ends;  ///< by growing k; never empty
 
@@ -64,14 +64,19 @@ struct TerminalRatios {
   static constexpr double tolerance = 512 * std::numeric_limits<double>::epsilon();
 };
 
-/// Finds every k with Phi(k) = r k Psi(k): d ln k/ds vanishes there.
+/// Finds every k with Phi(k) = rho + r k Psi(k): d ln k/ds vanishes there.
 ///
-/// @param r  gamma mu^2/chi, > 0
+/// @param r      gamma mu^2/chi, > 0
+/// @param drive  rho of ReducedSystem. With one, k = 0 is no invariant ratio: starts at k = 0 go where those next to it do.
 /// @throws std::domain_error  if r is not positive and finite
 ///
 /// Accuracy  InvariantRay::accuracy: 2e-15 where Phi/(k Psi) is steep.
 /// Cost      700 evaluations of the law, at distances of 1/16 in ln k. Between two of them there may be two rays, if
 ///           Phi/(k Psi) has no more than one extremum there.
-TerminalRatios terminal_ratios(const Law& law, double r);
+TerminalRatios terminal_ratios(const Law& law, double r, double drive = 0);
+
+/// With a drive, a motion from v = 0 and one from this ln k are the same to the last bit: ln k of one that has just begun
+/// to creep.
+double least_log_ratio(const Law& law, double r, double drive);
 
 }  // namespace contensou::reduction
