@@ -23,9 +23,9 @@ function write(path, content) {
   writeFileSync(join(out, path), content);
 }
 
-// A text or a source becomes a page, a picture stays what it is. Some hosts serve no file whose name begins with a dot.
-const isPicture = (path) => [".svg", ".png"].includes(extname(path));
-const pageOf = (path) => (isPicture(path) ? path : `${path.replace(/\.md$/, "").replace(/(^|\/)\./g, "$1")}.html`);
+// A text or a source becomes a page, a picture and data stay what they are. Some hosts serve no file whose name begins with a dot.
+const isRaw = (path) => [".svg", ".png", ".csv", ".toml"].includes(extname(path));
+const pageOf = (path) => (isRaw(path) ? path : `${path.replace(/\.md$/, "").replace(/(^|\/)\./g, "$1")}.html`);
 
 function highlight(code, language) {
   const of = language === "python" && code.startsWith(">>>") ? "python-repl" : language;
@@ -148,7 +148,7 @@ const readme = texts.get("README.md");
 for (const [path, { tokens, env, title }] of texts) page(pageOf(path), title, html(tokens, env));
 for (const path of others) {
   const language = path.startsWith(".ci/") ? "bash" : extname(path).slice(1);
-  if (isPicture(path)) write(path, readFileSync(join(project, path)));
+  if (isRaw(path)) write(path, readFileSync(join(project, path)));
   else page(pageOf(path), path, `<h1>${path}</h1><pre tabindex="0"><code>${highlight(read(path), language)}</code></pre>`);
 }
 gallery();
@@ -167,6 +167,7 @@ ${ball ? '<li><a href="explore.html">Play</a>: change slip, spin, friction and p
 <li><a href="README.html#run-it">Run it</a>: on your own machine, in the shell, in C++ or <a href="src/python/README.html">in Python</a></li>
 <li><a href="reduction/README.html">Read</a>: the mathematics, with numbered equations, and where the paper errs</li>
 <li><a href="src/fit/README.html">Measure</a>: friction and patch from a film of a ball</li>
+<li><a href="src/site/cases/README.html">Compare</a>: ten motions as data, for the tests of physics engines</li>
 <li><a href="reference/index.html">Look up</a>: every public header</li>
 </ul>`);
 
