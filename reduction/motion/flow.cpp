@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "motion/stop_time_table.hpp"
+#include "numerics/epsilon.hpp"
 #include "numerics/later.hpp"
 
 namespace contensou::reduction {
@@ -121,6 +122,14 @@ double Flow::log_first_integral(double u, double ln_v) const {
         fmt::format("Flow::log_first_integral: it has no value on the axes, got u = {}, ln v = {}", u, ln_v));
   }
   const double ln_k = ln_v - std::log(system().mu()) - ln_u;
+  // Both sides of a ray have a curve of their own, and it has none.
+  const double k = std::exp(ln_k);
+  for (const InvariantRay& ray : terminal().rays) {
+    if (std::abs(k / ray.k - 1) > 4 * eps) continue;
+    throw std::domain_error(
+        fmt::format("Flow::log_first_integral: it has no value on the invariant ray k = {}, got u = {}, ln v = {}",
+                    ray.k, u, ln_v));
+  }
   const SimilarityCurve& curve = *solution().through(ln_k);
   return ln_u - curve.ln_w(curve.chart().coordinate(ln_k));
 }

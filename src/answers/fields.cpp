@@ -104,7 +104,7 @@ std::vector<VerbFields> field_table() {
            {"`kind`; `turn` {`factor`, `sigma`}", "",
             "node, saddle, focus, ... of the blown-up centre; of a focus a turn"},
            {"`tau_stop`; `end`; `routes` [{`name`, `tau_stop`}]", "speed",
-            "inf where the centre is not reached; section: by the general way"},
+            "inf where the centre is not reached; section: by the general way; `failure` of a route instead"},
        }},
       {"fit",
        {

@@ -27,6 +27,8 @@ std::vector<std::pair<std::string, std::string>> law_forms() {
     forms.emplace_back(fmt::format("{}:{}", family.name, family.letter),
                        fmt::format("{}, {}", family.meaning, family.allowed));
   }
+  forms.emplace_back("\"phi = F; psi = G\"",
+                     "your own force and moment: formulas in k = v/(mu |u|), with --param NAME=VALUE");
   forms.emplace_back("FILE.csv", "your own pressure: columns rho,pressure, rho from 0 to 1");
   return forms;
 }

@@ -168,7 +168,9 @@ ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::strin
       }
       lines += fmt::format("canonical   q = {} (angle), p = {}, dp/dq = {}\n", digits(canonical.q), digits(canonical.p),
                            digits(canonical.dp_dq));
-      if (integral) lines += fmt::format("integral    p - L(q) = {}\n", digits(*integral));
+      lines += integral
+                   ? fmt::format("integral    p - L(q) = {}\n", digits(*integral))
+                   : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
       const auto end = orbit.end();
       lines += fmt::format(
           "tau_stop    {}{}\n", digits(end == PlanarEnd::centre ? orbit.end_time() : infinity),
@@ -195,13 +197,13 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   const auto& [system, state, experiment] = given;
   if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
   const Vector2d start(state.u, state.v);
-  const PlanarSymmetries found = reduction::find_symmetries(reduction::planar_field(system), start);
+  // Sampled at k of the order 1, where both speeds change: by the scaling that is found the start is as good as any.
+  const double size = std::max(system.mu() * std::abs(state.u), state.v);
+  const PlanarSymmetries found =
+      reduction::find_symmetries(reduction::planar_field(system), Vector2d(size / system.mu(), size));
   if (!found.scaling) {
     // A law has been found homogeneous when it was made: here only rounding can hide the scaling.
-    throw std::runtime_error(fmt::format(
-        "the scaling of (2.6) is lost in rounding around this start, where one speed changes too slowly beside the "
-        "other: it is the same for all starts, and one with --v0 near {} times --u0 may show it",
-        system.mu()));
+    throw std::runtime_error("the scaling of (2.6) is lost in rounding");
   }
   const PlanarReduction plane(reduction::planar_field(system), *found.scaling, start, found.residual);
   const reduction::Flow flow(system);
@@ -219,8 +221,8 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   for (reduction::Route route : reduction::routes(system)) {
     try {
       routes.push_back({{"name", name(route)}, {"tau_stop", reduction::stop_time(system, state, route).tau}});
-    } catch (const std::runtime_error&) {
-      // a stepper that did not come to the stop has nothing to say
+    } catch (const std::runtime_error& failure) {  // a stepper did not come to the stop
+      routes.push_back({{"name", name(route)}, {"failure", failure.what()}});
     }
   }
   routes.push_back({{"name", "section"}, {"tau_stop", plane.end_time(start)}});
@@ -235,10 +237,14 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   std::optional<double> integral;
   if (given.slides_and_spins()) {
     const auto canonical = reduction::to_canonical(state);
-    integral = flow.log_first_integral(state.u, std::log(state.v));
     answer.members["canonical"] = {
         {"q", canonical.q}, {"p", canonical.p}, {"dp_dq", reduction::separated_slope(system, canonical.q)}};
-    answer.members["first_integral"] = *integral;
+    try {
+      integral = flow.log_first_integral(state.u, std::log(state.v));
+      answer.members["first_integral"] = *integral;
+    } catch (const std::domain_error&) {
+      // on an invariant ray
+    }
   } else {
     answer.members["canonical"] = {{"q", state.u == 0 ? infinity : 0.0}, {"p", std::log(state.v)}, {"dp_dq", infinity}};
   }
@@ -261,8 +267,9 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
     text +=
         fmt::format("canonical   q = v/u = {}, p = ln v = {}, dp/dq = {}\n", digits(canonical.at("q").get<double>()),
                     digits(canonical.at("p").get<double>()), digits(canonical.at("dp_dq").get<double>()));
-    if (integral)
-      text += fmt::format("integral    ln |u| - ln w(k) = {}, the same along the orbit\n", digits(*integral));
+    text += integral
+                ? fmt::format("integral    ln |u| - ln w(k) = {}, the same along the orbit\n", digits(*integral))
+                : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
     if (integral && system.law().as<reduction::PadeLaw>() != nullptr && r < 2) {
       const double a = r / (2 - r), b = a - r / (5 - r), A = 8 * (2 - r), B = 3 * pi * (5 - r);
       const double k = state.v / (mu * std::abs(state.u));
@@ -276,6 +283,11 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
     text += fmt::format("origin      {}, not smooth\n", plane.kind());
     text += fmt::format("tau_stop    {}\n", digits(stop.tau));
     for (const Json& route : members.at("routes")) {
+      if (route.contains("failure")) {
+        text += fmt::format("  {:<12}none: {}\n", route.at("name").get<std::string>(),
+                            route.at("failure").get<std::string>());
+        continue;
+      }
       text += fmt::format("  {:<12}{:.15g}, {}\n", route.at("name").get<std::string>(),
                           route.at("tau_stop").get<double>(), difference(route.at("tau_stop").get<double>(), stop.tau));
     }

@@ -106,8 +106,8 @@ void bind_planar(py::module_& module) {
                     return Planar(answers::parse_planar_system(text, parameters), {u, v});
                   })
       .def_static("of_flow",
-                  [](const reduction::Flow& flow, double u, double v) {
-                    return Planar(reduction::planar_field(flow.system()), {u, v});
+                  [](const reduction::Flow& flow) {
+                    return Planar(reduction::planar_field(flow.system()), {1, flow.system().mu()});
                   })
       .def_property_readonly("generators",
                              [](const Planar& planar) {

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <variant>
 
+#include "answers/formula_law.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/phase_plane.hpp"
@@ -148,6 +149,7 @@ void bind_reduction(py::module_& module) {
 
   py::class_<Law>(module, "Law")
       .def(py::init(&law_of_name))
+      .def(py::init(&answers::parse_formula_law))
       .def(py::init([](py::function function, std::string name, std::vector<double> kinks) {
         return Law(FunctionLaw(std::move(function), std::move(name), std::move(kinks)));
       }))
@@ -190,9 +192,11 @@ void bind_reduction(py::module_& module) {
              py::array_t<double> result(std::vector<py::ssize_t>(u.shape(), u.shape() + u.ndim()));
              for (py::ssize_t i = 0; i < u.size(); ++i) {
                const double speed = v.data()[i];
-               const bool on_axis = u.data()[i] == 0 || !(speed > 0);
-               result.mutable_data()[i] = on_axis ? std::numeric_limits<double>::quiet_NaN()
-                                                  : flow.log_first_integral(u.data()[i], std::log(speed));
+               try {
+                 result.mutable_data()[i] = flow.log_first_integral(u.data()[i], std::log(speed));
+               } catch (const std::domain_error&) {  // on an axis or a ray
+                 result.mutable_data()[i] = std::numeric_limits<double>::quiet_NaN();
+               }
              }
              return result;
            })

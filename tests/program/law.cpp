@@ -111,8 +111,9 @@ TEST_CASE("a table that is no pressure", "[cli]") {
 TEST_CASE("every verb takes every law", "[cli]") {
   const TemporaryDirectory scratch;
   write_file(scratch.file("hat.csv"), "rho,pressure\n0,1\n0.3,4\n0.7,2\n1,0\n");
-  for (const std::string& law : {std::string("uniform"), std::string("punch"), std::string("ring"),
-                                 std::string("pressure:-0.3"), std::string("potential8"), scratch.file("hat.csv")}) {
+  for (const std::string& law :
+       {std::string("uniform"), std::string("punch"), std::string("ring"), std::string("pressure:-0.3"),
+        std::string("potential8"), scratch.file("hat.csv"), std::string("phi=k/hypot(0.8,k);psi=0.64/hypot(0.8,k)")}) {
     const std::string start = " --mu 0.2 --u0 1 --v0 1 --law " + law;
     for (const std::string verb : {"stop", "check", "orbit"}) {
       const Run run = run_program(verb + start);
@@ -147,4 +148,77 @@ TEST_CASE("a picture of a law shows that law; the paper's two are compared", "[c
   CHECK(curves("--law punch") == std::vector<std::string>{"punch"});
   CHECK(curves("--law punch --surface") == std::vector<std::string>{"exact", "pade", "punch", "uniform", "ring"});
   CHECK_THAT(run_program("law --law punch -o - --format gp").out, !Contains("Zh98"));
+}
+
+namespace {
+
+const std::string pade_by_formulas = "phi = a*k/(8 + a*k); psi = a/(16 + 5*a*k)";
+
+std::vector<std::string> with_law(std::vector<std::string> arguments, const std::string& law) {
+  arguments.insert(arguments.end(), {"--law", law});
+  return arguments;
+}
+
+}  // namespace
+
+TEST_CASE("a law typed in as formulas gives the numbers of the law that it is", "[cli]") {
+  const auto stop_time = [](std::vector<std::string> start, const std::vector<std::string>& law) {
+    start.insert(start.begin(), {"stop", "--format", "json"});
+    start.insert(start.end(), law.begin(), law.end());
+    const Run run = run_program(start);
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return nlohmann::json::parse(run.out)["tau_stop"].get<double>();
+  };
+  const std::vector<std::string> typed{"--law", pade_by_formulas, "--param", "a=9.42477796076937972"};
+  for (const std::vector<std::string>& start : {std::vector<std::string>{"--mu", "0.3", "--u0", "1", "--v0", "1"},
+                                                {"--mu", "1", "--u0", "-2", "--v0", "1e-5"},
+                                                {"--mu", "0.01", "--u0", "3", "--v0", "0.2"},
+                                                {"--body", "disc", "--u0", "1", "--v0", "3"},
+                                                {"--mu", "0.3", "--u0", "0", "--v0", "2"},
+                                                {"--ball", "pool"}}) {
+    const double wanted = stop_time(start, {"--law", "pade"});
+    CHECK(stop_time(start, typed) == Approx(wanted).epsilon(1e-13));
+    for (const std::string route : {"regularised", "direct"}) {
+      std::vector<std::string> stepped = typed;
+      stepped.insert(stepped.end(), {"--route", route});
+      CHECK(stop_time(start, stepped) == Approx(wanted).epsilon(1e-8));
+    }
+  }
+  const Run batch = run_program({"sweep", "--mu", "0.3", "--u0", "0:1:40", "--v0", "0:1:40", "--threads", "4", "--law",
+                                 pade_by_formulas, "--param", "a=9.42477796076937972", "-o", "-", "--format", "csv"});
+  CHECK(batch.status == 0);
+  const auto rows = rows_of(batch.out),
+             own = rows_of(run_program("sweep --mu 0.3 --u0 0:1:40 --v0 0:1:40 --law pade -o - --format csv").out);
+  REQUIRE(rows.size() == 1601);
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    CHECK(std::stod(rows[i][3]) == Approx(std::stod(own[i][3])).epsilon(1e-12));
+  CHECK_THAT(run_program(with_law({"law", "--k", "0,inf"}, "psi = 1/(2+k); phi = k/(2 + k)")).out,
+             Contains("0,0,0.5\ninf,1,0\n"));
+}
+
+TEST_CASE("formulas that are no law of friction are refused with what was measured, or where", "[cli]") {
+  const auto rejected = [](const std::string& law, const std::string& words,
+                           const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = with_law({"stop", "--mu", "0.3", "--u0", "1", "--v0", "1"}, law);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Run run = run_program(arguments);
+    INFO(law << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains("--law") && Contains(words));
+  };
+  rejected("phi = k/(1+k)", "psi = is missing: a law is \"phi = F; psi = G\"");
+  rejected("phi = k/(1+k; psi = 1/(1+k)", "missing parenthesis, at character 13 of");
+  rejected("phi = k/(1+k); psi = 1/(1+v)", "'v': dry friction depends on the ratio k = v/(mu |u|) alone");
+  rejected("phi = k/(a+k); psi = 1/(1+k)", "'a' is no variable");
+  rejected("phi = k/(1+k); psi = 1/(1+k)", "no formula of", {"--param", "b=1"});
+  rejected("phi = 2*k/(1+k); psi = 1/(1+k)", "Phi must be 1 in pure sliding, got 2");
+  rejected("phi = 1; psi = 1/(1+k)", "Phi must grow in proportion to k");
+  rejected("phi = sqrt(k/(1+k)); psi = 1/(1+k)", "Phi/k is 1073741824 at k = 2^-60");
+  rejected("phi = 1-1/(1+k); psi = 1/(1+k)", "write it without the difference");
+  rejected("phi = k/(1+k); psi = 1", "k Psi must have a limit for fast sliding");
+  rejected("phi = k/(1+k); psi = 1/(1+k) - 0.3", "friction resists: phi and psi must be positive and finite");
+  rejected("pade", "--param is for formulas", {"--param", "a=1"});
+  check_rejected("stop --mu 0.3 --u0 1 --v0 1 --param a=1", "--param is for formulas");
 }

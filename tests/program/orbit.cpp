@@ -190,3 +190,15 @@ TEST_CASE("instants of a ball in seconds", "[cli]") {
   CHECK_THAT(unknown.err, Contains("add --ball"));
   CHECK_THAT(run_program({"orbit", "--ball", "pool", "--at", "2 Hz"}).err, Contains("none of s, ms or min"));
 }
+
+TEST_CASE("at rest k is what it tends to", "[cli]") {
+  const auto last = [](const std::string& start) {
+    return rows_of(run_program("orbit --samples 3 " + start).out).back();
+  };
+  const double k_star = json_of("terminal --body disc --format json")["k_star"];
+  CHECK(std::stod(last("--body disc --u0 1 --v0 1")[4]) == k_star);
+  CHECK(std::stod(last("--body disc --u0 -1 --v0 5 --route direct --reduction")[4]) == k_star);
+  CHECK(std::stod(last("--body disc --u0 -1 --v0 5 --reduction")[6]) == Approx(-k_star));
+  CHECK(last("--mu 0.3 --u0 1 --v0 1")[4] == "0");
+  CHECK(last("--mu 0.3 --u0 0 --v0 1")[4] == "inf");
+}

@@ -198,7 +198,7 @@ TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
   rejected({"--window", "1:0,1:2"}, 2, "--window 1:0,1:2: a side");
   rejected({"--window", "1:2"}, 2, "--window 1:2: a window is U,V or U1:U2,V1:V2");
   rejected({"--window", "1,1", "--through", "3,0"}, 2, "(3, 0) lies outside the window -1 to 1 by -1 to 1");
-  check_rejected("portrait --mu 0.3 --param a=1", "--param is for the formulas of --system");
+  check_rejected("portrait --mu 0.3 --param a=1", "--param is for formulas");
   check_rejected("portrait --mu 0.3 --window 0:1,0:1", "--window 0:1,0:1: here it is U,V");
   const Run none = run_program({"portrait", "--system", "u' = -u - u^3; v' = 1 - v*v", "-o", scratch.file("p.gp")});
   CHECK(none.status == 1);

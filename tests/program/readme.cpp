@@ -1,4 +1,5 @@
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,41 @@ std::vector<Example> readme_examples() {
   return examples;
 }
 
+/// The words of a command; double quotes hold some together.
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words(1);
+  bool quoted = false;
+  for (char letter : command) {
+    if (letter == '"') {
+      quoted = !quoted;
+    } else if (letter == ' ' && !quoted) {
+      words.emplace_back();
+    } else {
+      words.back() += letter;
+    }
+  }
+  return words;
+}
+
+/// What is printed, without the lines that a line of dots stands for.
+std::string shortened(const std::string& printed, const std::string& shown) {
+  std::istringstream printed_lines(printed), shown_lines(shown);
+  std::string result, line;
+  for (std::string wanted; std::getline(shown_lines, wanted);) {
+    if (wanted == "...") {
+      result += "...\n";
+      if (!std::getline(shown_lines, wanted)) return result;
+      while (std::getline(printed_lines, line) && line != wanted) {
+      }
+    } else if (!std::getline(printed_lines, line)) {
+      return result;
+    }
+    result += line + "\n";
+  }
+  while (std::getline(printed_lines, line)) result += line + "\n";
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("README.md shows what its commands print", "[cli]") {
@@ -39,8 +75,8 @@ TEST_CASE("README.md shows what its commands print", "[cli]") {
   REQUIRE(examples.size() >= 2);
   for (const Example& example : examples) {
     CAPTURE(example.command);
-    const Run run = run_program(example.command);
+    const Run run = run_program(words_of(example.command));
     CHECK(run.status == 0);
-    CHECK(run.out == example.shown);
+    CHECK(shortened(run.out, example.shown) == example.shown);
   }
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/formula_law.hpp"
 #include "answers/law_forms.hpp"
 #include "answers/pressure_profile.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -27,25 +28,42 @@ void LawOption::add(CLI::App& app) {
   law_.add(app, "--law", "LAW",
            fmt::format("{} (default exact; --body disc: uniform, ring: ring). 'contensou help laws' explains them",
                        fmt::join(names_of_forms(), ", ")));
+  parameters_.add(app);
 }
 
-void LawOption::add(CLI::App& app, const std::string& name, const std::string& value_name, const std::string& help) {
+void LawOption::add_several(CLI::App& app, const std::string& value_name, const std::string& help) {
+  law_.add(app, "--law", value_name, help);
+  parameters_.add(app);
+}
+
+void LawOption::add_second(CLI::App& app, const std::string& name, const std::string& value_name,
+                           const std::string& help) {
   law_.add(app, name, value_name, help);
 }
 
 reduction::Law LawOption::read(const std::string& standard) const {
-  return law_.given() ? read_one(law_.text()) : *reduction::find_law(standard);
+  if (law_.given()) return read_one(law_.text());
+  require_no_parameters();
+  return *reduction::find_law(standard);
 }
 
 std::vector<reduction::Law> LawOption::read_several(const std::string& standard) const {
-  if (!law_.given()) return {read(standard)};
+  if (!law_.given() || is_formula_law(law_.text())) return {read(standard)};
   std::vector<reduction::Law> laws;
   for (const std::string& name : split(law_.text(), ',')) laws.push_back(read_one(name));
   return laws;
 }
 
+void LawOption::require_no_parameters() const {
+  if (parameters_.given()) {
+    throw BadInput("--param is for formulas, such as --law \"phi = F; psi = G\": add them, or leave it out");
+  }
+}
+
 reduction::Law LawOption::read_one(const std::string& typed) const {
   try {
+    if (is_formula_law(typed)) return parse_formula_law(typed, parameters_.read());
+    require_no_parameters();
     if (auto law = reduction::find_law(typed == "hertz" ? "exact" : typed)) return *law;
   } catch (const std::domain_error& error) {
     law_.reject(error.what());

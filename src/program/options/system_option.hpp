@@ -1,30 +1,16 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include <Eigen/Core>
 
 #include "contensou/reduction/planar_reduction.hpp"
 #include "contensou/reduction/planar_symmetry.hpp"
 #include "options/argument.hpp"
+#include "options/parameter_options.hpp"
 
 namespace contensou::program {
-
-/// --param: numbers for the letters of formulas.
-class ParameterOptions {
- public:
-  void add(CLI::App& app);
-  bool given() const { return parameters_.given(); }
-
-  /// @throws BadInput  for a name that is given twice
-  std::map<std::string, double> read() const;
-
- private:
-  ArgumentOf<std::pair<std::string, double>> parameters_;
-};
 
 /// --system: a planar system by its formulas, in place of (2.6).
 class SystemOption {

@@ -99,7 +99,7 @@ class FitCommand final : public Verb {
                    parse_positive_time);
     start_.add_ball(app, "radius and gravity, and the values of what is not free; --radius alone does, too");
     start_.take_radius_for_ball();
-    law_.add(app, "--law", "LAW,...", "one, or several to rank (default exact). 'contensou help laws' explains them");
+    law_.add_several(app, "LAW,...", "one, or several to rank (default exact). 'contensou help laws' explains them");
     app.option_defaults()->group("Estimate");
     free_.add(app, "--free", "NAMES", "what is to be found, of friction,patch,slip,spin (default: all)", parse_free);
     app.add_flag("--robust", robust_, "Huber's loss: values that are far off count for less");

@@ -25,11 +25,11 @@ std::array<Column, 3> canonical_columns(const GivenStart& start, const reduction
   const reduction::Flow flow(start.system);
   Eigen::ArrayXd integral = Eigen::ArrayXd::Constant(motion.rows(), infinity);
   for (Eigen::Index i = 0; i < motion.rows(); ++i) {
-    const bool on_ray = std::ranges::any_of(flow.terminal().rays, [k = motion.k[i]](const auto& ray) {
-      return std::abs(k / ray.k - 1) <= 4 * std::numeric_limits<double>::epsilon();
-    });
-    if (on_ray || motion.u[i] == 0 || !std::isfinite(motion.ln_v[i])) continue;
-    integral[i] = flow.log_first_integral(motion.u[i], motion.ln_v[i]);
+    try {
+      integral[i] = flow.log_first_integral(motion.u[i], motion.ln_v[i]);
+    } catch (const std::domain_error&) {
+      // none here
+    }
   }
   const double factor = start.system.mu() * (start.state.u < 0 ? -1 : 1);
   // + 0: not -0
@@ -68,10 +68,17 @@ class OrbitCommand final : public Verb {
     }
     const auto* at = instants_.at();
     const Eigen::ArrayXd lefts = time_left_.given() ? taus(*time_left_, start) : Eigen::ArrayXd();
-    const reduction::OrbitColumns motion =
+    reduction::OrbitColumns motion =
         time_left_.given() ? motion_at_time_left(system, start.state, route, lefts)
         : at != nullptr    ? motion_at(system, start.state, route, taus(*at, start))
                            : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
+    // At rest k is what it tends to.
+    if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
+      const double k0 = start.state.u == 0 ? std::numeric_limits<double>::infinity()
+                                           : start.state.v / (system.mu() * std::abs(start.state.u));
+      const double k_end = start.at_rest() ? 0 : reduction::Flow(system).terminal().end_of(k0).k;
+      motion.k = at_rest.select(k_end, motion.k);
+    }
     Answer answer{.members = {{"law", system.law().name()},
                               {"route", name(route)},
                               {"mu", system.mu()},

@@ -73,7 +73,6 @@ class PortraitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     system_.add(app);
-    parameters_.add(app);
     start_.add(app);
     law_.add(app);
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
@@ -88,7 +87,6 @@ class PortraitCommand final : public Verb {
 
   ExitStatus run() override {
     if (system_.given()) return run_system();
-    if (parameters_.given()) throw BadInput("--param is for the formulas of --system: add it, or leave it out");
     const bool has_start = !start_.without_motion();
     const reduction::Law law = law_.read(start_.standard_law());
     const GivenStart start = has_start ? start_.read(law) : GivenStart{start_.read_body(law), {}, {}};
@@ -152,7 +150,7 @@ class PortraitCommand final : public Verb {
           "reduce --system' says which rays, kind and times there are",
           others));
     }
-    const reduction::PlanarField field = system_.read(parameters_);
+    const reduction::PlanarField field = system_.read(law_.parameters());
     portraits::PlanarPortraitRequest request{
         .through = through_, .orbits = request_.orbits_per_side, .isochrones = request_.isochrones};
     if (style_.field == Style::Field::regularised) {
@@ -240,7 +238,7 @@ class PortraitCommand final : public Verb {
         into(style_.invariant, one_of<bool>({{"on", true}, {"off", false}})));
     add("--colour,--color", "BY", "orbits by the time left (time, default) or in one colour (none)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
-    against_.add(app, "--against", "LAW", "the same for another law, dashed, in the same figure");
+    against_.add_second(app, "--against", "LAW", "the same for another law, dashed, in the same figure");
     add("--style", "STYLE", "print (default), or screen: light on dark, for a projector",
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
@@ -264,7 +262,6 @@ class PortraitCommand final : public Verb {
   }
 
   SystemOption system_;
-  ParameterOptions parameters_;
   StartOptions start_;
   LawOption law_, against_;
   RouteOption route_;

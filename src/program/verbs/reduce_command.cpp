@@ -15,7 +15,6 @@ class ReduceCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     system_.add(app);
-    parameters_.add(app);
     start_.add(app);
     law_.add(app);
     figure_.add(app);
@@ -26,7 +25,6 @@ class ReduceCommand final : public Verb {
     const Output output = output_.read();
     figure_.require_picture(output);
     if (system_.given()) return run_system(output);
-    if (parameters_.given()) throw BadInput("--param is for the formulas of --system: add it, or leave it out");
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     if (!output.picture()) return write(reduce_answer(start), output);
     return draw(portraits::reduction_figure(reduction::Flow(start.system), start.state, figure_.size()), output);
@@ -35,7 +33,7 @@ class ReduceCommand final : public Verb {
  private:
   ExitStatus run_system(const Output& output) {
     if (law_.given()) throw BadInput("--system and --law exclude each other: friction is in the formulas");
-    const reduction::PlanarField field = system_.read(parameters_);
+    const reduction::PlanarField field = system_.read(law_.parameters());
     const Eigen::Vector2d start = start_.read_point();
     if (!output.picture()) return write(reduce_answer(field, system_.text(), start), output);
     const auto plane = system_.solve(field, start);
@@ -54,7 +52,6 @@ class ReduceCommand final : public Verb {
   }
 
   SystemOption system_;
-  ParameterOptions parameters_;
   StartOptions start_;
   LawOption law_;
   FigureOptions figure_;

@@ -29,6 +29,7 @@ class Law:
                       their ratio alone. Raises what it likes: that comes through unchanged
     rho, pressure:    instead, the pressure of the patch as a table: rho from 0 at the centre to 1 at the edge
     kinks:            of a function: each k where it is not smooth
+    parameters:       of a name that is formulas in k, "phi = k/(a + k); psi = 1/(a + k)"
     """
 
     name: str = "exact"
@@ -36,6 +37,7 @@ class Law:
     rho: Optional[tuple[float, ...]] = None
     pressure: Optional[tuple[float, ...]] = None
     kinks: tuple[float, ...] = (1.0,)
+    parameters: tuple[tuple[str, float], ...] = ()
     _core: _core.Law = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -43,12 +45,14 @@ class Law:
             core = _core.Law(self.function, self.name, list(self.kinks))
         elif self.rho is not None or self.pressure is not None:
             core = _core.Law(self.name, self.rho or (), self.pressure or ())
+        elif "=" in self.name:
+            core = _core.Law(self.name, dict(self.parameters))
         else:
             core = _core.Law(self.name)
         object.__setattr__(self, "_core", core)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Law, (self.name, self.function, self.rho, self.pressure, self.kinks)
+        return Law, (self.name, self.function, self.rho, self.pressure, self.kinks, self.parameters)
 
     def __repr__(self) -> str:
         return f"law({self.name!r})" if self.function is None and self.rho is None else f"<law {self.name}>"
@@ -78,8 +82,12 @@ def law(
     kinks: Sequence[float] = (1.0,),
     rho: Optional[ArrayLike] = None,
     pressure: Optional[ArrayLike] = None,
+    **parameters: float,
 ) -> Law:
-    """The law of a name, of a function, or of a pressure given as a table. See Law."""
+    """The law of a name, of a function, of formulas in k with their parameters, or of a pressure given as a table. See
+    Law."""
+    if parameters and not (isinstance(of, str) and "=" in of):
+        raise TypeError(f"law: only formulas have parameters, got {', '.join(parameters)}")
     if rho is not None or pressure is not None:
         table = [tuple(np.ravel(numbers(each, () if column is None else column)).tolist())
                  for each, column in (("rho", rho), ("pressure", pressure))]
@@ -87,7 +95,7 @@ def law(
     if isinstance(of, Law):
         return of
     if isinstance(of, str):
-        return Law(of)
+        return Law(of, parameters=tuple(sorted(parameters.items())))
     own = getattr(of, "__name__", "<lambda>")
     return Law(name or ("user's law" if own == "<lambda>" else own), of, kinks=tuple(kinks))
 

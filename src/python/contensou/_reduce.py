@@ -110,7 +110,7 @@ class FlowReduction(Reduction):
     """Of Zhuravlev's system, in the paper's coordinates: q = v/u and p = ln v; the first integral is ln |u| - ln w(k)."""
 
     def __init__(self, flow: Flow) -> None:
-        super().__init__(_core.Planar.of_flow(flow._core, 1.0, 1.0))
+        super().__init__(_core.Planar.of_flow(flow._core))
         self._flow = flow
 
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:

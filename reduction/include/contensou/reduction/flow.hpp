@@ -71,7 +71,8 @@ class Flow {
   /// For the Pade law it is ln [ |u| k^(-a) (A + B k)^b ] up to a constant (README (R8)).
   ///
   /// @param ln_v  in place of v, which underflows near the stop
-  /// @throws std::domain_error  unless u and ln_v are finite and u is not 0: on the axes it has no value
+  /// @throws std::domain_error  unless u and ln_v are finite and u is not 0: on the axes it has no value, and on an invariant ray
+  ///                            (k within 4 eps of it) neither
   ///
   /// Accuracy  absolute, a few eps of |ln u| and of the curve's |ln w|.
   double log_first_integral(double u, double ln_v) const;
