@@ -11,6 +11,7 @@
 
 #include "contensou/reduction/regularised_motion.hpp"
 #include "data/isochrones.hpp"
+#include "data/lists.hpp"
 #include "data/round_numbers.hpp"
 
 namespace contensou::portraits {
@@ -22,8 +23,6 @@ using reduction::ReducedSystem;
 using reduction::State;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// @param shown  states that the window must contain
 Window default_window(const ReducedSystem& system, View view, const std::vector<State>& shown) {

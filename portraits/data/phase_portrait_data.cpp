@@ -8,14 +8,13 @@
 
 #include "contensou/portraits/json.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
+#include "data/lists.hpp"
 
 namespace contensou::portraits {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
 /// v/(mu |u|), by its logarithm, which does not underflow. Not by Eigen's exp, which is never below 5.6e-309.
 std::vector<double> ratios(const PortraitOrbit& orbit) {

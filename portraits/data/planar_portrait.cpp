@@ -12,6 +12,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "contensou/portraits/layout.hpp"
+#include "data/lists.hpp"
 #include "data/round_numbers.hpp"
 
 namespace contensou::portraits {
@@ -23,8 +24,6 @@ using reduction::PlanarSector;
 using std::numbers::pi;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The directions of a sector, or a turn where there are none: q at numbers x that grow in the way of the motion, dense
 /// towards both ends.

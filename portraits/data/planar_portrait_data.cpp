@@ -7,14 +7,13 @@
 
 #include "contensou/portraits/json.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
+#include "data/lists.hpp"
 
 namespace contensou::portraits {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
 Json json_of(const std::vector<PlanarPortraitOrbit>& orbits) {
   Json json = Json::array();

@@ -16,8 +16,8 @@ using portraits::Panel;
 using portraits::Point;
 
 constexpr portraits::Colour law_colour{0x8c0f35}, nearest_colour{0x707070}, table_colour{0x4a90cc};
-constexpr std::size_t most_marks = 250;  ///< of a table; more would be one blot
-constexpr int samples = 400;             ///< of a curve
+constexpr std::size_t most_rows = 250;  ///< shown of a table; more would be one blot
+constexpr int samples = 400;            ///< of a curve
 
 /// s after the first row until which something is left of that speed, by table or law, and a little more.
 double lasting(const MotionsBeside& motions, double si::SlipAndSpin::*speed) {
@@ -48,7 +48,7 @@ Panel panel_of(const MotionsBeside& motions, const char* name, const char* unit,
   portraits::Marks table{{}, table_colour, 0.4, portraits::Marks::Shape::dot, "table"};
   const auto inside = static_cast<std::size_t>(
       std::ranges::count_if(motions.rows, [&](const Instant& instant) { return instant.t <= end; }));
-  const std::size_t step = (inside + most_marks - 1) / most_marks;
+  const std::size_t step = (inside + most_rows - 1) / most_rows;
   for (std::size_t i = 0; i < inside; i += step)
     table.points.push_back(shown({motions.rows[i].t, motions.rows[i].speeds.*speed}));
   panel.marks.push_back(std::move(table));
