@@ -23,7 +23,7 @@ inline constexpr double orbits_beyond = 12;                    ///< the start, o
 inline constexpr double plane_widths = 2.2;                    ///< of the plane's window, in those of the start
 
 /// Both panels, with the axes that they have, filled: rays, copies of the start's orbit, what the symmetry does.
-Figure draw(ReducedOrbits orbits, const Text& title, const AskedSize& size);
+Figure draw(ReducedOrbits from, const Text& title, const AskedSize& size);
 
 /// @throws std::domain_error  always: of a start that has no strip
 [[noreturn]] void refuse_ray();

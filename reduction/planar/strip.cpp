@@ -140,10 +140,10 @@ Strip::Strip(const SectionField& field, double sense, double tolerance)
 }
 
 double Strip::turn_sigma() const {
-  boost::math::quadrature::gauss_kronrod<double, 31> rule;
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
   double sum = 0;
   for (const Panel& panel : panels_) {
-    sum += rule.integrate([&](double xi) { return 1 / rate(xi); }, panel.left, panel.right, 0);
+    sum += Rule::integrate([&](double xi) { return 1 / rate(xi); }, panel.left, panel.right, 0);
   }
   return sum;
 }

@@ -67,7 +67,7 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
     }
   }
   if (fit.at_limit) {
-    remarks.push_back(
+    remarks.emplace_back(
         "a value ran into what it may be: friction 1e-4 to 10, a patch not larger than the ball nor so large "
         "that the law has an invariant ray, slip and R spin up to 100 m/s; are the units right?");
   }

@@ -84,7 +84,8 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
       if (series.observable != noise.observable) continue;
       const Colour colour = data_colours[i % std::size(data_colours)];
       const Eigen::Index step = std::max<Eigen::Index>(1, (track.t.size() + most_marks - 1) / most_marks);
-      portraits::Marks data{{}, colour, 0.38, portraits::Marks::Shape::dot, i == 0 ? "measured" : ""}, residuals = data;
+      portraits::Marks data{{}, colour, 0.38, portraits::Marks::Shape::dot, i == 0 ? "measured" : ""};
+      portraits::Marks residuals = data;
       residuals.legend = "";
       portraits::Polyline curve;
       for (Eigen::Index row = 0; row < track.t.size(); row += step) {

@@ -23,9 +23,12 @@ class Text {
  public:
   Text() = default;
   explicit Text(Run run);
+  // Words are a text as they stand.
+  // NOLINTBEGIN(google-explicit-constructor)
   Text(std::string_view words);
   Text(const std::string& words) : Text(std::string_view(words)) {}
   Text(const char* words) : Text(std::string_view(words)) {}
+  // NOLINTEND(google-explicit-constructor)
 
   /// Neighbours differ in their look, and none is empty.
   const std::vector<Run>& runs() const { return runs_; }

@@ -44,7 +44,7 @@ using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli, Who
 struct Contact {
   double friction;  ///< coefficient of dry friction
   PatchSource patch;
-  std::string law = "";         ///< of friction, by its name, where the pressure is not that of the body
+  std::string law = {};         ///< of friction, by its name, where the pressure is not that of the body
   double rolling_friction = 0;  ///< u_r: once it rolls, the ball slows down at u_r g and rests; 0: it rolls on
 };
 

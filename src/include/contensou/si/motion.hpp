@@ -22,7 +22,7 @@ struct MotionColumns {
 
   explicit MotionColumns(Eigen::Index rows = 0);
   Eigen::Index rows() const { return t.size(); }
-  MotionPoint row(Eigen::Index row) const;
+  MotionPoint row(Eigen::Index i) const;
   void set(Eigen::Index row, const MotionPoint& point);
 };
 

@@ -17,7 +17,7 @@ struct Quantity {
   std::string_view meaning;
   Range range;
   std::string_view section;             ///< of a run file
-  std::string_view components = "";     ///< of a vector, between commas; empty for a number
+  std::string_view components = {};     ///< of a vector, between commas; empty for a number
   std::optional<double> standard = {};  ///< the value if none is given
 
   /// The number of its components.
