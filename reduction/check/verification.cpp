@@ -144,6 +144,7 @@ class Examination {
       double worst = 0;
       for (Eigen::Index i = 0; i + 1 < motion.points.rows(); ++i) {
         const OrbitPoint point = motion.points.row(i);
+        if (on_a_ray(log_ratio(point))) continue;
         const double here = flow_.log_first_integral(point.u, point.ln_v);
         worst = worse(std::abs(here - at_start) / (1 + steepness(log_ratio(point))), worst);
       }
@@ -153,12 +154,13 @@ class Examination {
     add("first integral along (2.6)", drift(direct), stepping);
   }
 
-  /// |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2).
+  /// |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). With a drive as much more as steps in time blur k next
+  /// to its ray, where rho is the larger part of what Phi is compared with.
   double steepness(double ln_k) const {
     const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
     const auto [force, moment] = system_.law()(slip_of_ratio(k));
     const double drag = system_.r() * k * moment;
-    return drag / std::abs(force - system_.drive() - drag);
+    return (system_.drive() + drag) / std::abs(force - system_.drive() - drag);
   }
 
   /// Where k does not change, and says nothing about where a motion is.

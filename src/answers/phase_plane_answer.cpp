@@ -62,6 +62,8 @@ End end_of(const TerminalRatios& ratios, const TerminalRatio& end) {
 constexpr Field<ReducedSystem> system_fields[]{
     {"law", "", nullptr, [](const ReducedSystem& system) -> Json { return system.law().name(); }},
     {"r", "", "gamma mu^2/chi", [](const ReducedSystem& system) -> Json { return system.r(); }},
+    {"drive", "", "with --drive; then r_high is of (Phi - drive)/(k Psi)",
+     [](const ReducedSystem& system) -> Json { return system.drive() > 0 ? Json(system.drive()) : Json(); }},
 };
 constexpr Field<TerminalRatios> regime_fields[]{
     {"r_low", "", "Phi/(k Psi) at k = 0, where the regime changes",
@@ -155,9 +157,15 @@ std::string heading(const ReducedSystem& system, const TerminalRatios& ratios, s
   return fmt::format(
       "law    {}\n"
       "r      {} = gamma mu^2/chi, gamma = {}, mu = {}, chi = {}\n"
-      "rays   {}where Phi/(k Psi) = r; it is {} at k = 0 and {} at k = infinity",
+      "{}",
       system.law().name(), digits(system.r()), digits(system.inertia().gamma), digits(system.mu()),
-      digits(system.inertia().chi), rays, digits(ratios.low), digits(ratios.high));
+      digits(system.inertia().chi),
+      system.drive() > 0
+          ? fmt::format("drive  {} of f N, along the slip: v = 0 is no motion, from there a body creeps\n"
+                        "rays   where (Phi - drive)/(k Psi) = r; it is {} at k = infinity",
+                        digits(system.drive()), digits(ratios.high))
+          : fmt::format("rays   {}where Phi/(k Psi) = r; it is {} at k = 0 and {} at k = infinity", rays,
+                        digits(ratios.low), digits(ratios.high)));
 }
 
 std::string as_text(const ReducedSystem& system, const TerminalRatios& ratios, const Digits& digits) {
@@ -212,7 +220,7 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
 }  // namespace
 
 Answer terminal_answer(const ReducedSystem& system) {
-  const TerminalRatios ratios = reduction::terminal_ratios(system.law(), system.r());
+  const TerminalRatios ratios = reduction::terminal_ratios(system.law(), system.r(), system.drive());
   Answer answer{.members = members_of(system_fields, system),
                 .text = [=](const Digits& digits) { return as_text(system, ratios, digits); }};
   answer.members.update(members_of(ratios));

@@ -15,6 +15,7 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -34,7 +35,7 @@ std::optional<OtherLaw> other_law(const GivenStart& start) {
   const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
   if (!start.slides_and_spins() || (!is_pade && !system.law().as<reduction::HertzLaw>())) return std::nullopt;
   const reduction::Law& other = reduction::paper_laws()[is_pade ? 0 : 1];
-  const reduction::Flow flow({other, system.mu(), system.inertia()});
+  const reduction::Flow flow({other, system.mu(), system.inertia(), system.drive()});
   return OtherLaw{other.name(), flow.stop_time(state).tau};
 }
 
@@ -50,7 +51,7 @@ std::optional<CoarserTable> coarser_table(const GivenStart& start) {
   if (table == nullptr || !start.slides_and_spins()) return std::nullopt;
   const auto coarser = table->coarser();
   if (!coarser) return std::nullopt;
-  const reduction::Flow flow({*coarser, system.mu(), system.inertia()});
+  const reduction::Flow flow({*coarser, system.mu(), system.inertia(), system.drive()});
   return CoarserTable{coarser->rows(), flow.stop_time(state).tau};
 }
 
@@ -65,6 +66,11 @@ struct StopReport {
   std::vector<reduction::StopEstimate> estimates;  ///< for small mu
   double slip_length;                              ///< m, of a ball
 };
+
+/// tau of a body that does not slide at the start; with a drive it begins to.
+double pivoting_only(const reduction::ReducedSystem& system, double u) {
+  return system.drive() > 0 ? reduction::Flow(system).stop_time({u, 0}).tau : system.pivoting_limit(u);
+}
 
 /// The integral of v dtau until the stop.
 double slip_length(const reduction::Flow& flow, reduction::State start) {
@@ -91,6 +97,12 @@ constexpr Field<StopReport> fields[]{
        return {{"chi", chi}, {"gamma", gamma}};
      },
      nullptr, 1, " {`chi`, `gamma`}"},
+    {"drive", "", "with --drive",
+     [](const StopReport& r) -> Json {
+       const double drive = r.start.system.drive();
+       return drive > 0 ? Json(drive) : Json();
+     },
+     nullptr, 4},
     {"u0", "speed", "R omega_z at the start", [](const StopReport& r) -> Json { return r.start.state.u; }},
     {"v0", "speed", "sliding speed at the start", [](const StopReport& r) -> Json { return r.start.state.v; }},
     {"tau_stop", "speed", "when slip and spin end", [](const StopReport& r) -> Json { return r.stop.tau; }},
@@ -170,8 +182,10 @@ class Text {
   std::string heading() const {
     const auto& [system, state, experiment] = report_.start;
     if (!experiment) {
-      return fmt::format("mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}", number_(system.mu()),
-                         number_(state.u), number_(state.v), is_ball() ? "" : body_line());
+      return fmt::format(
+          "mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}{}", number_(system.mu()), number_(state.u),
+          number_(state.v), is_ball() ? "" : body_line(),
+          system.drive() > 0 ? fmt::format("drive {} of f N, along the slip\n", number_(system.drive())) : "");
     }
     return ball_heading(*experiment, system.law(), number_) +
            fmt::format("slip {} m/s, spin {} rad/s: u0 = {} m/s, v0 = {} m/s\n",
@@ -268,6 +282,7 @@ class Text {
 
   std::string ending() const {
     const auto& [system, state, experiment] = report_.start;
+    if (!experiment && system.drive() > 0) return driven_ending();
     if (!experiment) {
       const double chi = system.inertia().chi;
       if (chi == 1) return "then   it lies still\n";
@@ -282,6 +297,18 @@ class Text {
         "then   it rolls: velocity {} m/s, angular velocity {} 1/s\n       ({}, z up)\n", number_.list(velocity),
         number_.list(angular_velocity),
         std::holds_alternative<si::SlipAndSpin>(experiment->start) ? "x along the initial slip" : "axes of the start");
+  }
+
+  std::string driven_ending() const {
+    const auto ratios = reduction::terminal_ratios(system_.law(), system_.r(), system_.drive());
+    std::string text;
+    if (report_.start.state.u != 0 && ratios.ends.size() == 1) {
+      const auto& [regime, k, from, to] = ratios.ends.front();
+      text = regime == reduction::TerminalRegime::ray
+                 ? fmt::format("creeps while it spins: v/(mu |u|) tends to {}, and v = 0 is no motion\n", number_(k))
+                 : "it slides faster and faster beside its spin: v/(mu |u|) tends to infinity\n";
+    }
+    return text + "then   slip and spin are over; what the drive does to a body that rolls depends on what it is\n";
   }
 
   const StopReport& report_;
@@ -306,8 +333,8 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
   const StopReport report{start,
                           route,
                           stepped ? reduction::stop_time(system, state, route) : flow->stop_time(state),
-                          system.sliding_limit(state.v),
-                          system.pivoting_limit(state.u),
+                          system.sliding_limit(state.v) / (1 - system.drive()),
+                          pivoting_only(system, state.u),
                           other_law(start),
                           coarser_table(start),
                           estimate ? reduction::small_mu_estimates(system, state) : Estimates{},

@@ -29,9 +29,9 @@
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/course.hpp"
 #include "contensou/si/description.hpp"
 #include "contensou/si/motion.hpp"
+#include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
 
@@ -238,28 +238,28 @@ class Plane {
     return answer([&] {
       const si::Experiment experiment = moving(fields);
       si::require_finite_motion(experiment, end);
-      std::optional<si::RollingFriction> friction;
-      if (rolling_friction > 0) {
-        friction =
-            si::Course<si::BallMotion>(experiment, {experiment, flow()}, si::rolling_slip, rolling_friction).friction;
-      }
+      std::optional<si::ResistedMotion> resisted;
+      if (rolling_friction > 0) resisted.emplace(experiment, flow().system().law(), rolling_friction);
       const Orbit orbit = flow().orbit(si::reduced_start(experiment));
       const double scale = 1 / si::seconds(experiment, 1);
       constexpr Eigen::Index pieces = 160;
       si::MotionColumns motion(pieces + 1);
       for (Eigen::Index i = 0; i <= pieces; ++i) {
         const double part = static_cast<double>(i) / pieces, t = end * part * part;
+        if (resisted) {
+          motion.set(i, resisted->at_time(t));
+          continue;
+        }
         const double tau = std::min(t * scale, orbit.stop_time());
         const reduction::OrbitPoint point = orbit.at_time(tau);
         const double slid = si::seconds(experiment, orbit.slip_length(tau));
-        const auto free = si::motion_by_slip(experiment, t, point.v, slid, point.u / experiment.ball.radius);
-        motion.set(i, friction ? (*friction)(free) : free);
+        motion.set(i, si::motion_by_slip(experiment, t, point.v, slid, point.u / experiment.ball.radius));
       }
       val result = object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx",
                           motion.wx, "wy", motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy);
-      if (friction) {
-        const Eigen::Vector2d rest = friction->rest_position();
-        result.set("rest", object("t", friction->rest_time(), "x", rest.x(), "y", rest.y()));
+      if (resisted) {
+        const Eigen::Vector2d rest = resisted->rest_position();
+        result.set("rest", object("t", resisted->rest_time(), "x", rest.x(), "y", rest.y()));
       }
       return result;
     });

@@ -112,6 +112,7 @@ void bind_course(py::module_& module, const char* name) {
            Released())
       .def_property_readonly("stop_time",
                              [](const Course& course) {
+                               if (course.resisted) return course.resisted->stop_time();
                                if constexpr (std::is_same_v<Motion, si::BallMotion>)
                                  return course.motion.stop_time();
                                else
@@ -123,18 +124,15 @@ void bind_course(py::module_& module, const char* name) {
            })
       .def_property_readonly("rolls_after", [](const Course& course) { return place_of(course.event(course.rolls)); })
       .def_property_readonly("spin_ends",
-                             [](const Course& course) { return place_of(course.event(course.motion.spin_end())); })
-      .def_property_readonly(
-          "rest",
-          [](const Course& course) {
-            return course.friction
-                       ? std::optional(place_of({course.friction->rest_time(), course.friction->rest_position()}))
-                       : std::nullopt;
-          })
-      .def_property_readonly("slip_length", [](const Course& course) { return course.motion.slip_length(); })
-      .def_property_readonly("turns",
-                             [](const Course& course) { return course.motion.spin_angle() / (2 * std::numbers::pi); })
-      .def_property_readonly("path", [](const Course& course) { return course.motion.path_length(course.rolls); });
+                             [](const Course& course) { return place_of(course.event(course.spin_end())); })
+      .def_property_readonly("rest",
+                             [](const Course& course) {
+                               const auto rest = course.rest();
+                               return rest ? std::optional(place_of(*rest)) : std::nullopt;
+                             })
+      .def_property_readonly("slip_length", [](const Course& course) { return course.slip_length(); })
+      .def_property_readonly("turns", [](const Course& course) { return course.turns(); })
+      .def_property_readonly("path", [](const Course& course) { return course.path_length(course.rolls); });
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ BallMotion::BallMotion(const Experiment& experiment, const reduction::Law& law)
 
 BallMotion::BallMotion(const Experiment& experiment, const reduction::Flow& flow)
     : experiment_(experiment),
+      law_(flow.system().law()),
       orbit_(flow.orbit(reduced_start(experiment))),
       stop_(seconds(experiment, orbit_.stop_time())),
       scale_(1 / seconds(experiment, 1)) {

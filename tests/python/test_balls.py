@@ -195,7 +195,7 @@ def test_a_ball_changes():
     (lambda: ct.Ball.pool().roll(strike=1, tip=(0.6, 0)), "the tip slips off the ball"),
     (lambda: ct.Ball.pool().roll(strike=1, spin=0), "strike is a start of its own"),
     (lambda: ct.Ball.pool().roll(velocity=(1, 0), spin=1), "exclude each other"),
-    (lambda: ct.Ball.pool().roll(rolling_friction=-1), "deceleration > 0 is required"),
+    (lambda: ct.Ball.pool().roll(rolling_friction=-1), "rolling friction > 0 is required"),
     (lambda: ct.Ball.pool().roll(rolling_below=-1), "speed >= 0 is required"),
     (lambda: ct.Ball.pool().roll(strike=1e300), "exceed the largest double"),
     (lambda: ct.Ball.pool().roll()(-1), "t must be >= 0, in s; got -1"),

@@ -17,6 +17,7 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/verification.hpp"
 
 using namespace contensou::reduction;
 using Catch::Matchers::Contains;
@@ -247,6 +248,18 @@ TEST_CASE("the bounds enclose a driven stop, and are met", "[drive][bounds]") {
       CHECK(sliding.bounds.lower == Approx(sliding.tau));
       const bool pade = law.name() == "pade";
       CHECK(std::isinf(sliding.bounds.upper) == (pade && drive > 0.4));
+    }
+  }
+}
+
+TEST_CASE("every statement holds with a drive", "[drive][verification]") {
+  for (const Law& law : paper_laws()) {
+    for (double drive : {0.05, 0.6, 0.97}) {
+      const Flow flow({law, 0.3, homogeneous_ball, drive});
+      for (const Check& check : verify(flow, {{1, 1}, {-1, 1e-3}, {1, 30}, {0, 1}, {1, 0}})) {
+        INFO(law.name() << ", drive " << drive << ": " << check.name << " " << check.measured);
+        CHECK(check.passed());
+      }
     }
   }
 }

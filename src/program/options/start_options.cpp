@@ -51,13 +51,28 @@ void BodyOptions::add_body(CLI::App& app) {
       parse_body);
 }
 
+void BodyOptions::add_drive(CLI::App& app) {
+  drive_.add(app, "--drive", "RHO",
+             "constant drive along the slip, over f N, 0 or more and below 1: rolling resistance u_r/f of a ball that "
+             "rolls the way it slides, or a slope straight down, tan(angle)/(chi f) (default 0)",
+             [](const std::string& typed) {
+               const double drive = parse_number(typed);
+               if (drive >= 1) throw NotAllowed("friction is at most 1 in this unit: from 1 on it would never stop");
+               if (drive < 0)
+                 throw NotAllowed("a drive against the slip turns it round, which is no orbit: 0 or more is needed");
+               if (drive > 0 && drive < reduction::ReducedSystem::least_drive)
+                 throw NotAllowed(fmt::format("0, or {} or more is needed", reduction::ReducedSystem::least_drive));
+               return drive;
+             });
+}
+
 reduction::ReducedSystem BodyOptions::read(const reduction::Law& law, const std::string& ways) const {
   if (!mu_.given() && !body().patch_ratio) {
     throw BadInput(fmt::format("--mu missing: give {}, or a --body that lies flat, disc or ring", ways));
   }
   const double mu = mu_.given() ? *mu_ : *body().patch_ratio;
   if (const std::string complaint = body().complaint(mu); !complaint.empty()) mu_.reject(complaint);
-  return {law, mu, body().inertia};
+  return {law, mu, body().inertia, drive_.value_or(0)};
 }
 
 const si::CatalogueEntry& require_ball(const std::string& name) {
@@ -118,13 +133,13 @@ std::string StartOptions::start_names() const {
 }
 
 std::string StartOptions::given_names() const {
-  const std::string first = names_given({&body_.mu(), &u0_, &v0_, &ball_});
+  const std::string first = names_given({&body_.mu(), &body_.drive(), &u0_, &v0_, &ball_});
   const std::string others = override_names();
   return first + (first.empty() || others.empty() ? "" : ", ") + others;
 }
 
 void StartOptions::require_one_kind() const {
-  const std::string reduced = names_given({&body_.mu(), &u0_, &v0_});
+  const std::string reduced = names_given({&body_.mu(), &body_.drive(), &u0_, &v0_});
   if (ball_.given() && !reduced.empty()) {
     throw BadInput(fmt::format("{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip",
                                ball_.typed(), reduced));
@@ -160,7 +175,7 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
 }
 
 void StartOptions::require_point_or_none() const {
-  const std::string others = names_given({&body_.mu(), &body_.argument(), &ball_});
+  const std::string others = names_given({&body_.mu(), &body_.argument(), &body_.drive(), &ball_});
   if (!others.empty() || !override_names().empty()) {
     throw BadInput(fmt::format("--system and {} exclude each other: its numbers are in the formulas, or --param",
                                others.empty() ? override_names() : others));

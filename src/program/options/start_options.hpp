@@ -18,14 +18,16 @@ namespace contensou::program {
 
 using si::Body;
 
-/// --mu and --body.
+/// --mu, --body and --drive.
 class BodyOptions {
  public:
   void add_mu(CLI::App& app);
   void add_body(CLI::App& app);
+  void add_drive(CLI::App& app);
 
   const ArgumentOf<double>& mu() const { return mu_; }
   const ArgumentOf<Body>& argument() const { return body_; }
+  const ArgumentOf<double>& drive() const { return drive_; }
 
   /// The body; a homogeneous ball if none was given.
   Body body() const { return body_.value_or({}); }
@@ -36,7 +38,7 @@ class BodyOptions {
   reduction::ReducedSystem read(const reduction::Law& law, const std::string& ways = "--mu M") const;
 
  private:
-  ArgumentOf<double> mu_;
+  ArgumentOf<double> mu_, drive_;
   ArgumentOf<Body> body_;
 };
 
@@ -48,6 +50,9 @@ const si::CatalogueEntry& require_ball(const std::string& name);
 class StartOptions {
  public:
   void add(CLI::App& app);
+
+  /// --drive, for a verb that has an answer with it.
+  void add_drive(CLI::App& app) { body_.add_drive(app); }
 
   /// Whether a verb that takes a ball offers an option for a quantity.
   using Offer = bool (*)(const si::Quantity& quantity);

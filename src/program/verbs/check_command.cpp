@@ -23,6 +23,7 @@ class CheckCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     start_.add(app);
+    start_.add_drive(app);
     law_.add(app);
     app.option_defaults()->group("Against a table");
     against_.add(

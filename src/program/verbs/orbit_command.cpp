@@ -40,6 +40,7 @@ class OrbitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     start_.add(app);
+    start_.add_drive(app);
     law_.add(app);
     route_.add(app);
     CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");

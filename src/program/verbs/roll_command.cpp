@@ -39,17 +39,28 @@ struct Roll {
   double rolling_friction = experiment.contact.rolling_friction;
   si::Course<si::BallMotion> whole{experiment, {experiment, law}, rolling_below, rolling_friction};
   si::Course<si::UncoupledMotion> textbook{experiment, {experiment, law}, rolling_below, rolling_friction};
+  /// With rolling friction, by the route integrated.
+  std::optional<si::ResistedMotion> in_steps =
+      integrated && whole.resisted ? std::optional<si::ResistedMotion>({experiment, law, rolling_friction, true})
+                                   : std::nullopt;
 
+  /// How the events are found.
+  bool reduced() const { return !whole.resisted || whole.resisted->is_reduced(); }
   bool lies_flat() const { return experiment.ball.body.lies_flat(); }
-  double stop_time() const { return whole.motion.stop_time(); }
+  double stop_time() const { return whole.resisted ? whole.resisted->stop_time() : whole.motion.stop_time(); }
 
   si::MotionColumns at_times(const Eigen::ArrayXd& times) const {
-    return integrated ? whole.slowed(si::integrate_motion(experiment, law, times).points) : whole.at_times(times);
+    if (!integrated) return whole.at_times(times);
+    if (!in_steps) return si::integrate_motion(experiment, law, times).points;
+    si::MotionColumns columns(times.size());
+    for (Eigen::Index i = 0; i < times.size(); ++i) columns.set(i, in_steps->at_time(times[i]));
+    return columns;
   }
 
   /// Where a series of instants ends unless the user says otherwise, in s: a little past the stop, and the rest.
   double standard_end() const {
-    const double end = std::max(stop_time(), whole.friction ? whole.friction->rest_time() : 0);
+    const auto rest = whole.rest();
+    const double end = std::max(stop_time(), rest ? rest->t : 0);
     return end > 0 ? 1.1 * end : 1;
   }
 };
@@ -73,12 +84,19 @@ struct EnergyBalance {
   double start;
   si::EnergyLoss loss;
   double kept;
+  double rolling = 0;  ///< lost to rolling resistance
 };
 
-EnergyBalance energy_balance(const si::Experiment& experiment) {
+EnergyBalance energy_balance(const Roll& roll) {
+  const si::Experiment& experiment = roll.experiment;
+  const double start = si::kinetic_energy(experiment.ball, si::velocities_of(experiment.start));
+  const si::EnergyLoss loss = si::energy_loss(experiment);
+  if (roll.whole.resisted) {  // it rests, and spin has lost what it had
+    const double rolling = roll.whole.resisted->rolling_loss();
+    return {start, {start - loss.pivoting - rolling, loss.pivoting}, 0, rolling};
+  }
   const auto [velocity, angular_velocity] = si::final_motion(experiment);
-  return {si::kinetic_energy(experiment.ball, si::velocities_of(experiment.start)), si::energy_loss(experiment),
-          si::kinetic_energy(experiment.ball, {velocity, angular_velocity})};
+  return {start, loss, si::kinetic_energy(experiment.ball, {velocity, angular_velocity})};
 }
 
 std::string heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
@@ -125,19 +143,33 @@ std::string table(const Roll& roll, const Digits& digits) {
   return text;
 }
 
+/// How rolling resistance acts, and what found the motion.
+std::string resistance_text(const Roll& roll, const Digits& digits) {
+  std::string text = fmt::format(
+      "rolling resistance slows it down by u_r g = {} m/s^2 when it rolls without slip; it acts all the time\n",
+      digits(roll.rolling_friction * roll.experiment.environment.gravity));
+  if (const auto k = roll.whole.resisted->creep_ratio()) {
+    const double rim = *k * si::patch_radius_of(roll.experiment, roll.law);
+    text +=
+        fmt::format("creeps while it spins: its slip tends to {} m times its spin, k = {}\n", digits(rim), digits(*k));
+  }
+  return text +
+         (roll.reduced() ? "route  reduced: it slides the way it rolls, with the drive u_r/f\n"
+                         : "route  integrated: it does not slide the way it rolls, which is no reduced motion\n") +
+         fmt::format("rests  once it no longer turns and slides below {} m/s\n", digits(si::resting_slip));
+}
+
 std::string ending(const Roll& roll, const Digits& digits) {
   const si::Experiment& experiment = roll.experiment;
   const auto [velocity, angular_velocity] = si::final_motion(experiment);
-  const auto [start, loss, kept] = energy_balance(experiment);
-  const std::string energy = fmt::format("energy {} J: {} lost by sliding, {} by spinning, {} kept\n", digits(start),
-                                         digits(loss.sliding), digits(loss.pivoting), digits(kept));
+  const auto [start, loss, kept, rolling] = energy_balance(roll);
+  const std::string energy = fmt::format(
+      "energy {} J: {} lost by sliding, {} by spinning, {}{} kept\n", digits(start), digits(loss.sliding),
+      digits(loss.pivoting), roll.whole.resisted ? fmt::format("{} by rolling, ", digits(rolling)) : "", digits(kept));
   if (roll.lies_flat()) return "then   it lies still\n" + energy;
+  if (roll.whole.resisted) return resistance_text(roll, digits) + energy;
   std::string text = fmt::format("then   it rolls straight on: velocity {} m/s, angular velocity {} 1/s\n",
                                  digits.list(velocity), digits.list(angular_velocity));
-  if (roll.rolling_friction > 0) {
-    text += fmt::format("       slowed down by u_r g = {} m/s^2\n",
-                        digits(roll.rolling_friction * experiment.environment.gravity));
-  }
   if (velocity.norm() > 0) {
     const double degrees = std::atan2(velocity.y(), velocity.x()) * (180 / std::numbers::pi);
     text += fmt::format("       at {} m/s, {} degrees from the x axis\n", digits(velocity.norm()), digits(degrees));
@@ -162,17 +194,26 @@ portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionCol
 /// @param times  s
 Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
   const auto [velocity, angular_velocity] = si::velocities_of(roll.experiment.start);
-  const auto [start, loss, kept] = energy_balance(roll.experiment);
+  const auto [start, loss, kept, rolling] = energy_balance(roll);
   const si::MotionColumns motion = roll.at_times(times);
   Json members{{"law", roll.law.name()},
-               {"route", roll.integrated ? "integrated" : "reduced"},
+               {"route", roll.integrated || !roll.reduced() ? "integrated" : "reduced"},
                {"mu", si::patch_ratio(roll.experiment, roll.law)},
                {"ball", members_of_ball(roll.experiment, roll.law)},
                {"velocity", std::vector(velocity.begin(), velocity.end())},
                {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())},
                {"t_stop", roll.stop_time()}};
   members.update(members_of(events_of(roll.whole), roll.lies_flat(), &roll.rolling_below));
-  if (roll.integrated) {
+  if (roll.whole.resisted) {
+    if (const auto k = roll.whole.resisted->creep_ratio()) members["creeps"] = {{"k", *k}};
+  }
+  if (roll.in_steps) {
+    members["integrated"] = {
+        {"t_stop", roll.in_steps->stop_time()},
+        {"slip_length", roll.in_steps->slip_length()},
+        {"turns", roll.in_steps->spin_angle() / (2 * std::numbers::pi)},
+        {"rest", members_of(si::Event{roll.in_steps->rest_time(), roll.in_steps->rest_position()})}};
+  } else if (roll.integrated) {
     const si::IntegratedMotion by_steps = si::integrate_motion(roll.experiment, roll.law, {});
     members["integrated"] = {{"t_stop", by_steps.stop_time},
                              {"slip_length", by_steps.slip_length},
@@ -181,6 +222,7 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
   }
   members["energy_balance"] = {
       {"start", start}, {"lost_sliding", loss.sliding}, {"lost_spinning", loss.pivoting}, {"kept", kept}};
+  if (roll.whole.resisted) members["energy_balance"]["lost_rolling"] = rolling;
   members["textbook"] = members_of(events_of(roll.textbook), roll.lies_flat());
   return {.members = members,
           .columns = {{"t", motion.t},
@@ -201,6 +243,11 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
 std::string report_on(const Roll& roll, const Digits& digits) {
   const std::string text =
       heading(roll.experiment, roll.law, digits) + "\n" + table(roll, digits) + "\n" + ending(roll, digits);
+  if (roll.in_steps) {
+    return text + fmt::format("route integrated: its centre rests after {} s at {} m, slip and spin end after {} s\n",
+                              digits(roll.in_steps->rest_time()), digits.list(roll.in_steps->rest_position()),
+                              digits(roll.in_steps->stop_time()));
+  }
   if (!roll.integrated) return text;
   const si::IntegratedMotion motion = si::integrate_motion(roll.experiment, roll.law, {});
   return text +
@@ -213,7 +260,7 @@ std::string report_on(const Roll& roll, const Digits& digits) {
 
 /// The picture of the motion at these instants, beside the textbook's.
 portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times) {
-  const auto& [experiment, law, integrated, rolling_below, rolling_friction, whole, textbook] = roll;
+  const auto& [experiment, law, integrated, rolling_below, rolling_friction, whole, textbook, in_steps] = roll;
   const double rolls = whole.rolls;
   const double textbook_rolls = textbook.rolls;
   const double slip = si::slip_at_start(experiment);
@@ -231,9 +278,9 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
                                     seconds(rolls), seconds(textbook_rolls));
   }
   if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {}", seconds(roll.stop_time()));
-  if (whole.friction) {
-    const auto& place = whole.friction->rest_position();
-    picture.subtitle += fmt::format("; it rests after {} at {}", seconds(whole.friction->rest_time()),
+  if (const auto rest = whole.rest()) {
+    const auto& place = rest->place;
+    picture.subtitle += fmt::format("; it rests after {} at {}", seconds(rest->t),
                                     portraits::unbroken(fmt::format("({:.3g}, {:.3g}) m", place.x(), place.y())));
   }
   return picture;

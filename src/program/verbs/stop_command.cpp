@@ -19,6 +19,7 @@ class StopCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     start_.add(app);
+    start_.add_drive(app);
     law_.add(app);
     route_.add(app);
     app.add_flag("--estimate", estimate_, "beside it the estimates for small mu, with their errors");

@@ -19,6 +19,7 @@ class TerminalCommand final : public Verb {
     body_.add_mu(app);
     law_.add(app);
     body_.add_body(app);
+    body_.add_drive(app);
     figure_.add(app);
     output_.add(app);
   }
@@ -31,6 +32,7 @@ class TerminalCommand final : public Verb {
       output.write(terminal_answer(body_.read(law)));
       return ExitStatus::done;
     }
+    if (body_.drive().given()) body_.drive().reject("the picture is of no drive: leave it or -o out");
     // All r are drawn; that of a body is marked.
     std::optional<double> r;
     if (body_.mu().given() || body_.argument().given()) r = body_.read(law).r();

@@ -32,7 +32,7 @@ class Ball:
     (Pa) and Poisson's ratios of ball and plane. What presses it on the plane is gravity (m/s^2, 9.80665 if left out), or a
     load (N). Its start, at rest if left out, is slip (m/s, along x) and spin (rad/s about the vertical), or velocity (x, y)
     and angular_velocity (x, y, z up). Of a start by velocities slip and spin, and of a load gravity, say what they come to.
-    rolling_friction: once it rolls, the ball slows down at so much of gravity and rests. law is that of every question
+    rolling_friction: rolling without slip, the ball slows down at so much of gravity. law is that of every question
     about the ball that names none: a name, a Law or a function.
     `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
     """
@@ -156,7 +156,7 @@ class Ball:
 
         law:               that of the ball if left out
         rolling_below:     the ball rolls once it slips slower, m/s
-        rolling_friction:  u_r: once it rolls it slows down at u_r g and rests; 0: it rolls on. That of the ball if left out
+        rolling_friction:  u_r: rolling without slip it slows down at u_r g; 0: it rolls on. That of the ball if left out
         """
         start = {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin}
         start = {name: value for name, value in start.items() if value is not None}

@@ -8,7 +8,7 @@ namespace contensou::si {
 /// The whole motion of a ball, Zh98 (2.1) to (2.5), from the similarity solution: slip and spin are one orbit of the
 /// reduced system, the rest follows from the first integrals (motion_by_slip). Any instant is found by itself, by one root.
 ///
-/// After the stop the ball rolls on a straight line at constant velocity: the model has no rolling resistance.
+/// After the stop the ball rolls on a straight line at constant velocity: rolling resistance is that of ResistedMotion.
 ///
 /// Accuracy  1e-12 of the scales of the motion against integrate_motion, for mu from 1e-3 to 1.
 class BallMotion {
@@ -19,6 +19,8 @@ class BallMotion {
   /// With what is known already.
   /// @param flow  of reduced_system(experiment, law)
   BallMotion(const Experiment& experiment, const reduction::Flow& flow);
+
+  const reduction::Law& law() const { return law_; }
 
   /// s from the start until the ball neither slides nor spins.
   double stop_time() const { return stop_; }
@@ -54,6 +56,7 @@ class BallMotion {
   double paper_time(double t) const;
 
   Experiment experiment_;
+  reduction::Law law_;
   reduction::Orbit orbit_;
   double stop_;
   double scale_;  ///< tau per s

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contensou/si/motion.hpp"
+#include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/rolling_friction.hpp"
 
 namespace contensou::si {
@@ -17,42 +18,63 @@ struct Event {
   Eigen::Vector2d place;  ///< m
 };
 
-/// A motion with the instant when it rolls, and with rolling friction from then on if there is any. A body that lies
-/// flat does not roll: it comes to rest then.
+/// A motion with the instant when it rolls, and with rolling friction if there is any: of a BallMotion it acts all the
+/// time (ResistedMotion), the textbook's begins when it rolls. A body that lies flat does not roll: it comes to rest
+/// then.
 /// @tparam Motion  BallMotion or UncoupledMotion
 template <class Motion>
 struct Course {
-  Motion motion;
-  double rolls;  ///< s until it does; of a body that lies flat until its centre rests
+  Motion motion;  ///< without rolling friction
+  double rolls;   ///< s until it does; of a body that lies flat until its centre rests
   std::optional<RollingFriction> friction;
+  std::optional<ResistedMotion> resisted;
 
   /// @param rolling_below     m/s, >= 0: a ball that slips no faster rolls; not of a body that lies flat
   /// @param rolling_friction  u_r; 0: none
-  /// @throws std::domain_error  as slip_time, RollingFriction and require_finite_motion, and for rolling friction of a
-  ///                            body that lies flat
+  /// @throws std::domain_error  as slip_time, RollingFriction, ResistedMotion and require_finite_motion, and for rolling
+  ///                            friction of a body that lies flat
   Course(const Experiment& experiment, Motion of_shot, double rolling_below, double rolling_friction)
       : motion(std::move(of_shot)), rolls(motion.slip_time(experiment.ball.body.lies_flat() ? 0 : rolling_below)) {
     if (rolling_friction != 0 && experiment.ball.body.lies_flat())
       throw std::domain_error("a body that lies flat never rolls: it has no rolling friction");
-    double braked = std::max(rolls, motion.spin_end());
-    require_finite_motion(experiment, braked);
-    if (rolling_friction != 0) {
+    require_finite_motion(experiment, std::max(rolls, motion.spin_end()));
+    if (rolling_friction == 0) return;
+    if constexpr (always_resisted) {
+      resisted.emplace(experiment, motion.law(), rolling_friction);
+      rolls = resisted->slip_time(rolling_below);
+    } else {
       friction.emplace(experiment.ball, motion.at_time(rolls), rolling_friction * experiment.environment.gravity);
-      braked = std::max(braked, friction->rest_time());
-      require_finite_motion(experiment, braked);
     }
+    require_finite_motion(experiment, std::max({rolls, spin_end(), rest()->t}));
   }
 
-  MotionPoint at_time(double t) const { return friction ? (*friction)(motion.at_time(t)) : motion.at_time(t); }
-  MotionColumns at_times(const Eigen::ArrayXd& times) const { return slowed(motion.at_times(times)); }
-
-  /// Columns of the motion without rolling friction, with it.
-  MotionColumns slowed(MotionColumns columns) const {
-    for (Eigen::Index i = 0; friction && i < columns.rows(); ++i) columns.set(i, (*friction)(columns.row(i)));
+  MotionPoint at_time(double t) const {
+    if (resisted) return resisted->at_time(t);
+    return friction ? (*friction)(motion.at_time(t)) : motion.at_time(t);
+  }
+  MotionColumns at_times(const Eigen::ArrayXd& times) const {
+    if (!resisted && !friction) return motion.at_times(times);
+    MotionColumns columns(times.size());
+    for (Eigen::Index i = 0; i < times.size(); ++i) columns.set(i, at_time(times[i]));
     return columns;
   }
 
+  double spin_end() const { return resisted ? resisted->spin_end() : motion.spin_end(); }
+  double slip_length() const { return resisted ? resisted->slip_length() : motion.slip_length(); }
+  double turns() const { return (resisted ? resisted->spin_angle() : motion.spin_angle()) / (2 * std::numbers::pi); }
+  double path_length(double t) const { return resisted ? resisted->path_length(t) : motion.path_length(t); }
+
+  /// With rolling friction.
+  std::optional<Event> rest() const {
+    if (resisted) return Event{resisted->rest_time(), resisted->rest_position()};
+    if (friction) return Event{friction->rest_time(), friction->rest_position()};
+    return std::nullopt;
+  }
+
   Event event(double t) const { return {t, at_time(t).position}; }
+
+ private:
+  static constexpr bool always_resisted = requires(const Motion& of) { of.law(); };
 };
 
 /// What happens on a course.
@@ -66,13 +88,12 @@ struct Events {
 
 template <class Motion>
 Events events_of(const Course<Motion>& course) {
-  const auto& [motion, rolls, friction] = course;
-  return {course.event(rolls),
-          course.event(motion.spin_end()),
-          friction ? std::optional(Event{friction->rest_time(), friction->rest_position()}) : std::nullopt,
-          motion.slip_length(),
-          motion.spin_angle() / (2 * std::numbers::pi),
-          motion.path_length(rolls)};
+  return {course.event(course.rolls),
+          course.event(course.spin_end()),
+          course.rest(),
+          course.slip_length(),
+          course.turns(),
+          course.path_length(course.rolls)};
 }
 
 }  // namespace contensou::si

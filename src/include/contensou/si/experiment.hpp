@@ -45,7 +45,7 @@ struct Contact {
   double friction;  ///< coefficient of dry friction
   PatchSource patch;
   std::string law = {};         ///< of friction, by its name, where the pressure is not that of the body
-  double rolling_friction = 0;  ///< u_r: once it rolls, the ball slows down at u_r g and rests; 0: it rolls on
+  double rolling_friction = 0;  ///< u_r: rolling without slip, the ball slows down at u_r g; 0: it rolls on
 };
 
 /// A ball that slides along x and spins about the vertical, with no horizontal angular velocity.

@@ -30,7 +30,8 @@ inline constexpr Quantity friction{"friction", "", "coefficient of dry friction"
 inline constexpr Quantity rolling_friction{
     .name = "rolling_friction",
     .unit = "",
-    .meaning = "once it rolls, the ball slows down at so much of gravity and rests (pool 0.005 to 0.015)",
+    .meaning =
+        "rolling resistance, in what it slows a ball down that rolls without slip, over gravity (pool 0.005 to 0.015)",
     .range = Quantity::Range::not_negative,
     .section = "contact",
     .standard = 0};

@@ -4,7 +4,7 @@
 
 namespace contensou::si {
 
-/// Rolling friction: from the instant when it rolls, a ball rolls without slip along a straight line, slows down at u_r
+/// The textbook's rolling friction: from the instant when it rolls, a ball rolls without slip along a straight line, slows down at u_r
 /// g and rests. Its spin about the vertical is that of the motion without it.
 class RollingFriction {
  public:
