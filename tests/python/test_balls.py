@@ -164,7 +164,8 @@ def test_evolve_has_pooltools_convention():
     np.testing.assert_allclose(ball.evolve(rvw, 0.05), expected, rtol=1e-12)
     states = ball.evolve(rvw, [[0, 0.05], [1, 2]], rolling_friction=0.01)
     assert states.shape == (2, 2, 3, 3) and np.array_equal(states[0, 0], rvw) and np.array_equal(rvw, before)
-    np.testing.assert_allclose(states[0, 1], expected, rtol=1e-12)
+    np.testing.assert_allclose(states[0, 1, 1], expected[1], atol=0.02)  # resistance acts while it slides, too
+    assert not np.allclose(states[0, 1, 2], expected[2], atol=0.1)
     for r, v, w in states[1]:  # it rolls: w = z x v/R
         np.testing.assert_allclose(w, np.cross([0, 0, 1], v) / ball.radius, atol=1e-10)
     assert np.linalg.norm(states[1, 0, 1] - states[1, 1, 1]) == pytest.approx(0.01 * ball.gravity, rel=1e-9)
