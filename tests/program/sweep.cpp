@@ -249,7 +249,7 @@ TEST_CASE("a sweep says once that its tables are not whole, and has the numbers 
     const auto column = std::ranges::find(one[0], "tau_stop") - one[0].begin();
     CHECK(std::stod(rows[i][3]) == Approx(std::stod(one[1][static_cast<std::size_t>(column)])).epsilon(1e-14));
   }
-  CHECK_THAT(run_program("sweep --mu 0.3 --u0 1:2:20 --v0 0.1:0.3:20 -o " + scratch.file("map.gp") + law).err,
+  CHECK_THAT(run_program("sweep --mu 0.3 --u0 1:2:182 --v0 0.1:0.3:182 -o " + scratch.file("map.gp") + law).err,
              Contains("misses 4 eps"));
 }
 
