@@ -100,3 +100,20 @@ TEST_CASE("the first integral is shifted by ln c under scaling, and has no value
     CHECK_THROWS_AS(flow.log_first_integral(at.u, std::log(at.v)), std::domain_error);
   }
 }
+
+TEST_CASE("the first integral has no value on an invariant ray, and one beside it", "[flow][symmetry]") {
+  const ReducedSystem puck(*find_law("uniform"), 1, {.chi = 1, .gamma = 2});
+  const Flow flow(puck);
+  REQUIRE(flow.terminal().rays.size() == 1);
+  const double ln_k = std::log(flow.terminal().rays.front().k);
+  for (double u : {-1.0, 1e-3, 40.0}) {
+    CAPTURE(u);
+    const double ln_v = ln_k + std::log(std::abs(u));
+    CHECK_THROWS_WITH(flow.log_first_integral(u, ln_v), Contains("no value on the invariant ray k = 0.653"));
+    for (double aside : {-1e-9, 1e-9}) {
+      const double here = flow.log_first_integral(u, ln_v + aside);
+      CHECK(std::isfinite(here));
+      CHECK(flow.log_first_integral(2 * u, ln_v + aside + std::log(2)) == Approx(here + std::log(2)).epsilon(1e-6));
+    }
+  }
+}
