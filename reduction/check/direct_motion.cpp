@@ -14,6 +14,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include "check/motion_recorder.hpp"
+#include "numerics/root.hpp"
 
 namespace contensou::reduction {
 
@@ -113,28 +114,16 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
       return std::abs(side) > on_kink && (side > 0) != (x[1] - x[0] > kink);
     });
     if (crossed != kinks.end()) {
-      // Land on the kink: the length of the step that ends there, by the secant method from both its ends.
+      // Land on the kink: the length of the step that ends there.
       const auto gap_of = [&](const Values& at) { return at[1] - at[0] - *crossed; };
       Fehlberg base;
-      double low = 0;
-      double high = taken;
-      double at_low = gap_of(before);
-      double at_high = gap_of(x);
-      const bool from_above = at_low > 0;
       Values landed = x;
-      double length = high;
-      for (int i = 0; i < 60 && gap_of(landed) != 0; ++i) {
-        length = std::clamp(high - at_high * (high - low) / (at_high - at_low), low, high);
-        if (length == low || length == high) break;
+      const auto gap_after = [&](double length) {
         base.do_step(std::ref(equations), before, s_before, landed, length);
-        const double gap = gap_of(landed);
-        const bool same_side = (gap > 0) == from_above;
-        (same_side ? low : high) = length;
-        (same_side ? at_low : at_high) = gap;
-        // Illinois: halve the end that stays, so that both close in.
-        (same_side ? at_high : at_low) *= 0.5;
-        if (std::abs(gap) < 4 * std::numeric_limits<double>::epsilon()) break;
-      }
+        return gap_of(landed);
+      };
+      const double length = root_between(gap_after, 0, taken, gap_of(before), gap_of(x));
+      gap_after(length);
       x = landed;
       x[1] = x[0] + *crossed;
       s = s_before + length;

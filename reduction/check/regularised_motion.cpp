@@ -12,6 +12,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 
 #include "check/motion_recorder.hpp"
+#include "numerics/root.hpp"
 
 namespace contensou::reduction {
 
@@ -87,23 +88,21 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
       return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
     }
 
-    // The beta in this step at which an increasing function of the state passes 0, by bisection of the dense output.
-    const auto locate = [&](auto passed) {
-      auto [low, high] = interval;
+    // The beta in this step at which a function of the state passes 0.
+    const auto locate = [&](auto function) {
       Values at{};
-      for (int i = 0; i < 60; ++i) {
-        const double middle = low + (high - low) / 2;
-        stepper.calc_state(middle, at);
-        (passed(at) ? high : low) = middle;
-      }
-      return low;
+      const auto along = [&](double beta) {
+        stepper.calc_state(beta, at);
+        return function(at);
+      };
+      const auto [low, high] = interval;
+      return root_between(along, low, high, along(low), along(high));
     };
 
     double end = interval.second;
     const bool crosses = (here.ln_v > here.ln_w) != (x[1] > x[0]) && here.ln_v != here.ln_w;
     if (crosses) {
-      const bool above = here.ln_v > here.ln_w;
-      end = locate([&](const Values& at) { return (at[1] > at[0]) != above; });
+      end = locate([](const Values& at) { return at[1] - at[0]; });
       stepper.calc_state(end, x);
       x[1] = x[0];
       step = interval.second - end + 1e-3 * (end - interval.first);
@@ -111,7 +110,7 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
     }
     while (report.next_time() <= x[2] * report.time_scale()) {
       const double wanted = report.next_time() / report.time_scale();
-      const double beta = locate([&](const Values& at) { return at[2] >= wanted; });
+      const double beta = locate([&](const Values& at) { return at[2] - wanted; });
       Values at{};
       stepper.calc_state(beta, at);
       report.add(log_state(at, beta));

@@ -16,7 +16,6 @@
 #include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/potential8_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 
@@ -39,8 +38,6 @@ constexpr std::array laws_with_meaning{
     NamedLaw{"paraboloid", "a soft foundation, pressure 1 - rho^2", []() -> Law { return PressureLaw::paraboloid(); }},
     NamedLaw{"elliptic", "the ellipse of grasping and of physics engines as limit surface, with Hertz's Psi(0)",
              []() -> Law { return EllipticLaw{}; }},
-    NamedLaw{"potential8", "within 3.41 % of exact, as simple as pade: the gradient of a potential",
-             []() -> Law { return Potential8Law{}; }},
 };
 
 const NamedLaw* named(std::string_view name) {

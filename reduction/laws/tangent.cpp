@@ -2,7 +2,6 @@
 
 #include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/potential8_law.hpp"
 
 namespace contensou::reduction {
 
@@ -36,7 +35,6 @@ Tangent Tangent::of_potential(Resistance resistance, Slip slip, double curvature
 std::function<Tangent(Slip)> tangent_of(const Law& law) {
   const auto closed = [](const auto& of_type) { return [of_type](Slip slip) { return tangent(of_type, slip); }; };
   if (const auto* hertz = law.as<HertzLaw>()) return closed(*hertz);
-  if (const auto* potential8 = law.as<Potential8Law>()) return closed(*potential8);
   if (const auto* elliptic = law.as<EllipticLaw>()) return closed(*elliptic);
   return [law](Slip slip) { return by_differences(law, slip); };
 }

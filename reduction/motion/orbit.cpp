@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -17,10 +16,10 @@
 
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <boost/math/tools/roots.hpp>
 
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "numerics/infinity.hpp"
+#include "numerics/root.hpp"
 
 namespace contensou::reduction {
 
@@ -327,11 +326,7 @@ double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction,
   const double at_limit = rest(limit);
   if (at_limit >= 0) return limit - at_limit / (at_limit - rest(limit - 1));
   const double at_from = from == xi0_ ? -ln_fraction : rest(from);
-  std::uintmax_t most = 200;
-  constexpr int digits = std::numeric_limits<double>::digits - 2;
-  const auto [low, high] = boost::math::tools::toms748_solve(rest, limit, from, at_limit, at_from,
-                                                             boost::math::tools::eps_tolerance<double>(digits), most);
-  return low + (high - low) / 2;
+  return root_between(rest, limit, from, at_limit, at_from);
 }
 
 double Orbit::coordinate_of_fastest() const {
@@ -343,11 +338,7 @@ double Orbit::coordinate_of_fastest() const {
   const double end = std::min(chart().log_terminal_ratio(), far);
   const double at_end = excess(end);
   if (at_end <= 0) return chart().coordinate(end);
-  std::uintmax_t most = 200;
-  constexpr int digits = std::numeric_limits<double>::digits - 2;
-  const auto [low, high] = boost::math::tools::toms748_solve(excess, ln_k0_, end, at_begin, at_end,
-                                                             boost::math::tools::eps_tolerance<double>(digits), most);
-  return chart().coordinate(low + (high - low) / 2);
+  return chart().coordinate(root_between(excess, ln_k0_, end, at_begin, at_end));
 }
 
 double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double start, double from) const {

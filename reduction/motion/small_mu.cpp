@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include "numerics/legendre_series.hpp"
+#include "numerics/root.hpp"
 #include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {
@@ -196,15 +196,7 @@ class SmallMuMotion::Layer {
     const auto panel = std::lower_bound(panels_.begin(), panels_.end(), both,
                                         [](const Panel& each, double value) { return each.at_end().both() < value; });
     const auto excess = [&](double t) { return panel->at(t).both() - both; };
-    const double low = excess(-1);
-    const double high = excess(1);
-    double t = low >= 0 ? -1 : 1;
-    if (low < 0 && high > 0) {
-      std::uintmax_t steps = 100;
-      const auto [left, right] = boost::math::tools::toms748_solve(excess, -1.0, 1.0, low, high,
-                                                                   boost::math::tools::eps_tolerance<double>(), steps);
-      t = left + (right - left) / 2;
-    }
+    const double t = root_between(excess, -1, 1, excess(-1), excess(1));
     return {panel->ln_k(t), panel->at(t)};
   }
 

@@ -11,14 +11,16 @@ using Samples = LegendreSeries::Samples;
 using Matrix = Eigen::Matrix<double, order, order>;
 
 /// Whether exp of the integral of h/d is a polynomial of that order to the last bit.
-bool moderate(const Samples& drag, const Samples& rate) {
-  if (!(rate <= 1.5 * drag).all() || !(drag.minCoeff() > 0)) return false;
-  const Samples ratio = rate / drag;
+bool factor_is_polynomial(const Samples& advection, const Samples& rate) {
+  if (!(rate <= 1.5 * advection).all() || !(advection.minCoeff() > 0)) return false;
+  const Samples ratio = rate / advection;
   return ratio.maxCoeff() - ratio.minCoeff() <= 1;
 }
 
 /// Whether d y' is small beside h y for every polynomial y of that order.
-bool forgetful(const Samples& drag, const Samples& rate) { return drag.maxCoeff() * (order * order) < rate.minCoeff(); }
+bool forgets_start(const Samples& advection, const Samples& rate) {
+  return advection.maxCoeff() * (order * order) < rate.minCoeff();
+}
 
 /// Samples of a function -> samples of a linear function of it.
 template <class Operation>
@@ -48,30 +50,30 @@ Samples slope_by_factor(const Samples& rate, const Samples& source) {
 }
 
 /// z' at the points, for  d z' + h z = g,  z(-1) = 0.
-Samples slope_by_collocation(const Samples& drag, const Samples& rate, const Samples& source) {
+Samples slope_by_collocation(const Samples& advection, const Samples& rate, const Samples& source) {
   // z = A z', so (d + h A) z' = g; the rows where d vanishes with 1 + t as large as the others.
-  const Samples unit = drag + rate.abs() * (LegendreSeries::points() + 1);
+  const Samples unit = advection + rate.abs() * (LegendreSeries::points() + 1);
   Matrix system = (rate / unit).matrix().asDiagonal() * integration();
-  system.diagonal().array() += drag / unit;
+  system.diagonal().array() += advection / unit;
   return system.partialPivLu().solve((source / unit).matrix()).array();
 }
 
 }  // namespace
 
-LegendreSeries solve_linear_ode(const Samples& drag, const Samples& rate, const Samples& source, double start) {
+LegendreSeries solve_linear_ode(const Samples& advection, const Samples& rate, const Samples& source, double start) {
   // For z = y - start: where h and g share a noise, g/h does not have it, and nor has y; and the rounding of a series
   // is that of what y changes by.
   const Samples change = source - rate * start;
   LegendreSeries y;
-  if (forgetful(drag, rate)) {
-    Matrix system = (drag / rate).matrix().asDiagonal() * differentiation();
+  if (forgets_start(advection, rate)) {
+    Matrix system = (advection / rate).matrix().asDiagonal() * differentiation();
     system.diagonal().array() += 1;
     y = LegendreSeries::through(system.partialPivLu().solve((change / rate).matrix()).array());
   } else {
     // As the antiderivative of z': a series through z itself would amplify its rounding at the ends, where one panel
     // hands over to the next.
-    const Samples slope =
-        moderate(drag, rate) ? slope_by_factor(rate / drag, change / drag) : slope_by_collocation(drag, rate, change);
+    const Samples slope = factor_is_polynomial(advection, rate) ? slope_by_factor(rate / advection, change / advection)
+                                                                : slope_by_collocation(advection, rate, change);
     y = LegendreSeries::through(slope).antiderivative();
   }
   y += start;

@@ -49,7 +49,7 @@ Fractions fractions(double z) {
 
 /// A series in powers of t, -1 to 1, whose last terms are below 1e-15 of its first.
 template <std::size_t size>
-double polynomial(const std::array<double, size>& c, double t) {
+double powers_of(const std::array<double, size>& c, double t) {
   double sum = 0;
   for (auto each = c.rbegin(); each != c.rend(); ++each) sum = sum * t + *each;
   return sum;
@@ -80,8 +80,8 @@ PadeCurve::PadeCurve(double r)
       e_(r / (5 - r)),
       log_ratio_(std::log(B_ / A_)),
       half_beta_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)),
-      sliding_connection_(polynomial(sliding_connection, 2 * (r / max_r) - 1)),
-      angle_connection_(polynomial(angle_connection, 2 * (r / max_r) - 1)) {
+      sliding_connection_(powers_of(sliding_connection, 2 * (r / max_r) - 1)),
+      angle_connection_(powers_of(angle_connection, 2 * (r / max_r) - 1)) {
   if (!(r > 0 && r <= max_r)) {
     throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", max_r, r));
   }

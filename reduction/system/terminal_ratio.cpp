@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/roots.hpp>
 
 #include "numerics/epsilon.hpp"
 #include "numerics/infinity.hpp"
+#include "numerics/root.hpp"
 
 namespace contensou::reduction {
 
@@ -95,12 +94,7 @@ class Search {
   }
 
   double root(const Sample& left, const Sample& right) const {
-    constexpr int digits = std::numeric_limits<double>::digits - 2;
-    std::uintmax_t most = 200;
-    const auto [low, high] =
-        boost::math::tools::toms748_solve([&](double x) { return excess(x); }, left.ln_k, right.ln_k, left.excess,
-                                          right.excess, boost::math::tools::eps_tolerance<double>(digits), most);
-    return low + (high - low) / 2;
+    return root_between([&](double x) { return excess(x); }, left.ln_k, right.ln_k, left.excess, right.excess);
   }
 
   void add(double ln_k, int below, int above) {

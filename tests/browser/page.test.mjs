@@ -786,7 +786,7 @@ test("the command line draws the same picture", async () => {
     `#law=exact&mu=0.02&view=pair&against=pade&${three}`,
     "#law=uniform&body=disc&view=disc&orbits=0.8,0.7;0.3,0.9&against=ring",
     "#law=pressure:2.5&against=pressure:-0.25&mu=0.4&field=motion&orbits=0.8,2;0,1;0.3,0",
-    `#law=potential8&mu=0.3&field=regularised&isochrones=0&theme=dark&${three}`,
+    `#law=elliptic&mu=0.3&field=regularised&isochrones=0&theme=dark&${three}`,
     "#law=exact&body=1,6&mu=2&view=blowup&orbits=0.8,0.7;0.3,0.9",
     "#law=exact&mu=0.3&window=0.25,0.5&orbits=0.8,3.5;-0.5,1;0.2,0.05&chosen=2",  // some start outside
     "#law=pade&mu=0.3&orbits=0,2;0.5,1",  // the chosen one is an axis

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 int main(void) {
-  contensou_law* law = contensou_law_new("potential8");
+  contensou_law* law = contensou_law_new("exact");
   const contensou_patch patch = {0.2, 3e-3, 1e-4};
   const double motion[3] = {1, 0, 100};
   contensou_wrench wrench;

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "../octic_law.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/reduction/flow.hpp"
@@ -493,7 +494,7 @@ TEST_CASE("Every sector between two invariant half-lines has its orbits in every
       {View::blowup, {speeds, up}},
       {View::disc, {speeds}},
       {View::pair, {speeds, up}}};
-  const reduction::Law uniform = *reduction::find_law("uniform"), octic = *reduction::find_law("potential8");
+  const reduction::Law uniform = *reduction::find_law("uniform"), octic = contensou::tests::OcticLaw{};
   // One ray; two; one that touches, where v = 0 is degenerate.
   for (const auto& [law, gamma] : {std::pair{uniform, 2.0}, std::pair{octic, 1.995}, std::pair{octic, 2.0}}) {
     const reduction::Flow flow({law, 1, {.chi = 1, .gamma = gamma}});

@@ -18,6 +18,7 @@
 #include "contensou/reduction/pade_curve.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "motion/stop_time_table.hpp"
+#include "octic_law.hpp"
 #include "reference_table.hpp"
 #include "worst_case.hpp"
 
@@ -35,7 +36,8 @@ bool is_stepper(Route route) { return route == Route::regularised || route == Ro
 ReducedSystem system_of(const std::string& table, const ReferenceRow& row) {
   const std::string name = row.has("law") ? row.text("law") : table.substr(table.find('_') + 1);
   const Inertia body = row.has("chi") ? Inertia{row.input("chi"), row.input("gamma")} : Inertia{};
-  return {*find_law(name == "hertz" ? "exact" : name), row.input("mu"), body};
+  const Law law = name == "octic" ? OcticLaw{} : *find_law(name == "hertz" ? "exact" : name);
+  return {law, row.input("mu"), body};
 }
 
 bool same(const ReducedSystem& a, const ReducedSystem& b) {

@@ -12,7 +12,6 @@
 #include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/potential8_law.hpp"
 #include "user_laws.hpp"
 
 using namespace contensou::reduction;
@@ -65,8 +64,6 @@ TEST_CASE("slopes at both ends and at k = 1 in closed form", "[laws][limit]") {
     CHECK(tangent(HertzLaw{}, {0, speed}).force_slope == Approx(3 * pi / 8).epsilon(1e-15));
     CHECK(tangent(HertzLaw{}, {speed, 0}).moment_slope == Approx(0.2).epsilon(1e-15));
     CHECK(tangent(HertzLaw{}, {speed, speed}).force_slope == Approx(3 * pi / 32).epsilon(1e-15));
-    CHECK(tangent(Potential8Law{}, {0, speed}).force_slope == Approx(3 * pi / 8).epsilon(1e-14));
-    CHECK(tangent(Potential8Law{}, {speed, 0}).moment_slope == Approx(0.2).epsilon(1e-14));
     CHECK(tangent(EllipticLaw{0.5}, {0, speed}).force_slope == Approx(2).epsilon(1e-15));
     CHECK(tangent(EllipticLaw{0.5}, {speed, 0}).moment_slope == Approx(0.25).epsilon(1e-15));
   }

@@ -169,7 +169,7 @@ TEST_CASE("time steps stop a pool ball when it stops", "[analytic]") {
   Experiment pool = find_ball("pool")->experiment;
   pool.start = SlipAndSpin{1, 100};
   const double m = pool.ball.mass, R = pool.ball.radius, dt = 1e-3;
-  for (const char* name : {"exact", "potential8", "elliptic", "pade"}) {
+  for (const char* name : {"exact", "elliptic", "pade"}) {
     const reduction::Law law = *reduction::find_law(name);
     const BallMotion exact(pool, law);
     const PatchFriction friction(law);

@@ -24,7 +24,7 @@ typedef struct contensou_wrench {
   double jacobian[3][3]; /**< rows: force, moment; columns: vx, vy in m/s, omega in rad/s */
 } contensou_wrench;
 
-/** The law of a name that the program takes for --law, such as "exact", "potential8" or "elliptic:0.6"; to be freed.
+/** The law of a name that the program takes for --law, such as "exact" or "elliptic:0.6"; to be freed.
  *  Null if there is none, or no memory. */
 contensou_law* contensou_law_new(const char* name);
 

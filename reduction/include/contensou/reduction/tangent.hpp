@@ -7,7 +7,6 @@
 namespace contensou::reduction {
 
 struct HertzLaw;
-struct Potential8Law;
 class EllipticLaw;
 
 /// A resistance and how it changes with both speeds, for implicit steps in time. Since a law is of degree 0, one number
@@ -27,7 +26,6 @@ struct Tangent {
 /// In closed form, the slopes to 1e-11.
 /// @throws std::domain_error  as the law
 Tangent tangent(const HertzLaw& law, Slip slip);
-Tangent tangent(const Potential8Law& law, Slip slip);
 Tangent tangent(const EllipticLaw& law, Slip slip);
 
 /// The tangent of any law: the closed form that its type has, or else central differences, 1e-9 from the slopes where the

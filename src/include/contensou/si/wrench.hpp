@@ -29,7 +29,7 @@ struct Wrench {
 /// convex: the Jacobian is symmetric and negative semidefinite, and an implicit step under a given load N has exactly
 /// one solution (reduction/README.md, (R36)). At rest it is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, K = lim k Psi
 /// (1/5 for exact); elsewhere it is of that order, below 5 f N/s with lengths in units of eps under every law (the ring's has
-/// a logarithm at k = 1, which differences cut off). It is symmetric to rounding for exact, elliptic and potential8, whose
+/// a logarithm at k = 1, which differences cut off). It is symmetric to rounding for exact and elliptic, whose
 /// slopes are closed; those of the others are differences of the law, to 1e-9, and 1e-6 next to the kink of ring and of
 /// pressures near it.
 ///
