@@ -185,7 +185,7 @@ test("with rolling friction the ball comes to rest, when and where the program s
   const { end, factor, own } = await page.evaluate(() => ({ end: globalThis.page.store.end, factor: globalThis.page.store.timeFactor, own: globalThis.page.store.ride.rest }));
   for (const key of ["t", "x", "y"]) assertClose(own[key], rest[key], 1e-10, key);
   assert.ok(end * factor >= rest.t);
-  assert.ok((await page.textContent("#story")).includes(`It rests after ${rest.t.toPrecision(3)} s, ${Math.hypot(rest.x, rest.y).toPrecision(3)} m from its start.`));
+  assert.ok((await page.textContent("#story")).includes(`It rests after ${Number(rest.t.toPrecision(3))} s, ${Number(Math.hypot(rest.x, rest.y).toPrecision(3))} m from its start.`));
   const at = (share) => page.evaluate((share) => globalThis.page.hero.rides[1].at(share), share);
   const [last, before, rolling] = await Promise.all([at(1), at(rest.t / (end * factor)), at(0.5)]);
   assertClose(Math.hypot(last.x, last.y), Math.hypot(rest.x, rest.y), 1e-9, "where it rests");
