@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/small_mu.hpp"
 #include "data/round_numbers.hpp"
 #include "views/portrait_views.hpp"
 
@@ -24,6 +25,21 @@ PanelMap over_time(double (*quantity)(const Instant& at, const Instant& start)) 
 double clamped_ln_k(const Instant& at, const Instant&) {
   constexpr double lowest = -60;
   return at.tau_left == 0 ? std::numeric_limits<double>::quiet_NaN() : std::clamp(at.ln_k, lowest, -lowest);
+}
+
+/// The asymptotic solution for small mu at the times of the rows of a motion; ln k is not a number where it is at rest.
+PortraitOrbit estimate_beside(const PhasePortrait& of, const PortraitOrbit& motion) {
+  const double mu = of.system().mu();
+  const reduction::SmallMuMotion solution(of.system(), {motion.u[0], motion.v[0]});
+  PortraitOrbit estimate = motion;
+  for (Eigen::Index row = 0; row < motion.rows(); ++row) {
+    const auto [u, v, ln_v] = solution.at_time(motion.tau_left[0] - motion.tau_left[row]);
+    estimate.u[row] = u;
+    estimate.v[row] = v;
+    estimate.ln_v[row] = ln_v;
+    estimate.ln_k[row] = u == 0 ? std::numeric_limits<double>::quiet_NaN() : ln_v - std::log(mu * std::abs(u));
+  }
+  return estimate;
 }
 
 }  // namespace
@@ -91,13 +107,21 @@ std::vector<MappedPanel> time_view(const Drawing& drawing) {
     k.y.high = highest + 6;
   }
 
-  add_courses(drawing, [&](const PhasePortrait&, const PortraitOrbit& orbit, Stroke stroke, const Text& legend) {
+  const auto add = [&](const PortraitOrbit& orbit, Stroke stroke, const Text& legend) {
     for (MappedPanel* mapped : {&spinning, &sliding, &ratio}) {
       Polyline line = mapped->map.line(orbit);
-      if (std::isnan(line.back().y)) line.pop_back();
+      std::erase_if(line, [](Point point) { return std::isnan(point.y); });
       mapped->panel.lines.push_back({{std::move(line)}, stroke, legend});
     }
+  };
+  std::vector<PortraitOrbit> estimates;
+  add_courses(drawing, [&](const PhasePortrait& of, const PortraitOrbit& orbit, Stroke stroke, const Text& legend) {
+    add(orbit, stroke, legend);
+    if (drawing.style.estimate && &of == &portrait) estimates.push_back(estimate_beside(of, orbit));
   });
+  for (const PortraitOrbit& estimate : estimates) {
+    add(estimate, {drawing.palette.comparison, 1.3, true}, "estimate for small " + math("μ"));
+  }
   if (!rays.empty() && drawing.style.invariant) {
     Lines lines{{}, {drawing.palette.comparison, 1.6, true}, rays.size() == 1 ? math("k*") : "invariant rays"};
     for (double ln_k : rays) lines.lines.push_back({{0, ln_k}, {1, ln_k}});

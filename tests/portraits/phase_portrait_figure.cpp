@@ -813,3 +813,34 @@ TEST_CASE("Captions replace title, units and the unit of the labels", "[table]")
     CHECK(2 * multiple == Approx(std::round(2 * multiple)));
   }
 }
+
+TEST_CASE("Against time the estimate for small mu is dashed beside each motion, and nears it as mu^2", "[invariant]") {
+  // The largest difference in each panel of an estimate from its motion, where neither is at rest.
+  const auto difference = [](double mu, std::size_t panel) {
+    const auto portrait = portrait_of(mu, {.view = View::time});
+    const Figure plain = draw(portrait), figure = draw(portrait, {}, {.estimate = true});
+    const auto& lines = figure.panels.at(panel).lines;
+    REQUIRE(lines.size() == 10);
+    REQUIRE(plain.panels.at(panel).lines.size() == 5);
+    double largest = 0;
+    for (std::size_t i = 0; i < 5; ++i) {
+      CHECK(!lines[i].stroke.dashed);
+      CHECK(lines[i + 5].stroke.dashed);
+      CHECK(lines[i + 5].legend.words() == "estimate for small μ");
+      const auto &motion = lines[i].lines.front(), &estimate = lines[i + 5].lines.front();
+      REQUIRE(estimate.size() > 20);
+      CHECK(estimate.front().y == Approx(motion.front().y).margin(1e-12));
+      for (std::size_t row = 0; row < estimate.size() && estimate[row].x < 0.9; ++row) {
+        CHECK(estimate[row].x == motion[row].x);
+        largest = std::max(largest, std::abs(estimate[row].y - motion[row].y));
+      }
+    }
+    return largest;
+  };
+  for (std::size_t panel : {0, 1, 2}) {
+    const double rough = difference(0.2, panel), fine = difference(0.05, panel);
+    CAPTURE(panel, rough, fine);
+    CHECK(rough > 0);
+    CHECK(fine < rough / 8);
+  }
+}

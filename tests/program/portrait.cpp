@@ -110,6 +110,8 @@ TEST_CASE("portrait shows what its switches say", "[cli]") {
   CHECK_THAT(script("--title none"), !Contains("Sliding and spinning"));
   CHECK_THAT(script("--title a_b"), Contains("{/*1.2 a\\_b}") && !Contains("slip dies first"));
   CHECK_THAT(script(""), Contains("slip dies first"));
+  CHECK_THAT(script("--view time --estimate"), Contains("estimate for small"));
+  CHECK_THAT(script("--view time"), !Contains("estimate for small"));
   CHECK_THAT(script("--scale linear"), !Contains("slip dies first"));
   // The same bytes for the same input.
   CHECK(script("--view disc") == script("--view disc"));
@@ -122,6 +124,10 @@ TEST_CASE("portrait says what is wrong with a switch, and draws nothing", "[cli]
   const auto rejected = [&](const std::string& arguments, const std::string& words) {
     check_rejected("portrait --mu 0.3 -o " + scratch.file("p.gp") + " " + arguments, words);
   };
+  rejected("--estimate", "--estimate is drawn against time: add --view time");
+  rejected("--estimate --view disc", "--estimate is drawn against time: add --view time");
+  rejected("--estimate --view time --against pade", "--estimate and --against exclude each other");
+  check_rejected("portrait --mu 0.3 --estimate --view time --format csv -o -", "--estimate: csv is no picture");
   rejected("--view dics", "--view dics: no such view (did you mean 'disc'?)");
   rejected("--window 1", "--window 1: 2 numbers");
   rejected("--window 0,1", "--window 0,1: both sides");

@@ -86,6 +86,9 @@ class PortraitCommand final : public Verb {
   }
 
   ExitStatus run() override {
+    if (style_.estimate && request_.view != View::time) {
+      throw BadInput("--estimate is drawn against time: add --view time, or leave it out");
+    }
     if (system_.given()) return run_system();
     const bool has_start = !start_.without_motion();
     const reduction::Law law = law_.read(start_.standard_law());
@@ -94,7 +97,12 @@ class PortraitCommand final : public Verb {
     if (facts_) return print_facts(system);
     const Output output = output_.read();
     figure_.require_picture(output);
-    require_picture(names_of_looks(first_of_drawing_), output);
+    std::string drawing = names_of_looks(first_of_drawing_);
+    if (style_.estimate) drawing += drawing.empty() ? "--estimate" : ", --estimate";
+    require_picture(drawing, output);
+    if (style_.estimate && against_.given()) {
+      throw BadInput("--estimate and --against exclude each other: both would be dashed");
+    }
     const reduction::Route route = route_.read(system);
     if (route == reduction::Route::direct) {
       throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
@@ -238,6 +246,8 @@ class PortraitCommand final : public Verb {
         into(style_.invariant, one_of<bool>({{"on", true}, {"off", false}})));
     add("--colour,--color", "BY", "orbits by the time left (time, default) or in one colour (none)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
+    app.add_flag("--estimate", style_.estimate,
+                 "with --view time: beside each motion, dashed, the asymptotic solution for small mu");
     against_.add_second(app, "--against", "LAW", "the same for another law, dashed, in the same figure");
     add("--style", "STYLE", "print (default), or screen: light on dark, for a projector",
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));

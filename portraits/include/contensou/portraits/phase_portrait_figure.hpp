@@ -28,6 +28,7 @@ struct PortraitStyle {
   bool invariant = true;                                               ///< axes and ray, which are the nullclines
   bool colour_by_time = true;  ///< orbits by the time left; not where two laws are compared
   bool asked = true;           ///< the highlighted orbit and those through points; else the caller draws them
+  bool estimate = false;       ///< in the view of time, beside each motion the asymptotic solution for small mu
   bool screen = false;         ///< light on dark, for a projector, instead of dark on light, for paper
   AskedSize size = {};         ///< what is left out follows from the view
 };
