@@ -118,7 +118,7 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experi
                      const std::optional<Sides>& window, std::optional<int> orbits, const std::vector<Sides>& through,
                      std::optional<int> isochrones, const std::optional<reduction::Law>& against,
                      const std::string& arrows, const std::string& field, bool axes, const std::string& colour,
-                     const std::string& style, const std::string& scale,
+                     const std::string& style, const std::string& scale, bool estimate,
                      const std::pair<std::optional<double>, std::optional<double>>& size,
                      const std::optional<std::string>& title) {
   using Arrows = PortraitStyle::Arrows;
@@ -143,6 +143,11 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experi
   asked.style.invariant = axes;
   asked.style.colour_by_time = one_of<bool>("colour", "colours", {{"time", true}, {"none", false}}, colour);
   asked.style.screen = one_of<bool>("style", "styles", {{"print", false}, {"screen", true}}, style);
+  if (estimate && asked.request.view != portraits::View::time) {
+    throw std::domain_error("estimate is drawn against time: view=\"time\" is needed");
+  }
+  if (estimate && against) throw std::domain_error("estimate and against exclude each other: both would be dashed");
+  asked.style.estimate = estimate;
   asked.style.size = {size.first, size.second};
   PhasePortrait data = asked.portrait();
   Figure figure = asked.figure(data);
@@ -160,7 +165,7 @@ void bind_portraits(py::module_& module) {
       .def(py::init(&portrait_of), py::arg("flow"), py::arg("experiment"), py::arg("start"), py::kw_only(),
            py::arg("view"), py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"),
            py::arg("against"), py::arg("arrows"), py::arg("field"), py::arg("axes"), py::arg("colour"),
-           py::arg("style"), py::arg("scale"), py::arg("size"), py::arg("title"), Released())
+           py::arg("style"), py::arg("scale"), py::arg("estimate"), py::arg("size"), py::arg("title"), Released())
       .def("render",
            [](const Portrait& portrait, const std::string& ending) {
              const auto format = portraits::find_picture_format(ending);

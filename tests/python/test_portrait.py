@@ -20,6 +20,7 @@ PROGRAM = os.environ.get("CONTENSOU")
     ({"body": "disc", "view": "similarity", "u": 1, "v": 1, "orbits": 4, "arrows": "one", "colour": "none", "axes": False},
      ["--body", "disc", "--view", "similarity", "--u0", "1", "--v0", "1", "--orbits", "4", "--arrows", "one", "--colour",
       "none", "--axes", "off"]),
+    ({"mu": 1, "view": "time", "estimate": True}, ["--mu", "1", "--view", "time", "--estimate"]),
     ({"mu": 0.2, "law": "pade", "against": "exact", "window": (2, 1), "isochrones": 3, "through": [(1, 0.5)], "field": "motion",
       "style": "screen", "scale": "linear", "size": (150, 100), "title": "mine"},
      ["--mu", "0.2", "--law", "pade", "--against", "exact", "--window", "2,1", "--isochrones", "3", "--through", "1,0.5",
@@ -85,6 +86,8 @@ def test_into_axes_of_ones_own():
 
 @pytest.mark.parametrize("ask, words", [
     (lambda: ct.portrait(mu=1, view="uw"), "no such view 'uw'.*; views: uv, patch, log"),
+    (lambda: ct.portrait(mu=1, estimate=True), "estimate is drawn against time: view=.time. is needed"),
+    (lambda: ct.portrait(mu=1, view="time", estimate=True, against="pade"), "estimate and against exclude each other"),
     (lambda: ct.portrait(mu=1, arrows="many"), "places: time, one, none"),
     (lambda: ct.portrait(mu=1, u=1), "a start has both u and v"),
     (lambda: ct.portrait(mu=1, ball=ct.Ball.pool()), "exclude each other"),

@@ -63,7 +63,7 @@ class Portrait:
             against=None if against is None else law_of(against)._core,
             size=(_widths[size], None) if isinstance(size, str) else size or (None, None),
             **{key: asked[key] for key in ("view", "window", "orbits", "through", "isochrones", "arrows", "field", "axes",
-                                           "colour", "style", "scale", "title")},
+                                           "colour", "style", "scale", "estimate", "title")},
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -189,6 +189,7 @@ def portrait(
     colour: str = "time",
     style: str = "print",
     scale: str = "bent",
+    estimate: bool = False,
     size: Union[None, str, tuple[float, float]] = None,
     title: Optional[str] = None,
 ) -> Portrait:
@@ -204,6 +205,7 @@ def portrait(
     arrows:      time, one or none; field: none, motion or regularised; axes: the invariant axes and rays
     colour:      orbits by the time left (time), or in one colour (none)
     style:       print or screen; scale: bent or linear
+    estimate:    in the view of time, beside each motion, dashed, the asymptotic solution for small mu
     size:        (width, height) in mm, or single, double: the columns of a journal
     title:       "" for neither title nor subtitle
     """
