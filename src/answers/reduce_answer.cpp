@@ -197,13 +197,15 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   const auto& [system, state, experiment] = given;
   if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
   const Vector2d start(state.u, state.v);
-  // Sampled at k of the order 1, where both speeds change: by the scaling that is found the start is as good as any.
-  const double size = std::max(system.mu() * std::abs(state.u), state.v);
+  // Sampled about k = 1, where both speeds change, whatever the start: by the scaling that is found all are alike.
   const PlanarSymmetries found =
-      reduction::find_symmetries(reduction::planar_field(system), Vector2d(size / system.mu(), size));
+      reduction::find_symmetries(reduction::planar_field(system), Vector2d(1 / system.mu(), 1));
   if (!found.scaling) {
     // A law has been found homogeneous when it was made: here only rounding can hide the scaling.
-    throw std::runtime_error("the scaling of (2.6) is lost in rounding");
+    throw std::runtime_error(fmt::format(
+        "reduce: with mu = {} the scaling of (2.6) is lost in rounding, as u and v differ too much in how fast "
+        "they change; stop, orbit and portrait take such a mu",
+        system.mu()));
   }
   const PlanarReduction plane(reduction::planar_field(system), *found.scaling, start, found.residual);
   const reduction::Flow flow(system);
