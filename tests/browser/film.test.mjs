@@ -188,7 +188,8 @@ test("with rolling friction the ball comes to rest, when and where the program s
   assert.ok((await page.textContent("#story")).includes(`It rests after ${Number(rest.t.toPrecision(3))} s, ${Number(Math.hypot(rest.x, rest.y).toPrecision(3))} m from its start.`));
   const at = (share) => page.evaluate((share) => globalThis.page.hero.rides[1].at(share), share);
   const [last, before, rolling] = await Promise.all([at(1), at(rest.t / (end * factor)), at(0.5)]);
-  assertClose(Math.hypot(last.x, last.y), Math.hypot(rest.x, rest.y), 1e-9, "where it rests");
+  // It rests once it turns no more and slides below 0.1 mm/s: while it still spins it creeps on by some micrometres.
+  assertClose(Math.hypot(last.x, last.y), Math.hypot(rest.x, rest.y), 1e-6, "where it rests");
   assertClose(Math.hypot(before.x, before.y), Math.hypot(rest.x, rest.y), 1e-4, "when it rests");
   assert.ok(Math.hypot(rolling.x, rolling.y) < 0.9 * Math.hypot(rest.x, rest.y));
   await page.fill("#ball-fields [name=rollingFriction]", "-1");
