@@ -13,8 +13,10 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
+#include "check/braking.hpp"
 #include "check/motion_recorder.hpp"
 #include "numerics/root.hpp"
+#include "system/regularising_weight.hpp"
 
 namespace contensou::reduction {
 
@@ -49,11 +51,10 @@ struct DirectEquations {
       rate.fill(k);
       return;
     }
-    const auto [force, moment] = system.law()(slip_of_ratio(k));
-    rate[0] = -system.r() * (k > 1 ? k * moment / v : moment / w);
-    const double net = force - system.drive();
-    rate[1] = -(k > 1 ? net / v : net / k / w);
-    const double weight = (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);
+    const auto [larger, of_spin, of_slip] = braking(system, w, v, k);
+    rate[0] = -system.r() * (of_spin / larger);
+    rate[1] = -(of_slip / larger);
+    const double weight = regularising_weight(w, v);
     rate[2] = std::exp(-x[2]) / (beta_unit * weight);
   }
 };

@@ -11,8 +11,10 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 
+#include "check/braking.hpp"
 #include "check/motion_recorder.hpp"
 #include "numerics/root.hpp"
+#include "system/regularising_weight.hpp"
 
 namespace contensou::reduction {
 
@@ -38,12 +40,10 @@ struct RegularisedEquations {
       rate.fill(k);
       return;
     }
-    const auto [force, moment] = system.law()(slip_of_ratio(k));
-    // Weight over the larger speed, so that neither quotient divides by a speed that vanishes.
-    const double weight = (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);
-    rate[0] = -(k > 1 ? weight / v * (k * moment) : weight / w * moment) * system.r();
-    const double net = force - system.drive();
-    rate[1] = -(k > 1 ? weight / v * net : weight / w * (net / k));
+    const auto [larger, of_spin, of_slip] = braking(system, w, v, k);
+    const double weight = regularising_weight(w, v);
+    rate[0] = -(weight / larger * of_spin) * system.r();
+    rate[1] = -(weight / larger * of_slip);
     rate[2] = weight / time_scale;
   }
 };

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "system/regularising_weight.hpp"
+
 namespace contensou::reduction {
 
 using std::numbers::pi;
@@ -58,8 +60,7 @@ Rate ReducedSystem::field(State state) const {
 }
 
 double ReducedSystem::regularising_weight(State state) const {
-  const double w = mu_ * std::abs(state.u);
-  return (16 * w + 15 * pi * state.v) * (8 * w + 3 * pi * state.v);
+  return reduction::regularising_weight(mu_ * std::abs(state.u), state.v);
 }
 
 Rate ReducedSystem::regularised_field(State state) const {
