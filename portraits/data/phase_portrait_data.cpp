@@ -69,13 +69,7 @@ std::string to_json(const PhasePortrait& portrait, const PortraitSource& source)
 }
 
 std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source) {
-  std::string csv;
-  const Json origin = origin_of(portrait, source);
-  for (const auto& [name, value] : origin.items()) {
-    csv += fmt::format("# {}: ", name);
-    append_json(csv, value);
-    csv += '\n';
-  }
+  std::string csv = csv_remarks(origin_of(portrait, source));
   const bool timed = source.seconds_per_tau > 0;
   csv += fmt::format("kind,index,u,v,tau,ln_v,k{}\n", timed ? ",t" : "");
   const auto row = [&](std::string_view kind, std::size_t index, const PortraitOrbit::Instant& at) {

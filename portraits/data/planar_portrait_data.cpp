@@ -53,13 +53,7 @@ std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source
 }
 
 std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source) {
-  std::string csv;
-  const Json origin = origin_of(portrait, source);
-  for (const auto& [name, value] : origin.items()) {
-    csv += fmt::format("# {}: ", name);
-    append_json(csv, value);
-    csv += '\n';
-  }
+  std::string csv = csv_remarks(origin_of(portrait, source));
   csv += "kind,index,u,v,tau\n";
   const auto row = [&](std::string_view kind, std::size_t index, double u, double v, double time) {
     fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}\n", kind, index, u, v, time);

@@ -67,14 +67,8 @@ std::string as_csv(const std::vector<Json>& rows) {
 }
 
 std::string remarks(Json members) {
-  std::string text;
   if (!members.empty()) members["version"] = CONTENSOU_VERSION;
-  for (const auto& [name, value] : members.items()) {
-    text += fmt::format("# {}: ", name);
-    portraits::append_json(text, value);
-    text += '\n';
-  }
-  return text;
+  return portraits::csv_remarks(members);
 }
 
 std::string as_json(const Answer& answer, Digits /*all*/) {

@@ -50,6 +50,18 @@ void append_json(std::string& text, const Json& value, std::string_view separato
   }
 }
 
+/// Members as remarks above a CSV: a line "# name: value" for each.
+template <class Json>
+std::string csv_remarks(const Json& members) {
+  std::string text;
+  for (const auto& [name, value] : members.items()) {
+    text += fmt::format("# {}: ", name);
+    append_json(text, value);
+    text += '\n';
+  }
+  return text;
+}
+
 /// The text of a document: a line for each member.
 template <class Json>
 std::string json_document(const Json& members) {
