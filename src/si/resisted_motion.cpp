@@ -52,7 +52,27 @@ struct State {
   double rolled = 0;  ///< the integral of |W|
 
   Vector2d velocity() const { return slip + rolling; }
+
+  /// It has gone so far, in m, and rolled so far.
+  void advance(double way, double rolled_way, const Vector2d& along) {
+    position += way * along;
+    path += way;
+    rolled += rolled_way;
+  }
 };
+
+/// So many seconds after a ball that no longer slides rolled as it does in `from`.
+/// @param resisting  u_r g
+State braked(const State& from, double seconds, double resisting, const Vector2d& along) {
+  State now = from;
+  now.slip.setZero();
+  const double speed = from.rolling.norm();
+  const double whole = speed / resisting, rolling = std::min(seconds, whole);
+  const double way = (speed - resisting * rolling / 2) * rolling;
+  now.rolling = rolling < whole ? Vector2d((speed - resisting * rolling) * along) : Vector2d(0, 0);
+  now.advance(way, way, along);
+  return now;
+}
 
 /// What does not change.
 struct Given {
@@ -139,9 +159,12 @@ class Straight final : public ResistedMotion::Course {
         constexpr double first = 1e-9;
         t = turning(stop) < 0 ? crossing(turning, start.rolling.norm() > 0 ? 0 : first * stop, stop) : stop;
         here = at(t);
-        if (t < stop) here.rolling.setZero();
-        if (t == stop) here.slip.setZero();
-        if (t == stop) here.spin = 0;
+        if (t < stop) {
+          here.rolling.setZero();
+        } else {
+          here.slip.setZero();
+          here.spin = 0;
+        }
         sample(0, t);
       }
       if (here.rolling.norm() > 0) {
@@ -166,36 +189,25 @@ class Straight final : public ResistedMotion::Course {
   State at(double t) const override {
     const auto after = std::ranges::upper_bound(pieces_, t, {}, &Piece::t);
     const Piece& piece = after == pieces_.begin() ? *after : *std::prev(after);
-    State now = piece.start;
     const double passed = t - piece.t;
-    double way = 0, rolled = 0;
-    if (piece.kind == Kind::rolls) {
-      const double speed = now.rolling.norm();
-      const double whole = speed / body_.resisting, braked = std::min(passed, whole);
-      now.rolling = braked < whole ? Vector2d((speed - body_.resisting * braked) * along_) : Vector2d(0, 0);
-      now.slip.setZero();
-      rolled = way = (speed - body_.resisting * braked / 2) * braked;
-    } else {
-      const double v0 = now.slip.norm(), W0 = now.rolling.norm();
-      const double tau = std::min(passed * body_.tau_per_second(), piece.orbit->stop_time());
-      const Orbit::Instant instant = piece.orbit->instant(tau);
-      const double slid = seconds(body_.experiment, instant.slip_length);
-      now.slip = instant.v * along_;
-      now.spin = instant.u / body_.radius;
-      now.slip_length += slid;
-      now.turned += seconds(body_.experiment, instant.turned) / body_.radius;
-      way = slid;
-      if (piece.kind == Kind::turns) {
-        const double chi = body_.inertia.chi;
-        const double centre = v0 + W0 - (v0 - instant.v) / chi - body_.resisting * passed;
-        way = (v0 + W0) * passed - (v0 * passed - slid) / chi - body_.resisting * passed * passed / 2;
-        now.rolling = (centre - instant.v) * along_;
-        rolled = way - slid;
-      }
+    if (piece.kind == Kind::rolls) return braked(piece.start, passed, body_.resisting, along_);
+    State now = piece.start;
+    const double v0 = now.slip.norm(), W0 = now.rolling.norm();
+    const double tau = std::min(passed * body_.tau_per_second(), piece.orbit->stop_time());
+    const Orbit::Instant instant = piece.orbit->instant(tau);
+    const double slid = seconds(body_.experiment, instant.slip_length);
+    now.slip = instant.v * along_;
+    now.spin = instant.u / body_.radius;
+    now.slip_length += slid;
+    now.turned += seconds(body_.experiment, instant.turned) / body_.radius;
+    double way = slid;
+    if (piece.kind == Kind::turns) {
+      const double chi = body_.inertia.chi;
+      const double centre = v0 + W0 - (v0 - instant.v) / chi - body_.resisting * passed;
+      way = (v0 + W0) * passed - (v0 * passed - slid) / chi - body_.resisting * passed * passed / 2;
+      now.rolling = (centre - instant.v) * along_;
     }
-    now.position += way * along_;
-    now.path += way;
-    now.rolled += rolled;
+    now.advance(way, way - slid, along_);
     return now;
   }
 
@@ -288,14 +300,7 @@ class Integrated final : public ResistedMotion::Course {
     now.spin = 0;
     const double speed = now.rolling.norm();
     if (speed == 0) return now;
-    const Vector2d along = now.rolling / speed;
-    const double whole = speed / body_.resisting, braked = std::min(t - stop_, whole);
-    const double way = (speed - body_.resisting * braked / 2) * braked;
-    now.rolling = braked < whole ? Vector2d((speed - body_.resisting * braked) * along) : Vector2d(0, 0);
-    now.position += way * along;
-    now.path += way;
-    now.rolled += way;
-    return now;
+    return braked(now, t - stop_, body_.resisting, now.rolling / speed);
   }
 
   void run(const State& start) {
