@@ -61,6 +61,10 @@ std::string names_given(const std::vector<const Argument*>& arguments) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::string with_name(const std::string& names, const std::string& more) {
+  return names.empty() ? more : names + ", " + more;
+}
+
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings) {
   return typed.find('/') != std::string::npos ||
          std::ranges::any_of(endings, [&](const std::string& ending) { return typed.ends_with(ending); });

@@ -80,6 +80,8 @@ class ArgumentOf : public Argument {
 
 /// The names that were given, joined for a message; empty if none was.
 std::string names_given(const std::vector<const Argument*>& arguments);
+/// Such names and one more.
+std::string with_name(const std::string& names, const std::string& more);
 
 /// Whether a value is the path of a file: it has a / or one of these endings.
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings);

@@ -98,7 +98,7 @@ class PortraitCommand final : public Verb {
     const Output output = output_.read();
     figure_.require_picture(output);
     std::string drawing = names_of_looks(first_of_drawing_);
-    if (style_.estimate) drawing += drawing.empty() ? "--estimate" : ", --estimate";
+    if (style_.estimate) drawing = with_name(drawing, "--estimate");
     require_picture(drawing, output);
     if (style_.estimate && against_.given()) {
       throw BadInput("--estimate and --against exclude each other: both would be dashed");
@@ -151,7 +151,7 @@ class PortraitCommand final : public Verb {
 
   ExitStatus run_system() {
     std::string others = names_given({&law_.argument(), &against_.argument(), &route_.argument(), view_, scale_});
-    if (facts_) others += others.empty() ? "--facts" : ", --facts";
+    if (facts_) others = with_name(others, "--facts");
     if (!others.empty()) {
       throw BadInput(fmt::format(
           "--system and {} exclude each other: those are of (2.6). The plane of u and v is what is drawn; 'contensou "
@@ -262,7 +262,7 @@ class PortraitCommand final : public Verb {
 
   ExitStatus print_facts(const reduction::ReducedSystem& system) const {
     if (std::string names = names_of_looks(0); against_.given() || !names.empty()) {
-      if (against_.given()) names += (names.empty() ? "" : ", ") + against_.argument().name();
+      if (against_.given()) names = with_name(names, against_.argument().name());
       throw BadInput(
           fmt::format("--facts and {} exclude each other: facts are of the whole plane, and print no picture", names));
     }
