@@ -1,9 +1,10 @@
 // What the page's file begins with: it unpacks the other modules and the library, which are a third of their size in it.
 import { $ } from "./dom.js";
-import modules from "page.js.gz";
-import wasm from "contensou.wasm.gz";
+import { unpacked } from "./packing.js";
+import modules from "page.js.gz.txt";
+import wasm from "contensou.wasm.gz.txt";
 
-const unpacked = (bytes) => new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")));
+const inflated = (text) => new Response(new Blob([unpacked(text)]).stream().pipeThrough(new DecompressionStream("gzip")));
 
 globalThis.contensouFailed = (error) => {
   $("failure").hidden = false;
@@ -12,8 +13,8 @@ globalThis.contensouFailed = (error) => {
 };
 
 async function begin() {
-  globalThis.contensouWasm = unpacked(wasm).arrayBuffer();
-  const text = await unpacked(modules).text();
+  globalThis.contensouWasm = inflated(wasm).arrayBuffer();
+  const text = await inflated(modules).text();
   document.body.append(Object.assign(document.createElement("script"), { textContent: text }));
 }
 

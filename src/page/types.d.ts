@@ -85,7 +85,7 @@ declare module "contensou" {
   const load: (options: { wasmBinary: ArrayBuffer }) => Promise<any>;
   export default load;
 }
-declare module "*.gz" {
-  const bytes: Uint8Array<ArrayBuffer>;
-  export default bytes;
+declare module "*.txt" {
+  const text: string;
+  export default text;
 }
