@@ -3,7 +3,7 @@ import { $, write } from "./dom.js";
 import { choiceButtons } from "./fields.js";
 import { lawField } from "./law_field.js";
 import { shown } from "./numbers.js";
-import { bodyOf, fields, initialState, startOf, takeBall } from "./page_state.js";
+import { bodyOf, fields, initialState, takeBall, unrolled } from "./page_state.js";
 import { addNumber, choose } from "./state_fields.js";
 import { isDark } from "./theme.js";
 import { described } from "./views.js";
@@ -16,7 +16,7 @@ export function makeChoices(store, plane, { ask, attempt }) {
   choose("ball", [{ name: "", title: "any size, any unit" }, ...balls], ask, (state, value) => {
     const ball = balls.find(({ name }) => name === value);
     if (ball) takeBall(state, ball);
-    else Object.assign(state, { ball: null, part: "whole", orbits: state.orbits.map(({ u, v }) => startOf(u, v)) });
+    else Object.assign(state, { ball: null, part: "whole", orbits: state.orbits.map(unrolled) });
   });
   const titles = bodies.map(({ name }) => ({ name, title: name.replace("-", " ") }));
   choose("body", [...titles, { name: "own", title: "your own χ and γ" }], ask, (state, body) => {

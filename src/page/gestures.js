@@ -1,61 +1,71 @@
-// What fingers, mouse and keys do on the plane, in pixels of the canvas.
+// What fingers, mouse and keys do on a canvas, in its pixels.
 
 const slack = 6;  // pixels that a finger may move and still tap
 
+const notch = 400;  // pixels that the wheel turns by for a radian
+
 /**
- * @param on  hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held), tap(x, y, kind), drag(x, y),
- *            point(x, y), leave(), move(dx, dy), panel(), enter(), isochrone(), clear(), remove(), zoom(factor); kind is
- *            "mouse" or "touch", and move has steps of 1
+ * @param on  hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held, from), release(), cancel(), turn(radians) of
+ *            what is held, to the left; tap(x, y, kind), drag(x, y), point(x, y), leave(), move(dx, dy), panel(), enter(),
+ *            isochrone(), clear(), remove(), zoom(factor); kind is "mouse" or "touch", and move has steps of 1. All but hold
+ *            may be missing
  */
 export function listen(canvas, on) {
   const fingers = new Map();
   let start = null;
-  let spread = 0;  // of two fingers, in pixels
+  let spread = [0, 0];  // of two fingers: pixels, and an angle to the left
   const place = (event) => {
     const box = canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   };
   const kindOf = (event) => (event.pointerType === "touch" ? "touch" : "mouse");
-  const distance = () => {
+  const spreadNow = () => {
     const [[ax, ay], [bx, by]] = [...fingers.values()];
-    return Math.hypot(ax - bx, ay - by);
+    return [Math.hypot(ax - bx, ay - by), Math.atan2(ay - by, bx - ax)];
   };
+  /** Whether what is held can be turned. */
+  const turns = () => on.turn && start !== null && start.held !== null;
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, place(event));
-    start = fingers.size === 1 ? { at: place(event), dragged: false, held: on.hold(...place(event), kindOf(event)) } : null;
-    if (fingers.size === 2) spread = distance();
+    if (fingers.size === 1) start = { at: place(event), id: event.pointerId, dragged: false, held: on.hold(...place(event), kindOf(event)) };
+    else if (!turns()) start = null;
+    if (fingers.size === 2) spread = spreadNow();
   });
   canvas.addEventListener("pointermove", (event) => {
     const [x, y] = place(event);
     if (fingers.has(event.pointerId)) fingers.set(event.pointerId, [x, y]);
     if (fingers.size === 2) {
-      const now = distance();
-      if (Math.abs(now / spread - 1) < 0.03) return;
-      on.zoom(spread / now);
+      const [before, now] = [spread, spreadNow()];
+      if (turns()) on.turn(Math.atan2(Math.sin(now[1] - before[1]), Math.cos(now[1] - before[1])));
+      else if (Math.abs(now[0] / before[0] - 1) < 0.03) return;
+      else on.zoom?.(before[0] / now[0]);
       spread = now;
-      return;
     }
+    if (fingers.size > 1 && start?.id !== event.pointerId) return;
     if (start && !start.dragged) {
       const [dx, dy] = [Math.abs(x - start.at[0]), Math.abs(y - start.at[1])];
       // A finger that goes up or down scrolls.
       start.dragged = Math.hypot(dx, dy) > slack && (kindOf(event) === "mouse" || start.held !== null || dx > dy);
     }
-    if (!start?.dragged) on.point(x, y);
-    else if (start.held === null) on.drag(x, y);
-    else on.pull(x, y, start.held);
+    if (!start?.dragged) on.point?.(x, y);
+    else if (start.held === null) on.drag?.(x, y);
+    else on.pull(x, y, start.held, start.at);
   });
-  const lift = (event) => {
+  const lift = (event, use = (/** @type {any} */ _) => {}) => {
     fingers.delete(event.pointerId);
+    // A second finger that is lifted lets nothing go.
+    if (turns() && start.id !== event.pointerId) return;
+    use(start);
     start = null;
   };
-  canvas.addEventListener("pointerup", (event) => {
-    if (start && !start.dragged) on.tap(...place(event), kindOf(event));
-    lift(event);
-  });
-  canvas.addEventListener("pointercancel", lift);
-  canvas.addEventListener("pointerleave", () => on.leave());
+  canvas.addEventListener("pointerup", (event) => lift(event, (start) => {
+    if (start && !start.dragged) on.tap?.(...place(event), kindOf(event));
+    else if (start && start.held !== null) on.release?.();
+  }));
+  canvas.addEventListener("pointercancel", (event) => lift(event, () => on.cancel?.()));
+  canvas.addEventListener("pointerleave", () => on.leave?.());
   // A finger scrolls the page up and down, unless it takes hold of something.
   canvas.addEventListener("touchstart", (event) => {
     const [x, y] = place(event.touches[0]);
@@ -63,18 +73,19 @@ export function listen(canvas, on) {
   }, { passive: false });
   // Two fingers on a trackpad, or Ctrl and the wheel; the wheel alone scrolls the page.
   canvas.addEventListener("wheel", (event) => {
-    if (!event.ctrlKey) return;
+    if (!event.ctrlKey && !turns()) return;
     event.preventDefault();
-    on.zoom(Math.exp(Math.max(-0.3, Math.min(0.3, event.deltaY / 200))));
+    if (turns()) on.turn(-event.deltaY / notch);
+    else on.zoom?.(Math.exp(Math.max(-0.3, Math.min(0.3, event.deltaY / 200))));
   }, { passive: false });
-  canvas.addEventListener("blur", () => on.leave());
+  canvas.addEventListener("blur", () => on.leave?.());
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const fine = event.shiftKey ? 0.25 : 1;
     const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const actions = {
       "Enter": on.enter, "Delete": on.remove, "Backspace": on.remove, "Escape": on.clear, "i": on.isochrone, "p": on.panel,
-      "+": () => on.zoom(0.8), "-": () => on.zoom(1.25),
+      "+": on.zoom && (() => on.zoom(0.8)), "-": on.zoom && (() => on.zoom(1.25)),
     };
     if (steps[event.key]) on.move(...steps[event.key].map((step) => step * fine));
     else if (actions[event.key]) actions[event.key]();

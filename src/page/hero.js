@@ -2,66 +2,82 @@
 import { $, make, write } from "./dom.js";
 import { drawLanes, drawPatch } from "./hero_figure.js";
 import { duration, length, shown } from "./numbers.js";
-import { say } from "./story.js";
+import { dare, factsOf, outcome, question, say } from "./story.js";
 import { ScreenSurface } from "./screen_surface.js";
 import { borderOf, CanvasSurface, widthOf } from "./surface.js";
 import { rideOn } from "./turning.js";
 
 const titleLines = 3.8;  // of a film, in sizes of the text
 const fastest = 9;  // rad/s on the screen; a faster spin is drawn in a part of its size, so that its marks turn one way to the eye
+const late = 0.99;  // of the time until the stop, at which the last speeds are told
 
 export class Hero {
+  /** @type {any} what is said and what moves, the body without spin first */
+  facts = null;
+  rides = /** @type {ReturnType<typeof rideOn>[]} */ ([]);
+  titles = /** @type {string[]} */ ([]);
+  ends = /** @type {number[]} */ ([]);
+  /** @type {any[]} what is drawn */
+  balls = [];
+  /** @type {{x: number, y: number, radius: number}[]} where the bodies are, in pixels */
+  places = [];
+  /** @type {{from: number[], to: number[], words: string} | null} of a throw */
+  aim = null;
+  /** @type {any} the motion of which the reader is asked, before he is told */
+  asked = null;
+  guess = "";
+  /** @type {CanvasSurface | null} of the film that is being taken */
+  film = null;
+
   /** @param player  whose `seconds` are what the motion lasts on the screen */
   constructor(store, player) {
     this.store = store;
-    /** @type {any} what is said, and what moves */
-    this.titles = this.rides = this.ends = this.barTitles = this.most = null;
-    /** @type {any[]} what is drawn, the ball without spin first */
-    this.balls = [];
     this.player = player;
-    /** @type {CanvasSurface | null} of the film that is being taken */
-    this.film = null;
-    this.lanes = new ScreenSurface($("lanes"), (surface) => this.drawBalls(surface));
+    this.lanes = new ScreenSurface($("lanes"), (surface) => (this.places = this.drawBalls(surface)));
     this.patch = new ScreenSurface($("patch"), (surface) => this.drawPatch(surface));
-    this.bars = ["this", "plain"].map((name) => {
-      const [title, bar, number] = ["span", "div", "b"].map((tag) => make(tag, { className: tag === "div" ? "bar-of" : "" }));
-      bar.append(make("i"));
-      $("bars").append(make("div", { id: `slid-${name}` }, title, number, bar));
-      return { title, bar: bar.firstChild, number };
-    });
+    $("answers").append(...question.answers.map((textContent) => make("button", { type: "button", textContent, onclick: () => this.answer(textContent) })));
+  }
+
+  /** Asks which body goes farther. */
+  ask() {
+    this.asked = this.store.motion;
+    this.show();
+    this.draw();
+  }
+
+  answer(guess) {
+    this.guess = `You said: ${guess}. `;
+    this.player.toggle(true);
   }
 
   /** Everything but the moment. */
   show() {
-    const { store: { state, ride, orbit, motion, timeFactor, library: { plane } } } = this;
-    for (const id of ["lanes", "patch", "bars"]) $(id).hidden = !ride;
+    const { store, store: { state: { ball }, ride, orbit, timeFactor } } = this;
+    if (this.asked !== store.motion) this.asked = null;
+    for (const id of ["lanes", "patch"]) $(id).hidden = !ride;
+    $("answers").hidden = !this.asked;
+    $("dare").hidden = !ride || Boolean(this.asked);
+    $("says").classList.toggle("later", Boolean(this.asked));
     if (!ride) {
       write($("headline"), "Click the plane: a motion starts there");
       write($("story"), "Up is sliding, sideways is spinning.");
       return;
     }
-    const ball = state.ball;
-    this.unit = ball ? "m" : "";
+    this.facts = factsOf(store);
+    const { radius, own, plain } = ride;
     const lasts = ride.end * timeFactor;
-    const { radius, own, plain, rest } = ride;
-    const spin = orbit.u / (ball?.radius ?? 1);
     this.spinShown = Math.min(1, (fastest * this.player.seconds * radius) / (Math.abs(orbit.u) * lasts) || 1);
-    // A path that curves is seen from where it leads to the right.
+    // A path that curves is seen from where it leads to the right, or where it was thrown to.
     const [x, y] = ["x", "y"].map((key) => ride.courses[1][key].at(-1));
-    const heading = Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0;
+    const heading = (Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0) - (orbit.heading * Math.PI) / 180;
     this.rides = ride.courses.map((course) => rideOn(course, heading, this.spinShown));
-    this.radius = radius;
-    this.facts = {
-      name: ball ? ball.title.replace(/ (on|of) .*/, "") : ride.rolls ? "ball" : "puck", real: Boolean(ball), rolls: ride.rolls, spin, slip: orbit.v,
-      along: orbit.along, across: orbit.across, least: ride.least, own, plain, rest, stop: motion.stop * timeFactor, turningAlone: orbit.u === 0 ? 0 : plane.stop(orbit.u, 0) * timeFactor,
-    };
-    const { headline, story } = say(this.facts);
+    this.ends = [plain.end, own.end];
+    const { spin, rolls } = this.facts;
+    this.titles = ["without spin", spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`];
+    const { headline, story } = this.asked ? question : say(this.facts);
     write($("headline"), headline);
     write($("story"), story);
-    this.most = Math.max(own.path, plain.path);
-    this.titles = [spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`, "without spin"];
-    this.ends = [own.end, plain.end];
-    this.barTitles = this.ends.map((end, i) => `${["This one slides", "Without spin"][i]} for ${duration(end, this.unit)}`);
+    write($("dare-line"), dare[rolls ? "rolls" : "stops"]);
     $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${story}`);
   }
 
@@ -71,7 +87,8 @@ export class Hero {
   }
 
   drawBalls(surface) {
-    if (this.store.ride) drawLanes(surface, { lanes: this.balls, radius: this.radius, unit: this.unit }, this.store.theme);
+    const { store: { ride, theme, contact }, balls: lanes, aim, asked } = this;
+    return ride ? drawLanes(surface, { lanes, radius: ride.radius, unit: contact ? "m" : "", secret: asked !== null, aim }, theme) : [];
   }
 
   /** The canvas of a film, on which the balls are drawn from now on under what is said of them, with the clock. */
@@ -97,33 +114,40 @@ export class Hero {
   }
 
   ballsNow() {
-    const { store: { state, ride, timeFactor, end, theme }, rides } = this;
-    const duration = end * timeFactor;
-    const time = state.fraction * duration;
-    const does = (i, own) => (time < (1 - 1e-12) * this.ends[own] ? "slides" : !ride.rolls ? "stands" : time < (rides[i].rest?.t ?? Infinity) ? "rolls" : "rests");
-    const lane = (i, own) => ({
-      title: `${this.titles[own]}: ${does(i, own)}`,
-      xs: rides[i].xs, ys: rides[i].ys, at: rides[i].at(state.fraction),
-      slides: rides[i].until(this.ends[own] / duration), colour: own === 0 ? theme.swatch(state.chosen) : theme.soft,
-    });
-    return [lane(0, 1), lane(1, 0)];
+    const { store: { state, ride, timeFactor, end, theme, contact }, rides, ends, titles } = this;
+    const lasts = end * timeFactor;
+    const time = state.fraction * lasts;
+    const unit = contact ? "m" : "";
+    const slid = [ride.plain, ride.own];
+    const has = ends.map((t) => time >= (1 - 1e-12) * t);
+    const rest = (i) => (!ride.rolls ? "stands" : time < (rides[i].rest?.t ?? Infinity) ? "rolls" : "rests");
+    // Where each ceases to slide; a ruler lies between them where both go straight.
+    const stops = rides.map((ride, i) => ride.at(Math.min(1, ends[i] / lasts)));
+    const straight = stops.every(({ x, y, path }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
+    const own = has[1] ? { ...stops[1], path: slid[1].path } : rides[1].at(state.fraction);
+    const ruler = straight && own.path > 1.02 * slid[0].path ? { from: stops[0], to: own, more: own.path - slid[0].path } : null;
+    return rides.map((ride, i) => ({
+      title: `${titles[i]}: ${has[i] ? `${rest(i)}, after ${length(slid[i].path, unit)} in ${duration(ends[i], contact ? "s" : "")}` : "slides"}`,
+      xs: ride.xs, ys: ride.ys, at: ride.at(state.fraction), slides: ride.until(ends[i] / lasts),
+      colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
+    }));
   }
 
   draw() {
-    const { store: { ride, now }, unit } = this;
+    const { store: { ride, now, state, orbit, motion, library: { plane } }, facts } = this;
     if (!ride) return;
+    if (this.asked && state.fraction > 0) {
+      this.asked = null;
+      this.show();
+    }
     this.balls = this.ballsNow();
     if (this.film) this.drawFilm(this.film);
     else this.lanes.drawInSight();
     this.patch.drawInSight();
     $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
-    this.bars.forEach(({ title, bar, number }, own) => {
-      const path = Math.min(this.balls[1 - own].at.path, [ride.own, ride.plain][own].path);
-      write(title, this.barTitles[own]);
-      write(number, length(path, unit));
-      bar.style.width = `${(100 * path) / this.most || 0}%`;
-      bar.style.background = this.balls[1 - own].colour;
-    });
+    if (this.aim) return;
+    const last = state.fraction < 1 ? null : plane.instant(orbit.u, orbit.v, late * motion.stop);
+    write($("told"), last ? this.guess + outcome(facts, { slip: last.v, spin: (last.u / orbit.u) * facts.spin }, late) : "");
   }
 }

@@ -1,5 +1,6 @@
 // Two equal balls on the table, seen from above, one of which spins; and the patch on which a ball stands, from below.
 import { length, roundDown, shown } from "./numbers.js";
+import { borderOf, widthOf } from "./surface.js";
 import { rotation, turnedBy } from "./turning.js";
 
 const smallest = 11;    // pixels, radius of a ball
@@ -30,38 +31,91 @@ function drawBall(surface, x, y, radius, turn, colour, theme) {
 }
 
 /**
- * @param scene  lanes: title, xs, ys, slides (the line of the path until it ceases to slide), at (x, y, turn), colour; radius; unit: "m" or "", lengths in m
+ * @param scene  lanes: title, xs, ys, slides (the line of the path until it ceases to slide), at (x, y, turn), colour, and
+ *   ruler: {from, to: places, more: m} between where the other stands and this one; radius; unit: "m" or "", lengths in m;
+ *   secret: the paths are not drawn; aim: {from, to: pixels, words} of a throw
+ * @returns where the bodies are, in pixels: {x, y, radius} of each
  */
-export function drawLanes(surface, { lanes, radius, unit }, theme) {
+export function drawLanes(surface, scene, theme) {
+  const { lanes, radius, unit, secret, aim } = scene;
   const size = theme.textSize;
-  const keys = [radius, unit, theme, ...lanes.flatMap(({ xs, slides, colour }) => [xs, slides.length, slides.at(-2), colour])];
-  const { px, py, pixels, laneHeight } = surface.still(keys, theme.card, () => drawPaths(surface, { lanes, radius, unit }, theme));
-  lanes.forEach(({ at, title, colour }, row) => {
-    drawBall(surface, px(at.x), py(at.y, row), pixels, at.turn, colour, theme);
-    surface.text(4, laneHeight * row + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
+  const keys = [radius, unit, secret, theme, ...lanes.flatMap(({ xs, slides, colour }) => [xs, slides.length, slides.at(-2), colour])];
+  const table = surface.still(keys, theme.card, () => drawPaths(surface, scene, theme));
+  const bodies = lanes.map(({ at, title, colour, ruler }, i) => {
+    const [x, y] = table.pixel(at, i);
+    if (ruler && !secret && !aim) drawRuler(surface, table, i, ruler, unit, theme);
+    drawBall(surface, x, y, table.pixels, at.turn, colour, theme);
+    surface.text(table.cells[i].left + 4, table.cells[i].top + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
+    return { x, y, radius: table.pixels };
   });
+  if (aim) drawAim(surface, aim, theme);
+  return bodies;
 }
 
-/** The table with the paths; returns where the balls go. */
-function drawPaths(surface, { lanes, radius, unit }, theme) {
+/** The arrow of a throw, with what it says. */
+function drawAim(surface, { from: [x, y], to, words }, theme) {
+  const [dx, dy] = [to[0] - x, to[1] - y];
+  const far = Math.hypot(dx, dy) || 1;
+  const [ux, uy] = [dx / far, dy / far];
+  surface.shape([[x, y, to[0] - 8 * ux, to[1] - 8 * uy]], { stroke: theme.ink, width: 4 });
+  surface.shape([[to[0] + 6 * ux, to[1] + 6 * uy, ...[1, -1].flatMap((side) => [to[0] - 10 * ux - side * 8 * uy, to[1] - 10 * uy + side * 8 * ux])]], { fill: theme.ink });
+  const half = widthOf(words, { size: theme.textSize, bold: true }) / 2 + 4;
+  const within = (value, rim, side) => Math.min(side - rim, Math.max(rim, value));
+  const beyond = dy > 4 ? 1.6 : -1.6;
+  surface.text(within(to[0], half, surface.width), within(to[1] + beyond * theme.textSize, theme.textSize, surface.height), words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
+}
+
+/** Where the other one stands, and how much farther this one is. */
+function drawRuler(surface, { pixel, pixels }, i, { from, to, more }, unit, theme) {
+  const [[ax, ay], [bx, by]] = [pixel(from, i), pixel(to, i)];
+  surface.shape([[ax, ay]], { radius: pixels, fill: theme.card, stroke: theme.soft, width: 1.5, dash: [4, 4] });
+  const far = Math.hypot(bx - ax, by - ay);
+  if (far < 2) return;
+  // Beside the bodies, below them.
+  const side = bx < ax ? -1 : 1;
+  const [nx, ny] = [(-side * (by - ay)) / far, (side * (bx - ax)) / far];
+  const beside = pixels + 0.8 * theme.textSize;
+  const at = (x, y, out) => [x + out * nx, y + out * ny];
+  const words = `${length(more, unit)} more`;
+  const wide = widthOf(words, { size: theme.textSize, bold: true }) + 10;
+  const steep = Math.abs(by - ay) > 0.3 * far;
+  const fits = !steep && far > wide + 16;
+  const gap = fits ? (1 - wide / far) / 2 : 0.5;  // a share, before and behind it
+  const point = (share) => at(ax + share * (bx - ax), ay + share * (by - ay), beside);
+  surface.shape([[...point(0), ...point(gap)], [...point(1 - gap), ...point(1)], ...[[ax, ay], [bx, by]].map(([x, y]) => [...at(x, y, beside - 5), ...at(x, y, beside + 5)])],
+    { stroke: theme.ink, width: 1.5 });
+  // Beside a steep ruler, in a level one, or at its end.
+  const [x, y] = steep ? at((ax + bx) / 2, (ay + by) / 2, beside + 8) : fits ? point(0.5) : [Math.max(ax, bx) + 8, point(0)[1]];
+  const align = steep && nx < 0 ? "right" : fits ? "center" : "left";
+  surface.text(x, y, words, { colour: theme.ink, size: theme.textSize, bold: true, baseline: "middle", align });
+}
+
+/** The table with the paths; returns where the bodies go. */
+function drawPaths(surface, { lanes, radius, unit, secret }, theme) {
   const size = theme.textSize;
   const [xs, ys] = ["xs", "ys"].map((key) => lanes.flatMap((lane) => lane[key]));
   const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const laneHeight = (surface.height - 1.6 * size) / lanes.length;
-  const most = laneHeight / 2 - 1.1 * size;
-  /** Pixels of a metre, with a rim of `metres` and of `rim` pixels around the paths. */
-  const scaleWith = (metres, rim) =>
-    Math.min((surface.width - 8 - 2 * rim) / (right - left + 2 * metres), (2 * most - 2 * rim) / (high - low + 2 * metres));
-  // A ball too small to be seen is drawn larger than it is.
-  const seen = radius * scaleWith(radius, 0) >= smallest;
-  const scale = seen ? scaleWith(radius, 0) : scaleWith(0, smallest);
-  const pixels = seen ? radius * scale : smallest;
-  const larger = pixels / (radius * scale);
-  const px = (x) => pixels + 4 + (x - left) * scale;
-  const py = (y, row) => laneHeight * row + 1.4 * size + most - (y - (low + high) / 2) * scale;
-  lanes.forEach((lane, row) => {
-    const slides = lane.slides.map((value, i) => (i % 2 ? py(value, row) : px(value)));
-    const rest = lane.xs.flatMap((x, i) => (2 * i < slides.length - 2 ? [] : [px(x), py(lane.ys[i], row)]));
+  const above = 1.3 * size;  // for a title
+  const room = surface.height - 3.1 * size;  // without the bar of the scale, and a ruler
+  /** Bodies one below the other, or side by side. */
+  const tableOf = (columns, rows) => {
+    const [width, height] = [surface.width / columns, room / rows];
+    /** Pixels of a metre, with a rim of `metres` and of `rim` pixels around the paths. */
+    const scaleWith = (metres, rim) =>
+      Math.min((width - 8 - 2 * rim) / (right - left + 2 * metres), (height - above - 2 * rim) / (high - low + 2 * metres));
+    // A body too small to be seen is drawn larger than it is.
+    const seen = radius * scaleWith(radius, 0) >= smallest;
+    const scale = seen ? scaleWith(radius, 0) : scaleWith(0, smallest);
+    const cells = lanes.map((_, i) => ({ left: width * (i % columns), top: height * Math.floor(i / columns) }));
+    return { height, scale, cells, pixels: seen ? radius * scale : smallest };
+  };
+  const [rows, columns] = [tableOf(1, lanes.length), tableOf(lanes.length, 1)];
+  const { height, scale, cells, pixels } = columns.scale > 1.2 * rows.scale ? columns : rows;
+  const pixel = ({ x, y }, i) => [cells[i].left + pixels + 4 + (x - left) * scale, cells[i].top + above + (height - above) / 2 - (y - (low + high) / 2) * scale];
+  if (!secret) lanes.forEach((lane, i) => {
+    const pixelsOf = (line) => Array.from({ length: line.length / 2 }, (_, j) => pixel({ x: line[2 * j], y: line[2 * j + 1] }, i)).flat();
+    const slides = pixelsOf(lane.slides);
+    const rest = pixelsOf(lane.xs.flatMap((x, j) => (2 * j < slides.length - 2 ? [] : [x, lane.ys[j]])));
     surface.shape([[...slides.slice(-2), ...rest]], { stroke: theme.soft, width: 1.5 });
     surface.shape([slides], { stroke: `${lane.colour}66`, width: Math.min(16, pixels / 2) });
   });
@@ -69,9 +123,10 @@ function drawPaths(surface, { lanes, radius, unit }, theme) {
   const [end, base] = [surface.width - 6, surface.height - 5];
   const start = end - bar * scale;
   surface.shape([[start, base - 4, start, base, end, base, end, base - 4]], { stroke: theme.soft, width: 1.5 });
+  const larger = pixels / (radius * scale);
   const caption = `${length(bar, unit)}${larger > 1.05 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
   surface.text(start - 6, base - 1, caption, { colour: theme.soft, size: 0.95 * size, align: "right" });
-  return { px, py, pixels, laneHeight };
+  return { pixel, pixels, cells };
 }
 
 const arrowShare = 0.06;  // of the patch's radius, the longest slip in it
@@ -108,11 +163,13 @@ export function drawPatch(surface, { still, k, spin, force }, theme) {
   surface.shape(strokes, { stroke: theme.ink, width: 1.3 });
   surface.shape(strokes.map((stroke) => stroke.slice(2)), { radius: 1.9, fill: theme.ink });
   const accent = theme.swatch(0);
-  const style = { colour: accent, size, align: "center", baseline: "middle", halo: theme.paper };
+  const style = { colour: accent, size, align: "center", baseline: "middle" };
   if (spin !== 0 && k < 1) {
     const y = y0 - (sliding / turning) * radius;
     surface.shape([[x0, y]], { radius: 5, fill: accent, stroke: theme.card, width: 1.5 });
-    surface.text(x0, y + (y > y0 ? -1 : 1) * 1.2 * size, "does not slip", style);
+    const [beside, half] = [y + (y > y0 ? -1 : 1) * 1.4 * size, widthOf("does not slip", style) / 2];
+    surface.shape([borderOf({ left: x0 - half - 3, top: beside - 0.7 * size, width: 2 * half + 6, height: 1.4 * size })], { fill: theme.paper });
+    surface.text(x0, beside, "does not slip", style);
   }
   if (force > 0.02) arrow(force, accent);
   const left = force < 0.001 ? "none" : `${shown(100 * force, force < 0.1 ? 1 : 2)} %`;

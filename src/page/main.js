@@ -2,23 +2,25 @@
 import { Address } from "./address.js";
 import { Checks } from "./checks.js";
 import { makeControls } from "./controls.js";
-import { $, make, write } from "./dom.js";
+import { $, write } from "./dom.js";
 import { Film } from "./film.js";
 import { Hero } from "./hero.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
 import { makeOrbits } from "./orbits.js";
-import { fromFragment } from "./page_state.js";
+import { fromFragment, speaksOfNothing } from "./page_state.js";
 import { drawPanes } from "./panes_figure.js";
 import { Plane } from "./plane.js";
 import { Player } from "./player.js";
-import { presets } from "./presets.js";
+import { makePresets } from "./presets_nav.js";
 import { Share } from "./share.js";
 import { Store } from "./store.js";
 import { ScreenSurface } from "./screen_surface.js";
+import { makeThrowing } from "./throwing.js";
 import { Tour } from "./tour.js";
 
 function start(library) {
+  const opens = speaksOfNothing(location.hash);
   const store = new Store(library, fromFragment(location.hash, library));
   /** Runs what may be rejected, and tells the reader. */
   const attempt = (action) => {
@@ -31,7 +33,11 @@ function start(library) {
     }
   };
   const ask = (edit, done = () => {}) => attempt(() => {
-    store.change(edit);
+    store.change((state) => {
+      edit(state);
+      // Without motion the end is shown.
+      if (!player.moves && state.fraction === 0) state.fraction = 1;
+    });
     done();
   });
   const stopText = (tau) => {
@@ -48,15 +54,9 @@ function start(library) {
   const film = new Film(store, player, ask);
   const share = new Share(store, plane, hero, player, address, film);
   const go = (fragment, step = 0) => ask((state) => Object.assign(state, fromFragment(fragment, library), { step, theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
-  $("presets").append(...presets.map(({ title, fragment }) => {
-    const link = make("a", { href: `#${fragment}`, textContent: title });
-    link.addEventListener("click", (event) => {
-      event.preventDefault();
-      go(fragment);
-    });
-    return link;
-  }));
+  const showPresets = makePresets(library, go);
   const tour = new Tour(go);
+  makeThrowing(store, hero, player, plane);
 
   const panes = new ScreenSurface($("panes"), (surface) => drawPanes(surface, store, store.theme));
   const draw = () => {
@@ -82,24 +82,28 @@ function start(library) {
       checks.show();
       film.redraw();
       tour.show(store.state.step);
+      showPresets(store.state);
     }
     draw();
     if (!player.playing || !moment) address.rememberSoon();
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => ask(() => {}));
-  // Paper is light.
+  // Paper is light, and has the end.
   let screen;
   addEventListener("beforeprint", () => {
-    screen = store.state.theme;
-    ask((state) => (state.theme = "light"));
+    const { theme, fraction } = store.state;
+    screen = { theme, fraction };
+    ask((state) => Object.assign(state, { theme: "light", fraction: 1 }));
     for (const surface of [hero.lanes, hero.patch, plane.surface, panes]) surface.draw();
   });
-  addEventListener("afterprint", () => ask((state) => (state.theme = screen)));
+  addEventListener("afterprint", () => ask((state) => Object.assign(state, screen)));
   $("app").hidden = false;
-  ask(() => {});
+  $("first-picture").remove();
   player.moves = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-  // A link to a moment shows that moment.
-  if (player.moves && store.state.fraction === 0) player.toggle(true);
+  ask(() => {});
+  // Who opens the page is asked; a link to a moment shows that moment, other links play.
+  if (player.moves && opens && !store.state.embed) hero.ask();
+  else if (player.moves && store.state.fraction === 0) player.toggle(true);
   return {
     store, player, hero, plane, library,
     get state() { return store.state; },

@@ -38,12 +38,16 @@ export function requireAllowed(key, value) {
  *
  * @param along   the velocity of a real ball's centre, m/s, in the direction of the slip
  * @param across  and to the left of it
+ * @param heading  degrees to the left, in which it is seen to be thrown
  * @returns {Start}
  */
-export const startOf = (u, v, along = v, across = 0) => ({ u, v, along, across });
+export const startOf = (u, v, along = v, across = 0, heading = 0) => ({ u, v, along, across, heading });
+
+/** The same of what does not turn forward: what cannot roll, and what has no size. */
+export const unrolled = ({ u, v, heading }) => startOf(u, v, v, 0, heading);
 
 /** The start with other speeds; the ball turns forward as before. */
-export const moved = ({ v: before, along, across }, u, v) => startOf(u, v, along === before ? v : along + v - before, across);
+export const moved = ({ v: before, along, across, heading }, u, v) => startOf(u, v, along === before ? v : along + v - before, across, heading);
 
 /** @returns {State} */
 export function initialState() {
@@ -100,7 +104,8 @@ export function toFragment(/** @type {State} */ state) {
       : { body: state.body === "own" ? `${state.chi},${state.gamma}` : state.body, mu: state.mu }),
     view: state.view, window: state.window?.join(","), against: unless(state.law, state.against), field: unless("none", state.field),
     isochrones: unless(initialState().isochrones, state.isochrones),
-    orbits: state.orbits.map(({ u, v, along, across }) => (along === v && across === 0 ? [u, v] : [u, v, along, across]).join(",")).join(";"),
+    orbits: state.orbits.map(({ u, v, along, across, heading }) =>
+      (heading ? [u, v, along, across, heading] : along === v && across === 0 ? [u, v] : [u, v, along, across]).join(",")).join(";"),
     chosen: state.chosen, step: unless(0, state.step),
     at: unless(0, Number(state.fraction.toFixed(4))), part: unless(ball ? "sliding" : "whole", state.part),
     isochrone: unless(0, state.isochrone), theme: unless("auto", state.theme), embed: state.embed ? "1" : null,
@@ -108,6 +113,9 @@ export function toFragment(/** @type {State} */ state) {
   const query = new URLSearchParams(Object.entries(parts).flatMap(([key, value]) => (value == null ? [] : [[key, String(value)]])));
   return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":");
 }
+
+/** Whether a link speaks of no motion, such as that of the page alone. */
+export const speaksOfNothing = (fragment) => ![...new URLSearchParams(fragment.replace(/^#/, "")).keys()].some((key) => stateKeys.has(key));
 
 /**
  * The state of a fragment; what cannot be read in it keeps its first value.
@@ -117,7 +125,7 @@ export function toFragment(/** @type {State} */ state) {
 export function fromFragment(fragment, known) {
   const { views, balls } = known;
   const query = new URLSearchParams(fragment.replace(/^#/, ""));
-  const state = [...query.keys()].some((key) => stateKeys.has(key)) ? initialState() : firstState(known);
+  const state = speaksOfNothing(fragment) ? firstState(known) : initialState();
   state.embed = query.has("embed");
   const choice = (key, allowed, use) => allowed.includes(query.get(key)) && use(query.get(key));
   const number = (key, use, allowed = (/** @type {number} */ _) => true) => {
@@ -156,13 +164,13 @@ export function fromFragment(fragment, known) {
   state.window = numbers(query.get("window"), 2, ([U, V]) => U > 0 && V > 0) ?? state.window;
   const orbits = query.get("orbits");
   if (orbits !== null) {
-    const start = (text) => numbers(text, 2, ([, v]) => v >= 0) ?? numbers(text, 4, ([, v]) => v >= 0);
-    state.orbits = orbits.split(";").map(start).flatMap((found) => (found ? [startOf(found[0], found[1], found[2], found[3])] : []));
+    const start = (text) => [2, 4, 5].map((count) => numbers(text, count, ([, v]) => v >= 0)).find(Boolean);
+    state.orbits = orbits.split(";").map(start).flatMap((found) => (found ? [startOf(found[0], found[1], ...found.slice(2))] : []));
   }
   // Links of before gave one velocity to all.
   for (const [key, own] of [["velocityX", "along"], ["velocityY", "across"]]) number(key, (value) => state.orbits.forEach((orbit) => (orbit[own] = value)));
   // What cannot roll does not turn forward.
-  if (!state.ball || bodyOf(state, known).chi === 1) state.orbits = state.orbits.map(({ u, v }) => startOf(u, v));
+  if (!state.ball || bodyOf(state, known).chi === 1) state.orbits = state.orbits.map(unrolled);
   number("step", (step) => (state.step = step), (step) => step in tour);
   number("chosen", (chosen) => (state.chosen = chosen), Number.isInteger);
   state.chosen = Math.max(0, Math.min(state.orbits.length - 1, state.chosen));

@@ -146,14 +146,16 @@ export class Plane {
     else this.announce("Nothing is here.");
   }
 
-  startOrbit({ u, v }, ask = this.act.ask) {
+  /** @param heading  of a throw @param done  called when it has started */
+  startOrbit({ u, v, heading = 0 }, ask = this.act.ask, done = (/** @type {any} */ _) => {}) {
     const { store } = this;
     ask((state) => {
       // What is pointed at stays where it is.
       if (Math.abs(u) <= store.portrait.window[0] && v <= store.portrait.window[1]) this.freeze(state);
-      state.orbits.push(startOf(u, v));
+      else state.window = null;
+      state.orbits.push(startOf(u, v, v, 0, heading));
       Object.assign(state, { chosen: state.orbits.length - 1, fraction: 0, isochrone: 0 });
-    }, () => this.announce(`Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`));
+    }, () => done(this.announce(`Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`)));
   }
 
   moveStart(x, y, index) {

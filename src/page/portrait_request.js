@@ -1,5 +1,5 @@
 // What the page asks the library to draw. command_line.js writes the same request as options of the program.
-import { startOf } from "./page_state.js";
+import { unrolled } from "./page_state.js";
 
 /** A ball with its start, by the names that the library has: it slips along x at v and spins with u = R omega. */
 export const shotOf = (ball, { u, v, along, across }) => ({
@@ -7,10 +7,9 @@ export const shotOf = (ball, { u, v, along, across }) => ({
   velocity: [along, across], angular_velocity: [0 - across, along - v, u].map((speed) => speed / ball.radius),
 });
 
-/** The same, but for how it turns forward: of that the plane knows nothing. */
-const plainly = ({ u, v }) => startOf(u, v);
-
 /**
+ * Of how a body turns forward the plane knows nothing.
+ *
  * @param {State} state
  * @param {{chi: number, gamma: number}} body
  * @param {boolean} screen  light on dark
@@ -18,7 +17,7 @@ const plainly = ({ u, v }) => startOf(u, v);
  */
 export function portraitRequest(state, { chi, gamma }, screen) {
   const { law, mu, ball, chosen, view, window, isochrones, field, against } = state;
-  const orbits = state.orbits.map(plainly);
+  const orbits = state.orbits.map(unrolled);
   return {
     law, mu, chi, gamma, orbits, chosen, view, window, isochrones, field, screen,
     // Without a motion there is no ball in the program's sense: only the mu of one.

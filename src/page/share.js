@@ -1,7 +1,7 @@
 // What the reader takes along: a link, a command line, files.
 import { commandLine } from "./command_line.js";
 import { $, write } from "./dom.js";
-import { csvOfOrbits, csvOfRide, filmOf, filmType, pngOf, save, textFile } from "./exports.js";
+import { citation, csvOfOrbits, csvOfRide, filmOf, filmType, pngOf, save, textFile } from "./exports.js";
 import { fillSelect, numberField } from "./fields.js";
 import { plain } from "./runs.js";
 import { toFragment } from "./page_state.js";
@@ -49,6 +49,7 @@ export class Share {
       await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
       if (location.protocol === "file:") $("copied").append(" It names the file on this computer: readers need the page on a server, and its address there.");
     });
+    on("copy-citation", () => copy(citation(address.link ?? "", $("version").textContent), "BibTeX"));
     on("copy-command", () => copy($("command").textContent, "Command"));
     on("copy-roll", () => copy($("roll-command").textContent, "Command"));
     on("save-svg", () => {

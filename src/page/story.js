@@ -16,6 +16,14 @@ const some = 1.05;
  *   the spin would end if nothing slid
  */
 
+/** What the library knows of the chosen motion. @returns {Facts} */
+export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across }, motion, timeFactor, library: { plane } }) {
+  return {
+    name: ball ? ball.title.replace(/ (on|of) .*/, "") : rolls ? "ball" : "puck", real: Boolean(ball), rolls, spin: u / (ball?.radius ?? 1), slip: v,
+    along, across, least, own, plain, rest, stop: motion.stop * timeFactor, turningAlone: u === 0 ? 0 : plane.stop(u, 0) * timeFactor,
+  };
+}
+
 /** What there is to see. @returns {keyof typeof sentences} */
 export function regimeOf(/** @type {Facts} */ { real, rolls, slip, spin, along, across, least, own, plain }) {
   if (slip <= least || (real && rolls && own.path < hardly)) {
@@ -39,14 +47,14 @@ function wordsOf(/** @type {Facts} */ facts) {
   const turns = real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
   return {
     ...facts, thing: name.split(" ").at(-1), speed: real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`, time, leave, turns, then: rolls ? "then it rolls" : "then it stops",
-    far: length(own.path, unit), farPlain: length(plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
+    far: length(own.path, unit), farther: length(own.path - plain.path, unit), farPlain: length(plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
     threshold: rolls ? ` Here it rolls once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : "1/500 of the first"}.` : "",
   };
 }
 
-const two = ({ name, leave, speed, farPlain, then, turns, far, longer, times }) =>
+const two = ({ name, leave, speed, farPlain, then, turns, far, farther, longer, times }) =>
   `Two equal ${name}s ${leave} at ${speed}. One does not spin: it slides ${farPlain}, ${then}. The other spins ${turns}: it slides ${far}, ` +
-  `${more(times, "far")} and ${longer}. Textbooks say ${farPlain} both times.`;
+  `${farther} more: ${more(times, "far")} and ${longer}. Textbooks say ${farPlain} both times.`;
 
 const sentences = {
   much: (words) => [`Spin a ${words.thing}, and it slides ${shown(words.times, 2)} times as far`, two(words) + words.threshold],
@@ -74,4 +82,30 @@ export function say(/** @type {Facts} */ facts) {
   const [headline, story] = sentences[regimeOf(facts)](wordsOf(facts));
   const { rest } = facts;
   return { headline, story: rest ? `${story} It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), "m")} from its start.` : story };
+}
+
+/** Asked before anything is told. */
+export const question = {
+  headline: "One puck spins. Which slides farther?",
+  story: "Two equal pucks leave side by side, equally fast; one of them spins, the other does not. What do you say?",
+  answers: ["the one that spins", "the one without spin", "equally far"],
+};
+
+export const dare = {
+  stops: "Make it stop sliding before it stops spinning. You can't.",
+  rolls: "A ball may cease to slide before it ceases to spin: it rolls. A puck can't.",
+};
+
+/**
+ * What came of it: a body that cannot roll ends both at one instant.
+ *
+ * @param last  slip and spin, in the units of the facts, when that share of the time until the stop has passed
+ */
+export function outcome(/** @type {Facts} */ facts, last, share) {
+  const { real, rolls, slip, spin, own, stop } = facts;
+  const time = (t) => `${real ? "" : "τ = "}${duration(t, real ? "s" : "")}`;
+  if (slip === 0 || spin === 0) return slip === 0 ? "It only spins: throw it." : "It did not spin: twist it, too.";
+  if (rolls) return `It slid for ${time(own.end)}; its spin ends after ${time(stop)}.`;
+  const speeds = real ? `${length(last.slip, "m")}/s and spun at ${shown(Math.abs(last.spin), 2)} rad/s` : `v = ${shown(last.slip, 2)} and spun with u = ${shown(Math.abs(last.spin), 2)}`;
+  return `Both ended at one instant, after ${time(stop)}; at ${shown(100 * share)} % of that it still slid at ${speeds}.`;
 }

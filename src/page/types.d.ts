@@ -1,8 +1,8 @@
 // What the modules hand to each other; the functions of the library are those of bindings.cpp.
 
 interface Speeds { u: number; v: number }
-/** A motion's; along and across: the velocity of a real ball's centre, m/s, in the direction of the slip and to the left of it. */
-interface Start extends Speeds { along: number; across: number }
+/** A motion's; along and across: the velocity of a real ball's centre, m/s, in the direction of the slip and to the left of it; heading: degrees, page_state.js. */
+interface Start extends Speeds { along: number; across: number; heading: number }
 
 /** page_state.js says what each means. */
 interface State {

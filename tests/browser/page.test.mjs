@@ -7,6 +7,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
+import { unpacked } from "../../src/page/packing.js";
 import { assertClose, clickPlane, close, dragSlider, drawn, file, folder, open, page, pixelOf, program, programStop, saved, state, stopTimes } from "./browser.mjs";
 
 const help = execFileSync(program, ["help", "views"], { encoding: "utf8" });
@@ -110,7 +111,7 @@ test("the page opens with two pucks, and what it says of them is what the progra
   });
   const [far, farPlain] = wanted.map(({ slip_length }) => `${slip_length.toPrecision(3)} m`);
   assert.equal(await page.textContent("#headline"), "Spin a puck, and it slides 4 times as far");
-  for (const part of ["leave at 0.5 m/s", `it slides ${farPlain}, then it stops`, `it slides ${far}, 4 times as far`, `Textbooks say ${farPlain} both times`]) assert.ok((await story()).includes(part), await story());
+  for (const part of ["leave at 0.5 m/s", `it slides ${farPlain}, then it stops`, `it slides ${far}, 0.388 m more: 4 times as far`, `Textbooks say ${farPlain} both times`]) assert.ok((await story()).includes(part), await story());
   await close();
 });
 
@@ -124,7 +125,7 @@ test("of a ball the path until it rolls is told, as the program has it, with the
     assertClose(own.end, wanted.rolls_after.t, 1e-11, "rolls after");
     if (start === "9,0.5") {
       assertClose(plain.path, wanted.textbook.path, 1e-9, "textbook's path");
-      for (const part of ["slides 12.5 mm, then it rolls", "it slides 0.239 m, 19 times as far and 22 times as long", "once its slip is below 1 mm/s"]) assert.ok((await story()).includes(part), await story());
+      for (const part of ["slides 12.5 mm, then it rolls", "it slides 0.239 m, 0.227 m more: 19 times as far and 22 times as long", "once its slip is below 1 mm/s"]) assert.ok((await story()).includes(part), await story());
     }
     // At the end both balls are where the program has them.
     const [at, end] = await page.evaluate(() => [globalThis.page.hero.rides[1].at(1), globalThis.page.store.end * globalThis.page.store.timeFactor]);
@@ -146,15 +147,37 @@ test("what is told is what a ruler shows: the band's end, by the bar of the scal
     const bands = paths.filter(({ stroke }) => stroke.length === 9).map(({ xs }) => (xs.at(-1) - xs[0]) * metres);
     const told = Array.from((await story()).matchAll(/slides ([\d.]+) (mm|m)/g), ([, length, unit]) => Number(length) * (unit === "mm" ? 1e-3 : 1));
     assert.equal(bands.length, 2);
+    // The ruler between them: two pieces, and an end at either side.
+    const ruler = paths.filter(({ xs }) => xs.length === 8).at(-1).xs;
+    const more = Number(/([\d.]+) m more:/.exec(await story())[1]);
+    assert.ok(svg.includes(`>${more} m more<`), `${fragment}: the ruler says what the story does`);
+    assert.ok(Math.abs((ruler[3] - ruler[0]) * metres - more) < 1.5 * metres + 0.005 * more, `${fragment}: a ruler of ${(ruler[3] - ruler[0]) * metres} m, told ${more} m`);
     bands.forEach((band, i) => assert.ok(Math.abs(band - told[i]) < 1.5 * metres + 0.005 * told[i], `${fragment}: ${band} m is drawn, ${told[i]} m is told`));
     await close();
   }
 });
 
-test("it opens moving, and the dot of the plane moves with the balls; who asks for less motion finds it at rest", async () => {
+test("who opens it is asked, then told; the dot of the plane moves with the balls; who asks for less motion finds the end", async () => {
   const pictures = () => page.evaluate(() => ["lanes", "patch", "plane", "panes"].map((id) => document.getElementById(id).toDataURL()));
   await open("", { reducedMotion: "no-preference" });
+  // Nothing tells before the answer: neither words nor paths.
+  const paths = () => page.evaluate(() => {
+    const { canvas } = globalThis.page.hero.lanes;
+    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+    copy.drawImage(canvas, 0, 0);
+    const { data } = copy.getImageData(canvas.width / 2, 0, 2, canvas.height);
+    return data.filter((value, i) => i % 4 === 0 && data[i + 1] < 200 && value > data[i + 1] + 30).length;
+  });
+  await page.waitForTimeout(300);
+  assert.equal((await state()).fraction, 0);
+  assert.match(await page.textContent("#headline"), /Which slides farther\?/);
+  assert.doesNotMatch(await page.locator("#hero").innerText(), /0\.515|0\.127|4 times/);
+  assert.equal(await paths(), 0);
+  await page.click("#answers button:nth-child(3)");
+  assert.ok(!(await page.isVisible("#answers")));
   await page.waitForFunction(() => globalThis.page.state.fraction > 0.05);
+  assert.match(await page.textContent("#headline"), /4 times as far/);
+  assert.ok(await paths() > 0);
   const before = await pictures();
   await page.waitForFunction(() => globalThis.page.state.fraction > 0.1);
   await page.click("#play");
@@ -164,10 +187,19 @@ test("it opens moving, and the dot of the plane moves with the balls; who asks f
   (await pictures()).forEach((picture, i) => assert.notEqual(picture, before[i]));
   assert.match(await page.textContent("#pace"), /slowed 3\.8 times/);
   assert.match(await page.textContent("#clock"), /0\.\d{3} s/);
+  assert.equal(await page.textContent("#told"), "", "before the end nothing has come of it");
+  await page.evaluate(() => globalThis.page.store.move({ fraction: 1 }));
+  assert.match(await page.textContent("#told"), /^You said: equally far\. Both ended at one instant, after 1\.86 s/);
+  await close();
+  // A link is not asked of.
+  await open("#ball=gel", { reducedMotion: "no-preference" });
+  await page.waitForFunction(() => globalThis.page.state.fraction > 0);
+  assert.ok(!(await page.isVisible("#answers")));
   await close();
   await open();
   await page.waitForTimeout(300);
-  assert.equal((await state()).fraction, 0);
+  assert.equal((await state()).fraction, 1);
+  assert.match(await page.textContent("#headline"), /4 times as far/);
   assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
   await close();
 });
@@ -436,8 +468,9 @@ test("pucks and stones lie flat: in seconds, as the program has them, and none r
 
 test("the page travels: a strict policy, a page inside a page, no path of the machine that built it", async () => {
   const html = readFileSync(file, "utf8");
-  const wasm = gunzipSync(Buffer.from(/H4sI[A-Za-z0-9+/=]{10000,}/.exec(html)[0], "base64")).toString("latin1");
-  assert.doesNotMatch(wasm + html, /\/(home|work|root|tmp|usr|build)\/[\w.+/-]+\.[ch](pp)?\b/);
+  const inside = Array.from(html.matchAll(/"(\d+ [!-~]{10000,}?)"/g), ([, text]) => gunzipSync(unpacked(text)).toString("latin1"));
+  assert.equal(inside.length, 2, "the modules and the library");
+  assert.doesNotMatch(inside.join("") + html, /\/(home|work|root|tmp|usr|build)\/[\w.+/-]+\.[ch](pp)?\b/);
   assert.ok(html.length < 700e3, `${html.length} bytes`);
 
   const policy = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data:";
@@ -686,7 +719,7 @@ test("a link reproduces the page", async () => {
 test("a link that nobody can read opens the page all the same", async () => {
   await open("#law=nonsense&mu=-1&view=&window=1&orbits=x;1,-1;0.5,1&chosen=7&ball=golf&at=2");
   const { law, mu, view, orbits, chosen } = await state();
-  assert.deepEqual({ law, mu, view, orbits, chosen }, { law: "exact", mu: 0.3, view: "uv", orbits: [{ u: 0.5, v: 1, along: 1, across: 0 }], chosen: 0 });
+  assert.deepEqual({ law, mu, view, orbits, chosen }, { law: "exact", mu: 0.3, view: "uv", orbits: [{ u: 0.5, v: 1, along: 1, across: 0, heading: 0 }], chosen: 0 });
   await close();
 });
 

@@ -2,16 +2,17 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commandLine } from "../../src/page/command_line.js";
-import { csvOfOrbits, csvOfRide, filmType } from "../../src/page/exports.js";
+import { citation, csvOfOrbits, csvOfRide, filmType } from "../../src/page/exports.js";
 import { Frame } from "../../src/page/frame.js";
 import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
-import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, startOf, takeBall, toFragment } from "../../src/page/page_state.js";
+import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, speaksOfNothing, startOf, takeBall, toFragment } from "../../src/page/page_state.js";
+import { packed, unpacked } from "../../src/page/packing.js";
 import { layOut, rowsOf } from "../../src/page/portrait_layout.js";
 import { portraitRequest } from "../../src/page/portrait_request.js";
 import { presets, tour } from "../../src/page/presets.js";
 import { italic, plain, runsOf } from "../../src/page/runs.js";
 import { Store } from "../../src/page/store.js";
-import { regimeOf, say } from "../../src/page/story.js";
+import { dare, outcome, question, regimeOf, say } from "../../src/page/story.js";
 import { rideOn, rotation, turnedBy } from "../../src/page/turning.js";
 import { described } from "../../src/page/views.js";
 
@@ -70,15 +71,25 @@ test("a text is a string, or strings and runs", () => {
   assert.equal(plain(["law ", italic("k"), "*"]), "law k*");
 });
 
+test("bytes come back from the text that they are packed into, which may stand in a script and in an attribute", () => {
+  for (const length of [0, 1, 2, 12, 13, 14, 4099]) {
+    const bytes = Uint8Array.from({ length }, (_, i) => (i * i * 31 + 7 * i) % 256);
+    const text = packed(bytes);
+    assert.deepEqual(unpacked(text), bytes, `${length} bytes`);
+    assert.match(text, /^\d+ [^\s"<\\\x7f-\uffff]*$/);
+    assert.ok(text.length <= 6 + 2 * Math.ceil((8 * length) / 13));
+  }
+});
+
 test("every state comes back from its link", () => {
   const states = [
     {}, { law: "pressure:-0.25", against: "pade", body: "own", chi: 1.5, gamma: 2.25, mu: 0.125 }, { body: "disc", mu: 1 },
     { view: "pair", window: [2, 3e-7], field: "regularised", isochrones: 0, theme: "dark" },
-    { orbits: [startOf(-1e-5, 0), startOf(1e20, 3)], chosen: 1, fraction: 0.25, part: "sliding", isochrone: 1.5, step: 5 }, { orbits: [], chosen: 0 },
+    { orbits: [startOf(-1e-5, 0), startOf(1e20, 3, 3, 0, 170)], chosen: 1, fraction: 0.25, part: "sliding", isochrone: 1.5, step: 5 }, { orbits: [], chosen: 0 },
   ].map((part) => ({ ...initialState(), ...part }));
   const ball = initialState();
   Object.assign(takeBall(ball, gel), { friction: 0.125, patchBy: "spin_deceleration", patch: 12.5 });
-  ball.orbits = [startOf(1, 2), startOf(3, 4, -1, 0.25)];
+  ball.orbits = [startOf(1, 2), startOf(3, 4, -1, 0.25), startOf(3, 4, 4, 0, -45)];
   for (const state of [...states, ball, { ...ball, part: "whole", embed: true }]) assert.deepEqual(fromFragment(`#${toFragment(state)}`, known), state);
 });
 
@@ -91,12 +102,14 @@ test("what cannot be read in a link keeps its first value", () => {
   assert.deepEqual(fromFragment("orbits=x;1,-1;0.5,1;1,2,3&chosen=7", known).orbits, [startOf(0.5, 1)]);
   assert.deepEqual(fromFragment("mu=0.3&orbits=1,2,3,4", known).orbits, [startOf(1, 2)], "without units nothing is known of the centre");
   assert.deepEqual(fromFragment("ball=puck&orbits=1,2,3,4", known).orbits, [startOf(1, 2)], "a puck does not turn forward");
+  assert.deepEqual(fromFragment("ball=puck&orbits=1,2,3,4,30", known).orbits, [startOf(1, 2, 2, 0, 30)], "but it is thrown somewhere");
   assert.deepEqual(fromFragment("ball=gel&velocityX=3&orbits=1,2", known).orbits, [startOf(1, 2, 3, 0)], "a link of before");
   assert.equal(fromFragment("body=disc&mu=0.2", known).mu, 1, "a puck's mu is its own");
   assert.equal(fromFragment("mu=7", known).mu, 1, "at most 1 for a ball");
   // Nor is a link that was cut or mangled another world.
   for (const link of ["", "#garbage", "#%", "#utm_source=x"]) assert.deepEqual(fromFragment(link, known), { ...firstState(known), mu: 1 }, link);
   assert.ok(fromFragment("#embed", known).embed);
+  assert.deepEqual(["", "#garbage", "#theme=dark", "#embed", "#mu=0.3", "#ball=puck"].map(speaksOfNothing), [true, true, true, true, false, false]);
 });
 
 test("chi and gamma are the library's, or the reader's own", () => {
@@ -116,7 +129,7 @@ test("presets and steps of the tour are links that are understood", () => {
 
 test("a start that is moved keeps how the ball turns forward; one that does not turn is exact", () => {
   assert.deepEqual(moved(startOf(1, 0.5), 2, 0.3), startOf(2, 0.3));
-  assert.deepEqual(moved(startOf(1, 0.5, 0.75, -2), 1, 0.25), startOf(1, 0.25, 0.5, -2));
+  assert.deepEqual(moved(startOf(1, 0.5, 0.75, -2, 20), 1, 0.25), startOf(1, 0.25, 0.5, -2, 20));
 });
 
 test("a law is not compared with itself in a link", () => {
@@ -154,7 +167,7 @@ const puck = { name: "ice hockey puck", rolls: false };
 
 test("what there is to see follows from the numbers, and is said in words without powers of ten", () => {
   const table = [
-    ["much", {}, /slides 19 times as far$/, /slides 12\.5 mm, then it rolls\. .* 48 times a second: it slides 0\.239 m, 19 times as far and 22 times as long\. Textbooks say 12\.5 mm both times\. Here it rolls once its slip is below 1 mm\/s\.$/],
+    ["much", {}, /slides 19 times as far$/, /slides 12\.5 mm, then it rolls\. .* 48 times a second: it slides 0\.239 m, 0\.226 m more: 19 times as far and 22 times as long\. Textbooks say 12\.5 mm both times\. Here it rolls once its slip is below 1 mm\/s\.$/],
     ["much", { ...puck, own: path(0.515), plain: path(0.127) }, /Spin a puck, and it slides 4\.1 times/, /then it stops\.(?!.*Here it rolls)/],
     ["more", { own: path(1.1), plain: path(1) }, /ball slide 10 % farther/, /Textbooks say 1 m/],
     ["soon", { own: path(1.01), plain: path(1) }, /soon rolls, and spins on/, /Its spin lasts 5\.17 s/],
@@ -182,6 +195,25 @@ test("what there is to see follows from the numbers, and is said in words withou
   }
   assert.equal(seen.size, 9);
   assert.match(say(facts({ rest: { t: 12, x: 3, y: 4 } })).story, /It rests after 12 s, 5 m from its start\.$/);
+});
+
+test("what came of a throw is told by numbers, of what can roll and of what cannot", () => {
+  const last = { slip: 0.00976, spin: 0.5 };
+  const told = (other) => outcome(facts(/** @type {any} */ ({ ...puck, stop: 1.86, ...other })), last, 0.99);
+  assert.equal(told({}), "Both ended at one instant, after 1.86 s; at 99 % of that it still slid at 9.76 mm/s and spun at 0.5 rad/s.");
+  assert.match(told({ real: false }), /after τ = 1\.86; at 99 % of that it still slid at v = 0\.0098 and spun with u = 0\.5\.$/);
+  assert.match(told({ rolls: true }), /^It slid for 0\.627 s; its spin ends after 1\.86 s\.$/);
+  assert.match(told({ spin: 0 }), /twist it/);
+  assert.match(told({ slip: 0 }), /throw it/);
+  assert.match(dare.stops, /You can't/);
+  assert.equal(question.answers.length, 3);
+});
+
+test("a citation is BibTeX, also of a link with signs that TeX reads otherwise", () => {
+  const text = citation("https://a.example/p.html#ball=puck&orbits=1%20,2", "0.1.0");
+  assert.match(text, /^@misc\{contensou,\n {2}title = \{contensou 0\.1\.0/);
+  assert.ok(text.includes("\\url{https://a.example/p.html\\#ball=puck&orbits=1\\%20,2}"), text);
+  assert.deepEqual([text.match(/\{/g)?.length, text.match(/^@/gm)?.length], [text.match(/\}/g)?.length, 2]);
 });
 
 const requestOf = (state) => portraitRequest(state, bodyOf(state, known), false);

@@ -1,0 +1,239 @@
+// What a reader meets first: bodies that are thrown, the question, the dare, and presets that say what is to be seen.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { duration, length, shown } from "../../src/page/numbers.js";
+import { question } from "../../src/page/story.js";
+import { assertClose, close, drawn, file, open, page, pixelOf, programStop, saved, state } from "./browser.mjs";
+
+/** Where a body is on the screen: the one that spins, or the other. */
+const body = (index = 1) => page.evaluate((index) => {
+  const { left, top } = document.getElementById("lanes").getBoundingClientRect();
+  const { x, y } = globalThis.page.hero.places[index];
+  return [left + x, top + y];
+}, index);
+const told = () => page.textContent("#told");
+
+/** Presses a body, drags, and turns the wheel; lets go unless it is to be held. */
+async function fling(dx, dy, wheel = 0, { index = 1, held = false } = {}) {
+  const [x, y] = await body(index);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + dx, y + dy, { steps: 4 });
+  if (wheel) {
+    const before = await told();
+    await page.mouse.wheel(0, wheel);
+    await page.waitForFunction((before) => document.getElementById("told").textContent !== before, before);
+  }
+  if (!held) await page.mouse.up();
+}
+
+test("a body is thrown: how far is how fast, the wheel is the spin, and the throw is a dot of the plane and in the link", async () => {
+  await open("", { reducedMotion: "no-preference" });
+  await page.click("#answers button");
+  const width = await page.evaluate(() => globalThis.page.hero.lanes.width);
+  await fling(0.275 * width, 0, 400);
+  const { orbits, chosen, ball, fraction } = await state();
+  assert.deepEqual([orbits.length, chosen], [2, 1]);
+  const { u, v, along, across, heading } = orbits[1];
+  assertClose(v, 1, 0.02, "half of the way is half of the full speed");
+  // A radian of the wheel the other way: a part of 500 rad/s in two turns.
+  assertClose(u / ball.radius, 60 - 500 / (4 * Math.PI), 0.02, "spin");
+  assert.deepEqual([along, across, heading], [v, 0, 0]);
+  assert.ok(fraction < 0.5, "and it goes");
+  await page.waitForFunction(() => globalThis.page.state.fraction > 0.02);
+  // The dot lies on the plane, and the one before it stays.
+  const box = await page.locator("#plane").boundingBox();
+  for (const orbit of orbits) {
+    const [x, y] = await pixelOf(orbit.u, orbit.v);
+    assert.ok(x > box.x && x < box.x + box.width && y > box.y && y < box.y + box.height, `${x}, ${y}`);
+  }
+  await page.waitForFunction((text) => location.hash.includes(text), `;${u},${v}`);
+  const link = page.url();
+  // A throw of the other body is one, too; a tap is none.
+  await page.click("#play");
+  await fling(-60, -60, 0, { index: 0 });
+  assert.equal((await state()).orbits[2].heading, 135);
+  await page.mouse.click(...await body());
+  assert.equal((await state()).orbits.length, 3);
+  await close();
+  await open(link.slice(link.indexOf("#")));
+  assert.deepEqual((await state()).orbits, orbits);
+  await close();
+});
+
+test("what is thrown goes where the hand went, in the picture, and nothing is cut", async () => {
+  for (const [dx, dy] of [[100, 0], [100, -80], [-100, -80], [0, 100], [-120, 0]]) {
+    await open();
+    await fling(dx, dy);
+    const { places, rides, width, height } = await page.evaluate(() => {
+      const { hero: { places, rides, lanes: { width, height } } } = globalThis.page;
+      return { places, rides: rides.map(({ xs, ys }) => [xs.at(-1), ys.at(-1)]), width, height };
+    });
+    const far = Math.hypot(dx, dy);
+    for (const [x, y] of rides) assert.ok(Math.hypot(x / Math.hypot(x, y) - dx / far, y / Math.hypot(x, y) + dy / far) < 0.02, `${x}, ${y} for ${dx}, ${dy}`);
+    for (const { x, y, radius } of places) assert.ok(x > radius && x < width - radius && y > radius && y < height - radius, JSON.stringify({ x, y, radius }));
+    await page.selectOption("#picture", "lanes");
+    const svg = String(await saved("#save-svg"));
+    const texts = await page.evaluate((svg) => {
+      const holder = document.body.appendChild(document.createElement("div"));
+      holder.innerHTML = svg;
+      const origin = holder.firstElementChild.getBoundingClientRect();
+      const found = [...holder.querySelectorAll("text")].map((text) => [text.getBoundingClientRect(), text.textContent])
+        .map(([{ left, right, top, bottom }, words]) => ({ words, left: left - origin.left, right: right - origin.left, top: top - origin.top, bottom: bottom - origin.top }));
+      holder.remove();
+      return found;
+    }, svg);
+    assert.ok(texts.some(({ words }) => /more$/.test(words)), "the ruler");
+    texts.forEach((text, i) => {
+      assert.ok(text.left > -1 && text.right < width + 1 && text.top > -3 && text.bottom < height + 3, JSON.stringify({ ...text, dx, dy, width, height }));
+      for (const other of texts.slice(i + 1)) {
+        assert.ok(text.right <= other.left || other.right <= text.left || text.bottom - 3 <= other.top || other.bottom - 3 <= text.top, `'${text.words}' is over '${other.words}', ${dx}, ${dy}`);
+      }
+    });
+    await close();
+  }
+});
+
+test("a second finger turns what is thrown, and a finger beside the bodies scrolls", async () => {
+  await open("", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const devtools = await page.context().newCDPSession(page);
+  const touch = async (type, ...points) => {
+    await devtools.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    await drawn();
+  };
+  const [x, y] = await body();
+  const at = [x - 120, y + 20];
+  const second = (angle) => [at[0] + 90 * Math.cos(angle), at[1] - 90 * Math.sin(angle)];
+  await touch("touchStart", [x, y]);
+  for (let i = 1; i <= 5; ++i) await touch("touchMove", [x + ((at[0] - x) * i) / 5, y + 4 * i]);
+  await touch("touchStart", at, second(0));
+  for (let i = 1; i <= 6; ++i) await touch("touchMove", at, second((i * Math.PI) / 6));
+  assert.match(await told(), /m\/s, 185 rad\/s/, "half a turn to the left is a quarter of 500 rad/s more");
+  await touch("touchMove", at);
+  assert.equal((await state()).orbits.length, 1, "the second finger lets nothing go");
+  await touch("touchEnd");
+  const { orbits, ball } = await state();
+  assert.equal(orbits.length, 2);
+  assertClose(orbits[1].u / ball.radius, 185, 1e-9, "spin");
+  assert.equal(await page.evaluate(() => scrollY), 0);
+  // Beside the bodies.
+  const box = await page.locator("#lanes").boundingBox();
+  const from = [box.x + box.width - 8, box.y + box.height - 30];
+  await touch("touchStart", from);
+  for (let i = 1; i <= 8; ++i) await touch("touchMove", [from[0], from[1] - 20 * i]);
+  await touch("touchEnd");
+  assert.ok((await page.evaluate(() => scrollY)) > 60);
+  assert.equal((await state()).orbits.length, 2);
+  await close();
+});
+
+test("keys throw, Escape and a short way throw nothing, and a wheel beside the bodies scrolls", async () => {
+  await open();
+  await page.focus("#lanes");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await told(), "0.55 m/s, 60 rad/s");
+  for (const key of ["ArrowUp", "ArrowUp", "Shift+ArrowRight"]) await page.keyboard.press(key);
+  assert.equal(await told(), "0.563 m/s, 85 rad/s");
+  await page.keyboard.press("Escape");
+  assert.match(await told(), /Both ended/);
+  await page.keyboard.press("Enter");
+  assert.equal((await state()).orbits.length, 1);
+  assert.equal(await told(), "0.5 m/s, 60 rad/s");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  const { orbits, ball } = await state();
+  assert.deepEqual([orbits.length, orbits[1].v], [2, 0.5]);
+  assertClose(orbits[1].u / ball.radius, 47.5, 1e-9, "spin");
+  await fling(5, 5);
+  assert.equal((await state()).orbits.length, 2);
+  const before = await page.evaluate(() => scrollY);
+  await page.mouse.wheel(0, 200);
+  await page.waitForFunction((before) => scrollY > before, before);
+  await close();
+});
+
+test("the dare: what came of a throw is what the library says, and the program", async () => {
+  await open();
+  assert.match(await page.textContent("#dare-line"), /You can't/);
+  await fling(-120, 0, -400);
+  const { orbits: [, { u, v }] } = await state();
+  const { late, stop, radius, timeFactor } = await page.evaluate(([u, v]) => {
+    const { library: { plane }, store } = globalThis.page;
+    return { late: plane.instant(u, v, 0.99 * plane.stop(u, v)), stop: plane.stop(u, v), radius: store.state.ball.radius, timeFactor: store.timeFactor };
+  }, [u, v]);
+  assertClose(stop, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "stop");
+  assert.equal(await told(), `Both ended at one instant, after ${duration(stop * timeFactor, "s")}; at 99 % of that it still slid at ${length(late.v, "m")}/s and spun at ${shown(Math.abs(late.u) / radius, 2)} rad/s.`);
+  await page.locator("#presets a", { hasText: "Gel" }).click();
+  assert.match(await page.textContent("#dare-line"), /A puck can't/);
+  assert.match(await told(), /^It slid for 0\.627 s; its spin ends after 5\.17 s\.$/);
+  await close();
+});
+
+test("each preset says in one sentence what is to be seen, with numbers that are the page's", async () => {
+  await open();
+  const links = await page.$$("#presets a");
+  assert.equal(links.length, 8);
+  for (const link of links) {
+    await link.click();
+    assert.equal(await link.getAttribute("aria-current"), "true");
+    const says = await page.textContent("#says");
+    const { real, spin, slip, own, plain, stop, turningAlone } = await page.evaluate(() => globalThis.page.hero.facts);
+    const unit = real ? "m" : "";
+    const times = own.path / plain.path;
+    const known = [length(own.path, unit), length(plain.path, unit), `${shown(times, 2)} times as far`, `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second`,
+      `${shown(slip, 3)} m/s`, `${shown(Math.abs(own.turned), 2)}°`, ...[own.end, plain.end, stop, turningAlone].map((t) => duration(t, "s"))];
+    const numbers = says.match(/[\d.]*\d(°| times (as far|a second)| mm?(\/s)?\b| s\b)/g);
+    assert.ok(numbers.length > 0, says);
+    for (const number of numbers) assert.ok(known.includes(number), `'${number}' of '${says}' is none of ${known.join(", ")}`);
+    assert.equal(says.match(/\d(?![\d.])/g).length, numbers.length, `a number of '${says}' has no unit`);
+    assert.match(says, /^[^.]*(\.\d[^.]*)*\.$/, "one sentence");
+  }
+  // It is said of a link that is pointed at, and not of a motion that is none of them.
+  await links[0].hover();
+  assert.match(await page.textContent("#says"), /^Spun 9\.5 times/);
+  await page.mouse.move(5, 5);
+  await page.fill("#mu", "0.9").catch(() => {});
+  await page.fill("#ball-fields [name=friction]", "0.2");
+  assert.equal(await page.textContent("#says"), "");
+  await close();
+});
+
+test("paper has the end, and the screen afterwards what it had", async () => {
+  await open("#ball=puck&at=0.25");
+  assert.equal((await state()).fraction, 0.25);
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal((await state()).fraction, 1);
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal((await state()).fraction, 0.25);
+  await page.fill("#ball-fields [name=mass]", "1");
+  assert.equal((await state()).fraction, 0.25, "who goes to a moment stays there");
+  await close();
+});
+
+test("a first picture stands in the page before the library does, of what it opens with", async () => {
+  const first = () => page.locator("#first-picture");
+  await open("", { javaScriptEnabled: false }, null);
+  assert.equal(await first().locator("h2").textContent(), question.headline);
+  assert.ok((await first().locator("svg").boundingBox()).height > 80);
+  await close();
+  assert.ok(readFileSync(file, "utf8").indexOf("first-picture") < 40_000, "before the library");
+  await open("", { reducedMotion: "no-preference" });
+  assert.equal(await first().count(), 0);
+  assert.equal(await page.textContent("#headline"), question.headline);
+  await close();
+  // Of another motion it shows nothing.
+  await open("#ball=gel", {}, null, () => (globalThis.WebAssembly = undefined));
+  await page.locator("#failure").filter({ visible: true }).waitFor();
+  assert.ok(!(await first().isVisible()));
+  await close([/no native wasm support/]);
+});
+
+test("a citation is copied with the link", async () => {
+  await open("#ball=gel");
+  await page.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: { writeText: (text) => Promise.resolve(globalThis.copied = text) } }));
+  await page.click("#copy-citation");
+  await page.waitForFunction(() => document.getElementById("copied").textContent === "BibTeX copied.");
+  assert.match(await page.evaluate(() => globalThis.copied), /^@misc\{contensou,\n {2}title = \{contensou \d+\.\d+\.\d+: .*\\url\{file:.*ball=gel/s);
+  await close();
+});
