@@ -32,17 +32,13 @@ export function makeChoices(store, plane, { ask, attempt }) {
     state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
   }));
   const viewButtons = choiceButtons($("views"), views.map(described), (name) => plane.view(name));
-  $("fit").addEventListener("click", () => {
-    plane.before = undefined;
-    ask((state) => (state.window = null));
-  });
   $("theme").addEventListener("click", () => ask((state) => {
     state.theme = state.theme === "auto" ? (isDark("auto") ? "light" : "dark") : "auto";
   }));
   const inertia = Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" }).map(([key, label]) =>
     ({ key, field: addNumber(store, $("inertia"), key, label, (state, value) => (state[key] = value)) }));
   const sides = ["U", "V"].map((name, side) => addNumber(store, $("window"), `window-${name}`, name, (state, value) => {
-    plane.before = undefined;
+    plane.zooming.before = undefined;
     state.window = store.portrait.window.map((shown, i) => (i === side ? value : shown));
   }));
 

@@ -79,10 +79,13 @@ export class Frame {
     const label = { colour: theme.ink, size: size + 1, align: "center" };
     const [bottom, right] = [this.top + this.height, this.left + this.width];
     const lines = [[this.left, this.top, this.left, bottom, right, bottom]];
+    let free = -Infinity;
     for (const { at, text } of this.ticksOf(this.x, this.width / 85)) {
-      const x = this.px(at);
+      const [x, half] = [this.px(at), widthOf(text, { size }) / 2];
       lines.push([x, bottom, x, bottom + 4]);
-      if (this.x.label !== undefined) surface.text(x, bottom + 6, text, { ...style, align: "center", baseline: "top" });
+      if (this.x.label === undefined || x - half < free) continue;
+      free = x + half + 0.4 * size;
+      surface.text(x, bottom + 6, text, { ...style, align: "center", baseline: "top" });
     }
     for (const { at, text } of this.ticksOf(this.y, this.height / 55)) {
       const y = this.py(at);

@@ -7,7 +7,7 @@ const notch = 400;  // pixels that the wheel turns by for a radian
 /**
  * @param on  hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held, from), release(), cancel(), turn(radians) of
  *            what is held, to the left; tap(x, y, kind), drag(x, y), point(x, y), leave(), move(dx, dy), panel(), enter(),
- *            isochrone(), clear(), remove(), zoom(factor); kind is "mouse" or "touch", and move has steps of 1. All but hold
+ *            isochrone(), clear(), remove(), zoom(factor), grow(factor); kind is "mouse" or "touch", and move has steps of 1. All but hold
  *            may be missing
  */
 export function listen(canvas, on) {
@@ -85,6 +85,7 @@ export function listen(canvas, on) {
     const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const actions = {
       "Enter": on.enter, "Delete": on.remove, "Backspace": on.remove, "Escape": on.clear, "i": on.isochrone, "p": on.panel,
+      "]": on.grow && (() => on.grow(Math.SQRT2)), "[": on.grow && (() => on.grow(Math.SQRT1_2)),
       "+": on.zoom && (() => on.zoom(0.8)), "-": on.zoom && (() => on.zoom(1.25)),
     };
     if (steps[event.key]) on.move(...steps[event.key].map((step) => step * fine));

@@ -85,8 +85,9 @@ function drawRuler(surface, { pixel, pixels }, i, { from, to, more }, unit, them
   surface.shape([[...point(0), ...point(gap)], [...point(1 - gap), ...point(1)], ...[[ax, ay], [bx, by]].map(([x, y]) => [...at(x, y, beside - 5), ...at(x, y, beside + 5)])],
     { stroke: theme.ink, width: 1.5 });
   // Beside a steep ruler, in a level one, or at its end.
-  const [x, y] = steep ? at((ax + bx) / 2, (ay + by) / 2, beside + 8) : fits ? point(0.5) : [Math.max(ax, bx) + 8, point(0)[1]];
-  const align = steep && nx < 0 ? "right" : fits ? "center" : "left";
+  const before = !steep && !fits && Math.max(ax, bx) + wide > surface.width;
+  const [x, y] = steep ? at((ax + bx) / 2, (ay + by) / 2, beside + 8) : fits ? point(0.5) : [before ? Math.min(ax, bx) - 8 : Math.max(ax, bx) + 8, point(0)[1]];
+  const align = before || (steep && nx < 0) ? "right" : fits ? "center" : "left";
   surface.text(x, y, words, { colour: theme.ink, size: theme.textSize, bold: true, baseline: "middle", align });
 }
 
@@ -110,7 +111,7 @@ function drawPaths(surface, { lanes, radius, unit, secret }, theme) {
     return { height, scale, cells, pixels: seen ? radius * scale : smallest };
   };
   const [rows, columns] = [tableOf(1, lanes.length), tableOf(lanes.length, 1)];
-  const { height, scale, cells, pixels } = columns.scale > 1.2 * rows.scale ? columns : rows;
+  const { height, scale, cells, pixels } = high - low > (right - left) / 4 && columns.scale > 1.2 * rows.scale ? columns : rows;
   const pixel = ({ x, y }, i) => [cells[i].left + pixels + 4 + (x - left) * scale, cells[i].top + above + (height - above) / 2 - (y - (low + high) / 2) * scale];
   if (!secret) lanes.forEach((lane, i) => {
     const pixelsOf = (line) => Array.from({ length: line.length / 2 }, (_, j) => pixel({ x: line[2 * j], y: line[2 * j + 1] }, i)).flat();

@@ -2,6 +2,7 @@
 import { Address } from "./address.js";
 import { Checks } from "./checks.js";
 import { makeControls } from "./controls.js";
+import { drawCopies } from "./copies_figure.js";
 import { $, write } from "./dom.js";
 import { Film } from "./film.js";
 import { Hero } from "./hero.js";
@@ -59,11 +60,13 @@ function start(library) {
   makeThrowing(store, hero, player, plane);
 
   const panes = new ScreenSurface($("panes"), (surface) => drawPanes(surface, store, store.theme));
+  const copies = new ScreenSurface($("copies"), (surface) => drawCopies(surface, store, plane.copies));
   const draw = () => {
     const { contact, now, end, timeFactor } = store;
     plane.draw();
     hero.draw();
     panes.drawInSight();
+    copies.drawInSight();
     player.show();
     write($("instant"), now
       ? `${contact ? `t = ${shown(now.tau * timeFactor, 5)} s` : `τ = ${shown(now.tau, 5)}`} of ` +
@@ -94,7 +97,7 @@ function start(library) {
     const { theme, fraction } = store.state;
     screen = { theme, fraction };
     ask((state) => Object.assign(state, { theme: "light", fraction: 1 }));
-    for (const surface of [hero.lanes, hero.patch, plane.surface, panes]) surface.draw();
+    for (const surface of [hero.lanes, hero.patch, plane.surface, panes, copies]) surface.draw();
   });
   addEventListener("afterprint", () => ask((state) => Object.assign(state, screen)));
   $("app").hidden = false;

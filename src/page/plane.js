@@ -1,5 +1,6 @@
 // The plane under the reader's hand: pointing, starting and choosing orbits, zooming.
 import { $, write } from "./dom.js";
+import { Copies, sizeOf } from "./copies.js";
 import { listen } from "./gestures.js";
 import { plain } from "./runs.js";
 import { shown } from "./numbers.js";
@@ -7,7 +8,9 @@ import { moved, startOf } from "./page_state.js";
 import { drawPortrait } from "./portrait_figure.js";
 import { rowsOf } from "./portrait_layout.js";
 import { ScreenSurface } from "./screen_surface.js";
+import { Zooming } from "./zooming.js";
 
+const none = [];
 const reach = { touch: 24, mouse: 10 };  // pixels from which a start or an orbit is taken hold of
 
 export class Plane {
@@ -16,20 +19,20 @@ export class Plane {
   planeScene = /** @type {ReturnType<Plane["scene"]>} */ ({});
   /** @type {{panel: number, x: number, y: number} | null} */
   cross = null;
-  /** @type {number[] | null | undefined} the window before the reader zoomed */
-  before = undefined;
 
   /** @param {import("./store.js").Store} store @param act  ask(edit), removeOrbit(index), stopText(tau) */
   constructor(store, act) {
     this.store = store;
     this.act = act;
+    this.copies = new Copies(store);
+    this.zooming = new Zooming(store, { ask: act.ask, announce: (text) => this.announce(text) });
     this.surface = new ScreenSurface($("plane"), (surface) => {
       this.planeScene = this.scene();
       this.frames = drawPortrait(surface, this.planeScene, store.theme);
     });
     listen($("plane"), {
       hold: (x, y, kind) => this.startAt(x, y, kind),
-      pull: (x, y, index) => this.moveStart(x, y, index),
+      pull: (x, y, index, from) => this.moveStart(this.pointed(x, y), index, from),
       tap: (x, y, kind) => {
         this.cross = null;
         this.choose(x, y, kind);
@@ -46,11 +49,14 @@ export class Plane {
       enter: () => this.atCross((x, y) => this.choose(x, y, "key")),
       isochrone: () => this.atCross((x, y) => this.drawIsochrone(x, y)),
       clear: () => this.clear(),
-      zoom: (factor) => this.zoom(factor),
+      zoom: (factor) => this.zooming.by(factor),
+      grow: (factor) => this.scale(factor),
       remove: () => store.motion && act.removeOrbit(store.state.chosen),
     });
-    $("zoom-in").addEventListener("click", () => this.zoom(0.7));
-    $("zoom-out").addEventListener("click", () => this.zoom(1 / 0.7));
+    $("zoom-in").addEventListener("click", () => this.zooming.by(0.7));
+    $("zoom-out").addEventListener("click", () => this.zooming.by(1 / 0.7));
+    $("zoom-ever").addEventListener("click", () => this.zooming.forEver());
+    $("fit").addEventListener("click", () => this.zooming.fit());
     $("clear-isochrone").addEventListener("click", () => this.clear());
   }
 
@@ -63,7 +69,7 @@ export class Plane {
       return { ...orbit, index, chosen: index === state.chosen, start: portrait.moments ? null : library.plane.place(u, v) };
     });
     return {
-      figure: portrait.figure, isochrone,
+      figure: portrait.figure, isochrone, ghosts: this.copies.now ? this.copies.ghosts : none,
       own: [...own.filter(({ chosen }) => !chosen), ...own.filter(({ chosen }) => chosen)],
       marker: now && now.tau < motion.stop ? { index: state.chosen, places: now.places } : null,
       cross: this.cross,
@@ -151,22 +157,34 @@ export class Plane {
     const { store } = this;
     ask((state) => {
       // What is pointed at stays where it is.
-      if (Math.abs(u) <= store.portrait.window[0] && v <= store.portrait.window[1]) this.freeze(state);
+      if (Math.abs(u) <= store.portrait.window[0] && v <= store.portrait.window[1]) this.zooming.freeze(state);
       else state.window = null;
       state.orbits.push(startOf(u, v, v, 0, heading));
       Object.assign(state, { chosen: state.orbits.length - 1, fraction: 0, isochrone: 0 });
     }, () => done(this.announce(`Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`)));
   }
 
-  moveStart(x, y, index) {
-    const to = this.pointed(x, y);
-    if (!to) return;
+  /** @param from  the same during one pull */
+  moveStart(at, index, from) {
+    if (!at) return;
+    const { u, v } = this.copies.to(rounded(at, this.store.portrait), index, from);
     this.act.ask((state) => {
-      this.freeze(state);
-      const { u, v } = rounded(to, this.store.portrait);
+      this.zooming.freeze(state);
       state.orbits[index] = moved(state.orbits[index], u, v);
       Object.assign(state, { chosen: index, fraction: 0, isochrone: 0 });
+    }, () => {
+      this.announce(this.copies.note());
+      this.draw();
     });
+  }
+
+  /** The chosen start as a copy, that many times as large. */
+  scale(factor) {
+    const { store: { orbit, state }, copies } = this;
+    if (!orbit) return;
+    const { base, from } = copies.now ?? { base: orbit, from: {} };
+    const c = factor * sizeOf(orbit, base).c;
+    this.moveStart({ u: c * base.u, v: c * base.v }, state.chosen, from);
   }
 
   drawIsochrone(x, y) {
@@ -183,27 +201,9 @@ export class Plane {
     this.store.move({ isochrone: 0 });
   }
 
-  /** Keeps the window as it is, in this view. */
-  freeze(state) {
-    if (this.before === undefined) this.before = state.window;
-    state.window ??= this.store.portrait.window;
-  }
-
-  zoom(factor) {
-    this.act.ask((state) => {
-      this.freeze(state);
-      state.window = this.store.portrait.window.map((side) => Number((side * factor).toPrecision(4)));
-    });
-  }
-
-  /** Another view, in a window of its own. */
   view(name) {
     this.cross = null;
-    this.act.ask((state) => {
-      if (this.before !== undefined) state.window = this.before;
-      this.before = undefined;
-      state.view = name;
-    });
+    this.zooming.view(name);
   }
 
   // --- the cross that keys move -------------------------------------------------------------------------------------

@@ -9,13 +9,13 @@ const dash = [5, 4];
 /**
  * @typedef {OwnOrbit & {index: number, chosen: boolean, start: Float64Array | null}} Drawn  start: x and y in each panel
  * @param {{figure: Figure, own: Drawn[], isochrone: Float64Array[] | null, marker: {places: Float64Array, index: number} | null,
- *   cross: {panel: number, x: number, y: number} | null}} scene
+ *   cross: {panel: number, x: number, y: number} | null, ghosts?: {lines: Float64Array[]}[]}} scene  ghosts: of a pull
  * @returns the frames of the panels
  */
 export function drawPortrait(surface, scene, theme) {
-  const { figure, isochrone, marker, cross } = scene;
+  const { figure, isochrone, marker, cross, ghosts } = scene;
   // The orbits of the reader come with the figure.
-  const frames = surface.still([figure, isochrone, theme], figure.ground, () => drawStill(surface, scene, theme));
+  const frames = surface.still([figure, isochrone, ghosts, theme], figure.ground, () => drawStill(surface, scene, theme));
   frames.forEach((frame, i) => {
     if (marker) {
       const [x, y] = frame.pixel(marker.places, 2 * i);
@@ -115,7 +115,8 @@ function drawLegend(surface, figure, { legend, legendTop, lineHeight, sample }, 
 }
 
 /** The orbits of the reader and the isochrone that is dragged. */
-function drawOwn(surface, { figure, own, isochrone }, panel, frame, theme) {
+function drawOwn(surface, { figure, own, isochrone, ghosts = [] }, panel, frame, theme) {
+  for (const { lines } of ghosts) surface.shape(frame.lines(lines[panel]), { stroke: `${theme.swatch(own.at(-1)?.index ?? 0)}99`, width: 2 });
   if (isochrone) surface.shape(frame.lines(isochrone[panel]), { stroke: figure.ink, width: 2, dash: [2, 3] });
   for (const { panels, index, chosen, start } of own) {
     const lines = frame.lines(panels[panel].line);

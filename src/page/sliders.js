@@ -25,12 +25,12 @@ export function makeSliders(store, plane, { ask }) {
   };
   const slip = slider("slip", "slip", (fraction) => ask((state) => {
     move(state, () => ({ v: round(Math.max(fraction, 0.01) * largest(state).v) }));
-    plane.freeze(state);
+    plane.zooming.freeze(state);
   }));
   const spin = slider("spin", "spin", (fraction) => ask((state) => {
     const value = round(fraction * largest(state).spin);
     move(state, ({ u }) => ({ u: (u < 0 ? -1 : 1) * value * (state.ball?.radius ?? 1) }));
-    plane.freeze(state);
+    plane.zooming.freeze(state);
   }));
   const friction = slider("friction", "friction f", (fraction) => ask((state) => {
     state.ball.friction = round(Math.max(fraction, 0.002) * mostFriction);

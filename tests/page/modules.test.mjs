@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commandLine } from "../../src/page/command_line.js";
 import { citation, csvOfOrbits, csvOfRide, filmType } from "../../src/page/exports.js";
+import { sizeOf } from "../../src/page/copies.js";
 import { Frame } from "../../src/page/frame.js";
 import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
 import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, speaksOfNothing, startOf, takeBall, toFragment } from "../../src/page/page_state.js";
@@ -249,6 +250,16 @@ test("a table of orbits has the program's words for infinity, that of a ride the
   assert.equal(csvOfOrbits([motion]), "orbit,tau,u,v,ln_v,k\n1,0,1,2,0.5,2\n1,1,0,0,-inf,inf\n");
   const names = ["t", "x", "y", "vx", "vy", "wx", "wy", "wz", "slip", "energy"];
   assert.equal(csvOfRide(Object.fromEntries([...names, "rest"].map((name, i) => [name, [i, -i]]))), `${names}\n0,1,2,3,4,5,6,7,8,9\n0,-1,-2,-3,-4,-5,-6,-7,-8,-9\n`);
+});
+
+test("a start is a copy of another where both speeds are as many times as large", () => {
+  const near = ({ c, along }, wanted, isCopy) => assert.ok(Math.abs(c - wanted) < 1e-9 && along === isCopy, `${c} ${along}`);
+  near(sizeOf({ u: 2, v: 1 }, { u: 4, v: 2 }), 0.5, true);
+  near(sizeOf({ u: -8, v: 4 }, { u: -4, v: 2 }), 2, true);
+  near(sizeOf({ u: 0, v: 4 }, { u: 0, v: 2 }), 2, true);
+  near(sizeOf({ u: 3, v: 0 }, { u: 1, v: 0 }), 3, true);
+  for (const [u, v] of [[4, 1], [-4, 2], [2, 3], [4, 0]]) assert.ok(!sizeOf({ u, v }, { u: 4, v: 2 }).along, `${u}, ${v}`);
+  assert.ok(!sizeOf({ u: 1, v: 2 }, { u: 0, v: 2 }).along);
 });
 
 test("a frame leads from numbers to pixels and back, and a column breaks where it says", () => {

@@ -1,0 +1,119 @@
+// One curve: a start that is pulled runs through its copies, or changes curve, and the plane looks alike at every size.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { assertClose, close, drawn, open, page, pixelOf, programStop, state } from "./browser.mjs";
+
+const said = async () => (await page.textContent("#pointed")).trim();
+
+/** Pulls the chosen start through places that are as many times its own speeds. */
+async function pull(...steps) {
+  const { u, v } = await page.evaluate(() => globalThis.page.store.orbit);
+  await page.mouse.move(...await pixelOf(u, v));
+  await page.mouse.down();
+  for (const [x, y] of steps) await page.mouse.move(...await pixelOf(x * u, y * v));
+  await page.mouse.up();
+}
+
+/** Of the chosen motion and of what the pull has left behind: the start, the stop, and v over its start in parts of the time. */
+const curves = () => page.evaluate(() => {
+  const { plane: { copies }, store: { orbit, motion }, library: { plane } } = globalThis.page;
+  return [{ ...orbit, stop: motion.stop }, ...copies.ghosts].map(({ u, v, stop }) =>
+    ({ u, v, stop, shares: [0.2, 0.5, 0.9].map((part) => plane.instant(u, v, part * stop).v / v) }));
+});
+const picture = () => page.evaluate(() => document.getElementById("copies").toDataURL());
+
+test("along its ray a start runs through copies: one curve, c times as large, c times as long", async () => {
+  for (const fragment of ["", "#mu=0.9&orbits=0.8,1.5&window=2,3", "#body=disc&law=uniform&orbits=-0.8,0.7&window=1,1"]) {
+    await open(fragment);
+    const before = await page.evaluate(() => ({ ...globalThis.page.store.orbit, stop: globalThis.page.store.motion.stop }));
+    await pull([0.9, 0.92], [0.72, 0.7], [0.5, 0.52]);
+    const { orbits: [{ u, v }] } = await state();
+    assert.ok(u / before.u > 0.48 && u / before.u < 0.54);
+    assertClose(v / before.v, u / before.u, 1e-12, "both speeds by one factor");
+    const all = await curves();
+    assert.ok(all.length >= 6, `${all.length} curves`);
+    for (const { u: itsU, stop, shares } of all) {
+      assertClose(stop / before.stop, itsU / before.u, 1e-12, "c times as long");
+      shares.forEach((share, i) => assertClose(share, all[0].shares[i], 1e-9, "one line"));
+    }
+    const c = String(Number((u / before.u).toPrecision(3)));
+    assert.match(await said(), new RegExp(`^A copy, c = ${c}: it stops after .*, which is c times `));
+    await close();
+  }
+});
+
+test("across its ray it changes curve, and what it leaves behind fans out until something else is chosen", async () => {
+  await open("#body=disc&law=uniform&orbits=0.8,0.7;0.2,0.9&window=2,2");
+  const before = await picture();
+  await pull([0.9, 1.3], [0.6, 1.6], [0.4, 1.8]);
+  assert.match(await said(), /^Another curve: it stops after τ = [\d.]+; the first after τ = [\d.]+\.$/);
+  const { orbits: [{ u, v }] } = await state();
+  const all = await curves();
+  assertClose(all[0].stop, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "stop");
+  assert.ok(new Set(all.map(({ shares }) => shares[1].toFixed(3))).size >= 4, JSON.stringify(all));
+  assert.notEqual(await picture(), before);
+  assert.ok(await page.evaluate(() => globalThis.page.planeScene.ghosts.length > 4));
+  await page.click("#orbits li:nth-child(2) button");
+  assert.equal(await page.evaluate(() => globalThis.page.planeScene.ghosts.length), 0);
+  await close();
+});
+
+test("keys make copies, too, twice as large in two steps", async () => {
+  await open();
+  const { orbits: [before] } = await state();
+  await page.focus("#plane");
+  for (const key of ["]", "]", "[", "]"]) await page.keyboard.press(key);
+  const { orbits: [{ u, v }] } = await state();
+  assertClose(u / before.u, 2, 0.01, "u");
+  assertClose(v / before.v, u / before.u, 1e-12, "v");
+  assert.match(await said(), /^A copy, c = (2|1\.99|2\.01): it stops after 3\.[67]/);
+  await close();
+});
+
+test("zoomed for ever, the numbers run and the curves stand still, until something is pressed", async () => {
+  /** The curves of the plane in parts of the window, and the window. */
+  const seen = () => page.evaluate(() => {
+    const { planeScene: { figure: { panels: [{ lines }] } }, store: { portrait: { window: [U, V] } } } = globalThis.page;
+    return { U, lines: lines.filter(({ dashed }) => !dashed).map(({ lines }) => [...lines].map((value, i) => value / (i % 2 ? V : U))) };
+  });
+  const same = (a, b) => {
+    assert.deepEqual(a.lines.map((line) => line.length), b.lines.map((line) => line.length));
+    a.lines.forEach((line, i) => line.forEach((value, j) => assert.ok(Number.isNaN(value) || Math.abs(value - b.lines[i][j]) < 1e-3, `${value}, ${b.lines[i][j]}`)));
+  };
+  await open("#ball=puck&orbits=2.286,0.5", { reducedMotion: "no-preference" });
+  const before = await seen();
+  await page.click("#zoom-ever");
+  await page.waitForFunction((U) => globalThis.page.store.portrait.window[0] < U / 100, before.U);
+  assert.match(await said(), /^10[²³⁴⁵⁶] times closer/);
+  await page.mouse.click(5, 5);
+  await drawn();
+  const after = await seen();
+  await page.waitForTimeout(100);
+  assert.equal((await seen()).U, after.U);
+  await page.click("#fit");
+  assertClose((await seen()).U, before.U, 1e-12, "Fit");
+  await close();
+  await open("#ball=puck&orbits=2.286,0.5");
+  for (let decade = 1; decade <= 6; ++decade) {
+    await page.click("#zoom-ever");
+    const now = await seen();
+    assertClose(now.U, before.U / 10 ** decade, 1e-3, "without motion a decade");
+    same(now, before);
+  }
+  await close();
+});
+
+test("the tour's copies are copies", async () => {
+  await open();
+  for (let step = 1; step <= 2; ++step) {
+    await page.click("#step-on");
+    await page.waitForFunction((step) => globalThis.page.state.step === step, step);
+  }
+  const { orbits } = await state();
+  assert.equal(orbits.length, 3);
+  orbits.forEach(({ u, v }, i) => {
+    assertClose(u, orbits[0].u / 2 ** i, 1e-12, "u");
+    assertClose(v, orbits[0].v / 2 ** i, 1e-12, "v");
+  });
+  await close();
+});
