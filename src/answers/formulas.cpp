@@ -150,7 +150,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
     reject(text, text.size(), fmt::format("{} = is missing: {}", shape.left[found[0] ? 1 : 0], shape.sentence));
   }
   for (const auto& [name, value] : compiled_->parameters) {
-    const auto has = [&](const mu::Parser& formula) { return formula.GetUsedVar().contains(name); };
+    const auto has = [&name = name](const mu::Parser& formula) { return formula.GetUsedVar().contains(name); };
     if (std::ranges::none_of(compiled_->formulas, has)) {
       throw BadInput(fmt::format("no formula of {} has the parameter {}", quotation(text), quotation(name)));
     }
