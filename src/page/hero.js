@@ -76,9 +76,17 @@ export class Hero {
     this.titles = ["without spin", spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`];
     const { headline, story } = this.asked ? question : say(this.facts);
     write($("headline"), headline);
-    write($("story"), story);
+    this.tell(story);
     write($("dare-line"), dare[rolls ? "rolls" : "stops"]);
     $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${story}`);
+  }
+
+  /** The story, its words for the two bodies in their colours. */
+  tell(story) {
+    const { state: { chosen }, theme } = this.store;
+    const colours = { "One does not spin": theme.soft, "The other spins": theme.swatch(chosen) };
+    $("story").replaceChildren(...story.split(/(One does not spin|The other spins)/).map((part) =>
+      (colours[part] ? make("b", { textContent: part, style: `color: ${colours[part]}` }) : part)));
   }
 
   drawPatch(surface) {

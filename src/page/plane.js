@@ -32,7 +32,8 @@ export class Plane {
     });
     listen($("plane"), {
       hold: (x, y, kind) => this.startAt(x, y, kind),
-      pull: (x, y, index, from) => this.moveStart(this.pointed(x, y), index, from),
+      pull: (x, y, index, from) => this.moveStart(this.pointed(x, y), index, from, true),
+      release: () => store.move({ isochrone: 0 }),
       tap: (x, y, kind) => {
         this.cross = null;
         this.choose(x, y, kind);
@@ -164,14 +165,15 @@ export class Plane {
     }, () => done(this.announce(`Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`)));
   }
 
-  /** @param from  the same during one pull */
-  moveStart(at, index, from) {
+  /** @param from  the same during one pull @param held  all that stop at one time with it are shown */
+  moveStart(at, index, from, held = false) {
     if (!at) return;
     const { u, v } = this.copies.to(rounded(at, this.store.portrait), index, from);
+    const isochrone = held ? this.store.library.plane.stop(u, v) : 0;
     this.act.ask((state) => {
       this.zooming.freeze(state);
       state.orbits[index] = moved(state.orbits[index], u, v);
-      Object.assign(state, { chosen: index, fraction: 0, isochrone: 0 });
+      Object.assign(state, { chosen: index, fraction: 0, isochrone });
     }, () => {
       this.announce(this.copies.note());
       this.draw();

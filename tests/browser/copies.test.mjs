@@ -37,7 +37,7 @@ test("along its ray a start runs through copies: one curve, c times as large, c 
       shares.forEach((share, i) => assertClose(share, all[0].shares[i], 1e-9, "one line"));
     }
     const c = String(Number((u / before.u).toPrecision(3)));
-    assert.match(await said(), new RegExp(`^A copy, c = ${c}: it stops after .*, which is c times `));
+    assert.match(await said(), new RegExp(`^A copy, c = ${c}: it stops after .*, c times `));
     await close();
   }
 });
@@ -46,7 +46,7 @@ test("across its ray it changes curve, and what it leaves behind fans out until 
   await open("#body=disc&law=uniform&orbits=0.8,0.7;0.2,0.9&window=2,2");
   const before = await picture();
   await pull([0.9, 1.3], [0.6, 1.6], [0.4, 1.8]);
-  assert.match(await said(), /^Another curve: it stops after τ = [\d.]+; the first after τ = [\d.]+\.$/);
+  assert.match(await said(), /^Another curve: it stops after τ = [\d.]+, the first after τ = [\d.]+\.$/);
   const { orbits: [{ u, v }] } = await state();
   const all = await curves();
   assertClose(all[0].stop, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "stop");
@@ -55,6 +55,27 @@ test("across its ray it changes curve, and what it leaves behind fans out until 
   assert.ok(await page.evaluate(() => globalThis.page.planeScene.ghosts.length > 4));
   await page.click("#orbits li:nth-child(2) button");
   assert.equal(await page.evaluate(() => globalThis.page.planeScene.ghosts.length), 0);
+  await close();
+});
+
+test("while a start is held, all that stop at one time with it are a line through it", async () => {
+  await open("#body=disc&law=uniform&orbits=0.8,0.7&window=1,1");
+  const height = () => page.evaluate(() => document.getElementById("plane").clientHeight);
+  const before = await height();
+  await page.mouse.move(...await pixelOf(0.8, 0.7));
+  await page.mouse.down();
+  await page.mouse.move(...await pixelOf(0.5, 0.8), { steps: 3 });
+  const { orbits: [{ u, v }], isochrone } = await state();
+  assertClose(isochrone, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "its time");
+  const least = await page.evaluate(([u, v]) => {
+    const { planeScene: { isochrone: [line] }, library: { plane }, frames: [frame] } = globalThis.page;
+    const start = frame.pixel(plane.place(u, v));
+    return Math.min(...frame.lines(line).flatMap((part) => Array.from({ length: part.length / 2 }, (_, i) => Math.hypot(part[2 * i] - start[0], part[2 * i + 1] - start[1]))));
+  }, [u, v]);
+  assert.ok(least < 6, `${least} pixels beside it`);
+  assert.equal(await height(), before, "the plane stays as it is under the hand");
+  await page.mouse.up();
+  assert.equal((await state()).isochrone, 0);
   await close();
 });
 

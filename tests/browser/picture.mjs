@@ -38,7 +38,7 @@ async function film(page) {
 const light = { colorScheme: "light" };
 const dark = { colorScheme: "dark" };
 const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 1 };
-writeFileSync(join(out, "page.png"), await shot("", 0.3, light));
+writeFileSync(join(out, "page.png"), await shot("", 0.6, light));
 const shots = [
   ["", 0.4, light], ["", 0.15, { ...phone, ...light }], ["#ball=gel&view=pair&orbits=9,0.5;-4,0.5", 0.2, dark],
   ["#ball=pool&orbits=3,4,0.9,0.9&rollingFriction=0.01&part=whole", 1, light], ["#ball=puck&view=disc&orbits=7.62,0.5", 0.6, light], ["#ball=rubber&view=blowup", 0.3, light],

@@ -153,6 +153,22 @@ test("keys throw, Escape and a short way throw nothing, and a wheel beside the b
   await close();
 });
 
+test("the story has the two bodies in their colours", async () => {
+  for (const colorScheme of ["light", "dark"]) {
+    await open("#ball=puck&orbits=2.286,0.5;2,0.5&chosen=1", { colorScheme });
+    const { words, drawn: bodies } = await page.evaluate(() => {
+      const probe = document.body.appendChild(document.createElement("i"));
+      const seen = globalThis.page.hero.balls.map(({ colour }) => {
+        probe.style.color = colour;
+        return getComputedStyle(probe).color;
+      });
+      return { drawn: seen, words: [...document.querySelectorAll("#story b")].map((word) => [word.textContent, getComputedStyle(word).color]) };
+    });
+    assert.deepEqual(words, [["One does not spin", bodies[0]], ["The other spins", bodies[1]]]);
+    await close();
+  }
+});
+
 test("the dare: what came of a throw is what the library says, and the program", async () => {
   await open();
   assert.match(await page.textContent("#dare-line"), /You can't/);
