@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
 #include "data/isochrones.hpp"
 #include "data/lists.hpp"
 #include "data/round_numbers.hpp"
@@ -40,7 +41,8 @@ Window default_window(const ReducedSystem& system, View view, const std::vector<
   // Sliding and pivoting take the same time along the two borders: neither is squeezed against an axis. But beyond a k
   // that is large nothing happens: balls slide as if they did not spin.
   constexpr double large = 20;
-  return {1, round_down(std::min(system.pivoting_limit(1) / system.sliding_limit(1), large * system.mu()))};
+  const double sliding = system.sliding_limit(1) / (1 - system.drive());
+  return {1, round_down(std::min(system.pivoting_limit(1) / sliding, large * system.mu()))};
 }
 
 SpeedScale scale_of(const reduction::PhasePlane& plane, View view, Window window, bool linear) {
@@ -102,6 +104,12 @@ double last_where(Holds holds, double from, double step) {
     if (holds(from + step)) from += step;
   }
   return from;
+}
+
+/// Whether a curve has begun no later than at xi: with a drive orbits come from v = 0, not from infinity.
+bool begins(const reduction::SimilarityCurve& curve, const ReducedSystem& system, double xi) {
+  return system.drive() > 0 && curve.chart().log_far_ratio() == -infinity &&
+         curve.chart().log_ratio(xi) < reduction::least_log_ratio(system.law(), system.r(), system.drive());
 }
 
 PortraitOrbit columns(const Track& track) {
@@ -170,20 +178,25 @@ class OrbitTracer {
     struct Step {
       double place, across;
     };
-    // Places 0 to 1 are on the upper border, from there to 2 on the right one, downwards.
+    // Places 0 to 1 are on the upper border, from there to 2 on the right one, downwards; with a drive orbits begin on
+    // the lower one, too, which is no orbit then.
     const auto on_border = [this](double place) {
-      return place < 1 ? Seed{place * window_.u, std::log(window_.v)} : Seed{window_.u, scale_.ln_v(2 - place)};
+      if (place < 1) return Seed{place * window_.u, std::log(window_.v)};
+      return place < 2 ? Seed{window_.u, scale_.ln_v(2 - place)} : Seed{(3 - place) * window_.u, -infinity};
     };
     std::vector<Step> border{{0, 0}};
     constexpr int steps = 500;  // of a side
-    for (int i = 0; i < 2 * steps; ++i) {
+    const int all_steps = (system_.drive() > 0 ? 3 : 2) * steps;
+    for (int i = 0; i < all_steps; ++i) {
       const Seed at = on_border((i + 0.5) / steps);
       // Rates over their speeds depend on k alone, and below this one no more.
-      const double k = std::exp(std::max(ln_k(at), -20.0));
+      constexpr double lowest = -20;
+      const double k = std::exp(std::max(ln_k(at), lowest));
       const auto rate = system_.field({1 / system_.mu(), k});
       const double du = rate.u * system_.mu() * at.u / window_.u;
-      const double dv = rate.v / k * scale_.slope(at.ln_v);
-      const double across = std::abs(i < steps ? dv : du) / std::hypot(du, dv) / steps;
+      const double dv =
+          rate.v / k * scale_.slope(std::isinf(at.ln_v) ? std::log(system_.mu() * at.u) + lowest : at.ln_v);
+      const double across = std::abs(i < steps || i >= 2 * steps ? dv : du) / std::hypot(du, dv) / steps;
       border.push_back({static_cast<double>(i + 1) / steps, border.back().across + across});
     }
 
@@ -200,7 +213,7 @@ class OrbitTracer {
       const auto inside = [&](const Seed& at) { return flow_.solution().through(ln_k(at)) == curve; };
       if (std::ranges::any_of(result, inside)) continue;
       std::vector<Seed> sector;
-      for (int i = 0; i < 2 * steps; ++i) {
+      for (int i = 0; i < all_steps; ++i) {
         const Seed at = on_border((i + 0.5) / steps);
         if (inside(at)) sector.push_back(at);
       }
@@ -289,7 +302,8 @@ class OrbitTracer {
       return State{std::copysign(w / mu, point.u), w * std::exp(curve.chart().log_ratio(xi))};
     };
     const auto outside = [this](State state) { return !(std::abs(state.u) <= window_.u && state.v <= window_.v); };
-    return upstream(last_where([&](double xi) { return !outside(upstream(xi)); }, here, 1));
+    return upstream(
+        last_where([&](double xi) { return !begins(curve, system_, xi) && !outside(upstream(xi)); }, here, 1));
   }
 
   Track stepped(State start) const {
@@ -396,7 +410,10 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
   const double size = ln_size(here);
   constexpr double downstream = 30;
   const double first =
-      upstream > 0 ? last_where([&](double xi) { return ln_size(xi) < size + upstream; }, here, 1) : here;
+      upstream > 0
+          ? last_where([&](double xi) { return !begins(curve, flow.system(), xi) && ln_size(xi) < size + upstream; },
+                       here, 1)
+          : here;
   const double last = last_where([&](double xi) { return ln_size(xi) > size - downstream; }, here, -1);
   Track track{at(first)};
   // By u where it does not underflow: ln v - ln k has no digit left where orbits hug the axis.
@@ -423,7 +440,7 @@ PhasePortrait phase_portrait(const Flow& flow, const PortraitRequest& request) {
   const std::vector<double> times = round_times(flow, window, request);
   PhasePortrait portrait = portrait_in(flow, view, window, request, times);
   if (request.comparison) {
-    const ReducedSystem other(*request.comparison, system.mu(), system.inertia());
+    const ReducedSystem other(*request.comparison, system.mu(), system.inertia(), system.drive());
     portrait.comparisons.push_back(portrait_in(other, view, window, request, times));
     portrait.comparisons.back().scale = portrait.scale;
   }

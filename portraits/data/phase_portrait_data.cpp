@@ -47,6 +47,7 @@ Json origin_of(const PhasePortrait& portrait, const PortraitSource& source) {
             {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
             {"view", name(portrait.view)},
             {"window", {portrait.window.u, portrait.window.v}}};
+  if (system.drive() > 0) json["drive"] = system.drive();
   if (!source.version.empty()) json["version"] = source.version;
   if (!source.ball.empty()) json.update({{"ball", source.ball}, {"seconds_per_tau", source.seconds_per_tau}});
   return json;

@@ -69,17 +69,18 @@ void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
 
 /// The way of the motion along the circles of the points at infinity and of the blown-up origin.
 void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
-  std::vector<double> angles;  // of the invariant half-lines, from v = 0 to u = 0
+  std::vector<double> angles{0};  // of the invariant half-lines and of v = 0, from there to u = 0
   for (const reduction::SingularPoint& point : drawing.portrait.plane.points) {
     const double angle = std::atan(point.k);
-    if (angles.empty() || angle > angles.back()) angles.push_back(angle);
+    if (angle > angles.back()) angles.push_back(angle);
   }
   Arrows arrows{{}, drawing.palette.invariant};
+  const reduction::ReducedSystem& system = drawing.portrait.system();
   for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
     const double middle = (angles[i] + angles[i + 1]) / 2;
     const double k = std::tan(middle);
-    const auto [force, moment] = drawing.portrait.system().law()(reduction::slip_of_ratio(k));
-    const double turn = force - drawing.portrait.system().r() * k * moment > 0 ? -1 : 1;  // of theta
+    const auto [force, moment] = system.law()(reduction::slip_of_ratio(k));
+    const double turn = force - system.drive() - system.r() * k * moment > 0 ? -1 : 1;  // of theta
     for (double sign : {1.0, -1.0}) {
       for (double rho : {0.0, std::numeric_limits<double>::infinity()}) {
         if (rho == 0 && map.hole == 0) continue;
@@ -135,7 +136,7 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   const auto half_line = [&](double theta, double sign) {
     return Polyline{map.at(std::numeric_limits<double>::infinity(), theta, sign), map.at(0, theta, sign)};
   };
-  layers.add_invariant({half_line(0, 1), half_line(0, -1), half_line(pi / 2, 1)}, [&](double ln_k) {
+  layers.add_invariant({half_line(pi / 2, 1)}, {half_line(0, 1), half_line(0, -1)}, [&](double ln_k) {
     const double theta = std::atan(std::exp(ln_k));
     return std::vector{half_line(theta, 1), half_line(theta, -1)};
   });

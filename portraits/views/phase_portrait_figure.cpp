@@ -87,6 +87,10 @@ MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& c
   Figure& figure = mapped.figure;
   figure.title = caption.title.empty() ? title(portrait) : caption.title;
   figure.subtitle = !caption.subtitle.empty() ? caption.subtitle : portrait.scale.linear() ? layout.shows : bent_shows;
+  if (const double drive = portrait.system().drive(); drive > 0) {
+    figure.title += ",  drive " + math("ϱ = ") + number(drive);
+    if (caption.subtitle.empty() && layout.shows_driven) figure.subtitle = driven_shows;
+  }
   figure.size = size;
   figure.theme = drawing.palette.theme;
   for (MappedPanel& shown : layout.panels(drawing)) {

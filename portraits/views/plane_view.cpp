@@ -57,7 +57,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   layers.add_orbits();
   layers.add_isochrones();
   layers.add_field();
-  layers.add_invariant({{{-x, 0}, {0, 0}}, {{x, 0}, {0, 0}}, {{0, top}, {0, 0}}}, [&](double ln_k) {
+  layers.add_invariant({{{0, top}, {0, 0}}}, {{{-x, 0}, {0, 0}}, {{x, 0}, {0, 0}}}, [&](double ln_k) {
     const double slope = std::exp(ln_k) * drawing.portrait.system().mu() / unit;  // v over x
     return std::vector<Polyline>{{{x, slope * x}, {0, 0}}, {{-x, slope * x}, {0, 0}}};
   });
@@ -133,7 +133,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   layers.set_arrows(0.3, 2.5);
   layers.add_copies(copies, !right_half);
   layers.add_highlights();
-  layers.add_invariant({}, [U](double ln_k) {
+  layers.add_invariant({}, {}, [U](double ln_k) {
     return std::vector<Polyline>{{{-U, ln_k}, {0, ln_k}}, {{U, ln_k}, {0, ln_k}}};
   });
   return std::move(layers).finished();
@@ -218,7 +218,7 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   layers.add_copies(copies, false);
   const double low = std::min(panel.x.low, panel.y.low), high = std::max(panel.x.high, panel.y.high);
   layers.panel().lines.push_back({{{{low, low}, {high, high}}}, {drawing.palette.isochrone, 1.1, true}, math("k = 1")});
-  layers.add_invariant({}, [&](double ln_k) {
+  layers.add_invariant({}, {}, [&](double ln_k) {
     return std::vector<Polyline>{{{panel.y.high - ln_k, panel.y.high}, {panel.y.low - ln_k, panel.y.low}}};
   });
   layers.add_highlights();

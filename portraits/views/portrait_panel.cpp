@@ -105,11 +105,14 @@ void PortraitPanel::add_highlights() {
   }
 }
 
-void PortraitPanel::add_invariant(std::vector<Polyline> axes,
+void PortraitPanel::add_invariant(std::vector<Polyline> axes, const std::vector<Polyline>& pivoting,
                                   const std::function<std::vector<Polyline>(double ln_k)>& ray) {
   if (!drawing_.style.invariant) return;
+  const bool driven = drawing_.portrait.system().drive() > 0;
+  if (!driven) axes.insert(axes.begin(), pivoting.begin(), pivoting.end());
   if (!axes.empty()) {
-    panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 1.8, false}, "invariant axes"});
+    const Text legend = driven ? "invariant axis " + math("u = 0") : Text("invariant axes");
+    panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 1.8, false}, legend});
     add_heads(panel_.lines.back());
   }
   Lines attracting{{}, {drawing_.palette.comparison, 3, false}, "invariant ray " + math("k = k*")};

@@ -81,7 +81,8 @@ class PortraitPanel : public PanelLayers {
   void add_isochrones();
   /// @param axes  and
   /// @param ray   the lines of an invariant ray, by its ln k: orbits, in the way of the motion
-  void add_invariant(std::vector<Polyline> axes, const std::function<std::vector<Polyline>(double ln_k)>& ray);
+  void add_invariant(std::vector<Polyline> axes, const std::vector<Polyline>& pivoting,
+                     const std::function<std::vector<Polyline>(double ln_k)>& ray);
   void add_field();
 
   MappedPanel finished() && { return {std::move(panel_), std::move(map_)}; }

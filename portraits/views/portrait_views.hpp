@@ -47,6 +47,7 @@ struct ViewLayout {
   /// stretched. Null: in equal bands.
   std::pair<double, double> (*times)(const PhasePortrait&);
   Text shows;
+  bool shows_driven = false;  ///< whether with a drive it shows something else, driven_shows
 };
 
 /// The stop time of a state at distances x, y from the origin in logarithms: u = exp(x) V/mu, v = exp(y) V.
@@ -61,15 +62,17 @@ inline std::pair<double, double> far_times(const PhasePortrait& portrait) {
 }
 
 constexpr std::string_view plane_shows = "every orbit runs to the stop; the axes are orbits, too";
+constexpr std::string_view driven_shows =
+    "what only spins is driven to creep: orbits begin at v = 0, too, and every orbit runs to the stop";
 /// Where v has a SpeedScale.
 constexpr std::string_view bent_shows = "slip dies first, at nearly constant spin; then the spin runs down to the stop";
 
 /// All views, in the order in which they are listed.
 inline const std::array view_layouts{
-    ViewLayout{View::uv, "uv", "the paper's plane (u, v)", plane_view, 1, 190, 125, nullptr, plane_shows},
+    ViewLayout{View::uv, "uv", "the paper's plane (u, v)", plane_view, 1, 190, 125, nullptr, plane_shows, true},
     ViewLayout{View::patch, "patch",
                "(mu u, v): the rim speed of pivoting and the speed of sliding, on axes that compare", patch_view, 1,
-               190, 125, nullptr, "the two speeds at the rim of the patch: sliding and pivoting compare"},
+               190, 125, nullptr, "the two speeds at the rim of the patch: sliding and pivoting compare", true},
     ViewLayout{View::log, "log", "the same, both logarithmic", log_view, 1, 175, 130,
                [](const PhasePortrait& portrait) {
                  const auto [u, v] = portrait.window;
@@ -86,7 +89,7 @@ inline const std::array view_layouts{
     ViewLayout{View::blowup, "blowup", "the origin blown up: to a half-circle, and in the chart (u, ln k)", blowup_view,
                2, 280, 112, far_times, "the origin, blown up: each half-line joins a saddle to a node"},
     ViewLayout{View::disc, "disc", "the Poincare disc: the whole half-plane, infinity included", disc_view, 1, 210, 125,
-               far_times, "the Poincaré disc: every orbit is born at infinity and dies at the stop"},
+               far_times, "the Poincaré disc: every orbit is born at infinity and dies at the stop", true},
     ViewLayout{
         View::time, "time", "u, v and k against tau/tau*", time_view, 3, 270, 105, nullptr,
         "by scaling only " + math("k") + sub("0") + math(" = v") + sub("0") + math("/(μu") + sub("0") + ") matters"},
@@ -95,7 +98,7 @@ inline const std::array view_layouts{
         "u, ln v and tau against 1 + beta/beta_1, where 1/beta_1 = 40 mu^3 u0 + 105 pi v0 (ball, exact and pade)",
         regularised_view, 3, 270, 105, nullptr,
         "in " + math("β") + " (2.7) has no denominator, and rest is never reached: (2.8) gives the finite stop back"},
-    ViewLayout{View::pair, "pair", "the plane beside (u, ln k)", pair_view, 2, 300, 125, nullptr, plane_shows},
+    ViewLayout{View::pair, "pair", "the plane beside (u, ln k)", pair_view, 2, 300, 125, nullptr, plane_shows, true},
 };
 
 }  // namespace contensou::portraits

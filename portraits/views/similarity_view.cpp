@@ -50,7 +50,7 @@ MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<d
   };
   layers.add_copies(copies, false);
   const Axis& y = layers.panel().y;
-  layers.add_invariant({}, [&](double ln_k) {
+  layers.add_invariant({}, {}, [&](double ln_k) {
     const double x = abscissa(ln_k);
     return std::vector<Polyline>{{{x, y.high}, {x, y.low}}};
   });

@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// dD/dk at a zero k of D = Phi - r k Psi, k neither 0 nor infinity. A law gives no slope of its own: differences in
+/// dD/dk at a zero k of D = Phi - rho - r k Psi, k neither 0 nor infinity. A law gives no slope of its own: differences in
 /// ln k.
 double excess_slope(const Law& law, double r, double k) {
   const double ln_k = std::log(k);
@@ -100,7 +100,7 @@ PhasePlane phase_plane(const Flow& flow) {
   const double fall_pivoting = pivoting_rate * law.pivoting_moment() * mu * mu * weight(0);
   const double approach_pivoting =
       below_low == 0 ? 0 : sliding_rate * mu * weight(0) * (law.force_slope() - r * law.pivoting_moment());
-  add(InvariantDirection::pivoting, 0, fall_pivoting, approach_pivoting, below_low);
+  if (system.drive() == 0) add(InvariantDirection::pivoting, 0, fall_pivoting, approach_pivoting, below_low);
   if (terminal.ends.front().regime == TerminalRegime::zero) {
     const double order = law.force_slope() / (r * law.pivoting_moment()) - 1;
     plane.tangents.push_back({InvariantDirection::pivoting, 0, below_low == 0 ? 0 : std::max(0.0, order)});
@@ -116,7 +116,7 @@ PhasePlane phase_plane(const Flow& flow) {
     }
   }
 
-  const double fall_sliding = sliding_rate * 45 * pi * pi;
+  const double fall_sliding = sliding_rate * 45 * pi * pi * (1 - system.drive());
   const double approach_sliding = below_high == 0 ? 0 : fall_sliding * (r / terminal.high - 1);
   add(InvariantDirection::sliding, infinity, fall_sliding, approach_sliding, -below_high);
   if (terminal.ends.back().regime == TerminalRegime::infinity) {

@@ -128,8 +128,8 @@ constexpr Field<SingularPoint> point_fields[]{
      [](const SingularPoint& point) -> Json { return point.kind == reduction::SingularKind::saddle; }},
 };
 constexpr Field<PhasePlane> plane_fields[]{
-    {"mu_low", "", "r_low as a patch ratio of this body", [](const PhasePlane& plane) -> Json { return plane.mu_low; },
-     ""},
+    {"mu_low", "", "r_low as a patch ratio of this body; not with --drive",
+     [](const PhasePlane& plane) -> Json { return plane.points.front().k == 0 ? Json(plane.mu_low) : Json(); }, ""},
     {"mu_high", "", "r_high as one", [](const PhasePlane& plane) -> Json { return plane.mu_high; }, ""},
     {"tangent", "", "the half-line along which most orbits enter the origin",
      [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["half_line"]; }, ""},
@@ -189,9 +189,10 @@ std::string as_text(const ReducedSystem& system, const TerminalRatios& ratios, c
 }
 
 std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const Digits& digits) {
-  std::string text =
-      fmt::format("{}, the r of {} < mu < {}\n\n", heading(system, plane.terminal, "v = k mu |u| ", digits),
-                  digits(plane.mu_low), digits(plane.mu_high));
+  const bool driven = system.drive() > 0;
+  std::string text = heading(system, plane.terminal, "v = k mu |u| ", digits) +
+                     (driven ? fmt::format(", the r of mu = {}\n\n", digits(plane.mu_high))
+                             : fmt::format(", the r of {} < mu < {}\n\n", digits(plane.mu_low), digits(plane.mu_high)));
   const TextTable::Column number = TextTable::right(digits.width());
   TextTable table({TextTable::left(11), TextTable::left(9), number, number, number, number});
   table.add({"half-line", "at", "k", "q = v/|u|", "radial", "angular", "  kind"});
@@ -201,11 +202,13 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
   }
   text += table.text();
   text +=
-      "\n"
-      "radial, angular   eigenvalues of (2.7) in |u| and q = v/|u| (at u = 0 in v and |u|/v), divided by |u| (v);\n"
-      "                  at infinity 1/|u| (1/v) is the radial coordinate. (2.7) has no linear part at the origin\n"
-      "kind              a half-line is a separatrix of its saddle; u < 0 is the mirror image\n"
-      "every other orbit is born at infinity in an unstable node and enters the origin\n";
+      std::string(
+          "\n"
+          "radial, angular   eigenvalues of (2.7) in |u| and q = v/|u| (at u = 0 in v and |u|/v), divided by |u| (v);\n"
+          "                  at infinity 1/|u| (1/v) is the radial coordinate. (2.7) has no linear part at the origin\n"
+          "kind              a half-line is a separatrix of its saddle; u < 0 is the mirror image\n") +
+      fmt::format("every other orbit is born at infinity in an unstable node{} and enters the origin\n",
+                  driven ? ", or begins at v = 0," : "");
   for (std::size_t i = 0; i < plane.tangents.size(); ++i) {
     const auto& [direction, k, order] = plane.tangents[i];
     const auto& end = plane.terminal.ends[i];
@@ -243,6 +246,7 @@ Answer phase_plane_answer(const ReducedSystem& system) {
                             {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
                             {"r", system.r()}},
                 .text = [=](const Digits& digits) { return as_text(system, plane, digits); }};
+  if (system.drive() > 0) answer.members["drive"] = system.drive();
   answer.members.update(members_of(plane.terminal));
   answer.members.update(members_of(plane_fields, plane));
   for (const SingularPoint& point : plane.points) answer.rows.push_back(row_of(point_fields, point));

@@ -74,6 +74,7 @@ class PortraitCommand final : public Verb {
   void add_options(CLI::App& app) override {
     system_.add(app);
     start_.add(app);
+    start_.add_drive(app);
     law_.add(app);
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
     add_looks(app);

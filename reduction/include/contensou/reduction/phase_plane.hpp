@@ -60,9 +60,9 @@ struct EndTangent {
 /// The phase plane of (2.7), whole: what orbits are born at and what they die at.
 struct PhasePlane {
   TerminalRatios terminal;
-  double mu_low, mu_high;  ///< r_low and r_high as patch ratios of this body
+  double mu_low, mu_high;  ///< r_low and r_high as patch ratios of this body; with a drive mu_low counts for nothing
   /// By direction from v = 0 to u = 0, at each the origin first. Every half-line is an orbit from infinity to the
-  /// origin and joins a saddle to a node.
+  /// origin and joins a saddle to a node. With a drive v = 0 is none: orbits begin there.
   std::vector<SingularPoint> points;
   std::vector<EndTangent> tangents;  ///< of the orbits of each of terminal.ends
 };
