@@ -150,8 +150,9 @@ std::vector<MappedPanel> patch_view(const Drawing& drawing) {
 std::vector<MappedPanel> pair_view(const Drawing& drawing) {
   std::vector<MappedPanel> panels{half_plane(drawing, 1, math("u = R ω") + sub(math("z"))),
                                   contact_panel(drawing, false)};
-  panels.front().panel.title =
-      drawing.portrait.scale.linear() ? "the plane of Zh98, Fig. 4" : "the plane, " + math("v") + " bent";
+  panels.front().panel.title = !drawing.portrait.scale.linear()        ? "the plane, " + math("v") + " bent"
+                               : drawing.portrait.system().drive() > 0 ? "the plane"
+                                                                       : "the plane of Zh98, Fig. 4";
   return panels;
 }
 

@@ -12,6 +12,7 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/contact_cone.hpp"
+#include "contensou/si/course.hpp"
 #include "contensou/si/engine.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 
@@ -59,6 +60,8 @@ class MotionColumns {
         y += radius_ * value(turning_[0]);
       }
       instant.speeds.slip = std::hypot(x, y);
+      const double wx = turning_.empty() ? 0 : value(turning_[0]), wy = turning_.empty() ? 0 : value(turning_[1]);
+      instant.body = {{value(velocity_[0]), value(velocity_[1])}, {wx, wy, instant.speeds.spin}};
     } else {
       instant.speeds.slip = value(*slip_);
     }
@@ -112,7 +115,7 @@ std::vector<Instant> read_instants(CsvReader& table, const si::Ball& ball) {
 
 /// Compares a model with the rows.
 void compare(ModelBeside& model, const MotionsBeside& motions, double tolerance) {
-  for (const auto& [line, t, speeds] : motions.rows) {
+  for (const auto& [line, t, speeds, body] : motions.rows) {
     const si::SlipAndSpin modelled = model.motion(t - motions.rows.front().t);
     const auto take = [&, at = t](Deviation& deviation, double error, double unit) {
       if (error > deviation.error || std::isinf(deviation.t)) {
@@ -141,8 +144,16 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
   const std::vector<Instant> instants = read_instants(table, ball.ball);
   const si::SlipAndSpin first = instants.front().speeds;
   si::Description first_row;
-  first_row.set(si::slip, {first.slip}, {"", "slip of the first row", ""});
-  first_row.set(si::spin, {first.spin}, {"", "spin of the first row", ""});
+  // How it rolls matters where rolling resistance or a slope acts.
+  const bool driven = ball.contact.rolling_friction != 0 || ball.environment.slope != 0;
+  if (const auto& body = instants.front().body; driven && body) {
+    const auto& [velocity, w] = *body;
+    first_row.set(si::velocity, {velocity.x(), velocity.y()}, {"", "velocity of the first row", ""});
+    first_row.set(si::angular_velocity, {w.x(), w.y(), w.z()}, {"", "angular velocity of the first row", ""});
+  } else {
+    first_row.set(si::slip, {first.slip}, {"", "slip of the first row", ""});
+    first_row.set(si::spin, {first.spin}, {"", "spin of the first row", ""});
+  }
   si::Experiment experiment = ball;
   try {
     experiment = si::experiment_of(si::describe(ball).under(first_row).under(values));
@@ -170,15 +181,21 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
       return si::SlipAndSpin{point.slip, point.angular_velocity.z()};
     };
   };
-  add(law.name(), speeds_of(si::BallMotion(experiment, law)));
-  add("textbook (uncoupled)", speeds_of(si::UncoupledMotion(experiment, law)));
-  add("pyramid (engines)", [experiment, arm = si::contact_of(experiment, law).moment_arm()](double t) {
-    return si::speeds_under_pyramid(experiment, arm, t);
-  });
+  const auto under = [&](const reduction::Law& of) {
+    return speeds_of(si::Course<si::BallMotion>(experiment, {experiment, of}, 0, experiment.contact.rolling_friction));
+  };
+  add(law.name(), under(law));
+  add("textbook (uncoupled)", speeds_of(si::Course<si::UncoupledMotion>(experiment, {experiment, law}, 0,
+                                                                        experiment.contact.rolling_friction)));
+  if (!driven) {
+    add("pyramid (engines)", [experiment, arm = si::contact_of(experiment, law).moment_arm()](double t) {
+      return si::speeds_under_pyramid(experiment, arm, t);
+    });
+  }
   for (const reduction::Law& other : reduction::named_laws()) {
     if (other.name() == law.name()) continue;
     try {
-      add(other.name(), speeds_of(si::BallMotion(experiment, other)));
+      add(other.name(), under(other));
     } catch (const std::domain_error&) {
       // Its patch would have to be larger than the ball for the spin deceleration that was measured.
     }

@@ -34,6 +34,7 @@ struct Instant {
   long line;
   double t;  ///< s
   si::SlipAndSpin speeds;
+  std::optional<si::Velocities> body = {};  ///< of a rigid body
 };
 
 /// A table of a ball's motion beside those of a ball that starts as it does.

@@ -27,18 +27,6 @@ std::vector<State> built_in_starts(double mu) {
   return starts;
 }
 
-/// Takes the worse of two results of the same check; not a number is the worst.
-void merge(std::vector<Check>& worst, const std::vector<Check>& others) {
-  for (const Check& other : others) {
-    const auto same = std::ranges::find(worst, other.name, &Check::name);
-    if (same == worst.end()) {
-      worst.push_back(other);
-    } else if (!(other.measured <= same->measured) && !std::isnan(same->measured)) {
-      same->measured = other.measured;
-    }
-  }
-}
-
 const char* verdict(const Check& check) { return check.passed() ? "ok" : "FAIL"; }
 
 /// A number of the deviation that only a table has.
@@ -147,9 +135,20 @@ std::string as_text(const MotionsBeside& motions, const Digits& digits) {
 
 }  // namespace
 
+void take_worse(std::vector<Check>& worst, const std::vector<Check>& others) {
+  for (const Check& other : others) {
+    const auto same = std::ranges::find(worst, other.name, &Check::name);
+    if (same == worst.end()) {
+      worst.push_back(other);
+    } else if (!(other.measured <= same->measured) && !std::isnan(same->measured)) {
+      same->measured = other.measured;
+    }
+  }
+}
+
 std::vector<Check> built_in_checks(const reduction::Law& law) {
   std::vector<Check> worst;
-  for (double mu : built_in_patch_ratios) merge(worst, verify({{law, mu}}, built_in_starts(mu)));
+  for (double mu : built_in_patch_ratios) take_worse(worst, verify({{law, mu}}, built_in_starts(mu)));
   return worst;
 }
 

@@ -20,6 +20,9 @@ struct CheckedLaw {
 /// The checks of a law over a set of starts whose k0 runs from almost pure pivoting to almost pure sliding: the worst of each.
 std::vector<reduction::Check> built_in_checks(const reduction::Law& law);
 
+/// Takes the worse of two results of the same check; not a number is the worst.
+void take_worse(std::vector<reduction::Check>& worst, const std::vector<reduction::Check>& others);
+
 /// A row each.
 /// @param built_in  whether they are those of built_in_checks, of which the text says the starts
 Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in);

@@ -24,7 +24,7 @@ double lasting(const MotionsBeside& motions, double si::SlipAndSpin::*speed) {
   constexpr double next_to_nothing = 2e-3, more = 1.15;
   const double first = motions.rows.front().t;
   std::vector<double> sizes;
-  for (const auto& [line, t, speeds] : motions.rows) {
+  for (const auto& [line, t, speeds, body] : motions.rows) {
     sizes.push_back(std::max(std::abs(speeds.*speed), std::abs(motions.models.front().motion(t - first).*speed)));
   }
   const double little = next_to_nothing * *std::ranges::max_element(sizes);

@@ -49,14 +49,17 @@ std::vector<VerbFields> field_table() {
             "when and where the slip is below the threshold: --rolling-below, 0.001 m/s unless it is given"},
            {"`spin_ends` {`t`, `x`, `y`}", "s, m, m", "0 without spin"},
            {"`rest` {`t`, `x`, `y`}", "s, m, m",
-            "of the centre, with --rolling-friction: it turns no more and slides below 0.0001 m/s; of a puck, in place "
-            "of rolls_after"},
+            "of the centre, with --rolling-friction, or on a slope if it rests: it turns no more and slides below "
+            "0.0001 "
+            "m/s; of a puck, in place of rolls_after"},
            {"`slip_length`; `turns`; `path`", "m; 1; m",
             "slid by the contact point; about the vertical; of the centre until it rolls or rests"},
            {"`creeps` {`k`}", "",
-            "with --rolling-friction: the ratio v/(patch radius abs(wz)) that it tends to while it spins"},
+            "with --rolling-friction or --slope: the ratio v/(patch radius abs(wz)) that it tends to while it spins"},
            {"`energy_balance` {`start`, `lost_sliding`, `lost_spinning`, `kept`}", "J",
-            "kept: for rolling; `lost_rolling` with --rolling-friction"},
+            "kept: for rolling; `lost_rolling` with --rolling-friction; `gained_on_slope` with --slope; where it rolls "
+            "down "
+            "for ever, until slip and spin end"},
            {"`textbook`", "", "the same events, by the same threshold, where slip and spin do not know of each other"},
        }},
       {"roll --batch",
@@ -69,15 +72,16 @@ std::vector<VerbFields> field_table() {
            {"`slip_length`, `turns`, `path`", "m, 1, m",
             "slid by the contact point; about the vertical; of the centre until it rolls or rests"},
            {"`t_rest`, `x_rest`, `y_rest`", "s, m, m",
-            "rest of the centre, with --rolling-friction; of a puck, in place of t_rolls, x_rolls, y_rolls"},
+            "rest of the centre, with --rolling-friction, which holds it on the slope; of a puck, in place of t_rolls, "
+            "x_rolls, y_rolls"},
        }},
       {"portrait",
        {
            {"CSV `kind`, `index`; `u`, `v`, `ln_v`; `k`", "; speed; 1",
             "orbit, highlight, through, isochrone; number of the line; states on it"},
            {"`tau` (JSON `tau_left`, `tau_stop`); `t`", "speed; s", "time left; of a ball"},
-           {"`view`, `window` [U, V], `version`, `ball`, `seconds_per_tau`", "",
-            "where it comes from; the last two of a ball"},
+           {"`view`, `window` [U, V], `drive`, `version`, `ball`, `seconds_per_tau`", "",
+            "where it comes from; with a drive; the last two of a ball"},
        }},
       {"portrait --system",
        {
@@ -95,7 +99,7 @@ std::vector<VerbFields> field_table() {
       {"terminal", terminal_fields()},
       {"reduce",
        {
-           {"`system`", "", "--system, in place of law, mu and body"},
+           {"`system`; `drive`", "", "--system, in place of law, mu and body; with --drive"},
            {"`generators` [{`time`: c, `matrix`: A, `shift`: b}]; CSV `time`, `a11` ... `b2`", "",
             "c t d/dt + (A x + b) d/dx, x = (u, v); the first is what is reduced by"},
            {"`singular_values`; `level`; `gap`", "",

@@ -1,5 +1,7 @@
 #include "answers/portrait_spec.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -7,6 +9,41 @@
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::answers {
+
+namespace {
+
+/// A motion of several orbits as one line: at equal times, and towards the stop at equal ratios of the time left.
+portraits::PortraitOrbit one_line(const std::vector<si::ReducedPiece>& pieces) {
+  constexpr Eigen::Index of_piece = 300;
+  constexpr double folds = 30;
+  const double stop = si::stop_time(pieces);
+  const auto pieces_before = static_cast<Eigen::Index>(pieces.size()) - 1, rows = (pieces_before + 1) * of_piece + 1;
+  const Eigen::ArrayXd empty(rows);
+  portraits::PortraitOrbit orbit{empty, empty, empty, empty, empty};
+  const auto set = [&](Eigen::Index row, const reduction::OrbitPoint& point, double left) {
+    orbit.u[row] = point.u;
+    orbit.v[row] = point.v;
+    orbit.ln_v[row] = point.ln_v;
+    orbit.ln_k[row] = std::log(point.k);
+    orbit.tau_left[row] = left;
+  };
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const Eigen::Index piece = std::min(row / of_piece, pieces_before);
+    const double part = static_cast<double>(row - piece * of_piece) / of_piece;
+    const auto& here = pieces[static_cast<std::size_t>(piece)];
+    if (piece < pieces_before) {
+      const double tau = std::lerp(here.tau, pieces[static_cast<std::size_t>(piece) + 1].tau, part);
+      set(row, si::state_at(pieces, tau), stop - tau);
+    } else {
+      const double left = row + 1 == rows ? 0 : here.orbit.stop_time() * std::exp(-folds * part);
+      set(row, si::state_at_time_left(pieces, left), left);
+    }
+  }
+  orbit.ln_k[rows - 1] = orbit.ln_k[rows - 2];
+  return orbit;
+}
+
+}  // namespace
 
 portraits::PhasePortrait PortraitSpec::portrait() const {
   portraits::PortraitRequest asked = request;
@@ -17,7 +54,15 @@ portraits::PhasePortrait PortraitSpec::portrait() const {
     asked.isochrones = asked.isochrones.value_or(4);
   }
   if (experiment) asked.time_unit = 1 / si::seconds(*experiment, 1);
-  return portraits::phase_portrait(flow, asked);
+  portraits::PhasePortrait portrait = portraits::phase_portrait(flow, asked);
+  if (const auto orbits = pieces(); orbits.size() > 1) portrait.highlight = one_line(orbits);
+  return portrait;
+}
+
+std::vector<si::ReducedPiece> PortraitSpec::pieces() const {
+  if (!experiment || (experiment->contact.rolling_friction == 0 && experiment->environment.slope == 0)) return {};
+  if (!start || (start->u == 0 && start->v == 0)) return {};
+  return si::ResistedMotion(*experiment, flow.system().law(), experiment->contact.rolling_friction).pieces();
 }
 
 portraits::Figure PortraitSpec::figure(const portraits::PhasePortrait& portrait) const {

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/si/experiment.hpp"
+#include "contensou/si/resisted_motion.hpp"
 
 namespace contensou::answers {
 
@@ -31,6 +32,7 @@ struct PortraitSpec {
   portraits::PortraitSource source() const;
 
  private:
+  std::vector<si::ReducedPiece> pieces() const;  ///< the orbits of a ball with rolling friction or on a slope
   portraits::PortraitCaption caption(const portraits::PhasePortrait& portrait) const;
 };
 

@@ -194,7 +194,12 @@ ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::strin
 }
 
 ReduceAnswer reduce_answer(const GivenStart& given) {
-  const auto& [system, state, experiment] = given;
+  const auto& [system, state, experiment, resisted] = given;
+  if (given.pieces().size() > 1) {
+    throw BadInput(
+        "reduce is of one orbit, and rolling friction lets this ball turn for a part of its motion only: leave it out "
+        "(--rolling-friction 0), or ask for --mu, --u0, --v0 with --drive");
+  }
   if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
   const Vector2d start(state.u, state.v);
   // Sampled about k = 1, where both speeds change, whatever the start: by the scaling that is found all are alike.
@@ -215,7 +220,8 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   const auto ends_at = [&](double k) {
     return std::ranges::any_of(flow.terminal().ends, [k](const auto& end) { return end.k == k; });
   };
-  rays.push_back({{"k", 0}, {"attracts", ends_at(0)}});
+  const bool driven = system.drive() > 0;  // then v = 0 is no ray
+  if (!driven) rays.push_back({{"k", 0}, {"attracts", ends_at(0)}});
   for (const auto& ray : flow.terminal().rays) rays.push_back({{"k", ray.k}, {"attracts", ray.attracts()}});
   rays.push_back({{"k", infinity}, {"attracts", ends_at(infinity)}});
 
@@ -234,6 +240,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
                             {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
                             {"u0", state.u},
                             {"v0", state.v}}};
+  if (driven) answer.members["drive"] = system.drive();
   answer.members.update(members_of(found));
   // The axes are rays themselves: there q and p are limits, and the first integral has no value.
   std::optional<double> integral;
@@ -257,8 +264,8 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
     const double sliding = 2 * chi / (3 * pi), pivoting = 2 * gamma * mu / (3 * pi), r = system.r();
     std::string text = fmt::format("system      law {}, mu = {}, chi = {}, gamma = {}, r = {}; k = v/({} |u|)\n",
                                    system.law().name(), digits(mu), digits(chi), digits(gamma), digits(r), digits(mu));
-    text += fmt::format("(2.6)       du/dtau = -{} Psi(k) sign(u),  dv/dtau = -{} Phi(k)\n", digits(pivoting),
-                        digits(sliding));
+    text += fmt::format("(2.6)       du/dtau = -{} Psi(k) sign(u),  dv/dtau = -{} {}\n", digits(pivoting),
+                        digits(sliding), driven ? fmt::format("(Phi(k) - {})", digits(system.drive())) : "Phi(k)");
     text += fmt::format("(2.7)       du/dbeta = W du/dtau,  dv/dbeta = W dv/dtau,  smooth at u = v = 0\n");
     text += fmt::format("(2.8)       dtau = W dbeta,  W = ({} |u| + {} v) ({} |u| + {} v)\n", digits(16 * mu),
                         digits(15 * pi), digits(8 * mu), digits(3 * pi));
@@ -272,7 +279,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
     text += integral
                 ? fmt::format("integral    ln |u| - ln w(k) = {}, the same along the orbit\n", digits(*integral))
                 : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
-    if (integral && system.law().as<reduction::PadeLaw>() != nullptr && r < 2) {
+    if (integral && !driven && system.law().as<reduction::PadeLaw>() != nullptr && r < 2) {
       const double a = r / (2 - r), b = a - r / (5 - r), A = 8 * (2 - r), B = 3 * pi * (5 - r);
       const double k = state.v / (mu * std::abs(state.u));
       text += fmt::format("orbit       |u| k^-{} ({} + {} k)^{} = {}\n", digits(a), digits(A), digits(B), digits(b),

@@ -1,6 +1,7 @@
 #include "answers/stop_answer.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "answers/ball_answer.hpp"
+#include "answers/errors.hpp"
 #include "answers/law_forms.hpp"
 #include "answers/text_table.hpp"
 #include "contensou/reduction/hertz_law.hpp"
@@ -16,6 +18,7 @@
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/si/course.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -28,15 +31,30 @@ struct OtherLaw {
   double tau;
 };
 
+/// tau of a ball with rolling friction or on a slope.
+double tau_of(const si::Experiment& experiment, const reduction::Law& law) {
+  const si::ResistedMotion motion(experiment, law, experiment.contact.rolling_friction);
+  return motion.stop_time() / si::seconds(experiment, 1);
+}
+
+/// The stop time of a start with the same patch under another law.
+double tau_under(const GivenStart& start, const reduction::Law& law) {
+  const reduction::ReducedSystem& system = start.system;
+  if (start.pieces().size() < 2)
+    return reduction::Flow({law, system.mu(), system.inertia(), system.drive()}).stop_time(start.state).tau;
+  si::Experiment experiment = *start.experiment;
+  experiment.contact.patch = si::PatchRadius{si::patch_radius_of(experiment, system.law())};
+  return tau_of(experiment, law);
+}
+
 /// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say
 /// nothing, nor where only one speed is: there they are one law.
 std::optional<OtherLaw> other_law(const GivenStart& start) {
-  const auto& [system, state, experiment] = start;
+  const auto& [system, state, experiment, resisted] = start;
   const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
   if (!start.slides_and_spins() || (!is_pade && !system.law().as<reduction::HertzLaw>())) return std::nullopt;
   const reduction::Law& other = reduction::paper_laws()[is_pade ? 0 : 1];
-  const reduction::Flow flow({other, system.mu(), system.inertia(), system.drive()});
-  return OtherLaw{other.name(), flow.stop_time(state).tau};
+  return OtherLaw{other.name(), tau_under(start, other)};
 }
 
 /// What a table of pressures says with every other row left out: interpolation costs no more if its rows sample a curve.
@@ -46,13 +64,12 @@ struct CoarserTable {
 };
 
 std::optional<CoarserTable> coarser_table(const GivenStart& start) {
-  const auto& [system, state, experiment] = start;
+  const auto& [system, state, experiment, resisted] = start;
   const auto* table = system.law().as<reduction::TabulatedPressureLaw>();
   if (table == nullptr || !start.slides_and_spins()) return std::nullopt;
   const auto coarser = table->coarser();
   if (!coarser) return std::nullopt;
-  const reduction::Flow flow({*coarser, system.mu(), system.inertia(), system.drive()});
-  return CoarserTable{coarser->rows(), flow.stop_time(state).tau};
+  return CoarserTable{coarser->rows(), tau_under(start, *coarser)};
 }
 
 struct StopReport {
@@ -68,14 +85,43 @@ struct StopReport {
 };
 
 /// tau of a body that does not slide at the start; with a drive it begins to.
-double pivoting_only(const reduction::ReducedSystem& system, double u) {
-  return system.drive() > 0 ? reduction::Flow(system).stop_time({u, 0}).tau : system.pivoting_limit(u);
+double pivoting_only(const GivenStart& start) {
+  const auto& [system, state, experiment, resisted] = start;
+  if (resisted && state.u != 0) {
+    si::Experiment still = *experiment;
+    still.start = si::SlipAndSpin{0, si::spin_at_start(*experiment)};
+    return tau_of(still, system.law());  // in place, or down the slope
+  }
+  return system.drive() > 0 ? reduction::Flow(system).stop_time({state.u, 0}).tau : system.pivoting_limit(state.u);
+}
+
+double sliding_only(const GivenStart& start) {
+  const auto& [system, state, experiment, resisted] = start;
+  if (start.pieces().size() < 2) return system.sliding_limit(state.v) / (1 - system.drive());
+  si::Experiment without_spin = *experiment;
+  si::Velocities velocities = si::velocities_of(experiment->start);
+  velocities.angular_velocity.z() = 0;
+  without_spin.start = velocities;
+  return tau_of(without_spin, system.law());
 }
 
 /// The integral of v dtau until the stop.
 double slip_length(const reduction::Flow& flow, reduction::State start) {
   const reduction::Orbit orbit = flow.orbit(start);
   return orbit.slip_length(orbit.stop_time());
+}
+
+/// How a ball moves when slip and spin have ended.
+si::FinalMotion final_motion(const GivenStart& start) {
+  if (!start.resisted) return si::final_motion(*start.experiment);
+  const si::MotionPoint end = start.resisted->at_time(start.resisted->stop_time());
+  return {end.velocity, end.angular_velocity};
+}
+
+/// Where the centre rests, of a ball with rolling friction, or of a body on a slope; none if it rolls on for ever.
+std::optional<si::Event> rest_of(const GivenStart& start) {
+  if (!start.resisted || std::isinf(start.resisted->rest_time())) return std::nullopt;
+  return si::Event{start.resisted->rest_time(), start.resisted->rest_position()};
 }
 
 /// What an estimate is too long by; 0 where both are infinite.
@@ -97,12 +143,23 @@ constexpr Field<StopReport> fields[]{
        return {{"chi", chi}, {"gamma", gamma}};
      },
      nullptr, 1, " {`chi`, `gamma`}"},
-    {"drive", "", "with --drive",
+    {"drive", "", "with --drive, rolling friction or a slope",
      [](const StopReport& r) -> Json {
        const double drive = r.start.system.drive();
        return drive > 0 ? Json(drive) : Json();
      },
      nullptr, 4},
+    {"pieces", "speed, 1",
+     "of a ball that rolling friction ceases to let turn, or begins to: from which tau on it turns",
+     [](const StopReport& r) -> Json {
+       const auto pieces = r.start.pieces();
+       if (pieces.size() < 2) return {};
+       Json list = Json::array();
+       for (const si::ReducedPiece& piece : pieces)
+         list.push_back({{"tau", piece.tau}, {"turns", piece.turns}, {"drive", piece.system.drive()}});
+       return list;
+     },
+     "", 0, " [{`tau`, `turns`, `drive`}]"},
     {"u0", "speed", "R omega_z at the start", [](const StopReport& r) -> Json { return r.start.state.u; }},
     {"v0", "speed", "sliding speed at the start", [](const StopReport& r) -> Json { return r.start.state.v; }},
     {"tau_stop", "speed", "when slip and spin end", [](const StopReport& r) -> Json { return r.stop.tau; }},
@@ -111,9 +168,9 @@ constexpr Field<StopReport> fields[]{
     // f g t, without the paper's factor 3 pi/2
     {"T_stop", "speed", "f g t_stop = 2 tau_stop/(3 pi)",
      [](const StopReport& r) -> Json { return r.stop.tau / (1.5 * std::numbers::pi); }, nullptr, 2},
-    {"bounds", "speed", "of tau_stop, proved",
+    {"bounds", "speed", "of tau_stop, proved; not of one in pieces",
      [](const StopReport& r) {
-       return Json::array({r.stop.bounds.lower, r.stop.bounds.upper});
+       return r.start.pieces().size() > 1 ? Json() : Json::array({r.stop.bounds.lower, r.stop.bounds.upper});
      },
      "lower,upper", 0, " [lower, upper]"},
     {"limits", "speed", "tau_stop of a body with u0 = 0, with v0 = 0",
@@ -157,13 +214,19 @@ constexpr Field<StopReport> fields[]{
      nullptr, 4},
     {"final", "m/s, 1/s", "of a ball: how it rolls then",
      [](const StopReport& r) {
-       return of_ball(r, [](const auto& ball) -> Json {
-         const auto [velocity, angular_velocity] = si::final_motion(ball);
+       return of_ball(r, [&](const auto& /*ball*/) -> Json {
+         const auto [velocity, angular_velocity] = final_motion(r.start);
          return {{"velocity", std::vector(velocity.begin(), velocity.end())},
                  {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
        });
      },
      "", 0, " {`velocity` [x, y], `angular_velocity` [x, y, z]}"},
+    {"rest", "s, m, m", "of a ball with rolling friction or on a slope: when and where its centre rests, if it does",
+     [](const StopReport& r) -> Json {
+       const auto rest = rest_of(r.start);
+       return rest ? Json{{"t", rest->t}, {"x", rest->place.x()}, {"y", rest->place.y()}} : Json();
+     },
+     "", 0, " {`t`, `x`, `y`}"},
 };
 
 /// The report for people.
@@ -180,7 +243,7 @@ class Text {
 
  private:
   std::string heading() const {
-    const auto& [system, state, experiment] = report_.start;
+    const auto& [system, state, experiment, resisted] = report_.start;
     if (!experiment) {
       return fmt::format(
           "mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}{}", number_(system.mu()), number_(state.u),
@@ -190,7 +253,25 @@ class Text {
     return ball_heading(*experiment, system.law(), number_) +
            fmt::format("slip {} m/s, spin {} rad/s: u0 = {} m/s, v0 = {} m/s\n",
                        number_(si::slip_at_start(*experiment)), number_(si::spin_at_start(*experiment)),
-                       number_(state.u), number_(state.v));
+                       number_(state.u), number_(state.v)) +
+           resistance(*experiment);
+  }
+
+  /// What else acts on a ball.
+  std::string resistance(const si::Experiment& experiment) const {
+    std::string text;
+    if (const double u_r = experiment.contact.rolling_friction; u_r != 0)
+      text += fmt::format("rolling friction {}\n", number_(u_r));
+    if (const double slope = experiment.environment.slope; slope != 0)
+      text += fmt::format("slope {} degrees, {} along x\n", number_(slope), slope > 0 ? "uphill" : "downhill");
+    for (const si::ReducedPiece& piece : report_.start.pieces()) {
+      text += fmt::format("from {} s on {}, with a drive of {} of f N\n", number_(si::seconds(experiment, piece.tau)),
+                          piece.turns                        ? "it turns as it slides"
+                          : experiment.ball.body.lies_flat() ? "it slides"
+                                                             : "rolling resistance keeps it from turning",
+                          number_(piece.system.drive()));
+    }
+    return text;
   }
 
   bool is_ball() const {
@@ -231,8 +312,10 @@ class Text {
                         : fmt::format("numerical error {} {:.0e} of it", pressures() ? "some" : "below",
                                       rounded_up(report_.stop.accuracy)));
     if (!report_.start.slides_and_spins()) return table.text();
-    row("at least", report_.stop.bounds.lower);
-    row("at most", report_.stop.bounds.upper);
+    if (report_.start.pieces().size() < 2) {
+      row("at least", report_.stop.bounds.lower);
+      row("at most", report_.stop.bounds.upper);
+    }
     row("sliding only", report_.sliding_only, "limit u0 = 0");
     row("spinning only", report_.pivoting_only, "limit v0 = 0");
     const auto beside = [&](const std::string& label, double other, const std::string& more) {
@@ -281,7 +364,7 @@ class Text {
   }
 
   std::string ending() const {
-    const auto& [system, state, experiment] = report_.start;
+    const auto& [system, state, experiment, resisted] = report_.start;
     if (!experiment && system.drive() > 0) return driven_ending();
     if (!experiment) {
       const double chi = system.inertia().chi;
@@ -292,11 +375,18 @@ class Text {
     if (experiment->ball.body.lies_flat()) {
       return fmt::format("then   it lies still, {} m from its start\n", number_(report_.slip_length));
     }
-    const auto [velocity, angular_velocity] = si::final_motion(*experiment);
-    return fmt::format(
-        "then   it rolls: velocity {} m/s, angular velocity {} 1/s\n       ({}, z up)\n", number_.list(velocity),
-        number_.list(angular_velocity),
-        std::holds_alternative<si::SlipAndSpin>(experiment->start) ? "x along the initial slip" : "axes of the start");
+    const auto [velocity, angular_velocity] = final_motion(report_.start);
+    std::string text;
+    if (resisted) {
+      const auto rest = rest_of(report_.start);
+      text = rest ? fmt::format("rests  after {} s at {} m\n", number_(rest->t), number_.list(rest->place))
+                  : "rests  never: it rolls down the slope, faster and faster\n";
+      if (rest && rest->t < resisted->stop_time()) return text + "then   it spins in place until its spin ends\n";
+    }
+    return text + fmt::format("then   it rolls: velocity {} m/s, angular velocity {} 1/s\n       ({}, z up)\n",
+                              number_.list(velocity), number_.list(angular_velocity),
+                              std::holds_alternative<si::SlipAndSpin>(experiment->start) ? "x along the initial slip"
+                                                                                         : "axes of the start");
   }
 
   std::string driven_ending() const {
@@ -318,11 +408,38 @@ class Text {
 
 }  // namespace
 
+namespace {
+
+/// The stop time of several orbits, one after the other; each ends where a root says, to 50 bits.
+reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
+  double accuracy = 0;
+  long evaluations = 0;
+  for (const si::ReducedPiece& piece : pieces) {
+    constexpr double of_root = 0x1p-48;
+    accuracy += piece.orbit.accuracy() + of_root;
+    evaluations += piece.orbit.evaluations();
+  }
+  return {si::stop_time(pieces), accuracy, evaluations, {0, std::numeric_limits<double>::infinity()}};
+}
+
+}  // namespace
+
 std::vector<FieldText> stop_fields() { return texts_of(fields); }
 
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate) {
   using Estimates = std::vector<reduction::StopEstimate>;
-  const auto& [system, state, experiment] = start;
+  const auto& [system, state, experiment, resisted] = start;
+  const auto pieces = start.pieces();
+  if (pieces.size() > 1) {
+    if (route != reduction::Route::quadrature) {
+      throw BadInput(fmt::format(
+          "--route {}: with this rolling friction the motion is {} orbits, one after the other, which quadrature alone "
+          "joins; 'contensou roll --route integrated' gives them in steps of time",
+          name(route), pieces.size()));
+    }
+    if (estimate)
+      throw BadInput("--estimate is of a motion without rolling friction and without a slope: leave it out");
+  }
   const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;
   std::optional<reduction::Flow> flow;
   if (route == reduction::Route::quadrature) {
@@ -332,13 +449,17 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
   }
   const StopReport report{start,
                           route,
-                          stepped ? reduction::stop_time(system, state, route) : flow->stop_time(state),
-                          system.sliding_limit(state.v) / (1 - system.drive()),
-                          pivoting_only(system, state.u),
+                          pieces.size() > 1 ? in_pieces(pieces)
+                          : stepped         ? reduction::stop_time(system, state, route)
+                                            : flow->stop_time(state),
+                          sliding_only(start),
+                          pivoting_only(start),
                           other_law(start),
                           coarser_table(start),
                           estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
-                          experiment ? si::seconds(*experiment, slip_length(*flow, state)) : 0};
+                          resisted     ? resisted->slip_length()
+                          : experiment ? si::seconds(*experiment, slip_length(*flow, state))
+                                       : 0};
   return {.members = members_of(fields, report), .rows = {row_of(fields, report)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();
           }};

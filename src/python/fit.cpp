@@ -84,6 +84,7 @@ void bind_fit(py::module_& module) {
     track.start = track.t.size() > 0 ? track.t[0] : 0;
     for (const auto& [name, values, sd] : series)
       track.series.push_back({one_of("observable", "observables", kinds, name), column_of(values), column_of(sd)});
+    si::require_undriven(ball, "fit");
     fit::FitRequest request{.ball = ball,
                             .law = InterruptibleLaw(std::make_shared<const reduction::Law>(law)),
                             .tracks = {track},

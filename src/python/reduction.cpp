@@ -84,14 +84,14 @@ si::Body body_of(const std::variant<std::string, std::pair<double, double>>& giv
 }
 
 Flow flow_of(const std::optional<Law>& law, std::optional<double> mu,
-             const std::variant<std::string, std::pair<double, double>>& given) {
+             const std::variant<std::string, std::pair<double, double>>& given, double drive) {
   const si::Body body = body_of(given);
   if (!mu) mu = body.patch_ratio;
   if (!mu) throw std::domain_error("mu is missing: the radius of the contact patch over that of the body");
   if (const std::string complaint = body.complaint(*mu); !complaint.empty()) {
     throw std::domain_error(fmt::format("mu = {}: {}", *mu, complaint));
   }
-  return reduction::ReducedSystem(law ? *law : law_of_name(std::string(body.law)), *mu, body.inertia);
+  return reduction::ReducedSystem(law ? *law : law_of_name(std::string(body.law)), *mu, body.inertia, drive);
 }
 
 /// Into `out`, contiguous and as many as there are starts. What is no start becomes NaN.
@@ -171,6 +171,7 @@ void bind_reduction(py::module_& module) {
       .def(py::init(&flow_of), Released())
       .def_property_readonly("law", [](const Flow& flow) { return flow.system().law(); })
       .def_property_readonly("mu", [](const Flow& flow) { return flow.system().mu(); })
+      .def_property_readonly("drive", [](const Flow& flow) { return flow.system().drive(); })
       .def(
           "stop_time",
           [](const Flow& flow, double u, double v) {

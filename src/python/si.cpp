@@ -156,6 +156,10 @@ void bind_si(py::module_& module) {
           "flow",
           [](const si::Experiment& experiment, const Law& law) { return Flow(si::reduced_system(experiment, law)); },
           Released())
+      .def(
+          "undriven_flow",
+          [](const si::Experiment& experiment, const Law& law) { return Flow(si::undriven_system(experiment, law)); },
+          Released())
       .def_property_readonly("gravity", [](const si::Experiment& experiment) { return experiment.environment.gravity; })
       .def_property_readonly("slip", &si::slip_at_start)
       .def_property_readonly("spin", &si::spin_at_start)
@@ -188,6 +192,7 @@ void bind_si(py::module_& module) {
       [](const si::Experiment& experiment, const Law& law, const std::optional<std::string>& name) {
         std::vector<std::pair<std::string, const si::Engine*>> engines;
         for (const si::Engine& engine : si::engines()) engines.emplace_back(engine.name, &engine);
+        si::require_undriven(experiment, "engine");
         const si::Engine* const only = name ? one_of("engine", "engines", engines, *name) : nullptr;
         return portraits::json_document(answers::engine_answer(experiment, law, only).members);
       },

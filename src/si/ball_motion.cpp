@@ -11,7 +11,7 @@
 namespace contensou::si {
 
 BallMotion::BallMotion(const Experiment& experiment, const reduction::Law& law)
-    : BallMotion(experiment, reduction::Flow(reduced_system(experiment, law))) {}
+    : BallMotion(experiment, reduction::Flow(undriven_system(experiment, law))) {}
 
 BallMotion::BallMotion(const Experiment& experiment, const reduction::Flow& flow)
     : experiment_(experiment),

@@ -204,7 +204,8 @@ Experiment experiment_of(const Description& described) {
   experiment.contact.patch = patch_of(described, body);
   experiment.start = start_of(described);
   if (const Description::Values* newtons = described.find(load)) {
-    experiment.environment = {.gravity = newtons->numbers[0] / experiment.ball.mass, .load = newtons->numbers[0]};
+    experiment.environment.load = newtons->numbers[0];
+    experiment.environment.gravity = newtons->numbers[0] / experiment.ball.mass;
   } else if (const Description::Values* given = described.find(gravity)) {
     experiment.environment.gravity = given->numbers[0];
   }

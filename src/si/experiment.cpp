@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -14,13 +15,24 @@
 
 namespace contensou::si {
 
-static_assert(gravity.standard == Environment{}.gravity && rolling_friction.standard == 0);
+static_assert(gravity.standard == Environment{}.gravity && rolling_friction.standard == 0 && slope.standard == 0);
+
+double pressing(const Environment& environment) {
+  const double degrees = environment.slope;
+  return degrees == 0 ? environment.gravity : environment.gravity * std::cos(degrees * (std::numbers::pi / 180));
+}
+
+Eigen::Vector2d pull(const Environment& environment) {
+  const double degrees = environment.slope;
+  return {degrees == 0 ? 0 : -environment.gravity * std::sin(degrees * (std::numbers::pi / 180)), 0};
+}
 
 double* member_of(Experiment& experiment, const Quantity& quantity) {
   const std::pair<const Quantity*, double*> members[]{{&mass, &experiment.ball.mass},
                                                       {&radius, &experiment.ball.radius},
                                                       {&friction, &experiment.contact.friction},
-                                                      {&rolling_friction, &experiment.contact.rolling_friction}};
+                                                      {&rolling_friction, &experiment.contact.rolling_friction},
+                                                      {&slope, &experiment.environment.slope}};
   const auto* const found = std::ranges::find(members, &quantity, &std::pair<const Quantity*, double*>::first);
   return found == std::end(members) ? nullptr : found->second;
 }
@@ -47,10 +59,10 @@ std::vector<GivenQuantity> given_by(Experiment experiment) {
     add(velocity, centre.x(), centre.y());
     add(angular_velocity, body.x(), body.y(), body.z());
   }
-  if (const auto& [g, newtons] = experiment.environment; newtons) {
+  if (const auto& newtons = experiment.environment.load) {
     add(load, *newtons);
   } else {
-    add(gravity, g);
+    add(gravity, experiment.environment.gravity);
   }
   return given;
 }
@@ -74,10 +86,11 @@ double patch_radius_of(const Experiment& experiment, const reduction::Law& law) 
   } else if (std::holds_alternative<WholeFace>(contact.patch)) {
     patch = ball.radius;
   } else if (const auto* measured = std::get_if<SpinDeceleration>(&contact.patch)) {
+    // Measured where it can spin in place, on a level plane.
     patch = patch_radius_of_deceleration(ball.radius, measured->value, contact.friction, environment.gravity,
                                          law.pivoting_moment(), ball.body.inertia.gamma);
   } else {
-    patch = hertz_patch_radius(ball.mass * environment.gravity, ball.radius, std::get<HertzModuli>(contact.patch));
+    patch = hertz_patch_radius(ball.mass * pressing(environment), ball.radius, std::get<HertzModuli>(contact.patch));
   }
   if (patch > 0 && patch <= ball.radius) return patch;
   throw std::domain_error(
@@ -113,7 +126,16 @@ void require_experiment(const Experiment& experiment) {
     for (double value : values) require(*quantity, value);
   }
   require(gravity, experiment.environment.gravity);
+  if (experiment.environment.load && experiment.environment.slope != 0) {
+    throw std::domain_error(
+        "a load and a slope exclude each other: how hard gravity pulls down the slope is not said; give gravity, or no "
+        "slope");
+  }
   if (experiment.ball.body.lies_flat()) {
+    if (experiment.contact.rolling_friction != 0) {
+      throw std::domain_error(fmt::format("a {} lies flat and never rolls: it has no rolling_friction, got {}",
+                                          experiment.ball.body.name, experiment.contact.rolling_friction));
+    }
     if (std::holds_alternative<HertzModuli>(experiment.contact.patch)) {
       throw std::domain_error(
           fmt::format("a {} lies flat: Hertz's formula is of a ball; give patch_radius, or nothing for the whole face",

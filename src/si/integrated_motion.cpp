@@ -226,7 +226,7 @@ IntegratedMotion integrate_motion(const Experiment& experiment, const reduction:
       .m = experiment.ball.mass,
       .tilting = (chi - 1) / experiment.ball.mass,
       .J_z = experiment.ball.mass * R * R / gamma,
-      .normal_friction = experiment.contact.friction * experiment.ball.mass * experiment.environment.gravity,
+      .normal_friction = experiment.contact.friction * experiment.ball.mass * pressing(experiment.environment),
       .eps = patch_radius_of(experiment, law),
       .turn = std::copysign(1.0, spin),
       .along = v0 > 0 ? Vector2d(contact / v0) : Vector2d(1, 0),

@@ -18,7 +18,8 @@ std::size_t Quantity::count() const { return 1 + static_cast<std::size_t>(std::r
 const std::vector<const Quantity*>& quantities() {
   static const std::vector<const Quantity*> all{
       &mass,          &radius, &friction, &rolling_friction, &patch_radius,     &spin_deceleration, &youngs_modulus,
-      &poisson_ratio, &slip,   &spin,     &velocity,         &angular_velocity, &gravity,           &load};
+      &poisson_ratio, &slip,   &spin,     &velocity,         &angular_velocity, &gravity,           &load,
+      &slope};
   return all;
 }
 
@@ -89,6 +90,8 @@ void require(const Quantity& quantity, double value) {
         return {value >= 0, "finite and >= 0"};
       case positive:
         return {value > 0, "finite and > 0"};
+      case tilt:
+        return {value > -90 && value < 90, "above -90 and below 90"};
       case poisson_ratio:
         break;
     }

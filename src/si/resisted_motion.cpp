@@ -1,6 +1,7 @@
 // Notation: c slip, W rolling velocity R (omega_y, -omega_x), V = c + W that of the centre, w = eps |omega_z|,
-// k = |c|/w, e = c/|c|, a = u_r g. Friction and rolling resistance give (reduction/README.md, (R53))
-//   V' = -f g Phi e,   W' = (chi - 1) f g Phi e - chi a W/|W|,   c' = V' - W'
+// k = |c|/w, e = c/|c|, a = u_r g, d the pull of a slope; on one g stands for g cos(alpha). Friction, rolling resistance and
+// the pull give (reduction/README.md, (R53), (R54))
+//   V' = -f g Phi e + d,   W' = (chi - 1) f g Phi e - chi a W/|W|,   c' = V' - W'
 #include "contensou/si/resisted_motion.hpp"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +21,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/si/scaling.hpp"
+#include "pure_rolling.hpp"
 
 namespace contensou::si {
 
@@ -61,35 +64,50 @@ struct State {
   }
 };
 
-/// So many seconds after a ball that no longer slides rolled as it does in `from`.
-/// @param resisting  u_r g
-State braked(const State& from, double seconds, double resisting, const Vector2d& along) {
+/// So many seconds after what no longer slides nor spins was as it is in `from`.
+State rolled_on(const State& from, double seconds, const PureRolling& rolling) {
+  const PureRolling::Here here = rolling.after(seconds);
   State now = from;
   now.slip.setZero();
-  const double speed = from.rolling.norm();
-  const double whole = speed / resisting, rolling = std::min(seconds, whole);
-  const double way = (speed - resisting * rolling / 2) * rolling;
-  now.rolling = rolling < whole ? Vector2d((speed - resisting * rolling) * along) : Vector2d(0, 0);
-  now.advance(way, way, along);
+  now.spin = 0;
+  now.rolling = here.velocity;
+  now.position += here.way;
+  now.path += here.path;
+  now.rolled += here.path;
   return now;
 }
 
 /// What does not change.
 struct Given {
-  Given(const Experiment& given, const Law& of_law, double rolling_friction)
+  Given(const Experiment& given, const Law& of_law, std::shared_ptr<ResistedFlows> known)
       : experiment(given),
         law(of_law),
         radius(given.ball.radius),
         patch(patch_radius_of(given, of_law)),
         inertia(given.ball.body.inertia),
-        drive(rolling_friction / given.contact.friction),
-        sliding(given.contact.friction * given.environment.gravity),
-        resisting(rolling_friction * given.environment.gravity) {}
+        drive(given.contact.rolling_friction / given.contact.friction),
+        sliding(given.contact.friction * pressing(given.environment)),
+        resisting(given.contact.rolling_friction * pressing(given.environment)),
+        down(pull(given.environment)),
+        flows(known ? std::move(known) : std::make_shared<ResistedFlows>()) {}
+
+  /// Phi up to which rolling resistance keeps a ball that does not turn from turning: of a body that lies flat any.
+  double holding() const {
+    return experiment.ball.body.lies_flat() ? std::numeric_limits<double>::infinity()
+                                            : inertia.chi * drive / (inertia.chi - 1);
+  }
 
   /// Whether friction turns a ball that does not turn.
   bool turns(double slip, double spin) const {
+    if (holding() == 0) return true;
     const double k_force = slip > 0 ? law({slip, patch * std::abs(spin)}).force : 0;
-    return (inertia.chi - 1) * k_force > inertia.chi * drive;
+    return k_force > holding();
+  }
+
+  /// What follows when it neither slides nor spins.
+  PureRolling rolling_on(const State& from) const {
+    const Vector2d rolls = (1 - 1 / inertia.chi) * down;
+    return {from.rolling, rolls, experiment.ball.body.lies_flat() ? 0 : resisting};
   }
 
   double tau_per_second() const { return 1 / seconds(experiment, 1); }
@@ -101,15 +119,51 @@ struct Given {
   double drive;      ///< u_r/f
   double sliding;    ///< f g
   double resisting;  ///< u_r g
+  Vector2d down;     ///< m/s^2, the pull
+  std::shared_ptr<ResistedFlows> flows;
 };
 
 }  // namespace
 
+Flow ResistedFlows::of(bool turning, const std::function<Flow()>& made) {
+  const std::lock_guard lock(guard_);
+  auto& flow = turning ? turning_ : held_;
+  if (!flow) flow = made();
+  return *flow;
+}
+
+reduction::OrbitPoint state_at(const std::vector<ReducedPiece>& pieces, double tau) {
+  double beta = 0;
+  for (std::size_t i = 0;; ++i) {
+    const ReducedPiece& piece = pieces[i];
+    const bool last = i + 1 == pieces.size();
+    if (!last && tau >= pieces[i + 1].tau) {
+      beta += piece.orbit.at_time(pieces[i + 1].tau - piece.tau).beta;
+      continue;
+    }
+    reduction::OrbitPoint point = piece.orbit.at_time(std::max(0.0, tau - piece.tau));
+    point.tau = tau;
+    point.beta += beta;
+    return point;
+  }
+}
+
+reduction::OrbitPoint state_at_time_left(const std::vector<ReducedPiece>& pieces, double left) {
+  const ReducedPiece& last = pieces.back();
+  const double stop = stop_time(pieces), tau = stop - left;
+  if (!(left >= 0 && tau >= 0))
+    throw std::domain_error(fmt::format("state_at_time_left: 0 to {} is allowed, got {}", stop, left));
+  if (!(left <= last.orbit.stop_time())) return state_at(pieces, tau);
+  reduction::OrbitPoint point = last.orbit.at_time_left(left);
+  point.tau = tau;
+  if (pieces.size() > 1) point.beta += state_at(pieces, last.tau).beta;
+  return point;
+}
+
 /// How a motion is known.
 class ResistedMotion::Course {
  public:
-  Course(const Experiment& experiment, const Law& law, double rolling_friction)
-      : body_(experiment, law, rolling_friction) {}
+  explicit Course(Given given) : body_(std::move(given)) {}
   Course(const Course&) = delete;
   Course& operator=(const Course&) = delete;
   virtual ~Course() = default;
@@ -117,6 +171,7 @@ class ResistedMotion::Course {
   virtual bool is_reduced() const = 0;
   virtual std::optional<double> creep_ratio() const = 0;
   virtual State at(double t) const = 0;
+  virtual std::vector<ReducedPiece> pieces() const { return {}; }
 
   const Given& body() const { return body_; }
   double stop() const { return stop_; }
@@ -139,72 +194,82 @@ class ResistedMotion::Course {
 
 namespace {
 
-/// A ball that rolls the way it slides.
+/// A drive of 1 or more, under which sliding alone does not end.
+struct DrivenOut {};
+
+/// A ball that slides the way it rolls, straight down if there is a slope, in pieces: while it turns, while resistance
+/// holds it, and when it slides no more.
 class Straight final : public ResistedMotion::Course {
  public:
-  Straight(const Experiment& experiment, const Law& law, double rolling_friction, const State& start,
-           const Vector2d& along)
-      : Course(experiment, law, rolling_friction), along_(along) {
+  Straight(Given given, const State& start, const Vector2d& along)
+      : Course(std::move(given)), along_(along), drives_(drives_along(body_.experiment, along, body_.inertia.chi)) {
     State here = start;
     double t = 0;
-    const double slip = here.slip.norm();
-    if (here.rolling.norm() > 0 || body_.turns(slip, here.spin)) {
-      if (slip > 0 || here.spin != 0) {
-        const Flow driven = flow(body_.inertia, body_.drive);
-        const auto& end = driven.terminal().end_of(1);
-        if (here.spin != 0 && end.regime == reduction::TerminalRegime::ray) creep_ratio_ = end.k;
-        add(t, Kind::turns, here, driven.orbit({body_.radius * here.spin, slip}));
-        const double stop = seconds(body_.experiment, pieces_.back().orbit->stop_time());
-        const auto turning = [&](double at_t) { return at(at_t).rolling.dot(along_); };
-        constexpr double first = 1e-9;
-        t = turning(stop) < 0 ? crossing(turning, start.rolling.norm() > 0 ? 0 : first * stop, stop) : stop;
-        here = at(t);
-        if (t < stop) {
-          here.rolling.setZero();
-        } else {
-          here.slip.setZero();
-          here.spin = 0;
-        }
-        sample(0, t);
-      }
-      if (here.rolling.norm() > 0) {
-        stop_ = t;
-        rest_ = t + here.rolling.norm() / body_.resisting;
-        add(t, Kind::rolls, here, {});
-        return;
-      }
+    bool turning = here.rolling.norm() > 0 || body_.turns(here.slip.norm(), here.spin);
+    while (here.slip.norm() > 0 || here.spin != 0) {
+      const Flow driven = flow(turning);
+      const auto end = driven.terminal().end_of(1);
+      const bool creeps = here.spin != 0 && driven.system().drive() > 0 && end.regime == reduction::TerminalRegime::ray;
+      if (creeps && (pieces_.empty() || !pieces_.front().turns)) creep_ratio_ = end.k;
+      const reduction::State speeds{body_.radius * here.spin, here.slip.norm()};
+      pieces_.push_back({t, turning, here, driven.system(), speeds, driven.orbit(speeds)});
+      const Piece& piece = pieces_.back();
+      const double stop = t + seconds(body_.experiment, piece.orbit.stop_time());
+      // What begins to turn goes on to (R55).
+      const bool goes_on = turning && pieces_.size() > 1;
+      const std::optional<double> changes = goes_on   ? std::nullopt
+                                            : turning ? ceases_to_turn(piece, stop)
+                                                      : begins_to_turn(piece);
+      const double until = changes.value_or(stop);
+      sample(t, until);
+      here = at(until);
+      t = until;
+      if (!changes) break;
+      if (turning) here.rolling.setZero();
+      turning = !turning;
     }
-    const reduction::Inertia puck{.chi = 1, .gamma = body_.inertia.gamma};
-    const double faster = here.slip.norm();
-    add(t, Kind::held, here, flow(puck, 0).orbit({body_.radius * here.spin, faster}));
-    const Orbit& held = *pieces_.back().orbit;
-    stop_ = t + seconds(body_.experiment, held.stop_time());
-    rest_ = here.spin == 0 ? stop_ : t + seconds(body_.experiment, held.time_of_v(resting_slip));
-    sample(t, stop_);
+    stop_ = t;
+    here.slip.setZero();
+    here.spin = 0;
+    const bool held = !pieces_.empty() && !pieces_.back().turns;
+    if (held) here.rolling.setZero();
+    last_ = here;
+    rolls_.emplace(body_.rolling_on(here));
+    rest_ = stop_ + rolls_->rest_time();
+    if (held && rest_ == stop_ && start.spin != 0)
+      rest_ = pieces_.back().t + seconds(body_.experiment, pieces_.back().orbit.time_of_v(resting_slip));
   }
 
   bool is_reduced() const override { return true; }
   std::optional<double> creep_ratio() const override { return creep_ratio_; }
 
+  std::vector<ReducedPiece> pieces() const override {
+    std::vector<ReducedPiece> result;
+    for (const Piece& piece : pieces_)
+      result.push_back({piece.t * body_.tau_per_second(), piece.turns, piece.system, piece.speeds, piece.orbit});
+    return result;
+  }
+
   State at(double t) const override {
+    if (rolls_ && t >= stop_) return rolled_on(last_, t - stop_, *rolls_);
     const auto after = std::ranges::upper_bound(pieces_, t, {}, &Piece::t);
     const Piece& piece = after == pieces_.begin() ? *after : *std::prev(after);
     const double passed = t - piece.t;
-    if (piece.kind == Kind::rolls) return braked(piece.start, passed, body_.resisting, along_);
     State now = piece.start;
     const double v0 = now.slip.norm(), W0 = now.rolling.norm();
-    const double tau = std::min(passed * body_.tau_per_second(), piece.orbit->stop_time());
-    const Orbit::Instant instant = piece.orbit->instant(tau);
+    const double tau = std::min(passed * body_.tau_per_second(), piece.orbit.stop_time());
+    const Orbit::Instant instant = piece.orbit.instant(tau);
     const double slid = seconds(body_.experiment, instant.slip_length);
     now.slip = instant.v * along_;
     now.spin = instant.u / body_.radius;
     now.slip_length += slid;
     now.turned += seconds(body_.experiment, instant.turned) / body_.radius;
     double way = slid;
-    if (piece.kind == Kind::turns) {
+    if (piece.turns) {
       const double chi = body_.inertia.chi;
-      const double centre = v0 + W0 - (v0 - instant.v) / chi - body_.resisting * passed;
-      way = (v0 + W0) * passed - (v0 * passed - slid) / chi - body_.resisting * passed * passed / 2;
+      const double slowing = body_.resisting - (1 - 1 / chi) * body_.down.dot(along_);
+      const double centre = v0 + W0 - (v0 - instant.v) / chi - slowing * passed;
+      way = (v0 + W0) * passed - (v0 * passed - slid) / chi - slowing * passed * passed / 2;
       now.rolling = (centre - instant.v) * along_;
     }
     now.advance(way, way - slid, along_);
@@ -212,21 +277,57 @@ class Straight final : public ResistedMotion::Course {
   }
 
  private:
-  enum class Kind { turns, held, rolls };
   struct Piece {
     double t;
-    Kind kind;
+    bool turns;
     State start;
-    std::optional<Orbit> orbit;
+    ReducedSystem system;
+    reduction::State speeds;
+    Orbit orbit;
   };
 
-  Flow flow(reduction::Inertia inertia, double drive) const {
-    const double counts = drive < ReducedSystem::least_drive ? 0 : drive;
-    return ReducedSystem(body_.law, body_.patch / body_.radius, inertia, counts);
+  /// @throws DrivenOut
+  Flow flow(bool turning) const {
+    const reduction::Inertia puck{.chi = 1, .gamma = body_.inertia.gamma};
+    const double drive = turning ? drives_.turning() : drives_along(body_.experiment, along_, puck.chi).slope;
+    if (drive >= 1) throw DrivenOut();
+    return body_.flows->of(turning, [&] {
+      const double counts = drive < ReducedSystem::least_drive ? 0 : drive;
+      return Flow(ReducedSystem(body_.law, body_.patch / body_.radius, turning ? body_.inertia : puck, counts));
+    });
   }
 
-  void add(double t, Kind kind, const State& start, std::optional<Orbit> orbit) {
-    pieces_.push_back({t, kind, start, std::move(orbit)});
+  /// s at which a piece passes the k at which friction is what resistance holds.
+  std::optional<double> passes_holding(const Piece& piece) const {
+    const double force = body_.holding();
+    if (!(force > 0 && force < 1) || piece.orbit.on_axis()) return std::nullopt;
+    constexpr double far = 100;
+    const auto excess = [&](double ln_k) { return body_.law(reduction::slip_of_ratio(std::exp(ln_k))).force - force; };
+    if (excess(-far) >= 0 || excess(far) <= 0) return std::nullopt;
+    const double ln_k = crossing(excess, -far, far);
+    const auto [low, high] = std::minmax({piece.orbit.start_log_ratio(), piece.orbit.chart().log_terminal_ratio()});
+    if (!(low < ln_k && ln_k < high)) return std::nullopt;
+    return piece.t + seconds(body_.experiment, piece.orbit.at_log_ratio(ln_k).tau);
+  }
+
+  /// s at which rolling ends before slip and spin do.
+  std::optional<double> ceases_to_turn(const Piece& piece, double stop) const {
+    if (body_.resisting == 0) return std::nullopt;
+    const auto turning = [&](double t) { return at(t).rolling.dot(along_); };
+    // Between these it does nothing but grow, or fall.
+    constexpr double first = 1e-9;
+    double from = piece.start.rolling.norm() > 0 ? piece.t : piece.t + first * (stop - piece.t);
+    for (const double to : {passes_holding(piece).value_or(from), stop}) {
+      if (turning(to) < 0) return turning(from) > 0 ? crossing(turning, from, to) : from;
+      from = to;
+    }
+    return std::nullopt;
+  }
+
+  /// s at which friction begins to turn what resistance held.
+  std::optional<double> begins_to_turn(const Piece& piece) const {
+    const auto t = passes_holding(piece);
+    return t && piece.orbit.start_log_ratio() < piece.orbit.chart().log_terminal_ratio() ? t : std::nullopt;
   }
 
   void sample(double from, double to) {
@@ -235,7 +336,10 @@ class Straight final : public ResistedMotion::Course {
   }
 
   Vector2d along_;
+  Drives drives_;
   std::vector<Piece> pieces_;
+  State last_;
+  std::optional<PureRolling> rolls_;
   std::optional<double> creep_ratio_;
 };
 
@@ -245,8 +349,7 @@ using Progress = std::array<double, 11>;
 /// Any ball.
 class Integrated final : public ResistedMotion::Course {
  public:
-  Integrated(const Experiment& experiment, const Law& law, double rolling_friction, const State& start)
-      : Course(experiment, law, rolling_friction), turn_(std::copysign(1.0, start.spin)) {
+  Integrated(Given given, const State& start) : Course(std::move(given)), turn_(std::copysign(1.0, start.spin)) {
     run(start);
   }
 
@@ -278,9 +381,9 @@ class Integrated final : public ResistedMotion::Course {
     const Vector2d e = v > 0 ? Vector2d(slip / v) : Vector2d(0, 0);
     const Vector2d heading = turning > 0 ? Vector2d(rolling / turning) : e;
     const double chi = body_.inertia.chi;
-    const Vector2d centre = -body_.sliding * phi * e;
-    const Vector2d roll = held ? Vector2d(0, 0) : Vector2d((1 - chi) * centre - chi * body_.resisting * heading);
-    const Vector2d contact = centre - roll;
+    const Vector2d friction = -body_.sliding * phi * e;
+    const Vector2d roll = held ? Vector2d(0, 0) : Vector2d((1 - chi) * friction - chi * body_.resisting * heading);
+    const Vector2d contact = friction + body_.down - roll;
     const double mu = body_.patch / body_.radius;
     const Vector2d velocity = slip + rolling;
     rate = {
@@ -294,14 +397,7 @@ class Integrated final : public ResistedMotion::Course {
             x[9],         x[10]};
   }
 
-  State after_stop(double t) const {
-    State now = state_of(steps_.back().x);
-    now.slip.setZero();
-    now.spin = 0;
-    const double speed = now.rolling.norm();
-    if (speed == 0) return now;
-    return braked(now, t - stop_, body_.resisting, now.rolling / speed);
-  }
+  State after_stop(double t) const { return rolled_on(state_of(steps_.back().x), t - stop_, *rolls_); }
 
   void run(const State& start) {
     constexpr double tolerance = 1e-12;
@@ -327,6 +423,7 @@ class Integrated final : public ResistedMotion::Course {
       if (steps == step_limit)
         throw std::runtime_error(fmt::format("ResistedMotion: {} steps were not enough to reach the stop", steps));
       const double before = t;
+      const Progress x_before = x;
       double trial = std::min(step, (v + x[4]) / body_.sliding);
       while (stepper.try_step([&](const Progress& at_x, Progress& rate, double) { equations(at_x, rate, held); }, x, t,
                               trial) == odeint::fail) {
@@ -334,43 +431,61 @@ class Integrated final : public ResistedMotion::Course {
           throw std::runtime_error("ResistedMotion: the step size fell to nothing: the friction law is not a number");
       }
       step = std::max(trial, t - before);
+      // Where friction begins to turn it a step ends.
+      constexpr double short_enough = 1e-7;
+      const bool turns_now = held && body_.turns(std::hypot(x[0], x[1]), x[4] / body_.patch);
+      if (turns_now && t - before > short_enough * size / body_.sliding) {
+        step = (t - before) / 4;
+        t = before;
+        x = x_before;
+      }
     }
     stop_ = t;
-    const double turning = std::hypot(x[2], x[3]);
-    rest_ = turning > 0 ? stop_ + turning / body_.resisting : start.spin == 0 ? stop_ : slip_time(resting_slip);
+    rolls_.emplace(body_.rolling_on(state_of(x)));
+    rest_ = stop_ + rolls_->rest_time();
+    if (rest_ == stop_ && start.spin != 0) rest_ = slip_time(resting_slip);
   }
 
   double turn_;
   std::vector<Step> steps_;
+  std::optional<PureRolling> rolls_;
 };
 
-std::shared_ptr<const ResistedMotion::Course> course_of(const Experiment& experiment, const Law& law,
-                                                        double rolling_friction, bool in_steps) {
+std::shared_ptr<const ResistedMotion::Course> course_of(Experiment experiment, const Law& law, double rolling_friction,
+                                                        bool in_steps, std::shared_ptr<ResistedFlows> flows) {
+  experiment.contact.rolling_friction = rolling_friction;
   require_experiment(experiment);
-  if (experiment.ball.body.lies_flat())
-    throw std::domain_error("a body that lies flat never rolls: it has no rolling friction");
-  if (!(rolling_friction > 0 && std::isfinite(rolling_friction)))
-    throw std::domain_error(fmt::format("ResistedMotion: rolling friction > 0 is required, got {}", rolling_friction));
+  if (rolling_friction == 0 && experiment.environment.slope == 0)
+    throw std::domain_error("ResistedMotion: rolling friction > 0 or a slope is required, got 0 and 0");
+  require_stop(experiment);
   const auto [velocity, angular_velocity] = velocities_of(experiment.start);
   const Vector2d slip = slip_at_start(experiment) > 0 ? slip_velocity_at_start(experiment) : Vector2d(0, 0);
-  const State start{.slip = slip, .rolling = velocity - slip, .spin = angular_velocity.z()};
-  const double v = slip.norm(), turning = start.rolling.norm();
+  const bool flat = experiment.ball.body.lies_flat();
+  const State start{
+      .slip = slip, .rolling = flat ? Vector2d(0, 0) : Vector2d(velocity - slip), .spin = angular_velocity.z()};
   constexpr double parallel = 1e-12;
-  const Vector2d along = v > 0 ? Vector2d(slip / v) : turning > 0 ? Vector2d(start.rolling / turning) : Vector2d(1, 0);
-  const bool straight = start.rolling.dot(along) >= (1 - parallel) * turning;
-  // A puck's k falls to the end.
-  const Given body(experiment, law, rolling_friction);
-  const double mu = body.patch / body.radius;
-  const bool held_to_the_end = body.inertia.gamma * mu * mu <= law.force_slope() / law.pivoting_moment();
-  if (!in_steps && straight && held_to_the_end && body.drive < 1)
-    return std::make_shared<Straight>(experiment, law, rolling_friction, start, along);
-  return std::make_shared<Integrated>(experiment, law, rolling_friction, start);
+  const Vector2d along = direction_at_start(experiment);
+  const Vector2d down = pull(experiment.environment);
+  const bool straight = start.rolling.dot(along) >= (1 - parallel) * start.rolling.norm() &&
+                        down.dot(along) >= (1 - parallel) * down.norm();
+  Given given(experiment, law, std::move(flows));
+  if (!in_steps && straight) {
+    try {
+      return std::make_shared<Straight>(given, start, along);
+    } catch (const DrivenOut&) {
+      // It speeds up for a while.
+    }
+  }
+  return std::make_shared<Integrated>(std::move(given), start);
 }
 
 }  // namespace
 
-ResistedMotion::ResistedMotion(const Experiment& experiment, const Law& law, double rolling_friction, bool in_steps)
-    : course_(course_of(experiment, law, rolling_friction, in_steps)) {}
+ResistedMotion::ResistedMotion(const Experiment& experiment, const Law& law, double rolling_friction, bool in_steps,
+                               std::shared_ptr<ResistedFlows> flows)
+    : course_(course_of(experiment, law, rolling_friction, in_steps, std::move(flows))) {}
+
+std::vector<ReducedPiece> ResistedMotion::pieces() const { return course_->pieces(); }
 
 bool ResistedMotion::is_reduced() const { return course_->is_reduced(); }
 
@@ -404,7 +519,10 @@ double ResistedMotion::slip_time(double speed) const {
 
 double ResistedMotion::rest_time() const { return course_->rest(); }
 
-Vector2d ResistedMotion::rest_position() const { return course_->at(course_->rest()).position; }
+Vector2d ResistedMotion::rest_position() const {
+  if (std::isinf(course_->rest())) throw std::domain_error("ResistedMotion::rest_position: it rolls on for ever");
+  return course_->at(course_->rest()).position;
+}
 
 double ResistedMotion::slip_length() const { return course_->at(course_->stop()).slip_length; }
 
@@ -412,9 +530,18 @@ double ResistedMotion::spin_angle() const { return course_->at(course_->stop()).
 
 double ResistedMotion::rolling_loss() const {
   const Given& body = course_->body();
-  const double end = std::max(course_->stop(), course_->rest());
+  if (body.resisting == 0) return 0;
   const double chi = body.inertia.chi;
-  return chi / (chi - 1) * body.experiment.ball.mass * body.resisting * course_->at(end).rolled;
+  return chi / (chi - 1) * body.experiment.ball.mass * body.resisting * course_->at(last_time()).rolled;
+}
+
+double ResistedMotion::last_time() const {
+  return std::isfinite(course_->rest()) ? std::max(course_->stop(), course_->rest()) : course_->stop();
+}
+
+double ResistedMotion::gained_on_slope() const {
+  const Given& body = course_->body();
+  return body.experiment.ball.mass * body.down.dot(course_->at(last_time()).position) + 0.0;
 }
 
 double ResistedMotion::path_length(double t) const { return course_->at(t).path; }

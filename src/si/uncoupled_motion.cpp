@@ -10,7 +10,7 @@
 namespace contensou::si {
 
 UncoupledMotion::UncoupledMotion(const Experiment& experiment, const reduction::Law& law) : experiment_(experiment) {
-  const reduction::ReducedSystem system = reduced_system(experiment, law);
+  const reduction::ReducedSystem system = undriven_system(experiment, law);
   const reduction::State start = reduced_start(experiment);
   slip_end_ = seconds(experiment, system.sliding_limit(start.v));
   spin_end_ = seconds(experiment, system.pivoting_limit(start.u));

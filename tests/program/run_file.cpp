@@ -141,3 +141,32 @@ TEST_CASE("a load is told as one", "[cli]") {
   CHECK_THAT(run_program("engine --ball gel --load 3").out, Contains("mass 0.113 kg, load 3 N, friction f = 0.5"));
   CHECK(json_of("engine --ball gel --format json").at("load") == 0.113 * 9.80665);
 }
+
+TEST_CASE("rolling friction and a slope are taken or refused by name, by every verb", "[cli]") {
+  for (const std::string driven : {"rolling_friction = 0.01", "slope = -2", "slope = '-2 deg'"}) {
+    const bool slopes = driven[0] == 's';
+    const RunFile with = slopes ? RunFile{.environment = driven} : RunFile{.law = driven};
+    const std::string option = slopes ? " --slope -2" : " --rolling-friction 0.01";
+    const TemporaryDirectory scratch;
+    const std::string first = scratch.file("with.toml"), second = scratch.file("without.toml");
+    write_file(first, with.text());
+    write_file(second, RunFile{}.text());
+    for (const BallRun& run : ball_runs()) {
+      INFO(run.options << " with " << driven);
+      const Run by_file = run_program(run.options + " --ball " + first, run.input);
+      const Run by_option = run_program(run.options + " --ball " + second + option, run.input);
+      const Run level = run_program(run.options + " --ball " + second, run.input);
+      CHECK(by_file.status == by_option.status);
+      CHECK(by_file.out == by_option.out);
+      // An option takes the file's back.
+      const std::string none = slopes ? " --slope 0" : " --rolling-friction 0";
+      CHECK(run_program(run.options + none + " --ball " + first, run.input).out == level.out);
+      if (by_file.status == 2) {
+        CHECK_THAT(by_file.err, Contains("rolling_friction and slope must be 0"));
+      } else {
+        CHECK(by_file.out != level.out);
+        CHECK(by_file.err == "");
+      }
+    }
+  }
+}

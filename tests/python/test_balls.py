@@ -75,7 +75,8 @@ def test_a_run_files_law_is_that_of_every_answer(tmp_path):
 KEYS = {
     "mass": "0.5", "radius": "0.04", "friction": "0.3", "rolling_friction": "0.01", "patch_radius": "2e-3",
     "spin_deceleration": "7", "youngs_modulus": "[1e9, 2e9]", "poisson_ratio": "[0.3, 0.2]", "slip": "2", "spin": "-9",
-    "velocity": "[1, 2]", "angular_velocity": "[3, 4, 5]", "gravity": "1.6", "load": "3"}
+    "velocity": "[1, 2]", "angular_velocity": "[3, 4, 5]", "gravity": "1.6", "load": "3",
+    "slope": "-2"}
 
 
 @pytest.mark.skipif(not PROGRAM, reason="the program is not built")
@@ -92,9 +93,25 @@ def test_every_key_of_a_run_file_is_a_field_of_a_ball(key, tmp_path):
     assert (ours.stop_time, ours.path, ours.turns) == (theirs["t_stop"], theirs["path"], theirs["turns"])
     assert (ours.rest or ()) == tuple(theirs.get("rest", {}).values())
     assert (ours(ball.roll().stop_time / 2)["energy"] == ct.Ball.pool().roll()(ours.stop_time / 2)["energy"]) is np.False_ \
-        or key == "rolling_friction"
+        or key in ("rolling_friction", "slope")
     for same in (copy.copy(ball), pickle.loads(pickle.dumps(ball)), ct.Ball.pool().but(**told), ball.but()):
         assert same == ball and hash(same) == hash(ball)
+
+
+def test_a_ball_on_a_slope():
+    down, up = ct.Ball.pool(slope=-2, slip=1, spin=100), ct.Ball.pool(slope=2, slip=1, spin=100)
+    f, alpha, g = down.friction, np.radians(2), down.gravity
+    drive = 2 * np.tan(alpha) / (7 * f)
+    assert ct.portrait(ball=down, orbits=1).data["drive"] == pytest.approx(drive, rel=1e-15)
+    tau = ct.stop_time(u=100 * down.radius, v=1, mu=down.mu(), drive=drive)
+    assert down.roll().stop_time == pytest.approx(2 * tau / (3 * np.pi * f * g * np.cos(alpha)), rel=1e-13)
+    assert down.roll().rest is None and up.roll().rest is None
+    late = down.roll().stop_time + np.array([1.0, 2.0])
+    assert np.diff(down.roll()(late)["vx"]) == pytest.approx(5 / 7 * g * np.sin(alpha), rel=1e-12)
+    # Up it goes, turns round and comes down.
+    assert up.roll()(0.1)["vx"] > 0 > up.roll()(late[1])["vx"]
+    held = ct.Ball.pool(slope=0.2, slip=1, spin=100, rolling_friction=0.01)
+    assert held.roll().rest.x > 0 and held.but(slope=0) != held
 
 
 def test_a_load_is_kept(tmp_path):
@@ -197,7 +214,13 @@ def test_a_ball_changes():
     (lambda: ct.Ball.pool().roll(strike=1, tip=(0.6, 0)), "the tip slips off the ball"),
     (lambda: ct.Ball.pool().roll(strike=1, spin=0), "strike is a start of its own"),
     (lambda: ct.Ball.pool().roll(velocity=(1, 0), spin=1), "exclude each other"),
-    (lambda: ct.Ball.pool().roll(rolling_friction=-1), "rolling friction > 0 is required"),
+    (lambda: ct.Ball.pool().roll(rolling_friction=-1), "rolling_friction must be finite and >= 0"),
+    (lambda: ct.Ball.pool(slope=-50).roll(), "never stops sliding"),
+    (lambda: ct.Ball.pool(slope=90), "slope must be above -90 and below 90"),
+    (lambda: ct.Ball.pool(slope=2, load=3), "a load and a slope exclude each other"),
+    (lambda: ct.portrait(ball=ct.Ball.pool(slope=2)), "must slide straight down"),
+    (lambda: ct.engine("mujoco", ct.Ball.pool(slope=2)), "knows neither rolling friction nor a slope"),
+    (lambda: ct.fit([0, 1], slip=[1, 0.5], ball=ct.Ball.pool(slope=2)), "knows neither rolling friction nor a slope"),
     (lambda: ct.Ball.pool().roll(rolling_below=-1), "speed >= 0 is required"),
     (lambda: ct.Ball.pool().roll(strike=1e300), "exceed the largest double"),
     (lambda: ct.Ball.pool().roll()(-1), "t must be >= 0, in s; got -1"),

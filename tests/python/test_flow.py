@@ -149,6 +149,32 @@ def test_broadcasting_and_out():
         flow.stop_time(u=u, v=v, out=locked)
 
 
+def test_a_drive():
+    free, driven = ct.Flow(mu=0.3), ct.Flow(mu=0.3, drive=0.2)
+    assert (free.drive, driven.drive) == (0, 0.2) and free != driven and free == ct.Flow(0.3, drive=0)
+    assert pickle.loads(pickle.dumps(driven)) == driven and "drive=0.2" in repr(driven)
+    u, v = np.linspace(-1, 1, 5), np.linspace(0, 2, 4)[:, None]
+    taus = driven.stop_time(u=u, v=v)
+    assert taus.shape == (4, 5) and (taus >= free.stop_time(u=u, v=v)).all()
+    assert taus[2, 1] == driven.stop_time(u=u[1], v=float(v[2, 0])) == ct.stop_time(u=u[1], v=v[2, 0], mu=0.3, drive=0.2)
+    assert driven.stop_time(u=0, v=1) == pytest.approx(3 * np.pi / 7 / 0.8, rel=1e-14)
+    mus = np.linspace(0.1, 0.4, 1001)
+    many = ct.stop_time(u=1, v=1, mu=mus, drive=0.2)
+    assert many[0] == ct.Flow(0.1, drive=0.2).stop_time(u=1, v=1) and many[-1] == ct.Flow(0.4, drive=0.2).stop_time(u=1, v=1)
+    # What only spins creeps, to the ray, which is all that is left of v = 0.
+    creeping = driven.orbit(u=1, v=0).sample(101)
+    (ray,) = driven.terminal().rays
+    assert creeping["v"][0] == 0 and creeping["k"][90] == pytest.approx(ray.k, rel=1e-8)
+    assert {point.half_line for point in driven.facts()} == {"ray", "u = 0"}
+    np.testing.assert_allclose(driven.reduction().first_integral([1, 2], [1, 2]), driven.reduction().first_integral(1, 1) + [0, np.log(2)])
+    assert ct.check(u=1, v=1, mu=0.3, drive=0.2).passed
+    data = ct.portrait(mu=0.3, drive=0.2, u=1, v=0, orbits=2).data
+    assert data["drive"] == 0.2 and data["highlight"]["tau_left"][0] == pytest.approx(driven.orbit(u=1, v=0).stop_time, rel=1e-14)
+    for wrong, words in ((1, "never stop"), (-0.1, "against the slip"), (np.nan, "drive")):
+        with pytest.raises(ValueError, match=words):
+            ct.Flow(mu=0.3, drive=wrong)
+
+
 def test_mu_may_be_an_array():
     taus = ct.stop_time(u=1, v=[[1], [2]], mu=[0.1, 0.3, 0.1])
     assert taus.shape == (2, 3) and taus[1, 1] == ct.stop_time(u=1, v=2, mu=0.3) and (taus[:, 0] == taus[:, 2]).all()

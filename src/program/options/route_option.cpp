@@ -129,4 +129,12 @@ OrbitColumns motion_samples(const ReducedSystem& system, State start, Route rout
   return columns;
 }
 
+OrbitColumns motion_samples(const std::function<reduction::OrbitPoint(double tau)>& at, double stop,
+                            Eigen::Index count) {
+  OrbitColumns columns(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    columns.set(i, at(stop * (static_cast<double>(i) / static_cast<double>(count - 1))));
+  return columns;
+}
+
 }  // namespace contensou::program

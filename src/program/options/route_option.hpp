@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -47,5 +48,10 @@ reduction::OrbitColumns motion_at_time_left(const reduction::ReducedSystem& syst
 /// @throws std::runtime_error  as above, or if the stop time exceeds the largest double
 reduction::OrbitColumns motion_samples(const reduction::ReducedSystem& system, reduction::State start,
                                        reduction::Route route, Eigen::Index count, bool equidistant);
+
+/// The same of a motion of several orbits, one after the other, each by quadrature.
+/// @param at  the state at a time tau
+reduction::OrbitColumns motion_samples(const std::function<reduction::OrbitPoint(double tau)>& at, double stop,
+                                       Eigen::Index count);
 
 }  // namespace contensou::program

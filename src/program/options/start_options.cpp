@@ -133,7 +133,12 @@ std::string StartOptions::start_names() const {
 }
 
 std::string StartOptions::given_names() const {
-  const std::string first = names_given({&body_.mu(), &body_.drive(), &u0_, &v0_, &ball_});
+  const std::string others = names_of_one_start();
+  return body_.drive().given() ? with_name(others, body_.drive().name()) : others;
+}
+
+std::string StartOptions::names_of_one_start() const {
+  const std::string first = names_given({&body_.mu(), &u0_, &v0_, &ball_});
   const std::string others = override_names();
   return first + (first.empty() || others.empty() ? "" : ", ") + others;
 }
@@ -159,7 +164,22 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
   require_one_kind();
   if (ball_.given()) {
     const si::Experiment experiment = read_ball(law);
-    return {si::reduced_system(experiment, law), si::reduced_start(experiment), experiment};
+    const double rolling_friction = experiment.contact.rolling_friction;
+    try {
+      GivenStart start{si::reduced_system(experiment, law), si::reduced_start(experiment), experiment};
+      if (start.at_rest() || (rolling_friction == 0 && experiment.environment.slope == 0)) return start;
+      start.resisted.emplace(experiment, law, rolling_friction);
+      if (!start.resisted->is_reduced()) {
+        throw std::domain_error(
+            "the slope is steeper than friction holds what does not turn, and rolling resistance keeps it from turning "
+            "for "
+            "a while: the whole motion (roll) is integrated");
+      }
+      start.system = start.resisted->pieces().front().system;
+      return start;
+    } catch (const std::domain_error& error) {
+      reject_ball(error.what());
+    }
   }
   std::vector<std::string> missing;
   if (!body_.mu().given() && !body().patch_ratio) missing.push_back(body_.mu().name());
@@ -193,7 +213,7 @@ Eigen::Vector2d StartOptions::read_point() const {
 
 reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) const {
   require_one_kind();
-  if (ball_.given()) return si::reduced_system(read_ball(law), law);
+  if (ball_.given()) return read(law).system;
   return body_.read(law, "--mu M, --ball NAME|FILE.toml");
 }
 
@@ -246,9 +266,30 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
   } catch (const si::RunFileError&) {
     throw;
   } catch (const std::domain_error& error) {  // of the values together, not of a place in a file
-    const std::string others = override_names();
-    if (!ball_.given()) throw BadInput(fmt::format("{}: {}", others, error.what()));
-    ball_.reject((others.empty() ? "" : fmt::format("with {}: ", others)) + error.what());
+    reject_ball(error.what());
+  }
+}
+
+void StartOptions::reject_ball(const std::string& message) const {
+  const std::string others = override_names();
+  if (!ball_.given()) throw BadInput(fmt::format("{}: {}", others, message));
+  ball_.reject((others.empty() ? "" : fmt::format("with {}: ", others)) + message);
+}
+
+double StartOptions::drive_along_x(si::Experiment ball) const {
+  ball.start = si::SlipAndSpin{1, 0};
+  try {
+    return si::drive_of(ball);
+  } catch (const std::domain_error& error) {
+    reject_ball(error.what());
+  }
+}
+
+void StartOptions::require_undriven(const si::Experiment& experiment, const std::string& what) const {
+  try {
+    si::require_undriven(experiment, what);
+  } catch (const std::domain_error& error) {
+    reject_ball(fmt::format("{}; --rolling-friction 0 --slope 0 leaves them out", error.what()));
   }
 }
 

@@ -56,16 +56,13 @@ class StartOptions {
 
   /// Whether a verb that takes a ball offers an option for a quantity.
   using Offer = bool (*)(const si::Quantity& quantity);
-  static bool all_but_rolling(const si::Quantity& quantity) { return &quantity != &si::rolling_friction; }
   static bool all(const si::Quantity& /*quantity*/) { return true; }
-  static bool no_start(const si::Quantity& quantity) {
-    return all_but_rolling(quantity) && quantity.section != si::slip.section;
-  }
+  static bool no_start(const si::Quantity& quantity) { return quantity.section != si::slip.section; }
 
   /// --ball and its values alone, for a verb that is in SI units.
   /// @param offer  of the values
   void add_ball(CLI::App& app, const std::string& help = "a ball in SI units, built in or from a run file",
-                Offer offer = all_but_rolling);
+                Offer offer = all);
 
   /// From here on --radius is a ball, too: for a verb that finds what else there is of it.
   void take_radius_for_ball() { radius_is_ball_ = true; }
@@ -73,6 +70,13 @@ class StartOptions {
   /// Whether any of them was given, --body aside.
   bool given() const { return !given_names().empty(); }
   std::string given_names() const;
+
+  /// The same but for --drive, which many starts share.
+  std::string names_of_one_start() const;
+  double drive() const { return body_.drive().value_or(0); }
+
+  /// That of a ball whose slip points along x, however fast. Throws as read.
+  double drive_along_x(si::Experiment ball) const;
 
   /// Whether there is no motion in them: neither --u0 nor --v0 nor --ball.
   bool without_motion() const { return !u0_.given() && !v0_.given() && !ball_.given(); }
@@ -113,6 +117,10 @@ class StartOptions {
   /// @param between  values that take the place of the ball's own, and that options replace
   si::Experiment read_ball(const reduction::Law& law, const si::Description& between = {}) const;
 
+  /// Rejects a ball with rolling friction or on a slope, where there is no answer with them.
+  /// @param what  that knows none, for the message
+  void require_undriven(const si::Experiment& experiment, const std::string& what) const;
+
   /// The body without its motion: --mu, a --body with a mu of its own, or --ball is enough. Throws as read.
   reduction::ReducedSystem read_body(const reduction::Law& law) const;
 
@@ -128,6 +136,7 @@ class StartOptions {
   void tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const;
 
   void require_one_kind() const;
+  [[noreturn]] void reject_ball(const std::string& message) const;
   std::string override_names() const;
 
   BodyOptions body_;

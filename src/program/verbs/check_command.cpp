@@ -87,8 +87,11 @@ class CheckCommand final : public Verb {
 
   std::vector<Check> checks_of_start(const Law& law) const {
     const GivenStart start = start_.read(law);
-    if (!start.at_rest()) return verify(start.system, start.state);
-    throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
+    if (start.at_rest()) throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
+    if (!start.resisted) return verify(start.system, start.state);
+    std::vector<Check> worst;  // of each orbit that the motion is made of
+    for (const si::ReducedPiece& piece : start.pieces()) take_worse(worst, verify(piece.system, piece.start));
+    return worst;
   }
 
   StartOptions start_;

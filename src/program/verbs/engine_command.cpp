@@ -29,7 +29,9 @@ class EngineCommand final : public Verb {
     for (const si::EngineAlias& alias : si::engine_aliases()) {
       if (only && engine_.text() == alias.name) fmt::print(stderr, "note: {}\n", alias.words);
     }
-    output_.read().write(engine_answer(start_.read_ball(law), law, only));
+    const si::Experiment ball = start_.read_ball(law);
+    start_.require_undriven(ball, "engine");
+    output_.read().write(engine_answer(ball, law, only));
     return ExitStatus::done;
   }
 

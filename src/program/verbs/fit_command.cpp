@@ -115,6 +115,7 @@ class FitCommand final : public Verb {
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
     if (plan_ && laws.size() > 1) law_.argument().reject("--plan is of one law");
     fit::FitRequest request{.ball = start_.read_rolling_ball(laws.front()), .law = laws.front(), .tracks = {}};
+    start_.require_undriven(request.ball, "fit");
     request.robust = robust_;
     request.tracks = plan_ ? planned_tracks(request) : read_tracks();
     const bool only_stop = request.tracks.size() == 1 && request.tracks[0].series.empty();

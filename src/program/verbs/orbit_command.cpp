@@ -2,6 +2,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "answers/ball_answer.hpp"
 #include "contensou/reduction/flow.hpp"
@@ -69,15 +72,20 @@ class OrbitCommand final : public Verb {
     }
     const auto* at = instants_.at();
     const Eigen::ArrayXd lefts = time_left_.given() ? taus(*time_left_, start) : Eigen::ArrayXd();
+    const std::vector<si::ReducedPiece> pieces = start.pieces();
+    if (pieces.size() > 1) require_one_orbit(route);
     reduction::OrbitColumns motion =
-        time_left_.given() ? motion_at_time_left(system, start.state, route, lefts)
-        : at != nullptr    ? motion_at(system, start.state, route, taus(*at, start))
-                           : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
+        pieces.size() > 1    ? motion_of_pieces(pieces, at != nullptr ? taus(*at, start) : Eigen::ArrayXd(), lefts)
+        : time_left_.given() ? motion_at_time_left(system, start.state, route, lefts)
+        : at != nullptr      ? motion_at(system, start.state, route, taus(*at, start))
+                             : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
     // At rest k is what it tends to.
     if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
       const double k0 = start.state.u == 0 ? std::numeric_limits<double>::infinity()
                                            : start.state.v / (system.mu() * std::abs(start.state.u));
-      const double k_end = start.at_rest() ? 0 : reduction::Flow(system).terminal().end_of(k0).k;
+      const double k_end = start.at_rest()     ? 0
+                           : pieces.size() > 1 ? reduction::Flow(pieces.back().system).terminal().end_of(k0).k
+                                               : reduction::Flow(system).terminal().end_of(k0).k;
       motion.k = at_rest.select(k_end, motion.k);
     }
     Answer answer{.members = {{"law", system.law().name()},
@@ -107,6 +115,26 @@ class OrbitCommand final : public Verb {
   }
 
  private:
+  /// @throws BadInput  for what is of one orbit, where rolling friction makes the motion of several
+  void require_one_orbit(reduction::Route route) const {
+    const char* const why = " is of one orbit, and rolling friction lets this ball turn for a part of its motion only";
+    if (route != reduction::Route::quadrature)
+      throw BadInput(fmt::format("--route {}{}: leave it out", name(route), why));
+    if (estimate_) throw BadInput(fmt::format("--estimate{}: leave it out", why));
+    if (reduction_) throw BadInput(fmt::format("--reduction{}: leave it out", why));
+  }
+
+  /// At these times, or with so much left, or else at equal times.
+  reduction::OrbitColumns motion_of_pieces(const std::vector<si::ReducedPiece>& pieces, const Eigen::ArrayXd& at,
+                                           const Eigen::ArrayXd& lefts) const {
+    const auto state = [&](double tau) { return si::state_at(pieces, tau); };
+    if (at.size() == 0 && lefts.size() == 0) return motion_samples(state, si::stop_time(pieces), instants_.samples());
+    reduction::OrbitColumns columns(at.size() + lefts.size());
+    for (Eigen::Index i = 0; i < at.size(); ++i) columns.set(i, state(at[i]));
+    for (Eigen::Index i = 0; i < lefts.size(); ++i) columns.set(i, si::state_at_time_left(pieces, lefts[i]));
+    return columns;
+  }
+
   static Eigen::ArrayXd taus(const InstantsOption::Times& times, const GivenStart& start) {
     if (!times.in_seconds) return times.values;
     if (start.experiment) return times.values / si::seconds(*start.experiment, 1);

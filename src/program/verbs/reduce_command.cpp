@@ -16,6 +16,7 @@ class ReduceCommand final : public Verb {
   void add_options(CLI::App& app) override {
     system_.add(app);
     start_.add(app);
+    start_.add_drive(app);
     law_.add(app);
     figure_.add(app);
     output_.add(app);

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -39,7 +41,7 @@ struct Roll {
   double rolling_friction = experiment.contact.rolling_friction;
   si::Course<si::BallMotion> whole{experiment, {experiment, law}, rolling_below, rolling_friction};
   si::Course<si::UncoupledMotion> textbook{experiment, {experiment, law}, rolling_below, rolling_friction};
-  /// With rolling friction, by the route integrated.
+  /// With rolling friction or on a slope, by the route integrated.
   std::optional<si::ResistedMotion> in_steps =
       integrated && whole.resisted ? std::optional<si::ResistedMotion>({experiment, law, rolling_friction, true})
                                    : std::nullopt;
@@ -85,15 +87,17 @@ struct EnergyBalance {
   si::EnergyLoss loss;
   double kept;
   double rolling = 0;  ///< lost to rolling resistance
+  double gained = 0;   ///< on a slope
 };
 
 EnergyBalance energy_balance(const Roll& roll) {
   const si::Experiment& experiment = roll.experiment;
   const double start = si::kinetic_energy(experiment.ball, si::velocities_of(experiment.start));
   const si::EnergyLoss loss = si::energy_loss(experiment);
-  if (roll.whole.resisted) {  // it rests, and spin has lost what it had
-    const double rolling = roll.whole.resisted->rolling_loss();
-    return {start, {start - loss.pivoting - rolling, loss.pivoting}, 0, rolling};
+  if (const auto& resisted = roll.whole.resisted) {  // spin has lost what it had
+    const double rolling = resisted->rolling_loss(), gained = resisted->gained_on_slope();
+    const double kept = resisted->at_time(resisted->last_time()).energy;
+    return {start, {start + gained - loss.pivoting - rolling - kept, loss.pivoting}, kept, rolling, gained};
   }
   const auto [velocity, angular_velocity] = si::final_motion(experiment);
   return {start, loss, si::kinetic_energy(experiment.ball, {velocity, angular_velocity})};
@@ -126,7 +130,7 @@ std::string table(const Roll& roll, const Digits& digits) {
   line("", "law " + roll.law.name(), "textbook (uncoupled)", "");
   const bool flat = roll.lies_flat();
   event(flat ? "its centre rests after" : "rolls after", ours.rolls, theirs.rolls);
-  if (ours.rest) event("its centre rests after", *ours.rest, *theirs.rest);
+  if (ours.rest && theirs.rest && !flat) event("its centre rests after", *ours.rest, *theirs.rest);
   if (si::spin_at_start(roll.experiment) != 0) {
     event("spins no more after", ours.spin_ends, theirs.spin_ends);
     number("turned about vertical", ours.turns, theirs.turns, "turns");
@@ -143,31 +147,47 @@ std::string table(const Roll& roll, const Digits& digits) {
   return text;
 }
 
-/// How rolling resistance acts, and what found the motion.
+/// How rolling resistance and a slope act, and what found the motion.
 std::string resistance_text(const Roll& roll, const Digits& digits) {
-  std::string text = fmt::format(
-      "rolling resistance slows it down by u_r g = {} m/s^2 when it rolls without slip; it acts all the time\n",
-      digits(roll.rolling_friction * roll.experiment.environment.gravity));
+  const si::Environment& environment = roll.experiment.environment;
+  std::string text;
+  if (environment.slope != 0)
+    text += fmt::format("slope  {} degrees, {} along x: gravity pulls by {} m/s^2 and presses by {} m/s^2\n",
+                        digits(environment.slope), environment.slope > 0 ? "uphill" : "downhill",
+                        digits(si::pull(environment).norm()), digits(si::pressing(environment)));
+  if (roll.rolling_friction > 0)
+    text += fmt::format(
+        "rolling resistance slows it down by u_r g = {} m/s^2 when it rolls without slip; it acts all the time\n",
+        digits(roll.rolling_friction * si::pressing(environment)));
   if (const auto k = roll.whole.resisted->creep_ratio()) {
     const double rim = *k * si::patch_radius_of(roll.experiment, roll.law);
     text +=
         fmt::format("creeps while it spins: its slip tends to {} m times its spin, k = {}\n", digits(rim), digits(*k));
   }
-  return text +
-         (roll.reduced() ? "route  reduced: it slides the way it rolls, with the drive u_r/f\n"
-                         : "route  integrated: it does not slide the way it rolls, which is no reduced motion\n") +
-         fmt::format("rests  once it no longer turns and slides below {} m/s\n", digits(si::resting_slip));
+  const auto pieces = roll.whole.resisted->pieces();
+  text += !roll.reduced()  ? "route  integrated: the slip turns, which is no reduced motion\n"
+          : pieces.empty() ? "route  reduced: it does not slide\n"
+                           : fmt::format("route  reduced: it slides the way it rolls, with a drive of {}\n",
+                                         digits(pieces.front().system.drive()));
+  if (roll.lies_flat()) return text;
+  return text + (roll.whole.rest()
+                     ? fmt::format("rests  once it no longer turns and slides below {} m/s\n", digits(si::resting_slip))
+                     : "then   it rolls down the slope for ever\n");
 }
 
 std::string ending(const Roll& roll, const Digits& digits) {
   const si::Experiment& experiment = roll.experiment;
   const auto [velocity, angular_velocity] = si::final_motion(experiment);
-  const auto [start, loss, kept, rolling] = energy_balance(roll);
-  const std::string energy = fmt::format(
-      "energy {} J: {} lost by sliding, {} by spinning, {}{} kept\n", digits(start), digits(loss.sliding),
-      digits(loss.pivoting), roll.whole.resisted ? fmt::format("{} by rolling, ", digits(rolling)) : "", digits(kept));
-  if (roll.lies_flat()) return "then   it lies still\n" + energy;
-  if (roll.whole.resisted) return resistance_text(roll, digits) + energy;
+  const auto [start, loss, kept, rolling, gained] = energy_balance(roll);
+  const bool slopes = experiment.environment.slope != 0;
+  const std::string energy =
+      fmt::format("energy {} J{}: {} lost by sliding, {} by spinning, {}{} kept{}\n", digits(start),
+                  slopes ? fmt::format(" and {} J of the slope", digits(gained)) : "", digits(loss.sliding),
+                  digits(loss.pivoting), rolling > 0 ? fmt::format("{} by rolling, ", digits(rolling)) : "",
+                  digits(kept), slopes && !roll.whole.rest() ? " when slip and spin end" : "");
+  const std::string resistance = roll.whole.resisted ? resistance_text(roll, digits) : "";
+  if (roll.lies_flat()) return resistance + "then   it lies still\n" + energy;
+  if (roll.whole.resisted) return resistance + energy;
   std::string text = fmt::format("then   it rolls straight on: velocity {} m/s, angular velocity {} 1/s\n",
                                  digits.list(velocity), digits.list(angular_velocity));
   if (velocity.norm() > 0) {
@@ -190,11 +210,17 @@ portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionCol
                                   .finished()};
 }
 
+/// Of the route integrated, if it comes to rest.
+std::optional<si::Event> rest_in_steps(const Roll& roll) {
+  if (std::isinf(roll.in_steps->rest_time())) return std::nullopt;
+  return si::Event{roll.in_steps->rest_time(), roll.in_steps->rest_position()};
+}
+
 /// Columns of the motion, and its events.
 /// @param times  s
 Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
   const auto [velocity, angular_velocity] = si::velocities_of(roll.experiment.start);
-  const auto [start, loss, kept, rolling] = energy_balance(roll);
+  const auto [start, loss, kept, rolling, gained] = energy_balance(roll);
   const si::MotionColumns motion = roll.at_times(times);
   Json members{{"law", roll.law.name()},
                {"route", roll.integrated || !roll.reduced() ? "integrated" : "reduced"},
@@ -208,11 +234,10 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
     if (const auto k = roll.whole.resisted->creep_ratio()) members["creeps"] = {{"k", *k}};
   }
   if (roll.in_steps) {
-    members["integrated"] = {
-        {"t_stop", roll.in_steps->stop_time()},
-        {"slip_length", roll.in_steps->slip_length()},
-        {"turns", roll.in_steps->spin_angle() / (2 * std::numbers::pi)},
-        {"rest", members_of(si::Event{roll.in_steps->rest_time(), roll.in_steps->rest_position()})}};
+    members["integrated"] = {{"t_stop", roll.in_steps->stop_time()},
+                             {"slip_length", roll.in_steps->slip_length()},
+                             {"turns", roll.in_steps->spin_angle() / (2 * std::numbers::pi)}};
+    if (const auto rest = rest_in_steps(roll)) members["integrated"]["rest"] = members_of(*rest);
   } else if (roll.integrated) {
     const si::IntegratedMotion by_steps = si::integrate_motion(roll.experiment, roll.law, {});
     members["integrated"] = {{"t_stop", by_steps.stop_time},
@@ -223,6 +248,7 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
   members["energy_balance"] = {
       {"start", start}, {"lost_sliding", loss.sliding}, {"lost_spinning", loss.pivoting}, {"kept", kept}};
   if (roll.whole.resisted) members["energy_balance"]["lost_rolling"] = rolling;
+  if (roll.experiment.environment.slope != 0) members["energy_balance"]["gained_on_slope"] = gained;
   members["textbook"] = members_of(events_of(roll.textbook), roll.lies_flat());
   return {.members = members,
           .columns = {{"t", motion.t},
@@ -244,8 +270,11 @@ std::string report_on(const Roll& roll, const Digits& digits) {
   const std::string text =
       heading(roll.experiment, roll.law, digits) + "\n" + table(roll, digits) + "\n" + ending(roll, digits);
   if (roll.in_steps) {
-    return text + fmt::format("route integrated: its centre rests after {} s at {} m, slip and spin end after {} s\n",
-                              digits(roll.in_steps->rest_time()), digits.list(roll.in_steps->rest_position()),
+    const auto rest = rest_in_steps(roll);
+    return text + fmt::format("route integrated: {}slip and spin end after {} s\n",
+                              rest ? fmt::format("its centre rests after {} s at {} m, ", digits(rest->t),
+                                                 digits.list(rest->place))
+                                   : "",
                               digits(roll.in_steps->stop_time()));
   }
   if (!roll.integrated) return text;
@@ -302,7 +331,7 @@ constexpr long max_frames = 1000;  ///< of a film: 40 s
 class RollCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    start_.add_ball(app, "a ball in SI units, built in or from a run file", StartOptions::all);
+    start_.add_ball(app, "a ball in SI units, built in or from a run file");
     app.option_defaults()->group("Stroke of a cue, along x (in place of the ball's own start)");
     strike_.add(app, "--strike", "SPEED",
                 "of the cue, in metres per second: an elastic impulse along it. Left out are squirt, miscues within "
@@ -399,7 +428,12 @@ class RollCommand final : public Verb {
     const si::Experiment still = start_.read_ball(law, at_rest("--batch"));
     require_rolling_options(still);
     const std::string rolls = still.ball.body.lies_flat() ? "rest" : "rolls";
-    const reduction::Flow flow(si::reduced_system(still, law));
+    const reduction::Flow flow(si::undriven_system(still, law));
+    si::require_stop(still);
+    const auto flows = std::make_shared<si::ResistedFlows>();
+    const double chi = still.ball.body.inertia.chi, u_r = still.contact.rolling_friction;
+    // Else it rolls down for ever.
+    const bool may_rest = u_r * si::pressing(still.environment) > (1 - 1 / chi) * si::pull(still.environment).norm();
     OutputFile output(out.path);
     CsvReader table(batch_.text());
     const std::vector<std::string> along_x{"slip", "spin"}, velocities{"vx", "vy", "wx", "wy", "wz"};
@@ -421,21 +455,21 @@ class RollCommand final : public Verb {
                                  experiment.start = si::SlipAndSpin{row[0], row[1]};
                                }
                                si::require_experiment(experiment);
-                               compute_events(experiment, flow, results);
+                               compute_events(experiment, flow, flows, results);
                              },
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
                          .progress = bulk_.progress(out.path)};
-    if (still.contact.rolling_friction > 0)
-      request.results.insert(request.results.end(), {"t_rest", "x_rest", "y_rest"});
+    if (may_rest) request.results.insert(request.results.end(), {"t_rest", "x_rest", "y_rest"});
     const ExitStatus status = run_batch(table, output, request);
     output.finish();
     return status;
   }
 
-  void compute_events(const si::Experiment& experiment, const reduction::Flow& flow, std::span<double> results) const {
+  void compute_events(const si::Experiment& experiment, const reduction::Flow& flow,
+                      const std::shared_ptr<si::ResistedFlows>& flows, std::span<double> results) const {
     const si::Course<si::BallMotion> course(experiment, {experiment, flow}, rolling_below_.value_or(si::rolling_slip),
-                                            experiment.contact.rolling_friction);
+                                            experiment.contact.rolling_friction, flows);
     const auto [rolls, spin_ends, rest, slip_length, turns, path] = events_of(course);
     auto place = results.begin();
     const auto add = [&](const si::Event& event) {
@@ -444,7 +478,8 @@ class RollCommand final : public Verb {
     add(rolls);
     add(spin_ends);
     for (double value : {slip_length, turns, path}) *place++ = value;
-    if (rest) add(*rest);
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (place != results.end()) add(rest.value_or(si::Event{never, {never, never}}));
   }
 
   /// @throws NotAllowed  for an option of rolling with a body that lies flat

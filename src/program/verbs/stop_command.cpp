@@ -50,14 +50,16 @@ class StopCommand final : public Verb {
 
   ExitStatus run_many() const {
     const bool has_ball = start_.ball_given();
-    if (has_ball ? start_.overrides_start() : start_.given()) {
-      throw BadInput("--batch and " + start_.given_names() + " exclude each other: the starts are in the file");
+    if (has_ball ? start_.overrides_start() : !start_.names_of_one_start().empty()) {
+      throw BadInput("--batch and " + start_.names_of_one_start() + " exclude each other: the starts are in the file");
     }
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.standard_law());
     const auto ball = has_ball ? std::optional(start_.read_ball(law, at_rest("--batch"))) : std::nullopt;
-    StopTimes stop_times(law, ball ? ball->ball.body.inertia : start_.body().inertia, route_);
+    StopTimes stop_times(law, ball ? ball->ball.body.inertia : start_.body().inertia,
+                         ball ? start_.drive_along_x(*ball) : start_.drive(), route_);
+    if (ball && ball->contact.rolling_friction != 0) stop_times.resist(*ball);
     BatchRequest request{.inputs = {"mu", "u0", "v0"},
                          .results = {"tau_stop"},
                          .compute =

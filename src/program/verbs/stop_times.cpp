@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "contensou/reduction/stop_time.hpp"
+#include "contensou/si/resisted_motion.hpp"
+#include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
 
@@ -31,19 +34,37 @@ void StopTimes::AtMu::row(std::span<const double> u0, double v0, std::span<doubl
   std::ranges::transform(u0, taus.begin(), [&](double u) { return one({.u = u, .v = v0}); });
 }
 
-StopTimes::StopTimes(const reduction::Law& law, reduction::Inertia body, long starts, long mus)
+StopTimes::StopTimes(const reduction::Law& law, reduction::Inertia body, double drive, long starts, long mus)
     : law_(law),
       body_(body),
+      drive_(drive),
       starts_(static_cast<std::size_t>(starts)),
-      many_mus_(starts_ < reduction::Flow::many_starts && mus >= mus_that_pay) {}
+      many_mus_(drive == 0 && starts_ < reduction::Flow::many_starts && mus >= mus_that_pay) {}
 
 const reduction::StopTimesOfMu& StopTimes::of_every_mu() {
   std::call_once(of_every_mu_made_, [this] { of_every_mu_.emplace(law_, body_); });
   return *of_every_mu_;
 }
 
+void StopTimes::resist(const si::Experiment& ball) {
+  if (route_.given())
+    route_.argument().reject(
+        "with rolling friction a motion may be several orbits, which quadrature joins: leave it out");
+  resisted_ = ball;
+}
+
 StopTimes::AtMu StopTimes::made(double mu) {
-  const reduction::ReducedSystem system(law_, mu, body_);
+  if (resisted_) {
+    const auto one = [ball = *resisted_, law = law_, flows = std::make_shared<si::ResistedFlows>()](State start) {
+      if (start.u == 0 && start.v == 0) return 0.0;
+      si::Experiment experiment = ball;
+      experiment.start = si::SlipAndSpin{start.v, start.u / ball.ball.radius};
+      const double u_r = ball.contact.rolling_friction;
+      return si::ResistedMotion(experiment, law, u_r, false, flows).stop_time() / si::seconds(experiment, 1);
+    };
+    return {.flow = {}, .one = one, .starts = starts_};
+  }
+  const reduction::ReducedSystem system(law_, mu, body_, drive_);
   if (many_mus_)
     return {
         .flow = {}, .one = [mu, every = of_every_mu()](State start) { return every(mu, start); }, .starts = starts_};
@@ -73,7 +94,7 @@ std::shared_ptr<const StopTimes::AtMu> StopTimes::at(double mu) {
 }
 
 double StopTimes::operator()(double mu, State start, long row) {
-  if (row >= mus_that_pay && !route_.given()) return of_every_mu()(mu, start);
+  if (row >= mus_that_pay && !route_.given() && drive_ == 0) return of_every_mu()(mu, start);
   return (*at(mu))(start);
 }
 

@@ -11,11 +11,12 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/stop_times_of_mu.hpp"
+#include "contensou/si/experiment.hpp"
 #include "options/route_option.hpp"
 
 namespace contensou::program {
 
-/// Stop times of many starts of one body under one law. What depends on mu alone is computed once for each mu, by the
+/// Stop times of many starts of one body under one law, and one drive. What depends on mu alone is computed once for each mu, by the
 /// first thread that needs it, and kept for as many of them as take a bounded memory. Threads may share it.
 class StopTimes {
  public:
@@ -33,16 +34,20 @@ class StopTimes {
   };
 
   /// By a route.
-  StopTimes(const reduction::Law& law, reduction::Inertia body, const RouteOption& route)
-      : law_(law), body_(body), route_(route) {}
+  StopTimes(const reduction::Law& law, reduction::Inertia body, double drive, const RouteOption& route)
+      : law_(law), body_(body), drive_(drive), route_(route) {}
 
   /// By the best route, for so many starts of each mu and so many mu.
-  StopTimes(const reduction::Law& law, reduction::Inertia body, long starts, long mus);
+  StopTimes(const reduction::Law& law, reduction::Inertia body, double drive, long starts, long mus);
+
+  /// From here on those of a ball with rolling friction, which are not of one orbit: each start by itself.
+  /// @throws BadInput  if a route was asked for
+  void resist(const si::Experiment& ball);
 
   /// @throws  as RouteOption::read and the making of the solution
   std::shared_ptr<const AtMu> at(double mu);
 
-  /// By what serves every mu, where no route was asked for and so many rows have been before: they may each have a mu of
+  /// By what serves every mu, where there is no drive, no route was asked for and so many rows have been before: they may each have a mu of
   /// their own, and a curve would be made for each.
   /// @param row  how many were before this one; what they were does not matter to the bits of the answer
   /// @throws     as at and stop_time
@@ -54,7 +59,9 @@ class StopTimes {
 
   reduction::Law law_;
   reduction::Inertia body_;
+  double drive_;
   RouteOption route_;
+  std::optional<si::Experiment> resisted_;
   std::size_t starts_ = 0;  ///< of each mu of a grid
   bool many_mus_ = false;
   std::once_flag of_every_mu_made_;

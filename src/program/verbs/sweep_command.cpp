@@ -75,6 +75,7 @@ enum class SweepFormat { npy, csv };
 struct SweepRequest {
   reduction::Law law;
   reduction::Inertia body;
+  double drive;
   SweepGrid grid;
   SweepFormat format;
   int threads = 1;
@@ -120,8 +121,9 @@ class Sweep {
       : request_(request),
         heading_(std::move(heading)),
         output_(output),
-        stop_times_(request.law, request.body, starts_of_mu_, request.grid.mu.count),
+        stop_times_(request.law, request.body, request.drive, starts_of_mu_, request.grid.mu.count),
         progress_("stop times", request.progress) {
+    if (grid_.ball && grid_.ball->contact.rolling_friction != 0) stop_times_.resist(*grid_.ball);
     if (grid_.u0.count <= longest_kept_axis) u0_ = values_of(grid_.u0, 0, grid_.u0.count);
   }
 
@@ -266,6 +268,7 @@ class SweepCommand final : public Verb {
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed, MIN >= 0", read(""));
     app.add_flag("--log", log_, "values in equal ratios instead of equal steps; MIN > 0");
     body_.add_body(app);
+    body_.add_drive(app);
     ball_.add_ball(app, "instead of these: a ball in SI units, with --spin and --slip; times in seconds",
                    StartOptions::no_start);
     spin_.add(app, "--spin", "MIN:MAX:N", "N values of the spin about the vertical, in radians per second",
@@ -283,15 +286,18 @@ class SweepCommand final : public Verb {
     const reduction::Law law = law_.read(ball_.ball_given() ? ball_.standard_law() : std::string(body.law));
     const SweepGrid grid = ball_.ball_given() ? read_grid_of_ball(law) : read_grid(body);
     const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : body.inertia;
+    const double drive = grid.ball ? ball_.drive_along_x(*grid.ball) : body_.drive().value_or(0);
     if (out.picture()) {
       bulk_.refuse("npy and csv: a picture is of few starts, leave it out");
-      out.write({figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia), grid), out.format)});
+      out.write(
+          {figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid), out.format)});
       return ExitStatus::done;
     }
     figure_.require_picture(out);
     OutputFile output(out.path);
     sweep({.law = law,
            .body = inertia,
+           .drive = drive,
            .grid = grid,
            .format = out.format == "npy" ? SweepFormat::npy : SweepFormat::csv,
            .threads = bulk_.threads(),
@@ -324,7 +330,8 @@ class SweepCommand final : public Verb {
   }
 
   SweepGrid read_grid_of_ball(const reduction::Law& law) const {
-    if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument()}); !others.empty()) {
+    if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument(), &body_.drive()});
+        !others.empty()) {
       throw BadInput(fmt::format("--ball and {} exclude each other: with --ball, use --spin and --slip", others));
     }
     const si::Experiment experiment = ball_.read_ball(law, at_rest("--slip and --spin"));
@@ -351,6 +358,11 @@ class SweepCommand final : public Verb {
 
   portraits::Figure make_map(const reduction::ReducedSystem& system, const SweepGrid& grid) const {
     constexpr double max_drawn = 1e6;
+    if (grid.ball && grid.ball->contact.rolling_friction != 0) {
+      throw BadInput(
+          "a picture is of one system, and with rolling friction there are two: write npy or csv, or add "
+          "--rolling-friction 0");
+    }
     if (grid.mu_is_range) mu_.reject("a picture shows one mu: give --mu M, or write npy or csv");
     for (const auto* axis : grid.ball ? std::array{&spin_, &slip_} : std::array{&u0_, &v0_}) {
       if ((*axis)->count < 2) axis->reject("a picture needs a range, MIN:MAX:N");

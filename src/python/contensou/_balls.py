@@ -26,13 +26,14 @@ class Event(NamedTuple):
 
 @dataclass(frozen=True)
 class Ball:
-    """A homogeneous ball on a horizontal plane, in SI units, with a typical start.
+    """A homogeneous ball on a plane, in SI units, with a typical start.
 
     Its patch is given by one of patch_radius (m), spin_deceleration (rad/s^2, measured without slip), or Young's moduli
     (Pa) and Poisson's ratios of ball and plane. What presses it on the plane is gravity (m/s^2, 9.80665 if left out), or a
     load (N). Its start, at rest if left out, is slip (m/s, along x) and spin (rad/s about the vertical), or velocity (x, y)
     and angular_velocity (x, y, z up). Of a start by velocities slip and spin, and of a load gravity, say what they come to.
-    rolling_friction: rolling without slip, the ball slows down at so much of gravity. law is that of every question
+    rolling_friction: rolling without slip, the ball slows down at so much of gravity. slope: degrees by which the plane
+    rises along x, negative where it falls. law is that of every question
     about the ball that names none: a name, a Law or a function.
     `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
     """
@@ -51,6 +52,7 @@ class Ball:
     law: LawLike = "exact"
     rolling_friction: float = 0
     load: Optional[float] = None
+    slope: float = 0
     velocity: Optional[tuple[float, float]] = None
     angular_velocity: Optional[tuple[float, float, float]] = None
     _experiment: _core.Experiment = field(init=False, repr=False, compare=False)
@@ -194,7 +196,7 @@ class Ball:
 
 @lru_cache(maxsize=64)
 def _solved(ball: Ball, law: Law) -> _core.Flow:
-    return ball._experiment.flow(law._core)
+    return ball._experiment.undriven_flow(law._core)
 
 
 @dataclass(frozen=True)
@@ -243,7 +245,7 @@ class Roll:
 
     @property
     def rest(self) -> Optional[Event]:
-        """When its centre rests, with rolling friction."""
+        """When its centre rests, with rolling friction or on a slope; None where it rolls on for ever."""
         rest = self._core.rest
         return None if rest is None else Event(*rest)
 

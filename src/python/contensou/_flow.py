@@ -187,21 +187,27 @@ class Flow:
     law:   a name, a Law or a function; that of the body if left out: exact for a ball
     body:  ball, hollow-ball, disc, ring, or (chi, gamma): chi = 1 + m R^2/J about a horizontal axis (1: it cannot
            roll), gamma = m R^2/J_z
+    drive: a constant force along the slip, over f N, 0 or more and below 1, from where on it never stops: rolling
+           resistance u_r/f of a ball that rolls the way it slides, or a slope straight down, tan(angle)/(chi f)
     """
 
     mu: float
     law: Law
     body: Body
+    drive: float
     _core: _core.Flow = field(repr=False, compare=False)
 
-    def __init__(self, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball") -> None:
+    def __init__(
+        self, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0
+    ) -> None:
         of = None if law is None else _law(law)
-        core = _core.Flow(None if of is None else of._core, None if mu is None else number("mu", mu), body)
-        for name, value in {"mu": core.mu, "law": of or Law(core.law.name), "body": body, "_core": core}.items():
+        core = _core.Flow(None if of is None else of._core, None if mu is None else number("mu", mu), body, number("drive", drive))
+        known = {"mu": core.mu, "law": of or Law(core.law.name), "body": body, "drive": core.drive, "_core": core}
+        for name, value in known.items():
             object.__setattr__(self, name, value)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Flow, (self.mu, self.law, self.body)
+        return Flow, (self.mu, self.law, self.body, self.drive)
 
     def stop_time(self, *, u: ArrayLike, v: ArrayLike, out: Optional[NDArray[np.float64]] = None, threads: int = 1) -> Any:
         """The time tau until u = v = 0, to a few eps (2e-15 relative).
@@ -250,8 +256,8 @@ class Flow:
 
 
 @lru_cache(maxsize=64)
-def _flow(mu: Optional[float], law: Optional[LawLike], body: Body) -> Flow:
-    return Flow(mu, law, body)
+def _flow(mu: Optional[float], law: Optional[LawLike], body: Body, drive: float) -> Flow:
+    return Flow(mu, law, body, drive)
 
 
 def stop_time(
@@ -261,25 +267,26 @@ def stop_time(
     mu: Optional[ArrayLike] = None,
     law: Optional[LawLike] = None,
     body: Body = "ball",
+    drive: float = 0,
     out: Optional[NDArray[np.float64]] = None,
     threads: int = 1,
 ) -> Any:
-    """Flow(mu, law, body).stop_time, with the flows of the last calls kept; mu, too, may be an array, at the cost of a
-    flow (0.4 ms) for each of its values, of 0.1 s for any number of them from 1000 on."""
+    """Flow(mu, law, body, drive).stop_time, with the flows of the last calls kept; mu, too, may be an array, at the cost of
+    a flow (0.4 ms) for each of its values, without a drive of 0.1 s for any number of them from 1000 on."""
     if mu is None or isinstance(mu, (float, int)):
-        return _flow(mu, law, body).stop_time(u=u, v=v, out=out, threads=threads)
+        return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads)
     u, v, mu = np.broadcast_arrays(numbers("u", u), numbers("v", v), numbers("mu", mu))
     taus = np.empty(u.shape) if out is None else target(out, u.shape)
     values, group = np.unique(mu, return_inverse=True)
     group = group.reshape(u.shape)
-    if len(values) >= 1000:
+    if len(values) >= 1000 and drive == 0:
         ends = [Flow(float(value), law, body) for value in (values[0], values[-1])]  # they refuse what is no mu
         every = np.empty(u.shape)
         mus, us, vs = (np.ascontiguousarray(each, float) for each in (mu, u, v))
         ends[0]._core.stop_times_of_mus(mus, us, vs, every)
         taus[...] = every
         return taus[()] if out is None else out
-    found = [Flow(float(value), law, body).stop_time(u=u[group == i], v=v[group == i], threads=threads)
+    found = [Flow(float(value), law, body, drive).stop_time(u=u[group == i], v=v[group == i], threads=threads)
              for i, value in enumerate(values)]
     for i, part in enumerate(found):
         taus[group == i] = part
@@ -317,10 +324,12 @@ class Checks(tuple[Check, ...]):
         )
 
 
-def check(*, u: float, v: float, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball") -> Checks:
+def check(
+    *, u: float, v: float, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0
+) -> Checks:
     """Everything the theory says about the motion from one start, each as a number that must be small: the routes to its
     stop time against each other, the symmetry, the first integral, the limits. Without a law, of both laws of the paper.
     """
     laws: list[Optional[LawLike]] = ["exact", "pade"] if law is None and body in ("ball", "hollow-ball") else [law]
-    flows = [_flow(mu, each, body) for each in laws]
+    flows = [_flow(mu, each, body, drive) for each in laws]
     return Checks(Check(flow.law.name, *row) for flow in flows for row in flow._core.check(number("u", u), number("v", v)))

@@ -48,11 +48,11 @@ class Portrait:
         ball, law = asked["ball"], asked["law"]
         experiment = None if ball is None else ball._experiment
         if experiment is None:
-            flow = Flow(asked["mu"], law, asked["body"])._core
-        elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball":
+            flow = Flow(asked["mu"], law, asked["body"], asked["drive"])._core
+        elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball" and asked["drive"] == 0:
             flow = experiment.flow(ball._law(law)._core)
         else:
-            raise ValueError("ball and mu, u, v, body exclude each other: a ball brings them")
+            raise ValueError("ball and mu, u, v, body, drive exclude each other: a ball brings them")
         if (asked["u"] is None) != (asked["v"] is None):
             raise ValueError("a start has both u and v")
         size, against = asked["size"], asked["against"]
@@ -174,6 +174,7 @@ def portrait(
     mu: Optional[float] = None,
     law: Optional[LawLike] = None,
     body: Body = "ball",
+    drive: float = 0,
     u: Optional[float] = None,
     v: Optional[float] = None,
     ball: Optional[Ball] = None,

@@ -8,7 +8,8 @@ namespace contensou::si {
 /// The whole motion of a ball, Zh98 (2.1) to (2.5), from the similarity solution: slip and spin are one orbit of the
 /// reduced system, the rest follows from the first integrals (motion_by_slip). Any instant is found by itself, by one root.
 ///
-/// After the stop the ball rolls on a straight line at constant velocity: rolling resistance is that of ResistedMotion.
+/// After the stop the ball rolls on a straight line at constant velocity: rolling resistance and the pull of a slope are
+/// those of ResistedMotion.
 ///
 /// Accuracy  1e-12 of the scales of the motion against integrate_motion, for mu from 1e-3 to 1.
 class BallMotion {
@@ -17,7 +18,7 @@ class BallMotion {
   BallMotion(const Experiment& experiment, const reduction::Law& law);
 
   /// With what is known already.
-  /// @param flow  of reduced_system(experiment, law)
+  /// @param flow  of undriven_system(experiment, law)
   BallMotion(const Experiment& experiment, const reduction::Flow& flow);
 
   const reduction::Law& law() const { return law_; }

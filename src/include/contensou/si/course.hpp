@@ -1,11 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/rolling_friction.hpp"
@@ -18,38 +21,49 @@ struct Event {
   Eigen::Vector2d place;  ///< m
 };
 
-/// A motion with the instant when it rolls, and with rolling friction if there is any: of a BallMotion it acts all the
-/// time (ResistedMotion), the textbook's begins when it rolls. A body that lies flat does not roll: it comes to rest
-/// then.
+/// A motion with the instant when it rolls, with rolling friction if there is any and down or up a slope: of a BallMotion
+/// both act all the time (ResistedMotion). The textbook's rolling friction begins when it rolls; on a slope the textbook's
+/// ball moves as one without spin, and spins by itself. A body that lies flat does not roll: it comes to rest then.
 /// @tparam Motion  BallMotion or UncoupledMotion
 template <class Motion>
 struct Course {
-  Motion motion;  ///< without rolling friction
+  Motion motion;  ///< without rolling friction, on a level plane
   double rolls;   ///< s until it does; of a body that lies flat until its centre rests
   std::optional<RollingFriction> friction;
   std::optional<ResistedMotion> resisted;
 
-  /// @param rolling_below     m/s, >= 0: a ball that slips no faster rolls; not of a body that lies flat
-  /// @param rolling_friction  u_r; 0: none
+  /// @param rolling_below  m/s, >= 0: a ball that slips no faster rolls; not of a body that lies flat
+  /// @param u_r            rolling friction; 0: none
+  /// @param flows          as ResistedMotion's
   /// @throws std::domain_error  as slip_time, RollingFriction, ResistedMotion and require_finite_motion, and for rolling
   ///                            friction of a body that lies flat
-  Course(const Experiment& experiment, Motion of_shot, double rolling_below, double rolling_friction)
-      : motion(std::move(of_shot)), rolls(motion.slip_time(experiment.ball.body.lies_flat() ? 0 : rolling_below)) {
-    if (rolling_friction != 0 && experiment.ball.body.lies_flat())
-      throw std::domain_error("a body that lies flat never rolls: it has no rolling friction");
+  Course(const Experiment& experiment, Motion of_shot, double rolling_below, double u_r,
+         std::shared_ptr<ResistedFlows> flows = {})
+      : motion(std::move(of_shot)),
+        rolls(motion.slip_time(experiment.ball.body.lies_flat() ? 0 : rolling_below)),
+        ball_(experiment.ball) {
+    const bool slopes = experiment.environment.slope != 0, flat = experiment.ball.body.lies_flat();
+    if (u_r != 0 && flat) throw std::domain_error("a body that lies flat never rolls: it has no rolling friction");
     require_finite_motion(experiment, std::max(rolls, motion.spin_end()));
-    if (rolling_friction == 0) return;
+    if (u_r == 0 && !slopes) return;
     if constexpr (always_resisted) {
-      resisted.emplace(experiment, motion.law(), rolling_friction);
-      rolls = resisted->slip_time(rolling_below);
+      resisted.emplace(experiment, motion.law(), u_r, false, std::move(flows));
+    } else if (slopes) {
+      Experiment without_spin = experiment;
+      Velocities start = velocities_of(experiment.start);
+      start.angular_velocity.z() = 0;
+      without_spin.start = start;
+      resisted.emplace(without_spin, reduction::Law(reduction::HertzLaw{}), u_r);
     } else {
-      friction.emplace(experiment.ball, motion.at_time(rolls), rolling_friction * experiment.environment.gravity);
+      friction.emplace(experiment.ball, motion.at_time(rolls), u_r * experiment.environment.gravity);
     }
-    require_finite_motion(experiment, std::max({rolls, spin_end(), rest()->t}));
+    if (resisted) rolls = resisted->slip_time(flat ? 0 : rolling_below);
+    const auto rests = rest();
+    require_finite_motion(experiment, std::max({rolls, spin_end(), rests ? rests->t : 0}));
   }
 
   MotionPoint at_time(double t) const {
-    if (resisted) return resisted->at_time(t);
+    if (resisted) return spinning(resisted->at_time(t));
     return friction ? (*friction)(motion.at_time(t)) : motion.at_time(t);
   }
   MotionColumns at_times(const Eigen::ArrayXd& times) const {
@@ -59,13 +73,14 @@ struct Course {
     return columns;
   }
 
-  double spin_end() const { return resisted ? resisted->spin_end() : motion.spin_end(); }
+  double spin_end() const { return coupled() ? resisted->spin_end() : motion.spin_end(); }
   double slip_length() const { return resisted ? resisted->slip_length() : motion.slip_length(); }
-  double turns() const { return (resisted ? resisted->spin_angle() : motion.spin_angle()) / (2 * std::numbers::pi); }
+  double turns() const { return (coupled() ? resisted->spin_angle() : motion.spin_angle()) / (2 * std::numbers::pi); }
   double path_length(double t) const { return resisted ? resisted->path_length(t) : motion.path_length(t); }
 
-  /// With rolling friction.
+  /// With rolling friction or on a slope; none where it rolls on for ever.
   std::optional<Event> rest() const {
+    if (resisted && std::isinf(resisted->rest_time())) return std::nullopt;
     if (resisted) return Event{resisted->rest_time(), resisted->rest_position()};
     if (friction) return Event{friction->rest_time(), friction->rest_position()};
     return std::nullopt;
@@ -75,6 +90,18 @@ struct Course {
 
  private:
   static constexpr bool always_resisted = requires(const Motion& of) { of.law(); };
+
+  Ball ball_;
+
+  bool coupled() const { return always_resisted && resisted; }
+
+  /// Of the textbook's ball, with its own spin.
+  MotionPoint spinning(MotionPoint point) const {
+    if constexpr (always_resisted) return point;
+    point.angular_velocity.z() = motion.at_time(point.t).angular_velocity.z();
+    point.energy = kinetic_energy(ball_, {point.velocity, point.angular_velocity});
+    return point;
+  }
 };
 
 /// What happens on a course.

@@ -69,9 +69,16 @@ struct Environment {
   /// presses on the plane with N newtons has N/mass.
   double gravity = 9.80665;
   std::optional<double> load{};  ///< N, where it was given in place of gravity, which is load/mass then
+  double slope = 0;              ///< degrees above -90 and below 90: the plane rises along x
 };
 
-/// Everything that decides one motion of a ball on a horizontal plane.
+/// m/s^2, the load over the mass: gravity, on a slope times its cosine.
+double pressing(const Environment& environment);
+
+/// m/s^2 that gravity alone accelerates along the plane; (0, 0) on a level one.
+Eigen::Vector2d pull(const Environment& environment);
+
+/// Everything that decides one motion of a ball on a plane.
 struct Experiment {
   Ball ball;
   Contact contact;

@@ -10,7 +10,7 @@ namespace contensou::si {
 /// What a user gives of an experiment in numbers: a row here is a key of run files, an option of the program and a field of
 /// Python's Ball.
 struct Quantity {
-  enum class Range { any, not_negative, positive, poisson_ratio };
+  enum class Range { any, not_negative, positive, poisson_ratio, tilt };
 
   std::string_view name;  ///< the key of a run file
   std::string_view unit;  ///< SI; empty for a pure number
@@ -60,6 +60,12 @@ inline constexpr Quantity gravity{.name = "gravity",
                                   .standard = 9.80665};
 inline constexpr Quantity load{"load", "N", "force that presses the ball on the plane, in place of its weight",
                                Quantity::Range::positive, "environment"};
+inline constexpr Quantity slope{.name = "slope",
+                                .unit = "deg",
+                                .meaning = "angle of the plane, which rises along x: positive uphill",
+                                .range = Quantity::Range::tilt,
+                                .section = "environment",
+                                .standard = 0};
 
 /// All of them, in the order of a run file.
 const std::vector<const Quantity*>& quantities();

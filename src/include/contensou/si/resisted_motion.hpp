@@ -1,9 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <vector>
 
-#include "contensou/reduction/friction_law.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/si/motion.hpp"
 
 namespace contensou::si {
@@ -12,26 +15,66 @@ namespace contensou::si {
 /// sliding lasts as long, and takes it less than a tenth of a millimetre.
 inline constexpr double resting_slip = 1e-4;
 
-/// The whole motion of a ball with rolling resistance: a torque chi J u_r g/R, (7/5) u_r m g R of a homogeneous ball,
-/// against its turning about a horizontal axis, under which it rolls without slip at u_r g slower each second. It acts
-/// while the ball slides, too; a ball that does not turn it holds, up to that torque.
+/// The solutions that motions of one body share which slide the same way, down the same slope, with the same rolling
+/// friction and law: made by the first that needs them. Threads may share it.
+class ResistedFlows {
+ public:
+  /// @param turning  of a ball that turns, else of one that is held
+  /// @param made     the solution, where it is not known yet
+  reduction::Flow of(bool turning, const std::function<reduction::Flow()>& made);
+
+ private:
+  std::mutex guard_;
+  std::optional<reduction::Flow> turning_, held_;
+};
+
+/// A stretch of a motion that is an orbit of a reduced system with a drive.
+struct ReducedPiece {
+  double tau;  ///< paper's time at which it begins, in m/s
+  bool turns;  ///< or rolling resistance holds it: it slides like a puck
+  reduction::ReducedSystem system;
+  reduction::State start;
+  reduction::Orbit orbit;  ///< from there; the piece may end before it does
+};
+
+/// The state of a motion of such pieces at a time tau after its start, past the stop rest, and so much before its stop. beta
+/// goes on from one piece to the next.
+/// @throws std::domain_error  as Orbit::at_time and at_time_left
+reduction::OrbitPoint state_at(const std::vector<ReducedPiece>& pieces, double tau);
+reduction::OrbitPoint state_at_time_left(const std::vector<ReducedPiece>& pieces, double left);
+
+/// When the last of the pieces ends, in m/s.
+inline double stop_time(const std::vector<ReducedPiece>& pieces) {
+  return pieces.back().tau + pieces.back().orbit.stop_time();
+}
+
+/// The whole motion of a ball with rolling resistance, on a slope, or both; of a body that lies flat on a slope.
 ///
-/// A ball that rolls the way it slides is found without time steps, as a reduced motion with the drive u_r/f
-/// (reduction/README.md, (R53)): until slip and spin end, after which it rolls to its rest; or until it no longer turns,
-/// and slides on like a puck. Any other is integrated: the five equations (2.5) with that torque, by Cash-Karp 5(4).
+/// Rolling resistance is a torque chi J u_r g/R, (7/5) u_r m g R of a homogeneous ball, against its turning about a
+/// horizontal axis, under which it rolls without slip at u_r g slower each second. It acts while the ball slides, too; a
+/// ball that does not turn it holds, up to that torque. On a slope g cos(alpha) presses, and g sin(alpha) pulls.
+///
+/// What slides the way it rolls, straight down if there is a slope, is found without time steps, as reduced motions with a
+/// drive (reduction/README.md, (R53) to (R55)): while it turns, while resistance holds it and it slides like a puck; when
+/// slip and spin have ended, it rolls on or rests. Any other is integrated: the five equations (2.5) with that torque and
+/// that pull, by Cash-Karp 5(4). Pure rolling is in closed form (R56).
 ///
 /// A value that never changes. Copies share the solution.
 class ResistedMotion {
  public:
-  /// @param rolling_friction  u_r, > 0
-  /// @param in_steps          to integrate it in any case
-  /// @throws std::domain_error   as require_experiment, for a body that lies flat, and unless u_r is positive and finite
+  /// @param u_r       rolling friction > 0, or 0 on a slope; in place of the experiment's own
+  /// @param in_steps  to integrate it in any case
+  /// @param flows     what motions share that differ in their speeds alone
+  /// @throws std::domain_error   as require_experiment and require_stop, and where there is neither resistance nor slope
   /// @throws std::runtime_error  if the integration does not reach the stop
-  ResistedMotion(const Experiment& experiment, const reduction::Law& law, double rolling_friction,
-                 bool in_steps = false);
+  ResistedMotion(const Experiment& experiment, const reduction::Law& law, double u_r, bool in_steps = false,
+                 std::shared_ptr<ResistedFlows> flows = {});
 
   /// Whether it was found without time steps.
   bool is_reduced() const;
+
+  /// The orbits it is made of until slip and spin end; none of one that is integrated.
+  std::vector<ReducedPiece> pieces() const;
 
   /// v/(eps |omega_z|) at which it creeps while it spins, if there is such a ratio and it spins.
   std::optional<double> creep_ratio() const;
@@ -47,14 +90,20 @@ class ResistedMotion {
   /// s from which on the slip is no faster than that many m/s.
   double slip_time(double speed) const;
 
-  /// s until its centre rests, and where that is, in m.
+  /// s until its centre rests, infinity if it rolls down for ever; and where that is, in m.
   double rest_time() const;
   Eigen::Vector2d rest_position() const;
 
-  /// m that the contact point slides, rad about the vertical, J that rolling resistance takes, all in all.
+  /// m that the contact point slides, rad about the vertical.
   double slip_length() const;
   double spin_angle() const;
+
+  /// s until it neither slides, spins nor moves; until it neither slides nor spins, where it rolls down for ever.
+  double last_time() const;
+
+  /// J that rolling resistance takes, and that the slope gives, until then.
   double rolling_loss() const;
+  double gained_on_slope() const;
 
   /// m along the path of the centre until that time in s.
   double path_length(double t) const;
