@@ -41,7 +41,7 @@ std::vector<GivenQuantity> given_by(Experiment experiment) {
   std::vector<GivenQuantity> given;
   for (const Quantity* quantity : quantities()) {
     const double* const member = member_of(experiment, *quantity);
-    if (member && quantity->standard != *member) given.push_back({quantity, {*member}});
+    if (member && quantity != &slope && quantity->standard != *member) given.push_back({quantity, {*member}});
   }
   const auto add = [&](const Quantity& quantity, const auto&... values) { given.push_back({&quantity, {values...}}); };
   const PatchSource& patch = experiment.contact.patch;
@@ -64,6 +64,7 @@ std::vector<GivenQuantity> given_by(Experiment experiment) {
   } else {
     add(gravity, experiment.environment.gravity);
   }
+  if (experiment.environment.slope != slope.standard) add(slope, experiment.environment.slope);
   return given;
 }
 
@@ -133,7 +134,7 @@ void require_experiment(const Experiment& experiment) {
   }
   if (experiment.ball.body.lies_flat()) {
     if (experiment.contact.rolling_friction != 0) {
-      throw std::domain_error(fmt::format("a {} lies flat and never rolls: it has no rolling_friction, got {}",
+      throw std::domain_error(fmt::format("a {} lies flat and never rolls: it has no rolling friction, got {}",
                                           experiment.ball.body.name, experiment.contact.rolling_friction));
     }
     if (std::holds_alternative<HertzModuli>(experiment.contact.patch)) {
