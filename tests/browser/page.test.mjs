@@ -834,12 +834,19 @@ test("the command line draws the same picture", async () => {
   }
 });
 
+/** The legend of the plane, which is drawn where it is in sight. */
+async function planeLegend() {
+  await page.locator("#plane").scrollIntoViewIfNeeded();
+  await drawn();
+  await drawn();
+  return page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map(({ legend }) => legend.map(({ words }) => words).join("")));
+}
+
 test("another law is drawn against the first, and leaves again", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5");
-  const legend = () => page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map(({ legend }) => legend.map(({ words }) => words).join("")));
-  assert.ok(!(await legend()).includes("law pade"));
+  assert.ok(!(await planeLegend()).includes("law pade"));
   await page.selectOption("#against", "pade");
-  assert.ok((await legend()).includes("law pade") && (await legend()).includes("law exact"));
+  assert.ok((await planeLegend()).includes("law pade") && (await planeLegend()).includes("law exact"));
   assert.match(await page.getAttribute("#plane", "aria-label"), /exact against pade/);
   assert.match(await page.textContent("#command"), / --against pade /);
   assert.match((await saved("#save-svg")).toString(), />law pade</);
@@ -852,14 +859,14 @@ test("another law is drawn against the first, and leaves again", async () => {
   await page.selectOption("#law", "exact");
   assert.match(await page.textContent("#command"), / --against pade /);
   await page.selectOption("#against", "");
-  assert.ok(!(await legend()).includes("law pade"));
+  assert.ok(!(await planeLegend()).includes("law pade"));
   assert.doesNotMatch(await page.textContent("#command"), /against/);
   await close();
 });
 
 test("fields and isochrones are switched where a view draws them", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5");
-  const legend = () => page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map(({ legend }) => legend.map(({ words }) => words).join("")).join(";"));
+  const legend = async () => (await planeLegend()).join(";");
   assert.match(await legend(), /time left/);
   await page.uncheck("#isochrones");
   assert.doesNotMatch(await legend(), /time left/);
