@@ -28,8 +28,10 @@ std::string ball_heading(const si::Experiment& experiment, const reduction::Law&
   return fmt::format(
       "{}: {}radius {} m, mass {} kg, friction {}, {}\n"
       "patch radius {} m, {}: mu = {}\n",
-      ball.name, ball.body.lies_flat() ? fmt::format("{}, ", ball.body.name) : "", digits(ball.radius),
-      digits(ball.mass), digits(contact.friction),
+      ball.name,
+      fmt::format("{}{}", ball.body.name != si::Body{}.name ? fmt::format("{}, ", ball.body.name) : "",
+                  ball.body.factor ? fmt::format("inertia {} m R^2, ", digits(*ball.body.factor)) : ""),
+      digits(ball.radius), digits(ball.mass), digits(contact.friction),
       environment.load ? fmt::format("load {} N", digits(*environment.load))
                        : fmt::format("gravity {} m/s^2", digits(environment.gravity)),
       digits(si::patch_radius_of(experiment, law)), si::origin_of(contact.patch),

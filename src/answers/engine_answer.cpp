@@ -138,7 +138,8 @@ Json members_of(const EngineWithBall& engine) {
 constexpr Field<Report> report_fields[]{
     {"law", "", nullptr, [](const Report& r) -> Json { return r.law.name(); }},
     {"ball", "", "its name", [](const Report& r) -> Json { return r.experiment.ball.name; }, ""},
-    {"body", "", "ball, or disc, puck, ring", [](const Report& r) -> Json { return r.experiment.ball.body.name; }, ""},
+    {"body", "", "ball, hollow-ball, disc, puck or ring",
+     [](const Report& r) -> Json { return r.experiment.ball.body.name; }, ""},
     {"radius", "m", "of the ball", [](const Report& r) -> Json { return r.contact.radius; }, ""},
     {"mass", "kg", "of the ball", [](const Report& r) -> Json { return r.experiment.ball.mass; }, ""},
     {"load", "N", "that presses it on the plane", [](const Report& r) -> Json { return load_of(r.experiment); }, ""},

@@ -59,6 +59,7 @@ si::Description described_by(const py::dict& fields) {
     described.set(**quantity, std::move(numbers), {"", name, ""});
   }
   if (fields.contains("name")) described.set_name(fields["name"].cast<std::string>());
+  if (fields.contains("body")) described.set_body(fields["body"].cast<std::string>(), {"", "body", ""});
   return described;
 }
 
@@ -73,6 +74,7 @@ si::Description at_rest() {
 py::dict fields_of(const si::Description& described) {
   py::dict fields;
   if (!described.name().empty()) fields["name"] = described.name();
+  if (described.body()) fields["body"] = py::str(std::string(described.body()->name));
   for (const si::Quantity* quantity : si::quantities()) {
     const auto* given = described.find(*quantity);
     if (given == nullptr) continue;
@@ -85,17 +87,8 @@ py::dict fields_of(const si::Description& described) {
 
 /// The fields of a Ball of Python that it has without being told.
 py::dict fields_of_ball(const si::Description& described) {
-  const si::Experiment experiment = si::experiment_of(described);
-  const std::string law = si::law_of(experiment);
-  if (experiment.ball.body.lies_flat()) {
-    const auto [chi, gamma] = experiment.ball.body.inertia;
-    throw std::domain_error(
-        fmt::format("{} is a {}, which lies flat, and a Ball rolls: use Flow(mu={}, law=\"{}\", body=({}, {}))",
-                    experiment.ball.name, experiment.ball.body.name,
-                    si::patch_ratio(experiment, *reduction::find_law(law)), law, chi, gamma));
-  }
   py::dict fields = fields_of(described);
-  fields["law"] = law;
+  fields["law"] = si::law_of(si::experiment_of(described));
   return fields;
 }
 
@@ -161,6 +154,7 @@ void bind_si(py::module_& module) {
           [](const si::Experiment& experiment, const Law& law) { return Flow(si::undriven_system(experiment, law)); },
           Released())
       .def_property_readonly("gravity", [](const si::Experiment& experiment) { return experiment.environment.gravity; })
+      .def_property_readonly("law", [](const si::Experiment& experiment) { return si::law_of(experiment); })
       .def_property_readonly("slip", &si::slip_at_start)
       .def_property_readonly("spin", &si::spin_at_start)
       .def_property_readonly("start", [](const si::Experiment& experiment) {

@@ -1,6 +1,24 @@
 #include "contensou/si/body.hpp"
 
+#include <stdexcept>
+
+#include <fmt/format.h>
+
 namespace contensou::si {
+
+Body Body::with_factor(double of_m_R2) const {
+  const bool flat = lies_flat();
+  const double most = flat ? 1 : 2.0 / 3;
+  if (!(of_m_R2 > 0 && of_m_R2 <= most)) {
+    throw std::domain_error(fmt::format(
+        "the inertia of a {}, over m R^2, must be above 0 and at most {}, as of a {} with R the radius; got {}", name,
+        flat ? "1" : "2/3", flat ? "ring" : "hollow-ball", of_m_R2));
+  }
+  Body changed = *this;
+  changed.factor = of_m_R2;
+  changed.inertia = {.chi = flat ? 1 : 1 + 1 / of_m_R2, .gamma = 1 / of_m_R2};
+  return changed;
+}
 
 std::string Body::complaint(double mu) const {
   if (patch_ratio) return mu == *patch_ratio ? "" : "a puck rests on its whole face, so mu is 1: leave --mu out";

@@ -65,6 +65,17 @@ CatalogueEntry puck() {
           "pressure on the whole face assumed."};
 }
 
+CatalogueEntry basketball() {
+  return {
+      "basketball",
+      {.ball = {.name = "basketball on a wooden floor", .mass = 0.6, .radius = 0.121, .body = body_of("hollow-ball")},
+       .contact = {.friction = 0.5, .patch = PatchRadius{5.84e-3}, .law = "uniform"},
+       .start = SlipAndSpin{.slip = 1, .spin = 20}},
+      "Size and mass within the rules (750 to 770 mm around, 580 to 620 g); J of a thin shell and the friction are\n"
+      "assumed. Air of 0.55 bar above the room's carries the weight: the pressure is uniform, and the patch has the\n"
+      "area m g over it."};
+}
+
 CatalogueEntry curling_stone() {
   return {
       "curling-stone",
@@ -79,8 +90,8 @@ CatalogueEntry curling_stone() {
 }  // namespace
 
 const std::vector<CatalogueEntry>& catalogue() {
-  static const std::vector<CatalogueEntry> entries{pool(), steel(), bowling(),      rubber(),
-                                                   gel(),  puck(),  curling_stone()};
+  static const std::vector<CatalogueEntry> entries{pool(), steel(),      bowling(), rubber(),
+                                                   gel(),  basketball(), puck(),    curling_stone()};
   return entries;
 }
 

@@ -23,8 +23,9 @@ Velocities struck(const Ball& ball, const CueStrike& strike) {
     throw std::domain_error(fmt::format("the tip slips off the ball {} radii from its centre: at most {} are allowed",
                                         offset, largest_tip_offset));
   }
-  const double velocity = 2 * speed / (1 + ball.mass / cue_mass + 2.5 * offset * offset);  // P/m
-  const double spin = 2.5 * velocity / ball.radius;
+  const double gamma = ball.body.inertia.gamma;
+  const double velocity = 2 * speed / (1 + ball.mass / cue_mass + gamma * offset * offset);  // P/m
+  const double spin = gamma * velocity / ball.radius;
   const double sine = std::sin(elevation), cosine = std::cos(elevation);
   return {{velocity * cosine, 0}, {spin * right * sine, spin * above, spin * right * cosine}};
 }

@@ -32,7 +32,7 @@ std::string ways_out(const Description& described, const Ways& ways) {
   std::vector<std::string> texts;
   for (const Way& way : ways) {
     std::vector<Source> sources;
-    for (const Quantity* quantity : way) sources.push_back(described.home_of(*quantity));
+    for (const Quantity* quantity : needed_of(way)) sources.push_back(described.home_of(*quantity));
     texts.push_back(joined(sources));
   }
   return fmt::format("give {}", fmt::join(texts, ", or "));
@@ -45,7 +45,7 @@ const Quantity* given_of(const Description& described, const Way& way) {
 }
 
 bool has_all(const Description& described, const Way& way) {
-  return std::ranges::all_of(way, [&](const Quantity* quantity) { return described.find(*quantity); });
+  return std::ranges::all_of(needed_of(way), [&](const Quantity* quantity) { return described.find(*quantity); });
 }
 
 const std::vector<double>& numbers_of(const Description& described, const Quantity& quantity) {
@@ -55,13 +55,26 @@ const std::vector<double>& numbers_of(const Description& described, const Quanti
                                                  quantity.unit));
 }
 
+Body body_of(const Description& described) {
+  const Body body = described.body().value_or(Body{});
+  const Description::Values* given = described.find(inertia_factor);
+  if (!given) return body;
+  try {
+    return body.with_factor(given->numbers[0]);
+  } catch (const std::domain_error& error) {
+    given->source.fail(error.what());
+  }
+}
+
 PatchSource patch_of(const Description& described, const Body& body) {
   if (described.find(patch_radius)) return PatchRadius{numbers_of(described, patch_radius)[0]};
   if (described.find(spin_deceleration)) return SpinDeceleration{numbers_of(described, spin_deceleration)[0]};
-  if (described.find(youngs_modulus) || described.find(poisson_ratio)) {
+  if (described.find(youngs_modulus) || described.find(poisson_ratio) || described.find(counter_radius)) {
     const std::vector<double>& moduli = numbers_of(described, youngs_modulus);
     const std::vector<double>& ratios = numbers_of(described, poisson_ratio);
-    return HertzModuli{.youngs_modulus = {moduli[0], moduli[1]}, .poisson_ratio = {ratios[0], ratios[1]}};
+    HertzModuli hertz{.youngs_modulus = {moduli[0], moduli[1]}, .poisson_ratio = {ratios[0], ratios[1]}};
+    if (const Description::Values* given = described.find(counter_radius)) hertz.counter_radius = given->numbers[0];
+    return hertz;
   }
   if (body.lies_flat()) return WholeFace{};
   described.source_of(patch_radius).fail("the patch is missing: " + ways_out(described, alternatives()[0]));
@@ -97,7 +110,6 @@ void Description::set(const Quantity& quantity, std::vector<double> numbers, Sou
 void Description::set_body(const std::string& name, const Source& source) {
   std::vector<std::string> names;
   for (const Body& known : bodies()) {
-    if (!known.lies_flat() && known.name != Body{}.name) continue;  // the strokes and the textbook are of a solid ball
     if (known.name == name) return set_body(known);
     names.emplace_back(known.name);
   }
@@ -191,7 +203,7 @@ Description describe(const Experiment& experiment) {
 
 Experiment experiment_of(const Description& described) {
   described.require_no_contradiction();
-  const Body body = described.body().value_or(Body{});
+  const Body body = body_of(described);
   Experiment experiment{
       .ball = {.name = described.name().empty() ? "ball" : described.name(), .mass = 0, .radius = 0, .body = body},
       .contact = {.friction = 0, .patch = WholeFace{}, .law = described.law()},

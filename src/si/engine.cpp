@@ -338,8 +338,9 @@ Engine box3d() {
       .face = face_on_rim("friction", Cone::box),
       .combination = "friction the geometric mean of the two shapes, rollingResistance the larger",
       .remarks =
-          {"The same number brakes the rolling: a ball that rolls without spin slows down at (5/7) rollingResistance\n"
-           "g. One that spins and rolls shares the moment between the two, which the times here leave out.",
+          {"The same number brakes the rolling: a ball that rolls without spin slows down at rollingResistance g\n"
+           "over 1 + J/(m R^2), 5/7 of it if homogeneous. One that spins and rolls shares the moment between the two,\n"
+           "which the times here leave out.",
            "Of more contact points the force is bounded by f N and the moment by f times the sum of distance to\n"
            "their middle times load, each for itself. There are four at most; a cylinder is a hull of flat sides."},
       .sources = {"src/contact_solver.c:491-525", "src/contact_solver.c:235-239", "src/contact.c:651-690",

@@ -40,6 +40,8 @@ double* member_of(Experiment& experiment, const Quantity& quantity) {
 std::vector<GivenQuantity> given_by(Experiment experiment) {
   std::vector<GivenQuantity> given;
   for (const Quantity* quantity : quantities()) {
+    if (const auto& factor = experiment.ball.body.factor; quantity == &inertia_factor && factor)
+      given.push_back({quantity, {*factor}});
     const double* const member = member_of(experiment, *quantity);
     if (member && quantity != &slope && quantity->standard != *member) given.push_back({quantity, {*member}});
   }
@@ -50,6 +52,7 @@ std::vector<GivenQuantity> given_by(Experiment experiment) {
   if (const auto* moduli = std::get_if<HertzModuli>(&patch)) {
     add(youngs_modulus, moduli->youngs_modulus[0], moduli->youngs_modulus[1]);
     add(poisson_ratio, moduli->poisson_ratio[0], moduli->poisson_ratio[1]);
+    if (std::isfinite(moduli->counter_radius)) add(counter_radius, moduli->counter_radius);
   }
   if (const auto* along_x = std::get_if<SlipAndSpin>(&experiment.start)) {
     add(slip, along_x->slip);
@@ -70,7 +73,11 @@ std::vector<GivenQuantity> given_by(Experiment experiment) {
 
 std::string origin_of(const PatchSource& patch) {
   if (std::holds_alternative<PatchRadius>(patch)) return "given";
-  if (std::holds_alternative<HertzModuli>(patch)) return "by Hertz's formula";
+  if (const auto* moduli = std::get_if<HertzModuli>(&patch)) {
+    return std::isfinite(moduli->counter_radius)
+               ? fmt::format("by Hertz's formula on a surface of radius {} m", moduli->counter_radius)
+               : "by Hertz's formula";
+  }
   if (std::holds_alternative<WholeFace>(patch)) return "its whole face";
   return fmt::format("from its spin deceleration {} rad/s^2", std::get<SpinDeceleration>(patch).value);
 }

@@ -1,6 +1,9 @@
 #include "contensou/si/hertz_contact.hpp"
 
 #include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace contensou::si {
 
@@ -13,7 +16,14 @@ double effective_modulus(const HertzModuli& moduli) {
 }
 
 double hertz_patch_radius(double load, double radius, const HertzModuli& moduli) {
-  return std::cbrt(0.75 * load * radius / effective_modulus(moduli));
+  const double bend = 1 + radius / moduli.counter_radius;  // R/R'
+  if (!(bend > 0)) {
+    throw std::domain_error(fmt::format(
+        "counter_radius {} m is a dish no wider than the ball of radius {} m, which then touches it in no one "
+        "patch: below {} it is wider",
+        moduli.counter_radius, radius, -radius));
+  }
+  return std::cbrt(0.75 * load * (radius / bend) / effective_modulus(moduli));
 }
 
 double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,

@@ -16,17 +16,37 @@ namespace contensou::si {
 std::size_t Quantity::count() const { return 1 + static_cast<std::size_t>(std::ranges::count(components, ',')); }
 
 const std::vector<const Quantity*>& quantities() {
-  static const std::vector<const Quantity*> all{
-      &mass,          &radius, &friction, &rolling_friction, &patch_radius,     &spin_deceleration, &youngs_modulus,
-      &poisson_ratio, &slip,   &spin,     &velocity,         &angular_velocity, &gravity,           &load,
-      &slope};
+  static const std::vector<const Quantity*> all{&mass,
+                                                &radius,
+                                                &inertia_factor,
+                                                &friction,
+                                                &rolling_friction,
+                                                &patch_radius,
+                                                &spin_deceleration,
+                                                &youngs_modulus,
+                                                &poisson_ratio,
+                                                &counter_radius,
+                                                &slip,
+                                                &spin,
+                                                &velocity,
+                                                &angular_velocity,
+                                                &gravity,
+                                                &load,
+                                                &slope};
   return all;
 }
 
+Ways::value_type needed_of(const Ways::value_type& way) {
+  Ways::value_type needed = way;
+  if (way.size() > 1) std::erase_if(needed, [](const Quantity* quantity) { return quantity->standard.has_value(); });
+  return needed;
+}
+
 const std::vector<Ways>& alternatives() {
-  static const std::vector<Ways> all{{{&patch_radius}, {&spin_deceleration}, {&youngs_modulus, &poisson_ratio}},
-                                     {{&slip, &spin}, {&velocity, &angular_velocity}},
-                                     {{&gravity}, {&load}}};
+  static const std::vector<Ways> all{
+      {{&patch_radius}, {&spin_deceleration}, {&youngs_modulus, &poisson_ratio, &counter_radius}},
+      {{&slip, &spin}, {&velocity, &angular_velocity}},
+      {{&gravity}, {&load}}};
   return all;
 }
 
@@ -86,6 +106,8 @@ void require(const Quantity& quantity, double value) {
     switch (quantity.range) {
       case any:
         return {true, "finite"};
+      case not_zero:
+        return {value != 0, "finite and not 0"};
       case not_negative:
         return {value >= 0, "finite and >= 0"};
       case positive:

@@ -44,8 +44,8 @@ def test_a_roll_is_the_programs(given, options):
 
 @pytest.mark.skipif(not PROGRAM, reason="the program is not built")
 def test_the_balls_are_the_programs(tmp_path):
-    names = [ball["name"] for ball in program("balls")["balls"] if ball["body"] == "ball"]
-    assert len(names) >= 5
+    names = [ball["name"] for ball in program("balls")["balls"] if hasattr(ct.Ball, ball["name"].replace("-", "_"))]
+    assert len(names) >= 7
     for name in names:
         ball = ct.Ball.named(name)
         assert not hasattr(ct.Ball, name) or getattr(ct.Ball, name)() == ball
@@ -73,18 +73,18 @@ def test_a_run_files_law_is_that_of_every_answer(tmp_path):
 
 
 KEYS = {
-    "mass": "0.5", "radius": "0.04", "friction": "0.3", "rolling_friction": "0.01", "patch_radius": "2e-3",
-    "spin_deceleration": "7", "youngs_modulus": "[1e9, 2e9]", "poisson_ratio": "[0.3, 0.2]", "slip": "2", "spin": "-9",
-    "velocity": "[1, 2]", "angular_velocity": "[3, 4, 5]", "gravity": "1.6", "load": "3",
-    "slope": "-2"}
+    "mass": "0.5", "radius": "0.04", "inertia": "0.6", "friction": "0.3", "rolling_friction": "0.01", "patch_radius": "2e-3",
+    "spin_deceleration": "7", "youngs_modulus": "[1e9, 2e9]", "poisson_ratio": "[0.3, 0.2]", "counter_radius": "-0.1", "slip": "2", "spin": "-9",
+    "velocity": "[1, 2]", "angular_velocity": "[3, 4, 5]", "gravity": "1.6", "load": "3", "slope": "-2"}
 
 
 @pytest.mark.skipif(not PROGRAM, reason="the program is not built")
 @pytest.mark.parametrize("key", ct._core.quantities)
 def test_every_key_of_a_run_file_is_a_field_of_a_ball(key, tmp_path):
     path, told = tmp_path / "mine.toml", {key: json.loads(KEYS[key])}
-    if key in ("youngs_modulus", "poisson_ratio"):
-        told = {each: json.loads(KEYS[each]) for each in ("youngs_modulus", "poisson_ratio")}
+    hertz = ("youngs_modulus", "poisson_ratio", "counter_radius")
+    if key in hertz:
+        told = {each: json.loads(KEYS[each]) for each in hertz[:2] + (key,)}
     ball = ct.Ball.pool(**told)
     options = [word for name, value in told.items()
                for word in ("--" + name.replace("_", "-"), json.dumps(value).strip("[]").replace(" ", ""))]
@@ -136,6 +136,23 @@ velocity = [1, 2]\nangular_velocity = [3, 4, 5]\n[environment]\nload = 5\n""")
         ball.but(mass="x")
 
 
+def test_a_puck_lies_flat():
+    puck = ct.Ball.puck()
+    assert (puck.body, puck.law, puck.patch_radius, puck.mu()) == ("disc", ct.law("uniform"), None, 1)
+    roll = puck.roll(slip=5, spin=100)
+    assert (round(roll.stop_time, 2), round(roll.path, 2), round(roll.turns, 1)) == (6.27, 14.72, 57.2)
+    assert roll.rolls_after.t == roll.stop_time and roll.rolls_after.x == pytest.approx(roll.path) and roll.rest is None
+    near = roll(roll.stop_time * (1 - 1e-7))
+    assert near["slip"] / (puck.radius * near["wz"]) == pytest.approx(0.653, abs=1e-3)
+    assert roll.uncoupled.rolls_after.t == pytest.approx(5 / (0.1 * puck.gravity))
+    assert ct.portrait(ball=puck, orbits=1).data["body"] == {"chi": 1, "gamma": 2}
+    assert puck.but(body="ring").law == ct.law("ring") and puck.but(inertia=0.4).law == ct.law("uniform")
+    assert puck.but(law="exact").but(slip=1).law == ct.law("exact")
+    assert ct.Ball(mass=1, radius=0.1, friction=0.1, body="ring").mu() == 1
+    for same in (copy.copy(puck), pickle.loads(pickle.dumps(puck)), puck.but(), ct.Ball.named("puck")):
+        assert same == puck and hash(same) == hash(puck)
+
+
 def newton(ball, law, velocity, angular_velocity, t):
     """V, omega and the way of the centre after t, from F = f N Phi against the slip and M = f N eps Psi against the spin."""
     law, eps = ct.law(law), ball.mu(law) * ball.radius
@@ -147,9 +164,10 @@ def newton(ball, law, velocity, angular_velocity, t):
         speed = np.hypot(*slip)
         force, moment = law(speed / (eps * abs(wz)))
         fx, fy = -ball.friction * weight * force * slip / speed
-        inertia = 0.4 * ball.mass * ball.radius**2
+        factor = ball.inertia or {"ball": 2 / 5, "hollow-ball": 2 / 3, "disc": 1 / 2, "ring": 1}[ball.body]
+        inertia, tilting = factor * ball.mass * ball.radius**2, np.inf if ball.body in ("disc", "ring") else 1
         # The force acts at (0, 0, -R).
-        return [vx, vy, fx / ball.mass, fy / ball.mass, ball.radius * fy / inertia, -ball.radius * fx / inertia,
+        return [vx, vy, fx / ball.mass, fy / ball.mass, ball.radius * fy / inertia / tilting, -ball.radius * fx / inertia / tilting,
                 -math.copysign(ball.friction * weight * eps * moment, wz) / inertia]
 
     start = [0, 0, *velocity, *angular_velocity]
@@ -162,6 +180,22 @@ def test_a_roll_obeys_newton(law):
     at = ball.roll(velocity=start[0], angular_velocity=start[1], law=law)(0.2)
     assert [at[name] for name in ("x", "y", "vx", "vy", "wx", "wy", "wz")] == pytest.approx(
         newton(ball, law, *start, 0.2), rel=1e-7)
+
+
+@pytest.mark.parametrize("ball, start", [
+    (ct.Ball.gel(body="hollow-ball"), ((1, 0.2), (-20, 30, 80))),
+    (ct.Ball.gel(inertia=0.55), ((1, 0.2), (-20, 30, 80))),
+    (ct.Ball.basketball(), ((2, 0), (-5, 3, 20))),
+    (ct.Ball.puck(), ((3, 4), (0, 0, 100))),
+    (ct.Ball.puck(inertia=0.4, patch_radius=0.02, law="exact"), ((0.3, 0.1), (0, 0, -100))),
+    (ct.Ball.named("curling-stone"), ((2, 0), (0, 0, 1.5))),
+])
+def test_a_body_of_any_inertia_obeys_newton(ball, start):
+    roll = ball.roll(velocity=start[0], angular_velocity=start[1])
+    t = 0.7 * roll.stop_time if ball.body in ("disc", "ring") else 0.2
+    at = roll(t)
+    assert [at[name] for name in ("x", "y", "vx", "vy", "wx", "wy", "wz")] == pytest.approx(
+        newton(ball, ball.law, *start, t), rel=1e-7, abs=1e-12)
 
 
 def pooltool_slide(rvw, R, u_s, g, t):
@@ -211,6 +245,12 @@ def test_a_ball_changes():
     (lambda: ct.Ball(mass=1, radius=1, friction=1, patch_radius=0.1, spin_deceleration=1), "exclude each other: give patch_radius, or"),
     (lambda: ct.Ball.named("pol"), r"no such ball 'pol' \(did you mean 'pool'\?\); balls: pool, steel"),
     (lambda: ct.Ball.pool(patch_radius=1), "at most the ball's radius"),
+    (lambda: ct.Ball.pool(inertia=0.7), "at most 2/3, as of a hollow-ball"),
+    (lambda: ct.Ball.pool(body="bal"), r"no such body 'bal' \(did you mean 'ball'\?\); bodies: ball, hollow-ball, disc, puck, ring"),
+    (lambda: ct.Ball.steel(counter_radius=-0.01), "a dish no wider than the ball"),
+    (lambda: ct.Ball.pool(counter_radius=1), "spin_deceleration and counter_radius exclude each other"),
+    (lambda: ct.Ball.puck().roll(strike=1, tip=(0, 0.2)), "a disc lies flat and turns about the vertical only"),
+    (lambda: ct.Ball.puck().roll(rolling_friction=0.01), "it has no rolling friction"),
     (lambda: ct.Ball.pool().roll(strike=1, tip=(0.6, 0)), "the tip slips off the ball"),
     (lambda: ct.Ball.pool().roll(strike=1, spin=0), "strike is a start of its own"),
     (lambda: ct.Ball.pool().roll(velocity=(1, 0), spin=1), "exclude each other"),

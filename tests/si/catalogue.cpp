@@ -19,9 +19,10 @@ TEST_CASE("patches of the built-in balls", "[table]") {
     double mu;
   };
   // theory: Hertz's formula and the spin deceleration, rounded to three digits there
-  const std::vector<Row> rows{{"pool", 2.83e-3, 0.099},       {"steel", 3.51e-5, 0.0035}, {"bowling", 1.33e-3, 0.0123},
-                              {"rubber", 1.71e-3, 0.0685},    {"gel", 7.24e-3, 0.241},    {"puck", 0.0381, 1},
-                              {"curling-stone", 0.065, 0.448}};
+  const std::vector<Row> rows{{"pool", 2.83e-3, 0.099},     {"steel", 3.51e-5, 0.0035},
+                              {"bowling", 1.33e-3, 0.0123}, {"rubber", 1.71e-3, 0.0685},
+                              {"gel", 7.24e-3, 0.241},      {"basketball", 5.84e-3, 0.0483},
+                              {"puck", 0.0381, 1},          {"curling-stone", 0.065, 0.448}};
   REQUIRE(catalogue().size() == rows.size());
   const contensou::reduction::HertzLaw law;
   for (const auto& [name, patch, mu] : rows) {
@@ -50,6 +51,22 @@ TEST_CASE("the Hertz radius grows with the cube root of load and radius", "[symm
   const double patch = hertz_patch_radius(0.3, 0.01, moduli);
   CHECK(hertz_patch_radius(8 * 0.3, 0.01, moduli) == Approx(2 * patch).epsilon(1e-15));
   CHECK(hertz_patch_radius(0.3, 8 * 0.01, moduli) == Approx(2 * patch).epsilon(1e-15));
+}
+
+TEST_CASE("of two spheres Hertz's patch is that of their relative curvature", "[table]") {
+  const HertzModuli plane{.youngs_modulus = {2.1e11, 7.0e10}, .poisson_ratio = {0.3, 0.22}};
+  HertzModuli sphere = plane, dish = plane;
+  sphere.counter_radius = 0.01;  // as the ball: half its radius
+  dish.counter_radius = -0.03;   // 1/R' = 1/0.01 - 1/0.03
+  CHECK(hertz_patch_radius(0.3, 0.01, sphere) == Approx(hertz_patch_radius(0.3, 0.005, plane)).epsilon(1e-15));
+  CHECK(hertz_patch_radius(0.3, 0.01, dish) == Approx(hertz_patch_radius(0.3, 0.015, plane)).epsilon(1e-15));
+  // Johnson, Contact Mechanics (4.22): a^3 = 3 N R'/(4 E*).
+  CHECK(std::pow(hertz_patch_radius(0.3, 0.01, dish), 3) == Approx(0.75 * 0.3 * 0.015 / effective_modulus(plane)));
+  for (double tight : {-0.01, -0.009, -1e-3}) {
+    dish.counter_radius = tight;
+    CHECK_THROWS_WITH(hertz_patch_radius(0.3, 0.01, dish),
+                      Catch::Matchers::Contains("a dish no wider than the ball of radius 0.01 m"));
+  }
 }
 
 TEST_CASE("a curling stone's spin dies out as measured", "[table]") {

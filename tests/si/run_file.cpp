@@ -395,7 +395,7 @@ TEST_CASE("a body that lies flat, and a law of its own", "[table]") {
     CHECK_THROWS_WITH(read(text, "f"), Contains(words));
   };
   refused(with(flat, "disc", "disk"),
-          "f:3:8: no such body 'disk' (did you mean 'disc'?); bodies: ball, disc, puck, ring");
+          "f:3:8: no such body 'disk' (did you mean 'disc'?); bodies: ball, hollow-ball, disc, puck, ring");
   refused(with(flat, "\"disc\"", "2"), "'body' in [ball] must be a string in quotes");
   refused(with(flat, "friction", "law = \"unifrom\"\nfriction"), "no such law 'unifrom' (did you mean 'uniform'?)");
   refused(with(flat, "friction", "law = \"pressure:-2\"\nfriction"), "f:7:7: ");
@@ -403,4 +403,28 @@ TEST_CASE("a body that lies flat, and a law of its own", "[table]") {
           "a disc lies flat: Hertz's formula is of a ball");
   refused(with(with(flat, "slip = 1.0", "velocity = [1, 0]"), "spin = 100", "angular_velocity = [1, 0, 0]"),
           "turns about the vertical only");
+}
+
+TEST_CASE("inertia is a key, and that of a name is the name", "[invariant]") {
+  const auto read_text = [](const std::string& text) { return experiment_of(parse_run_file(text, "x.toml")); };
+  const std::string rest =
+      "[contact]\nfriction = 0.3\npatch_radius = 1e-3\n[start]\nslip = 1\nspin = 20\n[environment]\ngravity = 9.8\n";
+  const auto inertia_of = [&](const std::string& lines) {
+    return read_text("[ball]\nmass = 1\nradius = 0.1\n" + lines + "\n" + rest).ball.body.inertia;
+  };
+  for (const auto& [name, given] :
+       {std::pair{"body = \"ball\"", "inertia = 0.4"}, {"body = \"hollow-ball\"", "inertia = 0.6666666666666666"}}) {
+    CHECK(inertia_of(name).chi == inertia_of(given).chi);
+    CHECK(inertia_of(name).gamma == inertia_of(given).gamma);
+  }
+  CHECK(inertia_of("body = \"disc\"\ninertia = 1").gamma == 1);
+  CHECK(inertia_of("body = \"disc\"\ninertia = 1").chi == 1);
+  Experiment changed = find_ball("curling-stone")->experiment;
+  changed.ball.body = changed.ball.body.with_factor(0.45);
+  CHECK(read_text(run_file(changed)).ball.body.factor == 0.45);
+  CHECK(run_file(read_text(run_file(changed))) == run_file(changed));
+  CHECK_THROWS_WITH(inertia_of("inertia = 0.7"),
+                    Contains("x.toml:4:1: the inertia of a ball, over m R^2, must be above 0 "
+                             "and at most 2/3, as of a hollow-ball with R the radius"));
+  CHECK_THROWS_WITH(inertia_of("body = \"disc\"\ninertia = 1.1"), Contains("x.toml:5:1: ") && Contains("as of a ring"));
 }

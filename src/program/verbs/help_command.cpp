@@ -61,7 +61,7 @@ std::string files() {
       text += fmt::format("[{}]\n", section);
       if (quantity == &si::mass) {
         text += help_entry("name", "text in quotes") +
-                help_entry("body", "text in quotes: ball (default), disc, puck or ring");
+                help_entry("body", "text in quotes: ball (default), hollow-ball, disc, puck or ring");
       }
       if (quantity == &si::friction) text += help_entry("law", "text in quotes: the default of --law");
     }
@@ -76,7 +76,7 @@ std::string files() {
     std::vector<std::string> names;
     for (const auto& way : ways) {
       std::vector<std::string_view> members;
-      for (const si::Quantity* quantity : way) members.push_back(quantity->name);
+      for (const si::Quantity* quantity : si::needed_of(way)) members.push_back(quantity->name);
       names.push_back(fmt::format("{}", fmt::join(members, " with ")));
     }
     text += help_paragraph(

@@ -26,15 +26,18 @@ class Event(NamedTuple):
 
 @dataclass(frozen=True)
 class Ball:
-    """A homogeneous ball on a plane, in SI units, with a typical start.
+    """A ball on a plane, or a body that lies flat on it, in SI units, with a typical start.
 
     Its patch is given by one of patch_radius (m), spin_deceleration (rad/s^2, measured without slip), or Young's moduli
-    (Pa) and Poisson's ratios of ball and plane. What presses it on the plane is gravity (m/s^2, 9.80665 if left out), or a
+    (Pa) and Poisson's ratios of ball and plane, with counter_radius (m) where it is no plane: of another ball above 0, of a
+    dish below 0; it changes the patch alone. What presses it on the plane is gravity (m/s^2, 9.80665 if left out), or a
     load (N). Its start, at rest if left out, is slip (m/s, along x) and spin (rad/s about the vertical), or velocity (x, y)
     and angular_velocity (x, y, z up). Of a start by velocities slip and spin, and of a load gravity, say what they come to.
     rolling_friction: rolling without slip, the ball slows down at so much of gravity. slope: degrees by which the plane
     rises along x, negative where it falls. law is that of every question
-    about the ball that names none: a name, a Law or a function.
+    about the ball that names none: a name, a Law or a function; that of the body if left out.
+    body: ball, hollow-ball; or disc (puck) and ring, which lie flat and turn about the vertical only. Their patch is the
+    whole face, of the body's radius, if none is given. inertia: over m R^2, in place of that of the body's name.
     `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
     """
 
@@ -49,22 +52,26 @@ class Ball:
     slip: float = None  # type: ignore[assignment]
     spin: float = None  # type: ignore[assignment]
     name: str = "ball"
-    law: LawLike = "exact"
+    law: LawLike = None  # type: ignore[assignment]
     rolling_friction: float = 0
     load: Optional[float] = None
     slope: float = 0
     velocity: Optional[tuple[float, float]] = None
     angular_velocity: Optional[tuple[float, float, float]] = None
+    body: str = "ball"
+    inertia: Optional[float] = None
+    counter_radius: Optional[float] = None
     _experiment: _core.Experiment = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        given = {name: getattr(self, name) for name in ("name", *_core.quantities)}
+        given = {name: getattr(self, name) for name in ("name", "body", *_core.quantities)}
         known = _core.changed({}, given)
         core = _core.Experiment(known)
         if self.velocity is not None or self.angular_velocity is not None:
             known["velocity"], known["angular_velocity"] = core.start
         derived = {"gravity": core.gravity, "slip": core.slip, "spin": core.spin}
-        for key, value in {**derived, **known, "law": law_of(self.law), "_experiment": core}.items():
+        law = law_of(core.law if self.law is None else self.law)
+        for key, value in {**derived, **known, "law": law, "_experiment": core}.items():
             object.__setattr__(self, key, value)
 
     def _given(self) -> dict[str, Any]:
@@ -72,6 +79,8 @@ class Ball:
         derived = {"gravity"} if self.load is not None else set()
         if self.velocity is not None:
             derived |= {"slip", "spin"}
+        if self.law == law_of(self._experiment.law):
+            derived |= {"law"}
         known = {each.name: getattr(self, each.name) for each in fields(self) if each.init and each.name not in derived}
         return {name: value for name, value in known.items() if value is not None}
 
@@ -80,7 +89,7 @@ class Ball:
 
     @classmethod
     def _of(cls, known: dict[str, Any], changes: dict[str, Any]) -> Ball:
-        law = {"law": changes.get("law", known.get("law", "exact"))}
+        law = {"law": changes.get("law", known.get("law"))}
         allowed = [each.name for each in fields(cls) if each.init]
         for key in changes.keys() - set(allowed):
             raise TypeError(f"a Ball has no {key}; it has {', '.join(allowed)}")
@@ -126,6 +135,16 @@ class Ball:
         """A gel ball on a rigid plane, where sliding and spinning are seen to be coupled."""
         return cls.named("gel", **changes)
 
+    @classmethod
+    def basketball(cls, **changes: Any) -> Ball:
+        """A basketball on a wooden floor, a hollow ball."""
+        return cls.named("basketball", **changes)
+
+    @classmethod
+    def puck(cls, **changes: Any) -> Ball:
+        """An ice hockey puck, a disc that lies flat."""
+        return cls.named("puck", **changes)
+
     def mu(self, law: Optional[LawLike] = None) -> float:
         """Patch radius over radius."""
         return _solved(self, self._law(law)).mu
@@ -149,7 +168,7 @@ class Ball:
         rolling_below: float = _core.rolling_slip,
         rolling_friction: Optional[float] = None,
     ) -> Roll:
-        """The whole motion of the ball, from its own start or from another one:
+        """The whole motion of the ball, or of the body that lies flat, from its own start or from another one:
 
         velocity, angular_velocity:  of the centre, (x, y) in m/s, and of the ball, (x, y, z) in rad/s, z up
         slip, spin:                  m/s along x, rad/s about the vertical
@@ -235,7 +254,7 @@ class Roll:
 
     @property
     def rolls_after(self) -> Event:
-        """When its slip has fallen to rolling_below."""
+        """When its slip has fallen to rolling_below; of a body that lies flat when it rests."""
         return Event(*self._core.rolls_after)
 
     @property

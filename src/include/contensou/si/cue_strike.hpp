@@ -22,10 +22,10 @@ inline constexpr double largest_tip_offset = 0.5;
 /// The velocities that a stroke gives to a ball at rest.
 ///
 /// The cue is a rod that gives an elastic impulse P along itself, without friction of the tip. With the cue along
-/// d = (cos e, 0, -sin e), the tip at r = -c d - a y + b n, n = (sin e, 0, cos e), and J = (2/5) m R^2,
+/// d = (cos e, 0, -sin e), the tip at r = -c d - a y + b n, n = (sin e, 0, cos e), and J = m R^2/gamma,
 ///   m V = P d,  J omega = r x P d = P (a sin e, b, a cos e),
 /// and the points that touch leave each other as fast as they met, so that
-///   P = 2 m s/(1 + m/M + (5/2)(a^2 + b^2)/R^2).
+///   P = 2 m s/(1 + m/M + gamma (a^2 + b^2)/R^2).
 /// The table takes the downward part of V; its friction during the impact is left out. This is the model of W. Leckie
 /// and M. Greenspan, "An event-based pool physics simulator", LNCS 4250 (2006), who measure b in the vertical plane.
 ///

@@ -15,12 +15,12 @@ namespace contensou::si {
 
 struct Quantity;
 
-/// A homogeneous ball, or a body that lies flat.
+/// A ball, or a body that lies flat.
 struct Ball {
   std::string name;
   double mass;     ///< kg
   double radius;   ///< m
-  Body body = {};  ///< of bodies()
+  Body body = {};  ///< of bodies(), with its own factor where one was given
 };
 
 /// The patch as it was measured.

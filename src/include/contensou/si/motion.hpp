@@ -51,16 +51,16 @@ struct FinalMotion {
 /// The rolling that an experiment ends in, or the rest of a body that lies flat, under any friction law, in the axes of the start (x along the initial slip
 /// for SlipAndSpin).
 ///
-/// With the axis x along the slip v, 7 R omega_y + 5 v is a first integral (Zh98 after (2.5)): R omega_y grows by 5
-/// v0/7, and the velocity of the centre along the slip falls by 2 v0/7.
+/// With the axis x along the slip v, R omega_y + (1 - 1/chi) v is a first integral, of a homogeneous ball
+/// 7 R omega_y + 5 v (Zh98 after (2.5)): the velocity of the centre along the slip falls by v0/chi, 2 v0/7.
 FinalMotion final_motion(const Experiment& experiment);
 
 /// The motion when the contact point slides at `slip`, having slid for `slip_length` since the start, and the ball
 /// spins at `spin` about the vertical: friction leaves nothing else free.
 ///
-/// The slip keeps its direction e, and with it omega along e; along e the velocity of the centre falls by 2/7 of what
-/// the slip has lost, and R omega across e takes the rest (Zh98 after (2.5)). So V = V0 - (2/7)(v0 - v) e and
-/// X = V0 t - (2/7)(v0 t - slip_length) e.
+/// The slip keeps its direction e, and with it omega along e; along e the velocity of the centre falls by 1/chi of what
+/// the slip has lost, 2/7 of a homogeneous ball, and R omega across e takes the rest (Zh98 after (2.5)). So
+/// V = V0 - (v0 - v) e/chi and X = V0 t - (v0 t - slip_length) e/chi.
 ///
 /// @param t            s
 /// @param slip         m/s

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,7 +11,7 @@ namespace contensou::si {
 /// What a user gives of an experiment in numbers: a row here is a key of run files, an option of the program and a field of
 /// Python's Ball.
 struct Quantity {
-  enum class Range { any, not_negative, positive, poisson_ratio, tilt };
+  enum class Range { any, not_zero, not_negative, positive, poisson_ratio, tilt };
 
   std::string_view name;  ///< the key of a run file
   std::string_view unit;  ///< SI; empty for a pure number
@@ -18,7 +19,7 @@ struct Quantity {
   Range range;
   std::string_view section;             ///< of a run file
   std::string_view components = {};     ///< of a vector, between commas; empty for a number
-  std::optional<double> standard = {};  ///< the value if none is given
+  std::optional<double> standard = {};  ///< the value if none is given; infinity may be one, but cannot be given
 
   /// The number of its components.
   std::size_t count() const;
@@ -26,6 +27,11 @@ struct Quantity {
 
 inline constexpr Quantity mass{"mass", "kg", "mass of the ball", Quantity::Range::positive, "ball"};
 inline constexpr Quantity radius{"radius", "m", "radius of the ball", Quantity::Range::positive, "ball"};
+inline constexpr Quantity inertia_factor{
+    "inertia", "",
+    "moment of inertia over m R^2, of a ball (2/5 if homogeneous, 2/3 if hollow) or, of what "
+    "lies flat, about the vertical (disc 1/2, ring 1)",
+    Quantity::Range::positive, "ball"};
 inline constexpr Quantity friction{"friction", "", "coefficient of dry friction", Quantity::Range::positive, "contact"};
 inline constexpr Quantity rolling_friction{
     .name = "rolling_friction",
@@ -45,6 +51,13 @@ inline constexpr Quantity youngs_modulus{
 inline constexpr Quantity poisson_ratio{
     "poisson_ratio", "",     "Poisson's ratios of ball and plane", Quantity::Range::poisson_ratio,
     "contact.hertz", "N1,N2"};
+inline constexpr Quantity counter_radius{
+    .name = "counter_radius",
+    .unit = "m",
+    .meaning = "radius of the surface below, for the patch alone: of another ball above 0, of a dish below 0",
+    .range = Quantity::Range::not_zero,
+    .section = "contact.hertz",
+    .standard = std::numeric_limits<double>::infinity()};
 inline constexpr Quantity slip{"slip", "m/s", "sliding speed of the contact point, along x",
                                Quantity::Range::not_negative, "start"};
 inline constexpr Quantity spin{"spin", "rad/s", "angular velocity about the vertical", Quantity::Range::any, "start"};
@@ -72,6 +85,9 @@ const std::vector<const Quantity*>& quantities();
 
 /// Quantities of which only one way is given: those of a way belong together.
 using Ways = std::vector<std::vector<const Quantity*>>;
+
+/// Of a way those that must be given with each other: the rest has a standard value.
+Ways::value_type needed_of(const Ways::value_type& way);
 
 /// The parts of an experiment that can be given in several ways: the patch, the start, and what presses the ball on the plane.
 const std::vector<Ways>& alternatives();

@@ -5,7 +5,7 @@
 
 namespace contensou::si {
 
-/// The textbook's ball, whose sliding and pivoting do not know of each other: the slip falls at 7 f g/2, the spin at
+/// The textbook's ball, whose sliding and pivoting do not know of each other: the slip falls at chi f g, the spin at
 /// its rate without sliding. It ends in the same rolling as BallMotion, but elsewhere and at another time.
 class UncoupledMotion {
  public:
@@ -13,10 +13,10 @@ class UncoupledMotion {
   /// @throws std::domain_error  as require_experiment
   UncoupledMotion(const Experiment& experiment, const reduction::Law& law);
 
-  /// s until the slip has fallen to that speed in m/s, >= 0; 0 for a ball that starts no faster. To 0: 2 v0/(7 f g).
+  /// s until the slip has fallen to that speed in m/s, >= 0; 0 for a ball that starts no faster. To 0: v0/(chi f g).
   double slip_time(double speed) const;
 
-  /// s until the spin has ended: 2 R |omega_z|/(5 mu Psi(0) f g).
+  /// s until the spin has ended: R |omega_z|/(gamma mu Psi(0) f g).
   double spin_end() const { return spin_end_; }
 
   /// m that the contact point slides on the ball.
