@@ -45,7 +45,6 @@ VectorXd with_signs(const FitRequest& request, VectorXd parameters) {
 
 void require(const FitRequest& request) {
   si::require_experiment(request.ball);
-  if (request.ball.ball.body.lies_flat()) throw std::domain_error("fit: a ball is required; this body lies flat");
   if (request.tracks.empty()) throw std::domain_error("fit: there is no track");
   for (const Track& track : request.tracks) require(track);
 }
@@ -66,6 +65,10 @@ void require_limits(const Search& search, bool planned) {
 }
 
 }  // namespace
+
+Free usually_free(const si::Experiment& ball) {
+  return {.patch_radius = !std::holds_alternative<si::WholeFace>(ball.contact.patch)};
+}
 
 const ParameterKind& kind_of(Parameter parameter) {
   static const ParameterKind all[]{

@@ -201,6 +201,8 @@ void Reporter::add_estimate(Parameter parameter, std::size_t track) {
   }
   if (is_of_contact(parameter)) {
     estimate.value = std::exp(estimate.value);
+    // No patch is larger than the ball, not even by rounding.
+    if (parameter == Parameter::patch_radius) estimate.value = std::min(estimate.value, request_.ball.ball.radius);
     estimate.standard_error = error == 0 ? 0 : estimate.value * error;
     estimate.interval = {estimate.value * std::exp(-quantile_ * error), estimate.value * std::exp(quantile_ * error)};
   } else {
@@ -412,16 +414,23 @@ void Reporter::set_predicted() {
 
 void Reporter::set_ball() {
   const auto number = [&](Parameter parameter) { return fit_.estimate(parameter).value; };
-  fit_.ball.contact = {number(Parameter::friction), si::PatchRadius{number(Parameter::patch_radius)}};
+  const bool whole_face = std::holds_alternative<si::WholeFace>(request_.ball.contact.patch);
+  fit_.ball.contact = {.friction = number(Parameter::friction), .patch = request_.ball.contact.patch};
+  if (request_.free.patch_radius || !whole_face)
+    fit_.ball.contact.patch = si::PatchRadius{number(Parameter::patch_radius)};
   if (fit_.law != request_.ball.ball.body.law && reduction::find_law(fit_.law)) fit_.ball.contact.law = fit_.law;
   const double slip = std::max(0.0, number(Parameter::slip)), spin = number(Parameter::spin);
-  if (!is_free(TrackModel::place(Parameter::vx)) || !is_free(TrackModel::place(Parameter::vy))) {
+  if (!is_free(TrackModel::place(Parameter::direction))) {
     fit_.ball.start = si::SlipAndSpin{slip, spin};
     return;
   }
   const double direction = number(Parameter::direction), radius = request_.ball.ball.radius;
-  const Eigen::Vector2d velocity(number(Parameter::vx), number(Parameter::vy));
   const Eigen::Vector2d of_contact(slip * std::cos(direction), slip * std::sin(direction));
+  if (request_.ball.ball.body.lies_flat()) {
+    fit_.ball.start = si::Velocities{of_contact, {0, 0, spin}};
+    return;
+  }
+  const Eigen::Vector2d velocity(number(Parameter::vx), number(Parameter::vy));
   const Eigen::Vector2d difference = (velocity - of_contact) / radius;
   fit_.ball.start = si::Velocities{velocity, {-difference.y(), difference.x(), spin}};
 }

@@ -11,8 +11,6 @@ namespace contensou::fit {
 
 namespace {
 
-using reduction::homogeneous_ball;
-
 constexpr double near_axis = 1e-12;  ///< of k or 1/k: from there on the smaller speed goes in proportion to its start
 constexpr double at_rest = 1e-12;    ///< of w at the start
 constexpr double first_width = 0.5, min_width = 1e-4;
@@ -74,8 +72,9 @@ ScaledOrbit::Integrals ScaledOrbit::Cell::at(double z) const {
   return result;
 }
 
-ScaledOrbit::ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy)
-    : law_(law), mu_(mu), accuracy_(accuracy), width_(first_width), v0_(start.v), u0_(start.u) {
+ScaledOrbit::ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy,
+                         reduction::Inertia inertia)
+    : law_(law), mu_(mu), accuracy_(accuracy), inertia_(inertia), width_(first_width), v0_(start.v), u0_(start.u) {
   double v = std::abs(v0_), w = mu * std::abs(u0_);
   if (v == 0 && w == 0) return;
   by_[0] = {.x = -1, .ln_w = 1, .ln_mu = 1};
@@ -106,7 +105,7 @@ std::pair<double, double> ScaledOrbit::rates(double x) const {
   constexpr double smallest = 1e-12;  // below it Phi/k and Psi do not change
   const double k = std::max(std::exp(x), smallest);
   const auto [force, moment] = law_(reduction::slip_of_ratio(k));
-  const double A = homogeneous_ball.chi * force / k, B = homogeneous_ball.gamma * mu_ * mu_ * moment;
+  const double A = inertia_.chi * force / k, B = inertia_.gamma * mu_ * mu_ * moment;
   if (!(A > B)) throw std::domain_error("fit: the law has an invariant ray there: a smaller patch is required");
   return {A, B};
 }
@@ -165,8 +164,7 @@ void ScaledOrbit::reach(double T) {
 
 ScaledOrbit::Stop ScaledOrbit::stop() const {
   if (u0_ == 0)
-    return {std::abs(v0_) / homogeneous_ball.chi, 0, (v0_ < 0 ? -1 : 1) / homogeneous_ball.chi,
-            0};  // what is left of w is not its own
+    return {std::abs(v0_) / inertia_.chi, 0, (v0_ < 0 ? -1 : 1) / inertia_.chi, 0};  // what is left of w is not its own
   const auto change = [&](const Direction& by) { return change_of_T(by, now_); };
   return {now_[T_] + std::exp(now_[ln_w]) / rates(x_).second, change(by_[0]), v0_ == 0 ? 0 : change(by_[1]) / v0_,
           change(by_[2]) / u0_};

@@ -8,57 +8,32 @@
 
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/reduced_system.hpp"
+#include "fit/film_orbit.hpp"
 
 namespace contensou::fit {
 
-/// Sliding and pivoting speeds, m/s, and their integrals over T = f g t; or a derivative of all four.
-struct Speeds {
-  double v, u, slid, turned;
-};
-
-Speeds operator+(const Speeds& a, const Speeds& b);
-Speeds operator*(double c, const Speeds& a);
-
-/// An orbit of the ball's reduced system in T = f g t, where friction is in no equation, with its exact derivatives.
+/// The orbit of a ball, with its exact derivatives.
 ///
-/// Everything is a quadrature over x = ln k, since k decreases all the time. With A = (7/2) Phi/k, B = (5/2) mu^2 Psi,
+/// Everything is a quadrature over x = ln k, since k decreases all the time. With A = chi Phi/k, B = gamma mu^2 Psi,
 /// w = mu |u| and q = B/(A - B):
 ///   d ln w/dx = q,   dT/dx = -w/(A - B),   v = e^x w,
 /// and by ln mu at one x:  d(d ln w)/dx = 2 q (1 + q) =: dE/dx,   d(dT)/dx = dT/dx (E + 2 q).
 /// Cells of x are as wide as polynomials of degree 9 allow.
-class ScaledOrbit {
+class ScaledOrbit final : public FilmOrbit {
  public:
   /// @param law       without an invariant ray below k0: A > B
-  /// @param start     v of either sign: the motion of -v is that of v, mirrored
   /// @param accuracy  of T and ln w, relative
   /// @throws std::domain_error  if the start is on an invariant ray
-  ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy = standard_accuracy);
+  ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy = standard_accuracy,
+              reduction::Inertia inertia = reduction::homogeneous_ball);
 
-  /// Computes it up to that T, or to the stop.
-  /// @throws std::domain_error  if it meets an invariant ray
-  void reach(double T);
+  void reach(double T) override;
 
   static constexpr double standard_accuracy = 1e-10;
 
-  /// A moment of the orbit, with the derivatives there.
-  struct Moment {
-    Speeds now;
-    double dv, du;  ///< by T
-    Speeds by_ln_mu, by_v, by_u;
-  };
-
-  /// @param T     >= 0, up to where it was computed
-  /// @param cell  where the last moment was found: begin with 0, with T in increasing order
-  Moment at(double T, std::size_t& cell) const;
-
-  /// The same without derivatives.
-  Speeds speeds_at(double T, std::size_t& cell) const;
-
-  /// T of the stop and its derivatives; after reach(infinity).
-  struct Stop {
-    double T, by_ln_mu, by_v, by_u;
-  };
-  Stop stop() const;
+  Moment at(double T, std::size_t& cell) const override;
+  Speeds speeds_at(double T, std::size_t& cell) const override;
+  Stop stop() const override;
 
  private:
   static constexpr int nodes = 10;  ///< of a cell
@@ -96,6 +71,7 @@ class ScaledOrbit {
 
   reduction::Law law_;
   double mu_, accuracy_;
+  reduction::Inertia inertia_;
   std::vector<Cell> cells_;
   std::vector<double> kinks_;  ///< ln k of those ahead, the next one last
   double x_ = 0, width_;       ///< of the next cell

@@ -286,8 +286,10 @@ Search::Search(const FitRequest& asked, double accuracy)
     add(Parameter::slip, request.free.slip);
     add(Parameter::spin, request.free.spin);
     add(Parameter::direction, along_x && along_y);
-    add(Parameter::vx, along_x);
-    add(Parameter::vy, along_y);
+    // The slip of a body that lies flat is its velocity.
+    const bool rolls = !request.ball.ball.body.lies_flat();
+    add(Parameter::vx, along_x && rolls);
+    add(Parameter::vy, along_y && rolls);
     add(Parameter::x, has(Observable::x));
     add(Parameter::y, has(Observable::y));
     add(Parameter::angle, has(Observable::angle));
@@ -403,6 +405,7 @@ VectorXd Search::given() const {
     set(Parameter::slip, slip.norm());
     set(Parameter::spin, si::spin_at_start(ball));
     set(Parameter::direction, along_y && !along_x ? std::numbers::pi / 2 : std::atan2(slip.y(), slip.x()));
+    if (ball.ball.body.lies_flat()) continue;
     if (along_x) set(Parameter::vx, start.velocity.x());
     if (along_y) set(Parameter::vy, start.velocity.y());
   }

@@ -12,21 +12,16 @@ using Eigen::VectorXd;
 
 namespace {
 
-using reduction::homogeneous_ball;
-
 constexpr double min_ln_friction = -9.2, max_ln_friction = 2.3, min_ln_ratio = -14;
 
-/// What friction takes of the velocity of the centre for each m/s of slip (Zh98 after (2.5)).
-constexpr double velocity_for_slip = 1 / homogeneous_ball.chi;
-
-/// The largest mu up to 1 under which the law has no invariant ray: (5/7) mu^2 k Psi < Phi for all k.
-double max_ratio(const reduction::Law& law) {
+/// The largest mu up to 1 under which the law has no invariant ray: gamma mu^2 k Psi < chi Phi for all k.
+double max_ratio(const reduction::Law& law, reduction::Inertia inertia) {
   double least = 1;
   for (double ln_k = -20; ln_k <= 20; ln_k += 0.1) {
     const double k = std::exp(ln_k);
     const auto [force, moment] = law(reduction::slip_of_ratio(k));
     constexpr double some = 0.99;
-    least = std::min(least, some * std::sqrt(homogeneous_ball.chi / homogeneous_ball.gamma * force / (k * moment)));
+    least = std::min(least, some * std::sqrt(inertia.chi / inertia.gamma * force / (k * moment)));
   }
   return least;
 }
@@ -37,10 +32,19 @@ struct Motion {
   const VectorXd& parameters;
   std::size_t number;
   double radius;
-  double rate;  ///< f g
+  double velocity_for_slip;  ///< 1/chi: what friction takes of the velocity of the centre for each m/s of slip
+  bool lies_flat;            ///< the slip is the velocity of the centre
+  double rate;               ///< f g
   double cosine = std::cos(of(Parameter::direction)), sine = std::sin(of(Parameter::direction));
 
   double of(Parameter parameter) const { return parameters[TrackModel::place(parameter, number)]; }
+
+  /// What friction takes of the velocity of the centre along the slip, in units of the slip, and of its way; of what lies
+  /// flat, all of both.
+  double way(const Speeds& by, double v0, double t) const {
+    return lies_flat ? by.slid : velocity_for_slip * (by.slid - v0 * t);
+  }
+  double velocity(const Speeds& by, double v0) const { return lies_flat ? by.v : velocity_for_slip * (by.v - v0); }
 
   /// What the orbit, with the slip v0 at the start, makes of a series at t: linear in both, so also what changes of them
   /// do.
@@ -51,13 +55,13 @@ struct Motion {
       case Observable::spin:
         return by.u / radius;
       case Observable::x:
-        return velocity_for_slip * cosine * (by.slid - v0 * t);
+        return cosine * way(by, v0, t);
       case Observable::y:
-        return velocity_for_slip * sine * (by.slid - v0 * t);
+        return sine * way(by, v0, t);
       case Observable::vx:
-        return velocity_for_slip * cosine * (by.v - v0);
+        return cosine * velocity(by, v0);
       case Observable::vy:
-        return velocity_for_slip * sine * (by.v - v0);
+        return sine * velocity(by, v0);
       case Observable::angle:
         break;
     }
@@ -69,10 +73,10 @@ struct Motion {
     using enum Observable;
     if (parameter == Parameter::direction) {
       const double v0 = of(Parameter::slip);
-      if (observable == x) return -velocity_for_slip * sine * (now.slid - v0 * t);
-      if (observable == y) return velocity_for_slip * cosine * (now.slid - v0 * t);
-      if (observable == vx) return -velocity_for_slip * sine * (now.v - v0);
-      if (observable == vy) return velocity_for_slip * cosine * (now.v - v0);
+      if (observable == x) return -sine * way(now, v0, t);
+      if (observable == y) return cosine * way(now, v0, t);
+      if (observable == vx) return -sine * velocity(now, v0);
+      if (observable == vy) return cosine * velocity(now, v0);
       return 0;
     }
     if ((parameter == Parameter::vx && observable == x) || (parameter == Parameter::vy && observable == y)) return t;
@@ -97,10 +101,12 @@ struct Motion {
 
 TrackModel::TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks,
                        double accuracy)
-    : radius_(ball.ball.radius),
+    : inertia_(ball.ball.body.inertia),
+      lies_flat_(ball.ball.body.lies_flat()),
+      radius_(ball.ball.radius),
       gravity_(ball.environment.gravity),
       accuracy_(accuracy),
-      max_ln_patch_radius_(std::log(max_ratio(law) * radius_)),
+      max_ln_patch_radius_(std::log((lies_flat_ ? 1 : max_ratio(law, inertia_)) * radius_)),
       law_(law),
       tracks_(tracks),
       orbits_(tracks.size()) {
@@ -132,21 +138,26 @@ VectorXd TrackModel::limited(VectorXd parameters) const {
   return parameters;
 }
 
-const ScaledOrbit& TrackModel::orbit_of(std::size_t i, const VectorXd& parameters) const {
+std::unique_ptr<FilmOrbit> TrackModel::new_orbit(double ln_patch_radius, reduction::State start) const {
+  const double mu = std::exp(ln_patch_radius) / radius_;
+  if (!lies_flat_) return std::make_unique<ScaledOrbit>(law_, mu, start, accuracy_, inertia_);
+  if (!flows_ || flows_->here.system().mu() != mu)
+    flows_ = std::make_shared<const FlowsOfPatch>(reduction::ReducedSystem(law_, mu, inertia_));
+  return std::make_unique<FlowOrbit>(flows_, start);
+}
+
+const FilmOrbit& TrackModel::orbit_of(std::size_t i, const VectorXd& parameters) const {
   const double patch_radius = parameters[1], slip = parameters[place(Parameter::slip, i)],
                spin = parameters[place(Parameter::spin, i)];
   std::optional<Known>& known = orbits_[i];
   if (!known || known->ln_patch_radius != patch_radius || known->slip != slip || known->spin != spin) {
-    known = Known{patch_radius,
-                  slip,
-                  spin,
-                  {law_, std::exp(patch_radius) / radius_, {.u = radius_ * spin, .v = slip}, accuracy_}};
+    known = Known{patch_radius, slip, spin, new_orbit(patch_radius, {.u = radius_ * spin, .v = slip})};
   }
   const Track& track = tracks_[i];
-  known->orbit.reach(track.stop_time
-                         ? std::numeric_limits<double>::infinity()
-                         : std::exp(parameters[0]) * gravity_ * (track.t[track.t.size() - 1] - track.start));
-  return known->orbit;
+  known->orbit->reach(track.stop_time
+                          ? std::numeric_limits<double>::infinity()
+                          : std::exp(parameters[0]) * gravity_ * (track.t[track.t.size() - 1] - track.start));
+  return *known->orbit;
 }
 
 VectorXd TrackModel::values(const VectorXd& free) const {
@@ -155,8 +166,9 @@ VectorXd TrackModel::values(const VectorXd& free) const {
   Index first = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const Track& track = tracks_[i];
-    const ScaledOrbit& orbit = orbit_of(i, parameters);
-    const Motion motion{track, parameters, i, radius_, std::exp(parameters[0]) * gravity_};
+    const FilmOrbit& orbit = orbit_of(i, parameters);
+    const Motion motion{
+        track, parameters, i, radius_, 1 / inertia_.chi, lies_flat_, std::exp(parameters[0]) * gravity_};
     std::size_t cell = 0;
     for (Index row = 0; row < track.t.size(); ++row) {
       const double t = track.t[row] - track.start;
@@ -180,9 +192,9 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
   Index first = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const Track& track = tracks_[i];
-    const ScaledOrbit& orbit = orbit_of(i, parameters);
+    const FilmOrbit& orbit = orbit_of(i, parameters);
     const double rate = std::exp(parameters[0]) * gravity_;
-    const Motion motion{track, parameters, i, radius_, rate};
+    const Motion motion{track, parameters, i, radius_, 1 / inertia_.chi, lies_flat_, rate};
     // The columns that change this track; beyond a limit a parameter changes nothing.
     std::vector<std::pair<Index, Parameter>> columns;
     for (std::size_t column = 0; column < wanted.size(); ++column) {
@@ -194,7 +206,7 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     std::size_t cell = 0;
     for (Index row = 0; row < track.t.size(); ++row) {
       const double t = track.t[row] - track.start, T = rate * t;
-      const ScaledOrbit::Moment moment = orbit.at(T, cell);
+      const FilmOrbit::Moment moment = orbit.at(T, cell);
       const auto over_time = [&](const Speeds& by) { return Speeds{by.v, by.u, by.slid / rate, by.turned / rate}; };
       const Speeds now = over_time(moment.now);
       for (const auto& [column, parameter] : columns) {
@@ -228,7 +240,7 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     }
     first += track.t.size() * static_cast<Index>(track.series.size());
     if (!track.stop_time) continue;
-    const ScaledOrbit::Stop stop = orbit.stop();
+    const FilmOrbit::Stop stop = orbit.stop();
     for (const auto& [column, parameter] : columns) {
       result(first, column) = parameter == Parameter::friction       ? -stop.T / rate
                               : parameter == Parameter::patch_radius ? stop.by_ln_mu / rate

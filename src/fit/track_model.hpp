@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "contensou/fit/fit.hpp"
+#include "fit/flow_orbit.hpp"
 #include "fit/scaled_orbit.hpp"
 
 namespace contensou::fit {
@@ -45,10 +47,10 @@ class TrackModel {
   /// What the motion gives, row by row: the series of the first track, its stop time, then the next.
   Eigen::VectorXd values(const Eigen::VectorXd& free) const;
 
-  /// Derivatives of the values by these of the parameters, a column each: exact, by scaling and by ScaledOrbit.
+  /// Derivatives of the values by these of the parameters, a column each: by scaling and by the orbit's.
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& free, const std::vector<Eigen::Index>& wanted) const;
 
-  /// What a parameter may be: ln eps without an invariant ray and eps <= R, slip and R spin up to max_speed.
+  /// What a parameter may be: eps <= R, of a ball without an invariant ray, slip and R spin up to max_speed.
   struct Range {
     double low, high;
   };
@@ -60,17 +62,22 @@ class TrackModel {
 
  private:
   /// The orbit of track i, up to its last instant: the last one where only the friction has changed since.
-  const ScaledOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
+  const FilmOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
 
+  std::unique_ptr<FilmOrbit> new_orbit(double ln_patch_radius, reduction::State start) const;
+
+  reduction::Inertia inertia_;
+  bool lies_flat_;
   double radius_, gravity_, accuracy_, max_ln_patch_radius_;
   reduction::Law law_;
   const std::vector<Track>& tracks_;
   Eigen::Index rows_ = 0;
   struct Known {
     double ln_patch_radius, slip, spin;
-    ScaledOrbit orbit;
+    std::unique_ptr<FilmOrbit> orbit;
   };
   mutable std::vector<std::optional<Known>> orbits_;
+  mutable std::shared_ptr<const FlowsOfPatch> flows_;  ///< of a body that lies flat, of the last patch
 };
 
 }  // namespace contensou::fit

@@ -25,12 +25,12 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
   return answer([&] {
     si::Experiment experiment = experiment_of(ball);
     experiment.ball.name = ball["title"].as<std::string>();
-    if (experiment.ball.body.lies_flat()) throw std::domain_error("a film is fitted for a ball: choose one that rolls");
     std::vector<reduction::Law> tried;
     for (const std::string& law : answers::split(laws, ',')) tried.push_back(law_of(law));
     answers::CsvReader table(text, name);
     std::string notes;
-    fit::FitRequest request{.ball = experiment, .law = tried.front(), .tracks = {}};
+    fit::FitRequest request{
+        .ball = experiment, .law = tried.front(), .tracks = {}, .free = fit::usually_free(experiment)};
     request.tracks.push_back(
         answers::read_track(table, name, {}, [&](const std::string& note) { notes += note + "\n"; }));
     const std::vector<fit::Fit> fits = fit::fit_laws(request, tried);

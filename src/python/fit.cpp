@@ -2,6 +2,7 @@
 #include "contensou/fit/fit.hpp"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "contensou/si/scaling.hpp"
@@ -74,7 +75,7 @@ py::dict found_of(const fit::Fit& found) {
 void bind_fit(py::module_& module) {
   module.def("fit", [](const si::Experiment& ball, const reduction::Law& law, const Numbers& t,
                        const std::vector<std::tuple<std::string, Numbers, Numbers>>& series,
-                       const std::vector<std::string>& free, bool robust) {
+                       const std::optional<std::vector<std::string>>& free, bool robust) {
     std::vector<std::pair<std::string, fit::Observable>> kinds;
     for (const fit::ObservableKind& kind : fit::observable_kinds())
       kinds.emplace_back(std::string(kind.name), kind.observable);
@@ -88,12 +89,13 @@ void bind_fit(py::module_& module) {
     fit::FitRequest request{.ball = ball,
                             .law = InterruptibleLaw(std::make_shared<const reduction::Law>(law)),
                             .tracks = {track},
-                            .free = {false, false, false, false}};
+                            .free = free ? fit::Free{false, false, false, false} : fit::usually_free(ball)};
     const std::vector<std::pair<std::string, bool fit::Free::*>> parameters{{"friction", &fit::Free::friction},
                                                                             {"patch_radius", &fit::Free::patch_radius},
                                                                             {"slip", &fit::Free::slip},
                                                                             {"spin", &fit::Free::spin}};
-    for (const std::string& name : free) request.free.*one_of("parameter", "parameters", parameters, name) = true;
+    for (const std::string& name : free.value_or(std::vector<std::string>()))
+      request.free.*one_of("parameter", "parameters", parameters, name) = true;
     request.robust = robust;
     const fit::Fit found = [&] {
       const py::gil_scoped_release released;

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
+#include "contensou/si/catalogue.hpp"
 #include "films.hpp"
 
 using namespace contensou;
@@ -74,6 +75,73 @@ TEST_CASE("positions and the angle alone give the ball, in any axes", "[route]")
     CHECK(start.angular_velocity.x() == Approx(30).epsilon(1e-4));
     CHECK(start.angular_velocity.y() == Approx(5).epsilon(1e-3));
     CHECK(start.angular_velocity.z() == Approx(-60).epsilon(1e-5));
+  }
+}
+
+namespace {
+
+/// A hockey puck, a curling stone on its band, and a ball of other inertia.
+si::Experiment body_named(const char* name, double factor) {
+  si::Experiment body = si::find_ball(name)->experiment;
+  body.ball.body = body.ball.body.with_factor(factor);
+  return body;
+}
+
+}  // namespace
+
+TEST_CASE("a film without errors gives any body that it is of", "[route]") {
+  for (const auto& [name, factor, law] : {std::tuple{"puck", 0.5, "uniform"},
+                                          {"puck", 0.4, "exact"},
+                                          {"curling-stone", 0.5, "ring"},
+                                          {"basketball", 2.0 / 3, "uniform"},
+                                          {"gel", 0.6, "exact"}}) {
+    CAPTURE(name, factor);
+    const si::Experiment body = body_named(name, factor);
+    const Film film{body, *reduction::find_law(law)};
+    const double stop = si::BallMotion(body, film.law).stop_time();
+    si::Experiment unknown = body;
+    unknown.contact.friction *= 1.7;
+    unknown.start = si::SlipAndSpin{.slip = 0, .spin = 0};
+    const ArrayXd t = ArrayXd::LinSpaced(60, 0, 0.8 * stop);
+    const Fit found = fit::fit({.ball = unknown,
+                                .law = film.law,
+                                .tracks = {track_of(film, t, slip_and_spin)},
+                                .free = usually_free(unknown)});
+    CHECK(found.chi2 < 1e-6);
+    CHECK(found.estimate(Parameter::friction).value == Approx(body.contact.friction).epsilon(1e-5));
+    CHECK(found.estimate(Parameter::patch_radius).value == Approx(si::patch_radius_of(body, film.law)).epsilon(1e-4));
+    CHECK(found.estimate(Parameter::slip).value == Approx(si::slip_at_start(body)).epsilon(1e-6));
+    CHECK(found.estimate(Parameter::spin).value == Approx(si::spin_at_start(body)).epsilon(1e-6));
+    CHECK(found.ball.ball.body.factor == factor);
+    CHECK(si::BallMotion(found.ball, film.law).stop_time() == Approx(stop).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("of a puck the way says slip and friction, whose velocity is the slip", "[route]") {
+  si::Experiment puck = body_named("puck", 0.5);
+  CHECK_FALSE(usually_free(puck).patch_radius);
+  puck.start = si::Velocities{{3, -4}, {0, 0, -80}};
+  const Film film{puck, *reduction::find_law("uniform")};
+  const Track track = track_of(film, ArrayXd::LinSpaced(50, 0, 4),
+                               {{Observable::x, 1e-3}, {Observable::y, 1e-3}, {Observable::angle, 1e-2}});
+  si::Experiment unknown = puck;
+  unknown.contact.friction = 0.2;
+  unknown.start = si::SlipAndSpin{.slip = 1, .spin = 1};
+  for (bool of_its_patch : {false, true}) {
+    Free free = usually_free(unknown);
+    if (of_its_patch) free.patch_radius = true;
+    const Fit found = fit::fit({.ball = unknown, .law = film.law, .tracks = {track}, .free = free});
+    CHECK(found.chi2 < 1e-5);
+    CHECK(found.estimate(Parameter::friction).value == Approx(0.1).epsilon(1e-4));
+    CHECK(found.estimate(Parameter::slip).value == Approx(5).epsilon(1e-5));
+    CHECK(found.estimate(Parameter::direction).value == Approx(std::atan2(-4, 3)).epsilon(1e-5));
+    CHECK(found.estimate(Parameter::spin).value == Approx(-80).epsilon(1e-5));
+    CHECK(found.estimate(Parameter::patch_radius).value == Approx(0.0381).epsilon(1e-3));
+    CHECK_THROWS_AS(found.estimate(Parameter::vx), std::domain_error);
+    CHECK(std::holds_alternative<si::WholeFace>(found.ball.contact.patch) != of_its_patch);
+    const auto& start = std::get<si::Velocities>(found.ball.start);
+    CHECK(start.velocity.x() == Approx(3).epsilon(1e-5));
+    CHECK(start.angular_velocity.x() == 0);
   }
 }
 

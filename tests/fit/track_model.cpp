@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
+#include "contensou/si/catalogue.hpp"
 #include "films.hpp"
 
 using namespace contensou;
@@ -14,6 +15,32 @@ using namespace contensou::fit;
 using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::VectorXd;
+
+namespace {
+
+/// Compares the derivatives of a model with differences of its values.
+void check_derivatives(const TrackModel& model, const VectorXd& parameters, Index of_series, double tolerance) {
+  std::vector<Index> all(static_cast<std::size_t>(model.parameters()));
+  std::iota(all.begin(), all.end(), 0);
+  const Eigen::MatrixXd derivatives = model.derivatives(parameters, all);
+  for (Index place : all) {
+    const double step = 1e-4 * std::max(1.0, std::abs(parameters[place]));
+    const VectorXd more = parameters + step * VectorXd::Unit(parameters.size(), place);
+    const VectorXd less = parameters - step * VectorXd::Unit(parameters.size(), place);
+    const VectorXd expected = (model.values(more) - model.values(less)) / (2 * step);
+    INFO("parameter " << place);
+    // Series by series: what one says of the patch is small beside what another does.
+    for (Index first = 0; first < model.rows();) {
+      const Index count = first % (7 * of_series + 1) == 7 * of_series ? 1 : of_series;
+      INFO("rows from " << first);
+      const VectorXd part = expected.segment(first, count);
+      CHECK((derivatives.col(place).segment(first, count) - part).norm() <= tolerance * part.norm() + 1e-8);
+      first += count;
+    }
+  }
+}
+
+}  // namespace
 
 TEST_CASE("derivatives of all that is seen are those of differences", "[route]") {
   Track track{.name = "model", .t = ArrayXd::LinSpaced(30, 0.3, 1.3), .start = 0.3};
@@ -29,24 +56,32 @@ TEST_CASE("derivatives of all that is seen are those of differences", "[route]")
       VectorXd parameters(model.parameters());
       parameters << std::log(0.2), std::log(2e-3), slip, spin, 0.7, 0.3, -0.2, 4, 5, 6, 0.5, 50, -2, 0.1, 0.2, 0.3, 0.4,
           0.5;
-      std::vector<Index> all(static_cast<std::size_t>(model.parameters()));
-      std::iota(all.begin(), all.end(), 0);
-      const Eigen::MatrixXd derivatives = model.derivatives(parameters, all);
-      for (Index place : all) {
-        const double step = 1e-4 * std::max(1.0, std::abs(parameters[place]));
-        const VectorXd more = parameters + step * VectorXd::Unit(parameters.size(), place);
-        const VectorXd less = parameters - step * VectorXd::Unit(parameters.size(), place);
-        const VectorXd expected = (model.values(more) - model.values(less)) / (2 * step);
-        INFO(law.name() << ", slip " << slip << ", spin " << spin << ", parameter " << place);
-        // Series by series: what one says of the patch is small beside what another does.
-        for (Index first = 0; first < model.rows();) {
-          const Index count = first % (7 * track.t.size() + 1) == 7 * track.t.size() ? 1 : track.t.size();
-          INFO("rows from " << first);
-          const VectorXd part = expected.segment(first, count);
-          CHECK((derivatives.col(place).segment(first, count) - part).norm() <= tolerance * part.norm() + 1e-8);
-          first += count;
-        }
-      }
+      INFO(law.name() << ", slip " << slip << ", spin " << spin);
+      check_derivatives(model, parameters, track.t.size(), tolerance);
+    }
+  }
+}
+
+TEST_CASE("derivatives of the motion of a puck are those of differences, on its ray and on the axes, too", "[route]") {
+  Track track{.name = "model", .t = ArrayXd::LinSpaced(30, 0.3, 3.1), .start = 0.3};
+  for (const ObservableKind& kind : observable_kinds()) track.series.push_back({kind.observable, track.t, {}});
+  track.stop_time = Measured{9, 0.1};
+  const std::vector<Track> tracks{track};
+  const si::Experiment puck = si::find_ball("puck")->experiment;
+  for (const char* name : {"uniform", "exact", "annulus:0.5"}) {
+    const TrackModel model(puck, *reduction::find_law(name), tracks, ScaledOrbit::standard_accuracy);
+    const double R = puck.ball.radius;
+    for (const auto& [slip, spin, patch] :
+         std::vector<std::tuple<double, double, double>>{{5, 100, 0.9 * R},
+                                                         {-2, 30, 0.5 * R},
+                                                         {3, -300, 0.9 * R},
+                                                         {0.6530017892055 * 0.9, 0.9 / R, 0.999 * R},
+                                                         {4, 0, R / 2},
+                                                         {0, 60, R / 2}}) {
+      INFO(name << ", slip " << slip << ", spin " << spin);
+      VectorXd parameters(model.parameters());
+      parameters << std::log(0.1), std::log(patch), slip, spin, 0.7, 0, 0, 4, 5, 6;
+      check_derivatives(model, parameters, track.t.size(), slip == 0 || spin == 0 ? 1e-4 : 3e-6);
     }
   }
 }

@@ -86,3 +86,15 @@ def test_the_fitted_ball_moves_as_predicted_and_what_is_wrong_is_said():
                          ({**seen, "free": ["fricton"]}, "did you mean 'friction'"), ({}, "no value and no stop time")):
         with pytest.raises(ValueError, match=words):
             ct.fit(T, ball=BALL, **wrong)
+
+
+def test_a_film_of_a_puck_gives_back_the_puck():
+    puck = ct.Ball.puck(inertia=0.45)
+    t = np.linspace(0, 5, 60)
+    at = puck.roll(velocity=(3, -4), angular_velocity=(0, 0, -90))(t)
+    found = ct.fit(t, x=at["x"], y=at["y"], spin=at["wz"], ball=puck.but(friction=0.3), sd={"x": 1e-3, "y": 1e-3, "spin": 0.1})
+    assert found.friction.value == pytest.approx(0.1, rel=1e-5) and found.slip.value == pytest.approx(5, rel=1e-6)
+    assert found.patch_radius.standard_error == 0 and found.estimates["direction"].value == pytest.approx(np.arctan2(-4, 3))
+    assert found.ball.roll().stop_time == pytest.approx(puck.roll(slip=5, spin=-90).stop_time, rel=1e-5)
+    free = ct.fit(t, slip=at["slip"], spin=at["wz"], ball=puck, sd=SD, free=("friction", "patch_radius", "slip", "spin"))
+    assert free.patch_radius.value == pytest.approx(puck.radius, rel=1e-4) and free.patch_radius.standard_error > 0

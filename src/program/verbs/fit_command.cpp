@@ -101,7 +101,10 @@ class FitCommand final : public Verb {
     start_.take_radius_for_ball();
     law_.add_several(app, "LAW,...", "one, or several to rank (default exact). 'contensou help laws' explains them");
     app.option_defaults()->group("Estimate");
-    free_.add(app, "--free", "NAMES", "what is to be found, of friction,patch,slip,spin (default: all)", parse_free);
+    free_.add(app, "--free", "NAMES",
+              "what is to be found, of friction,patch,slip,spin (default: all, but for the patch of what rests on its "
+              "whole face)",
+              parse_free);
     app.add_flag("--robust", robust_, "Huber's loss: values that are far off count for less");
     app.add_flag("--plan", plan_,
                  "no FILE: the errors that a film with these --fps and --noise would give of the ball");
@@ -114,12 +117,14 @@ class FitCommand final : public Verb {
     const Output output = output_.read(plan_ ? 1 : 0);
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
     if (plan_ && laws.size() > 1) law_.argument().reject("--plan is of one law");
-    fit::FitRequest request{.ball = start_.read_rolling_ball(laws.front()), .law = laws.front(), .tracks = {}};
+    fit::FitRequest request{.ball = start_.read_ball(laws.front()), .law = laws.front(), .tracks = {}};
     start_.require_undriven(request.ball, "fit");
     request.robust = robust_;
     request.tracks = plan_ ? planned_tracks(request) : read_tracks();
     const bool only_stop = request.tracks.size() == 1 && request.tracks[0].series.empty();
-    request.free = free_.value_or(only_stop ? fit::Free{true, true, false, false} : fit::Free{});
+    fit::Free usual = fit::usually_free(request.ball);
+    if (only_stop) usual.slip = usual.spin = false;
+    request.free = free_.value_or(usual);
     std::vector<Fit> fits;
     try {
       fits = plan_ ? std::vector{fit::plan(request)} : fit::fit_laws(request, laws);

@@ -109,7 +109,7 @@ def fit(
     angle: Optional[ArrayLike] = None,
     sd: Optional[dict[str, ArrayLike]] = None,
     law: Optional[LawLike] = None,
-    free: Sequence[str] = ("friction", "patch_radius", "slip", "spin"),
+    free: Optional[Sequence[str]] = None,
     robust: bool = False,
 ) -> Fit:
     """Friction and patch radius of a ball, with its slip and spin at t[0], from what a film shows at the times t in s, which
@@ -117,6 +117,8 @@ def fit(
     the angle turned about the vertical (rad, up to whole turns). NaN, and what is masked, was not measured. src/fit/README.md says how to film it.
 
     ball:    its radius and gravity; the values of what is not free; its law, where none is given
+    free:    what is to be found of friction, patch_radius, slip and spin; all of them if left out, but for the patch of a
+             body that rests on its whole face
     sd:      standard deviations by observable, numbers or arrays; of others they are estimated, from 10 values or more
     robust:  Huber's loss: values that are far off count for less
     """
@@ -133,10 +135,13 @@ def fit(
     series = [(name, values, np.broadcast_to(numbers(f"sd of {name}", sd[name]), t.shape) if name in sd else none)
               for name, values in seen.items()]
     known_law = ball._law(law)
-    found = _core.fit(ball._experiment, known_law._core, t, series, list(free), robust)
+    found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), robust)
     estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
-    fitted = ball.but(friction=estimates["friction"].value, patch_radius=estimates["patch_radius"].value,
-                      slip=max(0.0, estimates["slip"].value), spin=estimates["spin"].value, law=known_law)
+    patch = estimates["patch_radius"]
+    on_its_face = ball.patch_radius is ball.spin_deceleration is ball.youngs_modulus is None
+    given = {"patch_radius": patch.value} if patch.standard_error != 0 or not on_its_face else {}
+    fitted = ball.but(friction=estimates["friction"].value, slip=max(0.0, estimates["slip"].value),
+                      spin=estimates["spin"].value, law=known_law, **given)
     only = found.pop("only")
     predicted = dict(zip(seen, found.pop("predicted")))
     return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted,

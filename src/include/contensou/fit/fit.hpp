@@ -38,6 +38,9 @@ struct Free {
   bool spin = true;
 };
 
+/// What is searched where nothing else is asked for: all, but for the patch of a body that rests on its whole face.
+Free usually_free(const si::Experiment& ball);
+
 /// What is fitted to which films.
 struct FitRequest {
   si::Experiment ball;  ///< radius, gravity, and the values of what is not free
@@ -131,12 +134,13 @@ struct Fit {
 /// Weighted least squares: the motion that the data are most probably of, where their errors are independent and normal.
 ///
 /// A start for the search is found from the data. Standard deviations that a series does not have are estimated from its
-/// residuals. The model is the closed orbit, to 1e-9 of its speeds.
+/// residuals. The model is the closed orbit, to 1e-9 of its speeds. Of a body that lies flat the velocity of the centre is
+/// the slip: no velocity of its own is searched.
 ///
 /// @throws std::domain_error   for a track as checked, where fewer values than 10 have no standard deviations, or
 ///                             where nothing is free, or where a friction or patch radius that is not searched is
-///                             beyond what the model allows: friction 1e-4 to 10, patch radius 8.3e-7 R to R, and
-///                             none under which the law has an invariant ray
+///                             beyond what the model allows: friction 1e-4 to 10, patch radius 8.3e-7 R to R, and of a
+///                             ball none under which the law has an invariant ray
 /// @throws std::runtime_error  if the search does not converge
 Fit fit(const FitRequest& asked);
 
