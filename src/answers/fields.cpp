@@ -54,6 +54,8 @@ std::vector<VerbFields> field_table() {
             "m/s; of a puck, in place of rolls_after"},
            {"`slip_length`; `turns`; `path`", "m; 1; m",
             "slid by the contact point; about the vertical; of the centre until it rolls or rests"},
+           {"`load` {`t` [...], `load` [...]}", "s, N",
+            "in: columns `t`, `load` of the table of --load, where it is one"},
            {"`creeps` {`k`}", "",
             "with --rolling-friction or --slope: the ratio v/(patch radius abs(wz)) that it tends to while it spins"},
            {"`energy_balance` {`start`, `lost_sliding`, `lost_spinning`, `kept`}", "J",
@@ -141,7 +143,7 @@ std::vector<VerbFields> field_table() {
        }},
       {"balls",
        {
-           {"`name`, `description`, `sources`; `body`, `law`", "", "ball or disc; its own"},
+           {"`name`, `description`, `sources`; `body`, `law`", "", "ball, hollow-ball, disc or ring; its own"},
            {"`radius`, `patch_radius`; `mass`; `friction`, `mu`; `slip`, `spin`; `gravity`",
             "m; kg; 1; m/s, 1/s; m/s^2", "the typical start"},
        }},

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/load_table.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -98,7 +99,9 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const si::Quantity& quantity = *si::quantities()[i];
     if (!offer(quantity)) continue;
-    const auto read = [&quantity](const std::string& typed) {
+    const bool may_be_table = takes_load_history_ && &quantity == &si::load;
+    const auto read = [&quantity, may_be_table](const std::string& typed) {
+      if (may_be_table && names_a_file(typed, {".csv"})) return std::vector<double>{};
       const std::string components(quantity.components);
       const std::vector<double> values = quantity.count() == 1
                                              ? std::vector{parse_quantity(typed, quantity.unit)}
@@ -112,8 +115,9 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
     };
     const si::Dimension* dimension = si::find_dimension(quantity.unit);
     const std::string value_name(quantity.count() > 1 ? quantity.components : dimension ? dimension->name : "X");
-    values_[i].add(app, option_of(quantity), value_name,
-                   fmt::format("{}{}", quantity.meaning, dimension ? fmt::format(", in {}", dimension->words) : ""),
+    values_[i].add(app, option_of(quantity), may_be_table ? value_name + "|FILE.csv" : value_name,
+                   fmt::format("{}{}{}", quantity.meaning, dimension ? fmt::format(", in {}", dimension->words) : "",
+                               may_be_table ? "; a table with columns t and load: one that changes" : ""),
                    read);
   }
 }
@@ -243,9 +247,23 @@ const si::Description& StartOptions::ball_of_its_own() const {
 si::Description StartOptions::given_values() const {
   si::Description given;
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    if (values_[i].given()) given.set(*si::quantities()[i], *values_[i], {"", values_[i].name(), ""});
+    if (!values_[i].given()) continue;
+    const auto history = si::quantities()[i] == &si::load ? load_history() : std::nullopt;
+    given.set(*si::quantities()[i], history ? std::vector{history->nominal()} : *values_[i],
+              {"", values_[i].name(), ""});
   }
   return given;
+}
+
+const ArgumentOf<std::vector<double>>& StartOptions::load_argument() const {
+  return values_[static_cast<std::size_t>(std::ranges::find(si::quantities(), &si::load) - si::quantities().begin())];
+}
+
+std::optional<si::LoadHistory> StartOptions::load_history() const {
+  const auto& argument = load_argument();
+  if (!argument.given() || !argument->empty()) return std::nullopt;
+  if (!load_history_) load_history_ = read_load_history(argument.text());
+  return load_history_;
 }
 
 si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Description& between) const {

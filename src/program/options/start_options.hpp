@@ -10,6 +10,7 @@
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/body.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/load_history.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
 #include "options/argument.hpp"
@@ -96,6 +97,12 @@ class StartOptions {
 
   bool ball_given() const { return ball_.given(); }
 
+  /// Lets --load name a table of the load against time, too; before add_ball.
+  void take_load_history() { takes_load_history_ = true; }
+
+  /// The table that --load names. Throws BadLine, and FileFailure if it cannot be read.
+  std::optional<si::LoadHistory> load_history() const;
+
   /// The values that single options give, --slip among them.
   si::Description given_values() const;
 
@@ -142,8 +149,11 @@ class StartOptions {
   BodyOptions body_;
   ArgumentOf<double> u0_, v0_;
   Argument ball_;
-  bool radius_is_ball_ = false;
-  mutable std::optional<si::Description> own_;  ///< of --ball; a file is read once: it may be a pipe
+  const ArgumentOf<std::vector<double>>& load_argument() const;
+
+  bool radius_is_ball_ = false, takes_load_history_ = false;
+  mutable std::optional<si::LoadHistory> load_history_;  ///< read once
+  mutable std::optional<si::Description> own_;           ///< of --ball; a file is read once: it may be a pipe
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
 };
 

@@ -16,6 +16,7 @@
 #include "contensou/si/course.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/integrated_motion.hpp"
+#include "contensou/si/loaded_motion.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
@@ -38,9 +39,12 @@ struct Roll {
   reduction::Law law;
   bool integrated;       ///< the route of its columns: the equations of motion instead of the similarity solution
   double rolling_below;  ///< m/s of slip
+  std::optional<si::LoadHistory> load = {};
   double rolling_friction = experiment.contact.rolling_friction;
-  si::Course<si::BallMotion> whole{experiment, {experiment, law}, rolling_below, rolling_friction};
-  si::Course<si::UncoupledMotion> textbook{experiment, {experiment, law}, rolling_below, rolling_friction};
+  si::Course<si::Loaded<si::BallMotion>> whole{
+      experiment, {experiment, {experiment, law}, load}, rolling_below, rolling_friction};
+  si::Course<si::Loaded<si::UncoupledMotion>> textbook{
+      experiment, {experiment, {experiment, law}, load}, rolling_below, rolling_friction};
   /// With rolling friction or on a slope, by the route integrated.
   std::optional<si::ResistedMotion> in_steps =
       integrated && whole.resisted ? std::optional<si::ResistedMotion>({experiment, law, rolling_friction, true})
@@ -229,6 +233,7 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
                {"velocity", std::vector(velocity.begin(), velocity.end())},
                {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())},
                {"t_stop", roll.stop_time()}};
+  if (roll.load) members["load"] = {{"t", roll.load->instants()}, {"load", roll.load->loads()}};
   members.update(members_of(events_of(roll.whole), roll.lies_flat(), &roll.rolling_below));
   if (roll.whole.resisted) {
     if (const auto k = roll.whole.resisted->creep_ratio()) members["creeps"] = {{"k", *k}};
@@ -267,8 +272,11 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
 /// The motion on one screen: where and when the ball ceases to slip, how it rolls on, what friction took, and the
 /// textbook's answer beside it. For the route integrated, how close its stop is.
 std::string report_on(const Roll& roll, const Digits& digits) {
-  const std::string text =
-      heading(roll.experiment, roll.law, digits) + "\n" + table(roll, digits) + "\n" + ending(roll, digits);
+  const std::string text = heading(roll.experiment, roll.law, digits) +
+                           (roll.load ? fmt::format("the load changes: {} N is its first, {} N its last\n",
+                                                    digits(roll.load->nominal()), digits(roll.load->loads().back()))
+                                      : "") +
+                           "\n" + table(roll, digits) + "\n" + ending(roll, digits);
   if (roll.in_steps) {
     const auto rest = rest_in_steps(roll);
     return text + fmt::format("route integrated: {}slip and spin end after {} s\n",
@@ -289,7 +297,7 @@ std::string report_on(const Roll& roll, const Digits& digits) {
 
 /// The picture of the motion at these instants, beside the textbook's.
 portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times) {
-  const auto& [experiment, law, integrated, rolling_below, rolling_friction, whole, textbook, in_steps] = roll;
+  const auto& [experiment, law, integrated, rolling_below, load, rolling_friction, whole, textbook, in_steps] = roll;
   const double rolls = whole.rolls;
   const double textbook_rolls = textbook.rolls;
   const double slip = si::slip_at_start(experiment);
@@ -331,6 +339,7 @@ constexpr long max_frames = 1000;  ///< of a film: 40 s
 class RollCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
+    start_.take_load_history();
     start_.add_ball(app, "a ball in SI units, built in or from a run file");
     app.option_defaults()->group("Stroke of a cue, along x (in place of the ball's own start)");
     strike_.add(app, "--strike", "SPEED",
@@ -355,7 +364,7 @@ class RollCommand final : public Verb {
         app, "--rolling-below", "SPEED",
         fmt::format(
             "of the slip, in metres per second, below which it rolls (default {}); of the textbook's ball, too, "
-            "which at 0 rolls after 2 v/(7 f g)",
+            "which at 0 rolls after 2 v/(7 f g) if homogeneous",
             si::rolling_slip),
         [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
     CLI::Option* at = instants_.add(app, "t", "s", "");
@@ -378,7 +387,9 @@ class RollCommand final : public Verb {
     const Output output = output_.read();
     figure_.require_picture(output);
     const reduction::Law law = law_.read(start_.standard_law());
-    const Roll roll{read_shot(law), law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip)};
+    const si::Experiment experiment = read_shot(law);
+    const Roll roll{experiment, law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
+                    load_for(experiment, law)};
     const auto* at = instants_.at();
     const double last = at != nullptr && at->values.size() > 0 ? at->values.maxCoeff() : until_.value_or(0);
     si::require_finite_motion(roll.experiment, roll.stop_time(), last);
@@ -427,6 +438,7 @@ class RollCommand final : public Verb {
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment still = start_.read_ball(law, at_rest("--batch"));
     require_rolling_options(still);
+    if (start_.load_history()) throw BadInput("--batch is of a constant load: give --load a number");
     const std::string rolls = still.ball.body.lies_flat() ? "rest" : "rolls";
     const reduction::Flow flow(si::undriven_system(still, law));
     si::require_stop(still);
@@ -480,6 +492,32 @@ class RollCommand final : public Verb {
     for (double value : {slip_length, turns, path}) *place++ = value;
     constexpr double never = std::numeric_limits<double>::infinity();
     if (place != results.end()) add(rest.value_or(si::Event{never, {never, never}}));
+  }
+
+  /// The load, if it changes.
+  /// @throws BadInput  where the patch would change with it, and for what is of a constant load
+  std::optional<si::LoadHistory> load_for(const si::Experiment& experiment, const reduction::Law& law) const {
+    const auto load = start_.load_history();
+    if (!load) return load;
+    const std::string no = "--load with a table";
+    if (std::holds_alternative<si::HertzModuli>(experiment.contact.patch)) {
+      throw BadInput(
+          fmt::format("{}: the patch by Hertz's formula grows with the load, and the motion is then no other "
+                      "one's copy; --patch-radius {:.6g} keeps it as it is under the first load",
+                      no, si::patch_radius_of(experiment, law)));
+    }
+    const std::string others = integrated_.value_or(false)               ? "--route integrated"
+                               : experiment.contact.rolling_friction > 0 ? "the rolling friction"
+                               : experiment.environment.slope != 0       ? "the slope"
+                                                                         : "";
+    if (!others.empty()) throw BadInput(fmt::format("{} is of friction alone: leave out {}", no, others));
+    if (!experiment.ball.body.lies_flat()) {
+      fmt::print(stderr,
+                 "note: the patch stays at {:.6g} m while the load changes; that of an elastic ball goes with its cube "
+                 "root\n",
+                 si::patch_radius_of(experiment, law));
+    }
+    return load;
   }
 
   /// @throws NotAllowed  for an option of rolling with a body that lies flat

@@ -1,0 +1,145 @@
+#include "contensou/si/loaded_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/laws.hpp"
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/si/uncoupled_motion.hpp"
+
+using namespace contensou;
+using namespace contensou::si;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A built-in body under a nominal load of 2 N.
+Experiment pressed(const char* name, SlipAndSpin start) {
+  Experiment experiment = find_ball(name)->experiment;
+  if (!experiment.ball.body.lies_flat()) experiment.contact.patch = PatchRadius{7e-3};
+  experiment.environment = {.gravity = 2 / experiment.ball.mass, .load = 2};
+  experiment.start = start;
+  return experiment;
+}
+
+/// From 2 N to 4 N in a second, then 1 N, nothing for a tenth of a second, and 3 N.
+const LoadHistory varied{{0, 1, 1, 1.2, 1.2, 1.3, 1.3}, {2, 4, 1, 1, 0, 0, 3}};
+
+}  // namespace
+
+TEST_CASE("the clock of a load is its impulse", "[table]") {
+  CHECK(varied.nominal() == 2);
+  for (const auto& [t, clock] :
+       {std::pair{0.0, 0.0}, {0.5, 0.625}, {1, 1.5}, {1.1, 1.55}, {1.2, 1.6}, {1.3, 1.6}, {2.3, 3.1}}) {
+    CAPTURE(t);
+    CHECK(varied.clock(t) == Approx(clock).epsilon(1e-15));
+    CHECK(varied.time_of(clock) == Approx(t == 1.3 ? 1.2 : t).epsilon(1e-15));
+  }
+  CHECK(std::isinf(LoadHistory({0, 1}, {1, 0}).time_of(0.6)));
+  CHECK(LoadHistory({0, 1}, {1, 0}).time_of(0.5) == Approx(1).epsilon(1e-7));
+  CHECK(LoadHistory({0, 1, 2}, {0, 0, 1}).nominal() == 1);
+  for (const auto& [t, load] :
+       std::vector<std::pair<std::vector<double>, std::vector<double>>>{{{0}, {1}},
+                                                                        {{0, 1}, {1}},
+                                                                        {{1, 2}, {1, 1}},
+                                                                        {{0, 1, 0.5}, {1, 1, 1}},
+                                                                        {{0, 1}, {1, -1}},
+                                                                        {{0, 1}, {0, 0}},
+                                                                        {{0, NAN}, {1, 1}},
+                                                                        {{0, 1}, {1, INFINITY}}})
+    CHECK_THROWS_AS(LoadHistory(t, load), std::domain_error);
+}
+
+TEST_CASE("a puck without spin under a growing load, in closed form", "[table]") {
+  const Experiment puck = pressed("puck", {.slip = 1, .spin = 0});
+  const Loaded<BallMotion> motion(puck, {puck, *reduction::find_law("uniform")}, LoadHistory({0, 1}, {2, 4}));
+  const double a = 0.1 / 0.163;  // f/m
+  for (double t : {0.1, 0.4}) {
+    const MotionPoint at = motion.at_time(t);
+    CHECK(at.slip == Approx(1 - a * (2 * t + t * t)).epsilon(1e-14));
+    CHECK(at.position.x() == Approx(t - a * (t * t + t * t * t / 3)).epsilon(1e-13));
+    CHECK(motion.path_length(t) == Approx(at.position.x()).epsilon(1e-10));
+  }
+  const double stop = std::sqrt(1 + 1 / a) - 1;  // 2 t + t^2 = 1/a
+  CHECK(motion.stop_time() == Approx(stop).epsilon(1e-14));
+  CHECK(motion.slip_length() == Approx(stop - a * (stop * stop + stop * stop * stop / 3)).epsilon(1e-12));
+  CHECK(motion.slip_time(0.5) == Approx(std::sqrt(1 + 0.5 / a) - 1).epsilon(1e-14));
+  CHECK(motion.at_time(3).position.x() == Approx(motion.slip_length()).epsilon(1e-12));
+  CHECK_THROWS_WITH(Loaded<BallMotion>(puck, {puck, *reduction::find_law("uniform")}, LoadHistory({0, 0.1}, {2, 0})),
+                    Contains("the load ends at 0 before the motion does"));
+}
+
+TEST_CASE("a constant load is that load, and a load as large again one of half the time", "[symmetry]") {
+  const reduction::Law law = *reduction::find_law("exact");
+  const Experiment ball = pressed("gel", {.slip = 1, .spin = 60});
+  const BallMotion nominal(ball, law);
+  const Loaded<BallMotion> same(ball, nominal, LoadHistory({0, 1}, {2, 2}));
+  Experiment heavier = ball;
+  heavier.environment = {.gravity = 4 / ball.ball.mass, .load = 4};
+  const BallMotion twice(heavier, law);
+  // 2 N for no time at all.
+  const Loaded<BallMotion> doubled(ball, nominal, LoadHistory({0, 0, 1}, {2, 4, 4}));
+  for (double share : {0.01, 0.1, 0.6, 1.2}) {
+    for (const auto& [one, other] :
+         {std::pair{same.at_time(share * nominal.stop_time()), nominal.at_time(share * nominal.stop_time())},
+          {doubled.at_time(share * twice.stop_time()), twice.at_time(share * twice.stop_time())}}) {
+      CHECK(one.position.x() == Approx(other.position.x()).epsilon(1e-11));
+      CHECK(one.velocity.x() == Approx(other.velocity.x()).epsilon(1e-11));
+      CHECK(one.angular_velocity.z() == Approx(other.angular_velocity.z()).epsilon(1e-11).margin(1e-11));
+    }
+  }
+  CHECK(doubled.spin_angle() == Approx(twice.spin_angle()).epsilon(1e-10));
+  CHECK(doubled.path_length(0.1) == Approx(twice.path_length(0.1)).epsilon(1e-9));
+  CHECK(Loaded<UncoupledMotion>(ball, {ball, law}, LoadHistory({0, 0, 1}, {2, 4, 4})).spin_end() ==
+        Approx(UncoupledMotion(heavier, law).spin_end()).epsilon(1e-14));
+  CHECK(Loaded<BallMotion>(ball, nominal, {}).at_time(0.3).position == nominal.at_time(0.3).position);
+}
+
+TEST_CASE("a load that comes and goes, against the equations of motion in steps", "[route]") {
+  for (const auto& [name, law_name] : {std::pair{"gel", "exact"}, {"puck", "uniform"}}) {
+    CAPTURE(name);
+    const reduction::Law law = *reduction::find_law(law_name);
+    const Experiment body = pressed(name, {.slip = 2, .spin = 400});
+    const Loaded<BallMotion> motion(body, {body, law}, varied);
+    const double eps = patch_radius_of(body, law), R = body.ball.radius,
+                 f_over_m = body.contact.friction / body.ball.mass;
+    const double chi = body.ball.body.inertia.chi, gamma = body.ball.body.inertia.gamma;
+    // v, omega, what the contact has slid, turned; by Runge and Kutta's method, a load at a time.
+    using State = std::array<double, 4>;
+    const auto rate = [&](const State& s, double load) {
+      const auto [force, moment] = law(reduction::Slip{std::max(0.0, s[0]), eps * s[1]});
+      return State{-chi * f_over_m * load * force, -gamma * f_over_m * load * eps * moment / (R * R), s[0], s[1]};
+    };
+    const auto moved = [](const State& s, const State& by, double h) {
+      State result = s;
+      for (std::size_t i = 0; i < 4; ++i) result[i] += h * by[i];
+      return result;
+    };
+    State state{2, 400, 0, 0};
+    double t = 0;
+    for (const auto& [end, first, last] :
+         {std::array{0.05, 2.0, 2.1}, {0.1, 2.1, 2.2}, {1.0, 2.2, 4.0}, {1.2, 1.0, 1.0}, {1.3, 0.0, 0.0}}) {
+      constexpr int steps = 4000;
+      const double h = (end - t) / steps, slope = (last - first) / (end - t);
+      for (int i = 0; i < steps; ++i) {
+        const double load = first + slope * i * h;
+        const State a = rate(state, load), b = rate(moved(state, a, h / 2), load + slope * h / 2),
+                    c = rate(moved(state, b, h / 2), load + slope * h / 2),
+                    d = rate(moved(state, c, h), load + slope * h);
+        for (std::size_t j = 0; j < 4; ++j) state[j] += h / 6 * (a[j] + 2 * b[j] + 2 * c[j] + d[j]);
+      }
+      t = end;
+      CAPTURE(t);
+      const MotionPoint at = motion.at_time(t);
+      CHECK(at.slip == Approx(state[0]).epsilon(1e-7).margin(1e-9));
+      CHECK(at.angular_velocity.z() == Approx(state[1]).epsilon(1e-9));
+      CHECK(at.position.x() == Approx(2 * t - (2 * t - state[2]) / chi).epsilon(1e-8));
+    }
+  }
+}
