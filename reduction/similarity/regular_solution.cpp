@@ -3,6 +3,8 @@
 //   |D| dm/dz + F m               = 1 - Psi/Psi(0)
 //   |D| dn/dz + (F + r k Psi) n   = k (1 - Phi)/(1 - rho)
 //   |D| do/dz + (F + r k Psi) o   = 1 - Psi/Psi(0)
+//   |D| dp/dz + (Phi' - F Psi'/Psi) p           = -Psi'/Psi,   p = ds/dv, ' = d/d ln k
+//   |D| dq/dz + r k (Psi Phi'/F - Psi') q       = k Phi'/F,    q = ds/dw
 //   |D| db/dz - h b               = -g,  h = (r k Psi + k F)/(1 + k),  g = k (1 + k)/((16 + 15 pi k)(8 + 3 pi k))
 // A function y = p m, p = p(k), has F - D p'/p in place of F, and p times the right side; so have n and o.
 #include "similarity/regular_solution.hpp"
@@ -17,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/tangent.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "numerics/infinity.hpp"
 #include "numerics/linear_ode.hpp"
@@ -173,6 +176,47 @@ RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& 
   RegularSolution m(equation, sign_of(chart), edges_of(law, r, chart, drive), 1);
   m.truncation_ = std::max(m.truncation_, forces.against());
   return m;
+}
+
+RegularSolution sliding_derivative(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,
+                                   const std::function<double(double k)>& source) {
+  const ForcesOnTheWay forces(law, r, chart, drive);
+  const auto equation = [&](double k) -> RegularSolution::Terms {
+    const auto [difference, force, drag, sliding] = forces(k);
+    return {difference, to_rest ? (k * force + drag) / (1 + k) : force, source(k)};
+  };
+  return {equation, sign_of(chart), edges_of(law, r, chart, drive), 1};
+}
+
+RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& chart, double drive) {
+  const ForcesOnTheWay forces(law, r, chart, drive);
+  const auto equation = [&, tangent = tangent_of(law)](double k) -> RegularSolution::Terms {
+    const auto [difference, force, drag, sliding] = forces(k);
+    const auto [resistance, force_slope, moment_slope] = tangent(slip_of_ratio(k));
+    // Times the larger of k and 1/k. The slopes are over k up to 1, and over 1/k beyond.
+    const double larger = std::max(k, 1 / k);
+    const double moment_falls = moment_slope / resistance.moment;
+    return {larger * difference, force_slope + force * moment_falls, moment_falls};
+  };
+  return {equation, sign_of(chart), edges_of(law, r, chart, drive), 1};
+}
+
+RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart& chart, double drive, double k,
+                                  std::optional<double> start) {
+  const ForcesOnTheWay forces(law, r, chart, drive);
+  const auto equation = [&, tangent = tangent_of(law)](double at) -> RegularSolution::Terms {
+    const auto [difference, force, drag, sliding] = forces(at);
+    const auto [resistance, force_slope, moment_slope] = tangent(slip_of_ratio(at));
+    // The slopes are over k up to 1, and over 1/k beyond.
+    const double times = at < 1 ? at * at : 1;
+    const double slides = times * force_slope / force;
+    return {difference, r * (times * moment_slope + resistance.moment * slides), slides};
+  };
+  const double sign = sign_of(chart);
+  std::vector<double> edges = edges_of(law, r, chart, drive);
+  std::erase_if(edges, [&](double edge) { return sign * edge <= std::log(k); });
+  edges.insert(sign > 0 ? edges.begin() : edges.end(), sign * std::log(k));
+  return {equation, sign, edges, 0, start};
 }
 
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive) {

@@ -86,6 +86,21 @@ bool reaches_rest(const TerminalChart& chart, double drive);
 /// @throws std::domain_error  if it does, or unless r > 0
 RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
+/// A derivative of m, by the equation of m with another right side.
+/// @param source   that side at k, of m k/(1 + k) if to_rest
+/// @param to_rest  whether the solution is that derivative times k/(1 + k)
+RegularSolution sliding_derivative(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,
+                                   const std::function<double(double k)>& source);
+
+/// ds/dv of README (R57), on the same way.
+RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& chart, double drive);
+
+/// ds/dw of README (R57), on the part of the way from k to infinity, where Phi > rho.
+/// @param chart  one that reaches infinity
+/// @param start  its value at k, where the way to infinity begins there; else it is regular where it begins
+RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart& chart, double drive, double k,
+                                  std::optional<double> start);
+
 /// n/(1 + k), n of (R13) and (R50), on the same way. Times k/(1 + k) if reaches_rest.
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 

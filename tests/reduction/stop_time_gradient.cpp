@@ -1,0 +1,160 @@
+// How a stop time changes with all that it follows from: (R10), (R57) and (R58) of reduction/README.md.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include "constants.hpp"
+#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+
+using namespace contensou::reduction;
+
+namespace {
+
+struct Question {
+  double u, v, mu, chi, gamma, drive;
+
+  Flow flow(const Law& law) const { return ReducedSystem(law, mu, {.chi = chi, .gamma = gamma}, drive); }
+  double tau(const Law& law) const { return flow(law).stop_time({u, v}).tau; }
+  std::string text() const {
+    return fmt::format("u = {}, v = {}, mu = {}, chi = {}, gamma = {}, drive = {}", u, v, mu, chi, gamma, drive);
+  }
+};
+
+/// d tau/d ln x, by central differences of the fourth order: 1e-10 of tau.
+double by_differences(const Law& law, const Question& asked, double Question::*x) {
+  constexpr double step = 2e-3;
+  const auto tau = [&](double times) {
+    Question changed = asked;
+    changed.*x *= 1 + times * step;
+    return changed.tau(law);
+  };
+  return (8 * (tau(1) - tau(-1)) - (tau(2) - tau(-2))) / (12 * step);
+}
+
+/// The largest error of a derivative by the logarithm of what it is by, over the stop time.
+double error_of(const Law& law, const Question& asked) {
+  const StopTimeGradient found = asked.flow(law).stop_time_gradient({asked.u, asked.v});
+  const auto error = [&](double derivative, double Question::*x) {
+    return asked.*x == 0 ? 0 : std::abs(asked.*x * derivative - by_differences(law, asked, x)) / found.tau;
+  };
+  return std::max({error(found.by_u, &Question::u), error(found.by_v, &Question::v), error(found.by_mu, &Question::mu),
+                   error(found.by_chi, &Question::chi), error(found.by_gamma, &Question::gamma),
+                   error(found.by_drive, &Question::drive)});
+}
+
+}  // namespace
+
+TEST_CASE("the gradient of the Pade ball", "[gradient][formula]") {
+  const StopTimeGradient found = Flow({PadeLaw{}, 0.3}).stop_time_gradient({1, 1});
+  CHECK(found.tau == Flow({PadeLaw{}, 0.3}).stop_time({1, 1}).tau);
+  CHECK(found.by_v == Approx(1.52868423111).epsilon(1e-11));
+  CHECK(found.by_u == Approx(10.9679009161).epsilon(1e-11));
+}
+
+TEST_CASE("the gradient agrees with differences, for every law", "[gradient][route]") {
+  std::mt19937_64 random(20);
+  const auto between = [&](double low, double high) {
+    return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(random));
+  };
+  for (const Law& law : CONTENSOU_FULL_TESTS ? named_laws() : paper_laws()) {
+    for (int i = 0; i < 2; ++i) {
+      Question asked{.u = between(1e-2, 1e2),
+                     .v = 1,
+                     .mu = between(1e-3, 3),
+                     .chi = between(1, 4),
+                     .gamma = between(2, 3),
+                     .drive = i % 2 == 0 ? 0 : between(1e-3, 0.5)};
+      if (i > 0) asked.u = -asked.u;
+      INFO(law.name() << ": " << asked.text());
+      CHECK(error_of(law, asked) < 2e-9);
+      const StopTimeGradient found = asked.flow(law).stop_time_gradient({asked.u, asked.v});
+      CHECK(asked.u * found.by_u + asked.v * found.by_v == Approx(found.tau).epsilon(1e-9));  // Euler
+    }
+  }
+}
+
+TEST_CASE("the first drive that there is changes the stop time as the gradient says", "[gradient][drive]") {
+  // Under Pade's law it is felt at the first order while the ball spins, too: it creeps at once.
+  for (const Law& law : paper_laws()) {
+    const Question at{.u = 1, .v = 1, .mu = 0.3, .chi = 3.5, .gamma = 2.5, .drive = 0};
+    constexpr double step = 1e-5;
+    const auto tau = [&](double drive) {
+      Question driven = at;
+      driven.drive = drive;
+      return driven.tau(law);
+    };
+    const double wanted = (4 * tau(step) - tau(2 * step) - 3 * tau(0)) / (2 * step);
+    CHECK(at.flow(law).stop_time_gradient({1, 1}).by_drive == Approx(wanted).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("on a ray, beside it and on its way the gradient has the same limit", "[gradient][ray]") {
+  for (double drive : {0.0, 0.1}) {
+    // Without a drive r = 3 has the ray; with one every body creeps at one, here a pool ball.
+    const Question asked{
+        .u = 1, .v = 0, .mu = drive > 0 ? 0.03 : std::sqrt(3.0 * 3.5 / 2.5), .chi = 3.5, .gamma = 2.5, .drive = drive};
+    for (const Law& law : paper_laws()) {
+      const Flow flow = asked.flow(law);
+      REQUIRE(flow.terminal().rays.size() == 1);
+      const double k = flow.terminal().rays[0].k;
+      for (double beside : {-1e-3, 0.0, 1e-15, 1e-9}) {
+        Question next = asked;
+        next.v = asked.mu * k * (1 + beside);
+        INFO(law.name() << ": " << next.text() << ", " << beside << " from the ray");
+        CHECK(error_of(law, next) < 2e-9);
+      }
+    }
+  }
+}
+
+TEST_CASE("the gradient on the ellipse is closed, at any spin, with a drive, too", "[gradient][formula]") {
+  constexpr double C = 0.8;
+  const double r = 1 / (C * C);
+  for (double drive : {0.0, 0.3}) {
+    const Flow flow(ReducedSystem(EllipticLaw{C}, 1, {.chi = 1, .gamma = r}, drive));
+    const double unit = flow.system().scaled_time_rate();
+    for (double k : {1e-3, 0.5, 2.0, 900.0, 1.1e3, 1e6, 1e9, 1e12}) {
+      const double v = 1, w = 1 / k, E = std::hypot(v, C * w), rest = 1 - drive * drive;
+      const StopTimeGradient found = flow.stop_time_gradient({w, v});
+      INFO("drive " << drive << ", k = " << k);
+      CHECK(unit * found.by_v == Approx((v / E + drive) / rest).epsilon(1e-10));
+      CHECK(unit * found.by_u == Approx(C * C * w / E / rest).epsilon(1e-9));
+      CHECK(unit * found.by_drive == Approx((v * rest + 2 * drive * (E + drive * v)) / (rest * rest)).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("the gradient of one speed alone, and of none", "[gradient][errors]") {
+  const Flow flow({HertzLaw{}, 0.1});
+  const StopTimeGradient pivots = flow.stop_time_gradient({-2, 0});
+  CHECK(pivots.by_u == Approx(pivots.tau / -2));
+  CHECK(pivots.by_v == 0);
+  CHECK(pivots.by_mu == Approx(-pivots.tau / 0.1));
+  CHECK(pivots.by_gamma == Approx(-pivots.tau / homogeneous_ball.gamma));
+  const StopTimeGradient slides = flow.stop_time_gradient({0, 3});
+  CHECK(slides.by_u == 0);
+  CHECK(slides.by_v == Approx(slides.tau / 3));
+  CHECK(slides.by_chi == Approx(-slides.tau / homogeneous_ball.chi));
+  CHECK_THROWS_WITH(flow.stop_time_gradient({0, 0}), Catch::Matchers::Contains("at rest there is none"));
+  CHECK_THROWS_AS(flow.stop_time_gradient({1, -1}), std::domain_error);
+}
+
+TEST_CASE("the gradient is of degree 0 by the speeds and 1 by all else", "[gradient][invariant]") {
+  const Flow flow({HertzLaw{}, 0.1, homogeneous_ball, 0.05});
+  const StopTimeGradient one = flow.stop_time_gradient({1, 2});
+  for (double c : {1e-290, 1e-8, 1e8, 1e290}) {
+    const StopTimeGradient scaled = flow.stop_time_gradient({c, 2 * c});
+    CHECK(scaled.by_u == Approx(one.by_u).epsilon(1e-13));
+    CHECK(scaled.by_v == Approx(one.by_v).epsilon(1e-13));
+    CHECK(scaled.by_mu / c == Approx(one.by_mu).epsilon(1e-13));
+    CHECK(scaled.by_drive / c == Approx(one.by_drive).epsilon(1e-13));
+  }
+}
