@@ -19,7 +19,7 @@ struct ReduceAnswer {
 
 /// Reduces (2.6); beside it stands what the other routes say.
 /// @throws BadInput  for a start at rest
-ReduceAnswer reduce_answer(const GivenStart& start);
+ReduceAnswer reduce_answer(const GivenStart& given);
 
 /// Reduces any field.
 /// @param text  of the field, for the answer
