@@ -82,6 +82,7 @@ struct StopReport {
   std::optional<CoarserTable> coarser;             ///< of a law that is a table of pressures
   std::vector<reduction::StopEstimate> estimates;  ///< for small mu
   double slip_length;                              ///< m, of a ball
+  std::optional<reduction::StopTimeGradient> gradient;
 };
 
 /// tau of a body that does not slide at the start; with a drive it begins to.
@@ -127,6 +128,23 @@ std::optional<si::Event> rest_of(const GivenStart& start) {
 /// What an estimate is too long by; 0 where both are infinite.
 double error_of(const reduction::StopEstimate& estimate, const reduction::StopTime& stop) {
   return estimate.tau == stop.tau ? 0 : estimate.tau - stop.tau;
+}
+
+/// A derivative of the stop time, and what it is by.
+struct Derivative {
+  const char* by;
+  double value, at;
+};
+
+std::vector<Derivative> derivatives(const StopReport& report) {
+  const auto& [system, state, experiment] = report.start;
+  const reduction::StopTimeGradient& gradient = *report.gradient;
+  return {{"u", gradient.by_u, state.u},
+          {"v", gradient.by_v, state.v},
+          {"mu", gradient.by_mu, system.mu()},
+          {"chi", gradient.by_chi, system.inertia().chi},
+          {"gamma", gradient.by_gamma, system.inertia().gamma},
+          {"drive", gradient.by_drive, system.drive()}};
 }
 
 constexpr auto of_ball = [](const StopReport& report, auto value) {
@@ -200,6 +218,14 @@ constexpr Field<StopReport> fields[]{
        return estimates;
      },
      "tau_*,error_*", 4, " [{`name`, `tau_stop`, `error`}]"},
+    {"gradient", "1; speed", "with --gradient: derivatives of tau_stop, each with the others kept",
+     [](const StopReport& r) -> Json {
+       if (!r.gradient) return {};
+       Json gradient;
+       for (const Derivative& derivative : derivatives(r)) gradient[derivative.by] = derivative.value;
+       return gradient;
+     },
+     "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, `v`, `mu`, `chi`, `gamma`, `drive`}"},
     {"ball", "m; kg; 1; m/s^2; m", "its values; and, as in run files, what its patch follows from",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });
@@ -238,7 +264,7 @@ class Text {
     if (report_.start.at_rest()) {
       return heading() + "\nstop time 0: the ball neither slides nor spins; it rolls already, or rests\n";
     }
-    return heading() + "\n" + times() + "\n" + estimates() + methods() + ending();
+    return heading() + "\n" + times() + "\n" + estimates() + gradient() + methods() + ending();
   }
 
  private:
@@ -355,6 +381,21 @@ class Text {
     return table.text() + "\n";
   }
 
+  std::string gradient() const {
+    if (!report_.gradient) return "";
+    const TextTable::Column number = TextTable::right(number_.width());
+    TextTable table({TextTable::left(18), number});
+    table.add({"derivative by", "of tau*"});
+    for (const auto& [by, value, at] : derivatives(report_)) {
+      const double percent = value * at / report_.stop.tau;
+      table.add({by, number_(value),
+                 at == 0 ? ""
+                         : fmt::format("    1 % more of it: {:.2g} % {}", std::abs(percent),
+                                       percent < 0 ? "shorter" : "longer")});
+    }
+    return table.text() + "\n";
+  }
+
   std::string methods() const {
     const reduction::Law& law = system_.law();
     return fmt::format(
@@ -406,10 +447,6 @@ class Text {
   const Digits& number_;
 };
 
-}  // namespace
-
-namespace {
-
 /// The stop time of several orbits, one after the other; each ends where a root says, to 50 bits.
 reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
   double accuracy = 0;
@@ -426,7 +463,7 @@ reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
 
 std::vector<FieldText> stop_fields() { return texts_of(fields); }
 
-Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate) {
+Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient) {
   using Estimates = std::vector<reduction::StopEstimate>;
   const auto& [system, state, experiment, resisted] = start;
   const auto pieces = start.pieces();
@@ -439,12 +476,14 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
     }
     if (estimate)
       throw BadInput("--estimate is of a motion without rolling friction and without a slope: leave it out");
+    if (gradient)
+      throw BadInput("--gradient is of one orbit, and this motion with rolling friction is several: leave it out");
   }
   const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;
   std::optional<reduction::Flow> flow;
   if (route == reduction::Route::quadrature) {
     flow = reduction::Flow::by_quadrature(system);
-  } else if (!stepped || experiment) {
+  } else if (!stepped || experiment || gradient) {
     flow = system;
   }
   const StopReport report{start,
@@ -459,7 +498,8 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
                           resisted     ? resisted->slip_length()
                           : experiment ? si::seconds(*experiment, slip_length(*flow, state))
-                                       : 0};
+                                       : 0,
+                          gradient && !start.at_rest() ? std::optional(flow->stop_time_gradient(state)) : std::nullopt};
   return {.members = members_of(fields, report), .rows = {row_of(fields, report)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();
           }};

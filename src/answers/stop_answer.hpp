@@ -9,7 +9,8 @@ namespace contensou::answers {
 
 /// Everything that `stop` says about one start.
 /// @param estimate  also the estimates for small mu
-Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate);
+/// @param gradient  also the derivatives of the stop time
+Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient = false);
 
 /// The fields of that answer.
 std::vector<FieldText> stop_fields();

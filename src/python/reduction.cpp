@@ -104,6 +104,27 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
   flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
 }
 
+/// tau and its derivatives by u, v, mu, chi, gamma and drive, a row each: NaN for what is no start, derivatives at rest, too.
+py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, const Numbers& v) {
+  const py::ssize_t count = u.size();
+  py::array_t<double> result({py::ssize_t{7}, count});
+  double* const out = result.mutable_data();
+  const double* const us = u.data();
+  const double* const vs = v.data();
+  const py::gil_scoped_release released;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const reduction::State start{us[i], vs[i]};
+    const bool at_rest = start.u == 0 && start.v == 0;
+    const auto found = is_state(start) && !at_rest
+                           ? flow.stop_time_gradient(start)
+                           : reduction::StopTimeGradient{at_rest ? 0 : none, none, none, none, none, none, none};
+    const double row[]{found.tau, found.by_u, found.by_v, found.by_mu, found.by_chi, found.by_gamma, found.by_drive};
+    for (py::ssize_t j = 0; j < 7; ++j) out[j * count + i] = row[j];
+  }
+  return result;
+}
+
 /// As stop_times, each start with a mu of its own. The flow is of one of them.
 void stop_times_of_mus(const Flow& flow, const Numbers& mu, const Numbers& u, const Numbers& v,
                        py::array_t<double>& out) {
@@ -180,6 +201,7 @@ void bind_reduction(py::module_& module) {
           Released())
       .def("stop_times", &stop_times)
       .def("stop_times_of_mus", &stop_times_of_mus)
+      .def("stop_time_gradients", &stop_time_gradients)
       .def(
           "orbit",
           [](const Flow& flow, double u, double v) {

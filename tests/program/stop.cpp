@@ -188,6 +188,19 @@ TEST_CASE("a known accuracy is in every format", "[cli]") {
   }
 }
 
+TEST_CASE("stop --gradient: derivatives of the stop time, in every format", "[cli]") {
+  const std::string question = "stop --law pade --mu 0.3 --u0 1 --v0 1 --gradient";
+  const json gradient = json_of(question + " --format json").at("gradient");
+  CHECK(gradient.at("u").get<double>() == Approx(10.9679009161).epsilon(1e-11));
+  CHECK(gradient.at("v").get<double>() == Approx(1.52868423111).epsilon(1e-11));
+  CHECK(gradient.size() == 6);
+  CHECK_THAT(run(question).out, Contains("derivative by") && Contains("1 % more of it: 0.88 % longer"));
+  CHECK_THAT(run(question + " --format csv").out, Contains(",by_u,by_v,by_mu,by_chi,by_gamma,by_drive\n"));
+  // By the stepper, too; at rest there is none.
+  CHECK(json_of(question + " --route direct --format json").at("gradient") == gradient);
+  CHECK_FALSE(json_of("stop --mu 0.3 --u0 0 --v0 0 --gradient --format json").contains("gradient"));
+}
+
 TEST_CASE("stop --estimate: the estimates for small mu and what they miss by", "[cli]") {
   const json stop = json_of("stop --law pade --mu 0.1 --u0 1 --v0 1 --estimate --format json");
   const auto& estimates = stop.at("estimates");

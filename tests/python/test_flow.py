@@ -57,6 +57,31 @@ def test_stop_times_against_solve_ivp(name, mu, u, v):
     assert ct.stop_time(u=u, v=v, mu=mu, law=name) == pytest.approx(by_scipy(ct.law(name), mu, u, v), rel=1e-7)
 
 
+@pytest.mark.parametrize("law", ["exact", "pade", "uniform"])
+def test_gradient_against_differences(law):
+    u, v = np.array([1.0, -30.0, 0.01]), np.array([1.0, 2.0, 5.0])
+    step = 1e-3
+
+    def difference(**at):
+        """By the logarithm of the one that is given as a function of its factor."""
+        tau = lambda times: ct.stop_time(law=law, **{"mu": 0.2, "u": u, "v": v, **{name: at[name](1 + times * step) for name in at}})
+        return (8 * (tau(1) - tau(-1)) - (tau(2) - tau(-2))) / (12 * step)
+
+    tau, by = ct.stop_time(u=u, v=v, mu=0.2, law=law, gradient=True)
+    np.testing.assert_array_equal(tau, ct.stop_time(u=u, v=v, mu=0.2, law=law))
+    for wanted, got in [(difference(u=lambda x: u * x), u * by["u"]), (difference(v=lambda x: v * x), v * by["v"]),
+                        (difference(mu=lambda x: 0.2 * x), 0.2 * by["mu"])]:
+        np.testing.assert_allclose(got / tau, wanted / tau, atol=1e-8)
+    np.testing.assert_allclose(u * by["u"] + v * by["v"], tau, rtol=1e-12)
+    # A mu of its own in each row, and what has no gradient.
+    mus, each = ct.stop_time(u=u, v=v, mu=np.array([0.2, 0.3, 0.2]), law=law, gradient=True)
+    assert each["mu"][[0, 2]] == pytest.approx(by["mu"][[0, 2]], rel=1e-14) and each["mu"][1] != by["mu"][1]
+    tau, by = ct.stop_time(u=[0, 1], v=[0, -1], mu=0.2, law=law, gradient=True)
+    assert tau[0] == 0 and np.isnan(tau[1]) and np.isnan(by["v"]).all()
+    with pytest.raises(TypeError, match="neither out nor threads"):
+        ct.stop_time(u=1, v=1, mu=0.2, gradient=True, threads=2)
+
+
 def test_orbit_obeys_its_equations():
     orbit = ct.Flow(mu=0.3).orbit(u=-1, v=1)
     times = np.linspace(0.1, 3, 7)

@@ -23,6 +23,8 @@ class StopCommand final : public Verb {
     law_.add(app);
     route_.add(app);
     app.add_flag("--estimate", estimate_, "beside it the estimates for small mu, with their errors");
+    app.add_flag("--gradient", gradient_,
+                 "and how tau_stop changes with u0, v0, mu, the body's chi and gamma, and a drive: exact derivatives");
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
                "CSV with columns mu,u0,v0, to which it adds tau_stop; with --ball columns slip,spin in m/s, rad/s and "
@@ -38,7 +40,7 @@ class StopCommand final : public Verb {
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
-    output.write(stop_answer(start, route_.read(start.system), estimate_));
+    output.write(stop_answer(start, route_.read(start.system), estimate_, gradient_));
     return ExitStatus::done;
   }
 
@@ -54,6 +56,7 @@ class StopCommand final : public Verb {
       throw BadInput("--batch and " + start_.names_of_one_start() + " exclude each other: the starts are in the file");
     }
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
+    if (gradient_) throw BadInput("--gradient is for one start: leave it or --batch out");
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.standard_law());
     const auto ball = has_ball ? std::optional(start_.read_ball(law, at_rest("--batch"))) : std::nullopt;
@@ -106,6 +109,7 @@ class StopCommand final : public Verb {
   RouteOption route_;
   Argument batch_;
   bool estimate_ = false;
+  bool gradient_ = false;
   bool keep_going_ = false;
   BulkOptions bulk_;
   OutputOptions output_{{{"a stop time", answer_formats("text")}, {"a table of stop times", {"csv"}}}};

@@ -179,6 +179,9 @@ class Orbit:
         return self._core.slip_length(numbers("tau", tau))[()]
 
 
+_DERIVATIVES = ("u", "v", "mu", "chi", "gamma", "drive")
+
+
 @dataclass(frozen=True, init=False)
 class Flow:
     """All motions of one system: solved once (1 ms), then stop times and states of any start.
@@ -209,14 +212,30 @@ class Flow:
     def __reduce__(self) -> tuple[Any, ...]:
         return Flow, (self.mu, self.law, self.body, self.drive)
 
-    def stop_time(self, *, u: ArrayLike, v: ArrayLike, out: Optional[NDArray[np.float64]] = None, threads: int = 1) -> Any:
+    def stop_time(
+        self,
+        *,
+        u: ArrayLike,
+        v: ArrayLike,
+        out: Optional[NDArray[np.float64]] = None,
+        threads: int = 1,
+        gradient: bool = False,
+    ) -> Any:
         """The time tau until u = v = 0, to a few eps (2e-15 relative).
 
         u, v:     numbers, or arrays of shapes that broadcast; any u, v >= 0. In an array what is no start, or is
                   masked, becomes NaN
         out:      float64 of the broadcast shape, to write into; may be u or v itself
         threads:  that share the work on a large array; other threads of Python go on meanwhile
+        gradient: also its derivatives, each with the others kept: returns tau and a dict of arrays by u, v, mu, chi, gamma
+                  and drive. At rest they are NaN
         """
+        if gradient:
+            if out is not None or threads != 1:
+                raise TypeError("stop_time: gradient takes neither out nor threads: leave them out")
+            u, v = np.broadcast_arrays(numbers("u", u), numbers("v", v))
+            tau, *derivatives = self._core.stop_time_gradients(u, v).reshape(7, *u.shape)
+            return tau[()], {by: each[()] for by, each in zip(_DERIVATIVES, derivatives)}
         if out is None and isinstance(u, (float, int)) and isinstance(v, (float, int)):
             return self._core.stop_time(u, v)
         threads = thread_count(threads)
@@ -270,15 +289,25 @@ def stop_time(
     drive: float = 0,
     out: Optional[NDArray[np.float64]] = None,
     threads: int = 1,
+    gradient: bool = False,
 ) -> Any:
     """Flow(mu, law, body, drive).stop_time, with the flows of the last calls kept; mu, too, may be an array, at the cost of
     a flow (0.4 ms) for each of its values, without a drive of 0.1 s for any number of them from 1000 on."""
     if mu is None or isinstance(mu, (float, int)):
-        return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads)
+        return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient)
     u, v, mu = np.broadcast_arrays(numbers("u", u), numbers("v", v), numbers("mu", mu))
     taus = np.empty(u.shape) if out is None else target(out, u.shape)
     values, group = np.unique(mu, return_inverse=True)
     group = group.reshape(u.shape)
+    if gradient:
+        parts = [Flow(float(value), law, body, drive).stop_time(
+            u=u[group == i], v=v[group == i], out=out, threads=threads, gradient=True) for i, value in enumerate(values)]
+        by = {name: np.empty(u.shape) for name in _DERIVATIVES}
+        for i, (tau, derivatives) in enumerate(parts):
+            taus[group == i] = tau
+            for name, each in derivatives.items():
+                by[name][group == i] = each
+        return taus[()], {name: each[()] for name, each in by.items()}
     if len(values) >= 1000 and drive == 0:
         ends = [Flow(float(value), law, body) for value in (values[0], values[-1])]  # they refuse what is no mu
         every = np.empty(u.shape)
