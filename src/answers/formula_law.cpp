@@ -11,6 +11,7 @@
 
 #include "answers/errors.hpp"
 #include "answers/formulas.hpp"
+#include "contensou/reduction/laws.hpp"
 
 namespace contensou::answers {
 
@@ -123,6 +124,10 @@ reduction::Law parse_formula_law(const std::string& text, const std::map<std::st
     }
     throw BadInput(message);
   }
+}
+
+std::optional<reduction::Law> find_law_or_formulas(const std::string& text) {
+  return is_formula_law(text) ? parse_formula_law(text) : reduction::find_law(text);
 }
 
 }  // namespace contensou::answers

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "contensou/reduction/friction_law.hpp"
@@ -18,6 +19,10 @@ bool is_formula_law(const std::string& text);
 ///
 /// @throws BadInput  for a mistake in a formula, at its character; for a law that does not resist, or has no limits,
 ///                   with what was measured
-reduction::Law parse_formula_law(const std::string& text, const std::map<std::string, double>& parameters);
+reduction::Law parse_formula_law(const std::string& text, const std::map<std::string, double>& parameters = {});
+
+/// What the `law` of a run file says: a name, or formulas.
+/// @throws std::domain_error  as reduction::find_law and parse_formula_law; none for a name that no law has
+std::optional<reduction::Law> find_law_or_formulas(const std::string& text);
 
 }  // namespace contensou::answers

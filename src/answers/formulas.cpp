@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -117,16 +118,22 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
     : compiled_(std::make_unique<Compiled>()) {
   compiled_->values.resize(shape.variables.size(), 1);
   compiled_->parameters = std::move(parameters);
-  for (const auto& [name, value] : compiled_->parameters) {
+  const auto may_be_parameter = [&](const std::string& name) {
     const bool spelled = !name.empty() && (std::isalpha(static_cast<unsigned char>(name[0])) || name[0] == '_') &&
                          std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-    if (!spelled || std::ranges::count(shape.variables, name) > 0 || name == "pi" || shape.refused.contains(name) ||
-        mu::Parser().GetFunDef().contains(name)) {
-      throw BadInput(fmt::format("{} cannot name a parameter: letters, digits and _ that are not {}, pi or a function",
-                                 quotation(name), fmt::join(shape.variables, ", ")));
-    }
+    return spelled && std::ranges::count(shape.variables, name) == 0 && name != "pi" && !shape.refused.contains(name) &&
+           !mu::Parser().GetFunDef().contains(name);
+  };
+  for (const auto& [name, value] : compiled_->parameters) {
+    if (may_be_parameter(name)) continue;
+    throw BadInput(fmt::format("{} cannot name a parameter: letters, digits and _ that are not {}, pi or a function",
+                               quotation(name), fmt::join(shape.variables, ", ")));
   }
-  std::array<bool, 2> found{};
+  struct Piece {
+    std::size_t begin = 0, end = 0;
+  };
+  std::array<std::optional<Piece>, 2> found;
+  std::map<std::string, double> own;  // the last of a name counts
   std::size_t begin = 0;
   while (begin <= text.size()) {
     const std::size_t end = std::min(text.find(';', begin), text.size());
@@ -137,17 +144,24 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
       std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
       const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
       if (which == shape.left.size()) {
-        reject(text, first, fmt::format("{} = or {} = is missing: {}", shape.left[0], shape.left[1], shape.sentence));
-      }
-      if (std::exchange(found[which], true)) {
+        const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
+        if (!may_be_parameter(left) || !is_number(value)) {
+          reject(text, first, fmt::format("{} = or {} = is missing: {}", shape.left[0], shape.left[1], shape.sentence));
+        }
+        own[left] = parse_number(value);
+      } else if (found[which]) {
         reject(text, first, fmt::format("{} stands there twice: {}", left, shape.sentence));
+      } else {
+        found[which] = {equals + 1, end};
       }
-      compile(compiled_->formulas[which], shape, compiled_->values, compiled_->parameters, text, equals + 1, end);
     }
     begin = end + 1;
   }
-  if (!found[0] || !found[1]) {
-    reject(text, text.size(), fmt::format("{} = is missing: {}", shape.left[found[0] ? 1 : 0], shape.sentence));
+  compiled_->parameters.merge(own);
+  for (std::size_t i : {0, 1}) {
+    if (!found[i]) reject(text, text.size(), fmt::format("{} = is missing: {}", shape.left[i], shape.sentence));
+    compile(compiled_->formulas[i], shape, compiled_->values, compiled_->parameters, text, found[i]->begin,
+            found[i]->end);
   }
   for (const auto& [name, value] : compiled_->parameters) {
     const auto has = [&name = name](const mu::Parser& formula) { return formula.GetUsedVar().contains(name); };

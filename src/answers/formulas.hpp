@@ -18,9 +18,11 @@ struct FormulaShape {
 };
 
 /// Two formulas, "u' = F; v' = G" in any order, of some variables and parameters: + - * / ^ ( ) < > ? :, |...|, pi, and the
-/// functions of muParser and hypot, with sign(0) = 0 and log = ln. One thread at a time.
+/// functions of muParser and hypot, with sign(0) = 0 and log = ln. Behind them the text may give parameters, "; a = 2".
+/// One thread at a time.
 class Formulas {
  public:
+  /// @param parameters  in place of those of the text
   /// @throws BadInput  quoting what is wrong and saying at which character; for a parameter that is a name of another
   ///                   kind or that no formula has
   Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters);

@@ -28,7 +28,8 @@ std::vector<std::pair<std::string, std::string>> law_forms() {
                        fmt::format("{}, {}", family.meaning, family.allowed));
   }
   forms.emplace_back("\"phi = F; psi = G\"",
-                     "your own force and moment: formulas in k = v/(mu |u|), with --param NAME=VALUE");
+                     "your own force and moment: formulas in k = v/(mu |u|), with --param NAME=VALUE, or \"; NAME = "
+                     "VALUE\" behind them");
   forms.emplace_back("FILE.csv", "your own pressure: columns rho,pressure, rho from 0 to 1");
   return forms;
 }

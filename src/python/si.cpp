@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "answers/engine_answer.hpp"
+#include "answers/formula_law.hpp"
 #include "contensou/portraits/json.hpp"
-#include "contensou/reduction/laws.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/course.hpp"
@@ -171,7 +171,7 @@ void bind_si(py::module_& module) {
     return fields_of_ball(si::describe(one_of("ball", "balls", balls, name)));
   });
   module.def("parse_run_file", [](const std::string& text, const std::string& source) {
-    return fields_of_ball(si::parse_run_file(text, source));
+    return fields_of_ball(si::parse_run_file(text, source, answers::find_law_or_formulas));
   });
   module.def("changed", [](const py::dict& fields, const py::dict& changes) {
     return fields_of(described_by(fields).under(described_by(changes)));

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/reduction/laws.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::si {
@@ -117,20 +116,6 @@ void Description::set_body(const std::string& name, const Source& source) {
       fmt::format("no such body '{:.80}'{}; bodies: {}", name, suggestion(name, names), fmt::join(names, ", ")));
 }
 
-void Description::set_law(const std::string& name, const Source& source) {
-  try {
-    if (name.empty() || reduction::find_law(name)) {
-      law_ = name;
-      return;
-    }
-  } catch (const std::domain_error& error) {
-    source.fail(error.what());
-  }
-  std::vector<std::string> names;
-  for (const reduction::Law& known : reduction::named_laws()) names.push_back(known.name());
-  source.fail(fmt::format("no such law '{:.80}'{}; laws: {}", name, suggestion(name, names), fmt::join(names, ", ")));
-}
-
 const Description::Values* Description::find(const Quantity& quantity) const {
   const auto found = values_.find(&quantity);
   return found == values_.end() ? nullptr : &found->second;
@@ -195,7 +180,7 @@ Description describe(const Experiment& experiment) {
   Description described;
   described.set_name(experiment.ball.name);
   described.set_body(experiment.ball.body);
-  described.set_law(experiment.contact.law, {});
+  described.set_law(experiment.contact.law);
   for (const auto& [quantity, values] : given_by(experiment))
     described.set(*quantity, values, {"", std::string(quantity->name), ""});
   return described;

@@ -149,11 +149,12 @@ class Screen {
 struct WordKey {
   std::string_view section, key;
 };
-constexpr WordKey name_key{"ball", "name"}, body_key{"ball", "body"}, law_key{"contact", "law"};
+constexpr WordKey name_key{"ball", "name"}, body_key{"ball", "body"}, law_key{"contact", "law"},
+    param_key{"contact", "param"};
 
 class Reader {
  public:
-  explicit Reader(std::string_view source) : source_(source) {}
+  Reader(std::string_view source, const FindLaw& find_law) : source_(source), find_law_(find_law) {}
 
   Description read(std::string_view text) const {
     const toml::table document = parse(text);
@@ -182,7 +183,17 @@ class Reader {
     };
     word(name_key, [&](const std::string& name, const Source&) { described.set_name(name); });
     word(body_key, [&](const std::string& name, const Source& source) { described.set_body(name, source); });
-    word(law_key, [&](const std::string& name, const Source& source) { described.set_law(name, source); });
+    const Section& contact = *std::ranges::find(sections, law_key.section, &Section::path);
+    const std::string parameters = parameters_of(contact);
+    word(law_key, [&](const std::string& law, const Source& source) {
+      described.set_law(law + parameters);
+      require_law(described.law(), source);
+    });
+    if (!parameters.empty() && described.law().empty()) {
+      fail(
+          contact.table->get(param_key.key)->source().begin,
+          "[contact.param] is for the formulas of a law: add law = \"phi = F; psi = G\" to [contact], or leave it out");
+    }
     described.require_no_contradiction();
     return described;
   }
@@ -226,7 +237,7 @@ class Reader {
   /// Rejects a key that no quantity, no word and no section has.
   void require_known_keys(const Section& section, const std::vector<Section>& sections) const {
     std::vector<std::string> names;
-    for (const WordKey& word : {name_key, body_key, law_key}) {
+    for (const WordKey& word : {name_key, body_key, law_key, param_key}) {
       if (word.section == section.path) names.emplace_back(word.key);
     }
     for (const Quantity* quantity : quantities()) {
@@ -255,6 +266,36 @@ class Reader {
            fmt::format("{} must be one line of text without control characters", called(section, key)));
     }
     return text;
+  }
+
+  /// [contact.param] as the text of a law has it.
+  std::string parameters_of(const Section& contact) const {
+    const toml::node* node = contact.table->get(param_key.key);
+    if (node == nullptr) return "";
+    if (!node->is_table()) {
+      fail(node->source().begin, "'param' must be a table of the numbers in law: write param = {a = 2}");
+    }
+    std::string text;
+    for (const auto& [name, each] : *node->as_table()) {
+      const auto value = each.value<double>();
+      if (!each.is_number() || !std::isfinite(*value)) {
+        fail(each.source().begin,
+             fmt::format("{} must be a number", called({"contact.param", nullptr, {}}, name.str())));
+      }
+      text += fmt::format("; {} = {}", name.str(), *value);
+    }
+    return text;
+  }
+
+  void require_law(const std::string& text, const Source& source) const {
+    try {
+      if (find_law_(text)) return;
+    } catch (const std::domain_error& error) {
+      source.fail(error.what());
+    }
+    std::vector<std::string> names;
+    for (const reduction::Law& known : reduction::named_laws()) names.push_back(known.name());
+    source.fail(fmt::format("no such law '{:.80}'{}; laws: {}", text, suggestion(text, names), fmt::join(names, ", ")));
   }
 
   double number(const toml::node& node, const Section& section, const Quantity& quantity) const {
@@ -296,6 +337,7 @@ class Reader {
   }
 
   std::string_view source_;
+  const FindLaw& find_law_;
 };
 
 std::string line(const Quantity& quantity, const std::vector<double>& values) {
@@ -308,7 +350,9 @@ std::string line(const Quantity& quantity, const std::vector<double>& values) {
 
 }  // namespace
 
-Description parse_run_file(std::string_view text, std::string_view source) { return Reader(source).read(text); }
+Description parse_run_file(std::string_view text, std::string_view source, const FindLaw& find_law) {
+  return Reader(source, find_law).read(text);
+}
 
 std::string read_run_text(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
@@ -320,7 +364,9 @@ std::string read_run_text(const std::string& path) {
   return text;
 }
 
-Description read_run_file(const std::string& path) { return parse_run_file(read_run_text(path), path); }
+Description read_run_file(const std::string& path, const FindLaw& find_law) {
+  return parse_run_file(read_run_text(path), path, find_law);
+}
 
 std::string run_file(const Experiment& experiment, std::string_view remark) {
   std::string text;

@@ -120,6 +120,10 @@ TEST_CASE("the fitted ball is a run file, ready for roll", "[cli]") {
   CHECK(roll["wz"][0].get<double>() == Approx(value(fit, "spin")).epsilon(1e-14));
   CHECK(roll["mu"].get<double>() == Approx(value(fit, "patch_radius") / 0.028575).epsilon(1e-14));
   CHECK_THAT(read_file(scratch.file("ball.toml")), Contains("# fitted to 122 values, law exact: friction +- "));
+  const std::string formulas = "phi=k/hypot(c,k);psi=c^2/hypot(c,k)";
+  CHECK(run_program(command + " --law " + formulas + " --param c=0.6 -o " + scratch.file("own.toml")).status == 0);
+  CHECK_THAT(read_file(scratch.file("own.toml")), Contains(formulas + "; c = 0.6"));
+  CHECK(json_of("stop --format json --ball " + scratch.file("own.toml"))["law"] == formulas + "; c = 0.6");
 }
 
 TEST_CASE("fit says when data determine one combination of friction and patch radius only", "[cli]") {

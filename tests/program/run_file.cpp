@@ -89,6 +89,8 @@ void check_key(const RunFile& with, const RunFile& without, const std::string& o
 
 TEST_CASE("every key of a run file is what its option is, for every verb", "[cli]") {
   check_key({.law = "law = \"pade\""}, {}, " --law pade");
+  check_key({.law = "law = \"phi=k/hypot(c,k);psi=c^2/hypot(c,k)\"\nparam = {c = 0.6}"}, {},
+            " --law phi=k/hypot(c,k);psi=c^2/hypot(c,k) --param c=0.6");
   check_key({.radius = "radius = 0.025"}, {}, " --radius 0.025");
   check_key({.friction = "friction = 0.3"}, {}, " --friction 0.3");
   check_key({.patch = "patch_radius = 0.002"}, {}, " --patch-radius 0.002");
@@ -102,6 +104,55 @@ TEST_CASE("every key of a run file is what its option is, for every verb", "[cli
   check_key({.start = "slip = 0.7\nspin = -9"}, {}, " --spin -9", true);
   check_key({.start = "velocity = [0.3, 1]\nangular_velocity = [0, 0, 60]"}, {}, " --velocity 0.3,1", true);
   check_key({.start = "velocity = [0.7, 0]\nangular_velocity = [0, 0, 5]"}, {}, " --angular-velocity 0,0,5", true);
+}
+
+TEST_CASE("a run file's law as formulas: its parameters, and mistakes at their line", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string file = scratch.file("own.toml");
+  const std::string formulas = "phi = k/hypot(c, k); psi = c^2/hypot(c, k)";
+  const auto stop = [](std::vector<std::string> options) {
+    options.insert(options.begin(), {"stop", "--format", "json"});
+    const Run run = run_program(options);
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return nlohmann::json::parse(run.out)["t_stop"];
+  };
+  write_file(file, RunFile{.law = "law = \"" + formulas + "\"\n[contact.param]\nc = 0.6\n[contact]"}.text());
+  CHECK(run_program("stop --ball " + file).status == 2);  // [contact] twice is no TOML
+  write_file(file, RunFile{.law = "law = \"" + formulas + "\"\nparam.c = 0.6"}.text());
+  const auto own = stop({"--ball", file});
+  CHECK(stop({"--ball", file, "--law", formulas + "; c = 0.6"}) == own);
+  CHECK(stop({"--ball", file, "--law", formulas + "; c = 7; c = 0.6"}) == own);
+  CHECK(stop({"--ball", file, "--law", formulas + "; c = 7", "--param", "c=0.6"}) == own);
+  const auto other = stop({"--ball", file, "--param", "c=0.9"});
+  CHECK(other != own);
+  CHECK(stop({"--ball", file, "--law", formulas, "--param", "c=0.9"}) == other);
+  CHECK(stop({"--ball", file, "--law", "exact"}) != own);
+  CHECK_THAT(run_program("stop --ball " + file + " --param d=1").err, Contains("has the parameter 'd'"));
+
+  const auto mistake = [&](const std::string& law, const std::string& place, const std::string& words) {
+    write_file(file, RunFile{.law = law}.text());
+    for (const std::string verb : {"stop", "roll", "engine", "roll --batch -"}) {
+      INFO(verb << " with " << law);
+      const Run run = run_program(verb + " --ball " + file, verb.ends_with("-") ? "slip,spin\n1,2\n" : "");
+      CHECK(run.status == 2);
+      CHECK(run.out.empty());
+      CHECK_THAT(run.err, StartsWith(file + place) && Contains(words));
+    }
+  };
+  mistake("law = \"phi = k/hypt(1, k); psi = 1/hypot(1, k)\"",
+          ":8:7: ", "did you mean 'hypot'?)");
+  mistake("law = \"phi = k/hypot(c, k); psi = 1/hypot(1, k)\"", ":8:7: ", "'c' is no variable, parameter or function");
+  mistake("law = \"phi = k/hypot(1, k)\"", ":8:7: ", "psi = is missing");
+  mistake("law = \"phi = -k/hypot(1, k); psi = 1/hypot(1, k)\"", ":8:7: ", "friction resists");
+  mistake("law = \"phi = v/hypot(1, k); psi = 1/hypot(1, k)\"", ":8:7: ", "not on the size of speeds");
+  mistake("law = \"" + formulas + "\"\nparam = {c = 0.6, d = 1}", ":8:7: ", "has the parameter 'd'");
+  mistake("law = \"" + formulas + "\"\nparam = {c = 0.6, d = \"1\"}",
+          ":9:23: ", "'d' in [contact.param] must be a number");
+  mistake("law = \"" + formulas + "\"\nparam = {c = nan}", ":9:14: ", "must be a number");
+  mistake("law = \"" + formulas + "\"\nparam = 0.6", ":9:9: ", "param = {a = 2}");
+  mistake("law = \"pade\"\nparam = {c = 0.6}", ":8:7: ", "phi = or psi = is missing");
+  mistake("param = {c = 0.6}", ":8:9: ", "add law = \"phi = F; psi = G\"");
 }
 
 TEST_CASE("a run file keeps a cloth: its rolling friction is that of roll", "[cli]") {

@@ -72,6 +72,25 @@ def test_a_run_files_law_is_that_of_every_answer(tmp_path):
     assert found.law == "pade" and found.ball.law == ct.law("pade")
 
 
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_a_run_files_law_may_be_formulas(tmp_path):
+    path = tmp_path / "mine.toml"
+    text = subprocess.run([PROGRAM, "balls", "pool"], capture_output=True, check=True, text=True).stdout
+    formulas = "phi = k/hypot(c, k); psi = c^2/hypot(c, k)"
+    path.write_text(text.replace("[contact]", f'[contact]\nlaw = "{formulas}"\nparam = {{c = 0.6}}'))
+    ball, pool = ct.Ball.read(path), ct.Ball.pool()
+    own = ct.law(formulas, c=0.6)
+    assert ball.roll().stop_time == program("stop", "--ball", str(path))["t_stop"] == pool.roll(law=own).stop_time
+    assert ball.mu() == pool.mu(own) and ball.roll().stop_time != pool.roll().stop_time
+    assert ct.engine("mujoco", ball) == ct.engine("mujoco", pool, law=own)
+    assert ct.portrait(ball=ball, orbits=1).data["law"] == ball.law.name == formulas + "; c = 0.6"
+    assert pickle.loads(pickle.dumps(ball)) == ball == pool.but(law=ball.law.name)
+    line = 1 + path.read_text().split("\n").index(f'law = "{formulas}"')
+    path.write_text(path.read_text().replace("k/hypot", "k/hypt"))
+    with pytest.raises(ValueError, match=rf"mine\.toml:{line}:7: 'hypt' is no .*did you mean 'hypot'\?\).*, at character 9 of"):
+        ct.Ball.read(path)
+
+
 KEYS = {
     "mass": "0.5", "radius": "0.04", "inertia": "0.6", "friction": "0.3", "rolling_friction": "0.01", "patch_radius": "2e-3",
     "spin_deceleration": "7", "youngs_modulus": "[1e9, 2e9]", "poisson_ratio": "[0.3, 0.2]", "counter_radius": "-0.1", "slip": "2", "spin": "-9",

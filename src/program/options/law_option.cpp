@@ -43,8 +43,8 @@ void LawOption::add_second(CLI::App& app, const std::string& name, const std::st
 
 reduction::Law LawOption::read(const std::string& standard) const {
   if (law_.given()) return read_one(law_.text());
-  require_no_parameters();
-  return *reduction::find_law(standard);
+  if (!is_formula_law(standard)) require_no_parameters();
+  return parameters_.given() ? parse_formula_law(standard, parameters_.read()) : *find_law_or_formulas(standard);
 }
 
 std::vector<reduction::Law> LawOption::read_several(const std::string& standard) const {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/formula_law.hpp"
 #include "answers/load_table.hpp"
-#include "contensou/reduction/laws.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
@@ -236,7 +236,7 @@ const si::Description& StartOptions::ball_of_its_own() const {
   }
   if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
   try {
-    own_ = names_a_file(ball_.text(), {".toml"}) ? si::read_run_file(ball_.text())
+    own_ = names_a_file(ball_.text(), {".toml"}) ? si::read_run_file(ball_.text(), find_law_or_formulas)
                                                  : si::describe(require_ball(ball_.text()).experiment);
   } catch (const NotAllowed& error) {
     ball_.reject(fmt::format("{}; a file needs a / or the ending .toml", error.what()));
@@ -332,7 +332,7 @@ void StartOptions::tell_new_patch(const si::Experiment& experiment, const reduct
   double own = 0;
   try {
     const si::Experiment before = si::experiment_of(ball_of_its_own().under(at_rest("")));
-    own = si::patch_radius_of(before, *reduction::find_law(si::law_of(before)));
+    own = si::patch_radius_of(before, *find_law_or_formulas(si::law_of(before)));
   } catch (const std::domain_error&) {
     return;  // the file leaves one of them to the command line
   }

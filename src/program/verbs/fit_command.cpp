@@ -10,6 +10,7 @@
 
 #include "answers/fit_answer.hpp"
 #include "answers/fit_figure.hpp"
+#include "answers/formula_law.hpp"
 #include "answers/track_file.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/ball_motion.hpp"
@@ -135,7 +136,9 @@ class FitCommand final : public Verb {
       if (only_stop) throw BadInput("one stop time is no curve to draw: leave out the picture");
       output.write({figure_.apply(fit_figure(fits.front(), request.tracks, figure_.size()), output.format)});
     } else if (output.format == "toml") {
-      output.write(si::run_file(fits.front().ball, remark(fits.front())));
+      Fit& fitted = fits.front();
+      if (is_formula_law(fitted.law)) fitted.ball.contact.law = fitted.law;
+      output.write(si::run_file(fitted.ball, remark(fitted)));
     } else {
       Answer answer = answer_of(fits, request.tracks, plan_);
       answer.text = [&](const Digits& digits) { return report_on(fits, request.tracks, plan_, digits); };

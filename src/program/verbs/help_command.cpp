@@ -63,7 +63,10 @@ std::string files() {
         text += help_entry("name", "text in quotes") +
                 help_entry("body", "text in quotes: ball (default), hollow-ball, disc, puck or ring");
       }
-      if (quantity == &si::friction) text += help_entry("law", "text in quotes: the default of --law");
+      if (quantity == &si::friction) {
+        text += help_entry("law", "text in quotes: the default of --law, a name or formulas") +
+                help_entry("param", "the numbers in its formulas, as in param = {a = 2}: the default of --param");
+      }
     }
     const std::string vector = quantity->components.empty() ? "" : fmt::format(", as [{}]", quantity->components);
     const std::string standard = quantity->standard ? fmt::format(" (default {})", *quantity->standard) : "";

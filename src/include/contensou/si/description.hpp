@@ -52,9 +52,11 @@ class Description {
   void set_name(std::string name) { name_ = std::move(name); }
   void set_body(const Body& body) { body_ = body; }
 
-  /// @throws std::domain_error  or RunFileError, listing the names, if there is no such body or law
+  /// @throws std::domain_error  or RunFileError, listing the names, if there is no such body
   void set_body(const std::string& name, const Source& source);
-  void set_law(const std::string& name, const Source& source);
+
+  /// By its name, or by formulas.
+  void set_law(std::string text) { law_ = std::move(text); }
 
   /// Null if it is not given.
   const Values* find(const Quantity& quantity) const;
