@@ -385,7 +385,7 @@ PlanarWindow window_of(const PlanarReduction& plane, const PlanarPortraitRequest
   };
   if (request.highlight) include(*request.highlight);
   std::ranges::for_each(request.through, include);
-  const Vector2d sides = Vector2d::Constant(half > 0 ? half : 1);
+  const Vector2d sides = request.sides.value_or(Vector2d::Constant(half > 0 ? half : 1));
   return {plane.centre() - sides, plane.centre() + sides};
 }
 

@@ -54,6 +54,11 @@ struct StripPlace {
 
 }  // namespace
 
+std::string_view name(PlanarEnd end) {
+  constexpr std::string_view names[]{"centre", "infinity", "rest", "border", "periodic"};
+  return names[static_cast<std::size_t>(end)];
+}
+
 struct PlanarReduction::Solved {
   Solved(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise)
       : scaling(generator), field(std::move(given), generator, around), noise(std::max(given_noise, eps)) {

@@ -3,6 +3,7 @@
 #include "contensou/reduction/planar_symmetry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,7 +28,7 @@ using Eigen::Vector2d;
 using Unknowns = Eigen::Matrix<double, 7, 1>;
 
 Generator generator_of(const Unknowns& x) {
-  return {x[6], (Matrix2d() << x[0], x[1], x[2], x[3]).finished(), Vector2d(x[4], x[5])};
+  return {x[6], (Matrix2d() << x[0], x[1], x[2], x[3]).finished(), Vector2d(x[4], x[5]), true};
 }
 
 Unknowns unknowns_of(const Generator& g) {
@@ -190,6 +191,43 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   return scaled().first;
 }
 
+/// phi = exp(s X): x -> L x + d.
+struct Transformation {
+  Transformation(const Generator& g, double s) : linear(matrix_exponential(s * g.matrix)), shift(Vector2d::Zero()) {
+    constexpr int terms = 60;  // of the integral of exp(s A) over s; A has no entry above 1, and s is small
+    Vector2d term = s * g.shift;
+    for (int n = 2; n <= terms && !term.isZero(0); ++n) {
+      shift += term;
+      term = (s / n) * (g.matrix * term);
+    }
+  }
+  Vector2d operator()(const Vector2d& x) const { return linear * x + shift; }
+
+  Matrix2d linear;
+  Vector2d shift;
+};
+
+/// Whether f(phi x) = exp(-c s) L f(x) where phi takes the points about their distance from the origin and back, across
+/// kinks that derivatives do not see.
+///
+/// @param scale    of u and v
+/// @param allowed  error relative to f
+bool holds_everywhere(Sampler& field, const Generator& g, const std::vector<Vector2d>& points, const Vector2d& scale,
+                      double allowed) {
+  const auto size = [&](const Vector2d& x) { return x.cwiseQuotient(scale).norm(); };
+  return std::ranges::all_of(points, [&](const Vector2d& x) {
+    constexpr double way = 2, longest = 4;
+    const double s = std::min(way * size(x) / size(g.matrix * x + g.shift), longest);
+    return std::ranges::all_of(std::array{-s, s}, [&](double step) {
+      const Transformation phi(g, step);
+      const auto here = field(x), moved = field(phi(x));
+      if (!here || !moved) return true;  // it leaves where the field has values
+      const Vector2d expected = std::exp(-g.time * step) * (phi.linear * *here);
+      return size(*moved - expected) <= allowed * std::max(size(*moved), size(expected));
+    });
+  });
+}
+
 /// max over the points of |f(phi x) - exp(s (A - c)) f(x)|/|f|, phi the finite transformation, s = ln 2; and the
 /// difference over s, as a right side of the determining equations.
 struct Finite {
@@ -199,12 +237,11 @@ struct Finite {
 
 Finite finite_transformation(Sampler& field, const Generator& g, const std::vector<Vector2d>& points) {
   constexpr double s = std::numbers::ln2;
-  const Vector2d centre = g.matrix.inverse() * -g.shift;
-  const Matrix2d there = matrix_exponential(s * g.matrix);
+  const Transformation phi(g, s);
   const Matrix2d back = matrix_exponential(s * (g.time * Matrix2d::Identity() - g.matrix));
   Finite finite{.difference = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * points.size()))};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto here = field(points[i]), moved = field(centre + there * (points[i] - centre));
+    const auto here = field(points[i]), moved = field(phi(points[i]));
     if (!here || !moved) continue;  // it leaves where the field has values
     const Vector2d difference = back * *moved - *here;
     finite.residual = std::max(finite.residual, difference.norm() / here->norm());
@@ -337,6 +374,10 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   }
   const MatrixXd kernel = equations.column_scale.asDiagonal() * svd.matrixV().rightCols(nullity);
   result.generators = basis_of(kernel, result.level, result.scaling);
+  constexpr double finest = 1e-6, amplified = 100;
+  for (Generator& g : result.generators) {
+    g.everywhere = holds_everywhere(sampler, g, equations.points, scale, std::max(finest, amplified * result.level));
+  }
   return result;
 }
 

@@ -103,7 +103,8 @@ std::vector<VerbFields> field_table() {
        {
            {"`system`; `drive`", "", "--system, in place of law, mu and body; with --drive"},
            {"`generators` [{`time`: c, `matrix`: A, `shift`: b}]; CSV `time`, `a11` ... `b2`", "",
-            "c t d/dt + (A x + b) d/dx, x = (u, v); the first is what is reduced by"},
+            "c t d/dt + (A x + b) d/dx, x = (u, v); the first is what is reduced by; `within` where one does not hold "
+            "across the lines where the field is not smooth"},
            {"`singular_values`; `level`; `gap`", "",
             "of the determining equations, over the largest; what counts as 0 is below level; how far the others are"},
            {"`canonical` {`q`, `p`, `dp_dq`}; `first_integral`", "",
@@ -113,6 +114,11 @@ std::vector<VerbFields> field_table() {
             "also `to_centre`, `radial`, `angular`: the motion on it, eigenvalues along it and across"},
            {"`kind`; `turn` {`factor`, `sigma`}", "",
             "node, saddle, focus, ... of the blown-up centre; of a focus a turn"},
+           {"JSON `strip` [{`ln_k` or `q`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",
+            "the orbit of the start, before and after it; of a focus turn by turn"},
+           {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "1, speed, speed, speed",
+            "starts to which the symmetry moves this one: their orbits are the same strip, ln of the factor higher in "
+            "p"},
            {"`tau_stop`; `end`; `routes` [{`name`, `tau_stop`}]", "speed",
             "inf where the centre is not reached; section: by the general way; `failure` of a route instead"},
        }},

@@ -1,6 +1,7 @@
 #include "answers/reduce_answer.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/portraits/reduced_orbits.hpp"
 #include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
@@ -26,13 +28,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// In the order of PlanarEnd.
-constexpr std::string_view ends[]{"centre", "infinity", "rest", "border", "periodic"};
-
 Json json_of(const Generator& x) {
-  return {{"time", x.time},
-          {"matrix", {{x.matrix(0, 0), x.matrix(0, 1)}, {x.matrix(1, 0), x.matrix(1, 1)}}},
-          {"shift", {x.shift[0], x.shift[1]}}};
+  Json json{{"time", x.time},
+            {"matrix", {{x.matrix(0, 0), x.matrix(0, 1)}, {x.matrix(1, 0), x.matrix(1, 1)}}},
+            {"shift", {x.shift[0], x.shift[1]}}};
+  if (!x.everywhere) json["within"] = "each smooth sector";
+  return json;
 }
 
 /// A sum of such terms as one writes it: no zeros, no ones.
@@ -81,7 +82,9 @@ Json members_of(const PlanarSymmetries& found) {
 std::string text_of(const PlanarSymmetries& found, std::string_view time, const Digits& digits) {
   std::string text;
   for (const Generator& x : found.generators) {
-    text += fmt::format("{:<12}X = {}\n", text.empty() ? "generator" : "", text_of(x, time, digits));
+    text +=
+        fmt::format("{:<12}X = {}{}\n", text.empty() ? "generator" : "", text_of(x, time, digits),
+                    x.everywhere ? "" : ", within each sector in which the field is smooth, not across their borders");
   }
   if (found.verdict == PlanarSymmetries::Verdict::none) {
     text = "generator   none of the form X = c t d/dt + (A x + b) d/dx: no singular value is small\n";
@@ -114,6 +117,38 @@ Json row_of(const Json& members, const PlanarSymmetries& found) {
                 {"b2", x.shift[1]}});
   }
   return row;
+}
+
+/// The orbit of the start in the strip, and the starts of its copies: each is the same curve with another p.
+Json members_of(const portraits::ReducedOrbits& from, const char* x,
+                const std::function<double(const Vector2d&)>& time_left) {
+  constexpr std::size_t most = 100;
+  const auto place = [&](portraits::Point at) {
+    const auto [u, v] = from.in_plane(at);
+    return Vector2d(u, v);
+  };
+  Json strip = Json::array(), copies = Json::array();
+  for (const portraits::Polyline& line : from.orbit) {
+    Json columns{{x, Json::array()}, {"p", {}}, {"u", {}}, {"v", {}}, {"tau_left", {}}};
+    const std::size_t step = (line.size() + most - 1) / most;
+    for (std::size_t i = (line.size() - 1) % step; i < line.size(); i += step) {
+      const Vector2d at = place(line[i]);
+      if (!at.allFinite()) continue;  // so long before the start that no double holds it
+      columns[x].push_back(line[i].x);
+      columns["p"].push_back(line[i].y);
+      columns["u"].push_back(at[0]);
+      columns["v"].push_back(at[1]);
+      columns["tau_left"].push_back(or_infinity(time_left(at)));
+    }
+    strip.push_back(std::move(columns));
+  }
+  for (const double shift : portraits::copy_shifts) {
+    const Vector2d start = place({from.start.x, from.start.y + shift});
+    if (!start.allFinite()) continue;
+    copies.push_back(
+        {{"factor", std::exp(shift)}, {"u0", start[0]}, {"v0", start[1]}, {"tau_stop", or_infinity(time_left(start))}});
+  }
+  return {{"strip", strip}, {"copies", copies}};
 }
 
 std::string difference(double one, double other) {
@@ -152,9 +187,15 @@ ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::strin
     }
     if (integral) answer.members["first_integral"] = *integral;
     answer.members.update({{"rays", rays}, {"kind", plane.kind()}});
+    if (integral && plane.kind() != "bordered") {
+      answer.members.update(members_of(portraits::reduced_orbits(field, plane, start), "q", [&](const Vector2d& x) {
+        const auto there = plane.orbit(x);
+        return there.end() == PlanarEnd::centre ? there.end_time() : infinity;
+      }));
+    }
     if (plane.turn()) answer.members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
-    answer.members.update({{"end", ends[static_cast<std::size_t>(orbit.end())]},
-                           {"tau_stop", orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity}});
+    answer.members.update(
+        {{"end", name(orbit.end())}, {"tau_stop", orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity}});
     solution = [=](const Digits& digits) {
       std::string lines =
           fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]), plane.kind());
@@ -258,6 +299,11 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
     answer.members["canonical"] = {{"q", state.u == 0 ? infinity : 0.0}, {"p", std::log(state.v)}, {"dp_dq", infinity}};
   }
   answer.members.update({{"rays", rays}, {"kind", plane.kind()}, {"tau_stop", stop.tau}, {"routes", routes}});
+  if (integral) {
+    answer.members.update(members_of(portraits::reduced_orbits(flow, state), "ln_k", [&](const Vector2d& x) {
+      return flow.stop_time(reduction::State{x[0], x[1]}).tau;
+    }));
+  }
 
   answer.text = [=, system = system, state = state, members = answer.members](const Digits& digits) {
     const double mu = system.mu(), chi = system.inertia().chi, gamma = system.inertia().gamma;

@@ -10,8 +10,7 @@
 
 #include "answers/planar_system.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/planar_reduction.hpp"
-#include "values.hpp"
+#include "planar.hpp"
 
 namespace contensou::python {
 
@@ -20,15 +19,10 @@ namespace {
 using Eigen::Vector2d;
 using reduction::PlanarEnd;
 using reduction::PlanarField;
+using reduction::PlanarOrbit;
 using reduction::PlanarReduction;
-using reduction::PlanarSymmetries;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-/// Not an exception of C++, which the library would take for a point without value.
-struct Interrupted {
-  py::error_already_set error;
-};
 
 PlanarField field_of(py::function function) {
   return [function = std::make_shared<py::function>(std::move(function))](const Vector2d& x) {
@@ -47,36 +41,12 @@ PlanarField field_of(py::function function) {
   };
 }
 
-template <class Result>
-Result interruptible(const std::function<Result()>& compute) {
-  try {
-    return compute();
-  } catch (Interrupted& interrupted) {
-    throw py::error_already_set(interrupted.error);
-  }
-}
-
-class Planar {
- public:
-  Planar(const PlanarField& field, const Vector2d& around) {
-    interruptible<int>([&] {
-      symmetries = reduction::find_symmetries(field, around);
-      if (symmetries.scaling) solution.emplace(field, *symmetries.scaling, around, symmetries.residual);
-      return 0;
-    });
-  }
-
-  const PlanarReduction& solved() const {
-    if (solution) return *solution;
-    throw std::domain_error("reduce: no scaling of this field was found, so it is not solved");
-  }
-
-  PlanarSymmetries symmetries;
-  std::optional<PlanarReduction> solution;
-};
-
 py::array_t<double> like(const Numbers& given) {
   return py::array_t<double>(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
+}
+
+double stop_time_of(const PlanarOrbit& orbit) {
+  return orbit.end() == PlanarEnd::centre ? orbit.end_time() : std::numeric_limits<double>::infinity();
 }
 
 /// A number at each of the points; NaN where there is none.
@@ -85,7 +55,7 @@ py::array_t<double> at_points(const Numbers& u, const Numbers& v, Function funct
   py::array_t<double> result = like(u);
   for (py::ssize_t i = 0; i < u.size(); ++i) {
     try {
-      result.mutable_data()[i] = interruptible<double>([&] { return function(Vector2d(u.data()[i], v.data()[i])); });
+      result.mutable_data()[i] = interruptible([&] { return function(Vector2d(u.data()[i], v.data()[i])); });
     } catch (const std::domain_error&) {
       result.mutable_data()[i] = nothing;
     }
@@ -113,7 +83,7 @@ void bind_planar(py::module_& module) {
                              [](const Planar& planar) {
                                py::list list;
                                for (const auto& x : planar.symmetries.generators) {
-                                 list.append(py::make_tuple(x.time, x.matrix, x.shift));
+                                 list.append(py::make_tuple(x.time, x.matrix, x.shift, x.everywhere));
                                }
                                return list;
                              })
@@ -156,16 +126,26 @@ void bind_planar(py::module_& module) {
       .def("stop_time",
            [](const Planar& planar, const Numbers& u, const Numbers& v) {
              const PlanarReduction& plane = planar.solved();
-             return at_points(u, v, [&](const Vector2d& x) {
-               const auto orbit = plane.orbit(x);
-               return orbit.end() == PlanarEnd::centre ? orbit.end_time() : std::numeric_limits<double>::infinity();
-             });
+             return at_points(u, v, [&](const Vector2d& x) { return stop_time_of(plane.orbit(x)); });
            })
-      .def("at", [](const Planar& planar, double u, double v, const Numbers& times) {
-        const auto orbit = planar.solved().orbit({u, v});
+      .def("orbit", [](const Planar& planar, double u, double v) {
+        return interruptible([&] { return planar.solved().orbit({u, v}); });
+      });
+
+  py::class_<PlanarOrbit>(module, "PlanarOrbit")
+      .def_property_readonly("end", [](const PlanarOrbit& orbit) { return std::string(name(orbit.end())); })
+      .def_property_readonly("end_time", &PlanarOrbit::end_time)
+      .def_property_readonly("stop_time", &stop_time_of)
+      .def("at", [](const PlanarOrbit& orbit, const Numbers& times) {
         py::array_t<double> us = like(times), vs = like(times);
         for (py::ssize_t i = 0; i < times.size(); ++i) {
-          const Vector2d x = interruptible<Vector2d>([&] { return orbit.at(times.data()[i]); });
+          const double time = times.data()[i];
+          Vector2d x(nothing, nothing);
+          try {
+            x = interruptible([&] { return orbit.at(time); });
+          } catch (const std::domain_error&) {
+            if (!(time >= 0)) throw;  // else it has gone to infinity, or beyond a border
+          }
           us.mutable_data()[i] = x[0];
           vs.mutable_data()[i] = x[1];
         }

@@ -1,11 +1,14 @@
 // contensou::portraits in Python: a portrait as data, as a figure and as a file.
 #include <algorithm>
+#include <functional>
+#include <variant>
 
 #include "answers/portrait_spec.hpp"
 #include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
+#include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/si/scaling.hpp"
-#include "values.hpp"
+#include "planar.hpp"
 
 namespace contensou::python {
 
@@ -18,9 +21,8 @@ using portraits::Point;
 using portraits::PortraitStyle;
 
 struct Portrait {
-  PhasePortrait data;
   Figure figure;
-  portraits::PortraitSource source;
+  std::function<std::string()> json;
 };
 
 /// Two columns.
@@ -113,17 +115,38 @@ py::dict dict_of(const Figure& figure) {
 
 using Sides = std::pair<double, double>;
 
+using Size = std::pair<std::optional<double>, std::optional<double>>;
+
+/// What portraits of all systems have.
+PortraitStyle style_of(const std::string& arrows, bool axes, const std::string& colour, const std::string& style,
+                       const Size& size) {
+  using Arrows = PortraitStyle::Arrows;
+  return {.arrows = one_of<Arrows>("place for arrows", "places",
+                                   {{"time", Arrows::time}, {"one", Arrows::one}, {"none", Arrows::none}}, arrows),
+          .invariant = axes,
+          .colour_by_time = one_of<bool>("colour", "colours", {{"time", true}, {"none", false}}, colour),
+          .screen = one_of<bool>("style", "styles", {{"print", false}, {"screen", true}}, style),
+          .size = {size.first, size.second}};
+}
+
+Figure titled(Figure figure, const std::optional<std::string>& title, const Size& size) {
+  if (title) {
+    figure.title = portraits::shortened(*title, 200);
+    figure.subtitle = "";
+  }
+  return size.second ? figure : portraits::trimmed(std::move(figure));
+}
+
 Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experiment>& experiment,
                      const std::optional<Sides>& start, const std::optional<std::string>& view,
                      const std::optional<Sides>& window, std::optional<int> orbits, const std::vector<Sides>& through,
                      std::optional<int> isochrones, const std::optional<reduction::Law>& against,
                      const std::string& arrows, const std::string& field, bool axes, const std::string& colour,
-                     const std::string& style, const std::string& scale, bool estimate,
-                     const std::pair<std::optional<double>, std::optional<double>>& size,
+                     const std::string& style, const std::string& scale, bool estimate, const Size& size,
                      const std::optional<std::string>& title) {
-  using Arrows = PortraitStyle::Arrows;
   using Field = PortraitStyle::Field;
-  answers::PortraitSpec asked{.flow = flow, .experiment = experiment};
+  answers::PortraitSpec asked{
+      .flow = flow, .experiment = experiment, .style = style_of(arrows, axes, colour, style, size)};
   if (start) asked.start = reduction::State{start->first, start->second};
   if (experiment) asked.start = si::reduced_start(*experiment);
   std::vector<std::pair<std::string, portraits::View>> views;
@@ -135,27 +158,45 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experi
   asked.request.isochrones = isochrones;
   asked.request.comparison = against;
   asked.request.linear = one_of<bool>("scale", "scales", {{"bent", false}, {"linear", true}}, scale);
-  asked.style.arrows = one_of<Arrows>("place for arrows", "places",
-                                      {{"time", Arrows::time}, {"one", Arrows::one}, {"none", Arrows::none}}, arrows);
   asked.style.field =
       one_of<Field>("field", "fields",
                     {{"none", Field::none}, {"motion", Field::motion}, {"regularised", Field::regularised}}, field);
-  asked.style.invariant = axes;
-  asked.style.colour_by_time = one_of<bool>("colour", "colours", {{"time", true}, {"none", false}}, colour);
-  asked.style.screen = one_of<bool>("style", "styles", {{"print", false}, {"screen", true}}, style);
   if (estimate && asked.request.view != portraits::View::time) {
     throw std::domain_error("estimate is drawn against time: view=\"time\" is needed");
   }
   if (estimate && against) throw std::domain_error("estimate and against exclude each other: both would be dashed");
   asked.style.estimate = estimate;
-  asked.style.size = {size.first, size.second};
   PhasePortrait data = asked.portrait();
-  Figure figure = asked.figure(data);
-  if (title) {
-    figure.title = portraits::shortened(*title, 200);
-    figure.subtitle = "";
+  Figure figure = titled(asked.figure(data), title, size);
+  return {std::move(figure),
+          [data = std::move(data), source = asked.source()] { return portraits::to_json(data, source); }};
+}
+
+Portrait portrait_of_plane(const Planar& planar, const std::string& system, const std::optional<Sides>& start,
+                           const std::optional<std::variant<Sides, std::pair<Sides, Sides>>>& window,
+                           std::optional<int> orbits, const std::vector<Sides>& through, std::optional<int> isochrones,
+                           const std::string& arrows, const std::string& field, bool axes, const std::string& colour,
+                           const std::string& style, const Size& size, const std::optional<std::string>& title) {
+  using Field = PortraitStyle::Field;
+  portraits::PlanarPortraitRequest asked{.orbits = orbits, .isochrones = isochrones};
+  if (window) {
+    if (const Sides* sides = std::get_if<Sides>(&*window)) {
+      asked.sides = {sides->first, sides->second};
+    } else {
+      const auto& [u, v] = std::get<1>(*window);
+      asked.window = {{u.first, v.first}, {u.second, v.second}};
+    }
   }
-  return {std::move(data), std::move(figure), asked.source()};
+  if (start) asked.highlight = {start->first, start->second};
+  for (const auto& [u, v] : through) asked.through.emplace_back(u, v);
+  PortraitStyle looks = style_of(arrows, axes, colour, style, size);
+  looks.field = one_of<Field>("field", "fields", {{"none", Field::none}, {"motion", Field::motion}}, field);
+  return interruptible([&]() -> Portrait {
+    portraits::PlanarPortrait data = portraits::planar_portrait(planar.field, planar.solved(), system, asked);
+    Figure figure = titled(portraits::draw(data, looks), title, size);
+    return {std::move(figure),
+            [data = std::move(data)] { return portraits::to_json(data, {.version = CONTENSOU_VERSION}); }};
+  });
 }
 
 }  // namespace
@@ -166,6 +207,10 @@ void bind_portraits(py::module_& module) {
            py::arg("view"), py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"),
            py::arg("against"), py::arg("arrows"), py::arg("field"), py::arg("axes"), py::arg("colour"),
            py::arg("style"), py::arg("scale"), py::arg("estimate"), py::arg("size"), py::arg("title"), Released())
+      .def_static("of_plane", &portrait_of_plane, py::arg("planar"), py::arg("system"), py::arg("start"), py::kw_only(),
+                  py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"), py::arg("arrows"),
+                  py::arg("field"), py::arg("axes"), py::arg("colour"), py::arg("style"), py::arg("size"),
+                  py::arg("title"))
       .def("render",
            [](const Portrait& portrait, const std::string& ending) {
              const auto format = portraits::find_picture_format(ending);
@@ -179,7 +224,7 @@ void bind_portraits(py::module_& module) {
              };
              return py::bytes(drawn());
            })
-      .def("json", [](const Portrait& portrait) { return portraits::to_json(portrait.data, portrait.source); })
+      .def("json", [](const Portrait& portrait) { return portrait.json(); })
       .def("figure", [](const Portrait& portrait) { return dict_of(portrait.figure); });
 }
 

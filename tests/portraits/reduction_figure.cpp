@@ -29,7 +29,7 @@ std::vector<const Lines*> by_size(const Panel& panel) {
 
 /// That the strip's lines are shifts by ln 2, and of one colour with those of the plane.
 void check_shifts(const Figure& figure) {
-  REQUIRE(figure.panels.size() == 2);
+  REQUIRE(figure.panels.size() >= 2);
   const auto in_plane = by_size(figure.panels[0]), in_strip = by_size(figure.panels[1]);
   for (std::size_t i = 0; i < 7; ++i) {
     CHECK(in_plane[i]->stroke.colour.rgb == in_strip[i]->stroke.colour.rgb);
@@ -86,6 +86,38 @@ TEST_CASE("a copy in plane and strip is the motion from the start so many times 
         CHECK(plane.front().y > plane.back().y);
       }
       CHECK(seen > 50);
+    }
+  }
+}
+
+TEST_CASE("copies over their starts are one line, other starts are not", "[route]") {
+  for (const reduction::State start : {reduction::State{1, 1}, {-0.2, 0.3}}) {
+    const reduction::Flow flow({reduction::HertzLaw{}, 1});
+    const Figure figure = reduction_figure(flow, start);
+    REQUIRE(figure.panels.size() == 3);
+    const Panel& panel = figure.panels[2];
+    const double integral = flow.log_first_integral(start.u, std::log(start.v));
+    const auto here = [&](Point at) { return flow.log_first_integral(at.x * start.u, std::log(at.y * start.v)); };
+    int beads = 0;
+    REQUIRE(panel.marks.size() == 7);
+    for (std::size_t i = 0; i < 6; ++i) {
+      CHECK(panel.marks[i].points.size() >= 3);
+      for (const Point& bead : panel.marks[i].points) {
+        CHECK(here(bead) == Approx(integral).epsilon(0).margin(1e-9));
+        ++beads;
+      }
+    }
+    CHECK(beads > 30);
+    for (const Polyline& line : layer(panel, "other starts").lines) {
+      int through_start = 0;
+      double farthest = 0;
+      for (const Point& at : line) {
+        if (at.x < 0.1 || at.y < 0.1 || at.x > 2 || at.y > 2) continue;
+        through_start += std::hypot(at.x - 1, at.y - 1) < 1e-12;
+        farthest = std::max(farthest, std::abs(here(at) - integral));
+      }
+      CHECK(through_start == 1);
+      CHECK(farthest > 0.1);
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include "run_program.hpp"
@@ -76,6 +77,65 @@ TEST_CASE("reduce: canonical coordinates, rays and the first integral of the pap
         Approx(std::log(3)).epsilon(1e-14));
   CHECK(one["canonical"]["dp_dq"] == three["canonical"]["dp_dq"]);
   CHECK(json_of("reduce --mu 0.3 --u0 0 --v0 1 --format json")["canonical"]["q"] == "inf");
+}
+
+TEST_CASE("reduce: the orbit as a curve of the strip, and the starts of its copies", "[cli]") {
+  for (const std::string start :
+       {"--mu 0.3 --u0 1 --v0 1", "--mu 1e-3 --u0 -2 --v0 5", "--body disc --mu 1 --u0 1 --v0 3"}) {
+    INFO(start);
+    const Json reduced = json_of("reduce " + start + " --format json");
+    REQUIRE(reduced["strip"].size() == 1);
+    const Json& strip = reduced["strip"][0];
+    REQUIRE(strip["p"].size() >= 50);
+    CHECK(strip["p"].size() <= 101);
+    for (std::size_t i = 0; i < strip["p"].size(); ++i) {
+      const double u = strip["u"][i], v = strip["v"][i], left = strip["tau_left"][i];
+      if (strip["p"][i] < -700) {  // v has few digits left, or none
+        CHECK(v <= 1e-300);
+        continue;
+      }
+      CHECK(std::log(v) == Approx(strip["p"][i].get<double>()).epsilon(1e-12).margin(1e-12));
+      CHECK(std::log(v / (reduced["mu"].get<double>() * std::abs(u))) ==
+            Approx(strip["ln_k"][i].get<double>()).epsilon(1e-12).margin(1e-12));
+      if (i % 10 != 0) continue;
+      const std::string there = fmt::format(" --u0 {} --v0 {} --format json", u, v);
+      const Json other = json_of("reduce " + start.substr(0, start.find("--u0")) + there);
+      CHECK(other["first_integral"].get<double>() ==
+            Approx(reduced["first_integral"].get<double>()).epsilon(1e-10).margin(1e-10));
+      CHECK(other["tau_stop"].get<double>() == Approx(left).epsilon(1e-13));
+    }
+    REQUIRE(reduced["copies"].size() == 6);
+    for (const Json& copy : reduced["copies"]) {
+      const double factor = copy["factor"];
+      for (const char* name : {"u0", "v0", "tau_stop"}) {
+        CHECK(copy[name].get<double>() == Approx(factor * reduced[name].get<double>()).epsilon(1e-13));
+      }
+    }
+  }
+  const Json weighted = json_of_system("u' = v; v' = -sign(u) - 0.5*sign(v)", {"--u0", "0.5", "--v0", "1"});
+  for (const Json& piece : weighted["strip"]) CHECK(piece["q"].size() == piece["tau_left"].size());
+  for (const Json& copy : weighted["copies"]) {  // u has twice the weight of v, and as much as t^2
+    const double factor = copy["factor"];
+    CHECK(copy["u0"].get<double>() == Approx(0.5 * factor).epsilon(1e-13));
+    CHECK(copy["v0"].get<double>() == Approx(std::sqrt(factor)).epsilon(1e-13));
+    CHECK(copy["tau_stop"].get<double>() ==
+          Approx(std::sqrt(factor) * weighted["tau_stop"].get<double>()).epsilon(1e-12));
+  }
+  // Long before the start speeds exceed every double.
+  const Json far =
+      json_of("reduce --mu 1 --law phi=k/hypot(1,k);psi=1/(1+2*k) --body disc --u0 1 --v0 3 --format json");
+  CHECK(far["strip"][0]["u"].size() == far["strip"][0]["tau_left"].size());
+  CHECK_FALSE(json_of("reduce --mu 0.3 --u0 0 --v0 1 --format json").contains("strip"));
+}
+
+TEST_CASE("a generator that holds within quadrants only is labelled", "[cli]") {
+  const std::string relay = "u' = v; v' = -sign(u) - 0.5*sign(v)";
+  CHECK_THAT(reduce(relay).out,
+             Contains("X = 1 d/du, within each sector in which the field is smooth, not across their borders\n"));
+  const Json generators = json_of_system(relay)["generators"];
+  REQUIRE(generators.size() == 2);
+  CHECK_FALSE(generators[0].contains("within"));
+  CHECK(generators[1]["within"] == "each smooth sector");
 }
 
 TEST_CASE("reduce shows the equations with their numbers, on one screen", "[cli]") {

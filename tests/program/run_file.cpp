@@ -140,8 +140,7 @@ TEST_CASE("a run file's law as formulas: its parameters, and mistakes at their l
       CHECK_THAT(run.err, StartsWith(file + place) && Contains(words));
     }
   };
-  mistake("law = \"phi = k/hypt(1, k); psi = 1/hypot(1, k)\"",
-          ":8:7: ", "did you mean 'hypot'?)");
+  mistake("law = \"phi = k/hypt(1, k); psi = 1/hypot(1, k)\"", ":8:7: ", "did you mean 'hypot'?)");
   mistake("law = \"phi = k/hypot(c, k); psi = 1/hypot(1, k)\"", ":8:7: ", "'c' is no variable, parameter or function");
   mistake("law = \"phi = k/hypot(1, k)\"", ":8:7: ", "psi = is missing");
   mistake("law = \"phi = -k/hypot(1, k); psi = 1/hypot(1, k)\"", ":8:7: ", "friction resists");

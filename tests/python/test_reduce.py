@@ -1,12 +1,24 @@
 """Symmetries of planar systems, and the motions that they solve, against SciPy and against what is known."""
 
+import copy
 import math
+import os
+import pickle
 import random
+import subprocess
 
 import contensou as ct
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+
+PROGRAM = os.environ.get("CONTENSOU")
+SLIDING = "u' = -u/hypot(u, v); v' = -v/hypot(u, v) - a"
+
+
+def twisting(u, v):
+    """A relay: every orbit turns about the origin and is there in finite time."""
+    return v, -np.sign(u) - 0.5 * np.sign(v)
 
 
 def random_field(rng):
@@ -54,8 +66,8 @@ def test_a_function_and_its_formulas_are_one_system():
     assert text.stop_time(u=u, v=v).shape == (2, 2)
     np.testing.assert_allclose(text.stop_time(u=u, v=v), function.stop_time(u=u, v=v), rtol=1e-13)
     assert text.stop_time(u=0, v=1) == pytest.approx(1 / 1.2, rel=1e-13)
-    us, vs = text.at([0.1, 0.5], u=1, v=1)
-    integral = text.first_integral(us, vs)
+    states = text.orbit(1, 1).at([0.1, 0.5])
+    integral = text.first_integral(states["u"], states["v"])
     np.testing.assert_allclose(integral, text.first_integral(1, 1), atol=1e-11)
     assert math.isnan(text.first_integral(0, 1))  # a ray
     assert "stable node" in repr(text)
@@ -76,6 +88,10 @@ def test_zhuravlev_s_system():
     facts = flow.facts()
     assert len(facts) == 4 and {point.place for point in facts} == {"origin", "infinity"}
     assert {point.kind for point in facts} == {"saddle", "stable node", "unstable node"}
+
+
+def test_a_generator_says_whether_it_holds_everywhere():
+    assert [x.everywhere for x in ct.reduce(twisting, u=1, v=1).generators] == [True, False]
 
 
 def test_no_symmetry_and_no_values():
@@ -109,3 +125,112 @@ def test_noise_is_not_taken_for_structure():
     noisy = lambda size: lambda u, v: (-u / math.hypot(u, v) + rng.gauss(0, size), -v / math.hypot(u, v) + rng.gauss(0, size))
     assert ct.reduce(noisy(1e-9), u=1, v=1).generator.time == pytest.approx(1, abs=1e-6)
     assert ct.reduce(noisy(0.1), u=1, v=1).verdict == "undecided"
+
+
+def test_an_orbit_is_the_motion_that_scipy_steps():
+    orbit = ct.reduce(SLIDING, u=1, v=1, a=0.2).orbit(u=3, v=-2)
+    times = np.array([[0, 0.5], [1, 2]])
+    states = orbit.at(times)
+    assert states.dtype.names == ("t", "u", "v", "q", "p") and states.shape == (2, 2)
+    field = lambda t, x: (-x[0] / np.hypot(*x), -x[1] / np.hypot(*x) - 0.2)
+    solved = solve_ivp(field, (0, 2), (3, -2), method="DOP853", rtol=1e-12, atol=1e-13, t_eval=times.ravel())
+    np.testing.assert_allclose([states["u"].ravel(), states["v"].ravel()], solved.y, atol=1e-10)
+    np.testing.assert_allclose(np.tan(states["q"]), states["v"] / states["u"], rtol=1e-12)
+    # What is left by the quadrature is what was left, less the time.
+    left = orbit.reduction.stop_time(u=states["u"], v=states["v"])
+    np.testing.assert_allclose(left, orbit.stop_time - times, rtol=1e-11)
+    end = orbit.at(orbit.end_time + 1)
+    assert orbit.end == "centre" and (end["u"], end["v"], end["p"]) == (0, 0, -math.inf)
+    assert orbit.at(0.0)["u"] == pytest.approx(3, rel=1e-15)
+    with pytest.raises(ValueError, match="times >= 0"):
+        orbit.at([1, -1])
+    again = pickle.loads(pickle.dumps(orbit))
+    assert repr(again) == repr(orbit) and again.at(1.5) == orbit.at(1.5)
+
+
+def test_an_orbit_that_does_not_come_to_the_centre():
+    growing = ct.reduce(lambda u, v: (u * u, v * v), u=1, v=1).orbit(1, 0.5)  # u = 1/(1 - t)
+    assert (growing.end, growing.end_time, growing.stop_time) == ("infinity", pytest.approx(1), math.inf)
+    states = growing.at([0.5, 2])
+    assert states["u"][0] == pytest.approx(2) and np.isnan(states["u"][1]) and np.isnan(states["p"][1])
+    circle = ct.reduce(lambda u, v: (v, -u), u=1, v=0).orbit(1, 0)
+    assert circle.end == "periodic" and circle.at(math.pi)["u"] == pytest.approx(-1)
+
+
+def test_of_zhuravlev_s_system_orbits_are_the_flow_s():
+    flow = ct.Flow(mu=0.3)
+    states, theirs = flow.reduction().orbit(1, 1).at([1, 5]), flow.orbit(u=1, v=1).at([1, 5])
+    np.testing.assert_allclose(states["u"], theirs["u"], rtol=1e-11)
+    np.testing.assert_allclose(states["p"], theirs["ln_v"], rtol=1e-9)  # the paper's p
+    assert "(2.6), mu = 0.3, law exact" in flow.reduction().portrait(orbits=4).data["system"]
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+@pytest.mark.parametrize("asked, options, looks", [
+    ({}, ["--u0", "1", "--v0", "1"], []),
+    ({"u": 0.5, "v": 1, "window": (2, 1), "orbits": 6, "isochrones": 3, "field": "motion", "arrows": "one", "axes": False,
+      "colour": "none", "style": "screen", "size": (150, 100), "title": "mine"},
+     ["--u0", "0.5", "--v0", "1", "--window", "2,1", "--orbits", "6", "--isochrones", "3"],
+     ["--field", "motion", "--arrows", "one", "--axes", "off", "--colour", "none", "--style", "screen", "--size", "150x100",
+      "--title", "mine"]),
+    ({"window": ((-2, 1), (-1, 2)), "through": [(-1, 0.5)], "size": "single"},
+     ["--u0", "1", "--v0", "1", "--window=-2:1,-1:2", "--through=-1,0.5"], ["--size", "single"]),
+])
+def test_a_portrait_is_the_programs(asked, options, looks):
+    command = [PROGRAM, "portrait", "--system", SLIDING, "--param", "a=0.2", *options, "-o", "-", "--format"]
+    theirs = [subprocess.run([*command, *more], capture_output=True, check=True).stdout for more in (["gp", *looks], ["json"])]
+    portrait = ct.reduce(SLIDING, u=asked.get("u", 1), v=1, a=0.2).portrait(**asked)
+    assert [portrait.render("gp"), portrait._core.json().encode()] == theirs
+
+
+def test_a_portrait_of_a_function():
+    from matplotlib import pyplot
+
+    reduction = ct.reduce(twisting, u=0.5, v=1)
+    portrait = reduction.portrait()
+    data = portrait.data
+    assert data["system"] == "twisting" and data["window"][0].tolist() == [-1.2, 1.2]
+    assert data["highlight"][0]["u"][0] == pytest.approx(0.5)
+    assert data["highlight"][0]["tau_left"][0] == pytest.approx(reduction.stop_time(u=0.5, v=1), rel=1e-13)
+    for line in data["isochrones"]:
+        inside = np.abs(line["u"]) < 1.199  # where no chord is cut at the border
+        inside &= np.abs(line["v"]) < 1.199
+        times = reduction.stop_time(u=line["u"][inside], v=line["v"][inside])
+        np.testing.assert_allclose(times, line["tau_stop"], rtol=1e-9)
+    place = portrait.plot()
+    pyplot.gcf().canvas.draw()
+    assert place.get_xlim() == (-1.2, 1.2) and place.get_legend_handles_labels()[1]
+    pyplot.close("all")
+    other = pickle.loads(pickle.dumps(portrait))
+    assert other.render("gp") == portrait.render("gp") == copy.copy(portrait).render("gp")
+    assert ct.reduce(lambda u, v: (-u, -3 * v), u=1, v=1).portrait(orbits=4).data["system"] == "a planar system"
+
+
+@pytest.mark.parametrize("asked, words", [
+    ({"field": "regularised"}, "no such field 'regularised'; fields: none, motion"),
+    ({"u": 1}, "a start has both u and v"),
+    ({"window": (1, -1)}, "two positive sides"),
+    ({"window": (1, 1), "through": [(9, 9)]}, "lies outside the window"),
+    ({"orbits": -1}, "must be >= 0"),
+])
+def test_a_portrait_is_refused_in_the_librarys_words(asked, words):
+    with pytest.raises(ValueError, match=words):
+        ct.reduce(twisting, u=1, v=1).portrait(**asked)
+
+
+def test_what_is_not_solved_has_no_orbits_and_portraits_and_ctrl_c_ends_them():
+    drag = ct.reduce(lambda u, v: (-u, -v / math.hypot(u, v)), u=1, v=1)
+    for ask in (drag.portrait, lambda: drag.orbit(1, 1)):
+        with pytest.raises(ValueError, match="not solved"):
+            ask()
+    stopped = False
+
+    def field(u, v):
+        if stopped:
+            raise KeyboardInterrupt
+        return twisting(u, v)
+
+    reduction = ct.reduce(field, u=1, v=1)
+    stopped = True
+    with pytest.raises(KeyboardInterrupt):
+        reduction.portrait(field="motion")

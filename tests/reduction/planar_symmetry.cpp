@@ -1,5 +1,6 @@
 #include "contensou/reduction/planar_symmetry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -173,4 +174,43 @@ TEST_CASE("fields without values", "[planar][domain]") {
               return friction(x) * (x[0] < 0 ? not_a_number : 1);
             }),
             1, Matrix2d::Identity());
+}
+
+TEST_CASE("a generator that does not hold across a kink says so", "[planar][symmetry]") {
+  const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
+  // Uniform acceleration in each quadrant: there, and not beyond, a shift of u is a symmetry.
+  const PlanarSymmetries relay =
+      symmetries([=](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - 0.5 * sign(x[1])); });
+  REQUIRE(relay.generators.size() == 2);
+  CHECK(relay.generators[0].everywhere);
+  CHECK(relay.generators[1].shift == Vector2d(1, 0));
+  CHECK_FALSE(relay.generators[1].everywhere);
+  // A kink off the axes, which derivatives do not cross either.
+  const PlanarSymmetries slanted = symmetries([=](const Vector2d& x) {
+    const double side = sign(x[0] - 2 * x[1]);
+    return Vector2d(2 + side, 1 - 0.5 * side);
+  });
+  REQUIRE(slanted.scaling);
+  CHECK(slanted.generators.front().everywhere);
+  CHECK(std::ranges::any_of(slanted.generators, [](const Generator& x) { return !x.everywhere; }));
+  // Of smooth fields all hold: shifts, a rotation with growth, another centre, weights, and with noise.
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 1e-9);
+  const PlanarField fields[] = {
+      [](const Vector2d& x) { return Vector2d(1.5 + std::sin(3 * x[1]), std::cos(3 * x[1])); },
+      [](const Vector2d& x) { return Vector2d(-0.1 * x[0] - x[1], x[0] - 0.1 * x[1]); },
+      [](const Vector2d& x) { return Vector2d(1 - x[0], -2 * (x[1] + 3)); },
+      [](const Vector2d& x) { return Vector2d(x[1], -x[0] * x[0] * x[0]); },
+      [](const Vector2d&) { return Vector2d(1, 2); },
+      [&](const Vector2d& x) -> Vector2d { return -x / x.norm() + Vector2d(noise(random), noise(random)); },
+  };
+  for (const PlanarField& field : fields) {
+    const PlanarSymmetries found = symmetries(field);
+    CAPTURE(&field - fields, found.level);
+    CHECK_FALSE(found.generators.empty());
+    for (const Generator& x : found.generators) {
+      CAPTURE(x.time, x.matrix, x.shift);
+      CHECK(x.everywhere);
+    }
+  }
 }

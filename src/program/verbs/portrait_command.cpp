@@ -170,15 +170,14 @@ class PortraitCommand final : public Verb {
     const Output output = output_.read();
     figure_.require_picture(output);
     require_picture(names_of_looks(first_of_drawing_), output);
-    if (window_) request.window = {window_->low, window_->high};
+    if (window_ && window_->symmetric) request.sides = window_->high;
+    if (window_ && !window_->symmetric) request.window = {window_->low, window_->high};
     // Where the field is sampled.
     Vector2d around(1, 1);
     if (window_) around = window_->low.cwiseAbs().cwiseMax(window_->high.cwiseAbs());
     if (request.highlight && !request.highlight->isZero(0)) around = *request.highlight;
     const auto plane = system_.solve(field, around);
     if (!plane) return ExitStatus::check_failed;
-    if (window_ && window_->symmetric)
-      request.window = {plane->centre() + window_->low, plane->centre() + window_->high};
     const portraits::PlanarPortrait portrait = portraits::planar_portrait(field, *plane, system_.text(), request);
     if (output.picture()) {
       style_.size = figure_.size();

@@ -19,10 +19,10 @@ from ._engine import engine, engines
 from ._fit import Estimate, Fit, fit
 from ._flow import Check, Checks, End, Flow, Law, Orbit, Ray, Terminal, check, law, stop_time
 from ._portrait import Portrait, portrait
-from ._reduce import FlowReduction, Generator, PlanarRay, Reduction, SingularPoint, reduce
+from ._reduce import FlowReduction, Generator, PlanarOrbit, PlanarRay, Reduction, SingularPoint, reduce
 
 __all__ = [
     "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",
-    "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "SingularPoint", "Terminal", "__version__", "check", "engine",
+    "PlanarOrbit", "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "SingularPoint", "Terminal", "__version__", "check", "engine",
     "engines", "fit", "law", "portrait", "reduce", "stop_time",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from os import PathLike
 from pathlib import Path
-from typing import Any, Iterable, Optional, Union
+from typing import Any, Callable, Iterable, Optional, Union
 
 import numpy as np
 
@@ -41,33 +41,20 @@ def _mathtext(text: _Text) -> str:
 
 
 class Portrait:
-    """A phase portrait: `portrait` makes one. In a notebook it shows itself."""
+    """A phase portrait: `portrait` makes one, and Reduction.portrait. In a notebook it shows itself."""
 
-    def __init__(self, asked: dict[str, Any]) -> None:
-        self._asked = asked
-        ball, law = asked["ball"], asked["law"]
-        experiment = None if ball is None else ball._experiment
-        if experiment is None:
-            flow = Flow(asked["mu"], law, asked["body"], asked["drive"])._core
-        elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball" and asked["drive"] == 0:
-            flow = experiment.flow(ball._law(law)._core)
-        else:
-            raise ValueError("ball and mu, u, v, body, drive exclude each other: a ball brings them")
+    def __init__(self, draw: Callable[[dict[str, Any]], _core.Portrait], asked: dict[str, Any]) -> None:
+        self._draw, self._asked = draw, asked
         if (asked["u"] is None) != (asked["v"] is None):
             raise ValueError("a start has both u and v")
-        size, against = asked["size"], asked["against"]
+        size = asked["size"]
         if isinstance(size, str) and size not in _widths:
             raise ValueError(f"size: single, double, or (width, height) in mm is needed, got {size!r}")
-        self._core = _core.Portrait(
-            flow, experiment, None if asked["u"] is None else (asked["u"], asked["v"]),
-            against=None if against is None else law_of(against)._core,
-            size=(_widths[size], None) if isinstance(size, str) else size or (None, None),
-            **{key: asked[key] for key in ("view", "window", "orbits", "through", "isochrones", "arrows", "field", "axes",
-                                           "colour", "style", "scale", "estimate", "title")},
-        )
+        sides = (_widths[size], None) if isinstance(size, str) else size or (None, None)
+        self._core = draw(dict(asked, size=sides))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Portrait, (self._asked,)
+        return Portrait, (self._draw, self._asked)
 
     def __repr__(self) -> str:
         return f"portrait({', '.join(f'{key}={value!r}' for key, value in self._asked.items() if value is not None)})"
@@ -88,7 +75,9 @@ class Portrait:
     @property
     def data(self) -> dict[str, Any]:
         """What `contensou portrait -o FILE.json` writes, lists of numbers as arrays: window; orbits, each with u, v, ln_v,
-        k and tau_left; isochrones, each with tau_stop, u, v; where asked for highlight, through, against."""
+        k and tau_left; isochrones, each with tau_stop, u, v; where asked for highlight, through, against. Of a Reduction
+        also kind, centre and rays; window has two ends of each axis, highlight is a list of pieces, and neither ln_v nor
+        k is there."""
         return dict(_columns(json.loads(self._core.json())))
 
     @property
@@ -169,6 +158,26 @@ class Portrait:
                                             color=layer["colour"], linewidth=0.5))
 
 
+def start_of(asked: dict[str, Any]) -> Optional[tuple[float, float]]:
+    return None if asked["u"] is None else (asked["u"], asked["v"])
+
+
+def _of_system(asked: dict[str, Any]) -> _core.Portrait:
+    ball, law, against = asked["ball"], asked["law"], asked["against"]
+    experiment = None if ball is None else ball._experiment
+    if experiment is None:
+        flow = Flow(asked["mu"], law, asked["body"], asked["drive"])._core
+    elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball" and asked["drive"] == 0:
+        flow = experiment.flow(ball._law(law)._core)
+    else:
+        raise ValueError("ball and mu, u, v, body, drive exclude each other: a ball brings them")
+    return _core.Portrait(
+        flow, experiment, start_of(asked), against=None if against is None else law_of(against)._core,
+        **{key: asked[key] for key in ("view", "window", "orbits", "through", "isochrones", "arrows", "field", "axes",
+                                       "colour", "style", "scale", "estimate", "size", "title")},
+    )
+
+
 def portrait(
     *,
     mu: Optional[float] = None,
@@ -211,4 +220,4 @@ def portrait(
     title:       "" for neither title nor subtitle
     """
     asked = dict(locals(), through=[tuple(point) for point in through])
-    return Portrait(asked)
+    return Portrait(_of_system, asked)

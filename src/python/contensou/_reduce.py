@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, NamedTuple, Optional, Union
+from typing import Any, Callable, Iterable, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._flow import Flow
-from ._numbers import numbers
+from ._numbers import number, numbers
+from ._portrait import Portrait, start_of
 
 
 class Generator(NamedTuple):
-    """X = c t d/dt + (A x + b) . d/dx, x = (u, v); its largest entry is 1."""
+    """X = c t d/dt + (A x + b) . d/dx, x = (u, v); its largest entry is 1. Where not `everywhere`, it maps the field onto
+    itself within each sector in which that is smooth, and not across their borders."""
 
     time: float
     matrix: NDArray[np.float64]
     shift: NDArray[np.float64]
+    everywhere: bool = True
 
 
 class PlanarRay(NamedTuple):
@@ -51,17 +54,21 @@ class Reduction:
     verdict:          found, none, or undecided: the field's noise hides what a generator would leave
     solved:           whether a generator is a scaling; else what follows raises ValueError
 
+    It keeps the system: orbit and portrait are its motions.
     Points are numbers, or arrays of shapes that broadcast; NaN where there is no answer.
     """
 
-    def __init__(self, core: _core.Planar) -> None:
-        self._core = core
+    def __init__(self, core: _core.Planar, system: str, start: Optional[tuple[float, float]], again: tuple[Any, ...]) -> None:
+        self._core, self._system, self._start, self._again = core, system, start, again
         self.generators = tuple(Generator(*x) for x in core.generators)
         self.singular_values = np.array(core.singular_values)
         self.level = core.level
         self.gap = core.gap
         self.verdict = core.verdict
         self.solved = core.solved
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return self._again
 
     def __repr__(self) -> str:
         return f"<reduction: {self.kind}>" if self.solved else f"<reduction: {len(self.generators)} generators, no scaling>"
@@ -100,17 +107,88 @@ class Reduction:
         """The time to the centre, relative 1e-12; inf if it is not reached."""
         return self._core.stop_time(*_points(u, v))[()]
 
-    def at(self, t: ArrayLike, *, u: float, v: float) -> tuple[Any, Any]:
-        """u and v at times t >= 0 after the start (u, v)."""
-        us, vs = self._core.at(u, v, numbers("t", t))
-        return us[()], vs[()]
+    def orbit(self, u: float, v: float) -> PlanarOrbit:
+        """The motion from one start."""
+        return PlanarOrbit(self, number("u", u), number("v", v))
+
+    def portrait(
+        self,
+        *,
+        u: Optional[float] = None,
+        v: Optional[float] = None,
+        window: Union[None, tuple[float, float], tuple[tuple[float, float], tuple[float, float]]] = None,
+        orbits: Optional[int] = None,
+        through: Iterable[tuple[float, float]] = (),
+        isochrones: Optional[int] = None,
+        arrows: str = "time",
+        field: str = "none",
+        axes: bool = True,
+        colour: str = "time",
+        style: str = "print",
+        size: Union[None, str, tuple[float, float]] = None,
+        title: Optional[str] = None,
+    ) -> Portrait:
+        """The plane with orbits, rays and isochrones, as `contensou portrait --system` draws it.
+
+        u, v:        the start of an orbit to be highlighted; the start given to reduce if left out
+        window:      (U, V), about the centre, or ((U1, U2), (V1, V2)); else a square with the start and all points in it
+        orbits:      so many, else as many as fill the window
+        through:     points (u, v) whose orbits are shown, too
+        isochrones:  about so many lines of equal time left
+        field:       none or motion; axes: the rays; arrows, colour, style, size, title: as of contensou.portrait
+        """
+        asked: dict[str, Any] = dict(locals(), through=[tuple(point) for point in through])
+        asked["reduction"] = asked.pop("self")
+        if u is None and v is None and self._start is not None:
+            asked["u"], asked["v"] = self._start
+        return Portrait(_of_plane, asked)
+
+
+def _of_plane(asked: dict[str, Any]) -> _core.Portrait:
+    reduction = asked["reduction"]
+    return _core.Portrait.of_plane(
+        reduction._core, reduction._system, start_of(asked),
+        **{key: asked[key] for key in ("window", "orbits", "through", "isochrones", "arrows", "field", "axes", "colour",
+                                       "style", "size", "title")},
+    )
+
+
+class PlanarOrbit:
+    """One motion: Reduction.orbit makes it.
+
+    end:        centre, infinity, rest (a point that is none of both), border (of the field, or a jump), or periodic
+    end_time:   when it is there, by quadrature, relative 1e-12; inf if that takes for ever, or is not known
+    stop_time:  when it is at the centre; inf if it never is
+    """
+
+    def __init__(self, reduction: Reduction, u: float, v: float) -> None:
+        self.reduction, self.u, self.v = reduction, u, v
+        self._core = reduction._core.orbit(u, v)
+        self.end, self.end_time, self.stop_time = self._core.end, self._core.end_time, self._core.stop_time
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return PlanarOrbit, (self.reduction, self.u, self.v)
+
+    def __repr__(self) -> str:
+        return f"<orbit from u = {self.u}, v = {self.v} to {self.end}>"
+
+    def at(self, t: ArrayLike) -> Any:
+        """The states at times t >= 0 after the start: a structured array of their shape with fields t, u, v, q, p (as of
+        Reduction.canonical). From end_time on at the centre; NaN where it has gone to infinity or beyond a border."""
+        times = numbers("t", t)
+        states = np.empty(times.shape, [(name, float) for name in ("t", "u", "v", "q", "p")])
+        states["t"] = times
+        states["u"], states["v"] = self._core.at(times)
+        states["q"], states["p"] = self.reduction.canonical(states["u"], states["v"])
+        return states[()]
 
 
 class FlowReduction(Reduction):
     """Of Zhuravlev's system, in the paper's coordinates: q = v/u and p = ln v; the first integral is ln |u| - ln w(k)."""
 
     def __init__(self, flow: Flow) -> None:
-        super().__init__(_core.Planar.of_flow(flow._core))
+        system = f"(2.6), mu = {flow.mu:g}, law {flow.law.name}"
+        super().__init__(_core.Planar.of_flow(flow._core), system, None, (FlowReduction, (flow,)))
         self._flow = flow
 
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
@@ -137,8 +215,18 @@ def reduce(
     u, v:        a start, not 0: its size is the scale at which the field is sampled
     parameters:  of the formulas
     """
+    return _reduced(system, (number("u", u), number("v", v)), parameters)
+
+
+def _reduced(
+    system: Union[str, Callable[[float, float], tuple[float, float]]], start: tuple[float, float], parameters: dict[str, float]
+) -> Reduction:
+    again = _reduced, (system, start, parameters)
     if isinstance(system, str):
-        return Reduction(_core.Planar.of_text(system, parameters, u, v))
+        return Reduction(_core.Planar.of_text(system, parameters, *start), system, start, again)
     if parameters:
         raise TypeError(f"reduce: a function has its parameters itself, got {', '.join(parameters)}")
-    return Reduction(_core.Planar.of_function(system, u, v))
+    name = getattr(system, "__name__", "<lambda>")
+    return Reduction(
+        _core.Planar.of_function(system, *start), "a planar system" if name == "<lambda>" else name, start, again
+    )

@@ -39,7 +39,9 @@ struct PlanarPortrait {
 
 /// What to show.
 struct PlanarPortraitRequest {
-  std::optional<PlanarWindow> window = {};  ///< else a square about the centre that contains all of the following, or 1
+  std::optional<PlanarWindow> window = {};  ///< else a rectangle about the centre:
+  std::optional<Eigen::Vector2d> sides =
+      {};  ///< half its sides; else a square that contains all of the following, or 1
   std::optional<Eigen::Vector2d> highlight = {};
   std::vector<Eigen::Vector2d> through = {};
   std::optional<int> orbits = {};      ///< so many, >= 0; else as many as fill the window, and one of each sector

@@ -28,6 +28,9 @@ enum class PlanarEnd {
   periodic,  ///< nowhere: it returns
 };
 
+/// As its name in C++, such as "centre".
+std::string_view name(PlanarEnd end);
+
 /// An orbit on which q stays: the field points along X there.
 struct PlanarRay {
   double q;

@@ -20,6 +20,10 @@ struct Generator {
   double time;             ///< c
   Eigen::Matrix2d matrix;  ///< A
   Eigen::Vector2d shift;   ///< b
+
+  /// Whether it maps the field onto itself throughout; else it does so within each sector between the lines where the
+  /// field is not smooth, and not across them. (Of several such a combination may; that is not looked for.)
+  bool everywhere = true;
 };
 
 /// What was found of the generators of that form. Beside them every x' = f(x) admits d/dt.

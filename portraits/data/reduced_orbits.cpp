@@ -1,0 +1,110 @@
+// The orbit of a start, and where the symmetry moves it.
+#include "contensou/portraits/reduced_orbits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace contensou::portraits {
+
+using Eigen::Vector2d;
+using std::numbers::pi;
+
+namespace {
+
+[[noreturn]] void refuse_ray() {
+  throw std::domain_error(
+      "the start lies on an axis or on an invariant ray, which the symmetry moves along itself: another start is "
+      "needed");
+}
+
+}  // namespace
+
+ReducedOrbits reduced_orbits(const reduction::Flow& flow, reduction::State start) {
+  const double ln_u = std::log(std::abs(start.u)), ln_v = std::log(start.v), ln_mu = std::log(flow.system().mu());
+  if (!std::isfinite(ln_u) || !std::isfinite(ln_v)) refuse_ray();
+  const double ln_k = ln_v - ln_mu - ln_u, sign = start.u < 0 ? -1 : 1;
+  ReducedOrbits from{.start = {ln_k, ln_v}, .orbit = std::vector<Polyline>(1)};
+  for (const auto& ray : flow.terminal().rays) {
+    from.rays.push_back(std::log(ray.k));
+    if (std::abs(from.rays.back() - ln_k) < 1e-12) refuse_ray();
+  }
+  const reduction::SimilarityCurve& curve = *flow.solution().through(ln_k);
+  const double integral = flow.log_first_integral(start.u, ln_v), xi = curve.chart().coordinate(ln_k);
+  const auto at = [&](double there) {
+    const double x = curve.chart().log_ratio(there);
+    return Point{x, integral + curve.ln_w(there) + ln_mu + x};
+  };
+  // Finer about k = 1. For small mu u falls while k falls by thousands of powers of e.
+  constexpr int upstream = 400, most = 4000;
+  for (int i = upstream; i > 0; --i) from.orbit[0].push_back(at(xi + 0.05 * i));
+  double there = xi;
+  for (int i = 0; i < most && from.orbit[0].back().y - from.orbit[0].back().x > ln_u + ln_mu - orbits_beyond; ++i) {
+    from.orbit[0].push_back(at(there));
+    there -= 0.05 + 0.02 * std::max(0.0, std::abs(there) - 8);
+  }
+  from.in_plane = [=](Point point) { return Point{sign * std::exp(point.y - point.x - ln_mu), std::exp(point.y)}; };
+  return from;
+}
+
+ReducedOrbits reduced_orbits(const reduction::PlanarField& field, const reduction::PlanarReduction& plane,
+                             const Vector2d& start) {
+  if (plane.kind() == "bordered") throw std::domain_error("the field has borders or jumps: its sectors are not drawn");
+  if (start == plane.centre() || plane.star()) refuse_ray();
+  const auto [q, p, slope] = plane.canonical(start);
+  const auto level = [&](double angle) { return plane.first_integral(plane.point(angle, 0)); };
+  const double integral = [&] {
+    try {
+      return plane.first_integral(start);
+    } catch (const std::domain_error&) {
+      refuse_ray();
+    }
+  }();
+  /// From angle to angle, in the way of the motion.
+  const auto line = [&](const std::vector<double>& angles, double constant) {
+    Polyline points;
+    for (double angle : angles) points.push_back({angle, constant - level(angle)});
+    const Point &a = points[points.size() / 2], &b = points[points.size() / 2 + 1];
+    const Vector2d here = plane.point(a.x, a.y), next = plane.point(b.x, b.y);
+    if (field(here).dot(next - here) < 0) std::ranges::reverse(points);
+    return points;
+  };
+  ReducedOrbits from{.start = {q, p}, .orbit = {}};
+  std::vector<double> angles;
+  if (plane.rays().empty()) {
+    // Turns are copies of one another, too.
+    constexpr int pieces = 400;
+    constexpr double margin = 1e-9;  // L goes on from 2 pi to 0 by a turn
+    for (int i = 0; i <= pieces; ++i) angles.push_back(margin + (2 * pi - 2 * margin) * i / pieces);
+    if (q < 0) from.start.x += 2 * pi;
+    const Polyline turn = line(angles, integral);
+    const double growth = std::abs(turn.back().y - turn.front().y);
+    const int turns = growth < 1e-9 ? 0 : static_cast<int>(std::min(40.0, std::ceil(orbits_beyond / growth)));
+    for (int i = -turns; i <= turns; ++i) {
+      from.orbit.push_back(turn);
+      for (Point& point : from.orbit.back()) point.y += i * growth;
+    }
+  }
+  for (std::size_t i = 0; i < plane.rays().size(); ++i) {
+    const bool last = i + 1 == plane.rays().size();
+    const double left = plane.rays()[i].q, right = last ? plane.rays()[0].q + 2 * pi : plane.rays()[i + 1].q;
+    const double middle = (left + right) / 2, start_q = q < left ? q + 2 * pi : q;
+    from.rays.push_back(left);
+    if (last) from.rays.push_back(right);
+    angles.clear();
+    constexpr int half = 500;  // closer and closer to the rays
+    for (int j = -half; j <= half; ++j) angles.push_back(left + (right - left) / (1 + std::exp(-0.05 * j)));
+    const bool of_start = left < start_q && start_q < right;
+    if (of_start) from.start.x = start_q;
+    (of_start ? from.orbit : from.elsewhere).push_back(line(angles, of_start ? integral : p + level(middle)));
+  }
+  from.in_plane = [plane](Point point) {
+    const Vector2d x = plane.point(point.x, point.y);
+    return Point{x[0], x[1]};
+  };
+  return from;
+}
+
+}  // namespace contensou::portraits

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "contensou/reduction/planar_reduction.hpp"
+#include "values.hpp"
+
+namespace contensou::python {
+
+/// Not an exception of C++, which the library would take for a point without value.
+struct Interrupted {
+  py::error_already_set error;
+};
+
+/// What calls a field of Python's, which a signal such as Ctrl-C may end.
+template <class Function>
+auto interruptible(Function compute) {
+  try {
+    return compute();
+  } catch (Interrupted& interrupted) {
+    throw py::error_already_set(interrupted.error);
+  }
+}
+
+/// A planar system, the symmetries that it has, and its motions where one of them is a scaling.
+class Planar {
+ public:
+  Planar(reduction::PlanarField given, const Eigen::Vector2d& around) : field(std::move(given)) {
+    interruptible([&] {
+      symmetries = reduction::find_symmetries(field, around);
+      if (symmetries.scaling) solution.emplace(field, *symmetries.scaling, around, symmetries.residual);
+    });
+  }
+
+  const reduction::PlanarReduction& solved() const {
+    if (solution) return *solution;
+    throw std::domain_error("reduce: no scaling of this field was found, so it is not solved");
+  }
+
+  reduction::PlanarField field;
+  reduction::PlanarSymmetries symmetries;
+  std::optional<reduction::PlanarReduction> solution;
+};
+
+}  // namespace contensou::python
