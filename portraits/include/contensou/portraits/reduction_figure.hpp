@@ -10,9 +10,9 @@
 
 namespace contensou::portraits {
 
-/// The symmetry of (2.6) in two panels: the plane (u, v), where it magnifies the orbit of the start, and the strip of ln k
-/// and p = ln v, where it shifts that orbit, so that all orbits are one curve. Copies are 1/8 to 8 times as large; each has
-/// one colour in both panels, in the order of their size.
+/// The symmetry of (2.6) in three panels: the plane (u, v), where it magnifies the orbit of the start; the strip of ln k
+/// and p = ln v, where it shifts that orbit, so that all orbits are one curve; and the copies over their starts, one line.
+/// Copies are 1/8 to 8 times as large; each has one colour in all panels, in the order of their size.
 ///
 /// @throws std::domain_error  for a start on an axis or on an invariant ray, where the symmetry moves an orbit along itself
 Figure reduction_figure(const reduction::Flow& flow, reduction::State start, const AskedSize& size = {});
