@@ -137,7 +137,8 @@ struct Derivative {
 };
 
 std::vector<Derivative> derivatives(const StopReport& report) {
-  const auto& [system, state, experiment] = report.start;
+  const reduction::ReducedSystem& system = report.start.system;
+  const reduction::State state = report.start.state;
   const reduction::StopTimeGradient& gradient = *report.gradient;
   return {{"u", gradient.by_u, state.u},
           {"v", gradient.by_v, state.v},
