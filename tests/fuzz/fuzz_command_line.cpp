@@ -4,6 +4,7 @@
 #include "main.cpp"
 #undef main
 
+#include <fcntl.h>
 #include <cctype>
 #include <filesystem>
 #include <list>

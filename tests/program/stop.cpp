@@ -194,8 +194,8 @@ TEST_CASE("stop --gradient: derivatives of the stop time, in every format", "[cl
   CHECK(gradient.at("u").get<double>() == Approx(10.9679009161).epsilon(1e-11));
   CHECK(gradient.at("v").get<double>() == Approx(1.52868423111).epsilon(1e-11));
   CHECK(gradient.size() == 6);
-  CHECK_THAT(run(question).out, Contains("derivative by") && Contains("1 % more of it: 0.88 % longer"));
-  CHECK_THAT(run(question + " --format csv").out, Contains(",by_u,by_v,by_mu,by_chi,by_gamma,by_drive\n"));
+  CHECK_THAT(run_program(question).out, Contains("derivative by") && Contains("1 % more of it: 0.88 % longer"));
+  CHECK_THAT(run_program(question + " --format csv").out, Contains(",by_u,by_v,by_mu,by_chi,by_gamma,by_drive\n"));
   // By the stepper, too; at rest there is none.
   CHECK(json_of(question + " --route direct --format json").at("gradient") == gradient);
   CHECK_FALSE(json_of("stop --mu 0.3 --u0 0 --v0 0 --gradient --format json").contains("gradient"));
