@@ -226,7 +226,7 @@ constexpr Field<StopReport> fields[]{
        for (const Derivative& derivative : derivatives(r)) gradient[derivative.by] = derivative.value;
        return gradient;
      },
-     "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, `v`, `mu`, `chi`, `gamma`, `drive`}"},
+     "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, ...}"},
     {"ball", "m; kg; 1; m/s^2; m", "its values; and, as in run files, what its patch follows from",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });

@@ -138,7 +138,7 @@ def fit(
     found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), robust)
     estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
     patch = estimates["patch_radius"]
-    on_its_face = ball.patch_radius is ball.spin_deceleration is ball.youngs_modulus is None
+    on_its_face = all(each is None for each in (ball.patch_radius, ball.spin_deceleration, ball.youngs_modulus))
     given = {"patch_radius": patch.value} if patch.standard_error != 0 or not on_its_face else {}
     fitted = ball.but(friction=estimates["friction"].value, slip=max(0.0, estimates["slip"].value),
                       spin=estimates["spin"].value, law=known_law, **given)
