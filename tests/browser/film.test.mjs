@@ -115,12 +115,10 @@ test("what is wrong with a film is said where it is read, with its line", async 
     assert.deepEqual((await state()).ball, before);
     await page.evaluate(() => (document.getElementById("film-problem").textContent = ""));
   }
-  for (const [ball, complaint] of [["", /choose one above/], ["puck", /choose one that rolls/]]) {
-    await page.selectOption("#ball", ball);
-    await page.setInputFiles("#film", file("track.csv", "t,slip,spin\n0,1,2\n"));
-    await page.waitForFunction(() => document.getElementById("film-problem").textContent !== "");
-    assert.match(await page.textContent("#film-problem"), complaint);
-  }
+  await page.selectOption("#ball", "");
+  await page.setInputFiles("#film", file("track.csv", "t,slip,spin\n0,1,2\n"));
+  await page.waitForFunction(() => document.getElementById("film-problem").textContent !== "");
+  assert.match(await page.textContent("#film-problem"), /choose one above/);
   await close();
 });
 
