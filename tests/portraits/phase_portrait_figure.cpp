@@ -818,10 +818,10 @@ TEST_CASE("Against time the estimate for small mu is dashed beside each motion, 
   // The largest difference in each panel of an estimate from its motion, where neither is at rest.
   const auto difference = [](double mu, std::size_t panel) {
     const auto portrait = portrait_of(mu, {.view = View::time});
-    const Figure plain = draw(portrait), figure = draw(portrait, {}, {.estimate = true});
+    const Figure without = draw(portrait), figure = draw(portrait, {}, {.estimate = true});
     const auto& lines = figure.panels.at(panel).lines;
     REQUIRE(lines.size() == 10);
-    REQUIRE(plain.panels.at(panel).lines.size() == 5);
+    REQUIRE(without.panels.at(panel).lines.size() == 5);
     double largest = 0;
     for (std::size_t i = 0; i < 5; ++i) {
       CHECK(!lines[i].stroke.dashed);
