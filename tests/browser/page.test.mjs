@@ -174,7 +174,7 @@ test("who opens it is asked, then told; the dot of the plane moves with the ball
   assert.doesNotMatch(await page.locator("#hero").innerText(), /0\.515|0\.127|4 times/);
   assert.equal(await paths(), 0);
   await page.click("#answers button:nth-child(3)");
-  assert.ok(!(await page.isVisible("#answers")));
+  await page.waitForSelector("#answers", { state: "hidden" });
   await page.waitForFunction(() => globalThis.page.state.fraction > 0.05);
   assert.match(await page.textContent("#headline"), /4 times as far/);
   while (await paths() === 0) await page.waitForTimeout(20);  // drawn with the next picture
