@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
-#include <boost/math/tools/toms748_solve.hpp>
+#include "crossing.hpp"
 
 namespace contensou::si {
 
@@ -92,12 +91,8 @@ PureRolling::Here PureRolling::after(double seconds) const {
   double high = 1;
   while (turned_time(high) < seconds && high < most) high *= 2;
   if (turned_time(high) <= seconds) return turned(high);
-  std::uintmax_t steps = 200;
-  const auto excess = [&](double fall) { return turned_time(fall) - seconds; };
   if (seconds <= 0) return turned(0);
-  const auto [left, right] =
-      boost::math::tools::toms748_solve(excess, 0.0, high, boost::math::tools::eps_tolerance<double>(50), steps);
-  return turned(left + (right - left) / 2);
+  return turned(crossing([&](double fall) { return turned_time(fall) - seconds; }, 0, high));
 }
 
 }  // namespace contensou::si

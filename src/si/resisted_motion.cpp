@@ -13,7 +13,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <boost/math/tools/roots.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_cash_karp54.hpp>
@@ -21,6 +20,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/si/scaling.hpp"
+#include "crossing.hpp"
 #include "pure_rolling.hpp"
 
 namespace contensou::si {
@@ -33,18 +33,6 @@ using reduction::Flow;
 using reduction::Law;
 using reduction::Orbit;
 using reduction::ReducedSystem;
-
-/// A root of a function of time that has different signs at both ends.
-template <class Function>
-double crossing(Function function, double low, double high) {
-  const double at_low = function(low), at_high = function(high);
-  if (at_low == 0) return low;
-  if (at_high == 0) return high;
-  std::uintmax_t most = 200;
-  const auto [left, right] = boost::math::tools::toms748_solve(function, low, high, at_low, at_high,
-                                                               boost::math::tools::eps_tolerance<double>(50), most);
-  return left + (right - left) / 2;
-}
 
 /// One instant, with what has passed since the start.
 struct State {
@@ -463,11 +451,8 @@ std::shared_ptr<const ResistedMotion::Course> course_of(Experiment experiment, c
   const bool flat = experiment.ball.body.lies_flat();
   const State start{
       .slip = slip, .rolling = flat ? Vector2d(0, 0) : Vector2d(velocity - slip), .spin = angular_velocity.z()};
-  constexpr double parallel = 1e-12;
   const Vector2d along = direction_at_start(experiment);
-  const Vector2d down = pull(experiment.environment);
-  const bool straight = start.rolling.dot(along) >= (1 - parallel) * start.rolling.norm() &&
-                        down.dot(along) >= (1 - parallel) * down.norm();
+  const bool straight = points_along(start.rolling, along) && points_along(pull(experiment.environment), along);
   Given given(experiment, law, std::move(flows));
   if (!in_steps && straight) {
     try {

@@ -32,6 +32,11 @@ Drives drives_along(const Experiment& experiment, const Eigen::Vector2d& along, 
   return {steepness / (chi * contact.friction), contact.rolling_friction / contact.friction};
 }
 
+bool points_along(const Eigen::Vector2d& vector, const Eigen::Vector2d& along) {
+  constexpr double parallel = 1e-12;
+  return vector.dot(along) >= (1 - parallel) * vector.norm();
+}
+
 Eigen::Vector2d direction_at_start(const Experiment& experiment) {
   const Eigen::Vector2d slip = slip_velocity_at_start(experiment);
   if (const double v = slip_at_start(experiment); v > 0) return slip / v;
@@ -44,19 +49,18 @@ double drive_of(const Experiment& experiment) {
   const auto& [ball, contact, start, environment] = experiment;
   if (contact.rolling_friction == 0 && environment.slope == 0) return 0;
   require_stop(experiment);
-  constexpr double parallel = 1e-12;
   const Eigen::Vector2d along = direction_at_start(experiment);
   const double v = slip_at_start(experiment);
   const Eigen::Vector2d rolling =
       velocities_of(start).velocity - (v > 0 ? slip_velocity_at_start(experiment) : Eigen::Vector2d(0, 0));
   const char* const integrated =
       ": the slip turns, which is no motion of a reduced system; the whole motion (roll) is integrated";
-  if (rolling.dot(along) < (1 - parallel) * rolling.norm()) {
+  if (!points_along(rolling, along)) {
     throw std::domain_error(fmt::format(
         "with rolling friction {} and a slope of {} degrees a ball must roll the way it slides, or not at all{}",
         contact.rolling_friction, environment.slope, integrated));
   }
-  if (environment.slope != 0 && pull(environment).dot(along) < (1 - parallel) * pull(environment).norm()) {
+  if (environment.slope != 0 && !points_along(pull(environment), along)) {
     throw std::domain_error(fmt::format(
         "on a slope of {} degrees along x it must slide straight down, got a slip in the direction ({:.3g}, {:.3g}){}",
         environment.slope, along.x(), along.y(), integrated));

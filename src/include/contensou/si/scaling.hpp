@@ -33,6 +33,10 @@ struct Drives {
 /// @param chi    1: of what is held and does not turn
 Drives drives_along(const Experiment& experiment, const Eigen::Vector2d& along, double chi);
 
+/// Whether a vector, or 0, points in that direction, to rounding.
+/// @param along  of length 1
+bool points_along(const Eigen::Vector2d& vector, const Eigen::Vector2d& along);
+
 /// The direction of the slip at the start; where there is none, that in which it rolls or is pulled.
 Eigen::Vector2d direction_at_start(const Experiment& experiment);
 
