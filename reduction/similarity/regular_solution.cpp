@@ -165,27 +165,24 @@ double RegularSolution::operator()(double ln_k) const {
   return panel.y(std::min(2 * ((z - panel.left) / (panel.right - panel.left)) - 1, 1.0));
 }
 
-RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
-  const ForcesOnTheWay forces(law, r, chart, drive);
-  const auto equation = [&, to_rest = reaches_rest(chart, drive)](double k) -> RegularSolution::Terms {
-    const auto [difference, force, drag, sliding] = forces(k);
-    const double deficit = law.moment_deficit(slip_of_ratio(k));
-    if (to_rest) return {difference, (k * force + drag) / (1 + k), k / (1 + k) * deficit};
-    return {difference, force, deficit};
-  };
-  RegularSolution m(equation, sign_of(chart), edges_of(law, r, chart, drive), 1);
-  m.truncation_ = std::max(m.truncation_, forces.against());
-  return m;
-}
-
-RegularSolution sliding_derivative(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,
-                                   const std::function<double(double k)>& source) {
+RegularSolution sliding_equation(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,
+                                 const std::function<double(double k)>& source) {
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto equation = [&](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
     return {difference, to_rest ? (k * force + drag) / (1 + k) : force, source(k)};
   };
-  return {equation, sign_of(chart), edges_of(law, r, chart, drive), 1};
+  RegularSolution solution(equation, sign_of(chart), edges_of(law, r, chart, drive), 1);
+  solution.truncation_ = std::max(solution.truncation_, forces.against());
+  return solution;
+}
+
+RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
+  const bool to_rest = reaches_rest(chart, drive);
+  return sliding_equation(law, r, chart, drive, to_rest, [&](double k) {
+    const double deficit = law.moment_deficit(slip_of_ratio(k));
+    return to_rest ? k / (1 + k) * deficit : deficit;
+  });
 }
 
 RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& chart, double drive) {

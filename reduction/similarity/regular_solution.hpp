@@ -56,7 +56,8 @@ class RegularSolution {
   long evaluations() const { return evaluations_; }
 
  private:
-  friend RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive);
+  friend RegularSolution sliding_equation(const Law& law, double r, const TerminalChart& chart, double drive,
+                                          bool to_rest, const std::function<double(double k)>& source);
 
   struct Panel {
     double left, right;
@@ -79,18 +80,18 @@ class RegularSolution {
 /// Whether a curve reaches k = 0 with a drive, where m, n and o grow like 1/k: it has them times what follows here.
 bool reaches_rest(const TerminalChart& chart, double drive);
 
+/// The equation of m with any right side: that of m itself, and those of its derivatives by r and rho, README (R58).
+/// @param source   that side at k, of the solution times k/(1 + k) if to_rest
+/// @param to_rest  whether the solution is m, or its derivative, times k/(1 + k)
+RegularSolution sliding_equation(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,
+                                 const std::function<double(double k)>& source);
+
 /// m of README (R4) between two neighbours of 0, the invariant rays and infinity: regular at the one that k tends to. Times
 /// k/(1 + k) if reaches_rest.
 ///
 /// @param chart  on whose way Phi - rho - r k Psi does not change its sign
 /// @throws std::domain_error  if it does, or unless r > 0
 RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive);
-
-/// A derivative of m, by the equation of m with another right side.
-/// @param source   that side at k, of m k/(1 + k) if to_rest
-/// @param to_rest  whether the solution is that derivative times k/(1 + k)
-RegularSolution sliding_derivative(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,
-                                   const std::function<double(double k)>& source);
 
 /// ds/dv of README (R57), on the same way.
 RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& chart, double drive);

@@ -26,14 +26,14 @@ SlidingDerivatives::SlidingDerivatives(const Law& law, double r, const TerminalC
       to_rest_(reaches_rest(chart, drive)),
       m_(sliding_solution(law, r, chart, drive)),
       by_v_(by_sliding_speed(law, r, chart, drive)),
-      by_r_(sliding_derivative(law, r, chart, drive, to_rest_,
-                               [&](double k) {
-                                 const double m = m_(std::log(k)), by_v = by_speeds(k, m / share(k)).v;
-                                 return k * law(slip_of_ratio(k)).moment * (share(k) * by_v - m);
-                               })),
+      by_r_(sliding_equation(law, r, chart, drive, to_rest_,
+                             [&](double k) {
+                               const double m = m_(std::log(k)), by_v = by_speeds(k, m / share(k)).v;
+                               return k * law(slip_of_ratio(k)).moment * (share(k) * by_v - m);
+                             })),
       // Even the first drive that there is moves v = 0: dm/drho may grow like 1/k as k -> 0.
-      by_drive_(sliding_derivative(law, r, chart, drive, true,
-                                   [&](double k) { return k / (1 + k) * by_speeds(k, m_(std::log(k)) / share(k)).v; })),
+      by_drive_(sliding_equation(law, r, chart, drive, true,
+                                 [&](double k) { return k / (1 + k) * by_speeds(k, m_(std::log(k)) / share(k)).v; })),
       solved_from_(infinity) {
   const double from = chart.log_terminal_ratio(), to = chart.log_far_ratio();
   if (std::max(from, to) < infinity || std::min(from, to) > std::log(fast_slide)) return;
