@@ -99,11 +99,7 @@ double pivoting_only(const GivenStart& start) {
 double sliding_only(const GivenStart& start) {
   const auto& [system, state, experiment, resisted] = start;
   if (start.pieces().size() < 2) return system.sliding_limit(state.v) / (1 - system.drive());
-  si::Experiment without_spin = *experiment;
-  si::Velocities velocities = si::velocities_of(experiment->start);
-  velocities.angular_velocity.z() = 0;
-  without_spin.start = velocities;
-  return tau_of(without_spin, system.law());
+  return tau_of(si::without_spin(*experiment), system.law());
 }
 
 /// The integral of v dtau until the stop.
@@ -121,8 +117,7 @@ si::FinalMotion final_motion(const GivenStart& start) {
 
 /// Where the centre rests, of a ball with rolling friction, or of a body on a slope; none if it rolls on for ever.
 std::optional<si::Event> rest_of(const GivenStart& start) {
-  if (!start.resisted || std::isinf(start.resisted->rest_time())) return std::nullopt;
-  return si::Event{start.resisted->rest_time(), start.resisted->rest_position()};
+  return start.resisted ? si::rest_of(*start.resisted) : std::nullopt;
 }
 
 /// What an estimate is too long by; 0 where both are infinite.

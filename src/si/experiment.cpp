@@ -111,6 +111,13 @@ Velocities velocities_of(const Start& start) {
   return std::get<Velocities>(start);
 }
 
+Experiment without_spin(Experiment experiment) {
+  Velocities start = velocities_of(experiment.start);
+  start.angular_velocity.z() = 0;
+  experiment.start = start;
+  return experiment;
+}
+
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment) {
   const auto [centre, body] = velocities_of(experiment.start);
   const double R = experiment.ball.radius;

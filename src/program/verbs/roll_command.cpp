@@ -214,12 +214,6 @@ portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionCol
                                   .finished()};
 }
 
-/// Of the route integrated, if it comes to rest.
-std::optional<si::Event> rest_in_steps(const Roll& roll) {
-  if (std::isinf(roll.in_steps->rest_time())) return std::nullopt;
-  return si::Event{roll.in_steps->rest_time(), roll.in_steps->rest_position()};
-}
-
 /// Columns of the motion, and its events.
 /// @param times  s
 Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
@@ -242,7 +236,7 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
     members["integrated"] = {{"t_stop", roll.in_steps->stop_time()},
                              {"slip_length", roll.in_steps->slip_length()},
                              {"turns", roll.in_steps->spin_angle() / (2 * std::numbers::pi)}};
-    if (const auto rest = rest_in_steps(roll)) members["integrated"]["rest"] = members_of(*rest);
+    if (const auto rest = rest_of(*roll.in_steps)) members["integrated"]["rest"] = members_of(*rest);
   } else if (roll.integrated) {
     const si::IntegratedMotion by_steps = si::integrate_motion(roll.experiment, roll.law, {});
     members["integrated"] = {{"t_stop", by_steps.stop_time},
@@ -278,7 +272,7 @@ std::string report_on(const Roll& roll, const Digits& digits) {
                                       : "") +
                            "\n" + table(roll, digits) + "\n" + ending(roll, digits);
   if (roll.in_steps) {
-    const auto rest = rest_in_steps(roll);
+    const auto rest = rest_of(*roll.in_steps);
     return text + fmt::format("route integrated: {}slip and spin end after {} s\n",
                               rest ? fmt::format("its centre rests after {} s at {} m, ", digits(rest->t),
                                                  digits.list(rest->place))

@@ -21,6 +21,12 @@ struct Event {
   Eigen::Vector2d place;  ///< m
 };
 
+/// When and where the centre rests; none where it rolls on for ever.
+inline std::optional<Event> rest_of(const ResistedMotion& motion) {
+  if (std::isinf(motion.rest_time())) return std::nullopt;
+  return Event{motion.rest_time(), motion.rest_position()};
+}
+
 /// A motion with the instant when it rolls, with rolling friction if there is any and down or up a slope: of a BallMotion
 /// both act all the time (ResistedMotion). The textbook's rolling friction begins when it rolls; on a slope the textbook's
 /// ball moves as one without spin, and spins by itself. A body that lies flat does not roll: it comes to rest then.
@@ -49,11 +55,7 @@ struct Course {
     if constexpr (always_resisted) {
       resisted.emplace(experiment, motion.law(), u_r, false, std::move(flows));
     } else if (slopes) {
-      Experiment without_spin = experiment;
-      Velocities start = velocities_of(experiment.start);
-      start.angular_velocity.z() = 0;
-      without_spin.start = start;
-      resisted.emplace(without_spin, reduction::Law(reduction::HertzLaw{}), u_r);
+      resisted.emplace(without_spin(experiment), reduction::Law(reduction::HertzLaw{}), u_r);
     } else {
       friction.emplace(experiment.ball, motion.at_time(rolls), u_r * experiment.environment.gravity);
     }
@@ -80,8 +82,7 @@ struct Course {
 
   /// With rolling friction or on a slope; none where it rolls on for ever.
   std::optional<Event> rest() const {
-    if (resisted && std::isinf(resisted->rest_time())) return std::nullopt;
-    if (resisted) return Event{resisted->rest_time(), resisted->rest_position()};
+    if (resisted) return rest_of(*resisted);
     if (friction) return Event{friction->rest_time(), friction->rest_position()};
     return std::nullopt;
   }

@@ -112,6 +112,9 @@ double patch_radius_of(const Experiment& experiment, const reduction::Law& law);
 /// A start as velocities of the centre and of the ball.
 Velocities velocities_of(const Start& start);
 
+/// The same experiment with a start that does not spin about the vertical.
+Experiment without_spin(Experiment experiment);
+
 /// Velocity (m/s) of the point of the ball that touches the plane, at the start:
 ///   (vx - R omega_y, vy + R omega_x), Zh98 (2.1); 0 where the terms cancel to rounding.
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment);
