@@ -224,8 +224,7 @@ reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) cons
 const si::Description& StartOptions::ball_of_its_own() const {
   if (own_) return *own_;
   if (!ball_.given() && radius_is_ball_) {
-    const auto radius = std::ranges::find(si::quantities(), &si::radius) - si::quantities().begin();
-    if (const auto& given = values_[static_cast<std::size_t>(radius)]; given.given()) {
+    if (const auto& given = value(si::radius); given.given()) {
       // Friction and patch are first guesses, the mass counts for nothing.
       own_ = si::describe(si::Experiment{.ball = {.name = "ball", .mass = 1, .radius = given->front()},
                                          .contact = {.friction = 0.2, .patch = si::PatchRadius{0.1 * given->front()}},
@@ -255,12 +254,12 @@ si::Description StartOptions::given_values() const {
   return given;
 }
 
-const ArgumentOf<std::vector<double>>& StartOptions::load_argument() const {
-  return values_[static_cast<std::size_t>(std::ranges::find(si::quantities(), &si::load) - si::quantities().begin())];
+const ArgumentOf<std::vector<double>>& StartOptions::value(const si::Quantity& quantity) const {
+  return values_[static_cast<std::size_t>(std::ranges::find(si::quantities(), &quantity) - si::quantities().begin())];
 }
 
 std::optional<si::LoadHistory> StartOptions::load_history() const {
-  const auto& argument = load_argument();
+  const auto& argument = value(si::load);
   if (!argument.given() || !argument->empty()) return std::nullopt;
   if (!load_history_) load_history_ = read_load_history(argument.text());
   return load_history_;

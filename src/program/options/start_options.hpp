@@ -149,7 +149,7 @@ class StartOptions {
   BodyOptions body_;
   ArgumentOf<double> u0_, v0_;
   Argument ball_;
-  const ArgumentOf<std::vector<double>>& load_argument() const;
+  const ArgumentOf<std::vector<double>>& value(const si::Quantity& quantity) const;
 
   bool radius_is_ball_ = false, takes_load_history_ = false;
   mutable std::optional<si::LoadHistory> load_history_;  ///< read once

@@ -83,9 +83,8 @@ class OrbitCommand final : public Verb {
     if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
       const double k0 = start.state.u == 0 ? std::numeric_limits<double>::infinity()
                                            : start.state.v / (system.mu() * std::abs(start.state.u));
-      const double k_end = start.at_rest()     ? 0
-                           : pieces.size() > 1 ? reduction::Flow(pieces.back().system).terminal().end_of(k0).k
-                                               : reduction::Flow(system).terminal().end_of(k0).k;
+      const reduction::ReducedSystem& last = pieces.empty() ? system : pieces.back().system;
+      const double k_end = start.at_rest() ? 0 : reduction::Flow(last).terminal().end_of(k0).k;
       motion.k = at_rest.select(k_end, motion.k);
     }
     Answer answer{.members = {{"law", system.law().name()},

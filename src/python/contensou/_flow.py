@@ -299,26 +299,23 @@ def stop_time(
     taus = np.empty(u.shape) if out is None else target(out, u.shape)
     values, group = np.unique(mu, return_inverse=True)
     group = group.reshape(u.shape)
-    if gradient:
-        parts = [Flow(float(value), law, body, drive).stop_time(
-            u=u[group == i], v=v[group == i], out=out, threads=threads, gradient=True) for i, value in enumerate(values)]
-        by = {name: np.empty(u.shape) for name in _DERIVATIVES}
-        for i, (tau, derivatives) in enumerate(parts):
-            taus[group == i] = tau
-            for name, each in derivatives.items():
-                by[name][group == i] = each
-        return taus[()], {name: each[()] for name, each in by.items()}
-    if len(values) >= 1000 and drive == 0:
+    if len(values) >= 1000 and drive == 0 and not gradient:
         ends = [Flow(float(value), law, body) for value in (values[0], values[-1])]  # they refuse what is no mu
         every = np.empty(u.shape)
         mus, us, vs = (np.ascontiguousarray(each, float) for each in (mu, u, v))
         ends[0]._core.stop_times_of_mus(mus, us, vs, every)
         taus[...] = every
         return taus[()] if out is None else out
-    found = [Flow(float(value), law, body, drive).stop_time(u=u[group == i], v=v[group == i], threads=threads)
+    found = [Flow(float(value), law, body, drive).stop_time(u=u[group == i], v=v[group == i], out=out if gradient else None,
+                                                            threads=threads, gradient=gradient)
              for i, value in enumerate(values)]
+    by = {name: np.empty(u.shape) for name in _DERIVATIVES if gradient}
     for i, part in enumerate(found):
-        taus[group == i] = part
+        taus[group == i], derivatives = part if gradient else (part, {})
+        for name, each in derivatives.items():
+            by[name][group == i] = each
+    if gradient:
+        return taus[()], {name: each[()] for name, each in by.items()}
     return taus[()] if out is None else out
 
 
