@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include "contensou/portraits/layout.hpp"
 #include "data/lists.hpp"
@@ -62,7 +61,7 @@ class PlanarTracer {
     highest_ += 0.1;
     // Nobody sees orbits move nearer to the centre.
     constexpr double deep = 9;
-    lowest_ -= deep / plane.scaling().matrix.eigenvalues().real().minCoeff();
+    lowest_ -= deep / plane.scaling().growth();
     for (const PlanarSector& sector : plane.sectors()) courses_.push_back(course_of(sector));
     if (plane.turn() != nullptr) read_turn();
   }

@@ -11,8 +11,8 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include "numerics/epsilon.hpp"
@@ -251,9 +251,9 @@ Finite finite_transformation(Sampler& field, const Generator& g, const std::vect
 }
 
 bool scales(const Generator& g) {
-  const Eigen::Vector2cd eigenvalues = g.matrix.eigenvalues();
-  const double size = eigenvalues.cwiseAbs().maxCoeff();
-  return eigenvalues.real().minCoeff() > 1e-6 * size;
+  const double growth = g.growth();
+  const double largest = std::max(g.matrix.trace() - growth, std::sqrt(std::max(g.matrix.determinant(), 0.0)));
+  return growth > 1e-6 * largest;
 }
 
 /// The same times a number: the largest entry is 1. An entry that is a simple fraction but for an error becomes it.
@@ -294,6 +294,11 @@ std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::option
 }
 
 }  // namespace
+
+double Generator::growth() const {
+  const double half = (matrix(0, 0) - matrix(1, 1)) / 2, squared = half * half + matrix(0, 1) * matrix(1, 0);
+  return matrix.trace() / 2 - std::sqrt(std::max(squared, 0.0));
+}
 
 PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& around) {
   const double size = around.norm();

@@ -24,6 +24,9 @@ struct Generator {
   /// Whether it maps the field onto itself throughout; else it does so within each sector between the lines where the
   /// field is not smooth, and not across them. (Of several such a combination may; that is not looked for.)
   bool everywhere = true;
+
+  /// How fast, at least, points leave the centre: the smaller real part of the eigenvalues of A.
+  double growth() const;
 };
 
 /// What was found of the generators of that form. Beside them every x' = f(x) admits d/dt.
