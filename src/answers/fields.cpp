@@ -159,6 +159,12 @@ std::vector<VerbFields> field_table() {
            {"`equation`, `statement`, `printed`, `computed`, `verdict`, `recorded`, `correction`, `at`", "",
             "JSON: in `claims`"},
        }},
+      {"literature",
+       {
+           {"`name`, `source`, `link`, `read`", "",
+            "what of the source was read: the abstract, its code, textbooks, or a citation"},
+           {"`published`, `computed`; `verdict`, `recorded`", "", "agrees or differs; JSON: in `rows`"},
+       }},
   };
 }
 

@@ -35,6 +35,7 @@ const std::vector<Output> outputs{
     {"balls pool", "a run file", {"toml", "txt"}},
     {"engine mujoco --ball pool", "a table of engines", of_answers},
     {"paper", "a table of statements", of_answers},
+    {"literature", "a table of published numbers", of_answers},
     {"sweep --mu 0.3 --u0 0:1:3 --v0 0:1:3", "a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}},
     {"portrait --mu 0.3", "a portrait", {"gp", "svg", "pdf", "png", "eps", "tex", "csv", "json"}},
     {"portrait --mu 0.3 --facts", "a table of facts", of_answers},

@@ -12,7 +12,8 @@ namespace contensou::reduction {
 /// pushing and grasping, and the elliptic friction cone of physics engines.
 ///
 /// Source    Phi = k/sqrt(k^2 + C^2), Psi = C^2/sqrt(k^2 + C^2); R. D. Howe and M. R. Cutkosky, "Practical
-///           force-motion models for sliding manipulation", Int. J. Robotics Research 15 (1996) 557.
+///           force-motion models for sliding manipulation", Int. J. Robotics Research 15 (1996) 557,
+///           doi:10.1177/027836499601500603.
 ///           Every orbit is a power, v ~ w^(1/(r C^2)), and the stop time one integral (README (R35)).
 /// Accuracy  2 eps for every k.
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.

@@ -1,0 +1,147 @@
+#include "paper/literature.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/si/cue_strike.hpp"
+#include "contensou/si/scaling.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+using reduction::Law;
+
+constexpr double rounding = 1e-12, three_digits = 5e-4;
+
+Law law_named(std::string_view name) { return *reduction::find_law(name); }
+
+/// A body that lies flat on the whole of its face: mu = 1.
+/// @param gyration  its radius of gyration about the vertical, over its radius
+reduction::ReducedSystem flat(std::string_view law, double gyration) {
+  return {law_named(law), 1, {.chi = 1, .gamma = 1 / (gyration * gyration)}};
+}
+
+const double disc_gyration = std::sqrt(0.5);
+
+/// When a puck's spin has fallen to a millionth, over when its slip has: by steps in time, of 38 mm, 5 m/s and 100 1/s.
+double ends_of_puck() {
+  const reduction::State start{.u = 3.8, .v = 5};
+  const reduction::OrbitColumns steps = reduction::integrate_directly(flat("uniform", disc_gyration), start).points;
+  const auto first_below = [&](const Eigen::ArrayXd& speeds) {
+    const auto place = std::ranges::find_if(speeds, [&](double speed) { return speed < 1e-6 * speeds[0]; });
+    return steps.tau[place - speeds.begin()];
+  };
+  return first_below(steps.u) / first_below(steps.v);
+}
+
+/// Of a ring that slides as fast as it turns, over that of one that does not turn.
+double way_of_ring() {
+  const reduction::ReducedSystem ring = flat("ring", 1);
+  const reduction::Flow flow(ring);
+  const auto way = [&](reduction::State start) { return flow.orbit(start).slip_length(flow.stop_time(start).tau); };
+  return way({.u = 1, .v = 1}) / way({.u = 0, .v = 1});
+}
+
+/// A bowling ball of the textbook: it slides at 8 m/s, in units of that speed and f g.
+struct Bowled {
+  double speed = 8;
+  si::Experiment ball = [this] {
+    si::Experiment experiment = si::find_ball("bowling")->experiment;
+    experiment.start = si::Velocities{.velocity = {speed, 0}, .angular_velocity = {0, 0, 0}};
+    return experiment;
+  }();
+  si::BallMotion motion{ball, law_named("exact")};
+  si::MotionPoint end = motion.at_time(motion.stop_time());
+  double friction = ball.contact.friction * ball.environment.gravity;
+};
+
+/// Over v, where it rolls, of a ball that turns back as fast as (5/2) v/R.
+double speed_of_draw() {
+  si::Experiment ball = si::find_ball("pool")->experiment;
+  const double speed = 1;
+  ball.start = si::Velocities{.velocity = {speed, 0}, .angular_velocity = {0, -2.5 * speed / ball.ball.radius, 0}};
+  const si::BallMotion motion(ball, law_named("exact"));
+  return motion.at_time(motion.stop_time()).velocity.norm() / speed;
+}
+
+/// How far above the centre, in radii, a level cue sets a ball rolling: the slip is linear in it.
+double height_of_rolling() {
+  si::Experiment ball = si::find_ball("pool")->experiment;
+  const auto slip_over_speed = [&](double above) {
+    ball.start = si::struck(ball.ball, {.speed = 1, .right = 0, .above = above, .elevation = 0});
+    return si::slip_velocity_at_start(ball).x() / si::velocities_of(ball.start).velocity.x();
+  };
+  const double centre = slip_over_speed(0), high = 0.45;
+  return high * centre / (centre - slip_over_speed(high));
+}
+
+/// Of a curling stone with its typical spin, m/s^3: the rate times v. Friction as that program has it.
+double spin_decay_of_stone(double v) {
+  const si::Experiment& stone = si::find_ball("curling-stone")->experiment;
+  const Law ring = law_named("ring");
+  const double friction = 0.00200985 / (v + 0.06385782) + 0.00626286;
+  const double eps = si::patch_radius_of(stone, ring), R = stone.ball.radius;
+  const double moment = ring(reduction::Slip{v, eps * si::spin_at_start(stone)}).moment;
+  return stone.ball.body.inertia.gamma * friction * stone.environment.gravity * eps * moment / (R * R) * v;
+}
+
+}  // namespace
+
+bool Published::agrees() const { return std::abs(computed - published) <= allowed; }
+
+std::vector<Published> published_numbers() {
+  constexpr std::string_view farkas = "Z. Farkas, G. Bartels, T. Unger, D. E. Wolf, Phys. Rev. Lett. 90 (2003) 248302",
+                             farkas_doi = "10.1103/PhysRevLett.90.248302",
+                             weidman =
+                                 "P. D. Weidman, C. P. Malhotra, On the terminal motion of sliding spinning disks "
+                                 "with uniform Coulomb friction (2007)",
+                             goyal = "S. Goyal, A. Ruina, J. Papadopoulos, Wear 143 (1991) 331",
+                             goyal_doi = "10.1016/0043-1648(91)90105-4", textbooks = "Textbooks of mechanics",
+                             stones = "DigitalCurling, simulator_fcv1.cpp: a fit to stones",
+                             stones_link = "github.com/digitalcurling";
+  const auto ray = [](const reduction::ReducedSystem& system) {
+    return reduction::Flow(system).terminal().rays.front().k;
+  };
+  const reduction::TerminalRatios disc = reduction::Flow(flat("uniform", disc_gyration)).terminal();
+  const Bowled bowled;
+  return {
+      {"v/(R omega) with which a disc comes to rest", weidman, "", "abstract", 0.653, three_digits,
+       ray(flat("uniform", disc_gyration))},
+      {"when a disc's spin ends, over when its slip ends, by steps in time", farkas, farkas_doi, "abstract", 1, 1e-5,
+       ends_of_puck()},
+      {"v/(R omega) with which a ring comes to rest", weidman, "", "abstract", 1, rounding, ray(flat("ring", 1))},
+      {"radius of gyration over R above which v/(R omega) ends at 0", goyal, goyal_doi, "as cited", std::sqrt(2. / 3),
+       rounding, 1 / std::sqrt(disc.low)},
+      {"radius of gyration over R below which v/(R omega) grows for ever", goyal, goyal_doi, "as cited", 0.5, rounding,
+       1 / std::sqrt(disc.high)},
+      {"way of a ring with v = R omega over that of one without spin", "L. Mihaly (2018)", "", "as cited",
+       std::numbers::pi / 2, rounding, way_of_ring()},
+      {"moment of a disc that only turns, over f N R", textbooks, "", "in textbooks", 2. / 3, rounding,
+       law_named("uniform").pivoting_moment()},
+      {"time after which a ball without spin rolls, in v/(f g)", textbooks, "", "in textbooks", 2. / 7, rounding,
+       bowled.motion.stop_time() * bowled.friction / bowled.speed},
+      {"its speed then, over v", textbooks, "", "in textbooks", 5. / 7, rounding,
+       bowled.end.velocity.norm() / bowled.speed},
+      {"its way until then, in v^2/(f g)", textbooks, "", "in textbooks", 12. / 49, rounding,
+       bowled.end.position.norm() * bowled.friction / (bowled.speed * bowled.speed)},
+      {"speed, over v, at which a ball with backspin (5/2) v/R ends", textbooks, "", "in textbooks", 0, rounding,
+       speed_of_draw()},
+      {"height above the centre, over R, at which a level cue sets a ball rolling",
+       "G. Coriolis, Theorie mathematique des effets du jeu de billard (1835)", "", "as cited", 0.4, rounding,
+       height_of_rolling()},
+      {"decay of a curling stone's spin at 1 m/s, times v, m/s^3", stones, stones_link, "code", 0.025, three_digits,
+       spin_decay_of_stone(1)},
+      {"the same at 2.5 m/s", stones, stones_link, "code", 0.025, three_digits, spin_decay_of_stone(2.5), false},
+  };
+}
+
+}  // namespace contensou::program

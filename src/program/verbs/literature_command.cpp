@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "answers/text_table.hpp"
+#include "options/output_options.hpp"
+#include "paper/literature.hpp"
+#include "verb.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+using answers::TextTable;
+
+std::string verdict(const Published& number) { return number.agrees() ? "agrees" : "differs"; }
+
+/// The number of a source in the list below the table, and that list.
+struct Sources {
+  std::vector<std::string> list{};
+
+  std::ptrdiff_t operator()(const Published& number) {
+    const std::string source =
+        fmt::format("{}{}{} ({})", number.source, number.link.empty() ? "" : ", ", number.link, number.read);
+    const auto known = std::ranges::find(list, source);
+    const auto place = known - list.begin();
+    if (known == list.end()) list.push_back(source);
+    return place + 1;
+  }
+};
+
+std::string as_text(const std::vector<Published>& numbers, const Digits& digits) {
+  const auto column = TextTable::right(digits.width());
+  TextTable table({TextTable::left(), column, column, column});
+  table.add({"number", "published", "computed", "difference", "  verdict"});
+  Sources sources;
+  for (const Published& number : numbers) {
+    table.add({std::string(number.name), digits(number.published), digits(number.computed),
+               digits(number.computed - number.published),
+               fmt::format("  {} [{}]{}", verdict(number), sources(number),
+                           number.agrees() == number.confirmed ? "" : "  FAIL: not as recorded")});
+  }
+  std::string text = table.text() + "\n";
+  for (std::size_t i = 0; i < sources.list.size(); ++i) text += fmt::format("[{}] {}\n", i + 1, sources.list[i]);
+  const auto agreeing = std::ranges::count_if(numbers, &Published::agrees);
+  return text + fmt::format("\n{} numbers: {} agree, {} differ. In brackets: what of a source was read.\n",
+                            numbers.size(), agreeing, std::ssize(numbers) - agreeing);
+}
+
+class LiteratureCommand final : public Verb {
+ public:
+  void add_options(CLI::App& app) override { output_.add(app); }
+
+  ExitStatus run() override {
+    const Output output = output_.read();
+    const std::vector<Published> numbers = published_numbers();
+    Answer answer;
+    for (const Published& number : numbers) {
+      answer.rows.push_back({{"name", number.name},
+                             {"source", number.source},
+                             {"link", number.link},
+                             {"read", number.read},
+                             {"published", number.published},
+                             {"computed", number.computed},
+                             {"verdict", verdict(number)},
+                             {"recorded", number.confirmed ? "agrees" : "differs"}});
+    }
+    answer.members["rows"] = answer.rows;
+    answer.text = [&](const Digits& digits) { return as_text(numbers, digits); };
+    output.write(answer);
+    return std::ranges::all_of(numbers, [](const Published& n) { return n.agrees() == n.confirmed; })
+               ? ExitStatus::done
+               : ExitStatus::check_failed;
+  }
+
+ private:
+  OutputOptions output_{{{"a table of published numbers", answer_formats("text")}}};
+};
+
+const RegisteredVerb<LiteratureCommand> literature_verb("literature", "Numbers that others published, beside ours",
+                                                        "contensou literature");
+
+}  // namespace
+
+}  // namespace contensou::program
