@@ -466,9 +466,9 @@ std::shared_ptr<const ResistedMotion::Course> course_of(Experiment experiment, c
 
 }  // namespace
 
-ResistedMotion::ResistedMotion(const Experiment& experiment, const Law& law, double rolling_friction, bool in_steps,
+ResistedMotion::ResistedMotion(const Experiment& experiment, const Law& law, double u_r, bool in_steps,
                                std::shared_ptr<ResistedFlows> flows)
-    : course_(course_of(experiment, law, rolling_friction, in_steps, std::move(flows))) {}
+    : course_(course_of(experiment, law, u_r, in_steps, std::move(flows))) {}
 
 std::vector<ReducedPiece> ResistedMotion::pieces() const { return course_->pieces(); }
 
