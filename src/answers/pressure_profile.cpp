@@ -13,6 +13,10 @@ namespace contensou::answers {
 
 reduction::Law read_pressure_profile(const std::string& path) {
   CsvReader table(path);
+  return read_pressure_profile(table, path);
+}
+
+reduction::Law read_pressure_profile(CsvReader& table, const std::string& name) {
   const CsvColumn rho_column = table.column("rho");
   const CsvColumn pressure_column = table.column("pressure");
   std::vector<double> rho, pressure;
@@ -51,10 +55,10 @@ reduction::Law read_pressure_profile(const std::string& path) {
   if (!loaded) throw table.complaint(last_line, "the pressure is 0 in every row");
   const auto rows = static_cast<Eigen::Index>(rho.size());
   try {
-    return reduction::TabulatedPressureLaw(path, Eigen::Map<const Eigen::ArrayXd>(rho.data(), rows),
+    return reduction::TabulatedPressureLaw(name, Eigen::Map<const Eigen::ArrayXd>(rho.data(), rows),
                                            Eigen::Map<const Eigen::ArrayXd>(pressure.data(), rows));
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
+    throw std::runtime_error(fmt::format("{}: {}", name, error.what()));
   }
 }
 

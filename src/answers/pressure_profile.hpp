@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "answers/csv.hpp"
 #include "contensou/reduction/friction_law.hpp"
 
 namespace contensou::answers {
@@ -11,5 +12,8 @@ namespace contensou::answers {
 /// @throws std::runtime_error  naming the file, as TabulatedPressureLaw
 /// @throws std::system_error   if the file cannot be read
 reduction::Law read_pressure_profile(const std::string& path);
+
+/// The same of a table that is read already as far as its header.
+reduction::Law read_pressure_profile(CsvReader& table, const std::string& name);
 
 }  // namespace contensou::answers

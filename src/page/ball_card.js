@@ -25,7 +25,7 @@ export function makeBallCard(store, _plane, { ask }) {
     const patch = Number((by === "spin_deceleration" ? spinDeceleration : patchRadius).toPrecision(12));
     Object.assign(state.ball, { patchBy: by, patch });
   });
-  ballFields.push(...ofBall({ patch: "patch", along: "centre: along the slip (m/s)", across: "across it (m/s)", rollingFriction: "rolling friction (pool: 0.01)" }));
+  ballFields.push(...ofBall({ patch: "patch", along: "centre: along the slip (m/s)", across: "across it (m/s)", rollingFriction: "rolling friction (pool: 0.01)", slope: "slope (degrees; downhill < 0)" }));
 
   return function show() {
     const { state, state: { ball }, body, contact } = store;

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "answers/portrait_spec.hpp"
+#include "answers/pressure_profile.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
@@ -29,9 +30,9 @@
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/course.hpp"
 #include "contensou/si/description.hpp"
 #include "contensou/si/motion.hpp"
-#include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
 
@@ -43,9 +44,19 @@ using reduction::Orbit;
 using reduction::ReducedSystem;
 using reduction::State;
 
+/// What the name of a law begins with that is a table of the reader's: rho/pressure of each row, semicolons between them.
+constexpr std::string_view table_of_pressure = "table:";
+
 Law law_of(const std::string& name) {
   static std::map<std::string, Law> known;
   if (const auto found = known.find(name); found != known.end()) return found->second;
+  if (name.starts_with(table_of_pressure)) {
+    std::string rows = name.substr(table_of_pressure.size());
+    std::ranges::replace(rows, '/', ',');
+    std::ranges::replace(rows, ';', '\n');
+    answers::CsvReader table("rho,pressure\n" + rows, "pressure.csv");
+    return known.emplace(name, answers::read_pressure_profile(table, "pressure.csv")).first->second;
+  }
   if (auto law = reduction::find_law(name)) return known.emplace(name, *law).first->second;
   throw std::domain_error(fmt::format("no such law: {}", name));
 }
@@ -104,11 +115,13 @@ answers::PortraitSpec question_of(const val& asked, const Flow* known = nullptr)
     if (known) return *known;
     const Law law = law_of(asked["law"].as<std::string>());
     return ReducedSystem(law, experiment ? si::patch_ratio(*experiment, law) : asked["mu"].as<double>(),
-                         {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()});
+                         {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()},
+                         asked["drive"].as<double>());
   };
   answers::PortraitSpec question{.flow = flow(), .experiment = experiment};
   portraits::PortraitRequest& request = question.request;
   request.view = portraits::find_view(asked["view"].as<std::string>());
+  request.linear = asked["linear"].as<bool>();
   if (has("window")) {
     request.window = portraits::Window{asked["window"][0].as<double>(), asked["window"][1].as<double>()};
   }
@@ -132,10 +145,11 @@ answers::PortraitSpec question_of(const val& asked, const Flow* known = nullptr)
 /// The plane that the page shows. A plane that was rejected leaves the last good one in place.
 class Plane {
  public:
-  /// Changes law, patch and body: what k tends to, and what that means.
-  val choose(const std::string& law, double mu, double chi, double gamma) {
+  /// Changes law, patch, body and the drive of a slope: what k tends to, and what that means.
+  val choose(const std::string& law, double mu, double chi, double gamma, double drive) {
     return answer([&] {
-      flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
+      flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}, drive));
+      level_.emplace(drive == 0 ? *flow_ : ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
       // Of the motions that slide and pivot at one speed, if it depends on the start.
       const auto end = flow().terminal().end_of(1);
       return object("terminalRatio", end.k, "meaning", reduction::meaning(end.regime));
@@ -172,6 +186,14 @@ class Plane {
   /// The stop time of one start.
   double stop(double u, double v) const {
     return answer([&] { return flow().orbit({.u = u, .v = v}).stop_time(); });
+  }
+
+  /// The stop time of one start by another law, for which mu may be another.
+  double stop_by(const std::string& law, double mu, double u, double v) const {
+    return answer([&] {
+      const Flow other(ReducedSystem(law_of(law), mu, system().inertia(), system().drive()));
+      return other.orbit({.u = u, .v = v}).stop_time();
+    });
   }
 
   /// The motion from one start to its stop: dense while it slides, and in equal times.
@@ -214,52 +236,37 @@ class Plane {
   }
 
   /// When a body has ceased to slide, s, the path of its centre until then, m, and by how many degrees it has turned: a
-  /// ball when its slip has fallen to `least`, m/s, what lies flat when it stops.
+  /// ball when its slip has fallen to `least`, m/s, what lies flat when it stops. And when slip and spin have ended, s.
   /// @param fields  as those of ride
-  val slide(const val& fields, double least) const {
+  val slide(const val& fields, double rolling_friction, double least) const {
     return answer([&] {
-      const si::BallMotion motion(moving(fields), flow());
-      if (system().inertia().chi == 1)
-        return object("end", motion.slip_time(0), "path", motion.slip_length(), "turned", 0.0);
-      const double end = motion.slip_time(least);
+      const auto course = course_of(fields, rolling_friction, least);
+      const bool flat = system().inertia().chi == 1;
+      const double end = course.rolls;
       const auto heading = [&](double t) {
-        const Eigen::Vector2d velocity = motion.at_time(t).velocity;
+        const Eigen::Vector2d velocity = course.at_time(t).velocity;
         return std::atan2(velocity.y(), velocity.x());
       };
-      const double turned = std::remainder(heading(end) - heading(0), 2 * std::numbers::pi);
-      return object("end", end, "path", motion.path_length(end), "turned", turned * 180 / std::numbers::pi);
+      const double turned = flat ? 0 : std::remainder(heading(end) - heading(0), 2 * std::numbers::pi);
+      return object("end", end, "path", flat ? course.slip_length() : course.path_length(end), "turned",
+                    turned * 180 / std::numbers::pi, "stop",
+                    course.resisted ? course.resisted->stop_time() : course.motion.stop_time());
     });
   }
 
   /// The motion over the table until `end`, in s, as columns in times that are dense at its beginning: those of `contensou
-  /// roll`. And {t, x, y} of where it rests, if there is rolling friction.
+  /// roll`. And {t, x, y} of where it rests, with rolling friction or on a slope, if it does.
   /// @param fields  a ball whose patch the plane knows better
   val ride(const val& fields, double rolling_friction, double end) const {
     return answer([&] {
-      const si::Experiment experiment = moving(fields);
-      si::require_finite_motion(experiment, end);
-      std::optional<si::ResistedMotion> resisted;
-      if (rolling_friction > 0) resisted.emplace(experiment, flow().system().law(), rolling_friction);
-      const Orbit orbit = flow().orbit(si::reduced_start(experiment));
-      const double scale = 1 / si::seconds(experiment, 1);
+      const auto course = course_of(fields, rolling_friction, 0);
       constexpr Eigen::Index pieces = 160;
-      si::MotionColumns motion(pieces + 1);
-      for (Eigen::Index i = 0; i <= pieces; ++i) {
-        const double part = static_cast<double>(i) / pieces, t = end * part * part;
-        if (resisted) {
-          motion.set(i, resisted->at_time(t));
-          continue;
-        }
-        const double tau = std::min(t * scale, orbit.stop_time());
-        const reduction::OrbitPoint point = orbit.at_time(tau);
-        const double slid = si::seconds(experiment, orbit.slip_length(tau));
-        motion.set(i, si::motion_by_slip(experiment, t, point.v, slid, point.u / experiment.ball.radius));
-      }
+      const Eigen::ArrayXd times = end * Eigen::ArrayXd::LinSpaced(pieces + 1, 0, 1).square();
+      const si::MotionColumns motion = course.at_times(times);
       val result = object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx",
                           motion.wx, "wy", motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy);
-      if (resisted) {
-        const Eigen::Vector2d rest = resisted->rest_position();
-        result.set("rest", object("t", resisted->rest_time(), "x", rest.x(), "y", rest.y()));
+      if (const auto rest = course.rest()) {
+        result.set("rest", object("t", rest->t, "x", rest->place.x(), "y", rest->place.y()));
       }
       return result;
     });
@@ -317,11 +324,11 @@ class Plane {
   }
   const ReducedSystem& system() const { return flow().system(); }
 
-  /// A ball with the plane's body.
-  si::Experiment moving(const val& fields) const {
+  /// The course of a ball with the plane's body.
+  si::Course<si::BallMotion> course_of(const val& fields, double rolling_friction, double least) const {
     si::Experiment experiment = experiment_of(fields);
     experiment.ball.body.inertia = system().inertia();
-    return experiment;
+    return {experiment, si::BallMotion(experiment, level_.value()), least, rolling_friction};
   }
 
   Instant state(State at, double left) const {
@@ -391,8 +398,8 @@ class Plane {
                   list(drawn_.maps, in_panel));
   }
 
-  std::optional<Flow> flow_;
-  portraits::MappedFigure drawn_;  ///< the last portrait
+  std::optional<Flow> flow_, level_;  ///< the latter without a slope
+  portraits::MappedFigure drawn_;     ///< the last portrait
 };
 
 /// {name, meaning} of each law, and of each family also what its number is: {letter, example}.
@@ -409,7 +416,10 @@ val laws() {
 
 /// The name of the law that is called so, as the library writes it.
 std::string law_name(const std::string& called) {
-  return answer([&] { return law_of(called).name(); });
+  return answer([&] {
+    const Law law = law_of(called);
+    return called.starts_with(table_of_pressure) ? called : law.name();
+  });
 }
 
 /// {name, chi, gamma} of each body, and `mu` of one that decides it.
@@ -456,7 +466,7 @@ val catalogue() {
   });
 }
 
-/// What the plane needs to know of a ball.
+/// What the plane needs to know of a ball; its drive is that of a slope.
 val contact(const std::string& law, const val& fields) {
   return answer([&] {
     const si::Experiment experiment = experiment_of(fields);
@@ -466,7 +476,8 @@ val contact(const std::string& law, const val& fields) {
         experiment.ball.radius, 1, experiment.contact.friction, experiment.environment.gravity,
         law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);
     return object("mu", si::patch_ratio(experiment, law_of(law)), "patchRadius", radius, "spinDeceleration",
-                  radius / per_deceleration, "secondsPerTau", si::seconds(experiment, 1));
+                  radius / per_deceleration, "secondsPerTau", si::seconds(experiment, 1), "drive",
+                  experiment.environment.slope == 0 ? 0 : si::drive_of(experiment));
   });
 }
 
@@ -482,6 +493,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .function("choose", &Plane::choose)
       .function("portrait", &Plane::portrait)
       .function("stop", &Plane::stop)
+      .function("stopBy", &Plane::stop_by)
       .function("motion", &Plane::motion)
       .function("instant", &Plane::instant)
       .function("place", &Plane::place)

@@ -1,7 +1,7 @@
 // Ball, body and law, and what the plane shows.
 import { $, write } from "./dom.js";
 import { choiceButtons } from "./fields.js";
-import { lawField } from "./law_field.js";
+import { lawField, lawOfTable } from "./law_field.js";
 import { shown } from "./numbers.js";
 import { bodyOf, fields, initialState, takeBall, unrolled } from "./page_state.js";
 import { addNumber, choose } from "./state_fields.js";
@@ -28,13 +28,20 @@ export function makeChoices(store, plane, { ask, attempt }) {
   const useLaw = (key) => (name) => store.change((state) => (state[key] = name && lawName(name)));
   const law = lawField("law", { laws, key: "exponent", attempt, use: useLaw("law") });
   const against = lawField("against", { laws, key: "against-exponent", none: "no other law", attempt, use: useLaw("against") });
+  $("pressure").addEventListener("change", async ({ target }) => {
+    const text = await target.files[0]?.text().catch(() => "") ?? "";
+    attempt(() => useLaw("law")(lawOfTable(text)));
+    target.value = "";
+  });
   $("isochrones").addEventListener("change", () => ask((state) => {
     state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
   }));
-  const viewButtons = choiceButtons($("views"), views.map(described), (name) => plane.view(name));
+  const viewButtons = choiceButtons($("views"), views.map(described), (name) => plane.zooming.view(name));
   $("theme").addEventListener("click", () => ask((state) => {
     state.theme = state.theme === "auto" ? (isDark("auto") ? "light" : "dark") : "auto";
   }));
+  $("lab").addEventListener("click", () => ask((state) => (state.lab = !state.lab), () => store.state.lab &&
+    $("columns").scrollIntoView({ behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "instant" : "smooth" })));
   const inertia = Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" }).map(([key, label]) =>
     ({ key, field: addNumber(store, $("inertia"), key, label, (state, value) => (state[key] = value)) }));
   const sides = ["U", "V"].map((name, side) => addNumber(store, $("window"), `window-${name}`, name, (state, value) => {
@@ -44,6 +51,7 @@ export function makeChoices(store, plane, { ask, attempt }) {
 
   return function show() {
     const { state, state: { ball }, facts, portrait, view } = store;
+    $("lab").setAttribute("aria-expanded", String(state.lab));
     law.show(state.law);
     against.show(store.request.against);
     for (const option of $("against").options) option.disabled = option.value === state.law;

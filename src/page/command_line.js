@@ -1,4 +1,5 @@
 // The command line of the program that draws what the page shows.
+import { lawTitle } from "./law_field.js";
 import { shotOf } from "./portrait_request.js";
 
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
@@ -21,6 +22,7 @@ export function commandLine(state, request, through, body, builtIn) {
     for (const [key, option] of Object.entries(options)) {
       if (ball[key] !== builtIn[key]) ofBall.push(option, ball[key]);
     }
+    if (ball.slope) ofBall.push("--slope", ball.slope);
     if (ball.patchBy !== builtIn.patchBy || ball.patch !== builtIn.patch) {
       ofBall.push(ball.patchBy === "patch_radius" ? "--patch-radius" : "--spin-deceleration", ball.patch);
     }
@@ -33,9 +35,10 @@ export function commandLine(state, request, through, body, builtIn) {
     if (body.mu === undefined) words.push("--mu", state.mu);
     if (start) words.push("--u0", start.u, "--v0", start.v);
   }
-  words.push("--law", request.law);
-  if (request.against) words.push("--against", request.against);
+  words.push("--law", lawTitle(request.law));
+  if (request.against) words.push("--against", lawTitle(request.against));
   words.push("--view", request.view);
+  if (request.linear) words.push("--scale", "linear");
   if (request.window) words.push("--window", request.window.join(","));
   for (const { u, v } of through) words.push("--through", `${u},${v}`);
   if (request.isochrones !== 7) words.push("--isochrones", request.isochrones);
@@ -43,7 +46,7 @@ export function commandLine(state, request, through, body, builtIn) {
   if (request.screen) words.push("--style", "screen");
   words.push("-o", "portrait.svg");
   const line = (all) => all.map((word) => quoted(String(word))).join(" ");
-  return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", request.law]) : null };
+  return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", lawTitle(request.law)]) : null };
 }
 
 /** The start of a roll, and what slows it down: slip along x at v, spin u/R, and what the reader says of the centre. */

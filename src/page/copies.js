@@ -72,7 +72,8 @@ export class Copies {
   }
 }
 
-const pullWords = ({ c, along }, before, after, { contact, timeFactor }) => {
+/** What is said of a start that many times as large, before and after: stop times. */
+export const pullWords = ({ c, along }, before, after, { contact, timeFactor }) => {
   const time = (tau) => (contact ? `${shown(tau * timeFactor, 4)} s` : `τ = ${shown(tau, 4)}`);
   return along ? `A copy, c = ${shown(c, 3)}: it stops after ${time(after)}, c times ${time(before)}.`
     : `Another curve: it stops after ${time(after)}, the first after ${time(before)}.`;

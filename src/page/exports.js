@@ -55,6 +55,17 @@ export function csvOfOrbits(motions) {
 /** The motion of a real ball in SI units, with the columns of `contensou roll`. */
 export const csvOfRide = ({ t, x, y, vx, vy, wx, wy, wz, slip, energy }) => csv({ t, x, y, vx, vy, wx, wy, wz, slip, energy });
 
+/** What a film has measured, what was found, and what is left; an angle is known up to whole turns. */
+export function csvOfFilm({ t, ...columns }) {
+  const whole = 2 * Math.PI;
+  const parts = Object.keys(columns).filter((name) => columns[`${name}_fitted`]).flatMap((name) => {
+    const [measured, fitted] = [columns[name], columns[`${name}_fitted`]];
+    const residual = measured.map((value, i) => value - fitted[i] - (name === "angle" ? whole * Math.round((value - fitted[i]) / whole) : 0));
+    return Object.entries({ [name]: measured, [`${name}_fitted`]: fitted, [`${name}_residual`]: residual });
+  });
+  return csv({ t, ...Object.fromEntries(parts) });
+}
+
 /** The first kind of film that a browser can take: MP4 plays everywhere. */
 export const filmType = () => ["video/mp4;codecs=avc1.42E01E", "video/mp4", "video/webm"].find((type) => globalThis.MediaRecorder?.isTypeSupported(type));
 

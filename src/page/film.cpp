@@ -18,8 +18,8 @@ namespace contensou::page {
 namespace {
 
 /// What the best law has found: {report, notes on columns that are not read, law, friction, patch, slip, spin, velocityX
-/// and velocityY of the centre, along the slip and across it, measured: {t, slip, spin}, without those that were not, and
-/// the figure of `contensou fit`}.
+/// and velocityY of the centre, along the slip and across it, measured: {t, and of each observable of the film its column and,
+/// with _fitted, that of the fitted motion}, and the figure of `contensou fit`}.
 /// @param laws  between commas
 val fit(const std::string& text, const std::string& name, const val& ball, const std::string& laws) {
   return answer([&] {
@@ -39,9 +39,10 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
     const Eigen::Vector2d along = slip.norm() > 0 ? Eigen::Vector2d(slip.normalized()) : Eigen::Vector2d(1, 0);
     const fit::Track& track = request.tracks.front();
     val measured = object("t", Eigen::ArrayXd(track.t - track.start));
-    for (const fit::Series& series : track.series) {
-      if (series.observable == fit::Observable::slip) measured.set("slip", column(series.value));
-      if (series.observable == fit::Observable::spin) measured.set("spin", column(series.value));
+    for (std::size_t i = 0; i < track.series.size(); ++i) {
+      const std::string name(fit::kind_of(track.series[i].observable).name);
+      measured.set(name, column(track.series[i].value));
+      measured.set(name + "_fitted", column(fits.front().predicted.front()[i]));
     }
     const auto value = [&](fit::Parameter parameter) { return fits.front().estimate(parameter).value; };
     return object("notes", notes, "report", answers::report_on(fits, request.tracks, false, {6}), "law",

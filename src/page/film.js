@@ -1,5 +1,7 @@
 // A film of a ball that the reader gives to the page: the library finds its friction and its patch, and the ball takes them.
 import { $ } from "./dom.js";
+import { csvOfFilm, save, textFile } from "./exports.js";
+import { lawTitle } from "./law_field.js";
 import { startOf } from "./page_state.js";
 import { drawPortrait } from "./portrait_figure.js";
 import { rowsOf } from "./portrait_layout.js";
@@ -15,6 +17,7 @@ export class Film {
     this.figure = null;
     this.picture = new ScreenSurface($("film-fit"), (surface) => this.draw(surface));
     $("film").addEventListener("change", ({ target }) => this.read(target.files[0]));
+    $("save-residuals").addEventListener("click", () => save("residuals.csv", textFile(csvOfFilm(this.store.measured.columns), "text/csv")));
     addEventListener("dragover", (event) => event.preventDefault());
     addEventListener("drop", (event) => {
       event.preventDefault();
@@ -35,7 +38,7 @@ export class Film {
   show(figure) {
     const { picture, picture: { canvas } } = this;
     this.figure = figure;
-    canvas.hidden = !figure;
+    canvas.hidden = $("save-residuals").hidden = !figure;
     if (!figure) return;
     canvas.style.setProperty("--rows", String(rowsOf(figure, canvas.clientWidth)));
     picture.measure();
@@ -51,6 +54,7 @@ export class Film {
       this.show(figure);
       $("film-card").scrollIntoView({ block: "nearest" });
     };
+    this.ask((state) => (state.lab = true));
     try {
       say(`${file.name} is fitted...`);
       const text = await file.text();
@@ -69,12 +73,12 @@ export class Film {
   fit(name, text) {
     const { store: { library, request, state } } = this;
     if (!state.ball) throw new Error("A film is of a real ball: choose one above, its radius is needed.");
-    const laws = [request.law, request.against].filter(Boolean).join();
+    const laws = [request.law, request.against].filter(Boolean);
     const ball = request.ball ?? shotOf(state.ball, startOf(0, 0));
-    const found = library.fit(text, name, ball, laws);
-    this.store.measured = { ...found.measured, ball: ball.name };
+    const found = library.fit(text, name, ball, laws.join());
+    this.store.measured = { columns: found.measured, ball: ball.name };
     this.ask((next) => Object.assign(next, {
-      law: found.law, window: null, chosen: 0, fraction: 0, orbits: [startOf(found.spin * ball.radius, found.slip, found.velocityX, found.velocityY)],
+      law: laws.find((law) => lawTitle(law) === found.law) ?? found.law, window: null, chosen: 0, fraction: 0, orbits: [startOf(found.spin * ball.radius, found.slip, found.velocityX, found.velocityY)],
       ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch },
     }));
     this.player.toggle(this.player.moves);

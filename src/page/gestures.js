@@ -5,9 +5,9 @@ const slack = 6;  // pixels that a finger may move and still tap
 const notch = 400;  // pixels that the wheel turns by for a radian
 
 /**
- * @param on  hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held, from), release(), cancel(), turn(radians) of
+ * @param on  hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held, from), release(), cancel(), turn(radians, held) of
  *            what is held, to the left; tap(x, y, kind), drag(x, y), point(x, y), leave(), move(dx, dy), panel(), enter(),
- *            isochrone(), clear(), remove(), zoom(factor), grow(factor); kind is "mouse" or "touch", and move has steps of 1. All but hold
+ *            isochrone(), ruler(), clear(), remove(), zoom(factor), grow(factor); kind is "mouse" or "touch", and move has steps of 1. All but hold
  *            may be missing
  */
 export function listen(canvas, on) {
@@ -38,7 +38,7 @@ export function listen(canvas, on) {
     if (fingers.has(event.pointerId)) fingers.set(event.pointerId, [x, y]);
     if (fingers.size === 2) {
       const [before, now] = [spread, spreadNow()];
-      if (turns()) on.turn(Math.atan2(Math.sin(now[1] - before[1]), Math.cos(now[1] - before[1])));
+      if (turns()) on.turn(Math.atan2(Math.sin(now[1] - before[1]), Math.cos(now[1] - before[1])), start.held);
       else if (Math.abs(now[0] / before[0] - 1) < 0.03) return;
       else on.zoom?.(before[0] / now[0]);
       spread = now;
@@ -75,7 +75,7 @@ export function listen(canvas, on) {
   canvas.addEventListener("wheel", (event) => {
     if (!event.ctrlKey && !turns()) return;
     event.preventDefault();
-    if (turns()) on.turn(-event.deltaY / notch);
+    if (turns()) on.turn(-event.deltaY / notch, start.held);
     else on.zoom?.(Math.exp(Math.max(-0.3, Math.min(0.3, event.deltaY / 200))));
   }, { passive: false });
   canvas.addEventListener("blur", () => on.leave?.());
@@ -84,7 +84,7 @@ export function listen(canvas, on) {
     const fine = event.shiftKey ? 0.25 : 1;
     const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const actions = {
-      "Enter": on.enter, "Delete": on.remove, "Backspace": on.remove, "Escape": on.clear, "i": on.isochrone, "p": on.panel,
+      "Enter": on.enter, "Delete": on.remove, "Backspace": on.remove, "Escape": on.clear, "i": on.isochrone, "p": on.panel, "r": on.ruler,
       "]": on.grow && (() => on.grow(Math.SQRT2)), "[": on.grow && (() => on.grow(Math.SQRT1_2)),
       "+": on.zoom && (() => on.zoom(0.8)), "-": on.zoom && (() => on.zoom(1.25)),
     };

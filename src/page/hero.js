@@ -2,6 +2,8 @@
 import { $, make, write } from "./dom.js";
 import { drawLanes, drawPatch } from "./hero_figure.js";
 import { duration, length, shown } from "./numbers.js";
+import { makeHandles } from "./handles.js";
+import { Ruler } from "./ruler.js";
 import { dare, factsOf, outcome, question, say } from "./story.js";
 import { ScreenSurface } from "./screen_surface.js";
 import { borderOf, CanvasSurface, widthOf } from "./surface.js";
@@ -26,6 +28,11 @@ export class Hero {
   /** @type {any} the motion of which the reader is asked, before he is told */
   asked = null;
   guess = "";
+  said = "";  // of what the reader does on the table
+  /** @type {number[][] | null} of the ruler, or of the bar of the scale: pixels */
+  rulerEnds = null;
+  /** The place at a pixel. */
+  toTable = (/** @type {number} */ x, /** @type {number} */ y) => ({ x, y });
   /** @type {CanvasSurface | null} of the film that is being taken */
   film = null;
 
@@ -33,8 +40,10 @@ export class Hero {
   constructor(store, player) {
     this.store = store;
     this.player = player;
-    this.lanes = new ScreenSurface($("lanes"), (surface) => (this.places = this.drawBalls(surface)));
+    this.lanes = new ScreenSurface($("lanes"), (surface) => Object.assign(this, this.drawBalls(surface)));
     this.patch = new ScreenSurface($("patch"), (surface) => this.drawPatch(surface));
+    this.ruler = new Ruler(this);
+    this.handles = makeHandles($("story"));
     $("answers").append(...question.answers.map((textContent) => make("button", { type: "button", textContent, onclick: () => this.answer(textContent) })));
   }
 
@@ -74,19 +83,44 @@ export class Hero {
     this.ends = [plain.end, own.end];
     const { spin, rolls } = this.facts;
     this.titles = ["without spin", spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`];
-    const { headline, story } = this.asked ? question : say(this.facts);
+    const { headline, story, names = {} } = this.asked ? question : say(this.facts);
     write($("headline"), headline);
-    this.tell(story);
+    this.tell(story, names);
     write($("dare-line"), dare[rolls ? "rolls" : "stops"]);
     $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${story}`);
   }
 
-  /** The story, its words for the two bodies in their colours. */
-  tell(story) {
-    const { state: { chosen }, theme } = this.store;
-    const colours = { "One does not spin": theme.soft, "The other spins": theme.swatch(chosen) };
-    $("story").replaceChildren(...story.split(/(One does not spin|The other spins)/).map((part) =>
-      (colours[part] ? make("b", { textContent: part, style: `color: ${colours[part]}` }) : part)));
+  /** The story: words in the colours of what they name, and numbers that are handles. @param names  what each word names */
+  tell(story, names) {
+    const { handles, store: { state: { chosen }, theme } } = this;
+    const escaped = Object.keys(names).sort((a, b) => b.length - a.length).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
+    const parts = escaped.length ? story.split(new RegExp(`(?<![\\d.])(${escaped.join("|")})(?![\\d·/]|\\.\\d)`)) : [story];
+    const kinds = parts.map((part, i) => (i % 2 ? names[part] : ""));
+    const shape = kinds.join();
+    // What stays keeps the focus.
+    if (shape !== this.shape) {
+      const focused = Object.entries(handles).find(([, handle]) => handle === document.activeElement);
+      $("story").replaceChildren(...kinds.map((kind, i) => (!kind ? "" : handles[kind] && kinds.indexOf(kind) === i ? handles[kind] : make("b"))).map((node) => node || document.createTextNode("")));
+      if (focused) (focused[1].isConnected ? focused[1] : $(`${focused[0]}-slider`)).focus();
+      this.shape = shape;
+    }
+    const colours = { plain: theme.soft, own: theme.swatch(chosen), spin: theme.swatch(chosen) };
+    $("story").childNodes.forEach((node, i) => {
+      write(node, parts[i]);
+      if (kinds[i]) node.style.color = colours[kinds[i]] ?? "";
+    });
+    for (const [key, handle] of Object.entries(handles)) {
+      const slider = $(`${key}-slider`);
+      if (!slider) continue;
+      handle.setAttribute("aria-valuenow", slider.value);
+      handle.setAttribute("aria-valuetext", handle.textContent);
+    }
+  }
+
+  /** Says what the reader does on the table. */
+  say(text) {
+    this.said = text;
+    this.draw();
   }
 
   drawPatch(surface) {
@@ -96,7 +130,8 @@ export class Hero {
 
   drawBalls(surface) {
     const { store: { ride, theme, contact }, balls: lanes, aim, asked } = this;
-    return ride ? drawLanes(surface, { lanes, radius: ride.radius, unit: contact ? "m" : "", secret: asked !== null, aim }, theme) : [];
+    const placed = this.ruler.placed && { ...this.ruler.placed, words: this.ruler.words };
+    return ride ? drawLanes(surface, { lanes, radius: ride.radius, unit: contact ? "m" : "", secret: asked !== null, aim, placed }, theme) : { places: [], rulerEnds: null };
   }
 
   /** The canvas of a film, on which the balls are drawn from now on under what is said of them, with the clock. */
@@ -156,6 +191,6 @@ export class Hero {
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
     if (this.aim) return;
     const last = state.fraction < 1 ? null : plane.instant(orbit.u, orbit.v, late * motion.stop);
-    write($("told"), last ? this.guess + outcome(facts, { slip: last.v, spin: (last.u / orbit.u) * facts.spin }, late) : "");
+    write($("told"), this.said ? this.said : last ? this.guess + outcome(facts, { slip: last.v, spin: (last.u / orbit.u) * facts.spin }, late) : "");
   }
 }

@@ -33,23 +33,30 @@ function drawBall(surface, x, y, radius, turn, colour, theme) {
 /**
  * @param scene  lanes: title, xs, ys, slides (the line of the path until it ceases to slide), at (x, y, turn), colour, and
  *   ruler: {from, to: places, more: m} between where the other stands and this one; radius; unit: "m" or "", lengths in m;
- *   secret: the paths are not drawn; aim: {from, to: pixels, words} of a throw
- * @returns where the bodies are, in pixels: {x, y, radius} of each
+ *   secret: the paths are not drawn; aim: {from, to: pixels, words} of a throw; placed: {from, to: places, words} of the
+ *   reader's ruler, which then is the only one
+ * @returns {{places: {x: number, y: number, radius: number}[], rulerEnds: number[][], toTable: (x: number, y: number) => {x: number, y: number}}}
+ *   in pixels where the bodies are, and the ends of the ruler or of the bar of the scale; the place at a pixel on the second table
  */
 export function drawLanes(surface, scene, theme) {
-  const { lanes, radius, unit, secret, aim } = scene;
+  const { lanes, radius, unit, secret, aim, placed } = scene;
   const size = theme.textSize;
   const keys = [radius, unit, secret, theme, ...lanes.flatMap(({ xs, slides, colour }) => [xs, slides.length, slides.at(-2), colour])];
   const table = surface.still(keys, theme.card, () => drawPaths(surface, scene, theme));
-  const bodies = lanes.map(({ at, title, colour, ruler }, i) => {
+  let ends = table.bar;
+  const places = lanes.map(({ at, title, colour, ruler }, i) => {
     const [x, y] = table.pixel(at, i);
-    if (ruler && !secret && !aim) drawRuler(surface, table, i, ruler, unit, theme);
+    if (ruler && !secret && !aim) {
+      surface.shape([table.pixel(ruler.from, i)], { radius: table.pixels, fill: theme.card, stroke: theme.soft, width: 1.5, dash: [4, 4] });
+      if (!placed) ends = drawRuler(surface, besides(table, i, ruler, theme), `${length(ruler.more, unit)} more`, theme) ?? ends;
+    }
     drawBall(surface, x, y, table.pixels, at.turn, colour, theme);
     surface.text(table.cells[i].left + 4, table.cells[i].top + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
     return { x, y, radius: table.pixels };
   });
+  if (placed && !secret) ends = drawRuler(surface, [placed.from, placed.to].map((place) => table.pixel(place, 1)), placed.words, theme) ?? ends;
   if (aim) drawAim(surface, aim, theme);
-  return bodies;
+  return { places, rulerEnds: ends, toTable: table.toTable };
 }
 
 /** The arrow of a throw, with what it says. */
@@ -65,30 +72,34 @@ function drawAim(surface, { from: [x, y], to, words }, theme) {
   surface.text(within(to[0], half, surface.width), within(to[1] + beyond * theme.textSize, theme.textSize, surface.height), words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
 }
 
-/** Where the other one stands, and how much farther this one is. */
-function drawRuler(surface, { pixel, pixels }, i, { from, to, more }, unit, theme) {
-  const [[ax, ay], [bx, by]] = [pixel(from, i), pixel(to, i)];
-  surface.shape([[ax, ay]], { radius: pixels, fill: theme.card, stroke: theme.soft, width: 1.5, dash: [4, 4] });
+/** The ends of a ruler between two places, beside the bodies, below them. */
+function besides({ pixel, pixels }, i, { from, to }, theme) {
+  const ends = [pixel(from, i), pixel(to, i)];
+  const [[ax, ay], [bx, by]] = ends;
+  const far = Math.hypot(bx - ax, by - ay) || 1;
+  const out = ((bx < ax ? -1 : 1) * (pixels + 0.8 * theme.textSize)) / far;
+  return ends.map(([x, y]) => [x - out * (by - ay), y + out * (bx - ax)]);
+}
+
+/** A ruler with its words in it, or where they do not fit beside it or at its end. @returns its ends, if it can be seen */
+function drawRuler(surface, ends, words, theme) {
+  const [[ax, ay], [bx, by]] = ends;
   const far = Math.hypot(bx - ax, by - ay);
-  if (far < 2) return;
-  // Beside the bodies, below them.
+  if (far < 2) return null;
   const side = bx < ax ? -1 : 1;
   const [nx, ny] = [(-side * (by - ay)) / far, (side * (bx - ax)) / far];
-  const beside = pixels + 0.8 * theme.textSize;
-  const at = (x, y, out) => [x + out * nx, y + out * ny];
-  const words = `${length(more, unit)} more`;
   const wide = widthOf(words, { size: theme.textSize, bold: true }) + 10;
   const steep = Math.abs(by - ay) > 0.3 * far;
   const fits = !steep && far > wide + 16;
   const gap = fits ? (1 - wide / far) / 2 : 0.5;  // a share, before and behind it
-  const point = (share) => at(ax + share * (bx - ax), ay + share * (by - ay), beside);
-  surface.shape([[...point(0), ...point(gap)], [...point(1 - gap), ...point(1)], ...[[ax, ay], [bx, by]].map(([x, y]) => [...at(x, y, beside - 5), ...at(x, y, beside + 5)])],
+  const point = (share) => [ax + share * (bx - ax), ay + share * (by - ay)];
+  surface.shape([[...point(0), ...point(gap)], [...point(1 - gap), ...point(1)], ...ends.map(([x, y]) => [x - 5 * nx, y - 5 * ny, x + 5 * nx, y + 5 * ny])],
     { stroke: theme.ink, width: 1.5 });
-  // Beside a steep ruler, in a level one, or at its end.
   const before = !steep && !fits && Math.max(ax, bx) + wide > surface.width;
-  const [x, y] = steep ? at((ax + bx) / 2, (ay + by) / 2, beside + 8) : fits ? point(0.5) : [before ? Math.min(ax, bx) - 8 : Math.max(ax, bx) + 8, point(0)[1]];
+  const [x, y] = steep ? [(ax + bx) / 2 + 8 * nx, (ay + by) / 2 + 8 * ny] : fits ? point(0.5) : [before ? Math.min(ax, bx) - 8 : Math.max(ax, bx) + 8, ay];
   const align = before || (steep && nx < 0) ? "right" : fits ? "center" : "left";
   surface.text(x, y, words, { colour: theme.ink, size: theme.textSize, bold: true, baseline: "middle", align });
+  return ends;
 }
 
 /** The table with the paths; returns where the bodies go. */
@@ -127,7 +138,8 @@ function drawPaths(surface, { lanes, radius, unit, secret }, theme) {
   const larger = pixels / (radius * scale);
   const caption = `${length(bar, unit)}${larger > 1.05 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
   surface.text(start - 6, base - 1, caption, { colour: theme.soft, size: 0.95 * size, align: "right" });
-  return { pixel, pixels, cells };
+  const toTable = (x, y) => ({ x: left + (x - cells[1].left - pixels - 4) / scale, y: (low + high) / 2 - (y - cells[1].top - above - (height - above) / 2) / scale });
+  return { pixel, pixels, cells, toTable, bar: [[start, base], [end, base]] };
 }
 
 const arrowShare = 0.06;  // of the patch's radius, the longest slip in it

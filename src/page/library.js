@@ -5,7 +5,7 @@ export async function loadLibrary() {
   const module = await loadContensou({ wasmBinary: await globalThis.contensouWasm });
   const { contact, fit, lawName, portraitFile, rollingSlip } = module;
   return {
-    laws: module.laws(), bodies: module.bodies(), balls: module.catalogue(), views: module.views(), plane: new module.Plane(),
+    laws: module.laws(), bodies: module.bodies(), balls: module.catalogue(), views: module.views().flatMap((view) => (view.name === "uv" ? [view, { ...view, name: "bent" }] : [view])), plane: new module.Plane(),
     contact, fit, lawName, portraitFile, rollingSlip,
   };
 }

@@ -54,7 +54,7 @@ function start(library) {
   const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
   const film = new Film(store, player, ask);
   const share = new Share(store, plane, hero, player, address, film);
-  const go = (fragment, step = 0) => ask((state) => Object.assign(state, fromFragment(fragment, library), { step, theme: state.theme, embed: state.embed }), () => player.toggle(player.moves));
+  const go = (fragment, step = 0) => ask((state) => Object.assign(state, fromFragment(fragment, library), { step, theme: state.theme, embed: state.embed, lab: state.lab }), () => player.toggle(player.moves));
   const showPresets = makePresets(library, go);
   const tour = new Tour(go);
   makeThrowing(store, hero, player, plane);
@@ -75,7 +75,8 @@ function start(library) {
   };
   store.listen(({ moment }) => {
     if (!moment) {
-      document.documentElement.classList.toggle("embed", store.state.embed);
+      for (const kind of ["embed", "lab"]) document.documentElement.classList.toggle(kind, store.state[kind]);
+      document.documentElement.dataset.step = String(store.state.step);
       plane.announce("");
       hero.show();
       showControls();

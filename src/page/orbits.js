@@ -1,5 +1,6 @@
 // The list of the reader's orbits, and the form that starts one.
 import { $, make, showList, write } from "./dom.js";
+import { lawTitle } from "./law_field.js";
 import { parseNumber, shown } from "./numbers.js";
 
 /**
@@ -56,7 +57,7 @@ export function makeOrbits(store, plane, { ask, stopText }) {
   return {
     remove,
     show() {
-      const { state: { orbits, chosen, ball }, motions, theme } = store;
+      const { state: { orbits, chosen, ball }, motions, others, request, theme } = store;
       $("clear-orbits").hidden = orbits.length < 2;
       showList(list, orbits, item, (entry, { u, v }, index) => {
         entry.className = index === chosen ? "chosen" : "";
@@ -66,7 +67,7 @@ export function makeOrbits(store, plane, { ask, stopText }) {
         choose.setAttribute("aria-pressed", String(index === chosen));
         write(choose.children[0], `u₀ = ${shown(u, 4)}, v₀ = ${shown(v, 4)}` +
           (ball ? `: spin ${shown(u / ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : ""));
-        write(choose.children[1], `stops at ${stopText(motions[index].stop)}`);
+        write(choose.children[1], `stops at ${stopText(motions[index].stop)}${others ? `; by ${lawTitle(request.against)} ${stopText(others[index])}` : ""}`);
         discard.setAttribute("aria-label", `Remove orbit ${index + 1}`);
       });
     },

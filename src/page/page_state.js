@@ -16,11 +16,11 @@ export function bodyOf(state, { bodies }) {
 
 export const fields = ["none", "motion", "regularised"];
 
-export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "rollingFriction"];
+export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "rollingFriction", "slope"];
 
 /** What a number may be, from 1e-9 to 1e9 if nothing else is said: beyond, what follows from it may be no number. */
 const ranges = {
-  rollingFriction: [0, 1e3], along: [-1e9, 1e9], across: [-1e9, 1e9], chi: [1e-3, 1e3], gamma: [1e-3, 1e3], mu: [1e-6, 10],
+  rollingFriction: [0, 1e3], slope: [-89, 89], along: [-1e9, 1e9], across: [-1e9, 1e9], chi: [1e-3, 1e3], gamma: [1e-3, 1e3], mu: [1e-6, 10],
   "window-U": [Number.MIN_VALUE, Infinity], "window-V": [Number.MIN_VALUE, Infinity],
 };
 const rangeOf = (key) => ranges[key] ?? [1e-9, 1e9];
@@ -70,6 +70,7 @@ export function initialState() {
     ball: null,     // SI values of a real ball; then speeds are m/s
     step: 0,        // of the tour
     theme: "auto",
+    lab: false,     // all is shown, not the first floor alone
     embed: false,   // only the balls are shown, for a page around this one
   };
 }
@@ -85,14 +86,15 @@ export function firstState({ balls }) {
 /** A real ball with the start that the library has for it. */
 export function takeBall(state, ball) {
   Object.assign(state, {
-    ball: { ...ball, rollingFriction: 0 }, law: ball.law, body: ball.body, orbits: [startOf(ball.radius * ball.spin, ball.slip)],
+    ball: { ...ball, rollingFriction: 0, slope: 0 }, law: ball.law, body: ball.body, orbits: [startOf(ball.radius * ball.spin, ball.slip)],
     chosen: 0, fraction: 0, isochrone: 0, part: "sliding", window: null,
   });
   return state.ball;
 }
 
-/** Of what a link speaks that is more than how the page looks. */
-const stateKeys = new Set(["law", "body", "mu", "ball", "view", "window", "against", "field", "isochrones", "orbits", "part", "isochrone"]);
+/** Of what a link speaks that only the Lab shows, and that is more than how the page looks. */
+const labKeys = new Set(["law", "body", "mu", "view", "window", "against", "field", "isochrones"]);
+const stateKeys = new Set([...labKeys, "ball", "orbits", "part", "isochrone"]);
 
 export function toFragment(/** @type {State} */ state) {
   const { ball } = state;
@@ -108,10 +110,10 @@ export function toFragment(/** @type {State} */ state) {
       (heading ? [u, v, along, across, heading] : along === v && across === 0 ? [u, v] : [u, v, along, across]).join(",")).join(";"),
     chosen: state.chosen, step: unless(0, state.step),
     at: unless(0, Number(state.fraction.toFixed(4))), part: unless(ball ? "sliding" : "whole", state.part),
-    isochrone: unless(0, state.isochrone), theme: unless("auto", state.theme), embed: state.embed ? "1" : null,
+    isochrone: unless(0, state.isochrone), theme: unless("auto", state.theme), embed: state.embed ? "1" : null, lab: state.lab ? "1" : "0",
   };
   const query = new URLSearchParams(Object.entries(parts).flatMap(([key, value]) => (value == null ? [] : [[key, String(value)]])));
-  return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":");
+  return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":").replaceAll("%2F", "/");
 }
 
 /** Whether a link speaks of no motion, such as that of the page alone. */
@@ -127,6 +129,7 @@ export function fromFragment(fragment, known) {
   const query = new URLSearchParams(fragment.replace(/^#/, ""));
   const state = speaksOfNothing(fragment) ? firstState(known) : initialState();
   state.embed = query.has("embed");
+  state.lab = query.has("lab") ? query.get("lab") === "1" : [...query.keys()].some((key) => labKeys.has(key));
   const choice = (key, allowed, use) => allowed.includes(query.get(key)) && use(query.get(key));
   const number = (key, use, allowed = (/** @type {number} */ _) => true) => {
     const value = Number(query.get(key));

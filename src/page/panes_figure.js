@@ -24,7 +24,7 @@ const most = 1500;  // points of a film that are drawn
 /** What a film of this ball has measured, as points t0, v0, t1, v1, ...; {v, u}. */
 function pointsOf({ measured, state: { ball } }) {
   if (!measured || measured.ball !== ball?.name) return {};
-  const { t, slip = [], spin = [] } = measured;
+  const { t, slip = [], spin = [] } = measured.columns;
   const step = Math.ceil(t.length / most);
   const points = (column, scale) => Array.from(column).flatMap((value, i) => (i % step || Number.isNaN(value) ? [] : [t[i], scale * value]));
   return { v: points(slip, 1), u: points(spin, ball.radius) };

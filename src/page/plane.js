@@ -4,6 +4,7 @@ import { Copies, sizeOf } from "./copies.js";
 import { listen } from "./gestures.js";
 import { plain } from "./runs.js";
 import { shown } from "./numbers.js";
+import { makeSizes } from "./sizes.js";
 import { moved, startOf } from "./page_state.js";
 import { drawPortrait } from "./portrait_figure.js";
 import { rowsOf } from "./portrait_layout.js";
@@ -19,7 +20,6 @@ export class Plane {
   planeScene = /** @type {ReturnType<Plane["scene"]>} */ ({});
   /** @type {{panel: number, x: number, y: number} | null} */
   cross = null;
-
   /** @param {import("./store.js").Store} store @param act  ask(edit), removeOrbit(index), stopText(tau) */
   constructor(store, act) {
     this.store = store;
@@ -54,6 +54,7 @@ export class Plane {
       grow: (factor) => this.scale(factor),
       remove: () => store.motion && act.removeOrbit(store.state.chosen),
     });
+    this.showSize = makeSizes(store, act.ask, (text) => this.announce(text));
     $("zoom-in").addEventListener("click", () => this.zooming.by(0.7));
     $("zoom-out").addEventListener("click", () => this.zooming.by(1 / 0.7));
     $("zoom-ever").addEventListener("click", () => this.zooming.forEver());
@@ -91,6 +92,7 @@ export class Plane {
 
   /** What a screen reader says of the plane; nothing that changes with the moment. */
   label() {
+    this.showSize();
     const { portrait, state, motion } = this.store;
     const legend = portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
     const count = state.orbits.length;
@@ -201,11 +203,6 @@ export class Plane {
     this.cross = null;
     this.announce("");
     this.store.move({ isochrone: 0 });
-  }
-
-  view(name) {
-    this.cross = null;
-    this.zooming.view(name);
   }
 
   // --- the cross that keys move -------------------------------------------------------------------------------------

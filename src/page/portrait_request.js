@@ -11,15 +11,17 @@ export const shotOf = (ball, { u, v, along, across }) => ({
  * Of how a body turns forward the plane knows nothing.
  *
  * @param {State} state
- * @param {{chi: number, gamma: number}} body
+ * @param {{chi: number, gamma: number, drive: number}} body  drive: of a slope
  * @param {boolean} screen  light on dark
  * @returns {PortraitRequest} null for what is not asked for
  */
-export function portraitRequest(state, { chi, gamma }, screen) {
+export function portraitRequest(state, { chi, gamma, drive }, screen) {
   const { law, mu, ball, chosen, view, window, isochrones, field, against } = state;
   const orbits = state.orbits.map(unrolled);
   return {
-    law, mu, chi, gamma, orbits, chosen, view, window, isochrones, field, screen,
+    law, mu, chi, gamma, drive, orbits, chosen, window, isochrones, field, screen,
+    // The plane is linear; that of the power is a view of its own.
+    view: view === "bent" ? "uv" : view, linear: view === "uv",
     // Without a motion there is no ball in the program's sense: only the mu of one.
     ball: ball && orbits[chosen] ? shotOf(ball, orbits[chosen]) : null,
     // A law is not compared with itself.

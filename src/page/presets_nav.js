@@ -4,7 +4,7 @@ import { fromFragment, toFragment } from "./page_state.js";
 import { presets } from "./presets.js";
 
 /** What a link says of the motion alone. */
-const motionOf = (state) => toFragment({ ...state, fraction: 0, isochrone: 0, window: null, step: 0, theme: "auto", embed: false });
+const motionOf = (state) => toFragment({ ...state, fraction: 0, isochrone: 0, window: null, step: 0, theme: "auto", embed: false, lab: false });
 
 /** @param go  called with the fragment of a preset @returns shows which of them the state is */
 export function makePresets(library, go) {

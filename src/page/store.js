@@ -9,7 +9,7 @@ const slow = 1 / 500;  // of the fastest slip in the patch at first: without uni
 
 /** What moves where there are no units: of any size, and a second is a unit of tau. */
 const ballOf = (radius) =>
-  ({ mass: 1, radius, friction: 2 / (3 * Math.PI), gravity: 1, patchBy: "patch_radius", patch: radius, body: "ball", rollingFriction: 0 });
+  ({ mass: 1, radius, friction: 2 / (3 * Math.PI), gravity: 1, patchBy: "patch_radius", patch: radius, body: "ball", rollingFriction: 0, slope: 0 });
 
 export class Store {
   /** @type {((change: {moment: boolean}) => void)[]} */
@@ -24,6 +24,8 @@ export class Store {
   body = { chi: 1, gamma: 1, largestMu: 1, mu: /** @type {number | undefined} */ (undefined) };
   /** @type {OwnOrbit[]} */
   motions = [];
+  /** @type {number[] | null} when they stop by the law compared with, in tau */
+  others = null;
   /** @type {Measured | null} the last film */
   measured = null;
   /** @type {any} the chosen one */
@@ -83,44 +85,53 @@ export class Store {
   /** Everything that depends on law, body, patch and starts, but not on the moment. */
   compute(/** @type {State} */ state) {
     const { library, library: { plane } } = this;
-    this.contact = state.ball
-      ? this.keep("contact", [state.law, state.ball], () => library.contact(state.law, shotOf(state.ball, startOf(0, 0))))
-      : null;
+    const orbit = state.orbits[state.chosen];
+    // A slope drives what slides, the way it slides.
+    const slides = state.ball?.slope ? orbit : undefined;
+    const contactBy = (law) => library.contact(law, shotOf(state.ball, slides ?? startOf(0, 0)));
+    this.contact = state.ball ? this.keep("contact", [state.law, state.ball, slides], () => contactBy(state.law)) : null;
     if (this.contact) state.mu = this.contact.mu;
     this.body = bodyOf(state, library);
     const { chi, gamma } = this.body;
-    /** @type {[string, number, number, number]} */
-    const system = [state.law, state.mu, chi, gamma];
+    const drive = this.contact?.drive ?? 0;
+    /** @type {[string, number, number, number, number]} */
+    const system = [state.law, state.mu, chi, gamma, drive];
     const ofSystem = (name, key, make) => this.keep(name, [...system, ...key], make);
     this.facts = ofSystem("facts", [], () => plane.choose(...system));
-    this.request = portraitRequest(state, this.body, isDark(state.theme));
+    this.request = portraitRequest(state, { chi, gamma, drive }, isDark(state.theme));
     this.portrait = this.keep("portrait", this.request, () => plane.portrait(this.request));
     this.motions = this.portrait.own;
-    const orbit = state.orbits[state.chosen];
+    const { against } = this.request;
+    this.others = against ? ofSystem("others", [against, state.ball, state.orbits], () => {
+      const mu = state.ball ? contactBy(against).mu : state.mu;
+      return state.orbits.map(({ u, v }) => plane.stopBy(against, mu, u, v));
+    }) : null;
     this.motion = this.motions[state.chosen];
     this.ride = orbit ? this.rideOf(state, orbit, ofSystem) : null;
   }
 
   /** How the body of an orbit slides over the table, and beside it one that does not spin: SI units, but `end` in tau. */
   rideOf(state, orbit, ofSystem) {
-    const { library, library: { plane }, body: { chi }, motion: { stop }, timeFactor } = this;
+    const { library: { rollingSlip, plane }, body: { chi }, timeFactor } = this;
     const rolls = chi !== 1;
     const { u, v } = orbit;
     const ball = state.ball ?? ballOf(1);
-    const least = state.ball ? library.rollingSlip : slow * (v + state.mu * Math.abs(u));
+    const least = state.ball ? rollingSlip : slow * (v + state.mu * Math.abs(u));
+    const resistance = rolls ? ball.rollingFriction : 0;
     const starts = { plain: { ...orbit, u: 0 }, own: orbit };
     const slide = (name) => {
-      if (v === 0 && starts[name].u === 0) return { end: 0, path: 0, turned: 0 };
+      if (v === 0 && starts[name].u === 0) return { end: 0, path: 0, turned: 0, stop: 0 };
       const shot = shotOf(ball, starts[name]);
-      return ofSystem(`${name} slide`, [shot, least], () => plane.slide(shot, least));
+      return ofSystem(`${name} slide`, [shot, least], () => plane.slide(shot, resistance, least));
     };
     const [plain, own] = [slide("plain"), slide("own")];
     const radius = state.ball?.radius ?? (Math.max(own.path, plain.path) / 4 || 1);
     const ride = (name, until, kept = `${name} ride`) => {
       const shot = shotOf(state.ball ?? ballOf(radius), starts[name]);
-      return ofSystem(kept, [shot, until], () => plane.ride(shot, rolls ? ball.rollingFriction : 0, until * timeFactor));
+      return ofSystem(kept, [shot, until], () => plane.ride(shot, resistance, until * timeFactor));
     };
-    const rest = rolls && ball.rollingFriction > 0 ? ride("own", 0, "rest").rest : null;
+    const rest = rolls && (resistance > 0 || ball.slope) ? ride("own", 0, "rest").rest : null;
+    const stop = own.stop / timeFactor;
     // Also what rolls soon is seen to roll.
     const speed = state.ball && rolls ? Math.hypot(orbit.along - v / chi, orbit.across) : 0;
     const rolling = speed > 0 ? Math.min(longest, (6 * radius) / speed) / timeFactor : 0;

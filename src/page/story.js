@@ -17,10 +17,10 @@ const some = 1.05;
  */
 
 /** What the library knows of the chosen motion. @returns {Facts} */
-export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across }, motion, timeFactor, library: { plane } }) {
+export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across }, timeFactor, library: { plane } }) {
   return {
     name: ball ? ball.title.replace(/ (on|of) .*/, "") : rolls ? "ball" : "puck", real: Boolean(ball), rolls, spin: u / (ball?.radius ?? 1), slip: v,
-    along, across, least, own, plain, rest, stop: motion.stop * timeFactor, turningAlone: u === 0 ? 0 : plane.stop(u, 0) * timeFactor,
+    along, across, least, own, plain, rest, stop: own.stop, turningAlone: u === 0 ? 0 : plane.stop(u, 0) * timeFactor,
   };
 }
 
@@ -44,7 +44,7 @@ function wordsOf(/** @type {Facts} */ facts) {
   const unit = real ? "m" : "";
   const time = (t) => `${real ? "" : "τ = "}${duration(t, unit)}`;
   const leave = along === slip && across === 0 ? "leave" : "touch down, slipping";
-  const turns = real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
+  const turns = spin === 0 ? "does not spin" : real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
   return {
     ...facts, thing: name.split(" ").at(-1), speed: real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`, time, leave, turns, then: rolls ? "then it rolls" : "then it stops",
     far: length(own.path, unit), farther: length(own.path - plain.path, unit), farPlain: length(plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
@@ -77,11 +77,14 @@ const sentences = {
   rests: (words) => [`A ${words.thing} at rest`, "Nothing slides and nothing spins."],
 };
 
-/** {headline, story} of a motion. */
+/** {headline, story} of a motion, and what words in the story name: the body without spin or the other, slip or spin. */
 export function say(/** @type {Facts} */ facts) {
-  const [headline, story] = sentences[regimeOf(facts)](wordsOf(facts));
+  const words = wordsOf(facts);
+  const [headline, story] = sentences[regimeOf(facts)](words);
   const { rest } = facts;
-  return { headline, story: rest ? `${story} It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), "m")} from its start.` : story };
+  const { speed, turns, far, farPlain } = words;
+  const names = { [far]: "own", [farPlain]: "plain", "One does not spin": "plain", "The other spins": "own", [speed]: "slip", [turns]: "spin" };
+  return { headline, names, story: rest ? `${story} It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), "m")} from its start.` : story };
 }
 
 /** Asked before anything is told. */

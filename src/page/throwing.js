@@ -58,22 +58,33 @@ export function makeThrowing(store, hero, player, plane) {
     return { spin: Math.max(-spin, Math.min(spin, now + by * spin)) };
   };
 
+  const isBody = (x, y, beside = 0) => hero.places.some((place) => Math.hypot(place.x - x, place.y - y) <= place.radius + beside);
+
   listen(canvas, {
     hold(x, y, kind) {
-      const index = hero.places.findIndex((place) => Math.hypot(place.x - x, place.y - y) <= place.radius + reach[kind]);
-      return store.ride && index >= 0 ? index : null;
+      if (!store.ride) return null;
+      return (isBody(x, y) ? "body" : hero.asked ? null : hero.ruler.at(x, y, kind)) ?? (isBody(x, y, reach[kind]) ? "body" : null);
     },
-    pull(x, y, _held, from) {
+    pull(x, y, held, from) {
+      if (held !== "body") return hero.ruler.pull(held, x, y);
       const [dx, dy] = [x - from[0], from[1] - y];
       const heading = Math.round((Math.atan2(dy, dx) * 180) / Math.PI);
       show({ from, slip: Math.hypot(dx, dy) / pixelsPerSpeed(), heading: Math.abs(heading) <= level ? 0 : heading });
     },
-    turn: (radians) => show(spun(radians / (2 * Math.PI * turns))),
-    release, cancel, clear: cancel, leave: cancel,
+    turn: (radians, held) => held === "body" && show(spun(radians / (2 * Math.PI * turns))),
+    release, cancel, leave: cancel,
+    clear() {
+      cancel();
+      hero.ruler.reset();
+    },
+    ruler: () => store.ride && !hero.asked && hero.ruler.next(),
     tap: () => player.toggle(),
-    point: (x, y) => (canvas.style.cursor = hero.places.some((place) => Math.hypot(place.x - x, place.y - y) <= place.radius) ? "grab" : ""),
+    point(x, y) {
+      canvas.style.cursor = isBody(x, y) ? "grab" : hero.asked ? "" : { to: "ew-resize", from: "ew-resize", both: "move" }[hero.ruler.at(x, y, "mouse")?.part ?? ""] ?? "";
+    },
     move(dx, dy) {
       if (!store.ride) return;
+      if (hero.ruler.part) return hero.ruler.move(4 * dx, 4 * dy);
       const slip = aim?.slip ?? store.orbit.v;
       show({ slip: Math.max(0, Math.min(2 * most().slip, slip + (dx * most().slip) / keySteps)), ...spun(dy / keySteps) });
     },

@@ -9,31 +9,31 @@ interface State {
   law: string; body: string; chi: number; gamma: number; mu: number;
   view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
   orbits: Start[]; chosen: number; fraction: number; part: string; isochrone: number;
-  ball: Ball | null; theme: string; embed: boolean; step: number;
+  ball: Ball | null; theme: string; embed: boolean; lab: boolean; step: number;
 }
 
 interface Ball {
   name: string; title: string; body: string; law: string; sources: string; patchBy: string;
   radius: number; mass: number; friction: number; gravity: number; patch: number;
-  slip: number; spin: number; rollingFriction: number;
+  slip: number; spin: number; rollingFriction: number; slope: number;
 }
 
 interface Law { name: string; meaning: string; letter?: string; example?: number }
 interface Body { name: string; chi: number; gamma: number; mu?: number }
 interface View { name: string; layered: boolean }
-interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number }
+interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number }
 
 /** What one portrait is asked for by: portrait_request.js. */
 interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
-  screen: boolean; orbits: Speeds[]; ball: object & Ball & { velocity: number[]; angular_velocity: number[] } | null;
+  screen: boolean; linear: boolean; drive: number; orbits: Speeds[]; ball: object & Ball & { velocity: number[]; angular_velocity: number[] } | null;
 }
 
 /** Columns. */
 interface Motion { tau: Float64Array; u: Float64Array; v: Float64Array; k: Float64Array; lnV: Float64Array }
 interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
 interface Instant extends Speeds { tau: number; k: number; force: number; places: Float64Array }
-/** SI: when it has ended, the path of the centre until then, and by how many degrees it has turned. */
-interface Slide { end: number; path: number; turned: number }
+/** SI: when it has ended, the path of the centre until then, and by how many degrees it has turned; when slip and spin have ended. */
+interface Slide { end: number; path: number; turned: number; stop: number }
 /** Columns, SI. */
 interface Ride {
   t: Float64Array; x: Float64Array; y: Float64Array; vx: Float64Array; vy: Float64Array; wx: Float64Array; wy: Float64Array; wz: Float64Array;
@@ -64,17 +64,19 @@ interface Library {
   lawName(called: string): string;
   portraitFile(request: PortraitRequest, ending: string): string;
 }
-/** Columns, SI, and the name of the ball; slip and spin where the film has them. */
-interface Measured { ball: string; t: Float64Array; slip?: Float64Array; spin?: Float64Array }
-interface Fitted { measured: Omit<Measured, "ball">; report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number; figure: Figure }
+/** The name of the ball, and columns in SI units: t, of each observable of the film what was measured and, with _fitted, what was found. */
+type Columns = Record<string, Float64Array>;
+interface Measured { ball: string; columns: Columns }
+interface Fitted { measured: Columns; report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number; figure: Figure }
 interface LibraryPlane {
-  choose(law: string, mu: number, chi: number, gamma: number): { terminalRatio: number; meaning: string };
+  choose(law: string, mu: number, chi: number, gamma: number, drive: number): { terminalRatio: number; meaning: string };
   portrait(request: PortraitRequest): Portrait;
   stop(u: number, v: number): number;
+  stopBy(law: string, mu: number, u: number, v: number): number;
   instant(u: number, v: number, tau: number): Instant;
   place(u: number, v: number): Float64Array;
   at(panel: number, x: number, y: number): Speeds | null;
-  slide(ball: object, least: number): Slide;
+  slide(ball: object, rollingFriction: number, least: number): Slide;
   ride(ball: object, rollingFriction: number, end: number): Ride;
   motion(u: number, v: number): Motion;
   isochrone(tau: number): Float64Array[];

@@ -1,7 +1,8 @@
 // What the page says of the library's views.
 
 const texts = {
-  uv: ["plane", "The paper's plane: sliding v against pivoting u = R ω, ω the spin about the vertical. Every orbit runs into the origin. Where μ is small, v below the shading is on the scale of a power, on which orbits are straight."],
+  uv: ["plane", "The paper's plane: sliding v against pivoting u = R ω, ω the spin about the vertical. Every orbit runs into the origin."],
+  bent: ["bent", "The plane, with v below the shading on the scale of a power where μ is small: orbits then run straight into the origin."],
   patch: ["patch", "Both speeds as the rim of the patch has them: the slope of a ray is k = v/(μ|u|)."],
   log: ["log", "Logarithms of both speeds. Scaling moves an orbit along the diagonal: all of them are copies of one curve."],
   similarity: ["similarity", "Canonical coordinates: here scaling is a shift along p = ln v, and every orbit is the same curve, shifted."],

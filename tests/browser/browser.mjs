@@ -40,8 +40,9 @@ export async function open(fragment = "", options = {}, ready = true, before = n
   page.on("pageerror", (error) => complaints.push(error.message));
   page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks for ${request.url()}`));
   if (before) await page.addInitScript(before);
-  await page.goto(address + fragment);
-  if (ready) await page.waitForSelector("#orbits li");
+  // With all that there is, unless a test asks for the first floor.
+  await page.goto(`${address}${fragment}${/lab=/.test(fragment) ? "" : fragment ? "&lab=1" : "#lab=1"}`);
+  if (ready) await page.waitForSelector("#orbits li", { state: "attached" });
   else if (ready === false) await page.waitForFunction(() => globalThis.page?.store.settled);
 }
 

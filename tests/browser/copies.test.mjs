@@ -138,3 +138,44 @@ test("the tour's copies are copies", async () => {
   });
   await close();
 });
+
+test("the size of a start is a slider: its ends are the rim of the disc and the blown-up origin", async () => {
+  await open("#lab=0&ball=puck&orbits=2.286,0.5");
+  const to = async (value) => {
+    await page.locator("#size").evaluate((input, value) => {
+      input.value = value;
+      input.dispatchEvent(new Event("input"));
+    }, value);
+    return page.evaluate(() => {
+      const { state, store, library: { plane } } = globalThis.page;
+      const [{ u, v }] = state.orbits;
+      return { u, v, view: state.view, stop: store.motion.stop, place: [...plane.place(u, v)], said: document.getElementById("pointed").textContent };
+    });
+  };
+  const first = await to(0);
+  assert.equal(first.view, "uv");
+  const half = await to(-75);
+  assert.equal(half.view, "uv");
+  assertClose(half.stop / first.stop, 10 ** -0.3, 1e-5, "c times as long");
+  assert.match(half.said, /^A copy, c = 0\.501: it stops after/);
+  // The farther, the nearer to the circle of radius 1, and never beyond.
+  const rims = [];
+  for (const value of [250, 500, 750, 1000]) {
+    const { view, place, said } = await to(value);
+    assert.equal(view, "disc");
+    assert.match(said, /flies to the circle/);
+    rims.push(Math.hypot(place[0], place[1]));
+  }
+  rims.forEach((rim, i) => assert.ok(rim <= 1 && (i === 0 || rim > rims[i - 1]), `${rims}`));
+  assert.ok(rims.at(-1) > 0.999, `${rims}`);
+  const small = await to(-1000);
+  assert.equal(small.view, "blowup");
+  assertClose(small.u / small.v, first.u / first.v, 1e-5, "its direction");
+  assert.match(small.said, /inner circle/);
+  // Back in the middle it is what it was.
+  const back = await to(0);
+  assert.deepEqual([back.view, back.u, back.v], ["uv", first.u, first.v]);
+  await page.click("#presets a:nth-child(2)");
+  assert.equal(await page.inputValue("#size"), "0");
+  await close();
+});

@@ -91,7 +91,7 @@ async function assertSamePicture(what) {
 
 test("opens from disk and asks the network for nothing; at most 650 kB", async () => {
   assert.ok(statSync(file).size <= 650_000, `${statSync(file).size} bytes`);
-  await open();
+  await open("#lab=0");
   assert.match(await page.title(), /contensou/);
   assert.equal((await stopTimes()).length, 1);
   await close();
@@ -209,10 +209,10 @@ test("at the size of a notebook all of it is on the first screen, and on a phone
     const { top, bottom, left, right } = document.getElementById(id).getBoundingClientRect();
     return [id, { top, bottom, left, right }];
   })));
-  await open("", { viewport: { width: 1440, height: 900 } });
+  await open("#lab=0", { viewport: { width: 1440, height: 900 } });
   for (const [id, { top, bottom }] of Object.entries(await places())) assert.ok(top >= 0 && bottom <= 900, `${id}: ${top} to ${bottom}`);
   await close();
-  await open("", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  await open("#lab=0", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
   const { lanes, play, patch, plane, tour } = await places();
   assert.ok(lanes.bottom < 470 && play.bottom < 530 && patch.bottom < 700, JSON.stringify({ lanes, play, patch }));
   assert.ok(plane.top < 1200 && tour.top > plane.bottom, JSON.stringify({ plane, tour }));

@@ -2,9 +2,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commandLine } from "../../src/page/command_line.js";
-import { citation, csvOfOrbits, csvOfRide, filmType } from "../../src/page/exports.js";
+import { citation, csvOfFilm, csvOfOrbits, csvOfRide, filmType } from "../../src/page/exports.js";
 import { sizeOf } from "../../src/page/copies.js";
 import { Frame } from "../../src/page/frame.js";
+import { lawOfTable, lawTitle } from "../../src/page/law_field.js";
 import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
 import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, speaksOfNothing, startOf, takeBall, toFragment } from "../../src/page/page_state.js";
 import { packed, unpacked } from "../../src/page/packing.js";
@@ -91,14 +92,14 @@ test("every state comes back from its link", () => {
   const ball = initialState();
   Object.assign(takeBall(ball, gel), { friction: 0.125, patchBy: "spin_deceleration", patch: 12.5 });
   ball.orbits = [startOf(1, 2), startOf(3, 4, -1, 0.25), startOf(3, 4, 4, 0, -45)];
-  for (const state of [...states, ball, { ...ball, part: "whole", embed: true }]) assert.deepEqual(fromFragment(`#${toFragment(state)}`, known), state);
+  for (const state of [...states, ball, { ...ball, part: "whole", embed: true, lab: true, ball: { ...ball.ball, slope: -2 } }]) assert.deepEqual(fromFragment(`#${toFragment(state)}`, known), state);
 });
 
 test("what cannot be read in a link keeps its first value", () => {
   const first = initialState();
   for (const part of ["law=nonsense", "mu=-1", "mu=x", "view=none", "window=1", "window=0,1", "orbits=x", "mu=0.3&at=2", "ball=golf", "body=1", "isochrones=3", "part=none", "mu=0.3&theme=red", "mu=0.3&step=9"]) {
     const state = fromFragment(part, known);
-    assert.deepEqual({ ...state, orbits: part.startsWith("orbits") ? first.orbits : state.orbits }, first, part);
+    assert.deepEqual({ ...state, orbits: part.startsWith("orbits") ? first.orbits : state.orbits, lab: false }, first, part);
   }
   assert.deepEqual(fromFragment("orbits=x;1,-1;0.5,1;1,2,3&chosen=7", known).orbits, [startOf(0.5, 1)]);
   assert.deepEqual(fromFragment("mu=0.3&orbits=1,2,3,4", known).orbits, [startOf(1, 2)], "without units nothing is known of the centre");
@@ -110,6 +111,8 @@ test("what cannot be read in a link keeps its first value", () => {
   // Nor is a link that was cut or mangled another world.
   for (const link of ["", "#garbage", "#%", "#utm_source=x"]) assert.deepEqual(fromFragment(link, known), { ...firstState(known), mu: 1 }, link);
   assert.ok(fromFragment("#embed", known).embed);
+  // The Lab is open where a link says so, or speaks of what it alone shows.
+  assert.deepEqual(["", "#ball=puck&orbits=1,2", "#view=log", "#lab=1", "#view=log&lab=0"].map((link) => fromFragment(link, known).lab), [false, false, true, true, false]);
   assert.deepEqual(["", "#garbage", "#theme=dark", "#embed", "#mu=0.3", "#ball=puck"].map(speaksOfNothing), [true, true, true, true, false, false]);
 });
 
@@ -191,6 +194,11 @@ test("what there is to see follows from the numbers, and is said in words withou
     const said = say(all);
     assert.match(said.headline, headline);
     assert.match(said.story, story);
+    // What is named in it is there; numbers that are handles stand in it.
+    for (const [words, kind] of Object.entries(said.names)) assert.ok(["own", "plain", "slip", "spin"].includes(kind) && words);
+    if (["much", "more", "soon", "together", "plain"].includes(regime)) {
+      for (const kind of ["slip", "spin"]) assert.ok(Object.entries(said.names).some(([words, its]) => its === kind && said.story.includes(words)), `${regime}: ${kind}`);
+    }
     assert.doesNotMatch(`${said.headline} ${said.story}`, /NaN|Infinity|∞|undefined|·10/);
     seen.add(regime);
   }
@@ -233,16 +241,29 @@ test("the command line names what differs from what the program would do", () =>
   const line = (state, through = []) => commandLine(state, requestOf(state), through, bodyOf(state, known), gel);
   const state = { ...initialState(), orbits: [{ u: 0.8, v: 3.5 }], window: [1, 2], against: "pade", isochrones: 0, field: "motion" };
   assert.deepEqual(line(state, [{ u: -1, v: 0.5 }]), {
-    portrait: "contensou portrait --mu 0.3 --u0 0.8 --v0 3.5 --law exact --against pade --view uv --window 1,2 --through -1,0.5 --isochrones 0 --field motion -o portrait.svg",
+    portrait: "contensou portrait --mu 0.3 --u0 0.8 --v0 3.5 --law exact --against pade --view uv --scale linear --window 1,2 --through -1,0.5 --isochrones 0 --field motion -o portrait.svg",
     roll: null,
   });
   const ball = initialState();
   takeBall(ball, gel).friction = 0.25;
   ball.orbits[0].across = 1.5;
   assert.deepEqual(line(ball), {
-    portrait: "contensou portrait --ball gel --friction 0.25 --slip 0.5 --spin 300 --law exact --view uv -o portrait.svg",
+    portrait: "contensou portrait --ball gel --friction 0.25 --slip 0.5 --spin 300 --law exact --view uv --scale linear -o portrait.svg",
     roll: "contensou roll --ball gel --friction 0.25 --velocity 0.5,1.5 --angular-velocity -50,0,300 --law exact",
   });
+});
+
+test("a pressure of the reader's own is a law that a link carries, and a file that the program reads", () => {
+  const text = "rho, pressure, note\r\n0,1,x\r\n0.5,0.9,y\r\n1,0,z\r\n";
+  assert.equal(lawOfTable(text), "table:0/1;0.5/0.9;1/0");
+  assert.deepEqual(["table:0/1;1/0", "pade", null].map(lawTitle), ["pressure.csv", "pade", null]);
+  assert.throws(() => lawOfTable("r,p\n0,1\n1,0\n"), /columns rho and pressure/);
+  assert.throws(() => lawOfTable(`rho,pressure\n${"0,1\n".repeat(201)}`), /at most 200 rows.*--law FILE\.csv/);
+});
+
+test("a film is handed out with what was found and what is left, angles up to whole turns", () => {
+  const columns = { t: [0, 1], slip: [1, 0.5], slip_fitted: [0.75, 0.5], angle: [7, 1], angle_fitted: [7 - 2 * Math.PI, 0.5], note: [1, 2] };
+  assert.equal(csvOfFilm(columns), `t,slip,slip_fitted,slip_residual,angle,angle_fitted,angle_residual\n0,1,0.75,0.25,7,${7 - 2 * Math.PI},0\n1,0.5,0.5,0,1,0.5,0.5\n`);
 });
 
 test("a table of orbits has the program's words for infinity, that of a ride the program's columns", () => {
