@@ -1,24 +1,24 @@
 // The page: what the reader does changes the state, and the state is drawn.
-import { Address } from "./address.js";
-import { Checks } from "./checks.js";
-import { makeControls } from "./controls.js";
-import { drawCopies } from "./copies_figure.js";
+import { Address } from "./state/address.js";
+import { Checks } from "./controls/checks.js";
+import { makeControls } from "./controls/controls.js";
+import { drawCopies } from "./plane/copies_figure.js";
 import { $, write } from "./dom.js";
-import { Film } from "./film.js";
-import { Hero } from "./hero.js";
+import { Film } from "./share/film.js";
+import { Hero } from "./hero/hero.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
-import { makeOrbits } from "./orbits.js";
-import { fromFragment, speaksOfNothing } from "./page_state.js";
-import { drawPanes } from "./panes_figure.js";
-import { Plane } from "./plane.js";
-import { Player } from "./player.js";
-import { makePresets } from "./presets_nav.js";
-import { Share } from "./share.js";
-import { Store } from "./store.js";
-import { ScreenSurface } from "./screen_surface.js";
-import { makeThrowing } from "./throwing.js";
-import { Tour } from "./tour.js";
+import { makeOrbits } from "./controls/orbits.js";
+import { fromFragment, speaksOfNothing } from "./state/page_state.js";
+import { drawPanes } from "./share/panes_figure.js";
+import { Plane } from "./plane/plane.js";
+import { Player } from "./state/player.js";
+import { makePresets } from "./controls/presets_nav.js";
+import { Share } from "./share/share.js";
+import { Store } from "./state/store.js";
+import { ScreenSurface } from "./drawing/screen_surface.js";
+import { makeThrowing } from "./hero/throwing.js";
+import { Tour } from "./controls/tour.js";
 
 function start(library) {
   const opens = speaksOfNothing(location.hash);

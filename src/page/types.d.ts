@@ -41,7 +41,7 @@ interface Ride {
 }
 interface Check { name: string; measured: number; allowed: number; passed: boolean }
 
-type Words = import("./runs.js").Text;
+type Words = import("./drawing/runs.js").Text;
 interface Tick { at: number; text: Words }
 interface Axis { name: Words; low: number; high: number; ticks: Tick[] }
 interface Lines { lines: Float64Array; colour: string; width: number; dashed: boolean; legend: Words; shape?: undefined }

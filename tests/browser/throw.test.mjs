@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { duration, length, shown } from "../../src/page/numbers.js";
-import { question } from "../../src/page/story.js";
+import { question } from "../../src/page/hero/story.js";
 import { assertClose, close, drawn, file, open, page, pixelOf, programStop, saved, state } from "./browser.mjs";
 
 /** Where a body is on the screen: the one that spins, or the other. */

@@ -1,22 +1,22 @@
 // The page's modules that need no browser.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { commandLine } from "../../src/page/command_line.js";
-import { citation, csvOfFilm, csvOfOrbits, csvOfRide, filmType } from "../../src/page/exports.js";
-import { sizeOf } from "../../src/page/copies.js";
-import { Frame } from "../../src/page/frame.js";
-import { lawOfTable, lawTitle } from "../../src/page/law_field.js";
+import { commandLine } from "../../src/page/plane/command_line.js";
+import { citation, csvOfFilm, csvOfOrbits, csvOfRide, filmType } from "../../src/page/share/exports.js";
+import { sizeOf } from "../../src/page/plane/copies.js";
+import { Frame } from "../../src/page/drawing/frame.js";
+import { lawOfTable, lawTitle } from "../../src/page/controls/law_field.js";
 import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
-import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, speaksOfNothing, startOf, takeBall, toFragment } from "../../src/page/page_state.js";
+import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, speaksOfNothing, startOf, takeBall, toFragment } from "../../src/page/state/page_state.js";
 import { packed, unpacked } from "../../src/page/packing.js";
-import { layOut, rowsOf } from "../../src/page/portrait_layout.js";
-import { portraitRequest } from "../../src/page/portrait_request.js";
-import { presets, tour } from "../../src/page/presets.js";
-import { italic, plain, runsOf } from "../../src/page/runs.js";
-import { Store } from "../../src/page/store.js";
-import { dare, outcome, question, regimeOf, say } from "../../src/page/story.js";
-import { rideOn, rotation, turnedBy } from "../../src/page/turning.js";
-import { described } from "../../src/page/views.js";
+import { layOut, rowsOf } from "../../src/page/plane/portrait_layout.js";
+import { portraitRequest } from "../../src/page/plane/portrait_request.js";
+import { presets, tour } from "../../src/page/state/presets.js";
+import { italic, plain, runsOf } from "../../src/page/drawing/runs.js";
+import { Store } from "../../src/page/state/store.js";
+import { dare, outcome, question, regimeOf, say } from "../../src/page/hero/story.js";
+import { rideOn, rotation, turnedBy } from "../../src/page/hero/turning.js";
+import { described } from "../../src/page/plane/views.js";
 
 // Letters of one width, where a browser would measure them.
 const context = { measureText: (text) => ({ width: 7 * text.length }) };

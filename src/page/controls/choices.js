@@ -1,0 +1,70 @@
+// Ball, body and law, and what the plane shows.
+import { $, write } from "../dom.js";
+import { choiceButtons } from "./fields.js";
+import { lawField, lawOfTable } from "./law_field.js";
+import { shown } from "../numbers.js";
+import { bodyOf, fields, initialState, takeBall, unrolled } from "../state/page_state.js";
+import { addNumber, choose } from "./state_fields.js";
+import { isDark } from "../drawing/theme.js";
+import { described } from "../plane/views.js";
+
+const fieldTitles = { none: "none", motion: "of the motion (2.6)", regularised: "regularised (2.7)" };
+
+/** As makeControls. */
+export function makeChoices(store, plane, { ask, attempt }) {
+  const { balls, bodies, laws, views, lawName } = store.library;
+  choose("ball", [{ name: "", title: "any size, any unit" }, ...balls], ask, (state, value) => {
+    const ball = balls.find(({ name }) => name === value);
+    if (ball) takeBall(state, ball);
+    else Object.assign(state, { ball: null, part: "whole", orbits: state.orbits.map(unrolled) });
+  });
+  const titles = bodies.map(({ name }) => ({ name, title: name.replace("-", " ") }));
+  choose("body", [...titles, { name: "own", title: "your own χ and γ" }], ask, (state, body) => {
+    state.body = body;
+    const { mu, largestMu } = bodyOf(state, store.library);
+    state.mu = mu ?? Math.min(state.mu, largestMu);
+  });
+  choose("field", fields.map((name) => ({ name, title: fieldTitles[name] })), ask, (state, field) => (state.field = field));
+  const useLaw = (key) => (name) => store.change((state) => (state[key] = name && lawName(name)));
+  const law = lawField("law", { laws, key: "exponent", attempt, use: useLaw("law") });
+  const against = lawField("against", { laws, key: "against-exponent", none: "no other law", attempt, use: useLaw("against") });
+  $("pressure").addEventListener("change", async ({ target }) => {
+    const text = await target.files[0]?.text().catch(() => "") ?? "";
+    attempt(() => useLaw("law")(lawOfTable(text)));
+    target.value = "";
+  });
+  $("isochrones").addEventListener("change", () => ask((state) => {
+    state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
+  }));
+  const viewButtons = choiceButtons($("views"), views.map(described), (name) => plane.zooming.view(name));
+  $("theme").addEventListener("click", () => ask((state) => {
+    state.theme = state.theme === "auto" ? (isDark("auto") ? "light" : "dark") : "auto";
+  }));
+  $("lab").addEventListener("click", () => ask((state) => (state.lab = !state.lab), () => store.state.lab &&
+    $("columns").scrollIntoView({ behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "instant" : "smooth" })));
+  const inertia = Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" }).map(([key, label]) =>
+    ({ key, field: addNumber(store, $("inertia"), key, label, (state, value) => (state[key] = value)) }));
+  const sides = ["U", "V"].map((name, side) => addNumber(store, $("window"), `window-${name}`, name, (state, value) => {
+    plane.zooming.before = undefined;
+    state.window = store.portrait.window.map((shown, i) => (i === side ? value : shown));
+  }));
+
+  return function show() {
+    const { state, state: { ball }, facts, portrait, view } = store;
+    $("lab").setAttribute("aria-expanded", String(state.lab));
+    law.show(state.law);
+    against.show(store.request.against);
+    for (const option of $("against").options) option.disabled = option.value === state.law;
+    for (const [id, value] of Object.entries({ ball: ball?.name ?? "", field: state.field, body: state.body })) $(id).value = value;
+    $("isochrones").checked = state.isochrones > 0;
+    $("field").disabled = $("isochrones").disabled = !view.layered;
+    $("body-label").hidden = Boolean(ball);
+    $("inertia").hidden = state.body !== "own";
+    for (const { key, field } of inertia) field.show(state[key]);
+    sides.forEach((field, side) => field.show(Number(portrait.window[side].toPrecision(6))));
+    viewButtons.show(state.view);
+    write($("view-hint"), view.hint);
+    write($("terminal"), `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}`);
+    $("theme").setAttribute("aria-label", `Theme: ${state.theme === "auto" ? "as the system" : state.theme}`);
+  };
+}

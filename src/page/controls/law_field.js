@@ -1,0 +1,56 @@
+// A choice among the laws, with a field for the number of a law that has one; and the reader's own pressure.
+import { $ } from "../dom.js";
+import { addNumberField, fillSelect } from "./fields.js";
+
+const table = "table";  // what the name of a law begins with that is the reader's own: rho/pressure of each row
+const mostRows = 200;   // of it, which go with the link
+
+/** What a law is called: a table by the file that the program would read. */
+export const lawTitle = (law) => (law?.startsWith(`${table}:`) ? "pressure.csv" : law);
+
+/** The name of the law of a CSV with columns rho and pressure. @throws {Error} if it has none */
+export function lawOfTable(text) {
+  const [header, ...rows] = text.replace(/^\ufeff/, "").trim().split(/\r\n?|\n/).map((line) => line.split(",").map((cell) => cell.trim()));
+  const columns = ["rho", "pressure"].map((name) => header.indexOf(name));
+  if (columns.includes(-1)) throw new Error("A table of pressure has columns rho and pressure: its first line is \"rho,pressure\".");
+  if (rows.length > mostRows) throw new Error(`A table of at most ${mostRows} rows is taken here, which go with the link; the program takes any: --law FILE.csv.`);
+  return `${table}:${rows.map((row) => columns.map((column) => row[column] ?? "").join("/")).join(";")}`;
+}
+
+/**
+ * @param {string} id  of the list, and with -exponent of where the number's field goes
+ * @param {{laws: Law[], key: string, none?: string, attempt: (action: () => void) => void, use: (name: string | null) => void}} how
+ *   none: the title of no law at all, if that is a choice; attempt: runs what may be rejected, and tells the reader;
+ *   use: called with what a law is called, or null for none; throws an Error whose message says why it will not do
+ */
+export function lawField(id, { laws, key, none, attempt, use }) {
+  const [select, place] = [$(id), $(`${id}-exponent`)];
+  const families = new Map(laws.filter(({ letter }) => letter).map((family) => [family.name, { name: family.name, number: String(family.example) }]));
+  fillSelect(select, [
+    ...(none ? [{ name: "", title: none }] : []),
+    ...laws.map(({ name, meaning, letter }) => ({ name, title: `${letter ? `${name}:${letter}` : name} – ${meaning}` })),
+  ]);
+  const field = addNumberField(place, {
+    key, label: "its number",
+    use: (value) => {
+      use(`${select.value}:${value}`);
+      families.set(select.value, { name: select.value, number: String(value) });
+    },
+  });
+  select.addEventListener("change", () => attempt(() => {
+    const family = families.get(select.value);
+    use(family ? `${family.name}:${family.number}` : select.value || null);
+  }));
+  return {
+    show(law) {
+      const [name, number] = (law ?? "").split(":");
+      if (name === table) {
+        if (!families.has(name)) select.append(new Option("pressure.csv – your own pressure", name));
+        families.set(name, { name, number });
+      }
+      select.value = name;
+      place.hidden = number === undefined || name === table;
+      if (!place.hidden) field.show(Number(number));
+    },
+  };
+}

@@ -1,0 +1,75 @@
+// The list of the reader's orbits, and the form that starts one.
+import { $, make, showList, write } from "../dom.js";
+import { lawTitle } from "./law_field.js";
+import { parseNumber, shown } from "../numbers.js";
+
+/**
+ * @param {import("../state/store.js").Store} store
+ * @param {import("../plane/plane.js").Plane} plane
+ * @param act  ask(edit), which tells the reader what is rejected; stopText(tau)
+ * @returns show(), and remove(index)
+ */
+export function makeOrbits(store, plane, { ask, stopText }) {
+  const list = $("orbits");
+  const form = $("add-orbit");
+
+  function item() {
+    const choose = make("button", { type: "button" }, make("span", { className: "start" }), make("span", { className: "stop" }));
+    const discard = make("button", { type: "button", textContent: "✕", className: "remove" });
+    const entry = make("li", {}, choose, discard);
+    const index = () => [...list.children].indexOf(entry);
+    choose.addEventListener("click", () => ask((state) => Object.assign(state, { chosen: index(), fraction: 0 })));
+    discard.addEventListener("click", () => {
+      const removed = index();
+      remove(removed);
+      // The focus stays near the one that is gone.
+      const next = list.children[Math.min(removed, list.children.length - 1)];
+      (next?.querySelector(".remove") ?? form.elements.u).focus();
+    });
+    return entry;
+  }
+
+  const remove = (index) => ask((state) => {
+    state.orbits.splice(index, 1);
+    if (state.chosen >= index) state.chosen -= 1;
+    state.fraction = 0;
+  });
+
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const say = (text) => (form.querySelector("output").textContent = text);
+    const [u, v] = ["u", "v"].map((name) => parseNumber(form.elements[name].value));
+    if (u.problem || v.problem) return say(u.problem ? `u₀: ${u.problem}` : `v₀: ${v.problem}`);
+    if (v.value < 0) return say("a sliding speed is ≥ 0");
+    if (u.value === 0 && v.value === 0) return say("u₀ = v₀ = 0 is rest");
+    say("");
+    plane.startOrbit({ u: u.value, v: v.value }, (edit, done) => {
+      try {
+        store.change(edit);
+        done();
+      } catch (error) {
+        say(`This start cannot be shown: ${error.message}`);
+      }
+    });
+  });
+  $("clear-orbits").addEventListener("click", () => ask((state) => Object.assign(state, { orbits: [], isochrone: 0, fraction: 0 })));
+
+  return {
+    remove,
+    show() {
+      const { state: { orbits, chosen, ball }, motions, others, request, theme } = store;
+      $("clear-orbits").hidden = orbits.length < 2;
+      showList(list, orbits, item, (entry, { u, v }, index) => {
+        entry.className = index === chosen ? "chosen" : "";
+        entry.style.setProperty("--swatch", theme.swatch(index));
+        entry.dataset.tau = motions[index].stop;
+        const [choose, discard] = entry.children;
+        choose.setAttribute("aria-pressed", String(index === chosen));
+        write(choose.children[0], `u₀ = ${shown(u, 4)}, v₀ = ${shown(v, 4)}` +
+          (ball ? `: spin ${shown(u / ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : ""));
+        write(choose.children[1], `stops at ${stopText(motions[index].stop)}${others ? `; by ${lawTitle(request.against)} ${stopText(others[index])}` : ""}`);
+        discard.setAttribute("aria-label", `Remove orbit ${index + 1}`);
+      });
+    },
+  };
+}

@@ -1,0 +1,30 @@
+// The links to motions worth seeing; what is to be seen in one stands below them.
+import { $, make, write } from "../dom.js";
+import { fromFragment, toFragment } from "../state/page_state.js";
+import { presets } from "../state/presets.js";
+
+/** What a link says of the motion alone. */
+const motionOf = (state) => toFragment({ ...state, fraction: 0, isochrone: 0, window: null, step: 0, theme: "auto", embed: false, lab: false });
+
+/** @param go  called with the fragment of a preset @returns shows which of them the state is */
+export function makePresets(library, go) {
+  let chosen = -1;
+  const say = (index) => write($("says"), presets[index]?.says ?? "");
+  const links = presets.map(({ title, fragment, says }, index) => {
+    const link = make("a", { href: `#${fragment}`, textContent: title, title: says });
+    link.addEventListener("click", (event) => {
+      event.preventDefault();
+      go(fragment);
+    });
+    for (const event of ["pointerenter", "focus"]) link.addEventListener(event, () => say(index));
+    for (const event of ["pointerleave", "blur"]) link.addEventListener(event, () => say(chosen));
+    return link;
+  });
+  $("presets").append(...links);
+  return (state) => {
+    const motion = motionOf(state);
+    chosen = presets.findIndex(({ fragment }) => motionOf(fromFragment(fragment, library)) === motion);
+    links.forEach((link, index) => link.setAttribute("aria-current", String(index === chosen)));
+    say(chosen);
+  };
+}

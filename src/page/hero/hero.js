@@ -1,0 +1,196 @@
+// The top of the page: what the ball does, beside one that does not spin.
+import { $, make, write } from "../dom.js";
+import { drawLanes, drawPatch } from "./hero_figure.js";
+import { duration, length, shown } from "../numbers.js";
+import { makeHandles } from "./handles.js";
+import { Ruler } from "./ruler.js";
+import { dare, factsOf, outcome, question, say } from "./story.js";
+import { ScreenSurface } from "../drawing/screen_surface.js";
+import { borderOf, CanvasSurface, widthOf } from "../drawing/surface.js";
+import { rideOn } from "./turning.js";
+
+const titleLines = 3.8;  // of a film, in sizes of the text
+const fastest = 9;  // rad/s on the screen; a faster spin is drawn in a part of its size, so that its marks turn one way to the eye
+const late = 0.99;  // of the time until the stop, at which the last speeds are told
+
+export class Hero {
+  /** @type {any} what is said and what moves, the body without spin first */
+  facts = null;
+  rides = /** @type {ReturnType<typeof rideOn>[]} */ ([]);
+  titles = /** @type {string[]} */ ([]);
+  ends = /** @type {number[]} */ ([]);
+  /** @type {any[]} what is drawn */
+  balls = [];
+  /** @type {{x: number, y: number, radius: number}[]} where the bodies are, in pixels */
+  places = [];
+  /** @type {{from: number[], to: number[], words: string} | null} of a throw */
+  aim = null;
+  /** @type {any} the motion of which the reader is asked, before he is told */
+  asked = null;
+  guess = "";
+  said = "";  // of what the reader does on the table
+  /** @type {number[][] | null} of the ruler, or of the bar of the scale: pixels */
+  rulerEnds = null;
+  /** The place at a pixel. */
+  toTable = (/** @type {number} */ x, /** @type {number} */ y) => ({ x, y });
+  /** @type {CanvasSurface | null} of the film that is being taken */
+  film = null;
+
+  /** @param player  whose `seconds` are what the motion lasts on the screen */
+  constructor(store, player) {
+    this.store = store;
+    this.player = player;
+    this.lanes = new ScreenSurface($("lanes"), (surface) => Object.assign(this, this.drawBalls(surface)));
+    this.patch = new ScreenSurface($("patch"), (surface) => this.drawPatch(surface));
+    this.ruler = new Ruler(this);
+    this.handles = makeHandles($("story"));
+    $("answers").append(...question.answers.map((textContent) => make("button", { type: "button", textContent, onclick: () => this.answer(textContent) })));
+  }
+
+  /** Asks which body goes farther. */
+  ask() {
+    this.asked = this.store.motion;
+    this.show();
+    this.draw();
+  }
+
+  answer(guess) {
+    this.guess = `You said: ${guess}. `;
+    this.player.toggle(true);
+  }
+
+  /** Everything but the moment. */
+  show() {
+    const { store, store: { state: { ball }, ride, orbit, timeFactor } } = this;
+    if (this.asked !== store.motion) this.asked = null;
+    for (const id of ["lanes", "patch"]) $(id).hidden = !ride;
+    $("answers").hidden = !this.asked;
+    $("dare").hidden = !ride || Boolean(this.asked);
+    $("says").classList.toggle("later", Boolean(this.asked));
+    if (!ride) {
+      write($("headline"), "Click the plane: a motion starts there");
+      write($("story"), "Up is sliding, sideways is spinning.");
+      return;
+    }
+    this.facts = factsOf(store);
+    const { radius, own, plain } = ride;
+    const lasts = ride.end * timeFactor;
+    this.spinShown = Math.min(1, (fastest * this.player.seconds * radius) / (Math.abs(orbit.u) * lasts) || 1);
+    // A path that curves is seen from where it leads to the right, or where it was thrown to.
+    const [x, y] = ["x", "y"].map((key) => ride.courses[1][key].at(-1));
+    const heading = (Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0) - (orbit.heading * Math.PI) / 180;
+    this.rides = ride.courses.map((course) => rideOn(course, heading, this.spinShown));
+    this.ends = [plain.end, own.end];
+    const { spin, rolls } = this.facts;
+    this.titles = ["without spin", spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`];
+    const { headline, story, names = {} } = this.asked ? question : say(this.facts);
+    write($("headline"), headline);
+    this.tell(story, names);
+    write($("dare-line"), dare[rolls ? "rolls" : "stops"]);
+    $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${story}`);
+  }
+
+  /** The story: words in the colours of what they name, and numbers that are handles. @param names  what each word names */
+  tell(story, names) {
+    const { handles, store: { state: { chosen }, theme } } = this;
+    const escaped = Object.keys(names).sort((a, b) => b.length - a.length).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
+    const parts = escaped.length ? story.split(new RegExp(`(?<![\\d.])(${escaped.join("|")})(?![\\d·/]|\\.\\d)`)) : [story];
+    const kinds = parts.map((part, i) => (i % 2 ? names[part] : ""));
+    const shape = kinds.join();
+    // What stays keeps the focus.
+    if (shape !== this.shape) {
+      const focused = Object.entries(handles).find(([, handle]) => handle === document.activeElement);
+      $("story").replaceChildren(...kinds.map((kind, i) => (!kind ? "" : handles[kind] && kinds.indexOf(kind) === i ? handles[kind] : make("b"))).map((node) => node || document.createTextNode("")));
+      if (focused) (focused[1].isConnected ? focused[1] : $(`${focused[0]}-slider`)).focus();
+      this.shape = shape;
+    }
+    const colours = { plain: theme.soft, own: theme.swatch(chosen), spin: theme.swatch(chosen) };
+    $("story").childNodes.forEach((node, i) => {
+      write(node, parts[i]);
+      if (kinds[i]) node.style.color = colours[kinds[i]] ?? "";
+    });
+    for (const [key, handle] of Object.entries(handles)) {
+      const slider = $(`${key}-slider`);
+      if (!slider) continue;
+      handle.setAttribute("aria-valuenow", slider.value);
+      handle.setAttribute("aria-valuetext", handle.textContent);
+    }
+  }
+
+  /** Says what the reader does on the table. */
+  say(text) {
+    this.said = text;
+    this.draw();
+  }
+
+  drawPatch(surface) {
+    const { now, theme } = this.store;
+    if (now) drawPatch(surface, { still: now.u === 0 && now.v === 0, k: now.k, spin: Math.sign(now.u), force: now.force }, theme);
+  }
+
+  drawBalls(surface) {
+    const { store: { ride, theme, contact }, balls: lanes, aim, asked } = this;
+    const placed = this.ruler.placed && { ...this.ruler.placed, words: this.ruler.words };
+    return ride ? drawLanes(surface, { lanes, radius: ride.radius, unit: contact ? "m" : "", secret: asked !== null, aim, placed }, theme) : { places: [], rulerEnds: null };
+  }
+
+  /** The canvas of a film, on which the balls are drawn from now on under what is said of them, with the clock. */
+  beginFilm() {
+    const { lanes: { width, height }, store: { theme: { textSize } } } = this;
+    const ratio = globalThis.devicePixelRatio || 1;
+    const size = { width, height: height + titleLines * textSize };
+    const even = (side) => 2 * Math.round((ratio * side) / 2);  // as films need it
+    this.film = new CanvasSurface(Object.assign(document.createElement("canvas"), { width: even(size.width), height: even(size.height) }), size);
+    return this.film.canvas;
+  }
+
+  drawFilm(film) {
+    const { lanes, player, store: { now, theme, theme: { textSize } } } = this;
+    lanes.draw();
+    film.shape([borderOf(film)], { fill: theme.card });
+    const headline = $("headline").textContent;
+    const fitting = Math.min(1.6, (film.width - 8) / widthOf(headline, { size: textSize, bold: true }));
+    film.text(4, 1.7 * textSize, headline, { colour: theme.ink, size: fitting * textSize, bold: true });
+    const clock = [player.timeText(now.tau), $("pace").textContent].filter(Boolean).join(", ");
+    film.text(film.width - 4, 3.2 * textSize, clock, { colour: theme.soft, size: textSize, align: "right" });
+    film.context.drawImage(lanes.canvas, 0, titleLines * textSize, lanes.width, lanes.height);
+  }
+
+  ballsNow() {
+    const { store: { state, ride, timeFactor, end, theme, contact }, rides, ends, titles } = this;
+    const lasts = end * timeFactor;
+    const time = state.fraction * lasts;
+    const unit = contact ? "m" : "";
+    const slid = [ride.plain, ride.own];
+    const has = ends.map((t) => time >= (1 - 1e-12) * t);
+    const rest = (i) => (!ride.rolls ? "stands" : time < (rides[i].rest?.t ?? Infinity) ? "rolls" : "rests");
+    // Where each ceases to slide; a ruler lies between them where both go straight.
+    const stops = rides.map((ride, i) => ride.at(Math.min(1, ends[i] / lasts)));
+    const straight = stops.every(({ x, y, path }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
+    const own = has[1] ? { ...stops[1], path: slid[1].path } : rides[1].at(state.fraction);
+    const ruler = straight && own.path > 1.02 * slid[0].path ? { from: stops[0], to: own, more: own.path - slid[0].path } : null;
+    return rides.map((ride, i) => ({
+      title: `${titles[i]}: ${has[i] ? `${rest(i)}, after ${length(slid[i].path, unit)} in ${duration(ends[i], contact ? "s" : "")}` : "slides"}`,
+      xs: ride.xs, ys: ride.ys, at: ride.at(state.fraction), slides: ride.until(ends[i] / lasts),
+      colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
+    }));
+  }
+
+  draw() {
+    const { store: { ride, now, state, orbit, motion, library: { plane } }, facts } = this;
+    if (!ride) return;
+    if (this.asked && state.fraction > 0) {
+      this.asked = null;
+      this.show();
+    }
+    this.balls = this.ballsNow();
+    if (this.film) this.drawFilm(this.film);
+    else this.lanes.drawInSight();
+    this.patch.drawInSight();
+    $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +
+      (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
+    if (this.aim) return;
+    const last = state.fraction < 1 ? null : plane.instant(orbit.u, orbit.v, late * motion.stop);
+    write($("told"), this.said ? this.said : last ? this.guess + outcome(facts, { slip: last.v, spin: (last.u / orbit.u) * facts.spin }, late) : "");
+  }
+}

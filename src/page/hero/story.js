@@ -1,0 +1,114 @@
+// What is said of a motion: facts in SI units (without units, in those of v), and sentences that rest on them.
+import { duration, length, shown } from "../numbers.js";
+
+const hardly = 1e-3;  // m, a path too short to be seen
+const bent = 3;       // degrees, of a path that is seen to curve
+const much = 1.5;     // times as far
+const some = 1.05;
+
+/**
+ * slide: {end, path, turned} of plane.slide, of this body and of one that does not spin.
+ *
+ * @typedef {{
+ *   name: string, real: boolean, rolls: boolean, slip: number, spin: number, along: number, across: number, least: number, own: Slide, plain: Slide,
+ *   stop: number, turningAlone: number, rest?: {t: number, x: number, y: number} | null,
+ * }} Facts  spin: without units u; least: the slip from which on a ball rolls; stop: when all has ended; turningAlone: when
+ *   the spin would end if nothing slid
+ */
+
+/** What the library knows of the chosen motion. @returns {Facts} */
+export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across }, timeFactor, library: { plane } }) {
+  return {
+    name: ball ? ball.title.replace(/ (on|of) .*/, "") : rolls ? "ball" : "puck", real: Boolean(ball), rolls, spin: u / (ball?.radius ?? 1), slip: v,
+    along, across, least, own, plain, rest, stop: own.stop, turningAlone: u === 0 ? 0 : plane.stop(u, 0) * timeFactor,
+  };
+}
+
+/** What there is to see. @returns {keyof typeof sentences} */
+export function regimeOf(/** @type {Facts} */ { real, rolls, slip, spin, along, across, least, own, plain }) {
+  if (slip <= least || (real && rolls && own.path < hardly)) {
+    return rolls && Math.hypot(along, across) > least ? "rolls" : spin === 0 ? "rests" : "spins";
+  }
+  if (spin === 0) return "plain";
+  const times = own.path / plain.path;
+  if (times >= much) return "much";
+  if (across !== 0 && Math.abs(own.turned) > bent) return "curves";
+  return times >= some ? "more" : rolls ? "soon" : "together";
+}
+
+const more = (ratio, word) => (ratio >= much ? `${shown(ratio, 2)} times as ${word}` : `${shown(100 * (ratio - 1), 2)} % ${{ far: "farther", long: "longer" }[word]}`);
+
+/** The parts of the sentences. */
+function wordsOf(/** @type {Facts} */ facts) {
+  const { name, real, rolls, slip, spin, along, across, least, own, plain } = facts;
+  const unit = real ? "m" : "";
+  const time = (t) => `${real ? "" : "τ = "}${duration(t, unit)}`;
+  const leave = along === slip && across === 0 ? "leave" : "touch down, slipping";
+  const turns = spin === 0 ? "does not spin" : real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
+  return {
+    ...facts, thing: name.split(" ").at(-1), speed: real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`, time, leave, turns, then: rolls ? "then it rolls" : "then it stops",
+    far: length(own.path, unit), farther: length(own.path - plain.path, unit), farPlain: length(plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
+    threshold: rolls ? ` Here it rolls once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : "1/500 of the first"}.` : "",
+  };
+}
+
+const two = ({ name, leave, speed, farPlain, then, turns, far, farther, longer, times }) =>
+  `Two equal ${name}s ${leave} at ${speed}. One does not spin: it slides ${farPlain}, ${then}. The other spins ${turns}: it slides ${far}, ` +
+  `${farther} more: ${more(times, "far")} and ${longer}. Textbooks say ${farPlain} both times.`;
+
+const sentences = {
+  much: (words) => [`Spin a ${words.thing}, and it slides ${shown(words.times, 2)} times as far`, two(words) + words.threshold],
+  more: (words) => [`Spin makes this ${words.thing} slide ${shown(100 * (words.times - 1), 2)} % farther`, two(words) + words.threshold],
+  soon: (words) => [`This ${words.thing} soon rolls, and spins on`, `${two(words)} Its spin lasts ${words.time(words.stop)}.${words.threshold}`],
+  together: (words) => ["Sliding and turning end at one instant",
+    `${two(words)} Sliding alone would end after ${words.time(words.plain.end)}, turning alone after ${words.time(words.turningAlone)}; ` +
+    `together they end at one instant, after ${words.time(words.stop)}.`],
+  curves: (words) => [`The path of this ${words.thing} curves by ${shown(Math.abs(words.own.turned), 2)}°`,
+    `It touches down slipping at ${words.speed}, which is not where it goes: friction pulls along the slip, and the path curves by ` +
+    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}; then it rolls straight on. It spins ${words.turns}; without spin it would curve by ` +
+    `${shown(Math.abs(words.plain.turned), 2)}° in ${words.farPlain}.${words.threshold}`],
+  plain: (words) => ["Without spin, textbooks are right",
+    `This ${words.name} ${words.leave.replace(/^(leave|touch)/, (verb) => `${verb}${verb === "touch" ? "es" : "s"}`)} at ${words.speed} and does not spin: ` +
+    `it slides ${words.farPlain}, ${words.then}. Textbooks say the same of one that spins: give it spin, and see.${words.threshold}`],
+  rolls: (words) => [`This ${words.thing} already rolls`,
+    `Its slip is too small to be seen.${words.spin === 0 ? "" : ` Only its spin is left: it ends after ${words.time(words.stop)}.`}${words.threshold}`],
+  spins: (words) => [`A ${words.thing} that spins in place`,
+    `Nothing is seen to slide: only the rim of the patch rubs, and the ${words.thing} turns ever slower, until it stops after ${words.time(words.stop)}.`],
+  rests: (words) => [`A ${words.thing} at rest`, "Nothing slides and nothing spins."],
+};
+
+/** {headline, story} of a motion, and what words in the story name: the body without spin or the other, slip or spin. */
+export function say(/** @type {Facts} */ facts) {
+  const words = wordsOf(facts);
+  const [headline, story] = sentences[regimeOf(facts)](words);
+  const { rest } = facts;
+  const { speed, turns, far, farPlain } = words;
+  const names = { [far]: "own", [farPlain]: "plain", "One does not spin": "plain", "The other spins": "own", [speed]: "slip", [turns]: "spin" };
+  return { headline, names, story: rest ? `${story} It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), "m")} from its start.` : story };
+}
+
+/** Asked before anything is told. */
+export const question = {
+  headline: "One puck spins. Which slides farther?",
+  story: "Two equal pucks leave side by side, equally fast; one of them spins, the other does not. What do you say?",
+  answers: ["the one that spins", "the one without spin", "equally far"],
+};
+
+export const dare = {
+  stops: "Make it stop sliding before it stops spinning. You can't.",
+  rolls: "A ball may cease to slide before it ceases to spin: it rolls. A puck can't.",
+};
+
+/**
+ * What came of it: a body that cannot roll ends both at one instant.
+ *
+ * @param last  slip and spin, in the units of the facts, when that share of the time until the stop has passed
+ */
+export function outcome(/** @type {Facts} */ facts, last, share) {
+  const { real, rolls, slip, spin, own, stop } = facts;
+  const time = (t) => `${real ? "" : "τ = "}${duration(t, real ? "s" : "")}`;
+  if (slip === 0 || spin === 0) return slip === 0 ? "It only spins: throw it." : "It did not spin: twist it, too.";
+  if (rolls) return `It slid for ${time(own.end)}; its spin ends after ${time(stop)}.`;
+  const speeds = real ? `${length(last.slip, "m")}/s and spun at ${shown(Math.abs(last.spin), 2)} rad/s` : `v = ${shown(last.slip, 2)} and spun with u = ${shown(Math.abs(last.spin), 2)}`;
+  return `Both ended at one instant, after ${time(stop)}; at ${shown(100 * share)} % of that it still slid at ${speeds}.`;
+}

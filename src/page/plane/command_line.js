@@ -1,0 +1,58 @@
+// The command line of the program that draws what the page shows.
+import { lawTitle } from "../controls/law_field.js";
+import { shotOf } from "./portrait_request.js";
+
+const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
+
+/**
+ * {portrait, roll}: the latter of a real ball that moves and can roll.
+ *
+ * @param request  of portrait_request.js
+ * @param through  points that the orbits of the others pass
+ * @param body     with its chi, and mu if it decides it
+ * @param builtIn  the state's ball as the program knows it, if there is one
+ */
+export function commandLine(state, request, through, body, builtIn) {
+  const { ball } = request;
+  const start = request.orbits[request.chosen];
+  const ofBall = [];
+  if (ball) {
+    ofBall.push("--ball", ball.name);
+    const options = { radius: "--radius", mass: "--mass", friction: "--friction", gravity: "--gravity" };
+    for (const [key, option] of Object.entries(options)) {
+      if (ball[key] !== builtIn[key]) ofBall.push(option, ball[key]);
+    }
+    if (ball.slope) ofBall.push("--slope", ball.slope);
+    if (ball.patchBy !== builtIn.patchBy || ball.patch !== builtIn.patch) {
+      ofBall.push(ball.patchBy === "patch_radius" ? "--patch-radius" : "--spin-deceleration", ball.patch);
+    }
+  }
+  const words = ["contensou", "portrait", ...ofBall];
+  if (ball) {
+    words.push("--slip", ball.velocity[0], "--spin", ball.angular_velocity[2]);
+  } else {
+    if (state.body !== "ball") words.push("--body", state.body === "own" ? `${state.chi},${state.gamma}` : state.body);
+    if (body.mu === undefined) words.push("--mu", state.mu);
+    if (start) words.push("--u0", start.u, "--v0", start.v);
+  }
+  words.push("--law", lawTitle(request.law));
+  if (request.against) words.push("--against", lawTitle(request.against));
+  words.push("--view", request.view);
+  if (request.linear) words.push("--scale", "linear");
+  if (request.window) words.push("--window", request.window.join(","));
+  for (const { u, v } of through) words.push("--through", `${u},${v}`);
+  if (request.isochrones !== 7) words.push("--isochrones", request.isochrones);
+  if (request.field !== "none") words.push("--field", request.field);
+  if (request.screen) words.push("--style", "screen");
+  words.push("-o", "portrait.svg");
+  const line = (all) => all.map((word) => quoted(String(word))).join(" ");
+  return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", lawTitle(request.law)]) : null };
+}
+
+/** The start of a roll, and what slows it down: slip along x at v, spin u/R, and what the reader says of the centre. */
+function motionOf(ball, start) {
+  const { velocity, angular_velocity: spin } = shotOf(ball, start);
+  const rolling = ball.rollingFriction > 0 ? ["--rolling-friction", ball.rollingFriction] : [];
+  if (velocity[0] === start.v && velocity[1] === 0) return ["--slip", start.v, "--spin", spin[2], ...rolling];
+  return ["--velocity", velocity.join(), "--angular-velocity", spin.join(), ...rolling];
+}

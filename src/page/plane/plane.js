@@ -1,0 +1,247 @@
+// The plane under the reader's hand: pointing, starting and choosing orbits, zooming.
+import { $, write } from "../dom.js";
+import { Copies, sizeOf } from "./copies.js";
+import { listen } from "../drawing/gestures.js";
+import { plain } from "../drawing/runs.js";
+import { shown } from "../numbers.js";
+import { makeSizes } from "./sizes.js";
+import { moved, startOf } from "../state/page_state.js";
+import { drawPortrait } from "./portrait_figure.js";
+import { rowsOf } from "./portrait_layout.js";
+import { ScreenSurface } from "../drawing/screen_surface.js";
+import { Zooming } from "./zooming.js";
+
+const none = [];
+const reach = { touch: 24, mouse: 10 };  // pixels from which a start or an orbit is taken hold of
+
+export class Plane {
+  /** @type {import("../drawing/frame.js").Frame[]} */
+  frames = [];
+  planeScene = /** @type {ReturnType<Plane["scene"]>} */ ({});
+  /** @type {{panel: number, x: number, y: number} | null} */
+  cross = null;
+  /** @param {import("../state/store.js").Store} store @param act  ask(edit), removeOrbit(index), stopText(tau) */
+  constructor(store, act) {
+    this.store = store;
+    this.act = act;
+    this.copies = new Copies(store);
+    this.zooming = new Zooming(store, { ask: act.ask, announce: (text) => this.announce(text) });
+    this.surface = new ScreenSurface($("plane"), (surface) => {
+      this.planeScene = this.scene();
+      this.frames = drawPortrait(surface, this.planeScene, store.theme);
+    });
+    listen($("plane"), {
+      hold: (x, y, kind) => this.startAt(x, y, kind),
+      pull: (x, y, index, from) => this.moveStart(this.pointed(x, y), index, from, true),
+      release: () => store.move({ isochrone: 0 }),
+      tap: (x, y, kind) => {
+        this.cross = null;
+        this.choose(x, y, kind);
+      },
+      drag: (x, y) => this.drawIsochrone(x, y),
+      point: (x, y) => this.describe(this.pointed(x, y)),
+      leave: () => {
+        if (!this.cross) return;
+        this.cross = null;
+        this.draw();
+      },
+      move: (dx, dy) => this.moveCross(dx, dy),
+      panel: () => this.nextPanel(),
+      enter: () => this.atCross((x, y) => this.choose(x, y, "key")),
+      isochrone: () => this.atCross((x, y) => this.drawIsochrone(x, y)),
+      clear: () => this.clear(),
+      zoom: (factor) => this.zooming.by(factor),
+      grow: (factor) => this.scale(factor),
+      remove: () => store.motion && act.removeOrbit(store.state.chosen),
+    });
+    this.showSize = makeSizes(store, act.ask, (text) => this.announce(text));
+    $("zoom-in").addEventListener("click", () => this.zooming.by(0.7));
+    $("zoom-out").addEventListener("click", () => this.zooming.by(1 / 0.7));
+    $("zoom-ever").addEventListener("click", () => this.zooming.forEver());
+    $("fit").addEventListener("click", () => this.zooming.fit());
+    $("clear-isochrone").addEventListener("click", () => this.clear());
+  }
+
+  // --- drawing -----------------------------------------------------------------------------------------------------
+
+  scene() {
+    const { state, portrait, motion, now, isochrone, library } = this.store;
+    const own = portrait.own.map((orbit, index) => {
+      const { u, v } = state.orbits[index];
+      return { ...orbit, index, chosen: index === state.chosen, start: portrait.moments ? null : library.plane.place(u, v) };
+    });
+    return {
+      figure: portrait.figure, isochrone, ghosts: this.copies.now ? this.copies.ghosts : none,
+      own: [...own.filter(({ chosen }) => !chosen), ...own.filter(({ chosen }) => chosen)],
+      marker: now && now.tau < motion.stop ? { index: state.chosen, places: now.places } : null,
+      cross: this.cross,
+    };
+  }
+
+  draw() {
+    const { surface, surface: { canvas } } = this;
+    const rows = String(rowsOf(this.store.portrait.figure, surface.width));
+    if (canvas.dataset.rows !== rows) {
+      canvas.dataset.rows = rows;
+      canvas.style.setProperty("--rows", rows);
+      surface.measure();
+    }
+    surface.drawInSight();
+    $("clear-isochrone").hidden = !this.store.state.isochrone;
+  }
+
+  /** What a screen reader says of the plane; nothing that changes with the moment. */
+  label() {
+    this.showSize();
+    const { portrait, state, motion } = this.store;
+    const legend = portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
+    const count = state.orbits.length;
+    $("plane").setAttribute("aria-label",
+      `Phase portrait, view ${this.store.view.title}: ${plain(portrait.figure.title)}; drawn are ` +
+      `${[...new Set(legend)].join(", ") || "orbits"}; ${count} ${count === 1 ? "orbit" : "orbits"} of yours` +
+      (motion ? `; the chosen one stops at ${this.act.stopText(motion.stop)}` : ""));
+  }
+
+  // --- what lies under a pixel ---------------------------------------------------------------------------------------
+
+  /** The panel under a pixel, with the numbers there; none beside and between them. */
+  panelAt(x, y) {
+    const index = this.frames.findIndex((frame) => frame.contains(x, y));
+    return index < 0 ? null : { index, frame: this.frames[index], ...this.frames[index].at(x, y) };
+  }
+
+  pointed(x, y) {
+    const at = this.panelAt(x, y);
+    return at && this.store.library.plane.at(at.index, at.x, at.y);
+  }
+
+  /** The number of the orbit whose start lies under a pixel; the chosen one first. */
+  startAt(x, y, kind) {
+    const at = this.panelAt(x, y);
+    if (!at) return null;
+    const near = this.planeScene.own.filter(({ start }) =>
+      start && Math.hypot(at.frame.px(start[2 * at.index]) - x, at.frame.py(start[2 * at.index + 1]) - y) <= reach[kind]);
+    return near.at(-1)?.index ?? null;
+  }
+
+  /** The number of the orbit that passes under a pixel. */
+  orbitAt(x, y, kind) {
+    const at = this.panelAt(x, y);
+    if (!at) return null;
+    /** @type {number | null} */
+    let nearest = null;
+    let least = reach[kind] ** 2;
+    for (const { panels, index } of this.planeScene.own) {
+      for (const line of at.frame.lines(panels[at.index].line)) for (let i = 0; i + 3 < line.length; i += 2) {
+        const [dx, dy] = [line[i + 2] - line[i], line[i + 3] - line[i + 1]];
+        const along = Math.max(0, Math.min(1, ((x - line[i]) * dx + (y - line[i + 1]) * dy) / (dx * dx + dy * dy || 1)));
+        const distance = (line[i] + along * dx - x) ** 2 + (line[i + 1] + along * dy - y) ** 2;
+        if (distance <= least) [nearest, least] = [index, distance];
+      }
+    }
+    return nearest;
+  }
+
+  // --- what the reader does --------------------------------------------------------------------------------------------
+
+  choose(x, y, kind) {
+    const { store } = this;
+    const at = this.panelAt(x, y);
+    if (at && store.portrait.moments && store.motion) return store.move({ fraction: Math.min(1, (at.x * store.motion.stop) / store.end) });
+    const index = kind === "key" ? null : this.startAt(x, y, kind) ?? this.orbitAt(x, y, kind);
+    const start = this.pointed(x, y);
+    if (index !== null) this.act.ask((state) => Object.assign(state, { chosen: index, fraction: 0 }));
+    else if (start) this.startOrbit(rounded(start, store.portrait));
+    else this.announce("Nothing is here.");
+  }
+
+  /** @param heading  of a throw @param done  called when it has started */
+  startOrbit({ u, v, heading = 0 }, ask = this.act.ask, done = (/** @type {any} */ _) => {}) {
+    const { store } = this;
+    ask((state) => {
+      // What is pointed at stays where it is.
+      if (Math.abs(u) <= store.portrait.window[0] && v <= store.portrait.window[1]) this.zooming.freeze(state);
+      else state.window = null;
+      state.orbits.push(startOf(u, v, v, 0, heading));
+      Object.assign(state, { chosen: state.orbits.length - 1, fraction: 0, isochrone: 0 });
+    }, () => done(this.announce(`Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`)));
+  }
+
+  /** @param from  the same during one pull @param held  all that stop at one time with it are shown */
+  moveStart(at, index, from, held = false) {
+    if (!at) return;
+    const { u, v } = this.copies.to(rounded(at, this.store.portrait), index, from);
+    const isochrone = held ? this.store.library.plane.stop(u, v) : 0;
+    this.act.ask((state) => {
+      this.zooming.freeze(state);
+      state.orbits[index] = moved(state.orbits[index], u, v);
+      Object.assign(state, { chosen: index, fraction: 0, isochrone });
+    }, () => {
+      this.announce(this.copies.note());
+      this.draw();
+    });
+  }
+
+  /** The chosen start as a copy, that many times as large. */
+  scale(factor) {
+    const { store: { orbit, state }, copies } = this;
+    if (!orbit) return;
+    const { base, from } = copies.now ?? { base: orbit, from: {} };
+    const c = factor * sizeOf(orbit, base).c;
+    this.moveStart({ u: c * base.u, v: c * base.v }, state.chosen, from);
+  }
+
+  drawIsochrone(x, y) {
+    const at = this.pointed(x, y);
+    if (!at) return;
+    const tau = this.store.library.plane.stop(at.u, at.v);
+    this.store.move({ isochrone: tau });
+    this.announce(`All states on the dotted line stop at ${this.act.stopText(tau)}. Esc clears it.`);
+  }
+
+  clear() {
+    this.cross = null;
+    this.announce("");
+    this.store.move({ isochrone: 0 });
+  }
+
+  // --- the cross that keys move -------------------------------------------------------------------------------------
+
+  moveCross(dx, dy, panel = Math.min(this.cross?.panel ?? 0, this.frames.length - 1)) {
+    const frame = this.frames[panel];
+    const { x, y } = this.cross?.panel === panel ? this.cross : { x: (frame.x.low + 2 * frame.x.high) / 3, y: (frame.y.low + frame.y.high) / 2 };
+    const moved = frame.at(frame.px(x) + dx * frame.width / 40, frame.py(y) - dy * frame.height / 40);
+    this.cross = { panel, ...moved };
+    this.draw();
+    this.describe(this.pointed(frame.px(moved.x), frame.py(moved.y)), "Nothing is here.");
+  }
+
+  nextPanel() {
+    this.moveCross(0, 0, ((this.cross?.panel ?? -1) + 1) % this.frames.length);
+  }
+
+  atCross(action) {
+    if (!this.cross) return;
+    const frame = this.frames[this.cross.panel];
+    action(frame.px(this.cross.x), frame.py(this.cross.y));
+  }
+
+  describe(at, otherwise = "") {
+    if (!at) return this.announce(otherwise);
+    const tau = this.store.library.plane.stop(at.u, at.v);
+    this.announce(`u = ${shown(at.u, 4)}, v = ${shown(at.v, 4)}, k = ${shown(at.v / (this.store.state.mu * Math.abs(at.u)), 4)}: stops at ${this.act.stopText(tau)}`);
+  }
+
+  announce(text) {
+    write($("pointed"), text || "\u00a0");
+  }
+}
+
+/** A start as people would write it: no more digits than a pixel is worth. */
+function rounded({ u, v }, { window: [U, V] }) {
+  const to = (value, side) => {
+    const digits = Math.max(3, 4 - Math.floor(Math.log10(side / Math.max(Math.abs(value), 1e-300))));
+    return Number(value.toPrecision(Math.min(4, digits)));
+  };
+  return { u: Math.abs(u) < 1e-9 * U ? 0 : to(u, U), v: to(v, V) };
+}

@@ -1,0 +1,87 @@
+// Files that the page hands out.
+import { CanvasSurface } from "../drawing/surface.js";
+
+export function save(name, blob) {
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+export const textFile = (text, type) => new Blob([text], { type });
+
+/**
+ * A figure as PNG of so many pixels across.
+ *
+ * @param draw  draws it on a surface
+ * @param size  width and height that it is drawn for
+ */
+export async function pngOf(draw, size, width) {
+  const canvas = Object.assign(document.createElement("canvas"), { width, height: Math.round((size.height * width) / size.width) });
+  draw(new CanvasSurface(canvas, size));
+  const blob = await new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
+  if (!blob) throw new Error(`this browser has no canvas of ${canvas.width} × ${canvas.height} pixels`);
+  return blob;
+}
+
+/** What was seen at an address, and the article that the equations are of, in BibTeX. */
+export const citation = (link, version) => `@misc{contensou,
+  title = {contensou ${version}: how a ball slides and spins, exactly},
+  howpublished = {\\url{${link.replaceAll("%", "\\%").replaceAll("#", "\\#")}}},
+  note = {Computed by its library, equations (2.6) of \\cite{zhuravlev1998}}
+}
+@article{zhuravlev1998,
+  author = {Zhuravlev, V. F.},
+  title = {On a model of dry friction in the problem of rolling of rigid bodies},
+  journal = {Prikl. Mat. Mekh.}, volume = {62}, year = {1998}
+}
+`;
+
+/** Columns of numbers as CSV, all digits; infinities as the program writes them. */
+function csv(columns) {
+  const values = Object.values(columns);
+  const rows = Array.from(values[0], (_, row) => values.map((column) => String(column[row]).replace("Infinity", "inf")));
+  return [Object.keys(columns), ...rows].map((row) => `${row.join(",")}\n`).join("");
+}
+
+/** The reader's orbits one after the other. */
+export function csvOfOrbits(motions) {
+  const column = (key) => motions.flatMap((motion) => [...motion[key]]);
+  const orbit = motions.flatMap(({ tau }, index) => Array.from(tau, () => index + 1));
+  return csv({ orbit, tau: column("tau"), u: column("u"), v: column("v"), ln_v: column("lnV"), k: column("k") });
+}
+
+/** The motion of a real ball in SI units, with the columns of `contensou roll`. */
+export const csvOfRide = ({ t, x, y, vx, vy, wx, wy, wz, slip, energy }) => csv({ t, x, y, vx, vy, wx, wy, wz, slip, energy });
+
+/** What a film has measured, what was found, and what is left; an angle is known up to whole turns. */
+export function csvOfFilm({ t, ...columns }) {
+  const whole = 2 * Math.PI;
+  const parts = Object.keys(columns).filter((name) => columns[`${name}_fitted`]).flatMap((name) => {
+    const [measured, fitted] = [columns[name], columns[`${name}_fitted`]];
+    const residual = measured.map((value, i) => value - fitted[i] - (name === "angle" ? whole * Math.round((value - fitted[i]) / whole) : 0));
+    return Object.entries({ [name]: measured, [`${name}_fitted`]: fitted, [`${name}_residual`]: residual });
+  });
+  return csv({ t, ...Object.fromEntries(parts) });
+}
+
+/** The first kind of film that a browser can take: MP4 plays everywhere. */
+export const filmType = () => ["video/mp4;codecs=avc1.42E01E", "video/mp4", "video/webm"].find((type) => globalThis.MediaRecorder?.isTypeSupported(type));
+
+/**
+ * A film of a canvas.
+ *
+ * @param run  plays what is to be seen, and calls back at its end
+ */
+export function filmOf(canvas, type, run) {
+  const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type });
+  const parts = [];
+  recorder.ondataavailable = ({ data }) => parts.push(data);
+  return new Promise((resolve, reject) => {
+    recorder.onstop = () => resolve(new Blob(parts, { type }));
+    recorder.onerror = ({ error }) => reject(error);
+    recorder.start();
+    run(() => recorder.stop());
+  });
+}

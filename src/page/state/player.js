@@ -1,0 +1,82 @@
+// Time: play, pause, scrub; how fast the clock of the page goes.
+import { $, write } from "../dom.js";
+import { choiceButtons, forgiveTouches } from "../controls/fields.js";
+import { shown } from "../numbers.js";
+
+const shortest = 7;  // seconds on the screen
+const longest = 12;
+const rest = 1500;   // ms at the end, before the motion begins again
+const rounds = 3;    // after which it rests
+
+export class Player {
+  constructor(store, ask) {
+    this.store = store;
+    this.moves = true;  // it plays by itself
+    this.partButtons = choiceButtons($("span"), [{ name: "sliding", title: "while it slides" }, { name: "whole", title: "until rest" }],
+      (name) => ask((state) => Object.assign(state, { part: name, fraction: 0 })));
+    $("play").addEventListener("click", () => this.toggle());
+    forgiveTouches($("time"));
+    $("time").addEventListener("input", () => store.move({ fraction: Number($("time").value) / 1000 }));
+  }
+
+  /** What the motion lasts on the screen: its own time, if that is neither too short to see nor too long to wait for. */
+  get seconds() {
+    const { contact, end, timeFactor } = this.store;
+    return contact ? Math.min(longest, Math.max(shortest, end * timeFactor)) : shortest;
+  }
+
+  show() {
+    const { state, end, timeFactor, contact, now } = this.store;
+    this.partButtons.show(state.part);
+    const factor = this.seconds / (end * timeFactor);
+    write($("pace"), !contact ? "" : factor > 1.05 ? `slowed ${shown(factor, 2)} times` : factor < 0.95 ? `${shown(1 / factor, 2)} times as fast` : "in real time");
+    $("time").value = Math.round(1000 * state.fraction);
+    $("time").setAttribute("aria-valuetext", now ? this.timeText(now.tau) : "no motion");
+    write($("clock"), now ? this.timeText(now.tau) : "");
+  }
+
+  timeText(tau) {
+    return this.store.contact ? `${(tau * this.store.timeFactor).toFixed(3)} s` : `τ = ${shown(tau, 3)}`;
+  }
+
+  /** Plays from the beginning, and says when the end is reached or the reader pauses. */
+  once(done) {
+    this.store.move({ fraction: 0 });
+    this.toggle(true);
+    this.done = done;
+  }
+
+  toggle(playing = !this.playing) {
+    this.done?.();
+    this.done = null;
+
+    this.playing = playing && Boolean(this.store.motion);
+    write($("play"), this.playing ? "❚❚" : "▶");
+    $("play").setAttribute("aria-label", this.playing ? "Pause" : "Play");
+    if (!this.playing) return;
+    if (this.store.state.fraction >= 1) this.store.move({ fraction: 0 });
+    const run = this.run = {};
+    let last = null;
+    let ended = null;
+    let round = 1;
+    const step = (time) => {
+      if (this.run !== run || !this.playing) return;
+      const { state, motion } = this.store;
+      if (!motion) return this.toggle(false);
+      requestAnimationFrame(step);
+      const passed = last === null ? 0 : Math.max(0, time - last);
+      last = time;
+      if (state.fraction < 1) {
+        ended = null;
+        this.store.move({ fraction: Math.min(1, state.fraction + passed / 1000 / this.seconds) });
+      } else if (ended === null) {
+        ended = time;
+        this.done?.();
+        this.done = null;
+      }
+      else if (time - ended > rest && round++ < rounds) this.store.move({ fraction: 0 });
+      else if (round > rounds) this.toggle(false);
+    };
+    requestAnimationFrame(step);
+  }
+}

@@ -1,0 +1,174 @@
+// The state of the page, and all that follows from it: each value is computed once for what it depends on.
+import { bodyOf, initialState, startOf } from "./page_state.js";
+import { portraitRequest, shotOf } from "../plane/portrait_request.js";
+import { isDark, themeOf } from "../drawing/theme.js";
+import { described } from "../plane/views.js";
+
+const longest = 10;    // s that a ball is let roll
+const slow = 1 / 500;  // of the fastest slip in the patch at first: without units, what slips no faster counts as rolling
+
+/** What moves where there are no units: of any size, and a second is a unit of tau. */
+const ballOf = (radius) =>
+  ({ mass: 1, radius, friction: 2 / (3 * Math.PI), gravity: 1, patchBy: "patch_radius", patch: radius, body: "ball", rollingFriction: 0, slope: 0 });
+
+export class Store {
+  /** @type {((change: {moment: boolean}) => void)[]} */
+  listeners = [];
+  redraws = [];
+  kept = new Map();
+  settled = false;
+  /** @type {Contact | null} */
+  contact = null;
+  request = /** @type {PortraitRequest} */ ({});
+  portrait = /** @type {Portrait} */ ({});
+  body = { chi: 1, gamma: 1, largestMu: 1, mu: /** @type {number | undefined} */ (undefined) };
+  /** @type {OwnOrbit[]} */
+  motions = [];
+  /** @type {number[] | null} when they stop by the law compared with, in tau */
+  others = null;
+  /** @type {Measured | null} the last film */
+  measured = null;
+  /** @type {any} the chosen one */
+  motion;
+
+  /** @param {Library} library @param {State} state */
+  constructor(library, state) {
+    this.library = library;
+    this.state = state;
+  }
+
+  /** Calls `listener` after each change; with {moment: true} where only the moment or the isochrone has changed. */
+  listen(listener) {
+    this.listeners.push(listener);
+  }
+
+  /** Changes the state; if the library rejects the new one, the old one stays and the reason is thrown. */
+  change(edit) {
+    const before = this.state;
+    const next = structuredClone(before);
+    edit(next);
+    next.chosen = Math.max(0, Math.min(next.chosen, next.orbits.length - 1));
+    const started = performance.now();
+    try {
+      this.compute(next);
+    } catch (error) {
+      if (this.settled) this.compute(before);
+      else {
+        this.state = initialState();
+        this.change(() => {});
+      }
+      throw error;
+    }
+    this.state = next;
+    this.settled = true;
+    for (const listener of this.listeners) listener({ moment: false });
+    this.redraws.push(performance.now() - started);
+    if (this.redraws.length > 200) this.redraws.shift();
+  }
+
+  /** Changes the moment or the isochrone, from which nothing else follows. */
+  move(values) {
+    Object.assign(this.state, values);
+    for (const listener of this.listeners) listener({ moment: true });
+  }
+
+  /** The value of that name: computed again only where what it depends on, the key, has changed. */
+  keep(name, key, make) {
+    const text = JSON.stringify(key);
+    if (this.kept.get(name)?.text !== text) {
+      this.kept.delete(name);
+      this.kept.set(name, { text, value: make() });
+    }
+    return this.kept.get(name).value;
+  }
+
+  /** Everything that depends on law, body, patch and starts, but not on the moment. */
+  compute(/** @type {State} */ state) {
+    const { library, library: { plane } } = this;
+    const orbit = state.orbits[state.chosen];
+    // A slope drives what slides, the way it slides.
+    const slides = state.ball?.slope ? orbit : undefined;
+    const contactBy = (law) => library.contact(law, shotOf(state.ball, slides ?? startOf(0, 0)));
+    this.contact = state.ball ? this.keep("contact", [state.law, state.ball, slides], () => contactBy(state.law)) : null;
+    if (this.contact) state.mu = this.contact.mu;
+    this.body = bodyOf(state, library);
+    const { chi, gamma } = this.body;
+    const drive = this.contact?.drive ?? 0;
+    /** @type {[string, number, number, number, number]} */
+    const system = [state.law, state.mu, chi, gamma, drive];
+    const ofSystem = (name, key, make) => this.keep(name, [...system, ...key], make);
+    this.facts = ofSystem("facts", [], () => plane.choose(...system));
+    this.request = portraitRequest(state, { chi, gamma, drive }, isDark(state.theme));
+    this.portrait = this.keep("portrait", this.request, () => plane.portrait(this.request));
+    this.motions = this.portrait.own;
+    const { against } = this.request;
+    this.others = against ? ofSystem("others", [against, state.ball, state.orbits], () => {
+      const mu = state.ball ? contactBy(against).mu : state.mu;
+      return state.orbits.map(({ u, v }) => plane.stopBy(against, mu, u, v));
+    }) : null;
+    this.motion = this.motions[state.chosen];
+    this.ride = orbit ? this.rideOf(state, orbit, ofSystem) : null;
+  }
+
+  /** How the body of an orbit slides over the table, and beside it one that does not spin: SI units, but `end` in tau. */
+  rideOf(state, orbit, ofSystem) {
+    const { library: { rollingSlip, plane }, body: { chi }, timeFactor } = this;
+    const rolls = chi !== 1;
+    const { u, v } = orbit;
+    const ball = state.ball ?? ballOf(1);
+    const least = state.ball ? rollingSlip : slow * (v + state.mu * Math.abs(u));
+    const resistance = rolls ? ball.rollingFriction : 0;
+    const starts = { plain: { ...orbit, u: 0 }, own: orbit };
+    const slide = (name) => {
+      if (v === 0 && starts[name].u === 0) return { end: 0, path: 0, turned: 0, stop: 0 };
+      const shot = shotOf(ball, starts[name]);
+      return ofSystem(`${name} slide`, [shot, least], () => plane.slide(shot, resistance, least));
+    };
+    const [plain, own] = [slide("plain"), slide("own")];
+    const radius = state.ball?.radius ?? (Math.max(own.path, plain.path) / 4 || 1);
+    const ride = (name, until, kept = `${name} ride`) => {
+      const shot = shotOf(state.ball ?? ballOf(radius), starts[name]);
+      return ofSystem(kept, [shot, until], () => plane.ride(shot, resistance, until * timeFactor));
+    };
+    const rest = rolls && (resistance > 0 || ball.slope) ? ride("own", 0, "rest").rest : null;
+    const stop = own.stop / timeFactor;
+    // Also what rolls soon is seen to roll.
+    const speed = state.ball && rolls ? Math.hypot(orbit.along - v / chi, orbit.across) : 0;
+    const rolling = speed > 0 ? Math.min(longest, (6 * radius) / speed) / timeFactor : 0;
+    const whole = state.part === "whole" || v <= least;
+    const end = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor));
+    return { own, plain, least, end, rolls, rest, radius, courses: [ride("plain", end), ride("own", end)] };
+  }
+
+  get timeFactor() {
+    return this.contact ? this.contact.secondsPerTau : 1;
+  }
+
+  /** The time at the end of the slider, in tau. */
+  get end() {
+    return this.ride ? this.ride.end : 1;
+  }
+
+  get theme() {
+    return themeOf(this.state.theme);
+  }
+
+  get view() {
+    return described(this.library.views.find(({ name }) => name === this.state.view));
+  }
+
+  get orbit() {
+    return this.state.orbits[this.state.chosen];
+  }
+
+  /** All states that stop after the time that the reader has asked for. */
+  get isochrone() {
+    const { state: { isochrone }, request, library } = this;
+    return isochrone ? this.keep("isochrone", [isochrone, request], () => library.plane.isochrone(isochrone)) : null;
+  }
+
+  get now() {
+    if (!this.motion) return null;
+    return this.library.plane.instant(this.orbit.u, this.orbit.v, this.state.fraction * this.end);
+  }
+}
