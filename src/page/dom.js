@@ -1,14 +1,14 @@
 // Elements of the page.
 
-/** @returns {any} the element of that id, of whatever kind */
-export const $ = (/** @type {string} */ id) => document.getElementById(id);
+/** The element of that id, of whatever kind. */
+export const $ = (/** @type {string} */ id) => /** @type {PageElement} */ (document.getElementById(id));
 
 /** Writes into an element; the text that is there already would lay the page out again. */
 export function write(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** An element with properties, and what is in it. @returns {any} */
+/** An element with properties, and what is in it. @returns {PageElement} */
 export function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   element.append(...children);

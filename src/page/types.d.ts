@@ -83,8 +83,15 @@ interface LibraryPlane {
   checks(u: number, v: number): Check[];
 }
 
+/** An element of the page, of whatever kind: with what fields, lists, forms, details and tables have. */
+interface PageElement extends HTMLElement {
+  get value(): string; set value(value: string | number);
+  checked: boolean; disabled: boolean; open: boolean; options: HTMLCollectionOf<HTMLOptionElement>; files: FileList;
+  elements: Record<string, PageElement>; tBodies: HTMLCollectionOf<HTMLTableSectionElement>;
+}
+
 declare module "contensou" {
-  const load: (options: { wasmBinary: ArrayBuffer }) => Promise<any>;
+  const load: (options: { wasmBinary: ArrayBuffer }) => Promise<Omit<Library, "laws" | "bodies" | "balls" | "views" | "plane"> & {laws(): Law[]; bodies(): Body[]; catalogue(): Ball[]; views(): View[]; Plane: new () => LibraryPlane}>;
   export default load;
 }
 declare module "*.txt" {

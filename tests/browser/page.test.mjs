@@ -478,14 +478,15 @@ test("the page travels: a strict policy, a page inside a page, no path of the ma
   writeFileSync(strict, html.replace("<head>", `<head><meta http-equiv="Content-Security-Policy" content="${policy}">`));
   await open();
   await page.goto(pathToFileURL(strict).href);
-  await page.waitForSelector("#orbits li");
+  await page.waitForSelector("#orbits li", { state: "attached" });
 
   const outer = join(folder, "outer.html");
   writeFileSync(outer, `<iframe style="width:1200px;height:900px" srcdoc="${html.replaceAll("&", "&amp;").replaceAll('"', "&quot;")}"></iframe>`);
   await page.goto(pathToFileURL(outer).href);
   const inner = page.frameLocator("iframe");
-  await inner.locator("#orbits li").waitFor();
+  await inner.locator("#orbits li").waitFor({ state: "attached" });
   await inner.locator("#presets a", { hasText: "Pool" }).click();
+  await inner.locator("#lab").click();
   await inner.locator("#copy-link").click();
   assert.match(await inner.locator("#copied").textContent(), /#|copied/);
   await close();

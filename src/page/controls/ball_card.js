@@ -34,7 +34,7 @@ export function makeBallCard(store, _plane, { ask }) {
     write($("ball-title"), ball.title);
     patchBy.value = ball.patchBy;
     // A puck rests on its whole face, a stone on a band, and neither rolls.
-    patchBy.lastChild.disabled = body.mu === undefined;
+    patchBy.options[patchBy.options.length - 1].disabled = body.mu === undefined;
     for (const { key, moves, field } of ballFields) {
       const owner = ownerOf(key, state);
       if (owner) field.show(owner[key]);

@@ -28,10 +28,10 @@ export function makeChoices(store, plane, { ask, attempt }) {
   const useLaw = (key) => (name) => store.change((state) => (state[key] = name && lawName(name)));
   const law = lawField("law", { laws, key: "exponent", attempt, use: useLaw("law") });
   const against = lawField("against", { laws, key: "against-exponent", none: "no other law", attempt, use: useLaw("against") });
-  $("pressure").addEventListener("change", async ({ target }) => {
-    const text = await target.files[0]?.text().catch(() => "") ?? "";
+  $("pressure").addEventListener("change", async () => {
+    const text = await $("pressure").files[0]?.text().catch(() => "") ?? "";
     attempt(() => useLaw("law")(lawOfTable(text)));
-    target.value = "";
+    $("pressure").value = "";
   });
   $("isochrones").addEventListener("change", () => ask((state) => {
     state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;

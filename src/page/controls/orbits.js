@@ -24,7 +24,7 @@ export function makeOrbits(store, plane, { ask, stopText }) {
       remove(removed);
       // The focus stays near the one that is gone.
       const next = list.children[Math.min(removed, list.children.length - 1)];
-      (next?.querySelector(".remove") ?? form.elements.u).focus();
+      /** @type {HTMLElement} */ (next?.querySelector(".remove") ?? form.elements.u).focus();
     });
     return entry;
   }
@@ -37,7 +37,7 @@ export function makeOrbits(store, plane, { ask, stopText }) {
 
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    const say = (text) => (form.querySelector("output").textContent = text);
+    const say = (text) => (write(form.querySelector("output"), text));
     const [u, v] = ["u", "v"].map((name) => parseNumber(form.elements[name].value));
     if (u.problem || v.problem) return say(u.problem ? `u₀: ${u.problem}` : `v₀: ${v.problem}`);
     if (v.value < 0) return say("a sliding speed is ≥ 0");

@@ -44,7 +44,7 @@ export function makeSliders(store, plane, { ask }) {
     else state.mu = mu;
   };
   const muSlider = $("mu-slider");
-  muSlider.addEventListener("input", () => ask((state) => setMu(state, fractionToMu(muSlider.value / 1000, store.body.largestMu))));
+  muSlider.addEventListener("input", () => ask((state) => setMu(state, fractionToMu(Number(muSlider.value) / 1000, store.body.largestMu))));
   forgiveTouches(muSlider);
   const muField = numberField($("mu"), $("mu-error"), (mu) => store.change((state) => setMu(state, mu)));
 

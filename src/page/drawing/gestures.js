@@ -53,7 +53,7 @@ export function listen(canvas, on) {
     else if (start.held === null) on.drag?.(x, y);
     else on.pull(x, y, start.held, start.at);
   });
-  const lift = (event, use = (/** @type {any} */ _) => {}) => {
+  const lift = (event, use = (/** @type {typeof start} */ _) => {}) => {
     fingers.delete(event.pointerId);
     // A second finger that is lifted lets nothing go.
     if (turns() && start.id !== event.pointerId) return;

@@ -8,7 +8,7 @@ export class ScreenSurface extends CanvasSurface {
   size = { width: 0, height: 0 };
   inSight = true;
   late = false;  // what is there now has still to be drawn
-  /** @type {{key: any[], value?: any, picture?: HTMLCanvasElement}} */
+  /** @type {{key: unknown[], value?: unknown, picture?: HTMLCanvasElement}} */
   kept = { key: [] };
 
   /** @param picture  draws on the surface, also when the page gives the canvas another size */
@@ -54,7 +54,11 @@ export class ScreenSurface extends CanvasSurface {
    * Begins a picture with its ground and what stays while only the moment moves: a copy, unless something in `keys` has
    * changed.
    *
-   * @returns what `draw` has returned
+   * @template Value
+   * @param {unknown[]} keys
+   * @param {string} ground
+   * @param {() => Value} draw
+   * @returns {Value} what `draw` has returned
    */
   still(keys, ground, draw) {
     const { canvas, context, kept } = this;
@@ -74,6 +78,6 @@ export class ScreenSurface extends CanvasSurface {
       this.kept.picture = Object.assign(document.createElement("canvas"), size);
       this.kept.picture.getContext("2d")?.drawImage(canvas, 0, 0);
     }
-    return this.kept.value;
+    return /** @type {Value} */ (this.kept.value);
   }
 }

@@ -13,12 +13,12 @@ let measuring;
 const known = new Map();  // texts that were measured
 
 /** How wide a text is, and its runs with their fonts and places from the text's left end. */
-function setText(text, /** @type {any} */ { size, bold }) {
+function setText(text, /** @type {{size: number, bold?: boolean}} */ { size, bold = false }) {
   const key = JSON.stringify([size, bold, text]);
   if (known.size > 2000) known.clear();
   if (known.has(key)) return known.get(key);
   measuring ??= document.createElement("canvas").getContext("2d");
-  const set = { width: 0, runs: /** @type {any[]} */ ([]) };
+  const set = { width: 0, runs: /** @type {{words: string, font: string, left: number, down: number}[]} */ ([]) };
   for (const run of runsOf(text)) {
     const pixels = size * (run.level === 0 ? 1 : scriptSize);
     const font = `${run.italic ? "italic " : ""}${bold ? "600 " : ""}${pixels}px ${run.italic ? mathematics : fonts}`;

@@ -10,14 +10,17 @@ const darkness = globalThis.matchMedia?.("(prefers-color-scheme: dark)");
 
 export const isDark = (choice) => (choice === "auto" ? darkness.matches : choice === "dark");
 
-/** @type {any} */
+/** @type {Theme | null} */
 let known = null;
 globalThis.addEventListener?.("resize", () => (known = null));
+
+/** @typedef {Record<"ink" | "soft" | "line" | "card" | "paper" | "kind", string> & {textSize: number, swatch: (index: number) => string}} Theme */
 
 /**
  * The same object until dark, light or the size of the window changes: reading the style sheet lays the page out.
  *
  * @param choice  "auto", "light" or "dark"
+ * @returns {Theme}
  */
 export function themeOf(choice) {
   const kind = isDark(choice) ? "dark" : "light";
@@ -26,6 +29,6 @@ export function themeOf(choice) {
   const style = getComputedStyle(document.documentElement);
   const colours = ["ink", "soft", "line", "card", "paper"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]);
   const textSize = parseFloat(style.fontSize) * 0.78;
-  known = { ...Object.fromEntries(colours), kind, textSize, swatch: (index) => swatches[kind][index % swatches[kind].length] };
-  return known;
+  const swatch = (index) => swatches[kind][index % swatches[kind].length];
+  return (known = { .../** @type {Theme} */ (/** @type {unknown} */ (Object.fromEntries(colours))), kind, textSize, swatch });
 }

@@ -14,18 +14,19 @@ const fastest = 9;  // rad/s on the screen; a faster spin is drawn in a part of 
 const late = 0.99;  // of the time until the stop, at which the last speeds are told
 
 export class Hero {
-  /** @type {any} what is said and what moves, the body without spin first */
-  facts = null;
+  /** What is said. */
+  facts = /** @type {import("./story.js").Facts} */ ({});
+  /** What moves, the body without spin first. */
   rides = /** @type {ReturnType<typeof rideOn>[]} */ ([]);
   titles = /** @type {string[]} */ ([]);
   ends = /** @type {number[]} */ ([]);
-  /** @type {any[]} what is drawn */
-  balls = [];
+  /** What is drawn. */
+  balls = /** @type {ReturnType<Hero["ballsNow"]>} */ ([]);
   /** @type {{x: number, y: number, radius: number}[]} where the bodies are, in pixels */
   places = [];
   /** @type {{from: number[], to: number[], words: string} | null} of a throw */
   aim = null;
-  /** @type {any} the motion of which the reader is asked, before he is told */
+  /** @type {OwnOrbit | null} the motion of which the reader is asked, before he is told */
   asked = null;
   guess = "";
   said = "";  // of what the reader does on the table
@@ -107,7 +108,7 @@ export class Hero {
     const colours = { plain: theme.soft, own: theme.swatch(chosen), spin: theme.swatch(chosen) };
     $("story").childNodes.forEach((node, i) => {
       write(node, parts[i]);
-      if (kinds[i]) node.style.color = colours[kinds[i]] ?? "";
+      if (node instanceof HTMLElement) node.style.color = colours[kinds[i]] ?? "";
     });
     for (const [key, handle] of Object.entries(handles)) {
       const slider = $(`${key}-slider`);

@@ -14,7 +14,7 @@ export function sizeOf({ u, v }, base) {
 }
 
 export class Copies {
-  /** @type {{from: any, index: number, base: Speeds, at: Speeds, stop: number, key: string} | null} the pull, and where the start is now */
+  /** @type {{from: unknown, index: number, base: Speeds, at: Speeds, stop: number, key: string} | null} the pull, and where the start is now */
   pull = null;
   /** @type {{u: number, v: number, stop: number, motion: Motion, lines: Float64Array[]}[]} where it has been */
   ghosts = [];

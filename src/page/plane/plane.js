@@ -156,7 +156,7 @@ export class Plane {
   }
 
   /** @param heading  of a throw @param done  called when it has started */
-  startOrbit({ u, v, heading = 0 }, ask = this.act.ask, done = (/** @type {any} */ _) => {}) {
+  startOrbit({ u, v, heading = 0 }, ask = this.act.ask, done = (/** @type {void} */ _) => {}) {
     const { store } = this;
     ask((state) => {
       // What is pointed at stays where it is.

@@ -22,7 +22,7 @@ export function makeSizes(store, ask, announce) {
     const { orbit, motion, portrait } = store;
     if (!orbit) return;
     const { base, window, stop } = sized ??= { base: { u: orbit.u, v: orbit.v }, at: orbit, window: portrait.window, stop: motion.stop };
-    const c = 10 ** ((decades * slider.value) / 1000);
+    const c = 10 ** ((decades * Number(slider.value)) / 1000);
     const at = { u: round(c * base.u), v: round(c * base.v) };
     const share = Math.max(Math.abs(at.u) / window[0], at.v / window[1]);
     const view = share > 1 ? "disc" : share < vanished ? "blowup" : "uv";

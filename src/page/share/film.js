@@ -16,7 +16,7 @@ export class Film {
     /** @type {Figure | null} the data with the fitted motion, and what is left */
     this.figure = null;
     this.picture = new ScreenSurface($("film-fit"), (surface) => this.draw(surface));
-    $("film").addEventListener("change", ({ target }) => this.read(target.files[0]));
+    $("film").addEventListener("change", () => this.read($("film").files[0]));
     $("save-residuals").addEventListener("click", () => save("residuals.csv", textFile(csvOfFilm(this.store.measured.columns), "text/csv")));
     addEventListener("dragover", (event) => event.preventDefault());
     addEventListener("drop", (event) => {

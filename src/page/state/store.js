@@ -28,8 +28,8 @@ export class Store {
   others = null;
   /** @type {Measured | null} the last film */
   measured = null;
-  /** @type {any} the chosen one */
-  motion;
+  /** The chosen one; none where there is no orbit. */
+  motion = /** @type {OwnOrbit} */ (/** @type {unknown} */ (undefined));
 
   /** @param {Library} library @param {State} state */
   constructor(library, state) {
