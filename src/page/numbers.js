@@ -22,8 +22,11 @@ export function shown(value, digits = 5) {
 export const superscript = (integer) =>
   [...String(integer)].map((sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)]).join("");
 
-/** A number in words, which have no powers of ten for what is small. */
-const inWords = (value, least, unit, digits = 3) => `${value === 0 || value >= least ? shown(value, digits) : `less than ${least}`}${unit}`;
+/** A number in words, which have no powers of ten. */
+const inWords = (value, least, unit, digits = 3) => {
+  const large = value >= 1e5 && value < 1e12 && Number(value.toPrecision(digits)).toLocaleString("en").replaceAll(",", "\u202f");
+  return `${large || (value === 0 || value >= least ? shown(value, digits) : `less than ${least}`)}${unit}`;
+};
 
 /** A length in words, such as 52.9 mm; without a unit, a number. */
 export const length = (metres, unit) => (!unit ? inWords(metres, 1e-4, "") : metres >= 0.1 ? inWords(metres, 0, " m") : inWords(1000 * metres, 0.01, " mm"));

@@ -163,7 +163,7 @@ test("a pressure of the reader's own is the program's, in the plane, in the link
   await close();
 });
 
-test("on a slope a puck slides as far and as long as the program says, and so it rolls; rolling friction acts while a ball slides", async () => {
+test("on a slope a puck slides as far and as long as the program says, and so it rolls", async () => {
   const slides = () => page.evaluate(() => globalThis.page.store.ride.own);
   await open("#ball=puck&orbits=2.286,0.5&slope=-2");
   const wanted = json("stop", "--ball", "puck", "--slip", "0.5", "--spin", "60", "--slope", "-2");
@@ -174,14 +174,14 @@ test("on a slope a puck slides as far and as long as the program says, and so it
   assertClose((await slides()).path, wanted.slip_length, 1e-9, "slides");
   assert.match(await page.textContent("#command"), /--slope -2/);
   await close();
-  await open("#ball=pool&orbits=2.8575,1&rollingFriction=0.01&part=whole");
-  const roll = json("roll", "--ball", "pool", "--slip", "1", "--spin", "100", "--rolling-friction", "0.01", "--law", "exact");
+  await open("#ball=pool&orbits=2.8575,1&slope=-1&part=whole");
+  const roll = json("roll", "--ball", "pool", "--slip", "1", "--spin", "100", "--slope", "-1", "--law", "exact");
   assertClose((await slides()).path, roll.path, 1e-9, "path");
   assertClose((await slides()).end, roll.rolls_after.t, 1e-9, "rolls after");
   // So steep that nothing stops: the library's words.
   await page.fill("#ball-fields [name=slope]", "-80");
   assert.match(await page.textContent("#slope-error"), /./);
-  assert.equal((await state()).ball.slope, 0);
+  assert.equal((await state()).ball.slope, -1);
   await close();
 });
 

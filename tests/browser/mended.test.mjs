@@ -75,7 +75,7 @@ test("a server is asked for the page, and for nothing else", async () => {
   await open();
   page.removeAllListeners("request");
   await page.goto(`http://127.0.0.1:${server.address().port}/`);
-  await page.waitForSelector("#orbits li");
+  await page.waitForSelector("#orbits li", { state: "attached" });
   await page.waitForTimeout(300);
   await close();
   server.close();

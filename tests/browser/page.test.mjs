@@ -981,7 +981,7 @@ test("the keyboard alone is enough", async () => {
   assert.equal((await stopTimes()).length, 1);
   await page.focus("#views :checked");
   await page.keyboard.press("ArrowRight");
-  assert.equal((await state()).view, "patch");
+  assert.equal((await state()).view, "bent");
   await close();
 });
 

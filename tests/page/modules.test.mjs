@@ -210,7 +210,7 @@ test("what came of a throw is told by numbers, of what can roll and of what cann
   const last = { slip: 0.00976, spin: 0.5 };
   const told = (other) => outcome(facts(/** @type {any} */ ({ ...puck, stop: 1.86, ...other })), last, 0.99);
   assert.equal(told({}), "Both ended at one instant, after 1.86 s; at 99 % of that it still slid at 9.76 mm/s and spun at 0.5 rad/s.");
-  assert.match(told({ real: false }), /after τ = 1\.86; at 99 % of that it still slid at v = 0\.0098 and spun with u = 0\.5\.$/);
+  assert.match(told({ real: false }), /after τ = 1\.86; at 99 % of that it still slid at v = 0\.00976 and spun with u = 0\.5\.$/);
   assert.match(told({ rolls: true }), /^It slid for 0\.627 s; its spin ends after 1\.86 s\.$/);
   assert.match(told({ spin: 0 }), /twist it/);
   assert.match(told({ slip: 0 }), /throw it/);

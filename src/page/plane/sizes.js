@@ -7,10 +7,7 @@ import { moved } from "../state/page_state.js";
 
 const decades = 4;      // to either end of the slider
 const vanished = 0.04;  // of the window: a start so small is looked for in the blown-up origin
-const ends = {
-  uv: "", disc: " As c → ∞ it flies to the circle, which is infinity.",
-  blowup: " As c → 0 it comes to the inner circle: rest, blown up so that it is seen by direction.",
-};
+const ends = { uv: "", disc: " The circle is infinity.", blowup: " The inner circle is rest." };
 const round = (value) => Number(value.toPrecision(6));
 
 /** @param {import("../state/store.js").Store} store @returns shows where the slider is */

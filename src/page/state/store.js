@@ -54,7 +54,7 @@ export class Store {
     } catch (error) {
       if (this.settled) this.compute(before);
       else {
-        this.state = initialState();
+        this.state = { ...initialState(), lab: next.lab };
         this.change(() => {});
       }
       throw error;
@@ -119,10 +119,11 @@ export class Store {
     const least = state.ball ? rollingSlip : slow * (v + state.mu * Math.abs(u));
     const resistance = rolls ? ball.rollingFriction : 0;
     const starts = { plain: { ...orbit, u: 0 }, own: orbit };
+    // A ball that spins and is held by rolling friction creeps as long as it spins: when it ceases to slide is told without.
     const slide = (name) => {
       if (v === 0 && starts[name].u === 0) return { end: 0, path: 0, turned: 0, stop: 0 };
       const shot = shotOf(ball, starts[name]);
-      return ofSystem(`${name} slide`, [shot, least], () => plane.slide(shot, resistance, least));
+      return ofSystem(`${name} slide`, [shot, least], () => plane.slide(shot, 0, least));
     };
     const [plain, own] = [slide("plain"), slide("own")];
     const radius = state.ball?.radius ?? (Math.max(own.path, plain.path) / 4 || 1);
