@@ -15,7 +15,7 @@ const browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CH
 async function shot(fragment, share, options, act = () => {}) {
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, deviceScaleFactor: 0.75, reducedMotion: "reduce", ...options });
   await page.goto(pathToFileURL(file).href + fragment);
-  await page.waitForSelector("#orbits li");
+  await page.waitForSelector("#orbits li", { state: "attached" });
   await page.evaluate((share) => globalThis.page.store.move({ fraction: share }), share);
   await act(page);
   const picture = await page.screenshot();

@@ -156,7 +156,7 @@ test("where a host forbids pictures from data, a PNG is made all the same; where
   const guarded = async (name, policy) => {
     const path = join(folder, name);
     writeFileSync(path, html.replace("<head>", `<head><meta http-equiv="Content-Security-Policy" content="${policy}">`));
-    await page.goto(pathToFileURL(path).href);
+    await page.goto(pathToFileURL(path).href + "#lab=1");
   };
   await open();
   await guarded("pictures.html", "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'");
