@@ -164,7 +164,10 @@ test("the story has the two bodies in their colours", async () => {
       });
       return { drawn: seen, words: [...document.querySelectorAll("#story b")].map((word) => [word.textContent, getComputedStyle(word).color]) };
     });
-    assert.deepEqual(words, [["One does not spin", bodies[0]], ["The other spins", bodies[1]]]);
+    // Also how far each slides; the textbooks' length is that of the body without spin.
+    const [plain, own] = [words[1][0], words[3][0]];
+    assert.deepEqual(words, [["One does not spin", bodies[0]], [plain, bodies[0]], ["The other spins", bodies[1]], [own, bodies[1]], [plain, bodies[0]]]);
+    assert.ok(plain !== own && [plain, own].every((length) => / m$/.test(length)), `${plain}, ${own}`);
     await close();
   }
 });
