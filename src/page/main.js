@@ -60,7 +60,7 @@ function start(library) {
   makeThrowing(store, hero, player, plane);
 
   const panes = new ScreenSurface($("panes"), (surface) => drawPanes(surface, store, store.theme));
-  const copies = new ScreenSurface($("copies"), (surface) => drawCopies(surface, store, plane.copies));
+  const copies = new ScreenSurface($("copies"), (surface) => drawCopies(surface, store, plane));
   const draw = () => {
     const { contact, now, end, timeFactor } = store;
     plane.draw();

@@ -54,7 +54,7 @@ export class Plane {
       grow: (factor) => this.scale(factor),
       remove: () => store.motion && act.removeOrbit(store.state.chosen),
     });
-    this.showSize = makeSizes(store, act.ask, (text) => this.announce(text));
+    this.sizes = makeSizes(store, act.ask, (text) => this.announce(text));
     $("zoom-in").addEventListener("click", () => this.zooming.by(0.7));
     $("zoom-out").addEventListener("click", () => this.zooming.by(1 / 0.7));
     $("zoom-ever").addEventListener("click", () => this.zooming.forEver());
@@ -92,7 +92,7 @@ export class Plane {
 
   /** What a screen reader says of the plane; nothing that changes with the moment. */
   label() {
-    this.showSize();
+    this.sizes.show();
     const { portrait, state, motion } = this.store;
     const legend = portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
     const count = state.orbits.length;

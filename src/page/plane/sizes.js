@@ -10,7 +10,7 @@ const vanished = 0.04;  // of the window: a start so small is looked for in the 
 const ends = { uv: "", disc: " The circle is infinity.", blowup: " The inner circle is rest." };
 const round = (value) => Number(value.toPrecision(6));
 
-/** @param {import("../state/store.js").Store} store @returns shows where the slider is */
+/** @param {import("../state/store.js").Store} store @returns show(): where the slider is; from: {base, stop} of the start that it has made larger, if it has */
 export function makeSizes(store, ask, announce) {
   const slider = $("size");
   /** @type {{base: Speeds, at: Speeds, window: number[], stop: number} | null} what it began with, and where it has brought it */
@@ -30,10 +30,11 @@ export function makeSizes(store, ask, announce) {
     }, () => announce(pullWords({ c, along: true }, stop, store.motion.stop, store) + ends[view]));
   });
   forgiveTouches(slider);
-  return () => {
+  const show = () => {
     slider.disabled = !store.orbit;
     if (sized && store.orbit && sized.at.u === store.orbit.u && sized.at.v === store.orbit.v) return;
     sized = null;
     slider.value = 0;
   };
+  return { show, get from() { return sized; } };
 }
