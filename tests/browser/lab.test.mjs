@@ -152,6 +152,7 @@ test("a pressure of the reader's own is the program's, in the plane, in the link
   await close();
   await open(link);
   assert.equal((await state()).law, law);
+  assert.equal(String(await saved("#save-pressure")), table);
   // What is wrong is said, and the law stays.
   for (const [text, problem] of [["a,b\n0,1\n", /columns rho and pressure/], ["rho,pressure\n0.1,1\n1,0\n", /pressure\.csv:2: .*rho must begin at 0/], ["rho,pressure\n0,x\n1,0\n", /pressure\.csv:2/]]) {
     await take(text);

@@ -5,7 +5,7 @@ import { commandLine } from "../../src/page/plane/command_line.js";
 import { citation, csvOfFilm, csvOfOrbits, csvOfRide, filmType } from "../../src/page/share/exports.js";
 import { sizeOf } from "../../src/page/plane/copies.js";
 import { Frame } from "../../src/page/drawing/frame.js";
-import { lawOfTable, lawTitle } from "../../src/page/controls/law_field.js";
+import { lawOfTable, lawTitle, tableOfLaw } from "../../src/page/controls/law_field.js";
 import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
 import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, speaksOfNothing, startOf, takeBall, toFragment } from "../../src/page/state/page_state.js";
 import { packed, unpacked } from "../../src/page/packing.js";
@@ -256,6 +256,7 @@ test("the command line names what differs from what the program would do", () =>
 test("a pressure of the reader's own is a law that a link carries, and a file that the program reads", () => {
   const text = "rho, pressure, note\r\n0,1,x\r\n0.5,0.9,y\r\n1,0,z\r\n";
   assert.equal(lawOfTable(text), "table:0/1;0.5/0.9;1/0");
+  assert.deepEqual(["table:0/1;0.5/0.9;1/0", "pade"].map(tableOfLaw), ["rho,pressure\n0,1\n0.5,0.9\n1,0\n", null]);
   assert.deepEqual(["table:0/1;1/0", "pade", null].map(lawTitle), ["pressure.csv", "pade", null]);
   assert.throws(() => lawOfTable("r,p\n0,1\n1,0\n"), /columns rho and pressure/);
   assert.throws(() => lawOfTable(`rho,pressure\n${"0,1\n".repeat(201)}`), /at most 200 rows.*--law FILE\.csv/);

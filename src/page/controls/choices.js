@@ -1,7 +1,8 @@
 // Ball, body and law, and what the plane shows.
 import { $, write } from "../dom.js";
 import { choiceButtons } from "./fields.js";
-import { lawField, lawOfTable } from "./law_field.js";
+import { save, textFile } from "../share/exports.js";
+import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
 import { shown } from "../numbers.js";
 import { bodyOf, fields, initialState, takeBall, unrolled } from "../state/page_state.js";
 import { addNumber, choose } from "./state_fields.js";
@@ -33,6 +34,7 @@ export function makeChoices(store, plane, { ask, attempt }) {
     attempt(() => useLaw("law")(lawOfTable(text)));
     $("pressure").value = "";
   });
+  $("save-pressure").addEventListener("click", () => save("pressure.csv", textFile(tableOfLaw(store.state.law), "text/csv")));
   $("isochrones").addEventListener("change", () => ask((state) => {
     state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
   }));
@@ -53,6 +55,7 @@ export function makeChoices(store, plane, { ask, attempt }) {
     const { state, state: { ball }, facts, portrait, view } = store;
     $("lab").setAttribute("aria-expanded", String(state.lab));
     law.show(state.law);
+    $("save-pressure").hidden = !tableOfLaw(state.law);
     against.show(store.request.against);
     for (const option of $("against").options) option.disabled = option.value === state.law;
     for (const [id, value] of Object.entries({ ball: ball?.name ?? "", field: state.field, body: state.body })) $(id).value = value;

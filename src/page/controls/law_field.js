@@ -17,6 +17,9 @@ export function lawOfTable(text) {
   return `${table}:${rows.map((row) => columns.map((column) => row[column] ?? "").join("/")).join(";")}`;
 }
 
+/** The table of a law of lawOfTable, as the file that the program reads; null of any other. */
+export const tableOfLaw = (law) => (law.startsWith(`${table}:`) ? `rho,pressure\n${law.slice(table.length + 1).replaceAll("/", ",").replaceAll(";", "\n")}\n` : null);
+
 /**
  * @param {string} id  of the list, and with -exponent of where the number's field goes
  * @param {{laws: Law[], key: string, none?: string, attempt: (action: () => void) => void, use: (name: string | null) => void}} how
