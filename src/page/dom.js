@@ -3,6 +3,9 @@
 /** The element of that id, of whatever kind. */
 export const $ = (/** @type {string} */ id) => /** @type {PageElement} */ (document.getElementById(id));
 
+/** Whether the reader's system asks for less motion. */
+export const isStill = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
 /** Writes into an element; the text that is there already would lay the page out again. */
 export function write(element, text) {
   if (element.textContent !== text) element.textContent = text;

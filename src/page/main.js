@@ -3,7 +3,7 @@ import { Address } from "./state/address.js";
 import { Checks } from "./controls/checks.js";
 import { makeControls } from "./controls/controls.js";
 import { drawCopies } from "./plane/copies_figure.js";
-import { $, write } from "./dom.js";
+import { $, isStill, write } from "./dom.js";
 import { Film } from "./share/film.js";
 import { Hero } from "./hero/hero.js";
 import { loadLibrary } from "./library.js";
@@ -103,7 +103,7 @@ function start(library) {
   addEventListener("afterprint", () => ask((state) => Object.assign(state, screen)));
   $("app").hidden = false;
   $("first-picture").remove();
-  player.moves = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  player.moves = !isStill();
   ask(() => {});
   // Who opens the page is asked; a link to a moment shows that moment, other links play.
   if (player.moves && opens && !store.state.embed) hero.ask();

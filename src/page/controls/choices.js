@@ -1,5 +1,5 @@
 // Ball, body and law, and what the plane shows.
-import { $, write } from "../dom.js";
+import { $, isStill, write } from "../dom.js";
 import { choiceButtons } from "./fields.js";
 import { save, textFile } from "../share/exports.js";
 import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
@@ -43,7 +43,7 @@ export function makeChoices(store, plane, { ask, attempt }) {
     state.theme = state.theme === "auto" ? (isDark("auto") ? "light" : "dark") : "auto";
   }));
   $("lab").addEventListener("click", () => ask((state) => (state.lab = !state.lab), () => store.state.lab &&
-    $("columns").scrollIntoView({ behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "instant" : "smooth" })));
+    $("columns").scrollIntoView({ behavior: isStill() ? "instant" : "smooth" })));
   const inertia = Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" }).map(([key, label]) =>
     ({ key, field: addNumber(store, $("inertia"), key, label, (state, value) => (state[key] = value)) }));
   const sides = ["U", "V"].map((name, side) => addNumber(store, $("window"), `window-${name}`, name, (state, value) => {

@@ -1,5 +1,5 @@
 // The tour: steps side by side that scroll by; the one that has come to rest is what the page shows.
-import { $, make } from "../dom.js";
+import { $, isStill, make } from "../dom.js";
 import { tour } from "../state/presets.js";
 
 export class Tour {
@@ -23,7 +23,7 @@ export class Tour {
   }
 
   to(step) {
-    this.list.scrollTo({ left: step * this.list.clientWidth, behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "instant" : "smooth" });
+    this.list.scrollTo({ left: step * this.list.clientWidth, behavior: isStill() ? "instant" : "smooth" });
   }
 
   /** Shows the step of the state. */

@@ -1,4 +1,5 @@
 // The window of the plane: as the library chooses it for the orbits, or as the reader has zoomed.
+import { isStill } from "../dom.js";
 import { superscript } from "../numbers.js";
 
 const farthest = 30;  // decades that one zoom goes on for
@@ -32,7 +33,7 @@ export class Zooming {
     const from = this.store.portrait.window;
     const run = this.running = {};
     const to = (decades) => this.by(10 ** -decades, from, `${decades < 1 ? "Closer" : `10${superscript(Math.floor(decades))} times closer`}: the numbers run, the curves stand still. All sizes are one.`);
-    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return to(1);
+    if (isStill()) return to(1);
     const began = performance.now();
     const step = (time) => {
       if (this.running !== run) return;
