@@ -1,5 +1,6 @@
 #include "answers/fields.hpp"
 
+#include "answers/aim_answer.hpp"
 #include "answers/check_answer.hpp"
 #include "answers/engine_answer.hpp"
 #include "answers/phase_plane_answer.hpp"
@@ -153,6 +154,7 @@ std::vector<VerbFields> field_table() {
            {"`radius`, `patch_radius`; `mass`; `friction`, `mu`; `slip`, `spin`; `gravity`",
             "m; kg; 1; m/s, 1/s; m/s^2", "the typical start"},
        }},
+      {"aim", aim_fields()},
       {"engine", engine_fields()},
       {"paper",
        {

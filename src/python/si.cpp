@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/aim_answer.hpp"
 #include "answers/engine_answer.hpp"
 #include "answers/formula_law.hpp"
 #include "contensou/portraits/json.hpp"
@@ -189,6 +190,13 @@ void bind_si(py::module_& module) {
         si::require_undriven(experiment, "engine");
         const si::Engine* const only = name ? one_of("engine", "engines", engines, *name) : nullptr;
         return portraits::json_document(answers::engine_answer(experiment, law, only).members);
+      },
+      Released());
+  module.def(
+      "aim",
+      [](const si::Experiment& experiment, const Law& law, std::optional<double> distance, std::optional<double> turns,
+         std::optional<double> time) {
+        return portraits::json_document(answers::aim_answer(experiment, law, {distance, turns, time}).members);
       },
       Released());
   module.attr("rolling_slip") = si::rolling_slip;

@@ -14,6 +14,7 @@ Numbers may be arrays of any shapes that broadcast; what is masked in one is NaN
 """
 
 from ._core import __version__
+from ._aim import aim
 from ._balls import Ball, Event, Roll
 from ._engine import engine, engines
 from ._fit import Estimate, Fit, fit
@@ -23,6 +24,6 @@ from ._reduce import FlowReduction, Generator, PlanarOrbit, PlanarRay, Reduction
 
 __all__ = [
     "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",
-    "PlanarOrbit", "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "SingularPoint", "Terminal", "__version__", "check", "engine",
+    "PlanarOrbit", "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "SingularPoint", "Terminal", "__version__", "aim", "check", "engine",
     "engines", "fit", "law", "portrait", "reduce", "stop_time",
 ]

@@ -1,0 +1,121 @@
+#include "contensou/reduction/aim.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "numerics/epsilon.hpp"
+#include "numerics/root.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+void require_level(const Flow& flow) {
+  if (flow.system().drive() == 0) return;
+  throw std::domain_error(fmt::format("aim: a motion without a drive is needed, got one of {}", flow.system().drive()));
+}
+
+void require_two(const Aim& aim) {
+  int given = 0;
+  for (const auto& asked : {aim.tau, aim.distance, aim.turned}) {
+    if (!asked) continue;
+    ++given;
+    if (!(*asked >= 0 && std::isfinite(*asked)))
+      throw std::domain_error(fmt::format("aim: what is asked for must be finite and >= 0, got {}", *asked));
+  }
+  if (given != 2)
+    throw std::domain_error(fmt::format("aim: two of time, distance and turning are needed, got {}", given));
+}
+
+/// The start with that k whose larger speed, v or w, is 1.
+State unit_start(const Flow& flow, double ln_k) {
+  return {std::exp(std::min(0.0, -ln_k)) / flow.system().mu(), std::exp(std::min(0.0, ln_k))};
+}
+
+State scaled(State start, double factor) { return {start.u * factor, start.v * factor}; }
+
+double square_root_of_ratio(double a, double b) { return std::sqrt(a) / std::sqrt(b); }
+
+/// Pure sliding or pure pivoting over that distance, or turning so far.
+State sliding_over(const Flow& flow, double distance) {
+  return scaled({0, 1}, square_root_of_ratio(distance, reached(flow, {0, 1}).distance));
+}
+State pivoting_through(const Flow& flow, double turned) {
+  return scaled({1, 0}, square_root_of_ratio(turned, reached(flow, {1, 0}).turned));
+}
+
+State axis_start(const Flow& flow, const Aim& aim) {
+  return aim.distance ? sliding_over(flow, *aim.distance) : pivoting_through(flow, *aim.turned);
+}
+
+}  // namespace
+
+Reached reached(const Flow& flow, State start) {
+  require_level(flow);
+  const Orbit orbit = flow.orbit(start);
+  const double tau = orbit.stop_time();
+  const Orbit::Instant end = orbit.instant(tau);
+  const double chi = flow.system().inertia().chi;
+  return {tau, (1 - 1 / chi) * start.v * tau + end.slip_length / chi, std::abs(end.turned)};
+}
+
+double least_time(const Flow& flow, const Aim& aim) {
+  require_level(flow);
+  require_two(aim);
+  return flow.stop_time(axis_start(flow, aim)).tau;
+}
+
+std::optional<State> aimed(const Flow& flow, const Aim& aim) {
+  require_level(flow);
+  require_two(aim);
+  // With one of them 0 the motion is on an axis.
+  const bool in_place = aim.distance && *aim.distance == 0;
+  const bool straight = aim.turned && *aim.turned == 0;
+  if (in_place && straight) return State{0, 0};
+  if (aim.tau) {
+    if (in_place) return State{*aim.tau / flow.system().pivoting_limit(1), 0};
+    if (straight) return State{0, *aim.tau / flow.system().sliding_limit(1)};
+    const double least = least_time(flow, aim);
+    constexpr double rounding = 16 * eps;
+    if (*aim.tau < least * (1 - rounding)) return std::nullopt;
+    if (*aim.tau <= least * (1 + rounding)) return axis_start(flow, aim);
+  } else {
+    if (in_place) return pivoting_through(flow, *aim.turned);
+    if (straight) return sliding_over(flow, *aim.distance);
+  }
+
+  // Of distance over turned, distance over time squared, or time squared over turned: what a start with that k comes to over
+  // what is asked for, its logarithm. The scale is not in it, and it grows with k.
+  const auto residual = [&](double ln_k) {
+    const Reached here = reached(flow, unit_start(flow, ln_k));
+    const double time = aim.tau ? 2 * std::log(here.tau / *aim.tau) : 0;
+    const double distance = aim.distance ? std::log(here.distance / *aim.distance) : 0;
+    const double turned = aim.turned ? std::log(here.turned / *aim.turned) : 0;
+    return aim.distance ? distance - (aim.tau ? time : turned) : time - turned;
+  };
+  constexpr double widest = 640;  // the speeds, and their product, are doubles still
+  double low = 0, high = 0;
+  double at_low = residual(0), at_high = at_low;
+  for (double step = 1; at_low > 0 && low > -widest; step *= 2) {
+    high = low, at_high = at_low;
+    low = std::max(low - step, -widest), at_low = residual(low);
+  }
+  for (double step = 1; at_high < 0 && high < widest; step *= 2) {
+    low = high, at_low = at_high;
+    high = std::min(high + step, widest), at_high = residual(high);
+  }
+  if (at_low > 0 || at_high < 0) {
+    if (aim.tau) return axis_start(flow, aim);  // but for what no double shows
+    throw std::domain_error(fmt::format("aim: {} and {} are too far apart for a double", *aim.distance, *aim.turned));
+  }
+  const State start = unit_start(flow, root_between(residual, low, high, at_low, at_high));
+  const Reached here = reached(flow, start);
+  if (aim.distance) return scaled(start, square_root_of_ratio(*aim.distance, here.distance));
+  return scaled(start, square_root_of_ratio(*aim.turned, here.turned));
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,112 @@
+#include "answers/aim_answer.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "answers/ball_answer.hpp"
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/course.hpp"
+#include "contensou/si/scaling.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+struct AimReport {
+  si::Experiment experiment;  ///< with the start that was found
+  reduction::Law law;
+  si::SlipAndSpin start;
+  double distance, turns, time;  ///< that it comes to
+  si::FinalMotion final;
+  std::optional<si::Event> rolls;  ///< of a ball
+  std::optional<si::CueStrike> strike;
+
+  bool is_ball() const { return !experiment.ball.body.lies_flat(); }
+};
+
+constexpr Field<AimReport> fields[]{
+    {"law", "", nullptr, [](const AimReport& r) -> Json { return r.law.name(); }},
+    {"ball", "", "as of stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
+    {"slip", "m/s", "the start: sliding speed, along x; of a ball that does not roll yet, that of its centre",
+     [](const AimReport& r) -> Json { return r.start.slip; }},
+    {"spin", "1/s", "the start: about the vertical", [](const AimReport& r) -> Json { return r.start.spin; }},
+    {"distance", "m", "of the centre, when slip and spin end", [](const AimReport& r) -> Json { return r.distance; }},
+    {"turns", "", "about the vertical, until then", [](const AimReport& r) -> Json { return r.turns; }},
+    {"time", "s", "when slip and spin end", [](const AimReport& r) -> Json { return r.time; }},
+    {"final_velocity", "m/s", "of a ball: how fast it rolls then",
+     [](const AimReport& r) { return r.is_ball() ? Json(r.final.velocity.x()) : Json(); }},
+    {"rolls_after", "s, m, m, m/s", "of a ball: when and where its slip is below the threshold",
+     [](const AimReport& r) -> Json {
+       if (!r.rolls) return {};
+       return {
+           {"t", r.rolls->t}, {"x", r.rolls->place.x()}, {"y", r.rolls->place.y()}, {"threshold", si::rolling_slip}};
+     },
+     "", 0, " {`t`, `x`, `y`, `threshold`}"},
+    {"strike", "m/s; 1; kg",
+     "of a ball: the level stroke that starts it, of a cue of this mass; right of the centre in radii",
+     [](const AimReport& r) -> Json {
+       if (!r.strike) return {};
+       return {{"speed", r.strike->speed}, {"right", r.strike->right}, {"mass", r.strike->mass}};
+     },
+     "", 0, " {`speed`, `right`, `mass`}"},
+};
+
+std::string text_of(const AimReport& r, const Digits& number) {
+  const std::string side = r.strike && r.strike->right < 0 ? "left" : "right";
+  std::string text =
+      ball_heading(r.experiment, r.law, number) + fmt::format("law {}\n\nstart  slip {} m/s, spin {} rad/s\n",
+                                                              r.law.name(), number(r.start.slip), number(r.start.spin));
+  if (r.strike) {
+    text += fmt::format("       struck by a level cue of {} kg at {} m/s, {} radii {} of the centre\n",
+                        number(r.strike->mass), number(r.strike->speed), number(std::abs(r.strike->right)), side);
+  } else if (r.is_ball()) {
+    text +=
+        fmt::format("       no level stroke gives it: its tip would meet the ball more than {} radii off the centre\n",
+                    number(si::largest_tip_offset));
+  }
+  text += fmt::format("end    {} m from the start, after {} turns and {} s: slip and spin end\n", number(r.distance),
+                      number(r.turns), number(r.time));
+  if (r.is_ball()) {
+    text += fmt::format("       it rolls on at {} m/s; its slip is below {} m/s from {} s and {} m on\n",
+                        number(r.final.velocity.x()), number(si::rolling_slip), number(r.rolls->t),
+                        number(r.rolls->place.x()));
+  }
+  return text;
+}
+
+}  // namespace
+
+Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const si::Goal& goal) {
+  const reduction::Flow flow(si::undriven_system(experiment, law));
+  const si::SlipAndSpin start = si::aimed(experiment, flow, goal);
+  experiment.start = start;
+  const si::BallMotion motion(experiment, flow);
+  const double time = motion.stop_time();
+  si::require_finite_motion(experiment, time);
+  std::optional<si::Event> rolls;
+  std::optional<si::CueStrike> strike;
+  if (!experiment.ball.body.lies_flat()) {
+    const double t = motion.slip_time(si::rolling_slip);
+    rolls = si::Event{t, motion.at_time(t).position};
+    strike = si::level_strike(experiment.ball, start);
+  }
+  AimReport report{experiment,
+                   law,
+                   start,
+                   motion.at_time(time).position.x(),
+                   motion.spin_angle() / (2 * std::numbers::pi),
+                   time,
+                   si::final_motion(experiment),
+                   rolls,
+                   strike};
+  Answer answer{.members = members_of(fields, report), .rows = {row_of(fields, report)}};
+  answer.text = [report = std::move(report)](const Digits& digits) { return text_of(report, digits); };
+  return answer;
+}
+
+std::vector<FieldText> aim_fields() { return texts_of(fields); }
+
+}  // namespace contensou::answers

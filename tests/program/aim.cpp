@@ -1,0 +1,88 @@
+// `aim`: against `stop` and `roll`, which go the other way.
+#include <string>
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+struct Pair {
+  const char *one, *other;
+};
+
+}  // namespace
+
+TEST_CASE("aim leads back to the start that stop and roll begin with", "[cli]") {
+  for (const std::string ball :
+       {"pool", "puck", "curling-stone", "steel", "pool --law pade", "pool --law ring", "pool --body hollow-ball",
+        "pool --patch-radius 28.575mm", "puck --body ring", "puck --law exact"}) {
+    const double slip = 1.25, spin = -17;
+    const std::string start = fmt::format(" --ball {} --slip {} --spin {} --format json", ball, slip, spin);
+    const auto stop = json_of("stop" + start);
+    const double time = stop.at("t_stop");
+    const auto roll = json_of(fmt::format("roll{} --at {}", start, time));
+    const double distance = roll.at("x")[0], turns = roll.at("turns");
+    for (const auto& [one, other] : {Pair{"distance", "turns"}, {"distance", "time"}, {"turns", "time"}}) {
+      const auto asked = [&](const std::string& what) {
+        return fmt::format(" --{} {:.17g}", what, what == "distance" ? distance : what == "turns" ? turns : time);
+      };
+      const std::string words = "aim --ball " + ball + asked(one) + asked(other) + " --format json";
+      INFO(words);
+      const auto json = json_of(words);
+      CHECK(json.at("distance").get<double>() == Approx(distance).epsilon(1e-12));
+      CHECK(json.at("turns").get<double>() ==
+            Approx(other == std::string("time") && one == std::string("distance") ? -turns : turns).epsilon(1e-9));
+      CHECK(json.at("time").get<double>() == Approx(time).epsilon(1e-12));
+      CHECK(json.at("slip").get<double>() == Approx(slip).epsilon(1e-9));
+      CHECK(std::abs(json.at("spin").get<double>()) == Approx(-spin).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("aim of a puck and of a ball in words", "[cli]") {
+  const std::string puck = run_program("aim --ball puck --distance 20m --turns 3").out;
+  CHECK_THAT(puck, Contains("start  slip 6.26255 m/s, spin 4.42701 rad/s\n") &&
+                       Contains("end    20 m from the start, after 3 turns and 6.39157 s"));
+  CHECK_THAT(puck, !Contains("cue") && !Contains("rolls"));
+  CHECK(run_program("aim --ball puck --distance 2000cm --turns 3").out == puck);
+  CHECK(run_program("aim --ball puck --distance 20m --turns 3 --format csv")
+            .out.starts_with("law,slip,spin,distance,turns,time\n"));
+  CHECK_THAT(run_program("aim --ball pool --distance 10cm --turns -5").out, Contains("no level stroke gives it"));
+}
+
+TEST_CASE("the cue of aim makes that start", "[cli]") {
+  for (const std::string turns : {"0", "3", "-2"}) {
+    const auto json = json_of("aim --ball pool --distance 1m --format json --turns " + turns);
+    const auto& strike = json.at("strike");
+    const auto roll = json_of(fmt::format("roll --ball pool --strike {} --tip {},0 --format json --at {}",
+                                          strike.at("speed").get<double>(), strike.at("right").get<double>(),
+                                          json.at("time").get<double>()));
+    CHECK(roll.at("x")[0].get<double>() == Approx(1).epsilon(1e-12));
+    CHECK(roll.at("turns").get<double>() == Approx(std::stod(turns)).epsilon(1e-12));
+    CHECK(roll.at("vx")[0].get<double>() == Approx(json.at("final_velocity").get<double>()).epsilon(1e-9));
+    CHECK(roll.at("rolls_after").at("x") == Approx(json.at("rolls_after").at("x").get<double>()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("what aim cannot reach, and what it refuses", "[cli][errors]") {
+  // f g T^2/2 and its limits: a puck that does not spin, and one that does nothing else.
+  check_rejected(
+      "aim --ball puck --distance 20m --time 2s",
+      "no start comes to 20 m in 2 s: that takes 6.38672 s or more, and in 2 s it comes to 1.96133 m at most, "
+      "without spin");
+  check_rejected("aim --ball pool --turns 3 --time 0.2",
+                 "no start comes to 3 turns in 0.2 s: that takes 1.94163 s or more, and in 0.2 s it comes to 0.031831 "
+                 "turns at most, in place");
+  check_rejected("aim --ball pool --turns 3", "two of distance, turns and time decide a start, got 1: give one more");
+  check_rejected("aim --ball pool --turns 3 --time 1s --distance 1m", "got 3: leave one out");
+  check_rejected("aim --ball pool --distance -1 --time 1", "distance must be finite and >= 0, got -1");
+  check_rejected("aim --ball pool --distance 1kg --time 1", "'1kg'");
+  check_rejected("aim --distance 1 --time 1", "--ball");
+  check_rejected("aim --ball pool --slope 2 --distance 1 --time 1", "knows neither rolling friction nor a slope");
+  check_rejected("aim --ball pool --rolling-friction 0.01 --distance 1 --time 1",
+                 "neither rolling friction nor a slope");
+}

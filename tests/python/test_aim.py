@@ -1,0 +1,38 @@
+"""The reversed question: against the motion itself and the program, and in errors and types of Python."""
+
+import json
+import os
+import subprocess
+
+import contensou as ct
+import pytest
+
+PROGRAM = os.environ.get("CONTENSOU")
+
+
+@pytest.mark.parametrize("ball", [ct.Ball.pool(), ct.Ball.puck(), ct.Ball.pool(law="pade"), ct.Ball.basketball()])
+def test_a_start_is_found_again(ball):
+    roll = ball.roll(slip=0.8, spin=25)
+    end = roll(roll.stop_time)
+    for asked in ({"distance": end["x"], "turns": roll.turns}, {"turns": roll.turns, "time": roll.stop_time},
+                  {"distance": end["x"], "time": roll.stop_time}):
+        found = ct.aim(ball, **asked)
+        assert found["slip"] == pytest.approx(0.8, rel=1e-9) and found["spin"] == pytest.approx(25, rel=1e-9)
+        assert found["distance"] == pytest.approx(end["x"], rel=1e-12)
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_aim_is_the_programs():
+    words = [PROGRAM, "aim", "--ball", "puck", "--distance", "20", "--turns", "3", "--law", "exact", "--format", "json"]
+    theirs = json.loads(subprocess.run(words, capture_output=True, check=True).stdout)
+    assert theirs.pop("schema") == 1
+    assert ct.aim(ct.Ball.puck(), distance=20, turns=3, law="exact") == theirs
+
+
+def test_what_is_refused():
+    with pytest.raises(ValueError, match="no start comes to 20.0? m in 2.0? s: that takes 6.38672 s or more"):
+        ct.aim(ct.Ball.puck(), distance=20, time=2)
+    with pytest.raises(ValueError, match="two of distance, turns and time decide a start, got 1"):
+        ct.aim(ct.Ball.puck(), distance=20)
+    with pytest.raises(ValueError, match="knows neither rolling friction nor a slope"):
+        ct.aim(ct.Ball.pool(rolling_friction=0.01), distance=1, turns=1)
