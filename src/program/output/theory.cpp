@@ -21,7 +21,7 @@ namespace {
 
 /// What a text of Markdown is made of, as far as the chapter uses it.
 struct Block {
-  enum class Kind { heading, paragraph, item, formula, table } kind;
+  enum class Kind { heading, paragraph, item, formula, code, table } kind;
   std::string text;  ///< without its marks; of a table its lines
 };
 
@@ -38,6 +38,10 @@ std::vector<Block> blocks() {
     };
     if (line == "```math") {
       all.push_back({Block::Kind::formula, ""});
+      while (std::getline(lines, line) && line != "```") all.back().text += line + "\n";
+      joins = false;
+    } else if (line == "```c") {
+      all.push_back({Block::Kind::code, ""});
       while (std::getline(lines, line) && line != "```") all.back().text += line + "\n";
       joins = false;
     } else if (line.empty()) {
@@ -183,6 +187,11 @@ std::string theory_as_text() {
       case Block::Kind::formula:
         text += equations(content);
         break;
+      case Block::Kind::code: {
+        std::istringstream lines(content);
+        for (std::string line; std::getline(lines, line);) text += fmt::format("    {}\n", line);
+        break;
+      }
       case Block::Kind::table:
         text += plain_table(content);
         break;
@@ -207,6 +216,9 @@ std::string theory_as_tex() {
         break;
       case Block::Kind::formula:
         text += fmt::format("\\begin{{equation*}}\n{}\\end{{equation*}}\n", content);
+        break;
+      case Block::Kind::code:
+        text += fmt::format("\\begin{{verbatim}}\n{}\\end{{verbatim}}\n", content);
         break;
       case Block::Kind::table:
         text += tex_table(content);

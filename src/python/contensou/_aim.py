@@ -28,4 +28,5 @@ def aim(
 
     Raises ValueError where no start comes to both, with what is nearest, and for rolling friction or a slope.
     """
-    return json.loads(_core.aim(ball._experiment, ball._law(law)._core, distance, turns, time))
+    found: dict[str, Any] = json.loads(_core.aim(ball._experiment, ball._law(law)._core, distance, turns, time))
+    return found
