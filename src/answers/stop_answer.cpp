@@ -83,6 +83,7 @@ struct StopReport {
   std::vector<reduction::StopEstimate> estimates;  ///< for small mu
   double slip_length;                              ///< m, of a ball
   std::optional<reduction::StopTimeGradient> gradient;
+  std::optional<Uncertainty> uncertainty;  ///< of t_stop, of what is no ball tau_stop
 };
 
 /// tau of a body that does not slide at the start; with a drive it begins to.
@@ -222,6 +223,27 @@ constexpr Field<StopReport> fields[]{
        return gradient;
      },
      "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, ...}"},
+    {"uncertainty", "s or speed",
+     "with --uncertainty: standard deviation of t_stop, of what is no ball tau_stop, to first order; quantiles of "
+     "samples, and "
+     "whether the two agree",
+     [](const StopReport& r) -> Json {
+       if (!r.uncertainty) return {};
+       Json quantiles = Json::array(), shares = Json::object();
+       for (std::size_t i = 0; i < r.uncertainty->quantiles.size(); ++i) {
+         quantiles.push_back({{"probability", Uncertainty::probabilities[i]}, {"value", r.uncertainty->quantiles[i]}});
+       }
+       for (const auto& [name, share] : r.uncertainty->shares) shares[name] = share;
+       return {{"standard", r.uncertainty->standard},
+               {"quantiles", quantiles},
+               {"shares", shares},
+               {"samples", r.uncertainty->samples},
+               {"outside", r.uncertainty->outside},
+               {"first_order_holds", r.uncertainty->holds}};
+     },
+     "", 0,
+     " {`standard`, `quantiles` [{`probability`, `value`}], `shares` {NAME}, `samples`, `outside`, "
+     "`first_order_holds`}"},
     {"ball", "m; kg; 1; m/s^2; m", "its values; and, as in run files, what its patch follows from",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });
@@ -260,7 +282,7 @@ class Text {
     if (report_.start.at_rest()) {
       return heading() + "\nstop time 0: the ball neither slides nor spins; it rolls already, or rests\n";
     }
-    return heading() + "\n" + times() + "\n" + estimates() + gradient() + methods() + ending();
+    return heading() + "\n" + times() + "\n" + estimates() + gradient() + uncertainty() + methods() + ending();
   }
 
  private:
@@ -392,6 +414,28 @@ class Text {
     return table.text() + "\n";
   }
 
+  std::string uncertainty() const {
+    if (!report_.uncertainty) return "";
+    const auto& [standard, shares, quantiles, samples, outside, holds] = *report_.uncertainty;
+    const char* const unit = report_.start.experiment ? " s" : "";
+    std::string text = fmt::format("known to +-{}{}, one standard deviation, to first order", number_(standard), unit);
+    if (shares.size() > 1) {
+      for (const auto& [name, share] : shares) {
+        text += fmt::format("{}{} {}{}", &name == &shares.front().first ? ": " : ", ", name, number_(std::abs(share)),
+                            unit);
+      }
+    }
+    text += fmt::format("\n{} samples: 95 % from {} to {}{}, 68 % from {} to {}{}, median {}{}\n", samples,
+                        number_(quantiles[0]), number_(quantiles[4]), unit, number_(quantiles[1]),
+                        number_(quantiles[3]), unit, number_(quantiles[2]), unit);
+    if (!holds)
+      text += "the first order does not do here: it is off by more than a tenth of itself; take the samples\n";
+    if (outside > 0) {
+      text += fmt::format("{:.2g} % of the samples were left out: no ball has such numbers\n", 100 * outside);
+    }
+    return text + "\n";
+  }
+
   std::string methods() const {
     const reduction::Law& law = system_.law();
     return fmt::format(
@@ -459,7 +503,8 @@ reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
 
 std::vector<FieldText> stop_fields() { return texts_of(fields); }
 
-Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient) {
+Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient,
+                   const std::vector<Uncertain>& uncertain) {
   using Estimates = std::vector<reduction::StopEstimate>;
   const auto& [system, state, experiment, resisted] = start;
   const auto pieces = start.pieces();
@@ -475,13 +520,23 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
     if (gradient)
       throw BadInput("--gradient is of one orbit, and this motion with rolling friction is several: leave it out");
   }
+  if (!uncertain.empty() && (system.drive() > 0 || resisted)) {
+    throw BadInput("--uncertainty is of a motion without rolling friction, slope and drive: leave it out");
+  }
+  if (!uncertain.empty() && start.at_rest())
+    throw BadInput("--uncertainty is of a motion, and this is rest: leave it out");
   const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;
   std::optional<reduction::Flow> flow;
   if (route == reduction::Route::quadrature) {
     flow = reduction::Flow::by_quadrature(system);
-  } else if (!stepped || experiment || gradient) {
+  } else if (!stepped || experiment || gradient || !uncertain.empty()) {
     flow = system;
   }
+  const auto uncertainty = [&]() -> std::optional<Uncertainty> {
+    if (uncertain.empty()) return std::nullopt;
+    const reduction::StopTimeGradient by = flow->stop_time_gradient(state);
+    return uncertainty_of(start, uncertain, experiment ? si::seconds(*experiment, by.tau) : by.tau, by);
+  };
   const StopReport report{start,
                           route,
                           pieces.size() > 1 ? in_pieces(pieces)
@@ -495,7 +550,8 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           resisted     ? resisted->slip_length()
                           : experiment ? si::seconds(*experiment, slip_length(*flow, state))
                                        : 0,
-                          gradient && !start.at_rest() ? std::optional(flow->stop_time_gradient(state)) : std::nullopt};
+                          gradient && !start.at_rest() ? std::optional(flow->stop_time_gradient(state)) : std::nullopt,
+                          uncertainty()};
   return {.members = members_of(fields, report), .rows = {row_of(fields, report)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();
           }};

@@ -25,6 +25,9 @@ class StopCommand final : public Verb {
     app.add_flag("--estimate", estimate_, "beside it the estimates for small mu, with their errors");
     app.add_flag("--gradient", gradient_,
                  "and how tau_stop changes with u0, v0, mu, the body's chi and gamma, and a drive: exact derivatives");
+    uncertainty_.add(
+        app, "--uncertainty", "NAME=SPREAD,...",
+        "standard deviations of numbers of the start, such as slip=1%,friction=5%: what the stop time is known to");
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
                "CSV with columns mu,u0,v0, to which it adds tau_stop; with --ball columns slip,spin in m/s, rad/s and "
@@ -40,11 +43,20 @@ class StopCommand final : public Verb {
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
-    output.write(stop_answer(start, route_.read(start.system), estimate_, gradient_));
+    output.write(stop_answer(start, route_.read(start.system), estimate_, gradient_, read_uncertainty(start)));
     return ExitStatus::done;
   }
 
  private:
+  std::vector<Uncertain> read_uncertainty(const GivenStart& start) const {
+    if (!uncertainty_.given()) return {};
+    try {
+      return read_uncertain(uncertainty_.text(), start);
+    } catch (const BadInput& error) {
+      uncertainty_.reject(error.what());
+    }
+  }
+
   static double sliding(const char* name, double speed) {
     if (speed >= 0) return speed;
     throw BadInput(fmt::format("{0}: {0} >= 0 is required, got {1}", name, speed));
@@ -56,6 +68,7 @@ class StopCommand final : public Verb {
       throw BadInput("--batch and " + start_.names_of_one_start() + " exclude each other: the starts are in the file");
     }
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
+    if (uncertainty_.given()) throw BadInput("--uncertainty is for one start: leave it or --batch out");
     if (gradient_) throw BadInput("--gradient is for one start: leave it or --batch out");
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.standard_law());
@@ -107,7 +120,7 @@ class StopCommand final : public Verb {
   StartOptions start_;
   LawOption law_;
   RouteOption route_;
-  Argument batch_;
+  Argument batch_, uncertainty_;
   bool estimate_ = false;
   bool gradient_ = false;
   bool keep_going_ = false;

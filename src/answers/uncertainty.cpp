@@ -1,0 +1,203 @@
+#include "answers/uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <ranges>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "answers/errors.hpp"
+#include "answers/parse.hpp"
+#include "contensou/reduction/stop_times_of_mu.hpp"
+#include "contensou/si/description.hpp"
+#include "contensou/si/quantity.hpp"
+#include "contensou/si/scaling.hpp"
+#include "text/nearest_name.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+/// The quantities of a ball that a stop time goes with by powers, and that it is given by. Those of the start are in them.
+std::vector<std::pair<const si::Quantity*, double>> numbers_of(const si::Experiment& experiment) {
+  std::vector<std::pair<const si::Quantity*, double>> all;
+  for (const auto& [quantity, values] : si::given_by(experiment)) {
+    const bool other = quantity == &si::inertia_factor || quantity == &si::counter_radius || values.size() != 1;
+    if (!other && quantity->section != si::slip.section) all.emplace_back(quantity, values[0]);
+  }
+  all.emplace_back(&si::slip, si::slip_at_start(experiment));
+  all.emplace_back(&si::spin, si::spin_at_start(experiment));
+  return all;
+}
+
+/// The powers with which a quantity acts, from the experiment with a little less of it: they are exact, since mu and the
+/// unit of time are products of powers of what they are given by.
+Uncertain powers_of(const si::Quantity& quantity, double value, const GivenStart& start) {
+  Uncertain number{std::string(quantity.name), value, 0};
+  if (&quantity == &si::slip) number.of_v = 1;
+  if (&quantity == &si::spin) number.of_u = 1;
+  if (quantity.section == si::slip.section) return number;
+  constexpr double less = 0.875;
+  const si::Experiment& experiment = *start.experiment;
+  si::Description described = si::describe(experiment);
+  described.set(quantity, {value * less}, {"", number.name, ""});
+  const si::Experiment changed = si::experiment_of(described);
+  const auto power = [&](double now, double before) { return std::log(now / before) / std::log(less); };
+  number.of_time = power(si::seconds(changed, 1), si::seconds(experiment, 1));
+  number.of_u = power(changed.ball.radius, experiment.ball.radius);
+  number.of_mu = power(si::patch_ratio(changed, start.system.law()), start.system.mu());
+  return number;
+}
+
+/// Standard normal numbers, the same on every machine: Box and Muller, from Mersenne's twister.
+class Normal {
+ public:
+  double operator()() {
+    if (has_second_) {
+      has_second_ = false;
+      return second_;
+    }
+    const double radius = std::sqrt(-2 * std::log(uniform())), angle = 2 * std::numbers::pi * uniform();
+    second_ = radius * std::sin(angle);
+    has_second_ = true;
+    return radius * std::cos(angle);
+  }
+
+ private:
+  double uniform() { return (static_cast<double>(twister_() >> 11) + 0.5) * 0x1p-53; }
+
+  std::mt19937_64 twister_{20260317};
+  double second_ = 0;
+  bool has_second_ = false;
+};
+
+std::string key(std::string name) {
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
+}  // namespace
+
+std::vector<Uncertain> read_uncertain(const std::string& typed, const GivenStart& start) {
+  std::vector<std::pair<Uncertain, std::string_view>> known;  // with their units
+  if (start.experiment) {
+    for (const auto& [quantity, value] : numbers_of(*start.experiment))
+      known.emplace_back(Uncertain{std::string(quantity->name), value, 0}, quantity->unit);
+  } else {
+    known = {{{.name = "u0", .value = start.state.u, .standard = 0, .of_u = 1}, ""},
+             {{.name = "v0", .value = start.state.v, .standard = 0, .of_v = 1}, ""},
+             {{.name = "mu", .value = start.system.mu(), .standard = 0, .of_mu = 1}, ""}};
+  }
+  std::vector<std::string> names;
+  for (const auto& [number, unit] : known) names.push_back(number.name);
+
+  std::vector<Uncertain> numbers;
+  for (const std::string& part : split(typed, ',')) {
+    const std::size_t equals = part.find('=');
+    if (equals == std::string::npos)
+      throw BadInput(fmt::format("{}: NAME=SPREAD is needed, such as {}=1%", quotation(part), names.back()));
+    const std::size_t first = std::min(part.find_first_not_of(' '), equals);
+    const std::string name = key(part.substr(first, part.find_last_not_of(' ', equals - 1) + 1 - first));
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) {
+      throw BadInput(fmt::format("no such number {}{}; numbers of this start: {}", quotation(name),
+                                 suggestion(name, names), fmt::join(names, ", ")));
+    }
+    if (std::ranges::find(numbers, name, &Uncertain::name) != numbers.end())
+      throw BadInput(fmt::format("{} is given twice", name));
+    auto [number, unit] = known[static_cast<std::size_t>(found - names.begin())];
+    if (number.value == 0) {
+      throw BadInput(fmt::format("{} is 0, where the stop time has a corner and no first order: leave it out", name));
+    }
+    std::string spread = part.substr(equals + 1);
+    if (const std::size_t end = spread.find_last_not_of(' '); end != std::string::npos && spread[end] == '%') {
+      number.standard = parse_number(spread.substr(0, end)) / 100 * std::abs(number.value);
+    } else if (const si::Dimension* dimension = si::find_dimension(unit); dimension && !is_number(spread)) {
+      const auto value = si::parse_quantity(spread, *dimension);
+      if (!value)
+        throw BadInput(
+            fmt::format("{}: {} is no number with %, {} behind it", name, quotation(spread), si::units_of(*dimension)));
+      number.standard = *value;
+    } else {
+      number.standard = parse_number(spread);
+    }
+    if (!(number.standard >= 0))
+      throw BadInput(fmt::format("{}: a spread must be >= 0, got {}", name, quotation(spread)));
+    if (start.experiment) {
+      const double standard = number.standard;
+      const auto of_name = std::ranges::find_if(si::quantities(), [&](const auto* of) { return of->name == name; });
+      number = powers_of(**of_name, number.value, start);
+      number.standard = standard;
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+Uncertainty uncertainty_of(const GivenStart& start, const std::vector<Uncertain>& numbers, double stop,
+                           const reduction::StopTimeGradient& gradient) {
+  const reduction::ReducedSystem& system = start.system;
+  const double by_u = start.state.u * gradient.by_u / gradient.tau, by_v = start.state.v * gradient.by_v / gradient.tau;
+  const double by_mu = system.mu() * gradient.by_mu / gradient.tau;
+  Uncertainty result{};
+  for (const Uncertain& number : numbers) {
+    const double power = number.of_time + number.of_u * by_u + number.of_v * by_v + number.of_mu * by_mu;
+    result.shares.emplace_back(number.name, stop * power * number.standard / number.value);
+    result.standard = std::hypot(result.standard, result.shares.back().second);
+  }
+
+  const reduction::StopTimesOfMu stop_times(system.law(), system.inertia());
+  const bool one_mu = std::ranges::all_of(numbers, [](const Uncertain& number) { return number.of_mu == 0; });
+  // Where the table refuses, each sample is a solution of its own.
+  constexpr double few_refused = 0.05;
+  const double max_mu = std::sqrt(reduction::StopTimesOfMu::max_r * system.inertia().chi / system.inertia().gamma);
+  const bool fast = one_mu || (stop_times.refused() < few_refused && system.mu() < max_mu);
+  const long wanted = fast ? 1'000'000 : 2'000;
+  const double unit = stop / gradient.tau;
+  const bool rolls = start.experiment && !start.experiment->ball.body.lies_flat();
+  Normal normal;
+  std::vector<double> u, v, samples;
+  for (long i = 0; i < wanted; ++i) {
+    double ln_time = 0, ln_u = 0, ln_v = 0, ln_mu = 0;
+    bool possible = true;
+    for (const Uncertain& number : numbers) {
+      const double factor = 1 + number.standard / number.value * normal();
+      const bool either_sign = number.name == si::spin.name || number.name == "u0";
+      possible = possible && (factor > 0 || either_sign);
+      const double ln = std::log(std::abs(factor));
+      ln_time += number.of_time * ln, ln_u += number.of_u * ln, ln_v += number.of_v * ln, ln_mu += number.of_mu * ln;
+    }
+    const double mu = system.mu() * std::exp(ln_mu);
+    if (!possible || (rolls && mu > 1)) continue;
+    u.push_back(start.state.u * std::exp(ln_u));
+    v.push_back(start.state.v * std::exp(ln_v));
+    samples.push_back(unit * std::exp(ln_time) * (one_mu ? 1 : stop_times(mu, {u.back(), v.back()})));
+  }
+  if (one_mu) {
+    std::vector<double> tau(u.size());
+    reduction::Flow(system).stop_times(u, v, tau);
+    std::ranges::transform(samples, tau, samples.begin(), std::multiplies());
+  }
+  result.samples = static_cast<long>(samples.size());
+  result.outside = 1 - static_cast<double>(samples.size()) / static_cast<double>(wanted);
+  if (samples.empty()) throw BadInput("no sample of these spreads is a start: make them smaller");
+  result.holds = true;
+  for (std::size_t i = 0; i < result.quantiles.size(); ++i) {
+    const double p = Uncertainty::probabilities[i];
+    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(samples.size() - 1));
+    std::ranges::nth_element(samples, at);
+    result.quantiles[i] = *at;
+    constexpr std::array<double, 5> normal_quantiles{-1.959963984540054, -0.994457883209753, 0, 0.994457883209753,
+                                                     1.959963984540054};
+    const double first_order = stop + normal_quantiles[i] * result.standard;
+    if (std::abs(*at - first_order) > 0.1 * result.standard) result.holds = false;
+  }
+  return result;
+}
+
+}  // namespace contensou::answers
