@@ -224,9 +224,9 @@ constexpr Field<StopReport> fields[]{
      },
      "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, ...}"},
     {"uncertainty", "s or speed",
-     "with --uncertainty: standard deviation of t_stop, of what is no ball tau_stop, to first order; quantiles of "
-     "samples, and "
-     "whether the two agree",
+     "with --uncertainty: standard deviation of t_stop, of what is no ball tau_stop, to first order; {probability, "
+     "value} of "
+     "samples; first_order_holds: whether the two agree; outside: the share of samples that no ball can be",
      [](const StopReport& r) -> Json {
        if (!r.uncertainty) return {};
        Json quantiles = Json::array(), shares = Json::object();
@@ -241,9 +241,7 @@ constexpr Field<StopReport> fields[]{
                {"outside", r.uncertainty->outside},
                {"first_order_holds", r.uncertainty->holds}};
      },
-     "", 0,
-     " {`standard`, `quantiles` [{`probability`, `value`}], `shares` {NAME}, `samples`, `outside`, "
-     "`first_order_holds`}"},
+     "", 0, " {`standard`, `quantiles` [...], `shares`, `samples`, ...}"},
     {"ball", "m; kg; 1; m/s^2; m", "its values; and, as in run files, what its patch follows from",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });

@@ -25,16 +25,12 @@ TEST_CASE("the first order of --uncertainty is that of differences", "[cli]") {
     double value;
   };
   for (const auto& [ball, name, option, value] : {Known{"pool", "slip", "--slip", 1.5},
-                                                  {"pool", "spin", "--spin", -60},
                                                   {"pool", "friction", "--friction", 0.2},
                                                   {"pool", "spin_deceleration", "--spin-deceleration", 10},
-                                                  {"pool", "radius", "--radius", 0.028575},
-                                                  {"pool", "gravity", "--gravity", 9.80665},
                                                   {"pool --patch-radius 3mm", "friction", "--friction", 0.2},
                                                   {"pool --patch-radius 3mm", "radius", "--radius", 0.028575},
                                                   {"steel", "mass", "--mass", 0.5},
                                                   {"steel", "radius", "--radius", 0.02},
-                                                  {"puck", "friction", "--friction", 0.1},
                                                   {"puck", "radius", "--radius", 0.0381}}) {
     const std::string start = fmt::format("--ball {}{}{}", ball, name == std::string("slip") ? "" : " --slip 1.5",
                                           name == std::string("spin") ? "" : " --spin -60");

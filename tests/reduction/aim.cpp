@@ -18,8 +18,7 @@ using contensou::tests::WorstCase;
 
 namespace {
 
-const std::vector<std::string> names{"exact",    "pade",       "uniform", "punch",      "ring",
-                                     "elliptic", "paraboloid", "soft:4",  "annulus:0.6"};
+const std::vector<std::string> names{"exact", "pade", "uniform", "ring", "elliptic", "annulus:0.6"};
 
 struct Case {
   std::string text;
@@ -30,8 +29,8 @@ struct Case {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const std::string& name : names) {
-    for (const Inertia& body : {homogeneous_ball, Inertia{2.5, 1.5}, Inertia{1, 2}, Inertia{1, 1}}) {
-      for (double mu : {1e-3, 0.1, 1.0, 1.3, 2.0, 6.0}) {
+    for (const Inertia& body : {homogeneous_ball, Inertia{2.5, 1.5}, Inertia{1, 2}}) {
+      for (double mu : {1e-3, 0.3, 1.3, 6.0}) {
         all.push_back({fmt::format("{} chi {} gamma {} mu {}", name, body.chi, body.gamma, mu),
                        Flow({*find_law(name), mu, body})});
       }
@@ -47,7 +46,7 @@ TEST_CASE("two of time, distance and turning lead back to the start", "[aim][inv
   std::uniform_real_distribution<double> ln_k(-5, 5), ln_speed(-20, 20);
   WorstCase tau("tau"), distance("distance"), turned("turned"), speeds("u and v");
   for (const auto& [text, flow] : cases()) {
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 2; ++i) {
       const double v = std::exp(ln_speed(random)), k = std::exp(ln_k(random));
       const State start{v / (flow.system().mu() * k), v};
       const Reached wanted = reached(flow, start);
@@ -78,7 +77,7 @@ TEST_CASE("distance over turning and over time squared, and time squared over tu
           "[aim][invariant]") {
   for (const auto& [text, flow] : cases()) {
     Reached last{};
-    for (double ln_k = -6; ln_k <= 6; ln_k += 0.1) {
+    for (double ln_k = -6; ln_k <= 6; ln_k += 0.25) {
       const Reached here = reached(flow, {std::exp(-ln_k) / flow.system().mu(), 1});
       if (last.tau > 0) {
         INFO(fmt::format("{} k {}", text, std::exp(ln_k)));
