@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <ranges>
 
@@ -151,12 +152,13 @@ Uncertainty uncertainty_of(const GivenStart& start, const std::vector<Uncertain>
     result.standard = std::hypot(result.standard, result.shares.back().second);
   }
 
-  const reduction::StopTimesOfMu stop_times(system.law(), system.inertia());
   const bool one_mu = std::ranges::all_of(numbers, [](const Uncertain& number) { return number.of_mu == 0; });
+  std::optional<reduction::StopTimesOfMu> stop_times;
+  if (!one_mu) stop_times.emplace(system.law(), system.inertia());
   // Where the table refuses, each sample is a solution of its own.
   constexpr double few_refused = 0.05;
   const double max_mu = std::sqrt(reduction::StopTimesOfMu::max_r * system.inertia().chi / system.inertia().gamma);
-  const bool fast = one_mu || (stop_times.refused() < few_refused && system.mu() < max_mu);
+  const bool fast = one_mu || (stop_times->refused() < few_refused && system.mu() < max_mu);
   const long wanted = fast ? 1'000'000 : 2'000;
   const double unit = stop / gradient.tau;
   const bool rolls = start.experiment && !start.experiment->ball.body.lies_flat();
@@ -176,7 +178,7 @@ Uncertainty uncertainty_of(const GivenStart& start, const std::vector<Uncertain>
     if (!possible || (rolls && mu > 1)) continue;
     u.push_back(start.state.u * std::exp(ln_u));
     v.push_back(start.state.v * std::exp(ln_v));
-    samples.push_back(unit * std::exp(ln_time) * (one_mu ? 1 : stop_times(mu, {u.back(), v.back()})));
+    samples.push_back(unit * std::exp(ln_time) * (one_mu ? 1 : (*stop_times)(mu, {u.back(), v.back()})));
   }
   if (one_mu) {
     std::vector<double> tau(u.size());
