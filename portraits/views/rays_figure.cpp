@@ -35,9 +35,15 @@ struct Drawn {
   Text legend;
 };
 
-double force_over_moment(const reduction::Law& law, double k) {
+/// r of the ray with that k: (Phi - rho)/(k Psi).
+double force_over_moment(const reduction::Law& law, double k, double drive) {
   const auto [force, moment] = law(reduction::slip_of_ratio(k));
-  return force / (k * moment);
+  return (force - drive) / (k * moment);
+}
+
+/// The k at which the drive is all of the force, Phi = rho: the ray of r = 0.
+double k_without_moment(const reduction::Law& law, double drive) {
+  return reduction::terminal_ratios(law, 1e-12, drive).rays.front().k;
 }
 
 Panel panel_over_k(const Text& title) {
@@ -48,16 +54,20 @@ Panel panel_over_k(const Text& title) {
 }
 
 /// k* against r: what attracts is solid, what repels dashed.
-Panel rays(const reduction::Law& law, double low, double high, std::optional<double> marked) {
+Panel rays(const reduction::Law& law, double low, double high, std::optional<double> marked, double drive) {
   std::vector<Point> points;
-  for (int i = 0; i <= pieces; ++i) points.push_back({force_over_moment(law, ratio_at(i)), ratio_at(i)});
+  if (drive > 0) points.push_back({0, k_without_moment(law, drive)});
+  const double first = points.empty() ? 0 : points[0].y;
+  for (int i = 0; i <= pieces; ++i) {
+    if (ratio_at(i) > first) points.push_back({force_over_moment(law, ratio_at(i), drive), ratio_at(i)});
+  }
   const auto [least, largest] = std::ranges::minmax(points, {}, &Point::x);
   const double bottom = std::min({low, high, least.x, marked.value_or(low)});
   const double top = std::max({low, high, largest.x, marked.value_or(low)});
   Panel panel;
   panel.title = "invariant rays";
   panel.x = {math("r = γμ") + sup("2") + math("/χ"), 0, 1.2 * top, false, {}};
-  if (top > 20 * bottom) panel.x = {panel.x.name, 0.5 * bottom, 2 * top, true, {}};
+  if (drive == 0 && top > 20 * bottom) panel.x = {panel.x.name, 0.5 * bottom, 2 * top, true, {}};
   panel.y = {math("k*"), 1 / ends, ends, true, {}};
   // r = Phi/(k Psi) grows along a ray that attracts.
   Lines attracting{{}, {curve_colour, 2.4}, "attracts"}, repelling{{}, {curve_colour, 1.4, true}, "repels"};
@@ -70,27 +80,33 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
                             points.begin() + static_cast<std::ptrdiff_t>(end) + 1);
     begin = end;
   }
-  Lines borders{{{{low, 1 / ends}, {low, ends}}, {{high, 1 / ends}, {high, ends}}}, {guide_colour, 1, false, true}, ""};
+  Lines borders{{{{high, 1 / ends}, {high, ends}}}, {guide_colour, 1, false, true}, ""};
+  if (drive == 0) borders.lines.push_back({{low, 1 / ends}, {low, ends}});
   panel.lines = {std::move(borders)};
+  if (drive > 0) {
+    Polyline undriven;
+    for (int i = 0; i <= pieces; ++i) undriven.push_back({force_over_moment(law, ratio_at(i), 0), ratio_at(i)});
+    panel.lines.push_back({{std::move(undriven)}, {guide_colour, 1.4}, "without a drive"});
+  }
   for (Lines* lines : {&attracting, &repelling}) {
     if (!lines->lines.empty()) panel.lines.push_back(std::move(*lines));
   }
-  panel.labels = {{{low, 1.6 / ends}, math("r") + sub("low"), guide_colour},
-                  {{high, ends / 1.6}, math("r") + sub("high"), guide_colour}};
+  panel.labels = {{{high, drive > 0 ? 1.6 / ends : ends / 1.6}, math("r") + sub("high"), guide_colour}};
+  if (drive == 0) panel.labels.push_back({{low, 1.6 / ends}, math("r") + sub("low"), guide_colour});
   if (marked) panel.lines.push_back({{{{*marked, 1 / ends}, {*marked, ends}}}, {marked_colour, 1.6, true, true}, ""});
   return panel;
 }
 
 /// D in units of its terms, with heads that say which way k goes.
-Panel ways(const reduction::Law& law, const std::vector<Drawn>& all) {
+Panel ways(const reduction::Law& law, const std::vector<Drawn>& all, double drive) {
   Panel panel = panel_over_k(math("k") + " falls where " + math("D > 0"));
-  panel.y = {math("D/(Φ + r k Ψ)"), -1.05, 1.05, false, {}};
+  panel.y = {math(drive > 0 ? "D/(Φ + ρ + r k Ψ)" : "D/(Φ + r k Ψ)"), -1.05, 1.05, false, {}};
   for (const auto& [r, stroke, legend] : all) {
     Polyline line;
     for (int i = 0; i <= pieces; ++i) {
       const double k = ratio_at(i);
       const auto [force, moment] = law(reduction::slip_of_ratio(k));
-      line.push_back({k, (force - r * k * moment) / (force + r * k * moment)});
+      line.push_back({k, (force - drive - r * k * moment) / (force + drive + r * k * moment)});
     }
     Arrows heads{{}, stroke.colour, 1};
     for (const double place : {0.15, 0.4, 0.6, 0.85}) {
@@ -105,11 +121,11 @@ Panel ways(const reduction::Law& law, const std::vector<Drawn>& all) {
 }
 
 /// m between its bounds; a line ends at each ray.
-Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all) {
+Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all, double drive) {
   Panel panel = panel_over_k("time left = " + math("P + m S"));
   panel.y = {math("m"), 0, 0, false, {}};
   for (const auto& [r, stroke, legend] : all) {
-    const reduction::Flow flow({law, 1, {.chi = 1, .gamma = r}});
+    const reduction::Flow flow({law, 1, {.chi = 1, .gamma = r}, drive});
     Lines lines{{}, stroke, legend};
     for (const auto& curve : flow.solution().curves()) {
       Polyline line;
@@ -117,13 +133,13 @@ Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all) {
         const double k = ratio_at(i);
         if (flow.solution().through(std::log(k)) != curve) continue;
         line.push_back({k, curve->sliding_coefficient(curve->chart().coordinate(std::log(k)))});
-        panel.y.high = std::max(panel.y.high, 1.1 * line.back().y);
+        if (drive == 0 || k >= 1) panel.y.high = std::max(panel.y.high, 1.1 * line.back().y);  // else it is singular
       }
       lines.lines.push_back(std::move(line));
     }
     panel.lines.push_back(std::move(lines));
   }
-  if (const auto bounds = law.sliding_bounds()) {
+  if (const auto bounds = law.sliding_bounds(); bounds && drive == 0) {
     panel.y.high = std::max(panel.y.high, 1.08 * bounds->max);
     panel.y.low = bounds->min > 0 ? 0.8 * bounds->min : -0.04;
     Lines borders{{}, {guide_colour, 1, false, true}, "bounds of " + math("m")};
@@ -135,8 +151,8 @@ Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all) {
 
 }  // namespace
 
-Figure rays_figure(const reduction::Law& law, std::optional<double> r, const AskedSize& size) {
-  const reduction::TerminalRatios ratios = reduction::terminal_ratios(law, r.value_or(1));
+Figure rays_figure(const reduction::Law& law, std::optional<double> r, const AskedSize& size, double drive) {
+  const reduction::TerminalRatios ratios = reduction::terminal_ratios(law, r.value_or(1), drive);
   const auto [low, high] = std::minmax(ratios.low, ratios.high);
   std::vector<Drawn> all;
   const auto add = [&](double value, Colour colour, double width, bool dashed, bool dotted) {
@@ -149,10 +165,11 @@ Figure rays_figure(const reduction::Law& law, std::optional<double> r, const Ask
 
   Figure figure;
   figure.title = "Where motions end,  law: " + shortened(law.name());
-  figure.subtitle =
-      "a ray is where " + math("Φ = r k Ψ") + "; motions end on one that attracts, or with " + math("k") + " → 0 or ∞";
+  if (drive > 0) figure.title += fmt::format(",  drive {:.3g}", drive);
+  figure.subtitle = "a ray is where " + math(drive > 0 ? "Φ = ρ + r k Ψ" : "Φ = r k Ψ") +
+                    "; motions end on one that attracts, or with " + math("k") + (drive > 0 ? " → ∞" : " → 0 or ∞");
   figure.size = fitted({270, 105}, 3, size);
-  figure.panels = {rays(law, ratios.low, ratios.high, r), ways(law, all), coefficients(law, all)};
+  figure.panels = {rays(law, ratios.low, ratios.high, r, drive), ways(law, all, drive), coefficients(law, all, drive)};
   return figure;
 }
 

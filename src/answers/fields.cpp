@@ -1,6 +1,7 @@
 #include "answers/fields.hpp"
 
 #include "answers/aim_answer.hpp"
+#include "answers/bounce_answer.hpp"
 #include "answers/check_answer.hpp"
 #include "answers/engine_answer.hpp"
 #include "answers/phase_plane_answer.hpp"
@@ -78,6 +79,7 @@ std::vector<VerbFields> field_table() {
             "rest of the centre, with --rolling-friction, which holds it on the slope; of a puck, in place of t_rolls, "
             "x_rolls, y_rolls"},
        }},
+      {"bounce", bounce_fields()},
       {"portrait",
        {
            {"CSV `kind`, `index`; `u`, `v`, `ln_v`; `k`", "; speed; 1",

@@ -18,7 +18,9 @@
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/course.hpp"
+#include "contensou/si/loaded_motion.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -83,7 +85,14 @@ struct StopReport {
   std::vector<reduction::StopEstimate> estimates;  ///< for small mu
   double slip_length;                              ///< m, of a ball
   std::optional<reduction::StopTimeGradient> gradient;
-  std::optional<Uncertainty> uncertainty;  ///< of t_stop, of what is no ball tau_stop
+  std::optional<Uncertainty> uncertainty;    ///< of t_stop, of what is no ball tau_stop
+  std::optional<si::LoadHistory> load = {};  ///< that changes
+
+  /// Of a ball, until friction under the load has done what takes so much tau.
+  double seconds(double tau) const {
+    const double nominal = si::seconds(*start.experiment, tau);
+    return load ? load->time_of(nominal) : nominal;
+  }
 };
 
 /// tau of a body that does not slide at the start; with a drive it begins to.
@@ -247,12 +256,17 @@ constexpr Field<StopReport> fields[]{
        return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });
      },
      "", 0, " {`name`, `body`, `radius`, `mass`, `friction`, `gravity`, `patch_radius`, ...}"},
+    {"load", "s, N", "in: columns t, load of the table of --load, where it is one",
+     [](const StopReport& r) -> Json {
+       return r.load ? Json{{"t", r.load->instants()}, {"load", r.load->loads()}} : Json();
+     },
+     "", 0, " {`t` [...], `load` [...]}"},
     {"slip", "m/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::slip_at_start); }, ""},
     {"spin", "1/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::spin_at_start); }, ""},
     {"slip_length", "m", "slid by the contact point of a ball",
      [](const StopReport& r) { return of_ball(r, [&](const auto& /*ball*/) { return r.slip_length; }); }, ""},
     {"t_stop", "s", "of a ball, when slip and spin end",
-     [](const StopReport& r) { return of_ball(r, [&](const auto& ball) { return si::seconds(ball, r.stop.tau); }); },
+     [](const StopReport& r) { return of_ball(r, [&](const auto& /*ball*/) { return r.seconds(r.stop.tau); }); },
      nullptr, 4},
     {"final", "m/s, 1/s", "of a ball: how it rolls then",
      [](const StopReport& r) {
@@ -296,7 +310,14 @@ class Text {
            fmt::format("slip {} m/s, spin {} rad/s: u0 = {} m/s, v0 = {} m/s\n",
                        number_(si::slip_at_start(*experiment)), number_(si::spin_at_start(*experiment)),
                        number_(state.u), number_(state.v)) +
-           resistance(*experiment);
+           loading() + resistance(*experiment);
+  }
+
+  std::string loading() const {
+    if (!report_.load) return "";
+    const auto& times = report_.load->instants();
+    return fmt::format("the load changes until {} s; tau is that of {} N\n", number_(times.back()),
+                       number_(report_.load->nominal()));
   }
 
   /// What else acts on a ball.
@@ -345,7 +366,7 @@ class Text {
       table.add(std::move(cells));
     };
     const auto row = [&](const std::string& label, double tau, const std::string& note = "") {
-      line(label, experiment ? number_(si::seconds(*experiment, tau)) : "", number_(tau), note);
+      line(label, experiment ? number_(report_.seconds(tau)) : "", number_(tau), note);
     };
     const double tau = report_.stop.tau;
     line("", "t* (s)", experiment ? "tau* (m/s)" : "tau*", "");
@@ -502,7 +523,7 @@ reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
 std::vector<FieldText> stop_fields() { return texts_of(fields); }
 
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient,
-                   const std::vector<Uncertain>& uncertain) {
+                   const std::vector<Uncertain>& uncertain, const std::optional<si::LoadHistory>& load) {
   using Estimates = std::vector<reduction::StopEstimate>;
   const auto& [system, state, experiment, resisted] = start;
   const auto pieces = start.pieces();
@@ -545,11 +566,13 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           other_law(start),
                           coarser_table(start),
                           estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
-                          resisted     ? resisted->slip_length()
+                          resisted ? resisted->slip_length()
+                          : load   ? si::Loaded<si::BallMotion>(*experiment, {*experiment, *flow}, load).slip_length()
                           : experiment ? si::seconds(*experiment, slip_length(*flow, state))
                                        : 0,
                           gradient && !start.at_rest() ? std::optional(flow->stop_time_gradient(state)) : std::nullopt,
-                          uncertainty()};
+                          uncertainty(),
+                          load};
   return {.members = members_of(fields, report), .rows = {row_of(fields, report)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();
           }};

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <optional>
+
 #include "answers/answer.hpp"
 #include "answers/given_start.hpp"
 #include "answers/record.hpp"
 #include "answers/uncertainty.hpp"
 #include "contensou/reduction/stop_time.hpp"
+#include "contensou/si/load_history.hpp"
 
 namespace contensou::answers {
 
@@ -12,8 +15,10 @@ namespace contensou::answers {
 /// @param estimate  also the estimates for small mu
 /// @param gradient  also the derivatives of the stop time
 /// @param uncertain  the numbers that are known to so much: also what the stop time is known to
+/// @param load      of a ball, that changes: tau is that of its nominal load, seconds are those under this one
+/// @throws BadInput, std::domain_error  for what rolling friction excludes, and for a load that ends before the motion
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient = false,
-                   const std::vector<Uncertain>& uncertain = {});
+                   const std::vector<Uncertain>& uncertain = {}, const std::optional<si::LoadHistory>& load = {});
 
 /// The fields of that answer.
 std::vector<FieldText> stop_fields();

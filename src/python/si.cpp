@@ -15,6 +15,7 @@
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/course.hpp"
 #include "contensou/si/cue_strike.hpp"
+#include "contensou/si/loaded_motion.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
 #include "contensou/si/scaling.hpp"
@@ -97,12 +98,12 @@ py::tuple place_of(const si::Event& event) { return py::make_tuple(event.t, even
 
 template <class Motion, class Given>
 void bind_course(py::module_& module, const char* name) {
-  using Course = si::Course<Motion>;
+  using Course = si::Course<si::Loaded<Motion>>;
   py::class_<Course>(module, name)
-      .def(py::init(
-               [](const si::Experiment& experiment, const Given& given, double rolling_below, double rolling_friction) {
-                 return Course(experiment, Motion(experiment, given), rolling_below, rolling_friction);
-               }),
+      .def(py::init([](const si::Experiment& experiment, const Given& given, double rolling_below,
+                       double rolling_friction, const std::optional<si::LoadHistory>& load) {
+             return Course(experiment, {experiment, Motion(experiment, given), load}, rolling_below, rolling_friction);
+           }),
            Released())
       .def_property_readonly("stop_time",
                              [](const Course& course) {
@@ -133,6 +134,10 @@ void bind_course(py::module_& module, const char* name) {
 
 void bind_si(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(Instant, t, x, y, vx, vy, wx, wy, wz, slip, energy);
+
+  py::class_<si::LoadHistory>(module, "LoadHistory")
+      .def(py::init<std::vector<double>, std::vector<double>>())
+      .def_property_readonly("nominal", &si::LoadHistory::nominal);
 
   py::class_<si::Experiment>(module, "Experiment")
       .def(py::init([](const py::dict& fields) { return si::experiment_of(at_rest().under(described_by(fields))); }))

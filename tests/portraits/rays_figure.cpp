@@ -8,6 +8,7 @@
 
 #include "../octic_law.hpp"
 #include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
@@ -51,6 +52,37 @@ TEST_CASE("rays are drawn where terminal_ratios finds them, and as it says that 
   }
   CHECK(lines_of(rays_figure(reduction::HertzLaw{}).panels[0], "repels") == nullptr);
   CHECK(lines_of(rays_figure(contensou::tests::OcticLaw{}).panels[0], "repels") != nullptr);
+}
+
+TEST_CASE("with a drive rays are drawn where terminal_ratios finds them", "[route]") {
+  for (const char* name : {"exact", "pade", "uniform"}) {
+    const reduction::Law law = *reduction::find_law(name);
+    for (const double drive : {0.01, 0.3}) {
+      const Figure figure = rays_figure(law, 0.5, {}, drive);
+      const Lines* lines = lines_of(figure.panels[0], "attracts");
+      REQUIRE(lines != nullptr);
+      REQUIRE(lines_of(figure.panels[0], "without a drive") != nullptr);
+      for (const double r : {0.1, 0.5, 1.0}) {
+        const auto rays = reduction::terminal_ratios(law, r, drive).rays;
+        INFO(name << " drive " << drive << " r = " << r);
+        REQUIRE(rays.size() == 1);
+        CHECK(ray_at(lines->lines.at(0), r) == Approx(rays[0].k).epsilon(1e-3));
+      }
+      for (const Arrows& heads : figure.panels[1].arrows) {
+        for (const Arrow& head : heads.arrows) CHECK(head.at.y * head.direction.x < 0);
+      }
+      // The time left is P + m S.
+      const Lines* of_r = lines_of(figure.panels[2], math("r = 0.5"));
+      REQUIRE(of_r != nullptr);
+      const reduction::ReducedSystem system(law, 1, {.chi = 1, .gamma = 0.5}, drive);
+      for (const Polyline& line : of_r->lines) {
+        for (std::size_t i = 0; i < line.size(); i += 37) {
+          const double tau = system.pivoting_limit(1) + line[i].y * system.sliding_limit(line[i].x);
+          CHECK(reduction::Flow(system).stop_time({.u = 1, .v = line[i].x}).tau == Approx(tau).epsilon(1e-9));
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("heads point to smaller k where D > 0, and m lies between its bounds", "[invariant]") {

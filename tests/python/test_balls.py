@@ -280,6 +280,10 @@ def test_a_ball_changes():
     (lambda: ct.portrait(ball=ct.Ball.pool(slope=2)), "must slide straight down"),
     (lambda: ct.engine("mujoco", ct.Ball.pool(slope=2)), "knows neither rolling friction nor a slope"),
     (lambda: ct.fit([0, 1], slip=[1, 0.5], ball=ct.Ball.pool(slope=2)), "knows neither rolling friction nor a slope"),
+    (lambda: ct.Ball.steel().roll(load=([0, 1], [2, 4])), "grows with a load that changes"),
+    (lambda: ct.Ball.puck(slope=-1).roll(load=([0, 1], [2, 4])), "leave out slope|exclude each other"),
+    (lambda: ct.Ball.puck().roll(load=([1, 2], [2, 4])), "t must begin with 0"),
+    (lambda: ct.Ball.puck().roll(load=([0, 0.1], [2, 0])), "the load ends at 0 before the motion does"),
     (lambda: ct.Ball.pool().roll(rolling_below=-1), "speed >= 0 is required"),
     (lambda: ct.Ball.pool().roll(strike=1e300), "exceed the largest double"),
     (lambda: ct.Ball.pool().roll()(-1), "t must be >= 0, in s; got -1"),
@@ -289,8 +293,20 @@ def test_rejected_in_the_librarys_own_words(ask, words):
         ask()
 
 
+def test_a_puck_under_a_growing_load_in_closed_form():
+    puck, a = ct.Ball.puck(slip=1, spin=0), 0.1 / 0.163
+    roll = puck.roll(load=([0, 1, 9], [2, 4, 20]))  # 2 N + 2 N/s t: v = v0 - a (2 t + t^2)
+    assert roll.stop_time == pytest.approx(math.sqrt(1 + 1 / a) - 1, rel=1e-13)
+    assert roll(0.4)["slip"] == pytest.approx(1 - a * (0.8 + 0.16), rel=1e-13)
+    assert roll(0.4)["x"] == pytest.approx(0.4 - a * (0.16 + 0.064 / 3), rel=1e-12)
+    assert roll.uncoupled.stop_time == pytest.approx(roll.stop_time, rel=1e-13)
+    spinning = ct.Ball.puck(slip=1, spin=60)
+    doubled = spinning.roll(load=([0, 0, 1], [2, 4, 4]))
+    assert doubled.stop_time == pytest.approx(spinning.but(load=4).roll().stop_time, rel=1e-13)
+
+
 def test_pickling_and_copying():
-    for value in (ct.Ball.steel(), ct.Ball.gel().roll(strike=1), ct.Ball.gel().roll().uncoupled):
+    for value in (ct.Ball.puck().roll(load=([0, 1], [2, 4])), ct.Ball.steel(), ct.Ball.gel().roll(strike=1), ct.Ball.gel().roll().uncoupled):
         for other in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
             assert other == value and hash(other) == hash(value) and repr(other) == repr(value)
     assert pickle.loads(pickle.dumps(ct.Ball.pool().roll()))(1) == ct.Ball.pool().roll()(1)

@@ -101,7 +101,10 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
     if (!offer(quantity)) continue;
     const bool may_be_table = takes_load_history_ && &quantity == &si::load;
     const auto read = [&quantity, may_be_table](const std::string& typed) {
-      if (may_be_table && names_a_file(typed, {".csv"})) return std::vector<double>{};
+      if (&quantity == &si::load && names_a_file(typed, {".csv"})) {
+        if (may_be_table) return std::vector<double>{};
+        throw NotAllowed("a load that changes is of roll, stop and orbit; here it is a number, in N");
+      }
       const std::string components(quantity.components);
       const std::vector<double> values = quantity.count() == 1
                                              ? std::vector{parse_quantity(typed, quantity.unit)}

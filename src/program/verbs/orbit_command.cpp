@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "answers/ball_answer.hpp"
+#include "answers/load_table.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/si/scaling.hpp"
@@ -42,6 +43,7 @@ std::array<Column, 3> canonical_columns(const GivenStart& start, const reduction
 class OrbitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
+    start_.take_load_history();
     start_.add(app);
     start_.add_drive(app);
     law_.add(app);
@@ -71,13 +73,20 @@ class OrbitCommand final : public Verb {
       throw BadInput("--time-left and --samples, --equidistant exclude each other: give one of them");
     }
     const auto* at = instants_.at();
-    const Eigen::ArrayXd lefts = time_left_.given() ? taus(*time_left_, start) : Eigen::ArrayXd();
+    const auto load = start_.load_history();
+    if (load) {
+      fmt::print(stderr, "{}", require_load_alone(*start.experiment, system.law()));
+      // In seconds it would be of the load that is still to come.
+      if (time_left_.given() && time_left_->in_seconds)
+        time_left_.reject("with a load that changes so much tau is left, and no seconds: leave the unit out");
+    }
+    const Eigen::ArrayXd lefts = time_left_.given() ? taus(*time_left_, start, load) : Eigen::ArrayXd();
     const std::vector<si::ReducedPiece> pieces = start.pieces();
     if (pieces.size() > 1) require_one_orbit(route);
     reduction::OrbitColumns motion =
-        pieces.size() > 1    ? motion_of_pieces(pieces, at != nullptr ? taus(*at, start) : Eigen::ArrayXd(), lefts)
+        pieces.size() > 1 ? motion_of_pieces(pieces, at != nullptr ? taus(*at, start, load) : Eigen::ArrayXd(), lefts)
         : time_left_.given() ? motion_at_time_left(system, start.state, route, lefts)
-        : at != nullptr      ? motion_at(system, start.state, route, taus(*at, start))
+        : at != nullptr      ? motion_at(system, start.state, route, taus(*at, start, load))
                              : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
     // At rest k is what it tends to.
     if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
@@ -102,8 +111,12 @@ class OrbitCommand final : public Verb {
     if (time_left_.given()) answer.columns.push_back({"tau_left", lefts});
     if (start.experiment) {
       answer.members["ball"] = members_of_ball(*start.experiment, system.law());
-      const auto seconds = [&](double tau) { return si::seconds(*start.experiment, tau); };
+      const auto seconds = [&](double tau) {
+        const double nominal = si::seconds(*start.experiment, tau);
+        return load ? load->time_of(nominal) : nominal;
+      };
       const bool given = at != nullptr && at->in_seconds;  // as they were typed, not there and back
+      if (load) answer.members["load"] = Json{{"t", load->instants()}, {"load", load->loads()}};
       answer.columns.push_back({"t", given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds))});
     }
     if (reduction_) {
@@ -134,9 +147,11 @@ class OrbitCommand final : public Verb {
     return columns;
   }
 
-  static Eigen::ArrayXd taus(const InstantsOption::Times& times, const GivenStart& start) {
+  static Eigen::ArrayXd taus(const InstantsOption::Times& times, const GivenStart& start,
+                             const std::optional<si::LoadHistory>& load) {
     if (!times.in_seconds) return times.values;
-    if (start.experiment) return times.values / si::seconds(*start.experiment, 1);
+    const auto clock = [&](double t) { return load ? load->clock(t) : t; };
+    if (start.experiment) return times.values.unaryExpr(clock) / si::seconds(*start.experiment, 1);
     throw BadInput(
         "times in seconds are of a ball: add --ball NAME|FILE.toml, or leave the unit out: tau is in that of --u0");
   }

@@ -10,6 +10,7 @@
 
 #include "answers/ball_answer.hpp"
 #include "answers/law_forms.hpp"
+#include "answers/load_table.hpp"
 #include "contensou/portraits/roll_figure.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/ball_motion.hpp"
@@ -493,24 +494,8 @@ class RollCommand final : public Verb {
   std::optional<si::LoadHistory> load_for(const si::Experiment& experiment, const reduction::Law& law) const {
     const auto load = start_.load_history();
     if (!load) return load;
-    const std::string no = "--load with a table";
-    if (std::holds_alternative<si::HertzModuli>(experiment.contact.patch)) {
-      throw BadInput(
-          fmt::format("{}: the patch by Hertz's formula grows with the load, and the motion is then no other "
-                      "one's copy; --patch-radius {:.6g} keeps it as it is under the first load",
-                      no, si::patch_radius_of(experiment, law)));
-    }
-    const std::string others = integrated_.value_or(false)               ? "--route integrated"
-                               : experiment.contact.rolling_friction > 0 ? "the rolling friction"
-                               : experiment.environment.slope != 0       ? "the slope"
-                                                                         : "";
-    if (!others.empty()) throw BadInput(fmt::format("{} is of friction alone: leave out {}", no, others));
-    if (!experiment.ball.body.lies_flat()) {
-      fmt::print(stderr,
-                 "note: the patch stays at {:.6g} m while the load changes; that of an elastic ball goes with its cube "
-                 "root\n",
-                 si::patch_radius_of(experiment, law));
-    }
+    fmt::print(stderr, "{}",
+               require_load_alone(experiment, law, integrated_.value_or(false) ? "--route integrated" : ""));
     return load;
   }
 

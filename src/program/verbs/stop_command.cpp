@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "answers/load_table.hpp"
 #include "answers/stop_answer.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/bulk_options.hpp"
@@ -18,6 +19,7 @@ namespace {
 class StopCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
+    start_.take_load_history();
     start_.add(app);
     start_.add_drive(app);
     law_.add(app);
@@ -43,7 +45,10 @@ class StopCommand final : public Verb {
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
-    output.write(stop_answer(start, route_.read(start.system), estimate_, gradient_, read_uncertainty(start)));
+    const auto load = start_.load_history();
+    if (load && uncertainty_.given()) uncertainty_.reject("it is of a constant load: give --load a number");
+    if (load) fmt::print(stderr, "{}", require_load_alone(*start.experiment, start.system.law()));
+    output.write(stop_answer(start, route_.read(start.system), estimate_, gradient_, read_uncertainty(start), load));
     return ExitStatus::done;
   }
 
@@ -70,6 +75,7 @@ class StopCommand final : public Verb {
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     if (uncertainty_.given()) throw BadInput("--uncertainty is for one start: leave it or --batch out");
     if (gradient_) throw BadInput("--gradient is for one start: leave it or --batch out");
+    if (has_ball && start_.load_history()) throw BadInput("--batch is of a constant load: give --load a number");
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.standard_law());
     const auto ball = has_ball ? std::optional(start_.read_ball(law, at_rest("--batch"))) : std::nullopt;

@@ -32,11 +32,11 @@ class TerminalCommand final : public Verb {
       output.write(terminal_answer(body_.read(law)));
       return ExitStatus::done;
     }
-    if (body_.drive().given()) body_.drive().reject("the picture is of no drive: leave it or -o out");
     // All r are drawn; that of a body is marked.
     std::optional<double> r;
     if (body_.mu().given() || body_.argument().given()) r = body_.read(law).r();
-    output.write({figure_.apply(portraits::rays_figure(law, r, figure_.size()), output.format)});
+    output.write(
+        {figure_.apply(portraits::rays_figure(law, r, figure_.size(), body_.drive().value_or(0)), output.format)});
     return ExitStatus::done;
   }
 

@@ -167,6 +167,7 @@ class Ball:
         law: Optional[LawLike] = None,
         rolling_below: float = _core.rolling_slip,
         rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None,
     ) -> Roll:
         """The whole motion of the ball, or of the body that lies flat, from its own start or from another one:
 
@@ -178,15 +179,27 @@ class Ball:
         law:               that of the ball if left out
         rolling_below:     the ball rolls once it slips slower, m/s
         rolling_friction:  u_r: rolling without slip it slows down at u_r g; 0: it rolls on. That of the ball if left out
+        load:              one that changes: instants in s from 0 on, and newtons at each, linear between them and the last
+                           one from then on. The patch does not change with it; friction is all that acts
         """
         start = {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin}
         start = {name: value for name, value in start.items() if value is not None}
         if strike is not None and start:
             raise ValueError(f"strike is a start of its own: leave out {', '.join(start)}")
         ball = self.but(**start)
+        history = None
+        if load is not None:
+            t, newtons = (tuple(np.atleast_1d(numbers("load", each)).tolist()) for each in load)
+            history = t, newtons
+            ball = ball.but(load=_core.LoadHistory(list(t), list(newtons)).nominal)
+            if ball.youngs_modulus is not None:
+                raise ValueError("load: the patch of Young's moduli grows with a load that changes, and the motion is then "
+                                 "no other one's copy: give patch_radius")
+            if ball.slope or (ball.rolling_friction if rolling_friction is None else rolling_friction):
+                raise ValueError("load: one that changes is of friction alone: leave out slope and rolling_friction")
         core = ball._experiment if strike is None else ball._experiment.struck(strike, tip, elevation, cue_mass)
         friction = ball.rolling_friction if rolling_friction is None else rolling_friction
-        return Roll(ball, *core.start, ball._law(law), rolling_below, friction)
+        return Roll(ball, *core.start, ball._law(law), rolling_below, friction, load=history)
 
     def evolve(
         self,
@@ -230,11 +243,13 @@ class Roll:
     rolling_below: float
     rolling_friction: float
     textbook: bool = False
+    load: Optional[tuple[tuple[float, ...], tuple[float, ...]]] = None
     _core: Union[_core.BallMotion, _core.UncoupledMotion] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         experiment = self.ball.but(velocity=self.velocity, angular_velocity=self.angular_velocity)._experiment
-        settings = self.rolling_below, self.rolling_friction
+        load = None if self.load is None else _core.LoadHistory(list(self.load[0]), list(self.load[1]))
+        settings = self.rolling_below, self.rolling_friction, load
         if self.textbook:
             core: Union[_core.BallMotion, _core.UncoupledMotion] = _core.UncoupledMotion(experiment, self.law._core, *settings)
         else:
@@ -250,7 +265,7 @@ class Roll:
     @property
     def uncoupled(self) -> Roll:
         """The textbook's ball, whose sliding and spinning do not know of each other, from the same start."""
-        return Roll(self.ball, self.velocity, self.angular_velocity, self.law, self.rolling_below, self.rolling_friction, True)
+        return Roll(self.ball, self.velocity, self.angular_velocity, self.law, self.rolling_below, self.rolling_friction, True, self.load)
 
     @property
     def rolls_after(self) -> Event:

@@ -11,8 +11,12 @@ namespace contensou::portraits {
 /// Psi, in units of Phi + r k Psi, with the way that k goes, for one r below r_low, one between and one above r_high; m(k) of the stop time for the
 /// same r, between its bounds if the law states them.
 ///
-/// @param r  that of a body, marked in the first panel and drawn in the others
-/// @throws std::domain_error  unless r is positive and finite
-Figure rays_figure(const reduction::Law& law, std::optional<double> r = {}, const AskedSize& size = {});
+/// With a drive the rays are where Phi = rho + r k Psi; those without one stand beside them, and m grows as 1/k towards k = 0.
+///
+/// @param r      that of a body, marked in the first panel and drawn in the others
+/// @param drive  rho of ReducedSystem
+/// @throws std::domain_error  unless r is positive and finite, and as ReducedSystem for a drive
+Figure rays_figure(const reduction::Law& law, std::optional<double> r = {}, const AskedSize& size = {},
+                   double drive = 0);
 
 }  // namespace contensou::portraits

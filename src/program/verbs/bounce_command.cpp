@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include "answers/bounce_answer.hpp"
+#include "contensou/si/quantity.hpp"
+#include "options/law_option.hpp"
+#include "options/output_options.hpp"
+#include "options/start_options.hpp"
+#include "verb.hpp"
+
+namespace contensou::program {
+
+namespace {
+
+class BounceCommand final : public Verb {
+ public:
+  void add_options(CLI::App& app) override {
+    start_.add_ball(app, "a ball in SI units, built in or from a run file", [](const si::Quantity& of) {
+      return &of != &si::slip && &of != &si::velocity && &of != &si::load && &of != &si::slope &&
+             &of != &si::rolling_friction;
+    });
+    app.option_defaults()->group("Impact");
+    speed_.add(app, "--speed", "SPEED",
+               "of the centre along the plane, along x, in metres per second (default: the ball's own)",
+               quantity("m/s"));
+    CLI::Option* const normal =
+        normal_speed_.add(app, "--normal-speed", "SPEED", "towards the plane, in metres per second, above 0",
+                          [](const std::string& typed) {
+                            const double speed = parse_quantity(typed, "m/s");
+                            if (!(speed > 0)) throw NotAllowed("a speed above 0 is needed");
+                            return speed;
+                          });
+    drop_
+        .add(app, "--drop", "HEIGHT",
+             "in its place: the height of its lowest point from which it was let go, in metres, above 0",
+             [](const std::string& typed) {
+               const double height = parse_quantity(typed, "m");
+               if (!(height > 0)) throw NotAllowed("a height above 0 is needed");
+               return height;
+             })
+        ->excludes(normal);
+    restitution_.add(app, "--restitution", "E", "which part of the normal speed it goes up with, 0 to 1",
+                     [](const std::string& typed) {
+                       const double part = parse_number(typed);
+                       if (!(part >= 0 && part <= 1)) throw NotAllowed("0 to 1 is needed");
+                       return part;
+                     });
+    rolling_below_.add(
+        app, "--rolling-below", "SPEED",
+        fmt::format("of the slip, in metres per second, below which it rolls (default {})", si::rolling_slip),
+        [](const std::string& typed) {
+          const double speed = parse_quantity(typed, "m/s");
+          if (speed < 0) throw NotAllowed("0 or more is needed");
+          return speed;
+        });
+    law_.add(app);
+    output_.add(app);
+  }
+
+  ExitStatus run() override {
+    const Output output = output_.read();
+    const reduction::Law law = law_.read(start_.standard_law());
+    si::Experiment experiment = start_.read_rolling_ball(law);
+    start_.require_undriven(experiment, "bounce");
+    if (!normal_speed_.given() && !drop_.given()) throw BadInput("--normal-speed missing: give it, or --drop HEIGHT");
+    if (!restitution_.given()) throw BadInput("--restitution missing: 0 (it stays down) to 1 (it loses nothing)");
+    if (experiment.environment.load && drop_.given())
+      drop_.reject(
+          "the run file presses the ball with a load, which says no gravity: give --normal-speed, or gravity there");
+    if (speed_.given())
+      experiment.start = si::Velocities{{*speed_, 0}, si::velocities_of(experiment.start).angular_velocity};
+    si::require_experiment(experiment);
+    const si::Impact impact{drop_.given() ? si::drop_speed(*drop_, experiment.environment.gravity) : *normal_speed_,
+                            *restitution_};
+    if (!std::holds_alternative<si::HertzModuli>(experiment.contact.patch)) {
+      fmt::print(stderr,
+                 "note: the patch stays at {:.6g} m while the ball is pressed on the plane; that of an elastic ball "
+                 "widens\n",
+                 si::patch_radius_of(experiment, law));
+    }
+    output.write(
+        answers::bounce_answer(experiment, law, impact, drop_.optional(), rolling_below_.value_or(si::rolling_slip)));
+    return ExitStatus::done;
+  }
+
+ private:
+  StartOptions start_;
+  LawOption law_;
+  ArgumentOf<double> speed_, normal_speed_, drop_, restitution_, rolling_below_;
+  OutputOptions output_{{{"a bounce", answer_formats("text")}}};
+};
+
+const RegisteredVerb<BounceCommand> bounce_verb(
+    "bounce", "A ball that hits the plane at a slant, spinning: how it leaves",
+    "contensou bounce --ball rubber --speed 2 --spin 200 --normal-speed 3 --restitution 0.8");
+
+}  // namespace
+
+}  // namespace contensou::program

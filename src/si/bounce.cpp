@@ -1,0 +1,61 @@
+#include "contensou/si/bounce.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/hertz_contact.hpp"
+#include "contensou/si/uncoupled_motion.hpp"
+
+namespace contensou::si {
+
+namespace {
+
+template <class Motion>
+Rebound rebound(const Experiment& experiment, const reduction::Law& law, const Impact& impact, double rolling_below) {
+  const Motion motion(pressed_in(impact, experiment, law), law);
+  const MotionPoint last = motion.at_time(impact.impulse());
+  return {{last.velocity, last.angular_velocity}, last.slip, motion.slip_time(rolling_below) / impact.impulse()};
+}
+
+}  // namespace
+
+double drop_speed(double height, double gravity) { return std::sqrt(2 * gravity * height); }
+
+double hertz_impact_patch_radius(double mass, double speed, double radius, const HertzModuli& moduli) {
+  constexpr double mean = 0.89552187486943376;                             // B(1/2, 6/5)/2
+  const double cube = std::pow(hertz_patch_radius(1, radius, moduli), 3);  // 3 R'/(4 E*), m^3/N
+  const double joint = 4.0 / 3 * cube * effective_modulus(moduli);         // R'
+  return mean * std::pow(1.25 * mass * speed * speed * joint * cube, 0.2);
+}
+
+Experiment pressed_in(const Impact& impact, const Experiment& experiment, const reduction::Law& law) {
+  const auto& [normal_speed, restitution] = impact;
+  if (!(std::isfinite(normal_speed) && normal_speed > 0))
+    throw std::domain_error(
+        fmt::format("a ball hits the plane at a normal speed above 0, in m/s; got {}", normal_speed));
+  if (!(restitution >= 0 && restitution <= 1))
+    throw std::domain_error(
+        fmt::format("restitution is 0 to 1, the part of the normal speed that it goes up with; got {}", restitution));
+  Experiment pressed = experiment;
+  const auto* moduli = std::get_if<HertzModuli>(&experiment.contact.patch);
+  pressed.contact.patch = PatchRadius{
+      moduli ? hertz_impact_patch_radius(experiment.ball.mass, normal_speed, experiment.ball.radius, *moduli)
+             : patch_radius_of(experiment, law)};
+  pressed.environment = {.gravity = 1};
+  require_experiment(pressed);
+  return pressed;
+}
+
+Rebound bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact, double rolling_below) {
+  return rebound<BallMotion>(experiment, law, impact, rolling_below);
+}
+
+Rebound uncoupled_bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
+                         double rolling_below) {
+  return rebound<UncoupledMotion>(experiment, law, impact, rolling_below);
+}
+
+}  // namespace contensou::si

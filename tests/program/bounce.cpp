@@ -1,0 +1,83 @@
+#include <cmath>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string pool = "bounce --ball pool --patch-radius 2.83mm --speed 1 ";
+
+}  // namespace
+
+TEST_CASE("bounce is roll with the impulse as time", "[cli][bounce]") {
+  for (const std::string spin : {"0", "100", "400"}) {
+    INFO(spin);
+    const auto json = json_of(pool + "--normal-speed 1 --restitution 0.5 --format json --spin " + spin);
+    const auto rows =
+        rows_of(run_program("roll --ball pool --patch-radius 2.83mm --gravity 1 --slip 1 --at 1.5 --spin " + spin).out);
+    const auto& after = json.at("after");
+    for (std::size_t i = 3; i < 9; ++i)
+      CHECK(after.at(rows[0][i]).get<double>() == Approx(std::stod(rows[1][i])).epsilon(1e-13).margin(1e-13));
+    CHECK(after.at("vz") == 0.5);
+    CHECK(json.at("start").at("vz") == -1);
+    CHECK(json.at("textbook").at("change_vx").get<double>() == Approx(-2.0 / 7).epsilon(1e-13));
+    CHECK(json.at("start").at("angle").get<double>() == Approx(45).epsilon(1e-14));
+    CHECK((after.at("grip").get<double>() <= 1) == (spin == "0"));
+  }
+  const std::string text = run_program(pool + "--normal-speed 1 --restitution 0.5 --spin 400").out;
+  CHECK_THAT(text, Contains("it slips through the whole impact, where the textbook's grips"));
+  CHECK_THAT(text, Contains("(0.819518, 0)"));
+  const auto csv = rows_of(run_program(pool + "--normal-speed 1 --restitution 0.5 --spin 400 --format csv").out);
+  REQUIRE(csv.size() == 2);
+  CHECK(csv[0].size() == csv[1].size());
+}
+
+TEST_CASE("a ball that is dropped comes down at sqrt(2 g h), on the patch of the impact", "[cli][bounce]") {
+  const auto json = json_of("bounce --ball steel --speed 1 --drop 50cm --restitution 0.9 --format json");
+  CHECK(json.at("normal_speed").get<double>() == Approx(std::sqrt(9.80665)).epsilon(1e-14));
+  CHECK(json.at("height") == 0.5);
+  const double rest = json_of("stop --ball steel --format json").at("ball").at("patch_radius").get<double>();
+  CHECK(json.at("ball").at("patch_radius").get<double>() > 5 * rest);
+  CHECK(run_program("bounce --ball steel --drop 0.5 --restitution 0.9").err.empty());
+  CHECK_THAT(run_program("bounce --ball pool --drop 0.5 --restitution 0.9").err, Contains("the patch stays at"));
+}
+
+TEST_CASE("bounce says what it misses and what it does not know of", "[cli][bounce]") {
+  check_rejected("bounce --ball pool --restitution 0.5", "--normal-speed missing: give it, or --drop HEIGHT");
+  check_rejected("bounce --ball pool --drop 1", "--restitution missing");
+  check_rejected("bounce --ball pool --drop 1 --normal-speed 2 --restitution 1", "exclude each other");
+  check_rejected("bounce --ball pool --drop 1 --restitution 1.5", "0 to 1 is needed");
+  check_rejected("bounce --ball pool --normal-speed -1 --restitution 1", "above 0");
+  check_rejected("bounce --ball pool --drop 0 --restitution 1", "above 0");
+  check_rejected("bounce --ball puck --drop 1 --restitution 1", "lies flat and never rolls");
+}
+
+TEST_CASE("stop and orbit follow a load that changes, as roll does", "[cli][load]") {
+  const TemporaryDirectory folder;
+  const std::string table = folder.file("lift.csv");
+  write_file(table, "t,load\n0,2\n1,4\n1,1\n1.2,1\n");
+  for (const std::string body : {"puck --slip 1 --spin 60", "pool --patch-radius 3mm --slip 1 --spin 60"}) {
+    INFO(body);
+    const std::string ball = " --load " + table + " --ball " + body;
+    const auto stop = json_of("stop --format json" + ball), roll = json_of("roll --format json --samples 5" + ball);
+    const double t = roll.at("t_stop").get<double>();
+    CHECK(stop.at("t_stop").get<double>() == Approx(t).epsilon(1e-12));
+    CHECK(stop.at("slip_length").get<double>() == Approx(roll.at("slip_length").get<double>()).epsilon(1e-10));
+    CHECK(stop.at("load") == roll.at("load"));
+    CHECK_THAT(run_program("stop" + ball).out, Contains("the load changes until 1.2 s; tau is that of 2 N"));
+    const auto orbit_rows = rows_of(run_program("orbit --samples 3" + ball).out);
+    const auto at = rows_of(run_program("roll --at " + orbit_rows[2][6] + ball).out);
+    CHECK(std::stod(at[1][9]) == Approx(std::stod(orbit_rows[2][2])).epsilon(1e-9));
+    CHECK(std::stod(orbit_rows[3][6]) == Approx(t).epsilon(1e-12));
+  }
+  check_rejected("stop --ball steel --load " + table, "grows with the load");
+  check_rejected("orbit --ball puck --slope -2 --load " + table, "leave out the slope");
+  check_rejected("stop --batch - --ball puck --load " + table, "--batch is of a constant load", "slip,spin\n1,2\n");
+  check_rejected("engine --ball puck --load " + table, "a load that changes is of roll, stop and orbit");
+  write_file(table, "t,load\n0,2\n0.1,0\n");
+  check_rejected("stop --ball puck --load " + table, "the load ends at 0 before the motion does");
+}
