@@ -34,6 +34,7 @@ const std::vector<Output> outputs{
     {"balls", "a list of balls", of_answers},
     {"balls pool", "a run file", {"toml", "txt"}},
     {"engine mujoco --ball pool", "a table of engines", of_answers},
+    {"bounce --ball steel --normal-speed 1 --restitution 0.5", "a bounce", of_answers},
     {"paper", "a table of statements", of_answers},
     {"literature", "a table of published numbers", of_answers},
     {"sweep --mu 0.3 --u0 0:1:3 --v0 0:1:3", "a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}},
