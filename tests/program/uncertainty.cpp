@@ -24,16 +24,19 @@ TEST_CASE("the first order of --uncertainty is that of differences", "[cli]") {
     const char *ball, *name, *option;
     double value;
   };
-  for (const auto& [ball, name, option, value] : {Known{"pool", "slip", "--slip", 1.5},
-                                                  {"pool", "friction", "--friction", 0.2},
-                                                  {"pool", "spin_deceleration", "--spin-deceleration", 10},
-                                                  {"pool --patch-radius 3mm", "friction", "--friction", 0.2},
-                                                  {"pool --patch-radius 3mm", "radius", "--radius", 0.028575},
-                                                  {"steel", "mass", "--mass", 0.5},
-                                                  {"steel", "radius", "--radius", 0.02},
-                                                  {"puck", "radius", "--radius", 0.0381}}) {
-    const std::string start = fmt::format("--ball {}{}{}", ball, name == std::string("slip") ? "" : " --slip 1.5",
-                                          name == std::string("spin") ? "" : " --spin -60");
+  for (const Known& known : {Known{"pool", "slip", "--slip", 1.5},
+                             {"pool", "friction", "--friction", 0.2},
+                             {"pool", "spin_deceleration", "--spin-deceleration", 10},
+                             {"pool --patch-radius 3mm", "friction", "--friction", 0.2},
+                             {"pool --patch-radius 3mm", "radius", "--radius", 0.028575},
+                             {"steel", "mass", "--mass", 0.5},
+                             {"steel", "radius", "--radius", 0.02},
+                             {"puck", "radius", "--radius", 0.0381}}) {
+    // No structured binding: clang 14 does not capture one.
+    const std::string ball = known.ball, name = known.name, option = known.option;
+    const double value = known.value;
+    const std::string start =
+        fmt::format("--ball {}{}{}", ball, name == "slip" ? "" : " --slip 1.5", name == "spin" ? "" : " --spin -60");
     const auto at = [&](double times) { return t_stop(fmt::format("{} {} {:.17g}", start, option, value * times)); };
     constexpr double step = 1e-3;
     const double slope = (8 * (at(1 + step) - at(1 - step)) - (at(1 + 2 * step) - at(1 - 2 * step))) / (12 * step);
