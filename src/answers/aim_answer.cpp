@@ -27,7 +27,7 @@ struct AimReport {
   bool is_ball() const { return !experiment.ball.body.lies_flat(); }
 };
 
-constexpr Field<AimReport> fields[]{
+constexpr Field<AimReport> aim_row[]{
     {"law", "", nullptr, [](const AimReport& r) -> Json { return r.law.name(); }},
     {"ball", "", "as of stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"slip", "m/s", "the start: sliding speed, along x; of a ball that does not roll yet, that of its centre",
@@ -102,11 +102,11 @@ Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const si
                    si::final_motion(experiment),
                    rolls,
                    strike};
-  Answer answer{.members = members_of(fields, report), .rows = {row_of(fields, report)}};
+  Answer answer{.members = members_of(aim_row, report), .rows = {row_of(aim_row, report)}};
   answer.text = [report = std::move(report)](const Digits& digits) { return text_of(report, digits); };
   return answer;
 }
 
-std::vector<FieldText> aim_fields() { return texts_of(fields); }
+std::vector<FieldText> aim_fields() { return texts_of(aim_row); }
 
 }  // namespace contensou::answers

@@ -56,7 +56,7 @@ constexpr const char* textbook_columns =
     "textbook_vx,textbook_vy,textbook_vz,textbook_wx,textbook_wy,textbook_wz,textbook_slip,textbook_angle,"
     "textbook_change_vx,textbook_change_vy,textbook_change_wz,textbook_grip";
 
-constexpr Field<BounceReport> fields[]{
+constexpr Field<BounceReport> bounce_row[]{
     {"law", "", nullptr, [](const BounceReport& r) -> Json { return r.law.name(); }},
     {"mu", "", nullptr, [](const BounceReport& r) -> Json { return si::patch_ratio(r.experiment, r.law); }},
     {"ball", "", "as of stop; its patch is that of the impact",
@@ -121,7 +121,7 @@ std::string text_of(const BounceReport& r, const Digits& digits) {
 
 }  // namespace
 
-std::vector<FieldText> bounce_fields() { return texts_of(fields); }
+std::vector<FieldText> bounce_fields() { return texts_of(bounce_row); }
 
 Answer bounce_answer(const si::Experiment& experiment, const reduction::Law& law, const si::Impact& impact,
                      std::optional<double> height, double rolling_below) {
@@ -134,7 +134,7 @@ Answer bounce_answer(const si::Experiment& experiment, const reduction::Law& law
                       si::bounce(experiment, law, impact, rolling_below),
                       si::uncoupled_bounce(experiment, law, impact, rolling_below)};
   report.experiment.contact.patch = si::pressed_in(impact, experiment, law).contact.patch;
-  Answer answer{.members = members_of(fields, report), .rows = {row_of(fields, report)}};
+  Answer answer{.members = members_of(bounce_row, report), .rows = {row_of(bounce_row, report)}};
   answer.text = [report = std::move(report)](const Digits& digits) { return text_of(report, digits); };
   return answer;
 }
