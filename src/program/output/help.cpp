@@ -39,8 +39,10 @@ std::string help_paragraph(std::string_view text, std::size_t indent) {
 }
 
 std::string help_entry(std::string_view name, std::string_view meaning) {
+  std::string names = wrapped(name, 2, 4);
+  names.pop_back();  // the end of its line
   const std::string separator = name.size() + 4 > margin ? fmt::format("\n{:{}}", "", margin) : "";
-  return fmt::format("  {:<{}}{}{}", name, separator.empty() ? margin - 2 : 0, separator,
+  return fmt::format("  {:<{}}{}{}", names, separator.empty() ? margin - 2 : 0, separator,
                      wrapped(meaning, margin, margin));
 }
 

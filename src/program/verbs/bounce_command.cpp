@@ -89,9 +89,9 @@ class BounceCommand final : public Verb {
   OutputOptions output_{{{"a bounce", answer_formats("text")}}};
 };
 
-const RegisteredVerb<BounceCommand> bounce_verb(
-    "bounce", "A ball that hits the plane at a slant, spinning: how it leaves",
-    "contensou bounce --ball rubber --speed 2 --spin 200 --normal-speed 3 --restitution 0.8");
+const RegisteredVerb<BounceCommand> bounce_verb("bounce",
+                                                "A ball that hits the plane at a slant, spinning: how it leaves",
+                                                "contensou bounce --ball rubber --spin 200 --drop 1 --restitution 0.8");
 
 }  // namespace
 
