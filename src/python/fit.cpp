@@ -75,7 +75,7 @@ py::dict found_of(const fit::Fit& found) {
 void bind_fit(py::module_& module) {
   module.def("fit", [](const si::Experiment& ball, const reduction::Law& law, const Numbers& t,
                        const std::vector<std::tuple<std::string, Numbers, Numbers>>& series,
-                       const std::optional<std::vector<std::string>>& free, bool robust) {
+                       const std::optional<std::vector<std::string>>& free, bool robust, bool planned) {
     std::vector<std::pair<std::string, fit::Observable>> kinds;
     for (const fit::ObservableKind& kind : fit::observable_kinds())
       kinds.emplace_back(std::string(kind.name), kind.observable);
@@ -99,7 +99,7 @@ void bind_fit(py::module_& module) {
     request.robust = robust;
     const fit::Fit found = [&] {
       const py::gil_scoped_release released;
-      return fit::fit(request);
+      return planned ? fit::plan(request) : fit::fit(request);
     }();
     return found_of(found);
   });

@@ -1,9 +1,17 @@
 // contensou::si in Python: balls and their motion.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <exception>
+#include <limits>
+#include <mutex>
 #include <numbers>
+#include <stdexcept>
+#include <thread>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,6 +27,7 @@
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
 #include "contensou/si/scaling.hpp"
+#include "contensou/si/shots.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "values.hpp"
 
@@ -41,6 +50,72 @@ Instant instant_of(const si::MotionPoint& point) {
   return {t, position.x(), position.y(), velocity.x(), velocity.y(), w.x(), w.y(), w.z(), slip, energy};
 }
 
+/// What a caller gave, for a message: of an array its shape.
+std::string words_of(const py::handle& value) {
+  if (py::hasattr(value, "shape")) return "an array of shape " + py::repr(value.attr("shape")).cast<std::string>();
+  constexpr std::size_t most = 60;
+  const auto words = py::repr(value).cast<std::string>();
+  return words.size() > most ? words.substr(0, most) + "..." : words;
+}
+
+/// Does the work of so many rows on some threads.
+/// @throws std::domain_error, std::runtime_error  of the first row that fails, which it names; whatever else it throws
+template <class Work>
+void for_rows(py::ssize_t count, unsigned threads, const Work& work) {
+  std::atomic<py::ssize_t> next = 0;
+  std::mutex guard;
+  py::ssize_t failed = count;
+  std::exception_ptr failure;
+  const auto fails = [&](py::ssize_t row, std::exception_ptr with) {
+    const std::scoped_lock lock(guard);
+    if (row < failed) std::tie(failed, failure) = std::pair(row, std::move(with));
+    next = count;
+  };
+  const auto run = [&](bool looks) {
+    Interruption interruption;
+    for (py::ssize_t row = next++; row < count; row = next++) {
+      try {
+        if (looks) interruption.check();
+        work(row);
+      } catch (const std::domain_error& error) {
+        fails(row, std::make_exception_ptr(std::domain_error(fmt::format("row {}: {}", row, error.what()))));
+      } catch (const std::runtime_error& error) {
+        fails(row, dynamic_cast<const py::error_already_set*>(&error) != nullptr
+                       ? std::current_exception()
+                       : std::make_exception_ptr(std::runtime_error(fmt::format("row {}: {}", row, error.what()))));
+      } catch (...) {
+        fails(row, std::current_exception());
+      }
+    }
+  };
+  {
+    const py::gil_scoped_release released;
+    std::vector<std::thread> others;
+    for (unsigned i = 1; i < threads; ++i) others.emplace_back(run, false);
+    run(true);
+    for (std::thread& other : others) other.join();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// A row of starts: vx, vy, wx, wy, wz.
+si::Velocities start_of(const double* row) { return {{row[0], row[1]}, {row[2], row[3], row[4]}}; }
+
+constexpr py::ssize_t columns_of_start = 5;
+
+/// The events of a shot, in the order of Python's fields; a rest that never comes is infinite.
+void write_events(const si::Course<si::BallMotion>& course, double stop_time, double* row) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const si::Events events = si::events_of(course);
+  for (const si::Event& event :
+       {events.rolls, events.spin_ends, events.rest.value_or(si::Event{never, {never, never}})}) {
+    for (double value : {event.t, event.place.x(), event.place.y()}) *row++ = value;
+  }
+  for (double value : {events.slip_length, events.turns, events.path, stop_time}) *row++ = value;
+}
+
+constexpr py::ssize_t columns_of_events = 13;
+
 /// What the fields of a Ball of Python say, by their names; None says nothing.
 si::Description described_by(const py::dict& fields) {
   si::Description described;
@@ -53,10 +128,9 @@ si::Description described_by(const py::dict& fields) {
       numbers = (*quantity)->count() == 1 ? std::vector{value.cast<double>()} : value.cast<std::vector<double>>();
     } catch (const py::cast_error&) {
       const std::size_t count = (*quantity)->count();
-      throw py::type_error(fmt::format("{}: {} needed, {}{}{}; got {}", name,
-                                       count == 1 ? "a number is" : fmt::format("{} numbers are", count),
-                                       (*quantity)->meaning, (*quantity)->unit.empty() ? "" : ", in ",
-                                       (*quantity)->unit, py::repr(value).cast<std::string>()));
+      throw py::type_error(fmt::format(
+          "{}: {} needed, {}{}{}; got {}", name, count == 1 ? "a number is" : fmt::format("{} numbers are", count),
+          (*quantity)->meaning, (*quantity)->unit.empty() ? "" : ", in ", (*quantity)->unit, words_of(value)));
     }
     described.set(**quantity, std::move(numbers), {"", name, ""});
   }
@@ -96,6 +170,16 @@ py::dict fields_of_ball(const si::Description& described) {
 
 py::tuple place_of(const si::Event& event) { return py::make_tuple(event.t, event.place.x(), event.place.y()); }
 
+/// s until slip and spin end.
+template <class Motion, class Course>
+double stop_time_of(const Course& course) {
+  if (course.resisted) return course.resisted->stop_time();
+  if constexpr (std::is_same_v<Motion, si::BallMotion>)
+    return course.motion.stop_time();
+  else
+    return std::max(course.motion.slip_time(0), course.motion.spin_end());
+}
+
 template <class Motion, class Given>
 void bind_course(py::module_& module, const char* name) {
   using Course = si::Course<si::Loaded<Motion>>;
@@ -105,14 +189,7 @@ void bind_course(py::module_& module, const char* name) {
              return Course(experiment, {experiment, Motion(experiment, given), load}, rolling_below, rolling_friction);
            }),
            Released())
-      .def_property_readonly("stop_time",
-                             [](const Course& course) {
-                               if (course.resisted) return course.resisted->stop_time();
-                               if constexpr (std::is_same_v<Motion, si::BallMotion>)
-                                 return course.motion.stop_time();
-                               else
-                                 return std::max(course.motion.slip_time(0), course.motion.spin_end());
-                             })
+      .def_property_readonly("stop_time", [](const Course& course) { return stop_time_of<Motion>(course); })
       .def("at",
            [](const Course& course, const Numbers& times) {
              return mapped<Instant>(times, [&](double t) { return instant_of(course.at_time(t)); });
@@ -168,6 +245,47 @@ void bind_si(py::module_& module) {
         return py::make_tuple(py::make_tuple(velocity.x(), velocity.y()), py::make_tuple(w.x(), w.y(), w.z()));
       });
 
+  py::class_<si::Shots>(module, "Shots")
+      .def(py::init<const si::Experiment&, const Law&, double, double>(), Released())
+      .def("events",
+           [](const si::Shots& shots, const Numbers& starts, py::array_t<double>& out, unsigned threads) {
+             const double* const from = starts.data();
+             double* const to = out.mutable_data();
+             for_rows(starts.size() / columns_of_start, threads, [&](py::ssize_t row) {
+               const auto course = shots.from(start_of(from + row * columns_of_start));
+               write_events(course, stop_time_of<si::BallMotion>(course), to + row * columns_of_events);
+             });
+           })
+      .def("at", [](const si::Shots& shots, const Numbers& starts, const Numbers& times, unsigned threads) {
+        const py::ssize_t rows = starts.size() / columns_of_start, columns = times.size();
+        py::array_t<Instant> result({rows, columns});
+        const double *const from = starts.data(), *const at = times.data();
+        Instant* const to = result.mutable_data();
+        for_rows(rows, threads, [&](py::ssize_t row) {
+          const auto course = shots.from(start_of(from + row * columns_of_start));
+          for (py::ssize_t i = 0; i < columns; ++i) to[row * columns + i] = instant_of(course.at_time(at[i]));
+        });
+        return result;
+      });
+  module.def("struck_starts", [](const si::Experiment& experiment, const Numbers& strikes) {
+    constexpr py::ssize_t columns = 5;  // speed, right, above, degrees, mass
+    const py::ssize_t rows = strikes.size() / columns;
+    py::array_t<double> result({rows, columns_of_start});
+    const double* from = strikes.data();
+    double* to = result.mutable_data();
+    for_rows(rows, 1, [&](py::ssize_t row) {
+      const double* const each = from + row * columns;
+      const auto [velocity, w] = si::struck(experiment.ball, {.speed = each[0],
+                                                              .right = each[1],
+                                                              .above = each[2],
+                                                              .elevation = each[3] * (std::numbers::pi / 180),
+                                                              .mass = each[4]});
+      const std::array start{velocity.x(), velocity.y(), w.x(), w.y(), w.z()};
+      std::ranges::copy(start, to + row * columns_of_start);
+    });
+    return result;
+  });
+
   bind_course<si::BallMotion, Flow>(module, "BallMotion");
   bind_course<si::UncoupledMotion, Law>(module, "UncoupledMotion");
 
@@ -175,6 +293,15 @@ void bind_si(py::module_& module) {
     std::vector<std::pair<std::string, si::Experiment>> balls;
     for (const si::CatalogueEntry& entry : si::catalogue()) balls.emplace_back(entry.name, entry.experiment);
     return fields_of_ball(si::describe(one_of("ball", "balls", balls, name)));
+  });
+  module.attr("balls") = [] {
+    py::list names;
+    for (const si::CatalogueEntry& entry : si::catalogue()) names.append(entry.name);
+    return names;
+  }();
+  module.def("run_file", [](si::Experiment experiment, const std::string& law) {
+    experiment.contact.law = law;
+    return si::run_file(experiment);
   });
   module.def("parse_run_file", [](const std::string& text, const std::string& source) {
     return fields_of_ball(si::parse_run_file(text, source, answers::find_law_or_formulas));

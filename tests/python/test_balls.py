@@ -245,7 +245,7 @@ def test_evolve_has_pooltools_convention():
     half = ball.evolve(rvw, 0.1)
     np.testing.assert_allclose(ball.evolve(half, 0.2), ball.evolve(rvw, 0.3), rtol=1e-9)
     for wrong in (rvw[:2], np.diag([1, 1, 1]) * 0 + [[0, 0, 1]]):
-        with pytest.raises(ValueError, match="rows r, v, w of a ball on the table"):
+        with pytest.raises(ValueError, match="rows r, v, w of a ball on the table|velocity: the ball stays on the plane"):
             ball.evolve(wrong, 0.1)
 
 
@@ -310,3 +310,128 @@ def test_pickling_and_copying():
         for other in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
             assert other == value and hash(other) == hash(value) and repr(other) == repr(value)
     assert pickle.loads(pickle.dumps(ct.Ball.pool().roll()))(1) == ct.Ball.pool().roll()(1)
+
+
+def random_starts(count):
+    generator = np.random.default_rng(3)
+    velocity = generator.uniform(-2, 2, (count, 2))
+    return velocity, generator.uniform(-100, 100, (count, 3))
+
+
+@pytest.mark.parametrize("rolling_friction", [0, 0.01])
+def test_many_rolls_are_each_a_roll(rolling_friction):
+    velocity, angular_velocity = random_starts(30)
+    pool = ct.Ball.pool(rolling_friction=rolling_friction)
+    rolls = pool.roll(velocity=velocity, angular_velocity=angular_velocity)
+    states = rolls([0, 0.3, 9])
+    assert len(rolls) == 30 and states.shape == (30, 3) and rolls(0.3).shape == (30,)
+    for i, events in enumerate(rolls.events):
+        one = pool.roll(velocity=velocity[i], angular_velocity=angular_velocity[i])
+        assert tuple(events["rolls_after"]) == one.rolls_after and tuple(events["spin_ends"]) == one.spin_ends
+        assert tuple(events["rest"]) == (one.rest or (math.inf,) * 3)
+        assert [events[name] for name in ("slip_length", "turns", "path", "stop_time")] == [one.slip_length, one.turns, one.path, one.stop_time]
+        assert rolls[i] == one
+        np.testing.assert_array_equal(states[i], one([0, 0.3, 9]))
+    np.testing.assert_array_equal(rolls.path, rolls.events["path"])
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(rolls)).events, rolls.events)
+
+
+def test_what_is_not_given_of_many_starts_is_the_balls():
+    pool = ct.Ball.pool(slip=1, spin=70)
+    np.testing.assert_array_equal(pool.roll(slip=[1, 2]).starts, [[1, 0, 0, 0, 70], [2, 0, 0, 0, 70]])
+    np.testing.assert_array_equal(pool.roll(spin=[1, 2]).starts, [[1, 0, 0, 0, 1], [1, 0, 0, 0, 2]])
+    np.testing.assert_array_equal(pool.roll(velocity=[[1, 2, 0]], angular_velocity=(1, 2, 3)).starts, [[1, 2, 1, 2, 3]])
+    assert pool.roll(velocity=(1, 2, 0)).velocity == (1, 2)
+    assert len(pool.roll(slip=[])) == 0 and pool.roll(slip=[]).events.shape == (0,)
+
+
+def test_many_strokes_threads_and_out():
+    pool = ct.Ball.pool()
+    strokes = {"strike": [1, 2, 3], "tip": [(0, 0), (0.3, -0.2), (0, 0.4)], "elevation": [0, 30, 5]}
+    rolls = pool.roll(**strokes)
+    for i in range(3):
+        assert rolls[i] == pool.roll(**{name: values[i] for name, values in strokes.items()})
+    np.testing.assert_array_equal(pool.roll(strike=2, tip=(0.3, -0.2), elevation=[30, 30]).starts, rolls.starts[[1, 1]])
+    velocity, angular_velocity = random_starts(100)
+    plain = pool.roll(velocity=velocity, angular_velocity=angular_velocity).events
+    out = np.zeros(200, ct.Rolls.dtype)
+    by_threads = pool.roll(velocity=velocity, angular_velocity=angular_velocity, threads=3, out=out[::2])
+    np.testing.assert_array_equal(out[::2], plain)
+    assert not out[1::2]["path"].any() and by_threads.events.base is not None
+
+
+@pytest.mark.parametrize("given, told", [
+    ({"velocity": np.ones((10000, 4))}, r"velocity: \(2,\) or \(3,\) is needed, or \(N, 2\) or \(N, 3\) for N starts; got shape \(10000, 4\)"),
+    ({"velocity": np.ones((10000, 3))}, "row 0: velocity: the ball stays on the plane, v_z = 0 is needed, got 1.0"),
+    ({"velocity": (1, 0, 1)}, "velocity: the ball stays on the plane"),
+    ({"velocity": np.ones((5, 2)), "angular_velocity": np.ones((6, 3))}, "as many of each are needed, got 5 of velocity, 6 of angular_velocity"),
+    ({"slip": [1, 2, -1, 3]}, "row 2: slip: 0 or more is needed, got -1.0"),
+    ({"velocity": [(1, 0), (math.nan, 0)]}, "row 1: "),
+    ({"velocity": [(1, 0), (1e300, 0)], "spin": 1}, "slip, spin and velocity, angular_velocity exclude each other"),
+    ({"velocity": [(1, 0), (1e300, 0)]}, "row 1: "),
+    ({"strike": [1, 2], "tip": [(0, 0), (0, 0.7)]}, "row 1: "),
+    ({"strike": [1, 2], "slip": [1, 2]}, "strike is a start of its own: leave out slip"),
+    ({"slip": [1, 2], "out": np.zeros(2)}, "out: "),
+    ({"slip": 1, "threads": 2}, "threads and out are of an array of starts"),
+])
+def test_what_is_wrong_with_many_starts_is_told_by_its_row(given, told):
+    with pytest.raises(ValueError, match=told) as caught:
+        ct.Ball.pool().roll(**given)
+    assert len(str(caught.value)) < 300
+
+
+@pytest.mark.parametrize("given", [{"strike": "hard"}, {"slip": "fast"}, {"strike": 1, "tip": "left"}, {"rolling_below": [1, 2]},
+                                   {"velocity": ("a", "b")}, {"cue_mass": None, "strike": 1}])
+def test_no_words_of_the_binding_reach_the_caller(given):
+    with pytest.raises((TypeError, ValueError)) as caught:
+        ct.Ball.pool().roll(**given)
+    assert not any(word in str(caught.value) for word in ("incompatible", "pybind", "C++", "_core"))
+    with pytest.raises(TypeError, match="an array of shape") as caught:
+        ct.Ball.pool(velocity=np.ones((10000, 2)))
+    assert len(str(caught.value)) < 300
+
+
+def test_many_balls_evolve():
+    velocity, angular_velocity = random_starts(20)
+    rvw = np.zeros((20, 3, 3))
+    rvw[:, 0], rvw[:, 1, :2], rvw[:, 2] = np.arange(60).reshape(20, 3), velocity, angular_velocity
+    pool = ct.Ball.pool()
+    later = pool.evolve(rvw, [0.1, 2], rolling_friction=0.01)
+    assert later.shape == (20, 2, 3, 3) and pool.evolve(rvw, 0.1).shape == (20, 3, 3)
+    for i in range(20):
+        np.testing.assert_array_equal(later[i], pool.evolve(rvw[i], [0.1, 2], rolling_friction=0.01))
+    with pytest.raises(ValueError, match=r"got shape \(10000, 3\)") as caught:
+        pool.evolve(np.zeros((10000, 3)), 1)
+    assert len(str(caught.value)) < 200
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_many_rolls_are_the_programs_batch(tmp_path):
+    velocity, angular_velocity = random_starts(40)
+    starts = np.hstack([velocity, angular_velocity])
+    np.savetxt(tmp_path / "shots.csv", starts, delimiter=",", header="vx,vy,wx,wy,wz", comments="", fmt="%.17g")
+    run = subprocess.run([PROGRAM, "roll", "--ball", "pool", "--rolling-friction", "0.01", "--batch", str(tmp_path / "shots.csv")],
+                         capture_output=True, check=True, text=True)
+    theirs = np.genfromtxt(run.stdout.splitlines(), delimiter=",", names=True)
+    ours = ct.Ball.pool(rolling_friction=0.01).roll(velocity=velocity, angular_velocity=angular_velocity).events
+    for event, name in (("rolls_after", "rolls"), ("spin_ends", "spin_ends"), ("rest", "rest")):
+        for axis in "txy":
+            np.testing.assert_array_equal(ours[event][axis], theirs[f"{axis}_{name}"])
+    for name in ("slip_length", "turns", "path"):
+        np.testing.assert_array_equal(ours[name], theirs[name])
+
+
+def test_a_cloth_of_ones_own_is_kept_whole(tmp_path):
+    mine = ct.Ball.pool(name="my cloth", friction=0.16, spin_deceleration=22, rolling_friction=0.008, law="pade", slip=1, spin=3)
+    mine.write(tmp_path / "mine.toml")
+    assert ct.Ball.read(tmp_path / "mine.toml") == mine
+    assert ct.balls()["pool"] == ct.Ball.pool() and set(ct.balls()) > {"gel", "puck", "basketball"}
+    with pytest.raises(ValueError, match="a run file has the name of a law"):
+        ct.Ball.pool(law=lambda v, w: (v / math.hypot(v, 0.5 * w), 0.25 * w / math.hypot(v, 0.5 * w))).write(tmp_path / "no.toml")
+
+
+def test_a_roll_is_drawn():
+    way, speeds = ct.Ball.pool().roll(velocity=(1, 0), angular_velocity=(40, 35, -50)).plot()
+    assert len(way.lines) == 4 and way.get_aspect() == 1 and len(speeds.lines) == 6
+    ours, theirs = (line.get_ydata() for line in (speeds.lines[0], speeds.lines[3]))
+    assert ours[0] == theirs[0] and ours[-1] < 1e-3

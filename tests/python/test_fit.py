@@ -98,3 +98,30 @@ def test_a_film_of_a_puck_gives_back_the_puck():
     assert found.ball.roll().stop_time == pytest.approx(puck.roll(slip=5, spin=-90).stop_time, rel=1e-5)
     free = ct.fit(t, slip=at["slip"], spin=at["wz"], ball=puck, sd=SD, free=("friction", "patch_radius", "slip", "spin"))
     assert free.patch_radius.value == pytest.approx(puck.radius, rel=1e-4) and free.patch_radius.standard_error > 0
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_a_plan_is_the_programs():
+    times = np.arange(0, 0.5, 1 / 240)
+    ours = ct.fit_plan(times, ball=BALL.but(slip=1, spin=100), sd=SD)
+    theirs = json.loads(subprocess.run(
+        [PROGRAM, "fit", "--plan", "--ball", "pool", "--patch-radius", "0.0028", "--slip", "1", "--spin", "100", "--fps", "240",
+         "--until", f"{times[-1]:.17g}", "--noise", "slip=0.01,spin=1", "--format", "json"], capture_output=True, check=True).stdout)
+    for name in ("friction", "patch_radius", "slip", "spin"):
+        assert getattr(ours, name).standard_error == pytest.approx(theirs[name]["standard_error"], rel=1e-9)
+    assert not ours.observed
+    with pytest.raises(ValueError, match="nothing to draw"):
+        ours.plot()
+
+
+def test_a_fit_is_drawn_with_the_angle_at_its_turn():
+    at = BALL.roll(slip=1, spin=100)
+    times = np.linspace(0, 0.3, 50)
+    turned = np.array([np.trapezoid(at(line := np.linspace(0, t, 200))["wz"], line) if hasattr(np, "trapezoid")
+                       else np.trapz(at(line := np.linspace(0, t, 200))["wz"], line) for t in times])
+    fit = ct.fit(times, ball=BALL, slip=at(times)["slip"], angle=np.remainder(turned, 2 * np.pi), sd={"slip": 0.01, "angle": 0.02})
+    axes = fit.plot()
+    assert axes.shape == (2, 2)
+    shown = {each.get_ylabel().split(",")[0]: each for each in axes[0]}
+    np.testing.assert_allclose(np.diff(shown["angle"].lines[0].get_ydata()), np.diff(turned), atol=0.1)
+    assert abs(axes[1, 1].lines[0].get_ydata()).max() < 0.1

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -20,6 +19,7 @@
 #include "contensou/si/loaded_motion.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
+#include "contensou/si/shots.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
@@ -435,10 +435,8 @@ class RollCommand final : public Verb {
     require_rolling_options(still);
     if (start_.load_history()) throw BadInput("--batch is of a constant load: give --load a number");
     const std::string rolls = still.ball.body.lies_flat() ? "rest" : "rolls";
-    const reduction::Flow flow(si::undriven_system(still, law));
-    si::require_stop(still);
-    const auto flows = std::make_shared<si::ResistedFlows>();
     const double chi = still.ball.body.inertia.chi, u_r = still.contact.rolling_friction;
+    const si::Shots shots(still, law, rolling_below_.value_or(si::rolling_slip), u_r);
     // Else it rolls down for ever.
     const bool may_rest = u_r * si::pressing(still.environment) > (1 - 1 / chi) * si::pull(still.environment).norm();
     OutputFile output(out.path);
@@ -455,14 +453,11 @@ class RollCommand final : public Verb {
                                      "y_spin_ends", "slip_length", "turns", "path"},
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long /*line*/) {
-                               si::Experiment experiment = still;
                                if (general) {
-                                 experiment.start = si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}};
+                                 write(shots.from(si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}}), results);
                                } else {
-                                 experiment.start = si::SlipAndSpin{row[0], row[1]};
+                                 write(shots.from(si::SlipAndSpin{row[0], row[1]}), results);
                                }
-                               si::require_experiment(experiment);
-                               compute_events(experiment, flow, flows, results);
                              },
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
@@ -473,10 +468,8 @@ class RollCommand final : public Verb {
     return status;
   }
 
-  void compute_events(const si::Experiment& experiment, const reduction::Flow& flow,
-                      const std::shared_ptr<si::ResistedFlows>& flows, std::span<double> results) const {
-    const si::Course<si::BallMotion> course(experiment, {experiment, flow}, rolling_below_.value_or(si::rolling_slip),
-                                            experiment.contact.rolling_friction, flows);
+  /// The events of a row.
+  static void write(const si::Course<si::BallMotion>& course, std::span<double> results) {
     const auto [rolls, spin_ends, rest, slip_length, turns, path] = events_of(course);
     auto place = results.begin();
     const auto add = [&](const si::Event& event) {

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+
 #include <fmt/format.h>
 
 #include "answers/load_table.hpp"
@@ -23,6 +27,8 @@ class StopCommand final : public Verb {
     start_.add(app);
     start_.add_drive(app);
     law_.add(app);
+    CLI::Option* const law = app.get_option("--law");
+    law->description(law->get_description() + "; with --batch several, between commas");
     route_.add(app);
     app.add_flag("--estimate", estimate_, "beside it the estimates for small mu, with their errors");
     app.add_flag("--gradient", gradient_,
@@ -33,7 +39,7 @@ class StopCommand final : public Verb {
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
                "CSV with columns mu,u0,v0, to which it adds tau_stop; with --ball columns slip,spin in m/s, rad/s and "
-               "t_stop in s; - is standard input");
+               "t_stop in s; of several laws tau_stop_LAW, t_stop_LAW each; - is standard input");
     app.add_flag("--keep-going", keep_going_, "leave the result of a bad row empty and go on");
     bulk_.add(app);
     output_.add(app);
@@ -77,31 +83,41 @@ class StopCommand final : public Verb {
     if (gradient_) throw BadInput("--gradient is for one start: leave it or --batch out");
     if (has_ball && start_.load_history()) throw BadInput("--batch is of a constant load: give --load a number");
     const Output out = output_.read(1);
-    const reduction::Law law = law_.read(start_.standard_law());
-    const auto ball = has_ball ? std::optional(start_.read_ball(law, at_rest("--batch"))) : std::nullopt;
-    StopTimes stop_times(law, ball ? ball->ball.body.inertia : start_.body().inertia,
-                         ball ? start_.drive_along_x(*ball) : start_.drive(), route_);
-    if (ball && ball->contact.rolling_friction != 0) stop_times.resist(*ball);
+    const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
+    const auto ball = has_ball ? std::optional(start_.read_ball(laws.front(), at_rest("--batch"))) : std::nullopt;
+    std::deque<StopTimes> stop_times;  // stay where they are
+    std::vector<double> mu;            // of the ball, by each law
     BatchRequest request{.inputs = {"mu", "u0", "v0"},
-                         .results = {"tau_stop"},
+                         .results = {},
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long line) {
                                if (const std::string wrong = start_.body().complaint(row[0]); !wrong.empty()) {
                                  throw BadInput(fmt::format("mu: {}, got {}", wrong, row[0]));
                                }
-                               results[0] = stop_times(row[0], {.u = row[1], .v = sliding("v0", row[2])}, line);
+                               const reduction::State start{.u = row[1], .v = sliding("v0", row[2])};
+                               for (std::size_t i = 0; i < results.size(); ++i)
+                                 results[i] = stop_times[i](row[0], start, line);
                              },
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
                          .progress = bulk_.progress(out.path)};
+    for (const reduction::Law& law : laws) {
+      stop_times.emplace_back(law, ball ? ball->ball.body.inertia : start_.body().inertia,
+                              ball ? start_.drive_along_x(*ball) : start_.drive(), route_);
+      if (ball && ball->contact.rolling_friction != 0) stop_times.back().resist(*ball);
+      if (ball) mu.push_back(si::patch_ratio(*ball, law));
+      const std::string result = has_ball ? "t_stop" : "tau_stop";
+      request.results.push_back(laws.size() > 1 ? fmt::format("{}_{}", result, law.name()) : result);
+      if (std::ranges::count(request.results, request.results.back()) > 1)
+        law_.argument().reject(fmt::format("the law {} is there twice", law.name()));
+    }
     if (has_ball) {
       const si::Experiment& experiment = *ball;
       request.inputs = {"spin", "slip"};
-      request.results = {"t_stop"};
-      request.compute = [&, mu = si::patch_ratio(experiment, law)](std::span<const double> row,
-                                                                   std::span<double> results, long /*line*/) {
+      request.compute = [&](std::span<const double> row, std::span<double> results, long /*line*/) {
         const reduction::State start{.u = row[0] * experiment.ball.radius, .v = sliding("slip", row[1])};
-        results[0] = si::seconds(experiment, stop_times(mu, start, 0));
+        for (std::size_t i = 0; i < results.size(); ++i)
+          results[i] = si::seconds(experiment, stop_times[i](mu[i], start, 0));
       };
     }
     OutputFile output(out.path);  // before the input, which may be long in coming

@@ -15,15 +15,15 @@ Numbers may be arrays of any shapes that broadcast; what is masked in one is NaN
 
 from ._core import __version__
 from ._aim import aim
-from ._balls import Ball, Event, Roll
+from ._balls import Ball, Event, Roll, Rolls, balls
 from ._engine import engine, engines
-from ._fit import Estimate, Fit, fit
+from ._fit import Estimate, Fit, fit, fit_plan
 from ._flow import Check, Checks, End, Flow, Law, Orbit, Ray, Terminal, check, law, stop_time
 from ._portrait import Portrait, portrait
 from ._reduce import FlowReduction, Generator, PlanarOrbit, PlanarRay, Reduction, SingularPoint, reduce
 
 __all__ = [
     "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",
-    "PlanarOrbit", "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "SingularPoint", "Terminal", "__version__", "aim", "check", "engine",
-    "engines", "fit", "law", "portrait", "reduce", "stop_time",
+    "PlanarOrbit", "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "Rolls", "SingularPoint", "Terminal", "__version__", "aim",
+    "balls", "check", "engine", "engines", "fit", "fit_plan", "law", "portrait", "reduce", "stop_time",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache
 from os import PathLike
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._numbers import numbers
+from ._numbers import number, numbers, target_of, thread_count
 from ._flow import Flow, Law, LawLike, law as law_of
 
 
@@ -105,8 +106,20 @@ class Ball:
         """The ball of a run file (TOML), as `contensou balls pool -o mine.toml` writes one."""
         return cls._of(_core.parse_run_file(Path(path).read_text(encoding="utf-8"), str(path)), changes)
 
+    def write(self, path: Union[str, PathLike[str]]) -> None:
+        """Writes the ball as a run file (TOML), which `read` and `contensou --ball` take: name, cloth, start and law.
+        Raises ValueError for a law that no file can name, one that is a function or a table."""
+        name = law_of(self.law).name
+        try:
+            known = law_of(name)
+        except ValueError:
+            known = None
+        if known != self.law:
+            raise ValueError(f"law {name!r}: a run file has the name of a law, or its formulas")
+        Path(path).write_text(_core.run_file(self._experiment, name), encoding="utf-8")
+
     @classmethod
-    def named(cls, name: str, **changes: Any) -> Ball:
+    def named(cls, name: str, /, **changes: Any) -> Ball:
         """The ball that `contensou balls` lists by that name."""
         return cls._of(_core.ball(name), changes)
 
@@ -158,20 +171,23 @@ class Ball:
         *,
         velocity: Optional[ArrayLike] = None,
         angular_velocity: Optional[ArrayLike] = None,
-        slip: Optional[float] = None,
-        spin: Optional[float] = None,
-        strike: Optional[float] = None,
-        tip: tuple[float, float] = (0, 0),
-        elevation: float = 0,
-        cue_mass: float = _core.standard_cue_mass,
+        slip: Optional[ArrayLike] = None,
+        spin: Optional[ArrayLike] = None,
+        strike: Optional[ArrayLike] = None,
+        tip: ArrayLike = (0, 0),
+        elevation: ArrayLike = 0,
+        cue_mass: ArrayLike = _core.standard_cue_mass,
         law: Optional[LawLike] = None,
         rolling_below: float = _core.rolling_slip,
         rolling_friction: Optional[float] = None,
         load: Optional[tuple[ArrayLike, ArrayLike]] = None,
-    ) -> Roll:
-        """The whole motion of the ball, or of the body that lies flat, from its own start or from another one:
+        threads: int = 1,
+        out: Optional[NDArray[Any]] = None,
+    ) -> Any:
+        """The whole motion of the ball, or of the body that lies flat, from its own start or from another one, as a Roll;
+        of N starts at once, where one of these has an axis of N more, as Rolls:
 
-        velocity, angular_velocity:  of the centre, (x, y) in m/s, and of the ball, (x, y, z) in rad/s, z up
+        velocity, angular_velocity:  of the centre, (x, y) or (x, y, 0) in m/s, and of the ball, (x, y, z) in rad/s, z up
         slip, spin:                  m/s along x, rad/s about the vertical
         strike:                      a cue of this speed in m/s strikes the ball at rest, along x; tip is where, to the
                                      right of and above the centre in radii; elevation of its butt in degrees; cue_mass, kg
@@ -181,25 +197,70 @@ class Ball:
         rolling_friction:  u_r: rolling without slip it slows down at u_r g; 0: it rolls on. That of the ball if left out
         load:              one that changes: instants in s from 0 on, and newtons at each, linear between them and the last
                            one from then on. The patch does not change with it; friction is all that acts
+        threads, out:      of N starts; an array for their events, of shape (N,) and dtype Rolls.dtype
+        Raises ValueError for what no ball can be or do, naming the row.
         """
-        start = {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin}
-        start = {name: value for name, value in start.items() if value is not None}
+        start = {name: _rows(name, value, *_widths[name]) for name, value in
+                 {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin}.items() if value is not None}
         if strike is not None and start:
             raise ValueError(f"strike is a start of its own: leave out {', '.join(start)}")
-        ball = self.but(**start)
-        history = None
+        below = number("rolling_below", rolling_below)
+        friction = self.rolling_friction if rolling_friction is None else number("rolling_friction", rolling_friction)
+        if strike is not None:
+            start = {name: _rows(name, value, *_widths[name]) for name, value in
+                     {"strike": strike, "tip": tip, "elevation": elevation, "cue_mass": cue_mass}.items()}
+        count = _count(start)
+        if count is None:
+            if threads != 1 or out is not None:
+                raise ValueError("threads and out are of an array of starts; this is one")
+            ball = self if strike is not None else self.but(**{name: value.tolist() for name, value in start.items()})
+            history = None
+            if load is not None:
+                history, ball = ball._under(load, friction)
+            core = ball._experiment
+            if strike is not None:
+                core = core.struck(*(value.tolist() for value in start.values()))
+                ball = ball.but(velocity=core.start[0], angular_velocity=core.start[1])
+            return Roll(ball, *core.start, ball._law(law), below, friction, load=history)
         if load is not None:
-            t, newtons = (tuple(np.atleast_1d(numbers("load", each)).tolist()) for each in load)
-            history = t, newtons
-            ball = ball.but(load=_core.LoadHistory(list(t), list(newtons)).nominal)
-            if ball.youngs_modulus is not None:
-                raise ValueError("load: the patch of Young's moduli grows with a load that changes, and the motion is then "
-                                 "no other one's copy: give patch_radius")
-            if ball.slope or (ball.rolling_friction if rolling_friction is None else rolling_friction):
-                raise ValueError("load: one that changes is of friction alone: leave out slope and rolling_friction")
-        core = ball._experiment if strike is None else ball._experiment.struck(strike, tip, elevation, cue_mass)
-        friction = ball.rolling_friction if rolling_friction is None else rolling_friction
-        return Roll(ball, *core.start, ball._law(law), rolling_below, friction, load=history)
+            raise ValueError("load: one that changes is of one start, these are several")
+        if strike is not None:
+            columns = [np.broadcast_to(value, (count, *_widths[name][0])) for name, value in start.items()]
+            starts = _core.struck_starts(self._experiment, np.column_stack(columns))
+        else:
+            starts = self._starts(start, count)
+        return Rolls(self, starts, self._law(law), below, friction, thread_count(threads), out)
+
+    def _starts(self, given: dict[str, NDArray[np.float64]], count: int) -> NDArray[np.float64]:
+        """Rows vx, vy, wx, wy, wz. What is not given is the ball's own, as `but` has it."""
+        if {"slip", "spin"} & given.keys() and {"velocity", "angular_velocity"} & given.keys():
+            raise ValueError("slip, spin and velocity, angular_velocity exclude each other: keep one kind of start")
+        if count == 0:
+            return np.empty((0, 5))
+        if "slip" in given:
+            bad = np.flatnonzero(~(given["slip"] >= 0))
+            if bad.size:
+                raise ValueError(f"row {bad[0]}: slip: 0 or more is needed, got {given['slip'].flat[bad[0]]}")
+        rest = {"velocity": (0, 0), "angular_velocity": (0, 0, 0), "slip": 0, "spin": 0}
+        own = self.but(**{name: rest[name] for name in given})
+        starts = np.empty((count, 5))
+        velocity, angular_velocity = own._experiment.start
+        starts[:, :2], starts[:, 2:] = velocity, angular_velocity
+        for name, columns in (("velocity", slice(0, 2)), ("angular_velocity", slice(2, 5)), ("slip", 0), ("spin", 4)):
+            if name in given:
+                starts[:, columns] = given[name]
+        return starts
+
+    def _under(self, load: tuple[ArrayLike, ArrayLike], friction: float) -> tuple[Any, Ball]:
+        """A load that changes, as two tuples, and this ball under its nominal one."""
+        t, newtons = (tuple(np.atleast_1d(numbers("load", each)).tolist()) for each in load)
+        ball = self.but(load=_core.LoadHistory(list(t), list(newtons)).nominal)
+        if ball.youngs_modulus is not None:
+            raise ValueError("load: the patch of Young's moduli grows with a load that changes, and the motion is then "
+                             "no other one's copy: give patch_radius")
+        if ball.slope or friction:
+            raise ValueError("load: one that changes is of friction alone: leave out slope and rolling_friction")
+        return (t, newtons), ball
 
     def evolve(
         self,
@@ -211,19 +272,56 @@ class Ball:
         rolling_friction: Optional[float] = None,
     ) -> NDArray[np.float64]:
         """The state of a ball on the table t seconds later, in the convention of pooltool: rows r, v and w, the place of
-        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 of any shape S: (*S, 3, 3).
-        A new array."""
+        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 of any shape S: (*S, 3, 3);
+        of N balls, (N, 3, 3): (N, *S, 3, 3). A new array."""
         rvw = numbers("rvw", rvw)
-        if rvw.shape != (3, 3) or rvw[1, 2] != 0:
-            raise ValueError(f"rvw: rows r, v, w of a ball on the table, shape (3, 3) with v_z = 0; got {rvw.tolist()}")
-        roll = self.roll(velocity=rvw[1, :2], angular_velocity=rvw[2], law=law,
+        if rvw.ndim not in (2, 3) or rvw.shape[-2:] != (3, 3):
+            raise ValueError(f"rvw: rows r, v, w of a ball on the table, shape (3, 3) or (N, 3, 3); got shape {rvw.shape}")
+        roll = self.roll(velocity=rvw[..., 1, :], angular_velocity=rvw[..., 2, :], law=law,
                          rolling_below=rolling_below, rolling_friction=rolling_friction)
         at = np.asarray(roll(t))
         result = np.zeros((*at.shape, 3, 3))
         for row, column, name in ((0, 0, "x"), (0, 1, "y"), (1, 0, "vx"), (1, 1, "vy"), (2, 0, "wx"), (2, 1, "wy"), (2, 2, "wz")):
             result[..., row, column] = at[name]
-        result[..., 0, :] += rvw[0]
+        result[..., 0, :] += rvw[..., 0, :].reshape(*rvw.shape[:-2], *[1] * (at.ndim - rvw.ndim + 2), 3)
         return result
+
+
+def balls() -> dict[str, Ball]:
+    """The built-in balls by their names, as `contensou balls` lists them."""
+    return {name: Ball.named(name) for name in _core.balls}
+
+
+#: Of what a start is given by the shape of one, and how many numbers each may have.
+_widths: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
+    "velocity": ((2,), (2, 3)), "angular_velocity": ((3,), (3,)), "slip": ((), ()), "spin": ((), ()),
+    "strike": ((), ()), "tip": ((2,), (2,)), "elevation": ((), ()), "cue_mass": ((), ()),
+}
+
+
+def _rows(name: str, given: ArrayLike, one: tuple[int, ...], widths: tuple[int, ...]) -> NDArray[np.float64]:
+    """One of them, or N.
+    Raises ValueError for another shape, and for a velocity that leaves the plane."""
+    array = numbers(name, given)
+    if array.ndim not in (len(one), len(one) + 1) or (one and array.shape[-1] not in widths):
+        few = " or ".join(f"({width},)" for width in widths) if one else "one number"
+        many = " or ".join(f"(N, {width})" for width in widths) if one else "(N,)"
+        raise ValueError(f"{name}: {few} is needed, or {many} for N starts; got shape {array.shape}")
+    if name == "velocity" and array.shape[-1] == 3:
+        up = np.flatnonzero(array[..., 2] != 0)
+        if up.size:
+            row = f"row {up[0]}: " if array.ndim == 2 else ""
+            raise ValueError(f"{row}velocity: the ball stays on the plane, v_z = 0 is needed, got {array[..., 2].flat[up[0]]}")
+        array = array[..., :2]
+    return array
+
+
+def _count(start: dict[str, NDArray[np.float64]]) -> Optional[int]:
+    """How many starts; None: one."""
+    counts = {name: value.shape[0] for name, value in start.items() if value.ndim > len(_widths[name][0])}
+    if len(set(counts.values())) > 1:
+        raise ValueError(f"as many of each are needed, got {', '.join(f'{count} of {name}' for name, count in counts.items())}")
+    return next(iter(counts.values()), None)
 
 
 @lru_cache(maxsize=64)
@@ -261,6 +359,37 @@ class Roll:
 
     def __call__(self, t: ArrayLike) -> Any:
         return self._core.at(numbers("t", t))[()]
+
+    def plot(self, axes: Any = None, until: Optional[float] = None) -> Any:
+        """The path on the table, to scale, and the speeds against time, beside the textbook's, dashed, by matplotlib into
+        two axes, or into a new figure. until: s; if left out until a little after it rolls.
+        Gives the axes."""
+        if axes is None:
+            from matplotlib import pyplot
+
+            page, axes = pyplot.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
+            page.suptitle(f"{self.ball.name}: law {self.law.name}")
+        way, speeds = axes
+        rolls = self.rolls_after.t, self.uncoupled.rolls_after.t
+        end = number("until", until) if until is not None else 1.6 * max(rolls) or self.stop_time or 1
+        times = np.linspace(0, end, 400)
+        for roll, style, words in ((self, "-", "this motion"), (self.uncoupled, "--", "textbook")):
+            at = roll(times)
+            way.plot(at["x"], at["y"], style, color="C0" if style == "-" else "C7", label=words)
+            event = roll.rolls_after
+            if event.t <= end:
+                way.plot(event.x, event.y, "o", color="C0" if style == "-" else "C7", markerfacecolor="white",
+                         label="rests" if self.ball.body in ("disc", "ring") else "rolls")
+            note = "" if style == "-" else ", textbook"
+            speeds.plot(times, at["slip"], style, color="C3", label="slip" + note)
+            speeds.plot(times, self.ball.radius * abs(at["wz"]), style, color="C2", label="$R|\\omega_z|$" + note)
+            speeds.plot(times, np.hypot(at["vx"], at["vy"]), style, color="C0", label="speed of the centre" + note)
+        way.set(xlabel="x, m", ylabel="y, m", aspect="equal", adjustable="datalim")
+        speeds.set(xlabel="t, s", ylabel="m/s", xlim=(0, end))
+        speeds.set_ylim(bottom=0)
+        way.legend(fontsize="small", loc="upper left", bbox_to_anchor=(0, -0.2), ncols=2, frameon=False)
+        speeds.legend(fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
+        return axes
 
     @property
     def uncoupled(self) -> Roll:
@@ -302,3 +431,57 @@ class Roll:
     def path(self) -> float:
         """m along the path of the centre until it rolls."""
         return self._core.path
+
+
+_place = [("t", "f8"), ("x", "f8"), ("y", "f8")]
+
+
+class Rolls:
+    """The motions of one ball from N starts; `Ball.roll` makes them of arrays. Called with times t >= 0 in s, of any shape
+    S, they give a structured array of shape (N, *S) with the fields of Roll; an index gives one Roll.
+
+    events:  a structured array of shape (N,): rolls_after, spin_ends and rest, each with t, x, y (s, m), as Roll has them, rest
+             infinite where it rolls on for ever; slip_length, path (m), turns, stop_time (s). Each is an attribute, too.
+    """
+
+    #: Of events.
+    dtype = np.dtype([("rolls_after", _place), ("spin_ends", _place), ("rest", _place), ("slip_length", "f8"), ("turns", "f8"),
+                      ("path", "f8"), ("stop_time", "f8")])
+
+    def __init__(self, ball: Ball, starts: NDArray[np.float64], law: Law, rolling_below: float, rolling_friction: float,
+                 threads: int = 1, out: Optional[NDArray[Any]] = None) -> None:
+        self.ball, self.starts, self.law = ball, np.ascontiguousarray(starts), law
+        self.rolling_below, self.rolling_friction, self.threads = rolling_below, rolling_friction, threads
+        self._core = _core.Shots(ball._experiment, law._core, rolling_below, rolling_friction)
+        self.events = self._events(np.empty(len(self), self.dtype) if out is None else target_of(out, (len(self),), self.dtype))
+
+    def _events(self, out: NDArray[Any]) -> NDArray[Any]:
+        into = out if out.flags.c_contiguous else np.empty(len(self), self.dtype)
+        self._core.events(self.starts, into.view(np.float64), self.threads)
+        if into is not out:
+            out[...] = into
+        return out
+
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        if name in (Rolls.dtype.names or ()):
+            return self.events[name]
+        raise AttributeError(f"Rolls has no {name!r}; it has {', '.join(Rolls.dtype.names or ())}")
+
+    def __len__(self) -> int:
+        return len(self.starts)
+
+    def __getitem__(self, row: int) -> Roll:
+        vx, vy, wx, wy, wz = self.starts[operator.index(row)].tolist()
+        velocity, angular_velocity = (vx, vy), (wx, wy, wz)
+        ball = self.ball.but(velocity=velocity, angular_velocity=angular_velocity)
+        return Roll(ball, velocity, angular_velocity, self.law, self.rolling_below, self.rolling_friction)
+
+    def __call__(self, t: ArrayLike) -> NDArray[Any]:
+        times = numbers("t", t)
+        return self._core.at(self.starts, times, self.threads).reshape(len(self), *times.shape)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Rolls, (self.ball, self.starts, self.law, self.rolling_below, self.rolling_friction, self.threads)
+
+    def __repr__(self) -> str:
+        return f"Rolls({len(self)} starts of {self.ball.name!r}, law {self.law.name!r})"

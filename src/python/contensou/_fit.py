@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, Optional, Sequence
+from typing import Any, NamedTuple, Optional, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._balls import Ball
-from ._flow import LawLike
+from ._flow import Law, LawLike
 from ._numbers import numbers
 
 
@@ -54,6 +54,7 @@ class Fit:
     only:         the one combination of friction and patch_radius that the film determines, where it does no more
     aic:          Akaike's criterion, to compare laws on the same film: the smaller the better
     predicted:    what the fitted motion gives, by observable
+    t, observed:  the film: times, and what was seen by observable; of a planned one none
     """
 
     ball: Ball
@@ -70,6 +71,36 @@ class Fit:
     other_spins: list[float]
     only: Optional[Combination]
     predicted: dict[str, NDArray[np.float64]]
+    t: NDArray[np.float64]
+    observed: dict[str, NDArray[np.float64]]
+
+    def plot(self, axes: Any = None) -> Any:
+        """What was seen with the fitted motion, and the residuals below, a column for each observable, by matplotlib into
+        axes of shape (2, number of observables), or into a new figure. A marker's angle stands at its turn.
+        Gives the axes."""
+        if not self.observed:
+            raise ValueError("a planned film has nothing to draw")
+        units = {"slip": "m/s", "spin": "rad/s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "angle": "rad"}
+        if axes is None:
+            from matplotlib import pyplot
+
+            page, axes = pyplot.subplots(2, len(self.observed), figsize=(1.2 + 3.2 * len(self.observed), 4), sharex=True,
+                                         squeeze=False, height_ratios=(3, 1), layout="constrained")
+            page.suptitle(f"{self.ball.name}, law {self.law}: f = {self.friction.value:.3g}, "
+                          f"patch radius {1e3 * self.patch_radius.value:.3g} mm")
+        axes = np.asarray(axes).reshape(2, len(self.observed))
+        for (name, seen), (above, below) in zip(self.observed.items(), axes.T):
+            fitted = self.predicted[name]
+            if name == "angle":
+                seen = fitted + np.remainder(seen - fitted + np.pi, 2 * np.pi) - np.pi
+            above.plot(self.t, seen, ".", color="C7", markersize=3, label="film")
+            above.plot(self.t, fitted, "-", color="C3", label="fitted")
+            above.set(ylabel=f"{name}, {units[name]}")
+            below.plot(self.t, seen - fitted, ".", color="C7", markersize=3)
+            below.axhline(0, color="C3", linewidth=0.8)
+            below.set(xlabel="t, s", ylabel="residual")
+        axes[0, 0].legend(fontsize="small")
+        return axes
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={each.value:.6g} +- {each.standard_error:.2g}" for name, each in self.estimates.items())
@@ -135,7 +166,34 @@ def fit(
     series = [(name, values, np.broadcast_to(numbers(f"sd of {name}", sd[name]), t.shape) if name in sd else none)
               for name, values in seen.items()]
     known_law = ball._law(law)
-    found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), robust)
+    found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), robust, False)
+    return _report(ball, known_law, found, t, seen)
+
+
+def fit_plan(
+    t: ArrayLike,
+    *,
+    ball: Ball,
+    sd: dict[str, ArrayLike],
+    law: Optional[LawLike] = None,
+    free: Optional[Sequence[str]] = None,
+) -> Fit:
+    """What a film would say of the ball's own motion, before it is made: the standard errors and intervals that it would
+    give (Cramer and Rao's bound), as `contensou fit --plan`.
+
+    t:   s, of its pictures, from the start of the motion on
+    sd:  standard deviations of what is to be seen of slip, spin, x, y, vx, vy and angle, numbers or arrays
+    """
+    t = numbers("t", t)
+    if t.ndim != 1 or not sd:
+        raise ValueError(f"t: times along one axis are needed, and in sd what is to be seen; got shape {t.shape}, {len(sd)} in sd")
+    known_law = ball._law(law)
+    series = [(name, np.zeros_like(t), np.broadcast_to(numbers(f"sd of {name}", each), t.shape)) for name, each in sd.items()]
+    found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), False, True)
+    return _report(ball, known_law, found, t, dict.fromkeys(sd))
+
+
+def _report(ball: Ball, known_law: Law, found: dict[str, Any], t: NDArray[np.float64], seen: dict[str, Any]) -> Fit:
     estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
     patch = estimates["patch_radius"]
     on_its_face = all(each is None for each in (ball.patch_radius, ball.spin_deceleration, ball.youngs_modulus))
@@ -145,4 +203,5 @@ def fit(
     only = found.pop("only")
     predicted = dict(zip(seen, found.pop("predicted")))
     return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted,
-               only=only and Combination(*only), **found)
+               only=only and Combination(*only), t=t,
+               observed={name: values for name, values in seen.items() if values is not None}, **found)

@@ -34,10 +34,16 @@ def number(name: str, given: Any) -> float:
 def target(out: Any, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """An array to write results of that shape into.
     Raises TypeError or ValueError for anything else."""
+    return target_of(out, shape, np.dtype(np.float64))
+
+
+def target_of(out: Any, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
+    """The same for results of any dtype."""
+    words = str(dtype) if dtype.fields is None else f"a row of {', '.join(dtype.names or ())}"
     if not isinstance(out, np.ndarray):
-        raise TypeError(f"out: an array of NumPy is needed, float64 of shape {shape}, got {type(out).__name__}")
-    if out.shape != shape or out.dtype != np.float64:
-        raise ValueError(f"out: float64 of shape {shape} is needed, got {out.dtype} of shape {out.shape}")
+        raise TypeError(f"out: an array of NumPy is needed, {words} of shape {shape}, got {type(out).__name__}")
+    if out.shape != shape or out.dtype != dtype:
+        raise ValueError(f"out: {words} of shape {shape} is needed, got {out.dtype} of shape {out.shape}")
     return out
 
 
