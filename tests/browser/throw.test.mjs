@@ -31,7 +31,9 @@ async function fling(dx, dy, wheel = 0, { index = 1, held = false } = {}) {
 test("a body is thrown: how far is how fast, the wheel is the spin, and the throw is a dot of the plane and in the link", async () => {
   await open("", { reducedMotion: "no-preference" });
   await page.click("#answers button");
-  const width = await page.evaluate(() => globalThis.page.hero.lanes.width);
+  // Two pictures later the answers are gone, and the lanes are as wide as they stay.
+  const width = await page.evaluate(() => new Promise((done) =>
+    requestAnimationFrame(() => requestAnimationFrame(() => done(globalThis.page.hero.lanes.width)))));
   await fling(0.275 * width, 0, 400);
   const { orbits, chosen, ball, fraction } = await state();
   assert.deepEqual([orbits.length, chosen], [2, 1]);
