@@ -19,7 +19,8 @@ std::vector<VerbFields> field_table() {
       {"stop", stop_fields()},
       {"stop --batch",
        {
-           {"in: `mu`, `u0`, `v0`; out: `tau_stop`", "speed", "all other columns pass through"},
+           {"in: `mu`, `u0`, `v0`; out: `tau_stop`, of several `--law` a `tau_stop_LAW` for each", "speed",
+            "all other columns pass through"},
            {"with --ball in: `slip`, `spin`; out: `t_stop`", "m/s, 1/s; s", "the same in SI units"},
        }},
       {"orbit",
