@@ -377,7 +377,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
   const double last_value = of_v(0);
   const double at_rest = last_value * end;
   if (end == 0 || v_ == 0) return at_rest;
-  std::vector<double> panels;
+  std::vector<double> panels, kinks;
   std::function<double(double)> integrand;
   if (on_axis()) {
     panels = {0, end};
@@ -386,7 +386,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
   } else {
     // Over xi: v and the time are had from it without a root.
     constexpr double ln_nothing = -50;
-    constexpr double width = 2;
+    constexpr double width = 3;
     constexpr double most = 64;
     double last = coordinate_of_fall(&Progress::ln_v, ln_nothing, xi0_);
     if (end < stop_time()) last = std::max(coordinate_at_time(end), last);
@@ -397,20 +397,28 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
         panels.push_back(std::max(coordinate_of_fall(&Progress::ln_v, std::log(v / v0_), xi0_), last));
     }
     for (double k : system_.law().kinks()) {
-      if (chart().reaches(std::log(k))) panels.push_back(std::clamp(chart().coordinate(std::log(k)), last, xi0_));
+      if (chart().reaches(std::log(k))) kinks.push_back(std::clamp(chart().coordinate(std::log(k)), last, xi0_));
     }
+    panels.insert(panels.end(), kinks.begin(), kinks.end());
     integrand = [&](double xi) {
       const Progress now = progress(xi);
       return (of_v(sliding(now)) - last_value) * tau_of(scaled_left_slope(xi, now));
     };
   }
   std::ranges::sort(panels);
-  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
   constexpr unsigned depth = 12;
   constexpr double tolerance = 1e-10;
   double sum = at_rest;
   for (std::size_t i = 1; i < panels.size(); ++i) {
-    if (panels[i] > panels[i - 1]) sum += Rule::integrate(integrand, panels[i - 1], panels[i], depth, tolerance);
+    const double left = panels[i - 1], width = panels[i] - left;
+    if (width == 0) continue;
+    // Beside a kink the curve has roots of the distance, which 3 s^2 - 2 s^3 makes whole powers.
+    const bool bends = std::ranges::any_of(kinks, [&](double kink) { return kink == left || kink == panels[i]; });
+    const auto along = [&](double s) {
+      return bends ? integrand(left + width * s * s * (3 - 2 * s)) * 6 * s * (1 - s) : integrand(left + width * s);
+    };
+    sum += width * Rule::integrate(along, 0.0, 1.0, depth, tolerance);
   }
   return sum;
 }

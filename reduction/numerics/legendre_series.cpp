@@ -1,7 +1,9 @@
 #include "numerics/legendre_series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace contensou::reduction {
@@ -41,6 +43,13 @@ const Transform& transform() {
   return instance;
 }
 
+template <class Function>
+constexpr std::array<double, LegendreSeries::order + 1> of_each(Function function) {
+  std::array<double, LegendreSeries::order + 1> values{};
+  for (int j = 0; j <= LegendreSeries::order; ++j) values[static_cast<std::size_t>(j)] = function(j);
+  return values;
+}
+
 }  // namespace
 
 const LegendreSeries::Samples& LegendreSeries::points() { return transform().points; }
@@ -77,10 +86,13 @@ LegendreSeries LegendreSeries::derivative() const {
 
 double LegendreSeries::operator()(double t) const {
   // Clenshaw: (j + 1) P_{j+1} = (2j + 1) t P_j - j P_{j-1}.
+  constexpr auto here = of_each([](int j) { return (2 * j + 1) / (j + 1.0); });
+  constexpr auto after = of_each([](int j) { return (j + 1) / (j + 2.0); });
   double next = 0;
   double after_next = 0;
   for (int j = order; j >= 1; --j) {
-    const double current = coefficients_[j] + (2 * j + 1) / (j + 1.0) * t * next - (j + 1) / (j + 2.0) * after_next;
+    const auto i = static_cast<std::size_t>(j);
+    const double current = (coefficients_[j] - after[i] * after_next) + here[i] * t * next;
     after_next = std::exchange(next, current);
   }
   return coefficients_[0] + t * next - 0.5 * after_next;
