@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
@@ -389,6 +390,7 @@ TEST_CASE("when a speed has fallen to a value", "[orbit][route]") {
 
 TEST_CASE("the integral of a function of v", "[orbit][route]") {
   for (const char* name : {"exact", "pade", "ring"}) {
+    if (!CONTENSOU_FULL_TESTS && name == std::string_view("ring")) continue;  // as long as the others together
     for (double r : {1e-6, 5.0 / 7, 3.0, 6.0}) {
       const ReducedSystem system(*find_law(name), 0.3, {.chi = 3.5, .gamma = r * 3.5 / 0.09});
       const Flow flow(system);

@@ -97,9 +97,9 @@ ReducedSystem rim_puck(const Law& law, double r) { return {law, std::sqrt(r), {.
 }  // namespace
 
 TEST_CASE("the steppers and the orbit give one motion, of every law in every regime", "[steppers][route]") {
-  std::vector<Law> laws = named_laws();
+  std::vector<Law> laws = CONTENSOU_FULL_TESTS ? named_laws() : paper_laws();
   laws.insert(laws.end(),
-              {RootLaw{}, CallOnly<HertzLaw>{}, CallOnly<PadeLaw>{},
+              {RootLaw{}, CallOnly<HertzLaw>{},
                TabulatedPressureLaw("table", Eigen::ArrayXd{{0, 0.35, 0.6, 1}}, Eigen::ArrayXd{{1, 2.5, 4, 0.5}})});
   for (const Stepper& stepper : steppers) {
     States states(stepper.name);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -105,7 +107,7 @@ TEST_CASE("on a ray, beside it and on its way the gradient has the same limit", 
       const Flow flow = asked.flow(law);
       REQUIRE(flow.terminal().rays.size() == 1);
       const double k = flow.terminal().rays[0].k;
-      for (double beside : {-1e-3, 0.0, 1e-15, 1e-9}) {
+      for (double beside : CONTENSOU_FULL_TESTS ? std::vector{-1e-3, 0.0, 1e-15, 1e-9} : std::vector{0.0, 1e-9}) {
         Question next = asked;
         next.v = asked.mu * k * (1 + beside);
         INFO(law.name() << ": " << next.text() << ", " << beside << " from the ray");

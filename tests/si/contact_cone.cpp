@@ -42,7 +42,7 @@ FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) 
   const double g = experiment.environment.gravity;
   const double v0 = slip_at_start(experiment);
   const double w0 = std::abs(spin_at_start(experiment));
-  constexpr double step = 2e-6;
+  constexpr double step = 1e-5;
   double v = v0;
   double w = w0;
   FadeTimes times{0, 0, 0, 0};
@@ -88,7 +88,7 @@ namespace {
 /// @param twist  one row for the slip and one for the spin, each bounded for itself; else friction at each point
 FadeTimes in_steps(const Experiment& puck, double arm, bool twist) {
   const double f = puck.contact.friction, a = puck.ball.radius, g = puck.environment.gravity;
-  constexpr double dt = 2e-5;
+  constexpr double dt = 1e-4;
   const double v0 = slip_at_start(puck), w0 = spin_at_start(puck);
   Eigen::Vector2d v(v0, 0);
   double w = w0, turned = 0;
