@@ -56,6 +56,19 @@ class Directions {
 
 }  // namespace
 
+IsochroneTimes asked_times(std::vector<double> times, double unit) {
+  std::ranges::sort(times);
+  times.erase(std::ranges::unique(times).begin(), times.end());
+  const double step = times.front();
+  bool even = true;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    constexpr double same = 1e-9;
+    even = even && std::abs(times[i] / step - static_cast<double>(i + 1)) < same;
+  }
+  for (double& time : times) time *= unit;
+  return {times, even ? step * unit : 0};
+}
+
 std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& rectangle,
                                   const std::vector<double>& times) {
   const State low = rectangle.low, high = rectangle.high;

@@ -12,6 +12,17 @@ struct Rectangle {
   bool logarithmic = false;
 };
 
+/// The times of isochrones, ascending, and the step that they are all multiples of, without gaps; 0: none.
+struct IsochroneTimes {
+  std::vector<double> times;
+  double step;
+};
+
+/// Those that were asked for, in any order.
+/// @param asked  not empty
+/// @param unit   of them
+IsochroneTimes asked_times(std::vector<double> asked, double unit);
+
 /// The pieces of isochrones that lie in the rectangle, by growing time; along each, v/u turns from u > 0 to u < 0.
 ///
 /// tau*(c u, c v) = c tau*(u, v): one of them is computed, as a function of the direction v/u, and the others are its

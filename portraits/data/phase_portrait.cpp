@@ -45,12 +45,16 @@ Window default_window(const ReducedSystem& system, View view, const std::vector<
   return {1, round_down(std::min(system.pivoting_limit(1) / sliding, large * system.mu()))};
 }
 
-SpeedScale scale_of(const reduction::PhasePlane& plane, View view, Window window, bool linear) {
+/// Whether the axis of v may be bent, and whether the plane would be a comb else.
+std::pair<bool, bool> bends(const reduction::PhasePlane& plane) {
   constexpr double comb = 12;
   const auto& [direction, k, order] = plane.tangents.front();
-  const bool bends = shows_window(view) && plane.terminal.rays.empty() &&
-                     direction == reduction::InvariantDirection::pivoting && 1 + order > comb;
-  return {window.v, bends && !linear ? 1 / (1 + order) : 1};
+  const bool may = plane.terminal.rays.empty() && direction == reduction::InvariantDirection::pivoting;
+  return {may, may && 1 + order > comb};
+}
+
+SpeedScale scale_of(const reduction::PhasePlane& plane, Window window, bool linear) {
+  return {window.v, linear ? 1 : 1 / (1 + plane.tangents.front().contact_order)};
 }
 
 using Instant = PortraitOrbit::Instant;
@@ -331,6 +335,23 @@ void require(const PortraitRequest& request) {
                     ">= 0, got {} and {}",
                     request.orbits_per_side.value_or(0), request.isochrones.value_or(0)));
   }
+  for (double time : request.isochrone_times) {
+    if (time > 0 && std::isfinite(time)) continue;
+    throw std::domain_error(fmt::format("phase_portrait: the time of an isochrone must be > 0, got {}", time));
+  }
+  if (request.part) {
+    const auto& [u_low, u_high, v_low, v_high] = *request.part;
+    if (!(u_low < u_high && v_low < v_high && v_low >= 0)) {
+      throw std::domain_error(
+          fmt::format("phase_portrait: a window has ends that grow, and v >= 0; got {} to {} by {} to {}", u_low,
+                      u_high, v_low, v_high));
+    }
+    if (!shows_window(request.view.value_or(View::uv))) {
+      throw std::domain_error(fmt::format(
+          "phase_portrait: a window with ends of its own is of the views uv, patch and pair; {} has no such axes",
+          name(*request.view)));
+    }
+  }
   if (request.highlight) reduction::require_state("phase_portrait", *request.highlight);
   for (const State& point : request.through) {
     reduction::require_state("phase_portrait", point);
@@ -353,24 +374,36 @@ void require(Window window, const PortraitRequest& request) {
                     smallest, 1 / smallest, window.u, window.v));
   }
   for (const State& point : request.through) {
-    if (std::abs(point.u) <= window.u && point.v <= window.v) continue;
+    if (request.part ? request.part->contains(point) : std::abs(point.u) <= window.u && point.v <= window.v) continue;
+    const auto [u_low, u_high, v_low, v_high] = request.part.value_or(WindowPart{-window.u, window.u, 0, window.v});
     throw std::domain_error(
-        fmt::format("phase_portrait: the point ({}, {}) lies outside the "
-                    "window |u| <= {}, v <= {}",
-                    point.u, point.v, window.u, window.v));
+        fmt::format("phase_portrait: the point ({}, {}) lies outside the window {} <= u <= {}, {} <= v <= {}", point.u,
+                    point.v, u_low, u_high, v_low, v_high));
   }
 }
 
-PhasePortrait portrait_in(const Flow& flow, View view, Window window, const PortraitRequest& request,
-                          const std::vector<double>& times) {
+PhasePortrait portrait_in(const Flow& flow, View view, Window window, bool linear, const PortraitRequest& request,
+                          const IsochroneTimes& times) {
   const reduction::PhasePlane plane = reduction::phase_plane(flow);
-  const SpeedScale scale = scale_of(plane, view, window, request.linear || request.stepped);
+  const SpeedScale scale = scale_of(plane, window, linear);
   const OrbitTracer tracer(flow, window, scale, request.stepped);
-  PhasePortrait portrait{flow, plane, view, window, scale, {}, {}, {}, {}, request.through, {}};
+  const WindowPart part = request.part.value_or(WindowPart{-window.u, window.u, 0, window.v});
+  PhasePortrait portrait{flow, plane, view, window, part, scale, {}, {}, times.step, {}, {}, request.through, {}};
   if (!request.drawn_only || shows_window(view)) {
-    portrait.isochrones = isochrones(flow, {{-window.u, 0}, {window.u, window.v}}, times);
+    portrait.isochrones = isochrones(flow, {{part.u_low, part.v_low}, {part.u_high, part.v_high}}, times.times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
-    portrait.orbits = tracer.orbits(request.orbits_per_side.value_or(with_room_for_labels));
+    constexpr double most = 4;  // times as many where a part is shown
+    const double denser = std::clamp(window.u / (part.u_high - part.u_low), 1.0, most);
+    portrait.orbits =
+        tracer.orbits(request.orbits_per_side.value_or(static_cast<int>(std::lround(denser * with_room_for_labels))));
+    if (request.part) {
+      std::erase_if(portrait.orbits, [&](const PortraitOrbit& orbit) {
+        for (Eigen::Index i = 0; i < orbit.rows(); ++i) {
+          if (part.contains({orbit.u[i], orbit.v[i]})) return false;
+        }
+        return true;
+      });
+    }
   }
   if (request.highlight && (request.highlight->u != 0 || request.highlight->v != 0)) {
     portrait.highlight = tracer.orbit(*request.highlight);
@@ -379,15 +412,62 @@ PhasePortrait portrait_in(const Flow& flow, View view, Window window, const Port
   return portrait;
 }
 
-/// Stop times of isochrones: multiples of a round time, up to the corner of the window, which is the last to stop. As many
-/// as are asked for, as nearly as round times allow; the roundest where no number is.
-std::vector<double> round_times(const Flow& flow, Window window, const PortraitRequest& request) {
-  constexpr int usual = 7;
-  if (request.isochrones == 0) return {};
-  const double last = 0.95 * flow.orbit({window.u, window.v}).stop_time() / request.time_unit;
-  const double step = request.isochrones ? step_for(last, *request.isochrones, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5})
-                                         : step_for(last, usual, {1, 2, 5});
-  return multiples(0, last * request.time_unit, step * request.time_unit);
+/// The stop time of the corner of what is shown, which is the last to stop.
+double last_time(const Flow& flow, Window window, const PortraitRequest& request) {
+  if (!request.part) return flow.orbit({window.u, window.v}).stop_time();
+  return flow.orbit({std::max(std::abs(request.part->u_low), std::abs(request.part->u_high)), request.part->v_high})
+      .stop_time();
+}
+
+/// Stop times of the isochrones of each plane: those asked for; else multiples of a round time, up to the last. As many
+/// as are asked for, as nearly as round times allow; the roundest where no number is. Where the last times of planes that
+/// are compared differ much, each has so many of one series 1, 2, 5, 10, below its own last.
+/// @param lasts  of the planes
+std::vector<IsochroneTimes> round_times(const std::vector<double>& lasts, const PortraitRequest& request) {
+  constexpr double near = 0.95, alike = 3, of_decade = 3;
+  constexpr int usual = 7, usual_beside_others = 4, usual_of_series = 3;
+  const double unit = request.time_unit;
+  const auto all = [&](IsochroneTimes times) { return std::vector<IsochroneTimes>(lasts.size(), std::move(times)); };
+  if (!request.isochrone_times.empty()) return all(asked_times(request.isochrone_times, unit));
+  if (request.isochrones == 0) return all({{}, 0});
+  const auto [shortest, longest] = std::ranges::minmax(lasts);
+  if (longest < alike * shortest) {
+    const double last = near * longest / unit;
+    const double step = request.isochrones ? step_for(last, *request.isochrones, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5})
+                                           : step_for(last, lasts.size() > 1 ? usual_beside_others : usual, {1, 2, 5});
+    return all({multiples(0, last * unit, step * unit), step * unit});
+  }
+  const int count = request.isochrones.value_or(usual_of_series);
+  std::vector<IsochroneTimes> result;
+  for (double last : lasts) {
+    constexpr double few_decades = 9;
+    const double low = near * shortest / unit / std::pow(10, count / of_decade + 1);
+    std::vector<double> times = round_ratios(low, near * last / unit, few_decades);
+    times.erase(times.begin(), times.end() - std::min<std::ptrdiff_t>(count, std::ssize(times)));
+    for (double& time : times) time *= unit;
+    result.push_back({std::move(times), 0});
+  }
+  return result;
+}
+
+/// One frame for all: the same window, of patch without one asked for the same rim speeds.
+std::vector<Window> windows_of(const std::vector<Flow>& flows, View view, const PortraitRequest& request) {
+  if (request.part) {
+    const auto& [u_low, u_high, v_low, v_high] = *request.part;
+    return {flows.size(), {std::max(std::abs(u_low), std::abs(u_high)), v_high}};
+  }
+  if (request.window) return {flows.size(), *request.window};
+  std::vector<State> shown = request.through;
+  if (request.highlight) shown.push_back(*request.highlight);
+  std::vector<Window> windows;
+  for (const Flow& flow : flows) windows.push_back(default_window(flow.system(), view, shown));
+  const auto largest = [&](double Window::*side) { return std::ranges::max(windows, {}, side).*side; };
+  // Without points to show the v that none fills with mere sliding.
+  const bool rims = view == View::patch;
+  const double u = largest(&Window::u);
+  const double v = shown.empty() && !rims ? std::ranges::min(windows, {}, &Window::v).v : largest(&Window::v);
+  for (std::size_t i = 0; i < flows.size(); ++i) windows[i] = {rims ? v / flows[i].system().mu() : u, v};
+  return windows;
 }
 
 }  // namespace
@@ -429,22 +509,46 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
   return columns(track);
 }
 
-PhasePortrait phase_portrait(const Flow& flow, const PortraitRequest& request) {
+std::vector<PhasePortrait> phase_portraits(const std::vector<Flow>& flows, const PortraitRequest& request) {
   require(request);
-  const ReducedSystem& system = flow.system();
-  std::vector<State> shown = request.through;
-  if (request.highlight) shown.push_back(*request.highlight);
   const View view = request.view.value_or(View::uv);
-  const Window window = request.window.value_or(default_window(system, view, shown));
-  require(window, request);
-  const std::vector<double> times = round_times(flow, window, request);
-  PhasePortrait portrait = portrait_in(flow, view, window, request, times);
-  if (request.comparison) {
-    const ReducedSystem other(*request.comparison, system.mu(), system.inertia(), system.drive());
-    portrait.comparisons.push_back(portrait_in(other, view, window, request, times));
-    portrait.comparisons.back().scale = portrait.scale;
+  const std::vector<Window> windows = windows_of(flows, view, request);
+  std::vector<double> lasts;
+  bool all_may_bend = true, one_is_comb = false;
+  for (std::size_t i = 0; i < flows.size(); ++i) {
+    require(windows[i], request);
+    lasts.push_back(last_time(flows[i], windows[i], request));
+    const auto [may_bend, comb] = bends(reduction::phase_plane(flows[i]));
+    all_may_bend = all_may_bend && may_bend;
+    one_is_comb = one_is_comb || comb;
   }
-  return portrait;
+  const bool linear = request.linear || request.stepped || !shows_window(view) || !all_may_bend || !one_is_comb;
+  const std::vector<IsochroneTimes> times = round_times(lasts, request);
+  std::vector<PhasePortrait> portraits;
+  bool has_isochrones = false;
+  for (std::size_t i = 0; i < flows.size(); ++i) {
+    const ReducedSystem& system = flows[i].system();
+    PhasePortrait portrait = portrait_in(flows[i], view, windows[i], linear, request, times[i]);
+    has_isochrones = has_isochrones || !portrait.isochrones.empty();
+    if (request.comparison) {
+      const ReducedSystem other(*request.comparison, system.mu(), system.inertia(), system.drive());
+      const bool its_linear = linear || !bends(reduction::phase_plane(other)).second;
+      portrait.comparisons.push_back(portrait_in(other, view, windows[i], its_linear, request, times[i]));
+      portrait.comparisons.back().scale = portrait.scale;
+    }
+    portraits.push_back(std::move(portrait));
+  }
+  if (!request.isochrone_times.empty() && shows_window(view) && !has_isochrones) {
+    throw std::domain_error(fmt::format(
+        "phase_portrait: no state in the window has a stop time that isochrones are asked of; in its corner "
+        "it is {:.3g}",
+        std::ranges::max(lasts) / request.time_unit));
+  }
+  return portraits;
+}
+
+PhasePortrait phase_portrait(const Flow& flow, const PortraitRequest& request) {
+  return phase_portraits({flow}, request).front();
 }
 
 }  // namespace contensou::portraits

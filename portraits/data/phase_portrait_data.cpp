@@ -40,24 +40,30 @@ Json json_of(const std::vector<Curve>& curves) {
   return json;
 }
 
+/// [U, V], or of a part [[U1, U2], [V1, V2]].
+Json window_of(const PhasePortrait& portrait) {
+  const auto& [u, v] = portrait.window;
+  const auto& [u_low, u_high, v_low, v_high] = portrait.part;
+  if (u_low == -u && u_high == u && v_low == 0 && v_high == v) return {u, v};
+  return {{u_low, u_high}, {v_low, v_high}};
+}
+
 Json origin_of(const PhasePortrait& portrait, const PortraitSource& source) {
   const reduction::ReducedSystem& system = portrait.system();
   Json json{{"law", system.law().name()},
             {"mu", system.mu()},
             {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
             {"view", name(portrait.view)},
-            {"window", {portrait.window.u, portrait.window.v}}};
+            {"window", window_of(portrait)}};
   if (system.drive() > 0) json["drive"] = system.drive();
   if (!source.version.empty()) json["version"] = source.version;
   if (!source.ball.empty()) json.update({{"ball", source.ball}, {"seconds_per_tau", source.seconds_per_tau}});
   return json;
 }
 
-}  // namespace
-
-std::string to_json(const PhasePortrait& portrait, const PortraitSource& source) {
-  Json json{{"schema", 1}};
-  json.update(origin_of(portrait, source));
+/// All but the schema.
+Json members_of(const PhasePortrait& portrait, const PortraitSource& source) {
+  Json json = origin_of(portrait, source);
   json.update({{"orbits", json_of(portrait.orbits)}, {"isochrones", json_of(portrait.isochrones)}});
   if (portrait.highlight) json["highlight"] = json_of(*portrait.highlight);
   if (!portrait.through.empty()) json["through"] = json_of(portrait.through);
@@ -66,16 +72,24 @@ std::string to_json(const PhasePortrait& portrait, const PortraitSource& source)
                        {"orbits", json_of(other.orbits)},
                        {"isochrones", json_of(other.isochrones)}};
   }
-  return json_document(json);
+  return json;
 }
 
-std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source) {
-  std::string csv = csv_remarks(origin_of(portrait, source));
+/// A name in a cell: quoted where it needs it.
+std::string cell(const std::string& name) {
+  if (name.find_first_of(",\"\n") == name.npos) return name;
+  std::string quoted;
+  for (char each : name) quoted += each == '"' ? "\"\"" : std::string(1, each);
+  return '"' + quoted + '"';
+}
+
+/// @param lead  first cells of each row
+std::string rows_of(const PhasePortrait& portrait, const PortraitSource& source, const std::string& lead) {
+  std::string csv;
   const bool timed = source.seconds_per_tau > 0;
-  csv += fmt::format("kind,index,u,v,tau,ln_v,k{}\n", timed ? ",t" : "");
   const auto row = [&](std::string_view kind, std::size_t index, const PortraitOrbit::Instant& at) {
-    fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{}", kind, index, at.u, at.v, at.tau_left, at.ln_v,
-                   std::exp(at.ln_k));
+    fmt::format_to(std::back_inserter(csv), "{}{},{},{},{},{},{},{}", lead, kind, index, at.u, at.v, at.tau_left,
+                   at.ln_v, std::exp(at.ln_k));
     csv += timed ? fmt::format(",{}\n", source.seconds_per_tau * at.tau_left) : "\n";
   };
   const auto orbits = [&](std::string_view kind, const std::vector<PortraitOrbit>& all) {
@@ -98,6 +112,41 @@ std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source) 
   for (const PhasePortrait& other : portrait.comparisons) {
     orbits("against_orbit", other.orbits);
     isochrones("against_isochrone", other);
+  }
+  return csv;
+}
+
+std::string heading_of(const PortraitSource& source) {
+  return fmt::format("kind,index,u,v,tau,ln_v,k{}\n", source.seconds_per_tau > 0 ? ",t" : "");
+}
+
+}  // namespace
+
+std::string to_json(const PhasePortrait& portrait, const PortraitSource& source) {
+  Json json{{"schema", 1}};
+  json.update(members_of(portrait, source));
+  return json_document(json);
+}
+
+std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source) {
+  if (portraits.size() == 1) return to_json(portraits.front(), source);
+  Json all = Json::array();
+  for (const PhasePortrait& portrait : portraits) all.push_back(members_of(portrait, source));
+  return json_document(Json{{"schema", 1}, {"portraits", all}});
+}
+
+std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source) {
+  return csv_remarks(origin_of(portrait, source)) + heading_of(source) + rows_of(portrait, source, "");
+}
+
+std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source) {
+  if (portraits.size() == 1) return to_csv(portraits.front(), source);
+  std::string csv;
+  for (const PhasePortrait& portrait : portraits) csv += csv_remarks(origin_of(portrait, source));
+  csv += "mu,law," + heading_of(source);
+  for (const PhasePortrait& portrait : portraits) {
+    csv +=
+        rows_of(portrait, source, fmt::format("{},{},", portrait.system().mu(), cell(portrait.system().law().name())));
   }
   return csv;
 }

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "data/isochrones.hpp"
 #include "data/lists.hpp"
 #include "data/round_numbers.hpp"
 
@@ -412,7 +413,7 @@ void require(const PlanarWindow& window, const PlanarPortraitRequest& request) {
 
 PlanarPortrait planar_portrait(reduction::PlanarField field, const PlanarReduction& plane, std::string name,
                                const PlanarPortraitRequest& request) {
-  PlanarPortrait portrait{std::move(name), std::move(field), plane, window_of(plane, request), {}, {}, {}, {},
+  PlanarPortrait portrait{std::move(name), std::move(field), plane, window_of(plane, request), {}, {}, 0, {}, {},
                           request.through};
   require(portrait.window, request);
   const PlanarTracer tracer(portrait.field, portrait.plane, portrait.window);
@@ -426,13 +427,18 @@ PlanarPortrait planar_portrait(reduction::PlanarField field, const PlanarReducti
     std::ranges::move(tracer.orbit(x), std::back_inserter(portrait.through));
   }
   const std::vector<double> times = tracer.times_at_border();
-  if (request.isochrones != 0 && !times.empty()) {
+  if (!request.isochrone_times.empty()) {
+    const auto [asked, step] = asked_times(request.isochrone_times, 1);
+    if (!times.empty()) portrait.isochrones = tracer.isochrones(asked);
+    portrait.isochrone_step = step;
+  } else if (request.isochrones != 0 && !times.empty()) {
     // Next to a ray that leads elsewhere times grow beyond all.
     const double last = 0.95 * std::min(times.back(), 3 * times[times.size() / 2]);
     constexpr int usual = 7;
     const double step = request.isochrones ? step_for(last, *request.isochrones, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5})
                                            : step_for(last, usual, {1, 2, 5});
     portrait.isochrones = tracer.isochrones(multiples(0, last, step));
+    portrait.isochrone_step = step;
   }
   return portrait;
 }

@@ -431,9 +431,14 @@ class Compositor {
     const double bottom = layout_.panels.back().box.bottom / em_;
     const Box& first = layout_.panels.front().box;
     const double total = (first.bottom + first.height) / em_ - bottom;
-    const double left = width_ - room + 0.8;
+    // Beside the panels: those to scale may be narrower than their room.
+    double left = 0;
+    constexpr double gap = 1.6;
+    for (const PanelPlace& place : layout_.panels)
+      left = std::max(left, (place.box.left + place.box.width) / em_ + gap);
+    left = std::min(left, width_ - room + 0.8);
     const std::vector<Text> name = broken(bar.name, room - 0.8);
-    const double height = std::min(0.75 * total, total - line_height * static_cast<double>(name.size()) - 0.6);
+    const double height = std::min(0.75 * total, top_ - bottom - line_height * static_cast<double>(name.size()) - 0.6);
     double y = bottom + height + 0.6 + line_height * (static_cast<double>(name.size()) - 0.5);
     for (const Text& line : name) {
       text(line, left, y, 1, Label::Align::left);

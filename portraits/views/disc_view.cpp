@@ -97,9 +97,11 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   const double mu = portrait.system().mu();
   const PolarMap map{portrait.window.v, hole};
   Panel panel;
-  constexpr double margin = 0.13;
-  panel.x = {"", -1 - margin, 1 + margin, false, {}};
-  panel.y = {"", -0.13, 1 + margin, false, {}};
+  // Labels keep off the marks, however small the panel.
+  const double letter = drawing.letter / std::min(drawing.panel_mm.x / 2.26, drawing.panel_mm.y / 1.26);
+  const double off = std::max(0.075, 0.62 * letter), margin = std::max(0.13, off + 0.5 * letter);
+  panel.x = {"", -1 - 0.13, 1 + 0.13, false, {}};
+  panel.y = {"", -margin, 1 + margin, false, {}};
   panel.to_scale = true;
   panel.bare = true;
   panel.regions.push_back({half_circle(1), drawing.palette.region});
@@ -148,9 +150,9 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   add_turning(panel, drawing, map);
   add_points(panel, drawing, map);
   const Colour ink = drawing.palette.theme.ink;
-  panel.labels.push_back({{1.03, -0.07}, math("u → ∞"), ink, Label::Align::centre});
-  panel.labels.push_back({{-1.03, -0.07}, math("u → −∞"), ink, Label::Align::centre});
-  panel.labels.push_back({{0, 1.08}, math("v → ∞"), ink, Label::Align::centre});
+  panel.labels.push_back({{1.03, -off}, math("u → ∞"), ink, Label::Align::centre});
+  panel.labels.push_back({{-1.03, -off}, math("u → −∞"), ink, Label::Align::centre});
+  panel.labels.push_back({{0, 1 + off}, math("v → ∞"), ink, Label::Align::centre});
   if (hole > 0) {
     panel.labels.push_back({{0, 0.42 * hole}, "the stop", ink, Label::Align::centre});
   } else {

@@ -21,6 +21,29 @@ std::vector<Colour> spread(const std::vector<Colour>& colours, std::size_t count
   return result;
 }
 
+/// Into how many bands an interval is cut: steps are 1, 2 or 5 times a power of ten in the unit of the bar.
+std::size_t bands_per(double interval, double unit) {
+  for (std::size_t count : {3, 4, 5, 2}) {
+    constexpr double same = 1e-6;
+    const double step = interval / unit / static_cast<double>(count) * (1 + same);
+    if (step < round_down(step) * (1 + 2 * same)) return count;
+  }
+  return 1;
+}
+
+/// Equal bands, some for each interval.
+TimeBands linear_bands(double longest, double interval, double unit, const Palette& palette) {
+  const std::size_t per_interval = bands_per(interval, unit);
+  TimeBands bands;
+  bands.edges = multiples(0, longest, interval / static_cast<double>(per_interval));
+  bands.colours = spread(palette.times, bands.edges.size() + 1);
+  for (std::size_t band = 0; band <= bands.edges.size(); band += per_interval) {
+    if (band > 0) bands.arrows.push_back((bands.begin(bands.marked.back()) + bands.begin(band)) / 2);
+    bands.marked.push_back(band);
+  }
+  return bands;
+}
+
 }  // namespace
 
 Colour viridis(double fraction, double white) {
@@ -61,13 +84,14 @@ std::size_t TimeBands::band(double tau) const {
   return static_cast<std::size_t>(std::ranges::upper_bound(edges, tau) - edges.begin());
 }
 
-TimeBands linear_bands(double longest, double interval, const Palette& palette) {
-  constexpr std::size_t per_interval = 3;
-  TimeBands bands;
-  bands.edges = multiples(0, longest, interval / per_interval);
-  bands.colours = spread(palette.times, bands.edges.size() + 1);
-  for (std::size_t band = 0; band <= bands.edges.size(); band += per_interval) {
-    if (band > 0) bands.arrows.push_back((bands.begin(bands.marked.back()) + bands.begin(band)) / 2);
+TimeBands bands_of(double longest, std::vector<double> isochrones, double step, double unit, const Palette& palette) {
+  if (isochrones.empty()) return linear_bands(longest, unit * round_down(longest / unit / 4), unit, palette);
+  if (step > 0) return linear_bands(longest, step, unit, palette);
+  std::ranges::sort(isochrones);
+  isochrones.erase(std::ranges::unique(isochrones).begin(), isochrones.end());
+  TimeBands bands{isochrones, spread(palette.times, isochrones.size() + 1), {}, {}};
+  for (std::size_t band = 0; band <= isochrones.size(); ++band) {
+    if (band > 0) bands.arrows.push_back((bands.begin(band - 1) + bands.begin(band)) / 2);
     bands.marked.push_back(band);
   }
   return bands;

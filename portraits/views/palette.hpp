@@ -35,9 +35,14 @@ struct TimeBands {
   double begin(std::size_t band) const { return band == 0 ? 0 : edges[band - 1]; }
 };
 
-/// Equal bands, some for each interval between isochrones; or bands of equal ratio from the shortest time to the
-/// longest, in tau, with edges at round multiples of the unit.
-TimeBands linear_bands(double longest, double interval, const Palette& palette);
+/// Bands that change at isochrones: some equal ones for each interval where they are multiples of a step, in round steps of
+/// the unit where that is round; else one between each two.
+/// @param longest     time that is shown, in tau
+/// @param isochrones  times of isochrones; none: about four intervals
+/// @param step        of them; 0: none
+TimeBands bands_of(double longest, std::vector<double> isochrones, double step, double unit, const Palette& palette);
+
+/// Bands of equal ratio from the shortest time to the longest, in tau, with edges at round multiples of the unit.
 TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette);
 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption);

@@ -16,7 +16,7 @@ namespace {
 bool is_more(double room, double than) { return room > than * (1 + 1e-9); }
 
 /// Where a label of that size has most room: the candidate that is farthest, in half widths or half heights, from
-/// points that it keeps off.
+/// points that it keeps off; from other labels it is far enough everywhere.
 class LabelPlace {
  public:
   LabelPlace(double half_width, double half_height) : half_width_(half_width), half_height_(half_height) {}
@@ -28,6 +28,11 @@ class LabelPlace {
     constexpr double spare = 2.2;
     double room = std::min(max_room, std::abs(middle - at.x) / half_width_);
     for (const Point& other : labels) room = std::min(room, distance(at, other) / spare);
+    if (room < 1) return;
+    // Over the border only where there is nothing better.
+    constexpr double over = 0.05;
+    const double edge = std::min(std::min(at.x, 1 - at.x) / half_width_, std::min(at.y, 1 - at.y) / half_height_);
+    room = std::min(room, std::max(edge, over));
     if (!is_more(room, best_)) return;
     // From the nearest along x on, both ways: what is farther along x than the room that is left does not matter.
     const auto here = std::ranges::lower_bound(points, at.x, {}, &Point::x);
@@ -42,7 +47,8 @@ class LabelPlace {
     where_ = at;
   }
 
-  bool found() const { return best_ >= 1; }
+  bool found() const { return best_ > 0; }
+  bool has_room() const { return best_ >= 1; }
   Point where() const { return where_; }
 
  private:
@@ -80,14 +86,19 @@ void PanelLayers::add_isochrones(const std::vector<TimedPiece>& pieces, const Te
   for (auto piece = pieces.begin(); piece != pieces.end();) {
     const double time = piece->time;
     const Text text = number(time / unit);
-    LabelPlace place(look_.letter * (0.45 * text_width(text) + 0.15) / look_.panel_mm.x,
+    // On the right where there is room, so that numbers stand one above the other; else wherever; else over a line.
+    LabelPlace right(look_.letter * (0.45 * text_width(text) + 0.15) / look_.panel_mm.x,
                      look_.letter * 0.7 / look_.panel_mm.y);
+    LabelPlace anywhere = right;
     for (; piece != pieces.end() && piece->time == time; ++piece) {
       for (const Point& at : on_paper_along(piece->line, 0.004)) {
-        if (inside(at, 0.05)) place.try_at(at, points, labels, middle);
+        if (!inside(at, 0)) continue;
+        if (at.x > middle) right.try_at(at, points, labels, middle);
+        anywhere.try_at(at, points, labels, middle);
       }
       lines.lines.push_back(piece->line);
     }
+    const LabelPlace& place = right.has_room() ? right : anywhere;
     if (!place.found()) continue;
     labels.push_back(place.where());
     panel_.labels.push_back({from_paper(panel_, place.where()), text, look_.palette.theme.faint, Label::Align::centre});

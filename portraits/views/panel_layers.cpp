@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "contensou/portraits/layout.hpp"
 
 namespace contensou::portraits {
@@ -60,6 +62,16 @@ void PanelLayers::add_plain(const std::vector<TimedLine>& orbits, Stroke stroke,
   }
   panel_.lines.push_back(std::move(lines));
   panel_.arrows.push_back(std::move(arrows));
+}
+
+void PanelLayers::add_points(const std::vector<Point>& points) {
+  const bool numbered = points.size() > 1;
+  constexpr double small = 0.9, around_number = 2.6;
+  const Colour colour = look_.palette.highlight;
+  panel_.marks.push_back({points, colour, numbered ? around_number : small, Marks::Shape::circle, through_legend});
+  for (std::size_t i = 0; numbered && i < points.size(); ++i) {
+    if (inside(on_paper(panel_, points[i]), 0)) panel_.labels.push_back({points[i], fmt::format("{}", i + 1), colour});
+  }
 }
 
 /// Heads where equal times are left, halfway between isochrones; at least one on an orbit, where it is seen best.

@@ -71,6 +71,9 @@ class PanelLayers {
   /// @param at  what moves at a point of the axes
   void add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend);
 
+  /// Circles at the points that were asked for; where they are several, with their numbers.
+  void add_points(const std::vector<Point>& points);
+
   /// Two heads on each part of the lines.
   void add_heads(const Lines& lines);
 

@@ -1,6 +1,8 @@
 #include "contensou/portraits/phase_portrait_figure.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,18 +30,38 @@ Text body_name(const reduction::Inertia& inertia) {
          fmt::format("{:.4g}", gamma);
 }
 
-TimeBands bands_of(const PhasePortrait& portrait, const Palette& palette) {
-  double longest = 0;
-  for (const PortraitOrbit& orbit : portrait.orbits) longest = std::max(longest, orbit.tau_left[0]);
-  for (const PortraitOrbit& orbit : portrait.through) longest = std::max(longest, orbit.tau_left[0]);
-  if (longest == 0 && portrait.highlight) longest = portrait.highlight->tau_left[0];
-  if (longest == 0) longest = 1;
-  return linear_bands(
-      longest, portrait.isochrones.empty() ? round_down(longest / 4) : portrait.isochrones.front().tau_stop, palette);
+bool have_one_mu(const std::vector<PhasePortrait>& portraits) {
+  return std::ranges::all_of(
+      portraits, [&](const PhasePortrait& other) { return other.system().mu() == portraits.front().system().mu(); });
 }
 
-Text title(const PhasePortrait& portrait) {
-  return title_of(body_name(portrait.system().inertia()), number(portrait.system().mu()), law_names(portrait));
+bool have_one_law(const std::vector<PhasePortrait>& portraits) {
+  return std::ranges::all_of(
+      portraits, [&](const PhasePortrait& other) { return law_names(other) == law_names(portraits.front()); });
+}
+
+/// @param unit  of the bar's numbers, in tau
+TimeBands bands_of(const std::vector<PhasePortrait>& portraits, double unit, const Palette& palette) {
+  double longest = 0, of_highlights = 0;
+  std::vector<double> times;
+  for (const PhasePortrait& portrait : portraits) {
+    for (const PortraitOrbit& orbit : portrait.orbits) longest = std::max(longest, orbit.tau_left[0]);
+    for (const PortraitOrbit& orbit : portrait.through) longest = std::max(longest, orbit.tau_left[0]);
+    if (portrait.highlight) of_highlights = std::max(of_highlights, portrait.highlight->tau_left[0]);
+    for (const Isochrone& isochrone : portrait.isochrones) times.push_back(isochrone.tau_stop);
+  }
+  if (longest == 0) longest = of_highlights > 0 ? of_highlights : 1;
+  const double step = portraits.front().isochrone_step;
+  return bands_of(longest, std::move(times), step, unit, palette);
+}
+
+/// What all have in common: the body, and mu or law where there is one.
+Text common_title(const std::vector<PhasePortrait>& portraits) {
+  const PhasePortrait& first = portraits.front();
+  Text title = body_name(first.system().inertia());
+  if (have_one_mu(portraits)) title += ",  " + math("μ = ") + number(first.system().mu());
+  if (have_one_law(portraits)) title += ",  law: " + law_names(first);
+  return title;
 }
 
 }  // namespace
@@ -71,34 +93,94 @@ Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, Portr
   return draw_mapped(portrait, caption, style).figure;
 }
 
-MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& caption, PortraitStyle style) {
-  const ViewLayout& layout = layout_of(portrait.view);
-  const PaperSize size = fitted({layout.width_mm, layout.height_mm}, layout.panels_across, style.size);
-  Drawing drawing{{palette(style.screen), {}, panel_size(size, layout.panels_across), 0}, portrait, caption, style};
-  drawing.letter = letter_mm(size.width_mm) * drawing.palette.theme.letters;
+namespace {
+
+/// The size in which so many planes side by side look best.
+PaperSize usual_size(const ViewLayout& layout, std::size_t count) {
+  if (count == 1) return {layout.width_mm, layout.height_mm};
+  const double width = count == 2 ? 250 : count == 4 ? 190 : 300;
+  return fitted({layout.width_mm * static_cast<double>(count), layout.height_mm}, static_cast<int>(count),
+                {.width_mm = width});
+}
+
+MappedFigure draw_all(const std::vector<PhasePortrait>& portraits, const std::vector<PortraitCaption>& captions,
+                      PortraitStyle style) {
+  const PhasePortrait& first = portraits.front();
+  const ViewLayout& layout = layout_of(first.view);
+  const int panels = layout.panels_across * static_cast<int>(portraits.size());
+  const PaperSize size = fitted(usual_size(layout, portraits.size()), panels, style.size);
+  const double time_unit = captions.front().time_unit;
+  LayerLook look{palette(style.screen), {}, panel_size(size, panels), 0};
+  look.letter = letter_mm(size.width_mm) * look.palette.theme.letters;
   if (layout.times == nullptr) {
-    drawing.bands = bands_of(portrait, drawing.palette);
+    look.bands = bands_of(portraits, time_unit, look.palette);
   } else {
-    const auto [shortest, longest] = layout.times(portrait);
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (const PhasePortrait& portrait : portraits) {
+      const auto [its_shortest, its_longest] = layout.times(portrait);
+      shortest = std::min(shortest, its_shortest);
+      longest = std::max(longest, its_longest);
+    }
     style.colour_by_time = style.colour_by_time && shortest < longest;
-    drawing.bands = logarithmic_bands(shortest, 2 * longest, caption.time_unit, drawing.palette);
+    look.bands = logarithmic_bands(shortest, 2 * longest, time_unit, look.palette);
   }
   MappedFigure mapped;
   Figure& figure = mapped.figure;
-  figure.title = caption.title.empty() ? title(portrait) : caption.title;
-  figure.subtitle = !caption.subtitle.empty() ? caption.subtitle : portrait.scale.linear() ? layout.shows : bent_shows;
-  if (const double drive = portrait.system().drive(); drive > 0) {
+  figure.title = captions.front().title.empty() ? common_title(portraits) : captions.front().title;
+  figure.subtitle = !captions.front().subtitle.empty() ? captions.front().subtitle
+                    : first.scale.linear()             ? layout.shows
+                                                       : bent_shows;
+  if (const double drive = first.system().drive(); drive > 0) {
     figure.title += ",  drive " + math("ϱ = ") + number(drive);
-    if (caption.subtitle.empty() && layout.shows_driven) figure.subtitle = driven_shows;
+    if (captions.front().subtitle.empty() && layout.shows_driven) figure.subtitle = driven_shows;
   }
   figure.size = size;
-  figure.theme = drawing.palette.theme;
-  for (MappedPanel& shown : layout.panels(drawing)) {
-    figure.panels.push_back(std::move(shown.panel));
-    mapped.maps.push_back(std::move(shown.map));
+  figure.max_columns = std::max(figure.max_columns, panels);
+  figure.theme = look.palette.theme;
+  bool coloured = false;
+  for (std::size_t i = 0; i < portraits.size(); ++i) {
+    const Drawing drawing{look, portraits[i], captions[i], style};
+    for (MappedPanel& shown : layout.panels(drawing)) {
+      if (const Text& own = captions[i].panel; !own.empty())
+        shown.panel.title = shown.panel.title.empty() ? own : own + ",  " + shown.panel.title;
+      figure.panels.push_back(std::move(shown.panel));
+      mapped.maps.push_back(std::move(shown.map));
+    }
+    coloured = drawing.coloured();
   }
-  if (drawing.coloured() && !shows_moments(portrait.view)) figure.colour_bar = colour_bar(drawing.bands, caption);
+  if (coloured && !shows_moments(first.view)) figure.colour_bar = colour_bar(look.bands, captions.front());
   return mapped;
+}
+
+}  // namespace
+
+MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& caption, PortraitStyle style) {
+  return draw_all({portrait}, {caption}, style);
+}
+
+Figure draw_together(const std::vector<PhasePortrait>& portraits, std::vector<PortraitCaption> captions,
+                     const PortraitStyle& style) {
+  if (portraits.size() == 1) return draw(portraits.front(), captions.front(), style);
+  constexpr std::size_t most = 6;
+  if (portraits.size() > most)
+    throw std::domain_error(fmt::format("a figure has room for {} planes, got {}", most, portraits.size()));
+  const ViewLayout& layout = layout_of(portraits.front().view);
+  if (layout.panels_across > 1) {
+    throw std::domain_error(
+        fmt::format("the view {} has {} panels for each plane: several planes are drawn in uv, patch, log or disc",
+                    layout.name, layout.panels_across));
+  }
+  for (std::size_t i = 0; i < portraits.size(); ++i) {
+    Text& panel = captions[i].panel;
+    if (!have_one_mu(portraits)) panel += math("μ = ") + number(portraits[i].system().mu());
+    if (!have_one_law(portraits)) panel += (panel.empty() ? "law " : ",  law ") + law_names(portraits[i]);
+    if (const auto& start = portraits[i].highlight) {
+      panel += ",  " + captions[i].time_symbol + math(" = ") +
+               fmt::format("{:.4g}", start->tau_left[0] / captions[i].time_unit) +
+               (captions[i].time_unit_name.empty() ? "" : " " + captions[i].time_unit_name);
+    }
+  }
+  return draw_all(portraits, captions, style).figure;
 }
 
 }  // namespace contensou::portraits

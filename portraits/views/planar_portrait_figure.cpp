@@ -35,10 +35,12 @@ TimeBands bands_of(const PlanarPortrait& portrait, const Palette& palette) {
   for (const PlanarPortraitOrbit& orbit : portrait.orbits) {
     if (std::isfinite(orbit.tau_left[0])) longest = std::max(longest, orbit.tau_left[0]);
   }
-  if (longest == 0) return linear_bands(1, 0.25, palette);
-  if (portrait.isochrones.empty()) return linear_bands(longest, round_down(longest / 4), palette);
-  const double interval = portrait.isochrones.front().tau_stop;
-  return linear_bands(std::min(longest, portrait.isochrones.back().tau_stop + interval), interval, palette);
+  if (longest == 0) longest = 1;
+  std::vector<double> times;
+  for (const Isochrone& isochrone : portrait.isochrones) times.push_back(isochrone.tau_stop);
+  const double step = portrait.isochrone_step;
+  if (!times.empty() && step > 0) longest = std::min(longest, times.back() + step);
+  return bands_of(longest, std::move(times), step, 1, palette);
 }
 
 /// Rays in the way of the motion, from one border of the panel to the centre or the other way.
@@ -131,9 +133,9 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   };
   add_asked(portrait.through, false, through_legend);
   if (!portrait.points.empty()) {
-    Marks marks{{}, look.palette.highlight, 0.9, Marks::Shape::circle, through_legend};
-    for (const Vector2d& x : portrait.points) marks.points.push_back({x[0], x[1]});
-    layers.panel().marks.push_back(std::move(marks));
+    std::vector<Point> points;
+    for (const Vector2d& x : portrait.points) points.push_back({x[0], x[1]});
+    layers.add_points(points);
   }
   constexpr const char* start_legend = "the orbit of the start";
   add_asked(portrait.highlight, true, start_legend);

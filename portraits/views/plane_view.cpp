@@ -1,6 +1,7 @@
 // The views whose axes are the two speeds: plane, patch, log, and the plane beside (u, ln k).
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,16 +14,18 @@ namespace {
 
 using Copies = std::vector<PortraitPanel::Copy>;
 
-/// Ticks of v: round speeds while it slides, below that powers of ten.
+/// Ticks of v: round speeds while it slides, below that powers of ten, as far as they are speeds.
 std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   std::vector<Axis::Tick> ticks{{0, "0"}};
   constexpr double lowest = 0.12;  // of the linear part
+  // Below, no speed of anything: a place between them and the stop is told by the shading.
+  constexpr double least_power = -30;
   for (double h : {0.1, 0.2, 0.3, 0.4}) {
     const double decades = scale.ln_v(h) / std::log(10.0);
     const double step = std::pow(10, std::max(0.0, std::floor(std::log10(-decades)) - 1));
     const double power = step * std::round(decades / step);
     const double at = scale.height(power * std::log(10.0));
-    if (std::exp(power * std::log(10.0)) < 0.7 * lowest * scale.top)
+    if (power >= least_power && std::exp(power * std::log(10.0)) < 0.7 * lowest * scale.top)
       ticks.push_back({at, "10" + sup(fmt::format("{}", power))});
   }
   for (double v : multiples(lowest * scale.top, scale.top * (1 + 1e-9), round_step(scale.top, 6))) {
@@ -35,15 +38,25 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
 MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   Panel panel;
   const auto [U, V] = drawing.portrait.window;
+  const auto [u_low, u_high, v_low, v_high] = drawing.portrait.part;
   const SpeedScale scale = drawing.portrait.scale;
   const double x = unit * U, top = scale.linear() ? V : 1;
-  panel.x = {drawing.speed(name), -x, x, false, {}};
-  panel.y = {drawing.speed(math("v")), 0, top, false, {}};
+  const double bottom = scale.linear() ? v_low : scale.height(std::log(v_low));
+  panel.x = {drawing.speed(name), unit * u_low, unit * u_high, false, {}};
+  panel.y = {drawing.speed(math("v")), bottom, top, false, {}};
   if (!scale.linear()) {
+    const Text exponent = math("s = ") + number(scale.exponent, 3), power = math("v") + sup(math("s"));
+    // Beside others the panel is small, and has a title.
+    const bool beside_others = !drawing.caption.panel.empty();
     panel.y.name +=
-        "  (shaded: height as " + math("v") + sup(math("s")) + ", " + math("s = ") + number(scale.exponent, 3) + ")";
+        beside_others ? "  (shaded: " + power + ")" : "  (shaded: height as " + power + ", " + exponent + ")";
+    if (beside_others) panel.title = exponent;
     panel.y.ticks = speed_ticks(scale);
-    panel.regions.push_back({{{-x, 0}, {x, 0}, {x, 0.5}, {-x, 0.5}}, drawing.palette.region});
+    std::erase_if(panel.y.ticks, [&](const Axis::Tick& tick) { return tick.at < bottom; });
+    const auto [left, right] = std::pair(panel.x.low, panel.x.high);
+    constexpr double bend = 0.5;
+    if (bottom < bend)
+      panel.regions.push_back({{{left, bottom}, {right, bottom}, {right, bend}, {left, bend}}, drawing.palette.region});
   }
   const PanelMap map{.place =
                          [unit, scale](const Instant& at, const Instant&) {
@@ -62,7 +75,8 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
     return std::vector<Polyline>{{{x, slope * x}, {0, 0}}, {{-x, slope * x}, {0, 0}}};
   });
   layers.add_highlights();
-  layers.panel().marks.push_back({{{0, 0}}, drawing.palette.invariant, 1.2, Marks::Shape::dot, "the stop"});
+  if (u_low <= 0 && u_high >= 0 && v_low == 0)
+    layers.panel().marks.push_back({{{0, 0}}, drawing.palette.invariant, 1.2, Marks::Shape::dot, "the stop"});
   return std::move(layers).finished();
 }
 

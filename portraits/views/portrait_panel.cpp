@@ -89,19 +89,21 @@ void PortraitPanel::add_highlights() {
   if (!portrait.through.empty()) {
     const Stroke stroke = asked_stroke(drawing_.palette, false);
     std::vector<Copy> copies;
-    Marks points{{}, stroke.colour, 0.9, Marks::Shape::circle, through_legend};
     for (const PortraitOrbit& orbit : portrait.through) copies.push_back({orbit});
-    for (const reduction::State& point : portrait.points) points.points.push_back(place(point.u, point.v));
+    std::vector<Point> points;
+    for (const reduction::State& point : portrait.points) points.push_back(place(point.u, point.v));
     forget_heads();
     add_plain(lines_of(copies), stroke, through_legend);
-    panel_.marks.push_back(std::move(points));
+    add_points(points);
   }
   if (portrait.highlight) {
     forget_heads();
     const Stroke stroke = asked_stroke(drawing_.palette, true);
     const Text& legend = drawing_.caption.highlight;
     add_plain(lines_of({{*portrait.highlight}}), stroke, legend);
-    panel_.marks.push_back({{map_.line(*portrait.highlight).front()}, stroke.colour, 0.6, Marks::Shape::dot, legend});
+    const Point start = map_.line(*portrait.highlight).front();
+    if (inside(on_paper(panel_, start), 0))
+      panel_.marks.push_back({{start}, stroke.colour, 0.6, Marks::Shape::dot, legend});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@
 namespace contensou::answers {
 
 namespace {
+
+constexpr int of_narrow = 8;  ///< orbits on each side of a narrow panel
 
 /// A motion of several orbits as one line: at equal times, and towards the stop at equal ratios of the time left.
 portraits::PortraitOrbit one_line(const std::vector<si::ReducedPiece>& pieces) {
@@ -45,18 +48,54 @@ portraits::PortraitOrbit one_line(const std::vector<si::ReducedPiece>& pieces) {
 
 }  // namespace
 
-portraits::PhasePortrait PortraitSpec::portrait() const {
+portraits::PortraitRequest PortraitSpec::whole_request() const {
   portraits::PortraitRequest asked = request;
   asked.highlight = start;
   constexpr double narrow_mm = 120;
   if (style.size.width_mm.value_or(narrow_mm) < narrow_mm) {
-    asked.orbits_per_side = asked.orbits_per_side.value_or(8);
+    asked.orbits_per_side = asked.orbits_per_side.value_or(of_narrow);
     asked.isochrones = asked.isochrones.value_or(4);
   }
   if (experiment) asked.time_unit = 1 / si::seconds(*experiment, 1);
-  portraits::PhasePortrait portrait = portraits::phase_portrait(flow, asked);
-  if (const auto orbits = pieces(); orbits.size() > 1) portrait.highlight = one_line(orbits);
-  return portrait;
+  return asked;
+}
+
+portraits::PhasePortrait PortraitSpec::portrait() const { return portraits_of({*this}).front(); }
+
+std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpec>& specs) {
+  std::vector<reduction::Flow> flows;
+  for (const PortraitSpec& spec : specs) flows.push_back(spec.flow);
+  portraits::PortraitRequest asked = specs.front().whole_request();
+  if (specs.size() > 1) {
+    asked.orbits_per_side = asked.orbits_per_side.value_or(of_narrow);
+    asked.isochrones = specs.front().request.isochrones;  // the usual number is of several planes
+  }
+  std::vector<portraits::PhasePortrait> all = portraits::phase_portraits(flows, asked);
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (const auto orbits = specs[i].pieces(); orbits.size() > 1) all[i].highlight = one_line(orbits);
+  }
+  return all;
+}
+
+portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::vector<portraits::PhasePortrait>& all) {
+  if (specs.size() == 1) return specs.front().figure(all.front());
+  std::vector<portraits::PortraitCaption> captions;
+  for (std::size_t i = 0; i < specs.size(); ++i) captions.push_back(specs[i].caption(all[i]));
+  portraits::PortraitCaption& first = captions.front();
+  // What is of one plane alone stands in its panel.
+  first.subtitle = "";
+  if (const auto& ball = specs.front().experiment) {
+    first.title = portraits::shortened(ball->ball.name);
+    const double mu = all.front().system().mu();
+    if (std::ranges::all_of(all, [=](const auto& other) { return other.system().mu() == mu; }))
+      first.title += ",  " + portraits::math("μ = ") + fmt::format("{:.4g}", mu);
+    first.subtitle = fmt::format("slip {:g} m/s, spin {:g} rad/s", si::slip_at_start(*ball), si::spin_at_start(*ball));
+  } else if (const auto& start = specs.front().start) {
+    using portraits::math, portraits::sub;
+    first.subtitle = math("u") + sub("0") + math(" = ") + fmt::format("{:g}, ", start->u) + math("v") + sub("0") +
+                     math(" = ") + fmt::format("{:g}", start->v);
+  }
+  return portraits::draw_together(all, std::move(captions), specs.front().style);
 }
 
 std::vector<si::ReducedPiece> PortraitSpec::pieces() const {

@@ -31,9 +31,19 @@ struct PortraitSpec {
   /// What its data say about where they come from.
   portraits::PortraitSource source() const;
 
- private:
+  /// The request with what follows from start, experiment and style.
+  portraits::PortraitRequest whole_request() const;
+
   std::vector<si::ReducedPiece> pieces() const;  ///< the orbits of a ball with rolling friction or on a slope
   portraits::PortraitCaption caption(const portraits::PhasePortrait& portrait) const;
 };
+
+/// Portraits of specs that differ in flow, start and experiment alone, to be compared in one figure.
+/// @param specs  one or more
+/// @throws std::domain_error  as phase_portraits
+std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpec>& specs);
+
+/// The drawing of them. Throws as draw_together.
+portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::vector<portraits::PhasePortrait>& all);
 
 }  // namespace contensou::answers

@@ -115,6 +115,23 @@ py::dict dict_of(const Figure& figure) {
 
 using Sides = std::pair<double, double>;
 
+/// (U, V), or both ends of each side.
+using AskedWindow = std::variant<Sides, std::pair<Sides, Sides>>;
+
+/// So many, or those of these times.
+using AskedIsochrones = std::variant<int, std::vector<double>>;
+
+template <class Request>
+void ask_isochrones(Request& request, const std::optional<AskedIsochrones>& asked) {
+  if (!asked) return;
+  if (const int* count = std::get_if<int>(&*asked)) {
+    request.isochrones = *count;
+    return;
+  }
+  request.isochrone_times = std::get<1>(*asked);
+  if (request.isochrone_times.empty()) request.isochrones = 0;
+}
+
 using Size = std::pair<std::optional<double>, std::optional<double>>;
 
 /// What portraits of all systems have.
@@ -137,25 +154,33 @@ Figure titled(Figure figure, const std::optional<std::string>& title, const Size
   return size.second ? figure : portraits::trimmed(std::move(figure));
 }
 
-Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experiment>& experiment,
+/// @param flows  one or more, of planes to be compared; the rest is of all
+Portrait portrait_of(const std::vector<reduction::Flow>& flows, const std::optional<si::Experiment>& experiment,
                      const std::optional<Sides>& start, const std::optional<std::string>& view,
-                     const std::optional<Sides>& window, std::optional<int> orbits, const std::vector<Sides>& through,
-                     std::optional<int> isochrones, const std::optional<reduction::Law>& against,
-                     const std::string& arrows, const std::string& field, bool axes, const std::string& colour,
-                     const std::string& style, const std::string& scale, bool estimate, const Size& size,
-                     const std::optional<std::string>& title) {
+                     const std::optional<AskedWindow>& window, std::optional<int> orbits,
+                     const std::vector<Sides>& through, const std::optional<AskedIsochrones>& isochrones,
+                     const std::optional<reduction::Law>& against, const std::string& arrows, const std::string& field,
+                     bool axes, const std::string& colour, const std::string& style, const std::string& scale,
+                     bool estimate, const Size& size, const std::optional<std::string>& title) {
   using Field = PortraitStyle::Field;
   answers::PortraitSpec asked{
-      .flow = flow, .experiment = experiment, .style = style_of(arrows, axes, colour, style, size)};
+      .flow = flows.at(0), .experiment = experiment, .style = style_of(arrows, axes, colour, style, size)};
   if (start) asked.start = reduction::State{start->first, start->second};
   if (experiment) asked.start = si::reduced_start(*experiment);
   std::vector<std::pair<std::string, portraits::View>> views;
   for (portraits::View choice : portraits::views()) views.emplace_back(name(choice), choice);
   if (view) asked.request.view = one_of("view", "views", views, *view);
-  if (window) asked.request.window = {window->first, window->second};
+  if (window) {
+    if (const Sides* sides = std::get_if<Sides>(&*window)) {
+      asked.request.window = {sides->first, sides->second};
+    } else {
+      const auto& [u, v] = std::get<1>(*window);
+      asked.request.part = {u.first, u.second, v.first, v.second};
+    }
+  }
   for (const auto& [u, v] : through) asked.request.through.push_back({u, v});
   asked.request.orbits_per_side = orbits;
-  asked.request.isochrones = isochrones;
+  ask_isochrones(asked.request, isochrones);
   asked.request.comparison = against;
   asked.request.linear = one_of<bool>("scale", "scales", {{"bent", false}, {"linear", true}}, scale);
   asked.style.field =
@@ -166,19 +191,25 @@ Portrait portrait_of(const reduction::Flow& flow, const std::optional<si::Experi
   }
   if (estimate && against) throw std::domain_error("estimate and against exclude each other: both would be dashed");
   asked.style.estimate = estimate;
-  PhasePortrait data = asked.portrait();
-  Figure figure = titled(asked.figure(data), title, size);
+  std::vector<answers::PortraitSpec> all;
+  for (const reduction::Flow& flow : flows) {
+    all.push_back(asked);
+    all.back().flow = flow;
+  }
+  std::vector<PhasePortrait> data = answers::portraits_of(all);
+  Figure figure = titled(answers::figure_of(all, data), title, size);
   return {std::move(figure),
           [data = std::move(data), source = asked.source()] { return portraits::to_json(data, source); }};
 }
 
 Portrait portrait_of_plane(const Planar& planar, const std::string& system, const std::optional<Sides>& start,
-                           const std::optional<std::variant<Sides, std::pair<Sides, Sides>>>& window,
-                           std::optional<int> orbits, const std::vector<Sides>& through, std::optional<int> isochrones,
+                           const std::optional<AskedWindow>& window, std::optional<int> orbits,
+                           const std::vector<Sides>& through, const std::optional<AskedIsochrones>& isochrones,
                            const std::string& arrows, const std::string& field, bool axes, const std::string& colour,
                            const std::string& style, const Size& size, const std::optional<std::string>& title) {
   using Field = PortraitStyle::Field;
-  portraits::PlanarPortraitRequest asked{.orbits = orbits, .isochrones = isochrones};
+  portraits::PlanarPortraitRequest asked{.orbits = orbits};
+  ask_isochrones(asked, isochrones);
   if (window) {
     if (const Sides* sides = std::get_if<Sides>(&*window)) {
       asked.sides = {sides->first, sides->second};
@@ -203,7 +234,7 @@ Portrait portrait_of_plane(const Planar& planar, const std::string& system, cons
 
 void bind_portraits(py::module_& module) {
   py::class_<Portrait>(module, "Portrait")
-      .def(py::init(&portrait_of), py::arg("flow"), py::arg("experiment"), py::arg("start"), py::kw_only(),
+      .def(py::init(&portrait_of), py::arg("flows"), py::arg("experiment"), py::arg("start"), py::kw_only(),
            py::arg("view"), py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"),
            py::arg("against"), py::arg("arrows"), py::arg("field"), py::arg("axes"), py::arg("colour"),
            py::arg("style"), py::arg("scale"), py::arg("estimate"), py::arg("size"), py::arg("title"), Released())
@@ -212,7 +243,7 @@ void bind_portraits(py::module_& module) {
                   py::arg("field"), py::arg("axes"), py::arg("colour"), py::arg("style"), py::arg("size"),
                   py::arg("title"))
       .def("render",
-           [](const Portrait& portrait, const std::string& ending) {
+           [](const Portrait& portrait, const std::string& ending, const std::string& font, double dpi) {
              const auto format = portraits::find_picture_format(ending);
              if (!format) {
                throw std::domain_error(fmt::format("no such format '{}'; formats: {}", ending,
@@ -220,7 +251,10 @@ void bind_portraits(py::module_& module) {
              }
              const auto drawn = [&] {
                const py::gil_scoped_release released;
-               return portraits::render(portrait.figure, *format);
+               Figure figure = portrait.figure;
+               figure.font = font;
+               figure.dpi = dpi;
+               return portraits::render(figure, *format);
              };
              return py::bytes(drawn());
            })

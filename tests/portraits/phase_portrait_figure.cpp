@@ -211,12 +211,14 @@ TEST_CASE("A piece has the colour of the time left on it", "[route]") {
   const auto portrait = portrait_of(0.3);
   const Figure figure = draw(portrait);
   const Panel& panel = figure.panels.front();
-  const double step = portrait.isochrones.front().tau_stop / 3;
+  const portraits::ColourBar& bar = figure.colour_bar.value();
+  const double step =
+      portrait.isochrone_step / std::round(bar.ticks.at(1).at * static_cast<double>(bar.colours.size()));
   const Clock clock(portrait);
   for (const auto& layer : panel.lines) {
     if (!layer.legend.empty()) continue;
-    const auto band = std::ranges::find(figure.colour_bar->colours, layer.stroke.colour.rgb, &portraits::Colour::rgb) -
-                      figure.colour_bar->colours.begin();
+    const auto band =
+        std::ranges::find(bar.colours, layer.stroke.colour.rgb, &portraits::Colour::rgb) - bar.colours.begin();
     for (const auto& line : layer.lines) {
       for (std::size_t i = 1; i < line.size(); ++i) {
         const portraits::Point middle{(line[i - 1].x + line[i].x) / 2, (line[i - 1].y + line[i].y) / 2};
@@ -226,6 +228,41 @@ TEST_CASE("A piece has the colour of the time left on it", "[route]") {
       }
     }
   }
+}
+
+TEST_CASE("Planes side by side have one frame, and one colour for one time left", "[route]") {
+  std::vector<reduction::Flow> flows;
+  for (double mu : {0.05, 0.3, 1.0}) flows.emplace_back(reduction::ReducedSystem{reduction::HertzLaw{}, mu});
+  const auto all = portraits::phase_portraits(flows, {});
+  const Figure figure = draw_together(all, std::vector<portraits::PortraitCaption>(3));
+  std::set<double> edges{0, 1e9};
+  for (const auto& portrait : all) {
+    for (const auto& isochrone : portrait.isochrones) edges.insert(isochrone.tau_stop);
+  }
+  const auto& colours = figure.colour_bar.value().colours;
+  REQUIRE(edges.size() == colours.size() + 1);
+  REQUIRE(figure.panels.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Panel& panel = figure.panels[i];
+    CHECK(panel.title.words().starts_with("μ = " + fmt::format("{}", flows[i].system().mu())));
+    CHECK((panel.x.low == -1 && panel.x.high == 1 && panel.y.low == 0 && panel.y.high == 1));
+    CHECK(panel.labels.size() == 3);
+    const Clock clock(all[i]);
+    for (const auto& layer : panel.lines) {
+      if (!layer.legend.empty()) continue;
+      const auto band = std::ranges::find(colours, layer.stroke.colour.rgb, &portraits::Colour::rgb) - colours.begin();
+      const auto begin = std::next(edges.begin(), band);
+      for (const auto& line : layer.lines) {
+        const auto& at = line[line.size() / 2];
+        if (line.size() < 3 || at.y > 0.5) continue;
+        CHECK(clock(at) > 0.95 * *begin);
+        CHECK(clock(at) < 1.05 * *std::next(begin));
+      }
+    }
+  }
+  CHECK_THROWS_WITH(draw_together(portraits::phase_portraits(flows, {.view = portraits::View::pair}),
+                                  std::vector<portraits::PortraitCaption>(3)),
+                    Catch::Contains("2 panels for each plane"));
 }
 
 TEST_CASE("Arrows point the way of the motion, and lie where equal times are left", "[invariant]") {

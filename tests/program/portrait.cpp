@@ -134,6 +134,20 @@ TEST_CASE("portrait says what is wrong with a switch, and draws nothing", "[cli]
   rejected("--orbits -1", "--orbits: '-1'");
   rejected("--orbits 1.5", "--orbits: '1.5'");
   rejected("--isochrones many", "--isochrones: 'many'");
+  rejected("--isochrones 5,x", "--isochrones: 'x'");
+  rejected("--isochrones 5,-1", "--isochrones 5,-1: the time of an isochrone is above 0");
+  rejected("--isochrones 1e9,", "no state in the window has a stop time that isochrones are asked of");
+  rejected("--window 0:1,-1:1", "--window 0:1,-1:1: here v is 0 or more");
+  rejected("--window 1:0,0:1", "--window 1:0,0:1: a side");
+  rejected("--window 0:1,0:1 --view disc", "--window 0:1,0:1: of this view it is U,V");
+  rejected("--window 0:1,0:1 --through=-0.5,0.5", "--through -0.5,0.5: outside the window --window 0:1,0:1");
+  rejected("--law exact,pade --view pair", "the view pair has 2 panels for each plane: several planes are drawn in uv");
+  rejected("--law exact,pade --facts", "--facts are of one plane");
+  check_rejected("portrait --mu 0.1,x", "--mu: 'x'");
+  check_rejected("portrait --mu 0.1,", "--mu: '' is not a number");
+  check_rejected("portrait --mu 0.1,2", "--mu 0.1,2: 0 < mu <= 1");
+  check_rejected("portrait --mu 0.1,0.2,0.3,0.4,0.5,0.6,0.7 -o p.gp", "room for 6 planes, got 7");
+  check_rejected("orbit --mu 0.1,0.2 --u0 1 --v0 1", "--mu: '0.1,0.2'");
   rejected("--through 1", "--through 1: 2 numbers");
   rejected("--through 0,1", "--through 0,1: U must not be 0");
   rejected("--through 1,nan", "--through: 'nan'");
@@ -205,7 +219,6 @@ TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
   rejected({"--window", "1:2"}, 2, "--window 1:2: a window is U,V or U1:U2,V1:V2");
   rejected({"--window", "1,1", "--through", "3,0"}, 2, "(3, 0) lies outside the window -1 to 1 by -1 to 1");
   check_rejected("portrait --mu 0.3 --param a=1", "--param is for formulas");
-  check_rejected("portrait --mu 0.3 --window 0:1,0:1", "--window 0:1,0:1: here it is U,V");
   const Run none = run_program({"portrait", "--system", "u' = -u - u^3; v' = 1 - v*v", "-o", scratch.file("p.gp")});
   CHECK(none.status == 1);
   CHECK_THAT(none.err, Contains("no scaling was found") && Contains("least singular value") && Contains("reduce"));

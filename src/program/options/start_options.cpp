@@ -41,7 +41,15 @@ std::string option_of(const si::Quantity& quantity) {
 }  // namespace
 
 void BodyOptions::add_mu(CLI::App& app) {
-  mu_.add(app, "--mu", "M", "patch radius over R; of a ball 0 < M <= 1, of another body M > 0 (disc, ring: 1)", number);
+  const auto read = [this](const std::string& typed) {
+    const std::vector<std::string> parts = takes_several_mu_ ? split(typed, ',') : std::vector{typed};
+    for (std::size_t i = 1; i < parts.size(); ++i) more_mu_.push_back(parse_number(parts[i]));
+    return parse_number(parts.front());
+  };
+  mu_.add(app, "--mu", takes_several_mu_ ? "M,..." : "M",
+          std::string("patch radius over R; of a ball 0 < M <= 1, of another body M > 0 (disc, ring: 1)") +
+              (takes_several_mu_ ? "; several, between commas: side by side, to compare" : ""),
+          read);
 }
 
 void BodyOptions::add_body(CLI::App& app) {
@@ -199,6 +207,17 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
   }
   if (*v0_ < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
   return {body_.read(law), {.u = *u0_, .v = *v0_}, std::nullopt};
+}
+
+std::vector<GivenStart> StartOptions::read_several(const reduction::Law& law) const {
+  std::vector<GivenStart> starts{without_motion() ? GivenStart{read_body(law), {}, std::nullopt} : read(law)};
+  for (double mu : body_.more_mu()) {
+    if (const std::string complaint = body().complaint(mu); !complaint.empty()) body_.mu().reject(complaint);
+    GivenStart other = starts.front();
+    other.system = {law, mu, other.system.inertia(), other.system.drive()};
+    starts.push_back(std::move(other));
+  }
+  return starts;
 }
 
 void StartOptions::require_point_or_none() const {

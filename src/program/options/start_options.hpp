@@ -23,10 +23,14 @@ using si::Body;
 class BodyOptions {
  public:
   void add_mu(CLI::App& app);
+  /// Lets --mu be a list, for a verb that compares; before add_mu.
+  void take_several_mu() { takes_several_mu_ = true; }
   void add_body(CLI::App& app);
   void add_drive(CLI::App& app);
 
   const ArgumentOf<double>& mu() const { return mu_; }
+  /// Those of --mu beside its first.
+  const std::vector<double>& more_mu() const { return more_mu_; }
   const ArgumentOf<Body>& argument() const { return body_; }
   const ArgumentOf<double>& drive() const { return drive_; }
 
@@ -40,6 +44,8 @@ class BodyOptions {
 
  private:
   ArgumentOf<double> mu_, drive_;
+  bool takes_several_mu_ = false;
+  std::vector<double> more_mu_;
   ArgumentOf<Body> body_;
 };
 
@@ -51,6 +57,12 @@ const si::CatalogueEntry& require_ball(const std::string& name);
 class StartOptions {
  public:
   void add(CLI::App& app);
+
+  /// Lets --mu be a list, for a verb that compares; before add.
+  void take_several_mu() { body_.take_several_mu(); }
+
+  /// The starts of all of --mu under a law, or of its bodies without their motion. Throws as read.
+  std::vector<GivenStart> read_several(const reduction::Law& law) const;
 
   /// --drive, for a verb that has an answer with it.
   void add_drive(CLI::App& app) { body_.add_drive(app); }

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,6 +55,20 @@ AskedWindow parse_window(const std::string& typed) {
   return window;
 }
 
+/// T1,T2,... or T,
+std::vector<double> parse_times(const std::string& typed) {
+  std::vector<std::string> parts = split(typed, ',');
+  if (parts.size() > 1 && parts.back().empty()) parts.pop_back();
+  constexpr std::size_t most = 100;
+  if (parts.size() > most) throw NotAllowed(fmt::format("at most {} times are allowed", most));
+  std::vector<double> times;
+  for (const std::string& part : parts) {
+    times.push_back(parse_number(part));
+    if (!(times.back() > 0)) throw NotAllowed("the time of an isochrone is above 0");
+  }
+  return times;
+}
+
 Vector2d parse_point(const std::string& typed) {
   const std::vector<double> pair = numbers(typed, 2, "U,V");
   return {pair[0], pair[1]};
@@ -73,9 +89,12 @@ class PortraitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     system_.add(app);
+    start_.take_several_mu();
     start_.add(app);
     start_.add_drive(app);
     law_.add(app);
+    CLI::Option* const law = app.get_option("--law");
+    law->description(law->get_description() + "; several, between commas: side by side, to compare");
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
     add_looks(app);
     figure_.add(app);
@@ -92,10 +111,14 @@ class PortraitCommand final : public Verb {
     }
     if (system_.given()) return run_system();
     const bool has_start = !start_.without_motion();
-    const reduction::Law law = law_.read(start_.standard_law());
-    const GivenStart start = has_start ? start_.read(law) : GivenStart{start_.read_body(law), {}, {}};
-    const reduction::ReducedSystem& system = start.system;
-    if (facts_) return print_facts(system);
+    std::vector<GivenStart> starts;
+    for (const reduction::Law& law : law_.read_several(start_.standard_law())) {
+      std::ranges::move(start_.read_several(law), std::back_inserter(starts));
+    }
+    if (facts_) {
+      if (starts.size() > 1) throw BadInput("--facts are of one plane: give one --mu and one --law");
+      return print_facts(starts.front().system);
+    }
     const Output output = output_.read();
     figure_.require_picture(output);
     std::string drawing = names_of_looks(first_of_drawing_);
@@ -104,26 +127,29 @@ class PortraitCommand final : public Verb {
     if (style_.estimate && against_.given()) {
       throw BadInput("--estimate and --against exclude each other: both would be dashed");
     }
-    const reduction::Route route = route_.read(system);
-    if (route == reduction::Route::direct) {
-      throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
-    }
     read_places();
-    PortraitSpec question{
-        .flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(system) : system,
-        .start = has_start ? std::optional(start.state) : std::nullopt,
-        .experiment = start.experiment,
-        .request = request_,
-        .style = style_};
-    question.style.size = figure_.size();
-    question.request.stepped = route == reduction::Route::regularised;
-    if (against_.given()) question.request.comparison = against_.read(std::string(si::Body{}.law));
-    const portraits::PhasePortrait portrait = question.portrait();
+    style_.size = figure_.size();
+    std::vector<PortraitSpec> questions;
+    for (const GivenStart& start : starts) {
+      const reduction::Route route = route_.read(start.system);
+      if (route == reduction::Route::direct) {
+        throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
+      }
+      PortraitSpec& question = questions.emplace_back(PortraitSpec{
+          .flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(start.system) : start.system,
+          .start = has_start ? std::optional(start.state) : std::nullopt,
+          .experiment = start.experiment,
+          .request = request_,
+          .style = style_});
+      question.request.stepped = route == reduction::Route::regularised;
+      if (against_.given()) question.request.comparison = against_.read(std::string(si::Body{}.law));
+    }
+    const std::vector<portraits::PhasePortrait> portraits = portraits_of(questions);
     if (output.picture()) {
-      output.write({figure_.apply(question.figure(portrait), output.format)});
+      output.write({figure_.apply(figure_of(questions, portraits), output.format)});
     } else {
-      const portraits::PortraitSource source = question.source();
-      output.write(output.format == "csv" ? to_csv(portrait, source) : to_json(portrait, source));
+      const portraits::PortraitSource source = questions.front().source();
+      output.write(output.format == "csv" ? to_csv(portraits, source) : to_json(portraits, source));
     }
     return ExitStatus::done;
   }
@@ -134,15 +160,22 @@ class PortraitCommand final : public Verb {
   /// --window and --through, as the half-plane has them.
   void read_places() {
     if (window_) {
-      if (!window_->symmetric) window_argument_->reject("here it is U,V, which shows |u| <= U and 0 <= v <= V");
-      request_.window = portraits::Window{window_->high[0], window_->high[1]};
+      if (window_->symmetric) {
+        request_.window = portraits::Window{window_->high[0], window_->high[1]};
+      } else {
+        if (window_->low[1] < 0) window_argument_->reject("here v is 0 or more: the plane is a half-plane");
+        if (!shows_window(request_.view.value_or(View::uv)))
+          window_argument_->reject("of this view it is U,V; U1:U2,V1:V2 is of uv, patch and pair");
+        request_.part = {window_->low[0], window_->high[0], window_->low[1], window_->high[1]};
+      }
     }
     for (const Vector2d& point : through_) {
       const std::string typed = fmt::format("--through {},{}", point[0], point[1]);
       if (point[0] == 0 || !(point[1] > 0)) {
         throw BadInput(typed + ": U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
       }
-      if (request_.window && !(std::abs(point[0]) <= request_.window->u && point[1] <= request_.window->v)) {
+      if ((request_.window && !(std::abs(point[0]) <= request_.window->u && point[1] <= request_.window->v)) ||
+          (request_.part && !request_.part->contains({point[0], point[1]}))) {
         throw BadInput(fmt::format("{}: outside the window {}; leave it out, or make it larger", typed,
                                    window_argument_->typed()));
       }
@@ -160,8 +193,10 @@ class PortraitCommand final : public Verb {
           others));
     }
     const reduction::PlanarField field = system_.read(law_.parameters());
-    portraits::PlanarPortraitRequest request{
-        .through = through_, .orbits = request_.orbits_per_side, .isochrones = request_.isochrones};
+    portraits::PlanarPortraitRequest request{.through = through_,
+                                             .orbits = request_.orbits_per_side,
+                                             .isochrones = request_.isochrones,
+                                             .isochrone_times = request_.isochrone_times};
     if (style_.field == Style::Field::regularised) {
       throw BadInput("--field regularised is of (2.7); with --system it is motion, or none");
     }
@@ -213,8 +248,8 @@ class PortraitCommand final : public Verb {
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
-        "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled); of --system |v| <= V, or "
-        "U1:U2,V1:V2",
+        "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled), of --system |v| <= V; or "
+        "U1:U2,V1:V2, in uv, patch, pair and of --system",
         into(window_, parse_window));
     window_argument_ = &looks_.back();
     add("--orbits", "N",
@@ -223,12 +258,16 @@ class PortraitCommand final : public Verb {
     add(
         "--through", "U,V", "also the orbit through this point; may be repeated",
         [this](const std::string& typed) { through_.push_back(parse_point(typed)); }, true);
-    add("--isochrones", "N",
+    add("--isochrones", "N|T1,T2,...",
         fmt::format("so many isochrones of the stop time, 0 to {}, as nearly as round times allow (default about 7, in "
-                    "a column 4)",
+                    "a column 4); or those of these times, of a ball in s; of one time: T,",
                     max_isochrones),
         [this, read = at_most(max_isochrones)](const std::string& typed) {
-          if (!typed.empty()) request_.isochrones = read(typed);
+          if (typed.find(',') != std::string::npos) {
+            request_.isochrone_times = parse_times(typed);
+          } else if (!typed.empty()) {
+            request_.isochrones = read(typed);
+          }
         })
         ->expected(0, 1);
     first_of_drawing_ = looks_.size();

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from os import PathLike
 from pathlib import Path
-from typing import Any, Callable, Iterable, Optional, Union
+from typing import Any, Callable, Iterable, Optional, Sequence, Union
 
 import numpy as np
 
@@ -40,6 +40,11 @@ def _mathtext(text: _Text) -> str:
     return "".join(parts)
 
 
+def _plain(value: Any) -> Any:
+    """Numbers as Python's own, which may come as arrays."""
+    return value if value is None else np.asarray(value).tolist()
+
+
 class Portrait:
     """A phase portrait: `portrait` makes one, and Reduction.portrait. In a notebook it shows itself."""
 
@@ -47,11 +52,30 @@ class Portrait:
         self._draw, self._asked = draw, asked
         if (asked["u"] is None) != (asked["v"] is None):
             raise ValueError("a start has both u and v")
+        for name in ("window", "isochrones", "orbits", "dpi", "through"):
+            if isinstance(asked.get(name), (str, bytes)):
+                raise TypeError(f"{name}: numbers are needed, got {asked[name]!r}")
+        if (window := asked["window"]) is not None and (np.ndim(window) not in (1, 2) or len(window) != 2):
+            raise ValueError(f"window: (U, V) or ((U1, U2), (V1, V2)) is needed, got {window!r:.80}")
+        if asked["isochrones"] is not None and np.ndim(asked["isochrones"]) > 1:
+            raise ValueError("isochrones: a number of them, or their times, is needed")
+        dpi, font = asked["dpi"], asked["font"]
+        if not 50 <= dpi <= 1200:
+            raise ValueError(f"dpi: 50 to 1200 is needed, got {dpi}")
+        if any(letter < " " or letter in "'\",;:<>&\\" for letter in font):
+            raise ValueError(f"font: the name of a font is needed, as in 'DejaVu Serif', got {font!r}")
         size = asked["size"]
         if isinstance(size, str) and size not in _widths:
             raise ValueError(f"size: single, double, or (width, height) in mm is needed, got {size!r}")
         sides = (_widths[size], None) if isinstance(size, str) else size or (None, None)
-        self._core = draw(dict(asked, size=sides))
+        kinds = {"window": _plain(asked["window"]), "isochrones": _plain(asked["isochrones"])}
+        try:
+            self._core = draw(dict(asked, size=sides, **kinds))
+        except TypeError as error:
+            if "incompatible" not in str(error):
+                raise
+            given = ", ".join(f"{key} {type(value).__name__}" for key, value in asked.items() if value is not None)
+            raise TypeError(f"portrait: an argument is of another kind than it takes; given are {given}") from None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Portrait, (self._draw, self._asked)
@@ -61,7 +85,7 @@ class Portrait:
 
     def render(self, format: str) -> bytes:
         """The file in a format: svg, pdf, png and eps, drawn by gnuplot, which is looked up in PATH; gp, its script; tex."""
-        return self._core.render(format)
+        return self._core.render(format, self._asked["font"], self._asked["dpi"])
 
     def save(self, path: Union[str, PathLike[str]]) -> None:
         """Writes the file in the format of its ending."""
@@ -77,7 +101,7 @@ class Portrait:
         """What `contensou portrait -o FILE.json` writes, lists of numbers as arrays: window; orbits, each with u, v, ln_v,
         k and tau_left; isochrones, each with tau_stop, u, v; where asked for highlight, through, against. Of a Reduction
         also kind, centre and rays; window has two ends of each axis, highlight is a list of pieces, and neither ln_v nor
-        k is there."""
+        k is there. Of several mu or laws it is portraits, a list of such."""
         return dict(_columns(json.loads(self._core.json())))
 
     @property
@@ -87,8 +111,8 @@ class Portrait:
         return self._core.figure()
 
     def plot(self, ax: Any = None) -> Any:
-        """The figure by matplotlib, into `ax`, axes or as many of them as it has panels; into a new figure without. Gives
-        the axes, or an array of them where there are several panels."""
+        """The figure by matplotlib, into `ax`, axes or as many of them as it has panels; into a new figure without. The scale
+        of colours stands beside them, legends below. Gives the axes, or an array of them where there are several panels."""
         from matplotlib import pyplot
         from matplotlib.cm import ScalarMappable
         from matplotlib.collections import LineCollection
@@ -98,14 +122,18 @@ class Portrait:
         panels = figure["panels"]
         if ax is None:
             size = figure["width_mm"] / 25.4, figure["height_mm"] / 25.4
-            page, ax = pyplot.subplots(1, len(panels), figsize=size, facecolor=figure["ground"], layout="constrained")
+            # As the library: side by side where each has 50 mm, in rows of one length.
+            count = len(panels)
+            columns = next(each for each in range(count, 0, -1) if each == 1 or (count % each == 0 and figure["width_mm"] >= 50 * each))
+            page, ax = pyplot.subplots(count // columns, columns, figsize=size, facecolor=figure["ground"], layout="constrained")
             page.suptitle(_mathtext(figure["title"]), color=figure["ink"])
-            if bar := figure["colour_bar"]:
-                scale = page.colorbar(ScalarMappable(cmap=ListedColormap(bar["colours"])), ax=ax, label=_mathtext(bar["name"]))
-                scale.set_ticks([at for at, _ in bar["ticks"]], labels=[_mathtext(text) for _, text in bar["ticks"]])
-        places = np.atleast_1d(ax)
+        places = np.ravel(ax)
         if len(places) != len(panels):
             raise ValueError(f"ax: {len(panels)} axes are needed, got {len(places)}")
+        if bar := figure["colour_bar"]:
+            page = places[0].get_figure()
+            scale = page.colorbar(ScalarMappable(cmap=ListedColormap(bar["colours"])), ax=list(places), label=_mathtext(bar["name"]))
+            scale.set_ticks([at for at, _ in bar["ticks"]], labels=[_mathtext(text) for _, text in bar["ticks"]])
         listed: set[_Text] = set()  # each text once, as in the library's own legend
         for panel, place in zip(panels, places):
             for layer in panel["lines"] + panel["marks"]:
@@ -141,7 +169,7 @@ class Portrait:
                 place.text(label["x"], label["y"], _mathtext(label["text"]), color=label["colour"], ha=label["align"],
                            va="center", fontsize="small", bbox={"facecolor": figure["ground"], "lw": 0, "pad": 0.5})
             if place.get_legend_handles_labels()[1]:
-                place.legend(fontsize="small", loc="best")
+                place.legend(fontsize="small", loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, frameon=False)
         return ax
 
     @staticmethod
@@ -165,14 +193,18 @@ def start_of(asked: dict[str, Any]) -> Optional[tuple[float, float]]:
 def _of_system(asked: dict[str, Any]) -> _core.Portrait:
     ball, law, against = asked["ball"], asked["law"], asked["against"]
     experiment = None if ball is None else ball._experiment
+    laws = law if isinstance(law, (list, tuple)) else [law]
+    many_mu = asked["mu"] if np.ndim(asked["mu"]) == 1 else [asked["mu"]]
+    if not len(laws) or not len(many_mu):
+        raise ValueError("mu and law: one, or a list of one or more, is needed")
     if experiment is None:
-        flow = Flow(asked["mu"], law, asked["body"], asked["drive"])._core
+        flows = [Flow(mu, each, asked["body"], asked["drive"])._core for each in laws for mu in many_mu]
     elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball" and asked["drive"] == 0:
-        flow = experiment.flow(ball._law(law)._core)
+        flows = [experiment.flow(ball._law(each)._core) for each in laws]
     else:
         raise ValueError("ball and mu, u, v, body, drive exclude each other: a ball brings them")
     return _core.Portrait(
-        flow, experiment, start_of(asked), against=None if against is None else law_of(against)._core,
+        flows, experiment, start_of(asked), against=None if against is None else law_of(against)._core,
         **{key: asked[key] for key in ("view", "window", "orbits", "through", "isochrones", "arrows", "field", "axes",
                                        "colour", "style", "scale", "estimate", "size", "title")},
     )
@@ -180,18 +212,18 @@ def _of_system(asked: dict[str, Any]) -> _core.Portrait:
 
 def portrait(
     *,
-    mu: Optional[float] = None,
-    law: Optional[LawLike] = None,
+    mu: Union[None, float, Sequence[float]] = None,
+    law: Union[None, LawLike, Sequence[LawLike]] = None,
     body: Body = "ball",
     drive: float = 0,
     u: Optional[float] = None,
     v: Optional[float] = None,
     ball: Optional[Ball] = None,
     view: Optional[str] = None,
-    window: Optional[tuple[float, float]] = None,
+    window: Union[None, tuple[float, float], tuple[tuple[float, float], tuple[float, float]]] = None,
     orbits: Optional[int] = None,
     through: Iterable[tuple[float, float]] = (),
-    isochrones: Optional[int] = None,
+    isochrones: Union[None, int, Sequence[float]] = None,
     against: Optional[LawLike] = None,
     arrows: str = "time",
     field: str = "none",
@@ -202,15 +234,18 @@ def portrait(
     estimate: bool = False,
     size: Union[None, str, tuple[float, float]] = None,
     title: Optional[str] = None,
+    font: str = "",
+    dpi: float = 300,
 ) -> Portrait:
     """The phase portrait of a system, as in Flow, or of a ball in SI units, as `contensou portrait` draws it.
 
+    mu, law:     lists of them: a plane for each, side by side in one frame, with one scale of colours
     u, v:        the start of an orbit to be highlighted
     view:        uv, patch, log, similarity, blowup, disc, time, regularised, pair
-    window:      (U, V): show |u| <= U and v <= V
+    window:      (U, V): show |u| <= U and v <= V; in the views uv, patch and pair also ((U1, U2), (V1, V2))
     orbits:      so many on each side of u = 0
     through:     points (u, v) whose orbits are shown, too
-    isochrones:  about so many lines of equal stop time
+    isochrones:  about so many lines of equal stop time; or their times, of a ball in s
     against:     another law, in the same figure
     arrows:      time, one or none; field: none, motion or regularised; axes: the invariant axes and rays
     colour:      orbits by the time left (time), or in one colour (none)
@@ -218,6 +253,7 @@ def portrait(
     estimate:    in the view of time, beside each motion, dashed, the asymptotic solution for small mu
     size:        (width, height) in mm, or single, double: the columns of a journal
     title:       "" for neither title nor subtitle
+    font, dpi:   of files; the font of all but tex, dots per inch of a png
     """
     asked = dict(locals(), through=[tuple(point) for point in through])
     return Portrait(_of_system, asked)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Iterable, NamedTuple, Optional, Union
+from typing import Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -119,7 +119,7 @@ class Reduction:
         window: Union[None, tuple[float, float], tuple[tuple[float, float], tuple[float, float]]] = None,
         orbits: Optional[int] = None,
         through: Iterable[tuple[float, float]] = (),
-        isochrones: Optional[int] = None,
+        isochrones: Union[None, int, Sequence[float]] = None,
         arrows: str = "time",
         field: str = "none",
         axes: bool = True,
@@ -127,6 +127,8 @@ class Reduction:
         style: str = "print",
         size: Union[None, str, tuple[float, float]] = None,
         title: Optional[str] = None,
+        font: str = "",
+        dpi: float = 300,
     ) -> Portrait:
         """The plane with orbits, rays and isochrones, as `contensou portrait --system` draws it.
 
@@ -134,8 +136,8 @@ class Reduction:
         window:      (U, V), about the centre, or ((U1, U2), (V1, V2)); else a square with the start and all points in it
         orbits:      so many, else as many as fill the window
         through:     points (u, v) whose orbits are shown, too
-        isochrones:  about so many lines of equal time left
-        field:       none or motion; axes: the rays; arrows, colour, style, size, title: as of contensou.portrait
+        isochrones:  about so many lines of equal time left; or their times
+        field:       none or motion; axes: the rays; arrows, colour, style, size, title, font, dpi: as of contensou.portrait
         """
         asked: dict[str, Any] = dict(locals(), through=[tuple(point) for point in through])
         asked["reduction"] = asked.pop("self")

@@ -19,6 +19,15 @@ struct Window {
   double v;
 };
 
+/// A rectangle of the half-plane that is shown of a window.
+struct WindowPart {
+  double u_low, u_high, v_low, v_high;
+
+  bool contains(reduction::State at) const {
+    return at.u >= u_low && at.u <= u_high && at.v >= v_low && at.v <= v_high;
+  }
+};
+
 /// Which axes. A new view is an entry here, a function in views/ and a row in views/portrait_views.hpp.
 enum class View { uv, patch, log, similarity, blowup, disc, time, regularised, pair };
 
@@ -68,9 +77,11 @@ struct PhasePortrait {
   reduction::PhasePlane plane;
   View view;
   Window window;
+  WindowPart part;                         ///< of the window that is shown: all of it unless asked otherwise
   SpeedScale scale;                        ///< of v, in views that show the window
   std::vector<PortraitOrbit> orbits;       ///< from the border of the window to the origin
-  std::vector<Isochrone> isochrones;       ///< in the window
+  std::vector<Isochrone> isochrones;       ///< in the part
+  double isochrone_step;                   ///< isochrones are of all its multiples; 0 where they are of other times
   std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
   std::vector<PortraitOrbit> through;      ///< the orbits through the points asked for, from the border
   std::vector<reduction::State> points;    ///< those points
@@ -84,10 +95,13 @@ struct PhasePortrait {
 struct PortraitRequest {
   std::optional<View> view = {};
   std::optional<Window> window = {};
+  /// In place of a window, in views that show it. Orbits are those that enter it of the smallest window around it.
+  std::optional<WindowPart> part = {};
   std::optional<reduction::State> highlight = {};  ///< the window then contains it
   std::vector<reduction::State> through = {};      ///< points in the window, neither u nor v 0
   std::optional<int> orbits_per_side = {};         ///< of u = 0, >= 0
-  std::optional<int> isochrones = {};  ///< so many, >= 0, as nearly as round times allow; about 7 if not said
+  std::optional<int> isochrones = {};        ///< so many, >= 0, as nearly as round times allow; about 7 if not said
+  std::vector<double> isochrone_times = {};  ///< of these stop times, in time units, each > 0, whatever the count
   std::optional<reduction::Law> comparison = {};
   bool stepped = false;  ///< orbits by (2.7), stepped in beta, in place of the flow's own
   /// The axis of v is linear also where the plane is then a comb of verticals: where orbits enter the origin along v =
@@ -102,8 +116,17 @@ struct PortraitRequest {
 /// isochrones by scaling one curve.
 ///
 /// @throws std::domain_error  if the sides of the window are not within 1e-150 .. 1e150, a point lies on no orbit (u or
-///                            v is 0) or out of the window, or a number is negative
+///                            v is 0) or out of the window, a number is negative, or no isochrone asked for is in the
+///                            window
 PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest& request);
+
+/// Portraits that compare: in one window (of patch without one asked for: with one rim speed), with one kind of axis and
+/// isochrones of the same times. Where the stop times in the windows' corners differ much, isochrones are of a series 1, 2,
+/// 5, 10, each plane's as many as asked for, or 3, below its last.
+///
+/// @param flows  one or more
+/// @throws std::domain_error  as phase_portrait
+std::vector<PhasePortrait> phase_portraits(const std::vector<reduction::Flow>& flows, const PortraitRequest& request);
 
 /// The orbit through a state with u > 0, from beyond the window to the stop. The state is given by logarithms, which do
 /// not underflow; it is neither on an axis nor on an invariant ray.
@@ -120,14 +143,21 @@ struct PortraitSource {
   double seconds_per_tau = 0;  ///< of that ball
 };
 
-/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V], version, ball, seconds_per_tau,
+/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V] or [[U1, U2], [V1, V2]], version, ball,
+/// seconds_per_tau,
 /// orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]; where asked for also highlight (an orbit),
 /// through (orbits), against {law, orbits, isochrones}. Numbers read back to the same doubles.
 std::string to_json(const PhasePortrait& portrait, const PortraitSource& source = {});
+
+/// Several: schema, and portraits, each as above without schema; of one that portrait alone.
+std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 /// The portrait as CSV with the columns kind,index,u,v,tau,ln_v,k, and t of a ball: kind is orbit, highlight, through
 /// or isochrone (of another law, against_orbit or against_isochrone), tau and t (s) the time left. Before them, in
 /// lines that begin with #, what JSON has before its orbits.
 std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source = {});
+
+/// Several: the same with two columns mu,law before them; of one that portrait alone.
+std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits

@@ -19,6 +19,7 @@ struct PortraitCaption {
   std::string time_unit_name = {};  ///< "s" for a ball
   double time_unit = 1;             ///< in tau
   Text highlight = {};              ///< legend of the highlighted orbit
+  Text panel = {};                  ///< what the panel is, before the view's own title of it, where there are several
 };
 
 /// What is drawn and how.
@@ -51,6 +52,12 @@ struct PanelMap {
 
 /// The portrait as a drawing in its view. A pure function: all numbers come from the portrait.
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {}, PortraitStyle style = {});
+
+/// Portraits that compare (phase_portraits), each in a panel that names what is its own, with one scale of colours.
+/// @param captions  one for each; title and subtitle of the first
+/// @throws std::domain_error  for more than 6, and in a view of several panels
+Figure draw_together(const std::vector<PhasePortrait>& portraits, std::vector<PortraitCaption> captions,
+                     const PortraitStyle& style = {});
 
 /// The drawing, and the map of each of its panels.
 struct MappedFigure {

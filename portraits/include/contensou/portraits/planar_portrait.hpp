@@ -32,6 +32,7 @@ struct PlanarPortrait {
   PlanarWindow window;
   std::vector<PlanarPortraitOrbit> orbits;
   std::vector<Isochrone> isochrones;           ///< of the time to the centre, or to infinity, in the window
+  double isochrone_step;                       ///< as PhasePortrait's
   std::vector<PlanarPortraitOrbit> highlight;  ///< the orbit of one start, from there on; none, or its pieces
   std::vector<PlanarPortraitOrbit> through;    ///< the orbits through the points asked for
   std::vector<Eigen::Vector2d> points;         ///< those points
@@ -44,8 +45,9 @@ struct PlanarPortraitRequest {
       {};  ///< half its sides; else a square that contains all of the following, or 1
   std::optional<Eigen::Vector2d> highlight = {};
   std::vector<Eigen::Vector2d> through = {};
-  std::optional<int> orbits = {};      ///< so many, >= 0; else as many as fill the window, and one of each sector
-  std::optional<int> isochrones = {};  ///< so many, >= 0, as nearly as round times allow; about 7 if not said
+  std::optional<int> orbits = {};            ///< so many, >= 0; else as many as fill the window, and one of each sector
+  std::optional<int> isochrones = {};        ///< so many, >= 0, as nearly as round times allow; about 7 if not said
+  std::vector<double> isochrone_times = {};  ///< of exactly these times, each > 0, whatever the count
 };
 
 /// Computes the portrait: each orbit is one curve of its sector, moved by the scaling, and goes through the middle of the
