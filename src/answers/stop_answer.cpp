@@ -551,11 +551,11 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
   } else if (!stepped || experiment || gradient || !uncertain.empty()) {
     flow = system;
   }
-  const auto uncertainty = [&]() -> std::optional<Uncertainty> {
-    if (uncertain.empty()) return std::nullopt;
+  std::optional<Uncertainty> uncertainty;
+  if (!uncertain.empty()) {
     const reduction::StopTimeGradient by = flow->stop_time_gradient(state);
-    return uncertainty_of(start, uncertain, experiment ? si::seconds(*experiment, by.tau) : by.tau, by);
-  };
+    uncertainty = uncertainty_of(start, uncertain, experiment ? si::seconds(*experiment, by.tau) : by.tau, by);
+  }
   const StopReport report{start,
                           route,
                           pieces.size() > 1 ? in_pieces(pieces)
@@ -571,7 +571,7 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           : experiment ? si::seconds(*experiment, slip_length(*flow, state))
                                        : 0,
                           gradient && !start.at_rest() ? std::optional(flow->stop_time_gradient(state)) : std::nullopt,
-                          uncertainty(),
+                          uncertainty,
                           load};
   return {.members = members_of(fields, report), .rows = {row_of(fields, report)}, .text = [=](const Digits& digits) {
             return Text(report, digits).all();
