@@ -134,6 +134,7 @@ std::vector<VerbFields> field_table() {
            {"in: `spin`, `angle`; NAME`_sd`", "rad/s, rad", "about the vertical; standard deviation of NAME"},
            {"`friction`, `patch_radius`, `slip`, `spin`", "1, m, m/s, 1/s",
             "the last two of the first track, at its start"},
+           {"`rolling_friction`", "1", "of a ball that has it, or where it was searched"},
            {"each {`value`, `standard_error`, `low`, `high`, `determined`}", "",
             "and the 95 % interval; where not determined, value is any of many and standard_error inf"},
            {"`fits`; `misfits`; `remarks`", "",
@@ -144,7 +145,8 @@ std::vector<VerbFields> field_table() {
            {"`only` {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}", "",
             "the one combination of the two that the data determine, where they do no more"},
            {"`tracks` [{`file`, `start`, `slip`, ...}]", "",
-            "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start"},
+            "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start; with rolling friction `rolling` in place of "
+            "`vx`, `vy`"},
            {"`noise` {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`}}", "", "of each column"},
            {"`half_turn_spin`, `other_spins`", "rad/s",
             "of a track with an angle: from where on its turns are found by trial; spins that fit as well by other "

@@ -66,6 +66,12 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
           of, others.front()));
     }
   }
+  if (const auto& seen = fit.rolling_friction_seen) {
+    remarks.push_back(fmt::format(
+        "chi^2 would be less by {:.0f} with a rolling friction of about {:.2g} +- {:.1g}, friction then about "
+        "{:.3g}: --rolling-friction {:.2g} lets the fit search it",
+        seen->chi2_less, seen->value, seen->standard_error, seen->friction, seen->value));
+  }
   if (fit.at_limit) {
     remarks.emplace_back(
         "a value ran into what it may be: friction 1e-4 to 10, a patch not larger than the ball nor so large "
@@ -169,6 +175,7 @@ Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track
              {"fits", best.fits()},
              {"misfits", best.misfits},
              {"remarks", remarks_on(best, tracks, planned)}};
+  if (best.rolls_with_friction()) members["rolling_friction"] = members_of(best.estimate(Parameter::rolling_friction));
   if (best.only) {
     members["only"] = {{"name", best.only->name()},
                        {"friction_power", best.only->friction_power},

@@ -4,9 +4,10 @@
 
 namespace contensou::fit {
 
-/// Sliding and pivoting speeds, m/s, and their integrals over T = f g t; or a derivative of all four.
+/// Sliding and pivoting speeds, m/s, and their integrals over T = f g t; or a derivative of all of them.
 struct Speeds {
   double v, u, slid, turned;
+  double centre = 0, way = 0;  ///< of the centre along the slip: of a ball with rolling friction only
 };
 
 Speeds operator+(const Speeds& a, const Speeds& b);
@@ -27,6 +28,8 @@ class FilmOrbit {
     Speeds now;
     double dv, du;  ///< by T
     Speeds by_ln_mu, by_v, by_u;
+    double dcentre = 0;               ///< by T
+    Speeds by_rolling{}, by_drive{};  ///< of a ball with rolling friction only
   };
 
   /// @param T     >= 0, up to where it was computed
@@ -39,6 +42,7 @@ class FilmOrbit {
   /// T of the stop and its derivatives; after reach(infinity).
   struct Stop {
     double T, by_ln_mu, by_v, by_u;
+    double by_rolling = 0, by_drive = 0;
   };
   virtual Stop stop() const = 0;
 };

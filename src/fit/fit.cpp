@@ -45,6 +45,12 @@ VectorXd with_signs(const FitRequest& request, VectorXd parameters) {
 
 void require(const FitRequest& request) {
   si::require_experiment(request.ball);
+  const auto& [ball, contact, start, environment] = request.ball;
+  if (environment.slope != 0)
+    throw std::domain_error(
+        fmt::format("fit: a film is of a ball on a level plane: slope must be 0, got {} degrees", environment.slope));
+  if (ball.body.lies_flat() && (contact.rolling_friction > 0 || request.free.rolling_friction))
+    throw std::domain_error(fmt::format("fit: a {} does not roll: rolling_friction must be 0", ball.body.name));
   if (request.tracks.empty()) throw std::domain_error("fit: there is no track");
   for (const Track& track : request.tracks) require(track);
 }
@@ -53,7 +59,7 @@ void require(const FitRequest& request) {
 /// model allows.
 void require_limits(const Search& search, bool planned) {
   const VectorXd given = search.given(), limited = search.model.limited(given);
-  for (Index place = 0; place < shared_parameters; ++place) {
+  for (Index place = 0; place < contact_parameters; ++place) {
     const bool searched = !planned && std::ranges::find(search.free, place) != search.free.end();
     if (searched || limited[place] == given[place]) continue;
     const ParameterKind& kind = kind_of(static_cast<Parameter>(place));
@@ -67,13 +73,15 @@ void require_limits(const Search& search, bool planned) {
 }  // namespace
 
 Free usually_free(const si::Experiment& ball) {
-  return {.patch_radius = !std::holds_alternative<si::WholeFace>(ball.contact.patch)};
+  return {.patch_radius = !std::holds_alternative<si::WholeFace>(ball.contact.patch),
+          .rolling_friction = ball.contact.rolling_friction > 0};
 }
 
 const ParameterKind& kind_of(Parameter parameter) {
   static const ParameterKind all[]{
       {"friction", "", "coefficient of dry friction"},
       {"patch_radius", "m", "radius of the contact patch"},
+      {"rolling_friction", "", "coefficient of rolling friction"},
       {"slip", "m/s", "sliding speed at the start"},
       {"spin", "rad/s", "angular velocity about the vertical at the start"},
       {"direction", "rad", "of the slip, from the x axis"},
@@ -82,6 +90,7 @@ const ParameterKind& kind_of(Parameter parameter) {
       {"x", "m", "place of the centre at the start"},
       {"y", "m", "place of the centre at the start"},
       {"angle", "rad", "at the start"},
+      {"rolling", "m/s", "at which it rolls along the slip at the start"},
   };
   return all[static_cast<std::size_t>(parameter)];
 }
@@ -111,6 +120,8 @@ std::vector<const Estimate*> Fit::free_estimates() const {
   }
   return result;
 }
+
+bool Fit::rolls_with_friction() const { return estimates[2].parameter == Parameter::rolling_friction; }
 
 double Fit::correlation_of_contact() const { return estimates[0].free && estimates[1].free ? correlation(0, 1) : 0; }
 

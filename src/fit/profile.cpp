@@ -187,13 +187,13 @@ bool Profile::is_held_by_limit(const Coordinate& number, const VectorXd& paramet
     const bool above = high - limited[place] < near_limit * (high - low) && place != patch_place;
     if (!below && !above) continue;
     VectorXd outward = VectorXd::Unit(limited.size(), place) * (above ? 1 : -1);
-    if (number.of_contact() && place < shared_parameters) {
+    if (number.of_contact() && place < contact_parameters) {
       const Eigen::Vector2d line(-number.powers[1], number.powers[0]);
       if (line[place] == 0) continue;
       outward.head<2>() = line * (outward[place] / line[place]);
     }
-    // Of a speed twice as large as its limit, of e times the others.
-    if (place >= shared_parameters) outward *= std::abs(limited[place]);
+    // Of e times friction or patch, of others twice their limit.
+    if (place >= contact_parameters) outward *= std::abs(limited[place]);
     if (-search_.slope(limited, outward) > telling * rise_) return true;
   }
   return false;

@@ -34,7 +34,7 @@ constexpr double unknown = 0.5;
 /// good model of the sum of squares; nor where a number is known worse than the last.
 constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01, nonlinear = 0.1;
 
-bool is_of_contact(Parameter parameter) { return static_cast<int>(parameter) < shared_parameters; }
+bool is_of_contact(Parameter parameter) { return static_cast<int>(parameter) < contact_parameters; }
 
 /// The inverse of a matrix of information, and which parameters it does not decide.
 struct Inverse {
@@ -85,7 +85,8 @@ class Reporter {
         values_(search.model.values(parameters_)) {
     fit_.at_limit = std::ranges::any_of(search.free, [&](Index place) {
       const auto [low, high] = search.model.range(place);
-      return parameters_[place] <= low || parameters_[place] >= high;
+      // Nothing is wrong with a 0.
+      return (parameters_[place] <= low && low != 0) || parameters_[place] >= high;
     });
   }
 
@@ -99,6 +100,7 @@ class Reporter {
     set_predicted();
     set_ball();
     if (!planned_) set_misfits();
+    if (!planned_ && !search_.resisted && !request_.ball.ball.body.lies_flat()) set_rolling_friction_seen();
     require_numbers();
     return {std::move(fit_), std::move(better_)};
   }
@@ -132,6 +134,7 @@ class Reporter {
   void set_predicted();
   void set_ball();
   void set_misfits();
+  void set_rolling_friction_seen();
   void require_numbers() const;
 
   bool is_free(Index place) const { return std::ranges::find(search_.free, place) != search_.free.end(); }
@@ -143,6 +146,7 @@ class Reporter {
   const FitRequest& request_;
   const bool planned_;
   VectorXd parameters_, values_, residuals_;
+  MatrixXd derivatives_;  ///< of the residuals, by what is free
   MatrixXd information_;
   Inverse inverse_;
   VectorXd deviation_;   ///< standard errors of the free parameters
@@ -171,8 +175,8 @@ void Reporter::set_size() {
 }
 
 void Reporter::set_errors() {
-  const MatrixXd derivatives = search_.weight.asDiagonal() * search_.model.derivatives(parameters_, search_.free);
-  information_ = derivatives.transpose() * derivatives;
+  derivatives_ = search_.weight.asDiagonal() * search_.model.derivatives(parameters_, search_.free);
+  information_ = derivatives_.transpose() * derivatives_;
   if (request_.robust && !planned_) {
     double squares = 0, slopes = 0;
     for (double residual : residuals_) {
@@ -208,6 +212,8 @@ void Reporter::add_estimate(Parameter parameter, std::size_t track) {
   } else {
     estimate.standard_error = error;
     estimate.interval = {estimate.value - quantile_ * error, estimate.value + quantile_ * error};
+    const bool can_be_negative = search_.model.range(place).low < 0;
+    if (!can_be_negative) estimate.interval.low = std::max(estimate.interval.low, 0.0);
   }
   if (estimate.free || static_cast<int>(parameter) < static_cast<int>(Parameter::direction))
     fit_.estimates.push_back(estimate);
@@ -216,6 +222,7 @@ void Reporter::add_estimate(Parameter parameter, std::size_t track) {
 void Reporter::set_estimates() {
   add_estimate(Parameter::friction, 0);
   add_estimate(Parameter::patch_radius, 0);
+  if (search_.resisted) add_estimate(Parameter::rolling_friction, 0);
   for (std::size_t track = 0; track < request_.tracks.size(); ++track) {
     for (int i = shared_parameters; i < shared_parameters + start_parameters; ++i) {
       add_estimate(static_cast<Parameter>(i), track);
@@ -260,7 +267,10 @@ bool Reporter::is_vague() const {
   for (std::size_t i = 0; i < search_.free.size(); ++i) {
     const Index place = search_.free[i];
     const double error = deviation_[static_cast<Index>(i)];
-    if (place < shared_parameters && error > nonlinear) return true;
+    if (place < contact_parameters && error > nonlinear) return true;
+    // The drive is that over friction.
+    if (place == TrackModel::place(Parameter::rolling_friction) && error > nonlinear * std::exp(parameters_[0]))
+      return true;
     const Parameter parameter = TrackModel::parameter_at(place);
     const bool speed = parameter == Parameter::slip || parameter == Parameter::spin;
     if (speed && !is_seen(parameter, TrackModel::track_of(place)) && error > nonlinear * std::abs(parameters_[place]))
@@ -305,7 +315,8 @@ void Reporter::set_profiles() {
       return each.coordinate.powers == Eigen::Vector2d(1, 0) &&
              (std::isinf(each.interval.low) || std::isinf(each.interval.high));
     };
-    const bool many = !is_seen(estimate.parameter, estimate.track) && std::ranges::any_of(numbers, is_open);
+    const bool many = static_cast<int>(estimate.parameter) >= shared_parameters &&
+                      !is_seen(estimate.parameter, estimate.track) && std::ranges::any_of(numbers, is_open);
     return many ? of_two_numbers * rise : rise;
   };
   for (int round = 0; round < 2; ++round) {
@@ -330,9 +341,10 @@ std::optional<Reporter::Number> Reporter::number_of(std::size_t estimate) const 
   const auto [low, high] = search_.model.range(place);
   if (is_of_contact(of.parameter))
     return Number{{.powers = Eigen::Vector2d::Unit(place)}, estimate, error, low, high, {}};
+  if (of.parameter == Parameter::rolling_friction) return Number{{.place = place}, estimate, error, low, high, {}};
   const bool either_sign = is_seen(of.parameter, of.track), negative = std::signbit(of.value);
   return Number{
-      {.place = place}, estimate, error, either_sign || negative ? low : 0, either_sign || !negative ? high : 0, {}};
+      {.place = place}, estimate, error, either_sign || negative ? low : 0.0, either_sign || !negative ? high : 0, {}};
 }
 
 Reporter::Number Reporter::combined(const Eigen::Vector2d& powers) const {
@@ -416,6 +428,7 @@ void Reporter::set_ball() {
   const auto number = [&](Parameter parameter) { return fit_.estimate(parameter).value; };
   const bool whole_face = std::holds_alternative<si::WholeFace>(request_.ball.contact.patch);
   fit_.ball.contact = {.friction = number(Parameter::friction), .patch = request_.ball.contact.patch};
+  if (search_.resisted) fit_.ball.contact.rolling_friction = number(Parameter::rolling_friction);
   if (request_.free.patch_radius || !whole_face)
     fit_.ball.contact.patch = si::PatchRadius{number(Parameter::patch_radius)};
   if (fit_.law != request_.ball.ball.body.law && reduction::find_law(fit_.law)) fit_.ball.contact.law = fit_.law;
@@ -430,7 +443,10 @@ void Reporter::set_ball() {
     fit_.ball.start = si::Velocities{of_contact, {0, 0, spin}};
     return;
   }
-  const Eigen::Vector2d velocity(number(Parameter::vx), number(Parameter::vy));
+  const Eigen::Vector2d velocity = search_.resisted
+                                       ? Eigen::Vector2d((slip + number(Parameter::rolling)) *
+                                                         Eigen::Vector2d(std::cos(direction), std::sin(direction)))
+                                       : Eigen::Vector2d(number(Parameter::vx), number(Parameter::vy));
   const Eigen::Vector2d difference = (velocity - of_contact) / radius;
   fit_.ball.start = si::Velocities{velocity, {-difference.y(), difference.x(), spin}};
 }
@@ -465,6 +481,39 @@ void Reporter::set_misfits() {
         "residuals are {:.2g} times as large as the standard deviations that are given (reduced chi^2 {:.3g})",
         std::sqrt(reduced), reduced));
   }
+}
+
+void Reporter::set_rolling_friction_seen() {
+  // The same motion, as one with rolling friction 0.
+  VectorXd start = parameters_;
+  for (std::size_t track = 0; track < request_.tracks.size(); ++track) {
+    const auto of = [&](Parameter parameter) -> double& { return start[TrackModel::place(parameter, track)]; };
+    if (of(Parameter::slip) < 0) {
+      of(Parameter::slip) *= -1;
+      of(Parameter::direction) += std::numbers::pi;
+    }
+    const double along =
+        std::cos(of(Parameter::direction)) * of(Parameter::vx) + std::sin(of(Parameter::direction)) * of(Parameter::vy);
+    of(Parameter::rolling) = std::max(0.0, along - of(Parameter::slip));
+  }
+  const TrackModel model(request_.ball, request_.law, request_.tracks, accuracy_of_guess, true);
+  VectorXd beside = start;
+  constexpr double step = 1e-4;  // of friction
+  double& rolling_friction = beside[TrackModel::place(Parameter::rolling_friction)];
+  rolling_friction = step * std::exp(start[0]);
+  const VectorXd by_it = (model.values(beside) - model.values(start)).cwiseProduct(search_.weight) / rolling_friction;
+  // What it changes that nothing else does.
+  const VectorXd others = inverse_.covariance * (derivatives_.transpose() * by_it);
+  const double alone = by_it.squaredNorm() - (derivatives_.transpose() * by_it).dot(others);
+  constexpr double hardly_any = 1e-6, far_better = 12;
+  if (!(alone > hardly_any * by_it.squaredNorm())) return;
+  const VectorXd bounded =
+      request_.robust ? VectorXd(residuals_.cwiseMax(-huber_bend).cwiseMin(huber_bend)) : residuals_;
+  const double value = -bounded.dot(by_it - derivatives_ * others) / alone;
+  const double chi2_less = value * value * alone / variance_;
+  if (!(value > 0 && chi2_less > far_better)) return;
+  const double friction = std::exp(parameters_[0] - (request_.free.friction ? others[0] * value : 0));
+  fit_.rolling_friction_seen = {value, std::sqrt(variance_ / alone), friction, chi2_less};
 }
 
 void Reporter::require_numbers() const {

@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "si/crossing.hpp"
+
 namespace contensou::fit {
 
 namespace {
@@ -14,14 +16,18 @@ namespace {
 constexpr double near_axis = 1e-12;  ///< of k or 1/k: from there on the smaller speed goes in proportion to its start
 constexpr double at_rest = 1e-12;    ///< of w at the start
 constexpr double first_width = 0.5, min_width = 1e-4;
+constexpr double ray_step = 1e-3;  ///< of k*: nearer to the ray its neighbourhood is a cubic
+constexpr double on_ray = 1e-14;
 
 }  // namespace
 
 Speeds operator+(const Speeds& a, const Speeds& b) {
-  return {a.v + b.v, a.u + b.u, a.slid + b.slid, a.turned + b.turned};
+  return {a.v + b.v, a.u + b.u, a.slid + b.slid, a.turned + b.turned, a.centre + b.centre, a.way + b.way};
 }
 
-Speeds operator*(double c, const Speeds& a) { return {c * a.v, c * a.u, c * a.slid, c * a.turned}; }
+Speeds operator*(double c, const Speeds& a) {
+  return {c * a.v, c * a.u, c * a.slid, c * a.turned, c * a.centre, c * a.way};
+}
 
 /// Polynomials through values at Chebyshev's points of [-1, 1].
 struct ScaledOrbit::Basis {
@@ -73,10 +79,18 @@ ScaledOrbit::Integrals ScaledOrbit::Cell::at(double z) const {
 }
 
 ScaledOrbit::ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy,
-                         reduction::Inertia inertia)
-    : law_(law), mu_(mu), accuracy_(accuracy), inertia_(inertia), width_(first_width), v0_(start.v), u0_(start.u) {
+                         reduction::Inertia inertia, double drive)
+    : law_(law),
+      mu_(mu),
+      accuracy_(accuracy),
+      inertia_(inertia),
+      drive_(drive),
+      width_(first_width),
+      v0_(start.v),
+      u0_(start.u) {
   double v = std::abs(v0_), w = mu * std::abs(u0_);
   if (v == 0 && w == 0) return;
+  if (drive_ > 0) find_ray();
   by_[0] = {.x = -1, .ln_w = 1, .ln_mu = 1};
   by_[1] = {.x = 1, .ln_w = 0, .ln_mu = 0};
   by_[2] = {.x = -1, .ln_w = 1, .ln_mu = 0};
@@ -85,29 +99,70 @@ ScaledOrbit::ScaledOrbit(const reduction::Law& law, double mu, reduction::State 
     by_[0] = {.x = 0, .ln_w = 0, .ln_mu = 1};
     by_[1] = {.x = 0, .ln_w = 1, .ln_mu = 0};
     by_[2] = {};
-  } else if (v < near_axis * w) {  // v follows w
+  } else if (v < near_axis * w && ray_ == 0) {  // v follows w
     v = near_axis * w;
     by_[0].x = by_[1].x = by_[2].x = 0;
   }
   orbit_v0_ = v;
   orbit_w0_ = w;
-  x_ = x0_ = std::log(v / w);
+  const double k0 = v / w;
+  side_ = k0 < ray_ ? -1 : 1;
+  x_ = x0_ = std::log(std::max(std::abs(k0 - ray_), on_ray * ray_));
   now_[ln_w] = ln_w0_ = std::log(w);
-  const auto [A, B] = rates(x0_);
-  q0_ = B / (A - B);
-  dT0_ = -w / (A - B);
-  for (double k : law.kinks()) kinks_.push_back(std::log(k));
+  const auto [fall, B] = rates(x0_);
+  q0_ = B / fall;
+  dT0_ = -w / fall;
+  for (double k : law.kinks()) {
+    if (side_ * (k - ray_) > 0) kinks_.push_back(std::log(std::abs(k - ray_)));
+  }
   std::ranges::sort(kinks_);
   reach(0);
 }
 
-std::pair<double, double> ScaledOrbit::rates(double x) const {
+double ScaledOrbit::greatest_drive(const reduction::Law& law, double mu, reduction::Inertia inertia) {
+  constexpr double far = 1e9, some = 0.9;
+  const double moment = law(reduction::slip_of_ratio(far)).moment;
+  return some * (1 - inertia.gamma * mu * mu / inertia.chi * far * moment);
+}
+
+double ScaledOrbit::fall_towards_ray(double distance) const {
+  const double k = ray_ + distance;
+  const auto [force, moment] = law_(reduction::slip_of_ratio(k));
+  return (inertia_.chi * (force - drive_) - inertia_.gamma * mu_ * mu_ * moment * k) / distance;
+}
+
+void ScaledOrbit::find_ray() {
+  const auto rises = [&](double ln_k) {
+    const double k = std::exp(ln_k);
+    const auto [force, moment] = law_(reduction::slip_of_ratio(k));
+    return inertia_.chi * (force - drive_) - inertia_.gamma * mu_ * mu_ * moment * k;
+  };
+  const double low = std::log(drive_) - 5, high = 20;
+  if (!(rises(low) < 0 && rises(high) > 0))
+    throw std::domain_error("fit: under that rolling friction sliding does not end: a smaller one is required");
+  ray_ = std::exp(si::crossing(rises, low, high));
+  for (std::size_t i = 0; i < near_ray_.size(); ++i) {
+    constexpr double steps[]{-2, -1, 1, 2};
+    near_ray_[i] = fall_towards_ray(steps[i] * ray_step * ray_);
+  }
+}
+
+ScaledOrbit::Rates ScaledOrbit::rates(double x) const {
+  if (ray_ > 0) {
+    const double distance = side_ * std::exp(x), z = distance / (ray_step * ray_);
+    const double B = inertia_.gamma * mu_ * mu_ * law_(reduction::slip_of_ratio(ray_ + distance)).moment;
+    if (std::abs(z) >= 1) return {fall_towards_ray(distance), B};
+    const auto& [a, b, c, d] = near_ray_;  // at -2, -1, 1, 2
+    return {
+        ((z - 1) * (z + 1) * (d * (z + 2) - a * (z - 2)) - 2 * (z - 2) * (z + 2) * (c * (z + 1) - b * (z - 1))) / 12,
+        B};
+  }
   constexpr double smallest = 1e-12;  // below it Phi/k and Psi do not change
   const double k = std::max(std::exp(x), smallest);
   const auto [force, moment] = law_(reduction::slip_of_ratio(k));
   const double A = inertia_.chi * force / k, B = inertia_.gamma * mu_ * mu_ * moment;
   if (!(A > B)) throw std::domain_error("fit: the law has an invariant ray there: a smaller patch is required");
-  return {A, B};
+  return {A - B, B};
 }
 
 void ScaledOrbit::reach(double T) {
@@ -121,9 +176,9 @@ void ScaledOrbit::reach(double T) {
     cell.half_width = whole / 2;
     Basis::Values q, step;
     for (int j = 0; j < nodes; ++j) {
-      const auto [A, B] = rates(x_ - cell.half_width * (1 + basis.z[j]));
-      q[j] = B / (A - B);
-      step[j] = 1 / (A - B);
+      const auto [fall, B] = rates(x_ - cell.half_width * (1 + basis.z[j]));
+      q[j] = B / fall;
+      step[j] = 1 / fall;
     }
     const auto add = [&](int which, const Basis::Values& slope) -> Basis::Values {
       const Basis::Powers powers = basis.integral(slope, now_[which]);
@@ -139,7 +194,7 @@ void ScaledOrbit::reach(double T) {
       continue;
     }
     const Basis::Values by = add(E, -cell.half_width * 2 * q * (1 + q));
-    const Basis::Values v = w * (x_ - cell.half_width * (1 + basis.z)).exp();
+    const Basis::Values v = w * (ray_ + side_ * (x_ - cell.half_width * (1 + basis.z)).exp());
     add(T_, dT);
     add(G, dT * (by + 2 * q));
     add(slid, dT * v);
@@ -151,8 +206,7 @@ void ScaledOrbit::reach(double T) {
     cell.T_end = now_[T_];
     // dT/dz at an end is that of x there.
     const auto bend = [&](double at_x, double ln_w_there) {
-      const auto [A, B] = rates(at_x);
-      return (cell.T_end - cell.T_left) * (A - B) * std::exp(-ln_w_there) / cell.half_width - 2;
+      return (cell.T_end - cell.T_left) * rates(at_x).fall * std::exp(-ln_w_there) / cell.half_width - 2;
     };
     cell.bend_left = bend(x_, cell.at(-1)[ln_w]);
     cell.bend_end = bend(x_ - whole, now_[ln_w]);
@@ -164,9 +218,10 @@ void ScaledOrbit::reach(double T) {
 
 ScaledOrbit::Stop ScaledOrbit::stop() const {
   if (u0_ == 0)
-    return {std::abs(v0_) / inertia_.chi, 0, (v0_ < 0 ? -1 : 1) / inertia_.chi, 0};  // what is left of w is not its own
+    return {std::abs(v0_) / (inertia_.chi * (1 - drive_)), 0, (v0_ < 0 ? -1 : 1) / inertia_.chi,
+            0};  // what is left of w is not its own
   const auto change = [&](const Direction& by) { return change_of_T(by, now_); };
-  return {now_[T_] + std::exp(now_[ln_w]) / rates(x_).second, change(by_[0]), v0_ == 0 ? 0 : change(by_[1]) / v0_,
+  return {now_[T_] + std::exp(now_[ln_w]) / rates(x_).B, change(by_[0]), v0_ == 0 ? 0 : change(by_[1]) / v0_,
           change(by_[2]) / u0_};
 }
 
@@ -203,6 +258,11 @@ ScaledOrbit::Place ScaledOrbit::place_of(double T, std::size_t& cell) const {
 
 Speeds ScaledOrbit::now(const Place& place) const {
   const Speeds& unit = place.unit;
+  if (ray_ > 0) {
+    const double x = place.cell->x - place.cell->half_width * (1 + place.z);
+    const double v = place.moves ? std::exp(place.here[ln_w]) * ratio(x) : 0;
+    return {v, u0_ * unit.u, place.here[slid], u0_ * unit.turned};
+  }
   return {v0_ * unit.v, u0_ * unit.u, v0_ * unit.slid, u0_ * unit.turned};
 }
 

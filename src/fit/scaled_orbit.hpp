@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,20 +13,31 @@
 
 namespace contensou::fit {
 
-/// The orbit of a ball, with its exact derivatives.
+/// The orbit of a ball, with its exact derivatives where there is no drive.
 ///
 /// Everything is a quadrature over x = ln k, since k decreases all the time. With A = chi Phi/k, B = gamma mu^2 Psi,
 /// w = mu |u| and q = B/(A - B):
 ///   d ln w/dx = q,   dT/dx = -w/(A - B),   v = e^x w,
 /// and by ln mu at one x:  d(d ln w)/dx = 2 q (1 + q) =: dE/dx,   d(dT)/dx = dT/dx (E + 2 q).
 /// Cells of x are as wide as polynomials of degree 9 allow.
+///
+/// With a drive rho the ratio tends to that of a ray, k* > 0, and x = ln |k - k*| stands for it: A - B is
+/// (chi (Phi - rho) - B k)/(k - k*), and all else stays as it is.
 class ScaledOrbit final : public FilmOrbit {
  public:
   /// @param law       without an invariant ray below k0: A > B
   /// @param accuracy  of T and ln w, relative
+  /// @param drive     rho, 0 <= rho <= greatest_drive(); with one the start's v >= 0, and speeds_at() and stop().T are
+  ///                  all there is
   /// @throws std::domain_error  if the start is on an invariant ray
   ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy = standard_accuracy,
-              reduction::Inertia inertia = reduction::homogeneous_ball);
+              reduction::Inertia inertia = reduction::homogeneous_ball, double drive = 0);
+
+  /// A drive below which there is a ray: 0.9 of that from which on there is none.
+  static double greatest_drive(const reduction::Law& law, double mu, reduction::Inertia inertia);
+
+  /// k* of the ray; 0 without a drive.
+  double ray() const { return ray_; }
 
   void reach(double T) override;
 
@@ -67,11 +79,22 @@ class ScaledOrbit final : public FilmOrbit {
   Place place_of(double T, std::size_t& cell) const;
   Speeds now(const Place& place) const;
 
-  std::pair<double, double> rates(double x) const;  ///< A and B
+  /// What x and ln w change by.
+  struct Rates {
+    double fall;  ///< A - B
+    double B;
+  };
+  Rates rates(double x) const;
+  double ratio(double x) const { return ray_ + side_ * std::exp(x); }
+  /// (chi (Phi - rho) - B k)/(k - k*)
+  double fall_towards_ray(double distance) const;
+  void find_ray();
 
   reduction::Law law_;
   double mu_, accuracy_;
   reduction::Inertia inertia_;
+  double drive_, ray_ = 0, side_ = 1;  ///< k = k* + side e^x
+  std::array<double, 4> near_ray_{};   ///< fall_towards_ray at -2, -1, 1 and 2 steps from it
   std::vector<Cell> cells_;
   std::vector<double> kinks_;  ///< ln k of those ahead, the next one last
   double x_ = 0, width_;       ///< of the next cell

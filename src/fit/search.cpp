@@ -135,10 +135,10 @@ struct Functor {
       std::erase(free, held->place);
       return;
     }
-    const auto shared = std::erase_if(free, [](Index place) { return place < shared_parameters; });
-    if (shared < shared_parameters) return;
+    const auto shared = std::erase_if(free, [](Index place) { return place < contact_parameters; });
+    if (shared < contact_parameters) return;
     line = Line{{-held->powers[1], held->powers[0]}};
-    for (Index i = 0; i < shared_parameters; ++i) {
+    for (Index i = 0; i < contact_parameters; ++i) {
       const double slope = line->direction[i];
       if (slope == 0) continue;
       const auto [low, high] = search.model.range(i);
@@ -216,7 +216,11 @@ std::vector<Track> thinned(const std::vector<Track>& tracks, Index most) {
 }
 
 Search::Search(const FitRequest& asked, double accuracy)
-    : request(asked), model(asked.ball, asked.law, asked.tracks, accuracy), data(model.rows()), weight(model.rows()) {
+    : request(asked),
+      resisted(asked.free.rolling_friction || asked.ball.contact.rolling_friction > 0),
+      model(asked.ball, asked.law, asked.tracks, accuracy, resisted),
+      data(model.rows()),
+      weight(model.rows()) {
   const auto set_sd = [&](std::size_t place, double sd) {
     for (Index row : rows_of[place]) weight[row] = 1 / sd;
   };
@@ -277,6 +281,7 @@ Search::Search(const FitRequest& asked, double accuracy)
 
   if (request.free.friction) free.push_back(TrackModel::place(Parameter::friction));
   if (request.free.patch_radius) free.push_back(TrackModel::place(Parameter::patch_radius));
+  if (request.free.rolling_friction) free.push_back(TrackModel::place(Parameter::rolling_friction));
   for (std::size_t i = 0; i < request.tracks.size(); ++i) {
     const auto has = [&](Observable observable) { return find(request.tracks[i], observable) != nullptr; };
     const bool along_x = has(Observable::x) || has(Observable::vx), along_y = has(Observable::y) || has(Observable::vy);
@@ -288,11 +293,12 @@ Search::Search(const FitRequest& asked, double accuracy)
     add(Parameter::direction, along_x && along_y);
     // The slip of a body that lies flat is its velocity.
     const bool rolls = !request.ball.ball.body.lies_flat();
-    add(Parameter::vx, along_x && rolls);
-    add(Parameter::vy, along_y && rolls);
+    add(Parameter::vx, along_x && rolls && !resisted);
+    add(Parameter::vy, along_y && rolls && !resisted);
     add(Parameter::x, has(Observable::x));
     add(Parameter::y, has(Observable::y));
     add(Parameter::angle, has(Observable::angle));
+    add(Parameter::rolling, (along_x || along_y) && resisted);
   }
   if (free.empty()) throw std::domain_error("fit: nothing is free, so there is nothing to be found");
 }
@@ -396,6 +402,7 @@ VectorXd Search::given() const {
   const si::Experiment& ball = request.ball;
   parameters[0] = std::log(ball.contact.friction);
   parameters[1] = std::log(si::patch_radius_of(ball, request.law));
+  parameters[2] = ball.contact.rolling_friction;
   const Eigen::Vector2d slip = si::slip_velocity_at_start(ball);
   const si::Velocities start = si::velocities_of(ball.start);
   for (std::size_t i = 0; i < request.tracks.size(); ++i) {
@@ -406,6 +413,14 @@ VectorXd Search::given() const {
     set(Parameter::spin, si::spin_at_start(ball));
     set(Parameter::direction, along_y && !along_x ? std::numbers::pi / 2 : std::atan2(slip.y(), slip.x()));
     if (ball.ball.body.lies_flat()) continue;
+    if (resisted) {
+      const Eigen::Vector2d along = si::direction_at_start(ball), rolling = start.velocity - slip;
+      const bool is_searched = std::ranges::count(free, TrackModel::place(Parameter::rolling, i)) > 0;
+      if (!is_searched && !si::points_along(rolling, along))
+        throw std::domain_error("fit: with rolling friction a ball must roll the way it slides, or not at all");
+      set(Parameter::rolling, std::max(0.0, rolling.dot(along)));
+      continue;
+    }
     if (along_x) set(Parameter::vx, start.velocity.x());
     if (along_y) set(Parameter::vy, start.velocity.y());
   }
@@ -454,7 +469,7 @@ VectorXd Search::placed(VectorXd parameters) const {
   const Index direction = TrackModel::place(Parameter::direction);
   std::vector<Index> linear;
   for (Index place : free) {
-    if (place > direction) linear.push_back(place);
+    if (place > direction && TrackModel::parameter_at(place) != Parameter::rolling) linear.push_back(place);
   }
   const bool turns = std::ranges::find(free, direction) != free.end();
   if (linear.empty() && !turns) return parameters;
@@ -507,7 +522,7 @@ VectorXd Search::improved_from_guesses() {
   for (double patch : patches) {
     for (double friction : frictions) {
       scored.emplace_back(0, given);
-      scored.back().second.head<shared_parameters>() << friction, patch;
+      scored.back().second.head<contact_parameters>() << friction, patch;
     }
   }
   for (std::size_t i = 0; i < few.size(); ++i) {
@@ -515,12 +530,13 @@ VectorXd Search::improved_from_guesses() {
     for (auto& [cost, parameters] : scored) {
       double least = std::numeric_limits<double>::infinity();
       VectorXd best;
-      for (const auto& [slip, spin] : starts_of(few[i], given)) {
+      for (const auto& [slip, spin, rolling] : starts_of(few[i], given)) {
         VectorXd guess(alone.model.parameters());
         guess << parameters.head(shared_parameters),
             given.segment(TrackModel::place(Parameter::slip, i), start_parameters);
         guess[TrackModel::place(Parameter::slip)] = slip;
         guess[TrackModel::place(Parameter::spin)] = spin;
+        guess[TrackModel::place(Parameter::rolling)] = rolling;
         guess = alone.placed(guess);
         const double loss = alone.cost(guess);
         if (loss < least || best.size() == 0) {
@@ -549,19 +565,19 @@ VectorXd Search::improved_from_guesses() {
   return best;
 }
 
-std::vector<std::pair<double, double>> Search::starts_of(const Track& track, const VectorXd& given) const {
+std::vector<Search::Begun> Search::starts_of(const Track& track, const VectorXd& given) const {
   const double slip_of_ball = given[TrackModel::place(Parameter::slip)];
   const double spin_of_ball = given[TrackModel::place(Parameter::spin)];
   const double radius = request.ball.ball.radius;
   std::vector<double> slips{slip_of_ball}, spins{spin_of_ball};
+  const auto first = [&](Observable place, Observable velocity) {
+    const double by_velocity = beginning(track, velocity).value;
+    if (!std::isnan(by_velocity)) return by_velocity;
+    const double by_place = beginning(track, place).slope;
+    return std::isnan(by_place) ? 0 : by_place;
+  };
+  const double speed = std::hypot(first(Observable::x, Observable::vx), first(Observable::y, Observable::vy));
   if (request.free.slip) {
-    const auto first = [&](Observable place, Observable velocity) {
-      const double by_velocity = beginning(track, velocity).value;
-      if (!std::isnan(by_velocity)) return by_velocity;
-      const double by_place = beginning(track, place).slope;
-      return std::isnan(by_place) ? 0 : by_place;
-    };
-    const double speed = std::hypot(first(Observable::x, Observable::vx), first(Observable::y, Observable::vy));
     if (const double seen = beginning(track, Observable::slip).value; !std::isnan(seen)) {
       slips = {seen};
     } else if (speed > 0) {
@@ -577,13 +593,19 @@ std::vector<std::pair<double, double>> Search::starts_of(const Track& track, con
       spins = {slips[slips.size() / 2] / radius};
     }
   }
-  std::vector<std::pair<double, double>> starts;
+  const bool rolls = std::ranges::any_of(free, [](Index place) {  // which goes into the speed, too
+    return TrackModel::parameter_at(place) == Parameter::rolling;
+  });
+  const auto begun = [&](double slip, double spin) {
+    return Begun{slip, spin, rolls ? std::max(0.0, speed - slip) : given[TrackModel::place(Parameter::rolling)]};
+  };
+  std::vector<Begun> starts;
   for (double slip : slips) {
     for (double spin : spins) {
-      if (slip != 0 || spin != 0) starts.emplace_back(slip, spin);
+      if (slip != 0 || spin != 0) starts.push_back(begun(slip, spin));
     }
   }
-  if (starts.empty()) starts.emplace_back(slip_of_ball, spin_of_ball);
+  if (starts.empty()) starts.push_back(begun(slip_of_ball, spin_of_ball));
   return starts;
 }
 

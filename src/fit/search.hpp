@@ -22,7 +22,7 @@ struct Coordinate {
   Eigen::Vector2d powers = Eigen::Vector2d::Zero();  ///< a and b
   Eigen::Index place = -1;                           ///< of a number of a start
 
-  bool of_contact() const { return place < shared_parameters; }
+  bool of_contact() const { return place < contact_parameters; }
 
   double of(const Eigen::VectorXd& parameters) const {
     return of_contact() ? powers.dot(parameters.head<2>()) : parameters[place];
@@ -53,6 +53,7 @@ class Search {
   explicit Search(const FitRequest& asked, double accuracy = ScaledOrbit::standard_accuracy);
 
   const FitRequest& request;
+  const bool resisted;  ///< by rolling friction
   TrackModel model;
   Eigen::VectorXd data;                  ///< row by row of the model; 0 where none was measured
   Eigen::VectorXd weight;                ///< 1/sd; 0 where none was measured
@@ -113,9 +114,12 @@ class Search {
   /// The best estimate from several starts, which the data tell.
   Eigen::VectorXd improved_from_guesses();
 
-  /// Slips and spins that the track may have begun with.
+  /// What the track may have begun with.
+  struct Begun {
+    double slip, spin, rolling;
+  };
   /// @param given  as given()
-  std::vector<std::pair<double, double>> starts_of(const Track& track, const Eigen::VectorXd& given) const;
+  std::vector<Begun> starts_of(const Track& track, const Eigen::VectorXd& given) const;
 
   /// Of one track: the parameters with those that place it on the plane, by linear least squares.
   Eigen::VectorXd placed(Eigen::VectorXd parameters) const;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "fit/rolling_orbit.hpp"
+
 namespace contensou::fit {
 
 using Eigen::Index;
@@ -12,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double min_ln_friction = -9.2, max_ln_friction = 2.3, min_ln_ratio = -14;
+constexpr double min_ln_friction = -9.2, max_ln_friction = 2.3, min_ln_ratio = -14, max_rolling_friction = 1;
 
 /// The largest mu up to 1 under which the law has no invariant ray: gamma mu^2 k Psi < chi Phi for all k.
 double max_ratio(const reduction::Law& law, reduction::Inertia inertia) {
@@ -26,6 +28,11 @@ double max_ratio(const reduction::Law& law, reduction::Inertia inertia) {
   return least;
 }
 
+/// The same after that many m/s^2, f g, have made a time of T.
+Speeds over_rate(const Speeds& by, double rate) {
+  return {by.v, by.u, by.slid / rate, by.turned / rate, by.centre, by.way / rate};
+}
+
 /// The motion of one track.
 struct Motion {
   const Track& track;
@@ -34,17 +41,20 @@ struct Motion {
   double radius;
   double velocity_for_slip;  ///< 1/chi: what friction takes of the velocity of the centre for each m/s of slip
   bool lies_flat;            ///< the slip is the velocity of the centre
+  bool resisted;             ///< by rolling friction: the orbit has the velocity of the centre
   double rate;               ///< f g
   double cosine = std::cos(of(Parameter::direction)), sine = std::sin(of(Parameter::direction));
 
   double of(Parameter parameter) const { return parameters[TrackModel::place(parameter, number)]; }
 
   /// What friction takes of the velocity of the centre along the slip, in units of the slip, and of its way; of what lies
-  /// flat, all of both.
+  /// flat and with rolling friction all of both.
   double way(const Speeds& by, double v0, double t) const {
-    return lies_flat ? by.slid : velocity_for_slip * (by.slid - v0 * t);
+    return resisted ? by.way : lies_flat ? by.slid : velocity_for_slip * (by.slid - v0 * t);
   }
-  double velocity(const Speeds& by, double v0) const { return lies_flat ? by.v : velocity_for_slip * (by.v - v0); }
+  double velocity(const Speeds& by, double v0) const {
+    return resisted ? by.centre : lies_flat ? by.v : velocity_for_slip * (by.v - v0);
+  }
 
   /// What the orbit, with the slip v0 at the start, makes of a series at t: linear in both, so also what changes of them
   /// do.
@@ -100,13 +110,16 @@ struct Motion {
 }  // namespace
 
 TrackModel::TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks,
-                       double accuracy)
+                       double accuracy, bool resisted)
     : inertia_(ball.ball.body.inertia),
       lies_flat_(ball.ball.body.lies_flat()),
+      resisted_(resisted),
       radius_(ball.ball.radius),
       gravity_(ball.environment.gravity),
       accuracy_(accuracy),
-      max_ln_patch_radius_(std::log((lies_flat_ ? 1 : max_ratio(law, inertia_)) * radius_)),
+      // What rolling friction holds slides like a puck.
+      max_ln_patch_radius_(std::log(
+          (lies_flat_ ? 1 : max_ratio(law, resisted ? reduction::Inertia{1, inertia_.gamma} : inertia_)) * radius_)),
       law_(law),
       tracks_(tracks),
       orbits_(tracks.size()) {
@@ -121,8 +134,12 @@ TrackModel::Range TrackModel::range(Index place) const {
       return {min_ln_friction, max_ln_friction};
     case Parameter::patch_radius:
       return {min_ln_ratio + std::log(radius_), max_ln_patch_radius_};
+    case Parameter::rolling_friction:
+      return {0, max_rolling_friction};
     case Parameter::slip:
-      return {-max_speed, max_speed};
+      return {resisted_ ? 0 : -max_speed, max_speed};
+    case Parameter::rolling:
+      return {0, max_speed};
     case Parameter::spin:
       return {-max_speed / radius_, max_speed / radius_};
     default:
@@ -138,21 +155,30 @@ VectorXd TrackModel::limited(VectorXd parameters) const {
   return parameters;
 }
 
-std::unique_ptr<FilmOrbit> TrackModel::new_orbit(double ln_patch_radius, reduction::State start) const {
-  const double mu = std::exp(ln_patch_radius) / radius_;
+std::unique_ptr<FilmOrbit> TrackModel::new_orbit(const OrbitNumbers& of) const {
+  const double mu = std::exp(of.ln_patch_radius) / radius_;
+  const reduction::State start{.u = radius_ * of.spin, .v = of.slip};
+  if (resisted_) return std::make_unique<RollingOrbit>(law_, mu, start, of.rolling, of.drive, inertia_);
   if (!lies_flat_) return std::make_unique<ScaledOrbit>(law_, mu, start, accuracy_, inertia_);
   if (!flows_ || flows_->here.system().mu() != mu)
     flows_ = std::make_shared<const FlowsOfPatch>(reduction::ReducedSystem(law_, mu, inertia_));
   return std::make_unique<FlowOrbit>(flows_, start);
 }
 
-const FilmOrbit& TrackModel::orbit_of(std::size_t i, const VectorXd& parameters) const {
-  const double patch_radius = parameters[1], slip = parameters[place(Parameter::slip, i)],
-               spin = parameters[place(Parameter::spin, i)];
-  std::optional<Known>& known = orbits_[i];
-  if (!known || known->ln_patch_radius != patch_radius || known->slip != slip || known->spin != spin) {
-    known = Known{patch_radius, slip, spin, new_orbit(patch_radius, {.u = radius_ * spin, .v = slip})};
+TrackModel::OrbitNumbers TrackModel::orbit_numbers(std::size_t i, const VectorXd& parameters) const {
+  const auto of = [&](Parameter parameter) { return parameters[place(parameter, i)]; };
+  OrbitNumbers numbers{of(Parameter::patch_radius), of(Parameter::slip), of(Parameter::spin), 0, 0};
+  if (resisted_) {
+    numbers.rolling = of(Parameter::rolling);
+    numbers.drive = of(Parameter::rolling_friction) / std::exp(of(Parameter::friction));
   }
+  return numbers;
+}
+
+const FilmOrbit& TrackModel::orbit_of(std::size_t i, const VectorXd& parameters) const {
+  const OrbitNumbers numbers = orbit_numbers(i, parameters);
+  std::optional<Known>& known = orbits_[i];
+  if (!known || known->numbers != numbers) known = Known{numbers, new_orbit(numbers)};
   const Track& track = tracks_[i];
   known->orbit->reach(track.stop_time
                           ? std::numeric_limits<double>::infinity()
@@ -168,12 +194,12 @@ VectorXd TrackModel::values(const VectorXd& free) const {
     const Track& track = tracks_[i];
     const FilmOrbit& orbit = orbit_of(i, parameters);
     const Motion motion{
-        track, parameters, i, radius_, 1 / inertia_.chi, lies_flat_, std::exp(parameters[0]) * gravity_};
+        track, parameters, i, radius_, 1 / inertia_.chi, lies_flat_, resisted_, std::exp(parameters[0]) * gravity_};
     std::size_t cell = 0;
     for (Index row = 0; row < track.t.size(); ++row) {
       const double t = track.t[row] - track.start;
       const Speeds scaled = orbit.speeds_at(motion.rate * t, cell);
-      const Speeds now{scaled.v, scaled.u, scaled.slid / motion.rate, scaled.turned / motion.rate};
+      const Speeds now = over_rate(scaled, motion.rate);
       Index place = first + row;
       for (const Series& series : track.series) {
         result[place] = motion.value(series.observable, now, t);
@@ -194,7 +220,8 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     const Track& track = tracks_[i];
     const FilmOrbit& orbit = orbit_of(i, parameters);
     const double rate = std::exp(parameters[0]) * gravity_;
-    const Motion motion{track, parameters, i, radius_, 1 / inertia_.chi, lies_flat_, rate};
+    const Motion motion{track, parameters, i, radius_, 1 / inertia_.chi, lies_flat_, resisted_, rate};
+    const double drive = orbit_numbers(i, parameters).drive;
     // The columns that change this track; beyond a limit a parameter changes nothing.
     std::vector<std::pair<Index, Parameter>> columns;
     for (std::size_t column = 0; column < wanted.size(); ++column) {
@@ -207,14 +234,22 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     for (Index row = 0; row < track.t.size(); ++row) {
       const double t = track.t[row] - track.start, T = rate * t;
       const FilmOrbit::Moment moment = orbit.at(T, cell);
-      const auto over_time = [&](const Speeds& by) { return Speeds{by.v, by.u, by.slid / rate, by.turned / rate}; };
+      const auto over_time = [&](const Speeds& by) { return over_rate(by, rate); };
       const Speeds now = over_time(moment.now);
       for (const auto& [column, parameter] : columns) {
         Speeds by{};
         double v0_by = 0;
         switch (parameter) {
-          case Parameter::friction:  // which stretches time alone
-            by = {T * moment.dv, T * moment.du, t * now.v - now.slid, t * now.u - now.turned};
+          case Parameter::friction:  // which stretches time, and is in the drive
+            by = Speeds{T * moment.dv,          T * moment.du,      t * now.v - now.slid,
+                        t * now.u - now.turned, T * moment.dcentre, t * now.centre - now.way} +
+                 -drive * over_time(moment.by_drive);
+            break;
+          case Parameter::rolling_friction:
+            by = 1 / std::exp(parameters[0]) * over_time(moment.by_drive);
+            break;
+          case Parameter::rolling:
+            by = over_time(moment.by_rolling);
             break;
           case Parameter::patch_radius:
             by = over_time(moment.by_ln_mu);
@@ -229,7 +264,8 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
           default:
             break;
         }
-        const bool places = static_cast<int>(parameter) >= static_cast<int>(Parameter::direction);
+        const bool places =
+            parameter != Parameter::rolling && static_cast<int>(parameter) >= static_cast<int>(Parameter::direction);
         Index place = first + row;
         for (const Series& series : track.series) {
           result(place, column) = places ? motion.placing(series.observable, parameter, now, t)
@@ -242,11 +278,13 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     if (!track.stop_time) continue;
     const FilmOrbit::Stop stop = orbit.stop();
     for (const auto& [column, parameter] : columns) {
-      result(first, column) = parameter == Parameter::friction       ? -stop.T / rate
-                              : parameter == Parameter::patch_radius ? stop.by_ln_mu / rate
-                              : parameter == Parameter::slip         ? stop.by_v / rate
-                              : parameter == Parameter::spin         ? radius_ * stop.by_u / rate
-                                                                     : 0;
+      result(first, column) = parameter == Parameter::friction           ? -(stop.T + drive * stop.by_drive) / rate
+                              : parameter == Parameter::patch_radius     ? stop.by_ln_mu / rate
+                              : parameter == Parameter::rolling_friction ? stop.by_drive * gravity_ / (rate * rate)
+                              : parameter == Parameter::slip             ? stop.by_v / rate
+                              : parameter == Parameter::spin             ? radius_ * stop.by_u / rate
+                              : parameter == Parameter::rolling          ? stop.by_rolling / rate
+                                                                         : 0;
     }
     ++first;
   }

@@ -14,13 +14,15 @@ namespace contensou::fit {
 
 /// The motion of tracks under a law as a function of parameters, and its derivatives by them.
 ///
-/// A vector of parameters has ln f and ln eps, then, for each track, the numbers of its start in the order of Parameter.
-/// The slip may be negative: the same slip in the opposite direction.
+/// A vector of parameters has ln f, ln eps and u_r, then, for each track, the numbers of its start in the order of Parameter.
+/// The slip may be negative: the same slip in the opposite direction. With rolling friction it is not.
 class TrackModel {
  public:
   /// @param tracks    checked; they are kept by reference
   /// @param accuracy  of orbits, as ScaledOrbit
-  TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks, double accuracy);
+  /// @param resisted  whether there is rolling friction
+  TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks, double accuracy,
+             bool resisted = false);
 
   Eigen::Index parameters() const {
     return shared_parameters + start_parameters * static_cast<Eigen::Index>(tracks_.size());
@@ -64,16 +66,23 @@ class TrackModel {
   /// The orbit of track i, up to its last instant: the last one where only the friction has changed since.
   const FilmOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
 
-  std::unique_ptr<FilmOrbit> new_orbit(double ln_patch_radius, reduction::State start) const;
+  /// The numbers that an orbit depends on.
+  struct OrbitNumbers {
+    double ln_patch_radius, slip, spin, rolling, drive;
+    bool operator==(const OrbitNumbers&) const = default;
+  };
+  OrbitNumbers orbit_numbers(std::size_t i, const Eigen::VectorXd& parameters) const;
+
+  std::unique_ptr<FilmOrbit> new_orbit(const OrbitNumbers& of) const;
 
   reduction::Inertia inertia_;
-  bool lies_flat_;
+  bool lies_flat_, resisted_;
   double radius_, gravity_, accuracy_, max_ln_patch_radius_;
   reduction::Law law_;
   const std::vector<Track>& tracks_;
   Eigen::Index rows_ = 0;
   struct Known {
-    double ln_patch_radius, slip, spin;
+    OrbitNumbers numbers;
     std::unique_ptr<FilmOrbit> orbit;
   };
   mutable std::vector<std::optional<Known>> orbits_;

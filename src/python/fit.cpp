@@ -61,6 +61,12 @@ py::dict found_of(const fit::Fit& found) {
   result["predicted"] = predicted;
   result["misfits"] = found.misfits;
   result["other_spins"] = found.turns.front().other_spins;
+  if (const auto& seen = found.rolling_friction_seen) {
+    result["rolling_friction_seen"] =
+        py::make_tuple(seen->value, seen->standard_error, seen->friction, seen->chi2_less);
+  } else {
+    result["rolling_friction_seen"] = py::none();
+  }
   if (const auto& only = found.only) {
     result["only"] = py::make_tuple(only->name(), only->value, only->value * only->relative_error, only->interval.low,
                                     only->interval.high);
@@ -85,15 +91,16 @@ void bind_fit(py::module_& module) {
     track.start = track.t.size() > 0 ? track.t[0] : 0;
     for (const auto& [name, values, sd] : series)
       track.series.push_back({one_of("observable", "observables", kinds, name), column_of(values), column_of(sd)});
-    si::require_undriven(ball, "fit");
     fit::FitRequest request{.ball = ball,
                             .law = InterruptibleLaw(std::make_shared<const reduction::Law>(law)),
                             .tracks = {track},
-                            .free = free ? fit::Free{false, false, false, false} : fit::usually_free(ball)};
-    const std::vector<std::pair<std::string, bool fit::Free::*>> parameters{{"friction", &fit::Free::friction},
-                                                                            {"patch_radius", &fit::Free::patch_radius},
-                                                                            {"slip", &fit::Free::slip},
-                                                                            {"spin", &fit::Free::spin}};
+                            .free = free ? fit::Free{false, false, false, false, false} : fit::usually_free(ball)};
+    const std::vector<std::pair<std::string, bool fit::Free::*>> parameters{
+        {"friction", &fit::Free::friction},
+        {"patch_radius", &fit::Free::patch_radius},
+        {"rolling_friction", &fit::Free::rolling_friction},
+        {"slip", &fit::Free::slip},
+        {"spin", &fit::Free::spin}};
     for (const std::string& name : free.value_or(std::vector<std::string>()))
       request.free.*one_of("parameter", "parameters", parameters, name) = true;
     request.robust = robust;

@@ -7,15 +7,23 @@
 #include "contensou/fit/fit.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/ball_motion.hpp"
+#include "contensou/si/resisted_motion.hpp"
 
-/// A film of a ball as it would be without errors: what BallMotion says, with its standard deviations.
+/// A film of a ball as it would be without errors: what BallMotion says, or with rolling friction ResistedMotion.
 struct Film {
   contensou::si::Experiment ball;
   contensou::reduction::Law law = contensou::reduction::HertzLaw{};
 
   double value(contensou::fit::Observable observable, double t) const {
+    if (const double u_r = ball.contact.rolling_friction; u_r > 0)
+      return value_of(contensou::si::ResistedMotion(ball, law, u_r), observable, t);
+    return value_of(contensou::si::BallMotion(ball, law), observable, t);
+  }
+
+ private:
+  template <class Motion>
+  static double value_of(const Motion& motion, contensou::fit::Observable observable, double t) {
     using enum contensou::fit::Observable;
-    const contensou::si::BallMotion motion(ball, law);
     const contensou::si::MotionPoint at = motion.at_time(t);
     switch (observable) {
       case slip:

@@ -14,10 +14,10 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// A film of the pool ball, with errors: columns t, slip and spin, after a `roll` of the program.
-std::string film(double slip_sd, double spin_sd, double rate = 100) {
+std::string film(double slip_sd, double spin_sd, double rate = 100, const std::string& options = "") {
   std::string instants;
   for (int i = 0; i <= 60; ++i) instants += fmt::format("{}{}", i == 0 ? "" : ",", i / rate);
-  const auto roll = json_of("roll --ball pool --format json --at " + instants);
+  const auto roll = json_of("roll --ball pool --format json " + options + "--at " + instants);
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   std::string text = "t,slip,spin\n";
@@ -52,6 +52,28 @@ TEST_CASE("a film without errors gives back the ball and its start, whatever bal
     CHECK(value(fit, "slip") == Approx(1).epsilon(1e-7));
     CHECK(value(fit, "spin") == Approx(100).epsilon(1e-7));
   }
+}
+
+TEST_CASE("a film of a ball with rolling friction gives back the ball, or says that it is one", "[cli]") {
+  const std::string film_of_it = film(1e-4, 1e-2, 100, "--rolling-friction 0.01 ");
+  const std::string noise = "--noise slip=1e-4,spin=1e-2 ";
+  const auto found = fit_of(film_of_it, noise + "--rolling-friction 0.02");
+  CHECK(value(found, "friction") == Approx(0.2).epsilon(5e-4));
+  CHECK(value(found, "rolling_friction") == Approx(0.01).epsilon(5e-3));
+  CHECK(found["rolling_friction"]["determined"] == true);
+  CHECK(found["remarks"].empty());
+  const auto held = fit_of(film_of_it, noise + "--rolling-friction 0.01 --free friction,patch,slip,spin");
+  CHECK(value(held, "friction") == Approx(0.2).epsilon(5e-4));
+  CHECK(held["rolling_friction"]["standard_error"] == 0);
+  const auto asked = fit_of(film_of_it, noise + "--free friction,patch,rolling_friction,slip,spin");
+  CHECK(value(asked, "rolling_friction") == Approx(0.01).epsilon(5e-3));
+  const Run toml = run_program("fit - --ball pool --rolling-friction 0.02 " + noise + "-o - --format toml", film_of_it);
+  CHECK_THAT(toml.out, Contains("rolling_friction = 0.0100") || Contains("rolling_friction = 0.0099"));
+  const Run without =
+      run_program("fit - --ball pool --noise slip=0.01,spin=1", film(0.01, 1, 100, "--rolling-friction 0.02 "));
+  CHECK_THAT(without.out, Contains("with a rolling friction of about 0.0"));
+  CHECK_THAT(run_program("fit - --ball pool --slope 2", film_of_it).err, Contains("level plane"));
+  CHECK_THAT(run_program("fit - --ball puck --free rolling_friction", film_of_it).err, Contains("does not roll"));
 }
 
 TEST_CASE("a film of a puck gives back the puck", "[cli]") {

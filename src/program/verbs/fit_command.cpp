@@ -14,6 +14,7 @@
 #include "answers/track_file.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/ball_motion.hpp"
+#include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/run_file.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
@@ -54,9 +55,10 @@ NoiseByName parse_noise(const std::string& typed) {
 }
 
 fit::Free parse_free(const std::string& typed) {
-  fit::Free free{false, false, false, false};
+  fit::Free free{false, false, false, false, false};
   const Choices<bool fit::Free::*> choices{{"friction", &fit::Free::friction},
                                            {"patch", &fit::Free::patch_radius},
+                                           {"rolling_friction", &fit::Free::rolling_friction},
                                            {"slip", &fit::Free::slip},
                                            {"spin", &fit::Free::spin}};
   for (const std::string& name : split(typed, ',')) free.*one_of(choices, "parameter")(name) = true;
@@ -98,14 +100,16 @@ class FitCommand final : public Verb {
                "standard deviations of columns that have none, and of stop (default: estimated)", parse_noise);
     stop_time_.add(app, "--stop-time", "TIME", "measured, in seconds from the start; with --noise stop=SD",
                    parse_positive_time);
-    start_.add_ball(app, "radius and gravity, and the values of what is not free; --radius alone does, too");
+    start_.add_ball(
+        app, "radius and gravity, the values of what is not free, and rolling friction; --radius alone does, too");
     start_.take_radius_for_ball();
     law_.add_several(app, "LAW,...", "one, or several to rank (default exact). 'contensou help laws' explains them");
     app.option_defaults()->group("Estimate");
-    free_.add(app, "--free", "NAMES",
-              "what is to be found, of friction,patch,slip,spin (default: all, but for the patch of what rests on its "
-              "whole face)",
-              parse_free);
+    free_.add(
+        app, "--free", "NAMES",
+        "what is to be found, of friction,patch,rolling_friction,slip,spin (default: all, but for the patch of what "
+        "rests on its whole face, and rolling friction where the ball has none)",
+        parse_free);
     app.add_flag("--robust", robust_, "Huber's loss: values that are far off count for less");
     app.add_flag("--plan", plan_,
                  "no FILE: the errors that a film with these --fps and --noise would give of the ball");
@@ -119,7 +123,11 @@ class FitCommand final : public Verb {
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
     if (plan_ && laws.size() > 1) law_.argument().reject("--plan is of one law");
     fit::FitRequest request{.ball = start_.read_ball(laws.front()), .law = laws.front(), .tracks = {}};
-    start_.require_undriven(request.ball, "fit");
+    if (const double slope = request.ball.environment.slope; slope != 0)
+      throw BadInput(
+          fmt::format("fit is of a ball on a level plane, and this one is on a slope of {} degrees; --slope 0 "
+                      "leaves it out",
+                      slope));
     request.robust = robust_;
     request.tracks = plan_ ? planned_tracks(request) : read_tracks();
     const bool only_stop = request.tracks.size() == 1 && request.tracks[0].series.empty();
@@ -160,6 +168,7 @@ class FitCommand final : public Verb {
     };
     std::string text = fmt::format("fitted to {} values, law {}: {}, {}", fit.values, fit.law,
                                    error(fit.estimates[0], ""), error(fit.estimates[1], " m"));
+    if (fit.rolls_with_friction()) text += ", " + error(fit.estimate(fit::Parameter::rolling_friction), "");
     if (!fit.fits()) text += fmt::format("\nTHIS DOES NOT FIT: {}", fmt::join(fit.misfits, "; "));
     return text;
   }
@@ -213,7 +222,10 @@ class FitCommand final : public Verb {
     if (!fps_.given()) missing.emplace_back("--fps N");
     if (!noise_.given()) missing.emplace_back("--noise NAME=SD,... of what is seen");
     if (!missing.empty()) throw BadInput(fmt::format("--plan needs {}", fmt::join(missing, " and ")));
-    const double end = until_.given() ? *until_ : si::BallMotion(request.ball, request.law).stop_time();
+    const double u_r = request.ball.contact.rolling_friction;
+    const double end = until_.given() ? *until_
+                       : u_r > 0      ? si::ResistedMotion(request.ball, request.law, u_r).stop_time()
+                                      : si::BallMotion(request.ball, request.law).stop_time();
     const double frames = std::floor(end * *fps_ * (1 + 1e-12)) + 1;
     constexpr double most = 1e7;
     if (!(frames >= 2 && frames <= most))

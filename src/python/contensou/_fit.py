@@ -28,6 +28,16 @@ class Estimate(NamedTuple):
         return bool(np.isfinite(self.standard_error))
 
 
+class RollingFrictionSeen(NamedTuple):
+    """Rolling friction that was not searched, and by which a film would be explained better by far; what the coefficient of
+    sliding friction would be then, and by how much chi^2 less."""
+
+    value: float
+    standard_error: float
+    friction: float
+    chi2_less: float
+
+
 class Combination(NamedTuple):
     """The one combination of friction and patch_radius that a film determines, in SI units."""
 
@@ -43,7 +53,8 @@ class Fit:
     """What a film says of a ball; `fit` makes one.
 
     ball:         with the fitted friction, patch radius, slip and spin
-    estimates:    of friction, patch_radius, slip, spin, and what places the film: direction, vx, vy, x, y, angle at the start
+    estimates:    of friction, patch_radius, slip, spin, and what places the film: direction, vx, vy, x, y, angle at the start;
+                  with rolling friction also rolling_friction, and rolling (m/s, R omega along the slip) for vx and vy
     names, correlation_matrix:  of those that were free
     correlation:  of friction and patch_radius
     noise:        the standard deviation of each observable, given or estimated
@@ -52,6 +63,7 @@ class Fit:
     misfits:      why this is not the motion of the film, in words; empty where it may be
     other_spins:  at the start, which explain the film as well, by other whole turns between two pictures
     only:         the one combination of friction and patch_radius that the film determines, where it does no more
+    rolling_friction_seen:  where the film shows rolling friction that the ball has not
     aic:          Akaike's criterion, to compare laws on the same film: the smaller the better
     predicted:    what the fitted motion gives, by observable
     t, observed:  the film: times, and what was seen by observable; of a planned one none
@@ -70,6 +82,7 @@ class Fit:
     misfits: list[str]
     other_spins: list[float]
     only: Optional[Combination]
+    rolling_friction_seen: Optional[RollingFrictionSeen]
     predicted: dict[str, NDArray[np.float64]]
     t: NDArray[np.float64]
     observed: dict[str, NDArray[np.float64]]
@@ -119,6 +132,11 @@ class Fit:
         return self.estimates["patch_radius"]
 
     @property
+    def rolling_friction(self) -> Estimate:
+        """Of a ball that has it, or where it was searched."""
+        return self.estimates["rolling_friction"]
+
+    @property
     def slip(self) -> Estimate:
         return self.estimates["slip"]
 
@@ -148,8 +166,8 @@ def fit(
     the angle turned about the vertical (rad, up to whole turns). NaN, and what is masked, was not measured. src/fit/README.md says how to film it.
 
     ball:    its radius and gravity; the values of what is not free; its law, where none is given
-    free:    what is to be found of friction, patch_radius, slip and spin; all of them if left out, but for the patch of a
-             body that rests on its whole face
+    free:    what is to be found of friction, patch_radius, rolling_friction, slip and spin; all of them if left out, but for
+             the patch of a body that rests on its whole face, and rolling friction of a ball that has none
     sd:      standard deviations by observable, numbers or arrays; of others they are estimated, from 10 values or more
     robust:  Huber's loss: values that are far off count for less
     """
@@ -200,8 +218,12 @@ def _report(ball: Ball, known_law: Law, found: dict[str, Any], t: NDArray[np.flo
     given = {"patch_radius": patch.value} if patch.standard_error != 0 or not on_its_face else {}
     fitted = ball.but(friction=estimates["friction"].value, slip=max(0.0, estimates["slip"].value),
                       spin=estimates["spin"].value, law=known_law, **given)
+    if "rolling_friction" in estimates:
+        fitted = fitted.but(rolling_friction=estimates["rolling_friction"].value)
     only = found.pop("only")
+    seen_rolling = found.pop("rolling_friction_seen")
     predicted = dict(zip(seen, found.pop("predicted")))
-    return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted,
-               only=only and Combination(*only), t=t,
+    return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted, t=t,
+               only=only and Combination(*only),
+               rolling_friction_seen=seen_rolling and RollingFrictionSeen(*seen_rolling),
                observed={name: values for name, values in seen.items() if values is not None}, **found)

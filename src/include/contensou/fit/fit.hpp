@@ -17,9 +17,13 @@ namespace contensou::fit {
 
 /// The numbers that a motion may be asked for, those of the contact first, which all tracks share, then those of the
 /// start of each track.
-enum class Parameter { friction, patch_radius, slip, spin, direction, vx, vy, x, y, angle };
-inline constexpr int shared_parameters = 2;
-inline constexpr int start_parameters = 8;
+///
+/// A ball with rolling friction rolls the way it slides, or does not roll at first: in place of vx and vy it has the speed
+/// at which it rolls along the slip.
+enum class Parameter { friction, patch_radius, rolling_friction, slip, spin, direction, vx, vy, x, y, angle, rolling };
+inline constexpr int contact_parameters = 2;  ///< the first, which are searched by their logarithms
+inline constexpr int shared_parameters = 3;
+inline constexpr int start_parameters = 9;
 
 /// What a parameter is called, its unit, and what it is.
 struct ParameterKind {
@@ -36,9 +40,11 @@ struct Free {
   bool patch_radius = true;
   bool slip = true;
   bool spin = true;
+  bool rolling_friction = false;
 };
 
-/// What is searched where nothing else is asked for: all, but for the patch of a body that rests on its whole face.
+/// What is searched where nothing else is asked for: all, but for the patch of a body that rests on its whole face, and
+/// rolling friction where the ball has none.
 Free usually_free(const si::Experiment& ball);
 
 /// What is fitted to which films.
@@ -104,12 +110,22 @@ struct Turns {
   std::vector<double> other_spins = {};  ///< at the start, which explain the data as well
 };
 
+/// Rolling friction that was not searched, and by which the data would be explained better by far: by one step from a fit
+/// without it.
+struct RollingFrictionSeen {
+  double value, standard_error;
+  double friction;   ///< what the coefficient of sliding friction would be then
+  double chi2_less;  ///< by how much the sum of squares would be less
+};
+
 /// What a fit has found.
 struct Fit {
   std::string law;
-  si::Experiment ball;              ///< with the fitted contact and the start of the first track
-  std::vector<Estimate> estimates;  ///< friction, patch_radius, then slip, spin and the placing ones of each track
-  Eigen::MatrixXd correlation;      ///< of those that are free, in that order
+  si::Experiment ball;  ///< with the fitted contact and the start of the first track
+  /// Friction, patch_radius, rolling_friction where the ball has it or it was searched, then slip, spin and the placing
+  /// ones of each track.
+  std::vector<Estimate> estimates;
+  Eigen::MatrixXd correlation;  ///< of those that are free, in that order
   std::vector<Noise> noise;
   Eigen::Index values = 0;  ///< measured ones
   double chi2 = 0;
@@ -123,8 +139,10 @@ struct Fit {
   /// Why this is not the motion of the data, in words; empty where it may be.
   std::vector<std::string> misfits = {};
   std::vector<Turns> turns = {};  ///< of each track
+  std::optional<RollingFrictionSeen> rolling_friction_seen = {};
 
   const Estimate& estimate(Parameter parameter, std::size_t track = 0) const;
+  bool rolls_with_friction() const;  ///< whether rolling friction is among the estimates
   std::vector<const Estimate*> free_estimates() const;
   double correlation_of_contact() const;  ///< of friction and patch radius; 0 unless both are free
   bool fits() const { return misfits.empty(); }
@@ -135,9 +153,11 @@ struct Fit {
 ///
 /// A start for the search is found from the data. Standard deviations that a series does not have are estimated from its
 /// residuals. The model is the closed orbit, to 1e-9 of its speeds. Of a body that lies flat the velocity of the centre is
-/// the slip: no velocity of its own is searched.
+/// the slip: no velocity of its own is searched. A ball with rolling friction, its own or one that is searched, rolls
+/// the way it slides, or does not roll at first.
 ///
-/// @throws std::domain_error   for a track as checked, where fewer values than 10 have no standard deviations, or
+/// @throws std::domain_error   on a slope; for rolling friction of a body that lies flat, or of a ball that begins to roll
+///                             another way than it slides; for a track as checked, where fewer values than 10 have no standard deviations, or
 ///                             where nothing is free, or where a friction or patch radius that is not searched is
 ///                             beyond what the model allows: friction 1e-4 to 10, patch radius 8.3e-7 R to R, and of a
 ///                             ball none under which the law has an invariant ray

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "contensou/reduction/friction_law.hpp"
+#include "fit/scaled_orbit.hpp"
+
+namespace contensou::fit {
+
+/// The orbit of a ball with rolling friction that slides the way it rolls, or does not roll at first.
+///
+/// While it turns about a horizontal axis it has the drive rho = u_r/f (reduction/README.md, (R53)), and the rolling
+///   W = W0 + (1 - 1/chi) (v0 - v) - rho T.
+/// Where W has come to 0 rolling resistance holds it: it slides like a puck, chi = 1, without a drive. Where slip and spin
+/// have ended it rolls on, slower and slower, and rests. Its derivatives are central differences, to 1e-7.
+class RollingOrbit final : public FilmOrbit {
+ public:
+  /// @param start    v >= 0
+  /// @param rolling  W0 >= 0, m/s
+  /// @param drive    rho >= 0
+  RollingOrbit(const reduction::Law& law, double mu, reduction::State start, double rolling, double drive,
+               reduction::Inertia inertia);
+
+  void reach(double T) override;
+  Moment at(double T, std::size_t& cell) const override;
+  Speeds speeds_at(double T, std::size_t& cell) const override;
+  Stop stop() const override;
+
+ private:
+  /// What it depends on, and how far to either side a difference goes.
+  enum { ln_mu, slip, spin, rolling, drive, numbers };
+  using Numbers = std::array<double, numbers>;
+  struct Difference {
+    std::unique_ptr<RollingOrbit> first, second;
+    double of_here, of_first, of_second;  ///< weights
+  };
+
+  RollingOrbit(reduction::Law law, const Numbers& at, reduction::Inertia inertia);
+
+  double turning(double T, double v) const;
+  void hold(double T, const Speeds& then);
+  Speeds speeds_at(double T) const;
+  const std::array<Difference, numbers>& differences() const;
+  double stop_T() const;
+
+  reduction::Law law_;
+  Numbers at_;
+  reduction::Inertia inertia_;
+  double reached_ = 0;
+  double rests_;  ///< T, if slip and spin have ended before
+  std::optional<ScaledOrbit> turns_, held_;
+  double held_from_ = 0;
+  Speeds then_{};  ///< when resistance began to hold it
+  mutable std::size_t turns_cell_ = 0, held_cell_ = 0;
+  mutable std::optional<std::array<Difference, numbers>> differences_;
+};
+
+}  // namespace contensou::fit
