@@ -104,6 +104,7 @@ py::dict dict_of(const Figure& figure) {
   return py::dict(
       py::arg("title") = text_of(figure.title), py::arg("subtitle") = text_of(figure.subtitle),
       py::arg("width_mm") = figure.size.width_mm, py::arg("height_mm") = figure.size.height_mm,
+      py::arg("letter_pt") = portraits::letter_mm(figure.size.width_mm) * figure.theme.letters * 72 / 25.4,
       py::arg("ground") = colour_of(figure.theme.ground), py::arg("ink") = colour_of(figure.theme.ink),
       py::arg("faint") = colour_of(figure.theme.faint),
       py::arg("panels") = list_of(figure.panels, [](const Panel& panel) { return dict_of(panel); }),

@@ -76,8 +76,8 @@ def test_by_matplotlib(view, panels):
         assert len(place.texts) == len(panel["labels"])
         heads = [way for layer in panel["arrows"] for way in layer["arrows"][1::2] if way.any()]
         assert sum(type(each).__name__ == "FancyArrowPatch" for each in place.patches) == len(heads)
-    texts = [text for place in axes for text in place.get_legend_handles_labels()[1]]
-    assert len(texts) == len(set(texts)) > 0
+    texts = {text for place in axes for text in place.get_legend_handles_labels()[1]}
+    assert sorted(text.get_text() for text in pyplot.gcf().legends[0].get_texts()) == sorted(texts) != []
     pyplot.close("all")
 
 
@@ -226,12 +226,17 @@ def test_font_and_dpi_are_of_files():
     assert "_core" not in str(caught.value) and "incompatible" not in str(caught.value)
 
 
-def test_the_colour_bar_stands_beside_axes_of_ones_own_and_legends_off_the_orbits():
+@pytest.mark.parametrize("own", [True, False])
+def test_colour_bar_and_legend_stand_beside_the_axes_and_on_the_page(own):
     from matplotlib import pyplot
 
-    page, ax = pyplot.subplots()
-    ct.portrait(mu=0.3).plot(ax)
-    assert len(page.axes) == 2
+    page, ax = pyplot.subplots() if own else (None, None)
+    ax = ct.portrait(mu=0.3, through=[(0.5, 0.5)], size="single").plot(ax)
+    page = ax.get_figure()
     page.canvas.draw()
-    legend = ax.get_legend().get_window_extent()
-    assert legend.y1 < ax.get_window_extent().y0
+    bar, = (each for each in page.axes if each is not ax)
+    legend = (ax.get_legend() if own else page.legends[0]).get_window_extent()
+    assert bar.get_window_extent().x0 > ax.get_window_extent().x1
+    assert page.bbox.y0 <= legend.y0 and legend.y1 <= ax.xaxis.label.get_window_extent().y0
+    assert page.bbox.x0 <= legend.x0 and legend.x1 <= page.bbox.x1
+    assert ax.yaxis.label.get_fontsize() == pytest.approx(10 if own else 6.65, abs=0.05)

@@ -111,35 +111,38 @@ class Portrait:
         return self._core.figure()
 
     def plot(self, ax: Any = None) -> Any:
-        """The figure by matplotlib, into `ax`, axes or as many of them as it has panels; into a new figure without. The scale
-        of colours stands beside them, legends below. Gives the axes, or an array of them where there are several panels."""
-        from matplotlib import pyplot
+        """The figure by matplotlib, into `ax`, axes or as many of them as it has panels, with letters of the size set there;
+        into a new figure without. The scale of colours stands beside them, the legend below. Gives the axes, or an array of
+        them where there are several panels."""
+        from matplotlib import pyplot, rcParams, rc_context
+
+        figure = self.figure
+        count = len(figure["panels"])
+        if ax is not None:
+            places = np.ravel(ax)
+            if len(places) != count:
+                raise ValueError(f"ax: {count} axes are needed, got {len(places)}")
+            self._fill(figure, places, rcParams["font.size"], None)
+            return ax
+        # As the library: side by side where each has 50 mm, in rows of one length.
+        columns = next(each for each in range(count, 0, -1) if each == 1 or (count % each == 0 and figure["width_mm"] >= 50 * each))
+        with rc_context({"font.size": figure["letter_pt"]}):
+            page, ax = pyplot.subplots(
+                count // columns, columns, figsize=(figure["width_mm"] / 25.4, figure["height_mm"] / 25.4),
+                facecolor=figure["ground"], layout="constrained")
+            page.suptitle(_mathtext(figure["title"]), color=figure["ink"])
+            self._fill(figure, np.ravel(ax), figure["letter_pt"], page)
+        return ax
+
+    def _fill(self, figure: dict[str, Any], places: Any, letter: float, page: Any) -> None:
+        """Draws the panels, with lines, marks and heads in proportion to letters of that many points.
+
+        page: the figure, if it is all the portrait's own"""
         from matplotlib.cm import ScalarMappable
         from matplotlib.collections import LineCollection
         from matplotlib.colors import ListedColormap
 
-        figure = self.figure
-        panels = figure["panels"]
-        if ax is None:
-            size = figure["width_mm"] / 25.4, figure["height_mm"] / 25.4
-            # As the library: side by side where each has 50 mm, in rows of one length.
-            count = len(panels)
-            columns = next(each for each in range(count, 0, -1) if each == 1 or (count % each == 0 and figure["width_mm"] >= 50 * each))
-            page, ax = pyplot.subplots(count // columns, columns, figsize=size, facecolor=figure["ground"], layout="constrained")
-            page.suptitle(_mathtext(figure["title"]), color=figure["ink"])
-        places = np.ravel(ax)
-        if len(places) != len(panels):
-            raise ValueError(f"ax: {len(panels)} axes are needed, got {len(places)}")
-        if bar := figure["colour_bar"]:
-            page = places[0].get_figure()
-            scale = page.colorbar(ScalarMappable(cmap=ListedColormap(bar["colours"])), ax=list(places), label=_mathtext(bar["name"]))
-            scale.set_ticks([at for at, _ in bar["ticks"]], labels=[_mathtext(text) for _, text in bar["ticks"]])
-        listed: set[_Text] = set()  # each text once, as in the library's own legend
-        for panel, place in zip(panels, places):
-            for layer in panel["lines"] + panel["marks"]:
-                text = layer["legend"]
-                layer["legend"] = None if text in listed else _mathtext(text) or None
-                listed.add(text)
+        for panel, place in zip(figure["panels"], places):
             place.set(title=_mathtext(panel["title"]), facecolor=figure["ground"])
             if panel["bare"]:
                 place.set_axis_off()
@@ -156,24 +159,58 @@ class Portrait:
             for layer in panel["lines"]:
                 style = "-." if layer["dashed"] and layer["dotted"] else "--" if layer["dashed"] else ":" if layer["dotted"] else "-"
                 place.add_collection(LineCollection(
-                    layer["lines"], colors=layer["colour"], linewidths=layer["width"], linestyles=style,
-                    label=layer["legend"]), autolim=False)
+                    layer["lines"], colors=layer["colour"], linewidths=0.074 * letter * layer["width"], linestyles=style,
+                    label=_mathtext(layer["legend"]) or None), autolim=False)
             for layer in panel["arrows"]:
-                self._arrows(place, panel, layer)
+                self._arrows(place, panel, layer, letter)
             for layer in panel["marks"]:
                 shape = {"dot": "o", "circle": "o", "square": "s"}[layer["shape"]]
                 inside = layer["colour"] if layer["shape"] == "dot" else figure["ground"]
                 place.plot(*layer["points"].T, shape, color=layer["colour"], markerfacecolor=inside, clip_on=False,
-                           markersize=6 * layer["size"], label=layer["legend"])
+                           markersize=0.5 * letter * layer["size"], label=_mathtext(layer["legend"]) or None)
             for label in panel["labels"]:
                 place.text(label["x"], label["y"], _mathtext(label["text"]), color=label["colour"], ha=label["align"],
-                           va="center", fontsize="small", bbox={"facecolor": figure["ground"], "lw": 0, "pad": 0.5})
-            if place.get_legend_handles_labels()[1]:
-                place.legend(fontsize="small", loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, frameon=False)
-        return ax
+                           va="center", fontsize=0.85 * letter, bbox={"facecolor": figure["ground"], "lw": 0, "pad": 0.5})
+        self._legend(places, letter, page)
+        if bar := figure["colour_bar"]:
+            scale = places[0].get_figure().colorbar(
+                ScalarMappable(cmap=ListedColormap(bar["colours"])), ax=list(places), label=_mathtext(bar["name"]),
+                use_gridspec=page is not None)
+            scale.set_ticks([at for at, _ in bar["ticks"]], labels=[_mathtext(text) for _, text in bar["ticks"]])
 
     @staticmethod
-    def _arrows(place: Any, panel: dict[str, Any], layer: dict[str, Any]) -> None:
+    def _legend(places: Any, letter: float, page: Any) -> None:
+        """Each text once, below the page, or below axes of one's own, which give room for it where no layout does."""
+        from matplotlib.transforms import ScaledTranslation
+
+        entries: dict[str, dict[type, Any]] = {}  # of each text a line, a mark, or both
+        for place in places:
+            for handle, text in zip(*place.get_legend_handles_labels()):
+                entries.setdefault(text, {}).setdefault(type(handle), handle)
+        if not entries:
+            return
+        first = places[0].get_figure()
+        width = 72 / first.dpi * (first if page is not None else places[0]).get_window_extent().width
+        longest = max(len(text.replace("\\mathrm", "")) for text in entries)
+        columns = int(np.clip(width / (letter * (0.55 * longest + 3.5)), 1, len(entries)))
+        look = {"handles": [tuple(handles.values()) for handles in entries.values()], "labels": list(entries), "ncols": columns,
+                "fontsize": 0.85 * letter, "frameon": False}
+        rows = -(-len(entries) // columns)
+        height = (1.6 * rows + 0.5) * letter / 72 / first.get_figheight()
+        if page is not None:
+            page.get_layout_engine().set(rect=(0, height, 1, 1 - height))
+            page.legend(loc="lower center", **look)
+            return
+        if first.get_layout_engine() is None:
+            for place in places:
+                box = place.get_position()
+                place.set_position([box.x0, box.y0 + height, box.width, box.height - height])
+        below = ScaledTranslation(0, -3.4 * letter / 72, first.dpi_scale_trans)
+        places[0].legend(loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=places[0].transAxes + below,
+                         borderpad=0, **look)
+
+    @staticmethod
+    def _arrows(place: Any, panel: dict[str, Any], layer: dict[str, Any], letter: float) -> None:
         """Heads of one size, each at the end of a way of a thousandth of the axes, whatever size these will have."""
         from matplotlib.patches import FancyArrowPatch
 
@@ -182,8 +219,8 @@ class Portrait:
         at, way = at[direction.any(axis=1)], direction[direction.any(axis=1)] / span
         way *= 1e-3 * span / np.abs(way).max(axis=1, keepdims=True)
         for head, tail in zip(at, at - way):
-            place.add_patch(FancyArrowPatch(tail, head, arrowstyle="-|>", mutation_scale=9, shrinkA=0, shrinkB=0,
-                                            color=layer["colour"], linewidth=0.5))
+            place.add_patch(FancyArrowPatch(tail, head, arrowstyle="-|>,head_length=0.74,head_width=0.24", mutation_scale=letter,
+                                            shrinkA=0, shrinkB=0, color=layer["colour"], linewidth=0.5, clip_on=False))
 
 
 def start_of(asked: dict[str, Any]) -> Optional[tuple[float, float]]:
