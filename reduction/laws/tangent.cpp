@@ -39,4 +39,8 @@ std::function<Tangent(Slip)> tangent_of(const Law& law) {
   return [law](Slip slip) { return by_differences(law, slip); };
 }
 
+double tangent_error(const Law& law) {
+  return law.as<HertzLaw>() != nullptr || law.as<EllipticLaw>() != nullptr ? 0 : 1e-9;
+}
+
 }  // namespace contensou::reduction

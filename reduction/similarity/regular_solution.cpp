@@ -120,8 +120,9 @@ double lowest_ln_k(const Law& law, double r, double drive) {
 bool reaches_rest(const TerminalChart& chart, double drive) { return drive > 0 && chart.log_far_ratio() == -infinity; }
 
 RegularSolution::RegularSolution(const std::function<Terms(double)>& equation, double direction,
-                                 const std::vector<double>& edges, double size, std::optional<double> start)
-    : direction_(direction), size_(size), begin_(edges.front()) {
+                                 const std::vector<double>& edges, double size, std::optional<double> start,
+                                 double noise)
+    : direction_(direction), size_(size), tolerance_(std::max(panel_tolerance, noise)), begin_(edges.front()) {
   const Terms at_begin = equation(std::exp(direction_ * begin_));
   first_ = last_ = start ? *start : at_begin.source / at_begin.rate;
   for (std::size_t i = 1; i < edges.size(); ++i) march(equation, edges[i - 1], edges[i], 0);
@@ -147,7 +148,7 @@ void RegularSolution::march(const std::function<Terms(double)>& equation, double
       std::max({LegendreSeries::tail(difference), LegendreSeries::tail(rate), LegendreSeries::tail(source) / y_size}) /
       largest;
   const double left_out = std::max(of_terms, y.tail() / y_size) * std::min(right - left, 1.0);
-  if (left_out > panel_tolerance && depth < max_depth && panels_.size() < max_panels) {
+  if (left_out > tolerance_ && depth < max_depth && panels_.size() < max_panels) {
     march(equation, left, left + half, depth + 1);
     march(equation, left + half, right, depth + 1);
     return;
@@ -195,7 +196,7 @@ RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& 
     const double moment_falls = moment_slope / resistance.moment;
     return {larger * difference, force_slope + force * moment_falls, moment_falls};
   };
-  return {equation, sign_of(chart), edges_of(law, r, chart, drive), 1};
+  return {equation, sign_of(chart), edges_of(law, r, chart, drive), 1, {}, tangent_error(law)};
 }
 
 RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart& chart, double drive, double k,
@@ -213,7 +214,9 @@ RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart&
   std::vector<double> edges = edges_of(law, r, chart, drive);
   std::erase_if(edges, [&](double edge) { return sign * edge <= std::log(k); });
   edges.insert(sign > 0 ? edges.begin() : edges.end(), sign * std::log(k));
-  return {equation, sign, edges, 0, start};
+  // It falls like 1/k, which the noise of differences does not.
+  const double noise = tangent_error(law);
+  return {equation, sign, edges, noise > 0 ? 1.0 : 0.0, start, noise};
 }
 
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive) {

@@ -42,8 +42,9 @@ class RegularSolution {
   /// @param size       errors of g count relative to it, and so do those of a smaller y: a law may have 1 - Psi/Psi(0)
   ///                   and 1 - Phi to eps of 1 only, and no time or slip feels more
   /// @param start      y at the first edge, where D does not vanish there
+  /// @param noise      of the terms, relative: nothing smaller is looked for in them
   RegularSolution(const std::function<Terms(double k)>& equation, double direction, const std::vector<double>& edges,
-                  double size, std::optional<double> start = {});
+                  double size, std::optional<double> start = {}, double noise = 0);
 
   /// y; beyond the edges, its value there.
   double operator()(double ln_k) const;
@@ -69,6 +70,7 @@ class RegularSolution {
 
   double direction_;
   double size_;
+  double tolerance_;  ///< of a panel
   double begin_;
   double first_;  ///< y at the first edge
   double last_;   ///< y at the end of the last panel

@@ -32,4 +32,7 @@ Tangent tangent(const EllipticLaw& law, Slip slip);
 /// law is smooth, and finite at its kinks. Calls do not allocate if those of the law do not, and throw as the law.
 std::function<Tangent(Slip)> tangent_of(const Law& law);
 
+/// How far the slopes of tangent_of may be off: 0 for rounding alone, or what differences leave.
+double tangent_error(const Law& law);
+
 }  // namespace contensou::reduction
