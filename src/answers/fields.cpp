@@ -65,6 +65,9 @@ std::vector<VerbFields> field_table() {
             "kept: for rolling; `lost_rolling` with --rolling-friction; `gained_on_slope` with --slope; where it rolls "
             "down "
             "for ever, until slip and spin end"},
+           {"`uncertainty` {`rolls_after` {`t` {`standard`, `quantiles` [...], `shares`, ...}, ...}, ...}",
+            "as the event",
+            "with --uncertainty: of each number of an event as of stop; `t_stop`, `samples`, `outside`"},
            {"`textbook`", "", "the same events, by the same threshold, where slip and spin do not know of each other"},
        }},
       {"roll --batch",

@@ -238,17 +238,9 @@ constexpr Field<StopReport> fields[]{
      "samples; first_order_holds: whether the two agree; outside: the share of samples that no ball can be",
      [](const StopReport& r) -> Json {
        if (!r.uncertainty) return {};
-       Json quantiles = Json::array(), shares = Json::object();
-       for (std::size_t i = 0; i < r.uncertainty->quantiles.size(); ++i) {
-         quantiles.push_back({{"probability", Uncertainty::probabilities[i]}, {"value", r.uncertainty->quantiles[i]}});
-       }
-       for (const auto& [name, share] : r.uncertainty->shares) shares[name] = share;
-       return {{"standard", r.uncertainty->standard},
-               {"quantiles", quantiles},
-               {"shares", shares},
-               {"samples", r.uncertainty->samples},
-               {"outside", r.uncertainty->outside},
-               {"first_order_holds", r.uncertainty->holds}};
+       Json members = members_of(static_cast<const KnownTo&>(*r.uncertainty));
+       members.update({{"samples", r.uncertainty->samples}, {"outside", r.uncertainty->outside}});
+       return members;
      },
      "", 0, " {`standard`, `quantiles` [...], `shares`, `samples`, ...}"},
     {"ball", "m; kg; 1; m/s^2; m", "its values; and, as in run files, what its patch follows from",
@@ -435,7 +427,9 @@ class Text {
 
   std::string uncertainty() const {
     if (!report_.uncertainty) return "";
-    const auto& [standard, shares, quantiles, samples, outside, holds] = *report_.uncertainty;
+    const auto& [standard, shares, quantiles, holds] = static_cast<const KnownTo&>(*report_.uncertainty);
+    const long samples = report_.uncertainty->samples;
+    const double outside = report_.uncertainty->outside;
     const char* const unit = report_.start.experiment ? " s" : "";
     std::string text = fmt::format("known to +-{}{}, one standard deviation, to first order", number_(standard), unit);
     if (shares.size() > 1) {

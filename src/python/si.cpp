@@ -18,6 +18,7 @@
 #include "answers/aim_answer.hpp"
 #include "answers/engine_answer.hpp"
 #include "answers/formula_law.hpp"
+#include "answers/roll_uncertainty.hpp"
 #include "contensou/portraits/json.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
@@ -329,6 +330,13 @@ void bind_si(py::module_& module) {
       [](const si::Experiment& experiment, const Law& law, std::optional<double> distance, std::optional<double> turns,
          std::optional<double> time) {
         return portraits::json_document(answers::aim_answer(experiment, law, {distance, turns, time}).members);
+      },
+      Released());
+  module.def(
+      "roll_uncertainty",
+      [](const si::Experiment& experiment, const Law& law, double rolling_below, const std::string& spreads) {
+        return portraits::json_document(
+            answers::members_of(answers::roll_uncertainty(experiment, law, rolling_below, spreads)));
       },
       Released());
   module.attr("rolling_slip") = si::rolling_slip;

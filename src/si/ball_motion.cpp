@@ -64,6 +64,12 @@ double BallMotion::path_length(double t) const {
   const Eigen::Vector2d change = velocity(v0) - last;
   const auto speed = [&](double v) { return (last + change * (v0 > 0 ? v / v0 : 0)).norm(); };
   const double slowest = change.squaredNorm() > 0 ? -last.dot(change) / change.squaredNorm() * v0 : 0;
+  constexpr double straight = 1e-12;
+  if (std::abs(last.x() * change.y() - last.y() * change.x()) <= straight * last.norm() * change.norm()) {
+    // Forth, and perhaps back from where it stands for an instant.
+    const Eigen::Vector2d there = at_time(slowest > 0 && slowest < v0 ? std::min(slip_time(slowest), t) : 0).position;
+    return there.norm() + (at_time(t).position - there).norm();
+  }
   return seconds(experiment_, orbit_.integral(speed, paper_time(t), {slowest})) +
          last.norm() * std::max(0.0, t - stop_);
 }

@@ -1,4 +1,4 @@
-// `stop --uncertainty`: against differences of the program's own stop times, and against quantiles that need no samples.
+// `stop` and `roll --uncertainty`: against differences of the program's own stop times, and against quantiles that need no samples.
 #include <cmath>
 #include <string>
 
@@ -55,13 +55,15 @@ TEST_CASE("the quantiles of one number are the stop times at its quantiles", "[c
   for (const auto& [i, z] : {std::pair{0, 1.959964}, {1, 0.994458}, {2, 0.0}, {3, -0.994458}, {4, -1.959964}}) {
     CHECK(json[static_cast<std::size_t>(i)].at("value").get<double>() == Approx(at(0.1 * (1 + 0.2 * z))).epsilon(4e-3));
   }
-  // A patch of its own in each sample: the table of stop times of any mu.
-  const auto wide = uncertainty("--ball pool --patch-radius 3mm --slip 2 --spin 30 --uncertainty patch-radius=30%");
-  CHECK(wide.at("samples").get<long>() > 990000);
-  for (const auto& [i, z] : {std::pair{1, 0.994458}, {2, 0.0}, {3, -0.994458}}) {
-    CHECK(wide.at("quantiles")[static_cast<std::size_t>(i)].at("value").get<double>() ==
-          Approx(t_stop(fmt::format("--ball pool --slip 2 --spin 30 --patch-radius {:.17g}", 3e-3 * (1 + 0.3 * z))))
-              .epsilon(4e-3));
+  // A patch of its own in each sample: the table of stop times of any mu, or solutions of some.
+  for (const std::string law : {"exact", "ring"}) {
+    const std::string start = "--ball pool --slip 2 --spin 30 --law " + law + " --patch-radius ";
+    const auto wide = uncertainty(start + "3mm --uncertainty patch-radius=30%");
+    CHECK(wide.at("samples").get<long>() > (law == "ring" ? 99000 : 990000));
+    for (const auto& [i, z] : {std::pair{1, 0.994458}, {2, 0.0}, {3, -0.994458}}) {
+      CHECK(wide.at("quantiles")[static_cast<std::size_t>(i)].at("value").get<double>() ==
+            Approx(t_stop(fmt::format("{}{:.17g}", start, 3e-3 * (1 + 0.3 * z)))).epsilon(4e-3));
+    }
   }
 }
 
@@ -95,4 +97,57 @@ TEST_CASE("what --uncertainty refuses", "[cli][errors]") {
   refused("--ball pool --rolling-friction 0.01 --uncertainty slip=1%",
           "--uncertainty is of a motion without rolling friction");
   refused("--ball pool --batch x.csv --uncertainty slip=1%", "--uncertainty is for one start");
+}
+
+TEST_CASE("roll --uncertainty: each number of an event against differences and its quantiles", "[cli]") {
+  const auto roll = [](const std::string& options) {
+    return json_of("roll --format json --samples 2 --ball gel " + options);
+  };
+  const auto start = [](double vx, double wz, double radius) {
+    return fmt::format("--radius {:.17g} --velocity {:.17g},0.2 --angular-velocity 3,-5,{:.17g}", radius, vx, wz);
+  };
+  constexpr double vx = 0.5, wz = 80, radius = 0.03, step = 1e-3, more = 1 + step, less = 1 - step;
+  const auto known = roll(start(vx, wz, radius) + " --uncertainty vx=2%,wz=3rad/s,radius=4%").at("uncertainty");
+  struct Varied {
+    std::string name;
+    double relative;
+    nlohmann::json above, below;
+  };
+  for (const Varied& varied :
+       {Varied{"vx", 0.02, roll(start(vx * more, wz, radius)), roll(start(vx * less, wz, radius))},
+        Varied{"wz", 3 / wz, roll(start(vx, wz * more, radius)), roll(start(vx, wz * less, radius))},
+        Varied{"radius", 0.04, roll(start(vx, wz, radius * more)), roll(start(vx, wz, radius * less))}}) {
+    for (const std::string part : {"/rolls_after/t", "/rolls_after/y", "/spin_ends/x", "/turns", "/path", "/t_stop"}) {
+      const nlohmann::json::json_pointer number(part);
+      const double slope = (varied.above.at(number).get<double>() - varied.below.at(number).get<double>()) / (2 * step);
+      INFO(part << ' ' << varied.name);
+      CHECK(known.at(number).at("shares").at(varied.name).get<double>() ==
+            Approx(slope * varied.relative).epsilon(1e-4).margin(1e-9));
+    }
+  }
+  // Of one number, with a mu of its own for each of its values.
+  const auto path = roll(start(vx, wz, radius) + " --uncertainty radius=20%").at("uncertainty").at("path");
+  CHECK(path.at("first_order_holds") == false);
+  for (const auto& [i, z] : {std::pair{1, -0.994458}, {2, 0.0}, {3, 0.994458}}) {
+    const double there = roll(start(vx, wz, radius * (1 + 0.2 * z))).at("path");
+    const bool falls = path.at("shares").at("radius").get<double>() < 0;
+    const double quantile = path.at("quantiles")[static_cast<std::size_t>(falls ? 4 - i : i)].at("value");
+    CHECK(std::abs(quantile - there) < 0.05 * path.at("standard").get<double>());
+  }
+  CHECK_THAT(run_program("roll --ball puck --uncertainty friction=20% --format text").out,
+             Contains("rest t") && Contains("+-") && Contains("*"));
+}
+
+TEST_CASE("what roll --uncertainty refuses", "[cli][errors]") {
+  const auto refused = [](const std::string& options, const std::string& words) {
+    check_rejected("roll --ball pool " + options, words);
+  };
+  refused("--uncertainty vx=1%",
+          "no such number 'vx'; numbers of this start: mass, radius, friction, spin_deceleration, ");
+  refused("--velocity 1,0 --angular-velocity 0,0,9 --uncertainty vy=1%", "vy is 0, of which there is no %");
+  refused("--velocity 1,0 --angular-velocity 0,0,0 --uncertainty wz=1", "wz is 0, where the events have a corner");
+  refused("--slope 1 --uncertainty slip=1%", "without rolling friction and without a slope");
+  refused("--slip 0 --spin 0 --uncertainty friction=1%", "this is rest");
+  refused("--batch x.csv --uncertainty slip=1%", "leave out --uncertainty");
+  refused("--uncertainty slip=1% -o x.svg", "leave it out of a picture");
 }

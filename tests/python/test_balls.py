@@ -435,3 +435,21 @@ def test_a_roll_is_drawn():
     assert len(way.lines) == 4 and way.get_aspect() == 1 and len(speeds.lines) == 6
     ours, theirs = (line.get_ydata() for line in (speeds.lines[0], speeds.lines[3]))
     assert ours[0] == theirs[0] and ours[-1] < 1e-3
+
+
+def test_what_events_are_known_to():
+    roll = ct.Ball.pool().roll(slip=2, spin=30)
+    known = roll.uncertainty(slip="2%", friction=0.01)
+    step = 1e-4
+    more, less = (ct.Ball.pool().roll(slip=2 * by, spin=30) for by in (1 + step, 1 - step))
+    for name, event in (("t", 0), ("x", 1)):
+        slope = (more.rolls_after[event] - less.rolls_after[event]) / (2 * step)
+        assert known["rolls_after"][name]["shares"]["slip"] == pytest.approx(0.02 * slope, rel=1e-4)
+    assert known["path"]["standard"] == pytest.approx(np.hypot(*known["path"]["shares"].values()))
+    assert [each["probability"] for each in known["t_stop"]["quantiles"]] == [0.025, 0.16, 0.5, 0.84, 0.975]
+    with pytest.raises(ValueError, match="no such number 'slp'"):
+        roll.uncertainty(slp=0.1)
+    with pytest.raises(ValueError, match="without rolling friction"):
+        ct.Ball.pool().roll(slip=2, spin=30, rolling_friction=0.01).uncertainty(slip=0.1)
+    with pytest.raises(ValueError, match="textbook"):
+        roll.uncoupled.uncertainty(slip=0.1)

@@ -32,7 +32,7 @@ TEST_CASE("the bowling ball of the textbook", "[table]") {
     CHECK(stop.velocity.x() == Approx(5.786).margin(5e-4));
     CHECK(stop.position.x() == Approx(8.63).margin(5e-3));
     CHECK(stop.position.x() == Approx(12 * 8.1 * 8.1 / (49 * 0.19 * 9.8)).epsilon(1e-14));
-    CHECK(motion.path_length(motion.stop_time()) == Approx(stop.position.x()).epsilon(1e-9));
+    CHECK(motion.path_length(motion.stop_time()) == Approx(stop.position.x()).epsilon(1e-15));
     CHECK(motion.slip_length() == Approx(8.1 * 8.1 / (7 * 0.19 * 9.8)).epsilon(1e-13));
     CHECK(motion.spin_angle() == 0);
     CHECK(motion.slip_time(0.25 * 8.1) == Approx(0.75 * motion.stop_time()).epsilon(1e-12));

@@ -10,6 +10,7 @@
 #include "answers/ball_answer.hpp"
 #include "answers/law_forms.hpp"
 #include "answers/load_table.hpp"
+#include "answers/roll_uncertainty.hpp"
 #include "contensou/portraits/roll_figure.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/ball_motion.hpp"
@@ -217,7 +218,7 @@ portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionCol
 
 /// Columns of the motion, and its events.
 /// @param times  s
-Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
+Answer table_of(const Roll& roll, const Eigen::ArrayXd& times, const std::optional<RollUncertainty>& uncertainty) {
   const auto [velocity, angular_velocity] = si::velocities_of(roll.experiment.start);
   const auto [start, loss, kept, rolling, gained] = energy_balance(roll);
   const si::MotionColumns motion = roll.at_times(times);
@@ -250,6 +251,7 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
   if (roll.whole.resisted) members["energy_balance"]["lost_rolling"] = rolling;
   if (roll.experiment.environment.slope != 0) members["energy_balance"]["gained_on_slope"] = gained;
   members["textbook"] = members_of(events_of(roll.textbook), roll.lies_flat());
+  if (uncertainty) members["uncertainty"] = members_of(*uncertainty);
   return {.members = members,
           .columns = {{"t", motion.t},
                       {"x", motion.x},
@@ -266,12 +268,13 @@ Answer table_of(const Roll& roll, const Eigen::ArrayXd& times) {
 
 /// The motion on one screen: where and when the ball ceases to slip, how it rolls on, what friction took, and the
 /// textbook's answer beside it. For the route integrated, how close its stop is.
-std::string report_on(const Roll& roll, const Digits& digits) {
+std::string report_on(const Roll& roll, const Digits& digits, const std::optional<RollUncertainty>& uncertainty) {
   const std::string text = heading(roll.experiment, roll.law, digits) +
                            (roll.load ? fmt::format("the load changes: {} N is its first, {} N its last\n",
                                                     digits(roll.load->nominal()), digits(roll.load->loads().back()))
                                       : "") +
-                           "\n" + table(roll, digits) + "\n" + ending(roll, digits);
+                           "\n" + table(roll, digits) + "\n" +
+                           (uncertainty ? text_of(*uncertainty, digits) + "\n" : "") + ending(roll, digits);
   if (roll.in_steps) {
     const auto rest = rest_of(*roll.in_steps);
     return text + fmt::format("route integrated: {}slip and spin end after {} s\n",
@@ -362,6 +365,9 @@ class RollCommand final : public Verb {
             "which at 0 rolls after 2 v/(7 f g) if homogeneous",
             si::rolling_slip),
         [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
+    uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
+                     "standard deviations of numbers of the ball and its start, such as slip=1%,friction=5%, or of "
+                     "vx, vy, wx, wy, wz: what the events are known to");
     CLI::Option* at = instants_.add(app, "t", "s", "");
     until_.add(app, "--until", "TIME", "the last of them, in seconds (default: a little past the stop)", parse_end)
         ->excludes(at);
@@ -389,7 +395,9 @@ class RollCommand final : public Verb {
     const double last = at != nullptr && at->values.size() > 0 ? at->values.maxCoeff() : until_.value_or(0);
     si::require_finite_motion(roll.experiment, roll.stop_time(), last);
     const double end = until_.value_or(roll.standard_end());
+    const auto uncertainty = read_uncertainty(roll);
     if (output.picture()) {
+      if (uncertainty) throw BadInput("--uncertainty is of numbers: leave it out of a picture");
       const bool moves = output.picture() == portraits::PictureFormat::gif;
       if (instants_.at() != nullptr || instants_.equidistant() || (instants_.asked() && !moves)) {
         throw BadInput("a picture needs no --at, --samples or --equidistant, a film --samples alone: leave them out");
@@ -413,16 +421,27 @@ class RollCommand final : public Verb {
       for (portraits::Figure& figure : figures) figure = figure_.apply(std::move(figure), output.format);
       output.write(figures);
     } else if (output.format == "text" && !instants_.given() && !until_.given()) {
-      output.write(report_on(roll, output.digits));
+      output.write(report_on(roll, output.digits, uncertainty));
     } else {
-      output.write(table_of(roll, instants_.between(roll.whole.rolls, end)));
+      output.write(table_of(roll, instants_.between(roll.whole.rolls, end), uncertainty));
     }
     return ExitStatus::done;
   }
 
  private:
+  std::optional<RollUncertainty> read_uncertainty(const Roll& roll) const {
+    if (!uncertainty_.given()) return std::nullopt;
+    if (roll.load) uncertainty_.reject("it is of a constant load: give --load a number");
+    try {
+      return roll_uncertainty(roll.experiment, roll.law, roll.rolling_below, uncertainty_.text());
+    } catch (const BadInput& error) {
+      uncertainty_.reject(error.what());
+    }
+  }
+
   ExitStatus run_many() const {
-    const std::string others = names_given({&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_});
+    const std::string others =
+        names_given({&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_, &uncertainty_});
     if (!others.empty() || start_.overrides_start() || instants_.given()) {
       throw BadInput(fmt::format("--batch has the starts in the file, and gives events alone: leave out {}",
                                  !others.empty()     ? others
@@ -529,7 +548,7 @@ class RollCommand final : public Verb {
   InstantsOption instants_;
   ArgumentOf<double> until_, rolling_below_, strike_, elevation_, cue_mass_;
   ArgumentOf<Eigen::Vector2d> tip_;
-  Argument batch_;
+  Argument batch_, uncertainty_;
   bool keep_going_ = false;
   BulkOptions bulk_;
   FigureOptions figure_;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import operator
 from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache
@@ -431,6 +432,22 @@ class Roll:
     def path(self) -> float:
         """m along the path of the centre until it rolls."""
         return self._core.path
+
+    def uncertainty(self, **spreads: Union[str, float]) -> dict[str, Any]:
+        """What the events are known to, where numbers of the ball or of its start are known to a standard deviation each:
+        `roll.uncertainty(slip="1%", spin="2 rad/s", friction=0.01)`, or vx, vy, wx, wy, wz of a start by velocities.
+
+        The member uncertainty of `contensou roll --uncertainty --format json`: of each number of an event standard, to first
+        order, shares of it by name, quantiles of 10 000 samples, and first_order_holds, whether these agree.
+        Raises ValueError for what has no spread or is no spread, for rolling friction, a slope, a load that changes, and the
+        textbook's ball.
+        """
+        if self.textbook or self.load is not None:
+            raise ValueError("uncertainty is of this motion under a constant load, and not of the textbook's")
+        ball = self.ball.but(rolling_friction=self.rolling_friction)
+        typed = ",".join(f"{name}={spread if isinstance(spread, str) else repr(number(name, spread))}" for name, spread in spreads.items())
+        found: dict[str, Any] = json.loads(_core.roll_uncertainty(ball._experiment, self.law._core, self.rolling_below, typed))
+        return found
 
 
 _place = [("t", "f8"), ("x", "f8"), ("y", "f8")]
