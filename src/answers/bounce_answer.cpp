@@ -96,7 +96,7 @@ std::string text_of(const BounceReport& r, const Digits& digits) {
   const auto& [ours, slip, grip] = r.ours;
   const auto& [theirs, their_slip, their_grip] = r.textbook;
   const auto row = [&](const std::string& label, const auto& show, const si::Velocities& start) {
-    table.add({label, show(start), show(ours), show(theirs)});
+    table.add({label, show(start), show(r.ours.velocities), show(r.textbook.velocities)});
   };
   row("velocity (m/s)", [&](const si::Velocities& of) { return digits.list(of.velocity); }, {v0, w0});
   table.add({"  changed by", "", digits.list(Eigen::Vector2d(ours.velocity - v0)),

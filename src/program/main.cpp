@@ -5,6 +5,7 @@
 #include <ranges>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -28,6 +29,22 @@ std::vector<VerbEntry>& verbs() {
 
 namespace {
 
+std::string heading(Purpose purpose) {
+  switch (purpose) {
+    case Purpose::compute:
+      return "Verbs that compute";
+    case Purpose::draw:
+      return "Verbs that draw";
+    case Purpose::check:
+      return "Verbs that reduce and check";
+    case Purpose::bodies:
+      return "Verbs for real bodies";
+    case Purpose::help:
+      break;
+  }
+  return "Verbs that help";
+}
+
 std::string footer() {
   std::string text = "Examples:\n";
   for (const VerbEntry& entry : verbs()) text += fmt::format("  {}\n", entry.example);
@@ -44,12 +61,13 @@ std::string footer() {
 class Verbs {
  public:
   explicit Verbs(CLI::App& root) {
-    std::ranges::sort(verbs(), {}, &VerbEntry::name);
+    std::ranges::sort(verbs(), {}, [](const VerbEntry& entry) { return std::tie(entry.purpose, entry.name); });
     for (const VerbEntry& entry : verbs()) {
-      CLI::App* app = root.add_subcommand(entry.name, entry.summary)->allow_extras()->group("Verbs");
+      CLI::App* app = root.add_subcommand(entry.name, entry.summary)->allow_extras()->group(heading(entry.purpose));
       parts_.push_back({&entry, app, nullptr});
       names_.push_back(entry.name);
     }
+    std::ranges::sort(names_);
   }
 
   const std::vector<std::string>& names() const { return names_; }

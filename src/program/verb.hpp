@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,7 +23,11 @@ class Verb {
   virtual ExitStatus run() = 0;
 };
 
+/// What somebody wants of a verb: the help lists them by it, in this order.
+enum class Purpose : std::uint8_t { compute, draw, check, bodies, help };
+
 struct VerbEntry {
+  Purpose purpose;
   std::string name;
   std::string summary;  ///< one line of help
   std::string example;  ///< a command line that works, for the help
@@ -35,8 +40,8 @@ std::vector<VerbEntry>& verbs();
 /// Makes a verb one of them: a constant in its file.
 template <class AVerb>
 struct RegisteredVerb {
-  RegisteredVerb(std::string name, std::string summary, std::string example) {
-    verbs().push_back({std::move(name), std::move(summary), std::move(example),
+  RegisteredVerb(Purpose purpose, std::string name, std::string summary, std::string example) {
+    verbs().push_back({purpose, std::move(name), std::move(summary), std::move(example),
                        []() -> std::unique_ptr<Verb> { return std::make_unique<AVerb>(); }});
   }
 };

@@ -70,7 +70,7 @@ TEST_CASE("topics of help", "[cli]") {
   CHECK_THAT(run_program("help roll").out, Contains("slip_length") && Contains("rolling-friction"));
   CHECK_THAT(run_program("help roll").out, Contains("squirt") && Contains("by the same threshold"));
   check_rejected("help unit",
-                 "no such topic (did you mean 'units'?); topics: laws, views, units, files, theory, aim, balls");
+                 "no such topic (did you mean 'units'?); topics: laws, views, units, files, theory, aim, bounce");
   check_rejected("help stop law", "unexpected argument 'law'");
 }
 

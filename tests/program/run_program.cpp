@@ -44,7 +44,7 @@ std::vector<std::string> names_in_help(const std::string& topic) {
   std::istringstream lines(run.out);
   bool within = !topic.empty();
   for (std::string line; std::getline(lines, line);) {
-    if (topic.empty() && (line.empty() || line == "Verbs:")) within = !line.empty();
+    if (topic.empty() && (line.empty() || line.starts_with("Verbs"))) within = !line.empty();
     if (within && line.starts_with("  ") && line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
   }
   return names;

@@ -36,7 +36,8 @@ class AimCommand final : public Verb {
   OutputOptions output_{{{"a start", answer_formats("text")}}};
 };
 
-const RegisteredVerb<AimCommand> aim_verb("aim", "The start that goes so far, turns so often or lasts so long",
+const RegisteredVerb<AimCommand> aim_verb(Purpose::compute, "aim",
+                                          "The start that goes so far, turns so often or lasts so long",
                                           "contensou aim --ball puck --distance 20m --turns 3");
 
 }  // namespace

@@ -85,7 +85,7 @@ class BallsCommand final : public Verb {
   OutputOptions output_{{{"a list of balls", answer_formats("text")}, {"a run file", {"toml", "text"}}}};
 };
 
-const RegisteredVerb<BallsCommand> balls_verb("balls",
+const RegisteredVerb<BallsCommand> balls_verb(Purpose::bodies, "balls",
                                               "The built-in balls and their sources, or one of them as a run file",
                                               "contensou balls pool -o pool.toml");
 

@@ -89,7 +89,7 @@ class BounceCommand final : public Verb {
   OutputOptions output_{{{"a bounce", answer_formats("text")}}};
 };
 
-const RegisteredVerb<BounceCommand> bounce_verb("bounce",
+const RegisteredVerb<BounceCommand> bounce_verb(Purpose::compute, "bounce",
                                                 "A ball that hits the plane at a slant, spinning: how it leaves",
                                                 "contensou bounce --ball rubber --spin 200 --drop 1 --restitution 0.8");
 

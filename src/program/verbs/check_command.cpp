@@ -102,7 +102,8 @@ class CheckCommand final : public Verb {
   OutputOptions output_{{{"a table of checks", with_pictures(answer_formats("text"))}}};
 };
 
-const RegisteredVerb<CheckCommand> check_verb("check", "Every statement of the theory as a number that must be small",
+const RegisteredVerb<CheckCommand> check_verb(Purpose::check, "check",
+                                              "Every statement of the theory as a number that must be small",
                                               "contensou check --mu 0.1 --u0 1 --v0 1");
 
 }  // namespace

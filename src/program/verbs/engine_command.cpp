@@ -51,7 +51,7 @@ class EngineCommand final : public Verb {
 };
 
 const RegisteredVerb<EngineCommand> engine_verb(
-    "engine", "What to type into a physics engine for torsional friction, and what that does",
+    Purpose::bodies, "engine", "What to type into a physics engine for torsional friction, and what that does",
     "contensou engine mujoco --ball pool");
 
 }  // namespace

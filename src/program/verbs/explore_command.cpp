@@ -26,7 +26,7 @@ class ExploreCommand final : public Verb {
   OutputOptions output_{{{"a page", {"html"}, "page.html"}}};
 };
 
-const RegisteredVerb<ExploreCommand> explore_verb("explore",
+const RegisteredVerb<ExploreCommand> explore_verb(Purpose::draw, "explore",
                                                   "A page to explore the phase plane: one HTML file, for any browser",
                                                   "contensou explore -o page.html");
 

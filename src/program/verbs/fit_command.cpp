@@ -252,7 +252,8 @@ class FitCommand final : public Verb {
       {{"a fit", with_pictures(answer_formats("text"), {"toml"})}, {"a plan", answer_formats("text")}}};
 };
 
-const RegisteredVerb<FitCommand> fit_verb("fit", "Friction and patch radius of a ball, from a film of it",
+const RegisteredVerb<FitCommand> fit_verb(Purpose::bodies, "fit",
+                                          "Friction and patch radius of a ball, from a film of it",
                                           "contensou fit --plan --ball pool --fps 240 --noise slip=0.01,spin=1");
 
 }  // namespace

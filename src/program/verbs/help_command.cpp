@@ -144,7 +144,7 @@ class HelpCommand final : public Verb {
   ArgumentOf<bool> format_;
 };
 
-const RegisteredVerb<HelpCommand> help_verb("help", "What an option takes, or the options of a verb",
+const RegisteredVerb<HelpCommand> help_verb(Purpose::help, "help", "What an option takes, or the options of a verb",
                                             "contensou help units");
 
 }  // namespace

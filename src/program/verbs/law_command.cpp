@@ -85,7 +85,7 @@ class LawCommand final : public Verb {
   OutputOptions output_{{{"a law", with_pictures(answer_formats("csv"))}}};
 };
 
-const RegisteredVerb<LawCommand> law_verb("law",
+const RegisteredVerb<LawCommand> law_verb(Purpose::draw, "law",
                                           "Friction force and moment against k: k,phi,psi, or the paper's Fig. 2",
                                           "contensou law --law exact --k 0,0.5,1,2,inf");
 

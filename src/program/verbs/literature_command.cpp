@@ -79,7 +79,8 @@ class LiteratureCommand final : public Verb {
   OutputOptions output_{{{"a table of published numbers", answer_formats("text")}}};
 };
 
-const RegisteredVerb<LiteratureCommand> literature_verb("literature", "Numbers that others published, beside ours",
+const RegisteredVerb<LiteratureCommand> literature_verb(Purpose::check, "literature",
+                                                        "Numbers that others published, beside ours",
                                                         "contensou literature");
 
 }  // namespace

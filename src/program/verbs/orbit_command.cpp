@@ -179,7 +179,7 @@ class OrbitCommand final : public Verb {
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};
 };
 
-const RegisteredVerb<OrbitCommand> orbit_verb("orbit",
+const RegisteredVerb<OrbitCommand> orbit_verb(Purpose::compute, "orbit",
                                               "The state along the motion: tau,u,v,ln_v,k,beta (and t for a ball)",
                                               "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50");
 

@@ -187,7 +187,7 @@ class PaperCommand final : public Verb {
   OutputOptions output_{{{"a table of statements", answer_formats("text")}}};
 };
 
-const RegisteredVerb<PaperCommand> paper_verb("paper",
+const RegisteredVerb<PaperCommand> paper_verb(Purpose::check, "paper",
                                               "Every equation and claim of the paper recomputed; its four figures",
                                               "contensou paper --out figures");
 

@@ -329,7 +329,7 @@ class PortraitCommand final : public Verb {
 };
 
 const RegisteredVerb<PortraitCommand> portrait_verb(
-    "portrait", "A phase portrait: orbits, isochrones of the stop time, invariant axes",
+    Purpose::draw, "portrait", "A phase portrait: orbits, isochrones of the stop time, invariant axes",
     "contensou portrait --mu 0.3 -o portrait.svg");
 
 }  // namespace

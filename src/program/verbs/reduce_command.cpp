@@ -59,7 +59,8 @@ class ReduceCommand final : public Verb {
   OutputOptions output_{{{"a reduction", with_pictures(answer_formats("text"))}}};
 };
 
-const RegisteredVerb<ReduceCommand> reduce_verb("reduce", "The symmetry of a planar system found, its motion solved",
+const RegisteredVerb<ReduceCommand> reduce_verb(Purpose::check, "reduce",
+                                                "The symmetry of a planar system found, its motion solved",
                                                 "contensou reduce --mu 0.3 --u0 1 --v0 1");
 
 }  // namespace

@@ -555,7 +555,7 @@ class RollCommand final : public Verb {
   OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};
 };
 
-const RegisteredVerb<RollCommand> roll_verb("roll",
+const RegisteredVerb<RollCommand> roll_verb(Purpose::compute, "roll",
                                             "The whole motion of a ball or a puck: t,x,y,vx,vy,wx,wy,wz,slip,energy",
                                             "contensou roll --ball gel --slip 0.5 --spin 300 --format text");
 

@@ -150,7 +150,8 @@ class StopCommand final : public Verb {
   OutputOptions output_{{{"a stop time", answer_formats("text")}, {"a table of stop times", {"csv"}}}};
 };
 
-const RegisteredVerb<StopCommand> stop_verb("stop", "When the ball stops sliding and spinning, and how it rolls then",
+const RegisteredVerb<StopCommand> stop_verb(Purpose::compute, "stop",
+                                            "When the ball stops sliding and spinning, and how it rolls then",
                                             "contensou stop --ball pool --slip 2");
 
 }  // namespace

@@ -404,7 +404,7 @@ class SweepCommand final : public Verb {
   OutputOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};
 };
 
-const RegisteredVerb<SweepCommand> sweep_verb("sweep",
+const RegisteredVerb<SweepCommand> sweep_verb(Purpose::compute, "sweep",
                                               "A map of stop times over starts, of any size: numbers or a picture",
                                               "contensou sweep --mu 0.1 --u0 0:2:201 --v0 0:2:201 -o map.npy");
 

@@ -48,7 +48,7 @@ class TerminalCommand final : public Verb {
 };
 
 const RegisteredVerb<TerminalCommand> terminal_verb(
-    "terminal", "What k = v/(mu |u|) tends to at the stop: 0, an invariant ray, infinity",
+    Purpose::compute, "terminal", "What k = v/(mu |u|) tends to at the stop: 0, an invariant ray, infinity",
     "contensou terminal --law uniform --body disc");
 
 }  // namespace
