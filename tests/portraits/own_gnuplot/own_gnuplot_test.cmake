@@ -1,0 +1,17 @@
+# The example of portraits/README.md is own_gnuplot.cpp, which draws a picture:
+#   cmake -D PROGRAM=own_gnuplot -D README=portraits/README.md -D WORK=FOLDER -P own_gnuplot_test.cmake
+cmake_minimum_required(VERSION 3.25)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/own_gnuplot.cpp code)
+file(READ ${README} readme)
+string(FIND "${readme}" "```cpp\n${code}```\n" shown)
+if(shown EQUAL -1)
+  message(FATAL_ERROR "${README} does not show ${CMAKE_CURRENT_LIST_DIR}/own_gnuplot.cpp as it is")
+endif()
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+execute_process(COMMAND ${PROGRAM} WORKING_DIRECTORY ${WORK} COMMAND_ERROR_IS_FATAL ANY)
+file(SIZE ${WORK}/own.png size)
+file(READ ${WORK}/own.png magic LIMIT 8 HEX)
+if(size LESS 20000 OR NOT magic STREQUAL "89504e470d0a1a0a")
+  message(FATAL_ERROR "own.png has ${size} bytes and begins with ${magic}: no picture")
+endif()
