@@ -140,29 +140,68 @@ class Writer {
         axis.logarithmic ? fmt::format("{}mode=log,", which) : "", fmt::join(places, ","), fmt::join(texts, ","));
   }
 
-  /// pgfplots draws the axes; what is in them is placed here, in millimetres, which is faster by far.
+  /// Coordinates along an axis: those of its data (of a logarithmic one their powers of ten), in a unit that TeX's fixed
+  /// point holds.
+  struct Coordinates {
+    Axis axis;
+    double origin = 0, unit = 1;  ///< of data
+    double mm, start;             ///< of a unit; of 0, on the page
+    int digits;                   ///< behind the point, for hundredths of mm
+
+    Coordinates(const Axis& of, double from_mm, double side_mm) : axis(of) {
+      constexpr double least = 0.2, most = 500, far = 20;  // of a side, and away from it, in its units
+      const auto [low, high] = std::pair(data(axis.low), data(axis.high));
+      const double side = high - low;
+      if (side < least || side > most) unit = std::pow(10, std::floor(std::log10(side)));
+      if (std::max(std::abs(low), std::abs(high)) > far * side) origin = low;
+      mm = side_mm * unit / side;
+      start = from_mm - (low - origin) / unit * mm;
+      digits = std::max(0, static_cast<int>(std::ceil(std::log10(mm))) + 2);
+    }
+
+    double data(double value) const { return axis.logarithmic ? std::log10(value) : value; }
+    std::string operator()(double value) const { return fmt::format("{:.{}f}", (data(value) - origin) / unit, digits); }
+
+    /// What they are, where they are not the data's own.
+    std::string remark(char name) const {
+      std::string words;
+      if (axis.logarithmic) words += fmt::format(", log10 {}", name);
+      if (origin != 0) words += fmt::format(", {} from {:.17g}", name, origin);
+      if (unit != 1) words += fmt::format(", {} in {:g}", name, unit);
+      return words;
+    }
+  };
+
+  /// pgfplots draws the axes; what is in them is placed by TikZ, in units of the axes, which is faster by far.
   void panel(std::size_t i) {
     const Panel& panel = figure_.panels[i];
     const Box& box = layout_.panels[i].box;
-    const auto at = [&](Point point) {
-      const Point place = on_paper(panel, point);
-      return fmt::format("({:.2f},{:.2f})", box.left + place.x * box.width, box.bottom + place.y * box.height);
-    };
+    const Coordinates x(panel.x, box.left, box.width), y(panel.y, box.bottom, box.height);
+    const auto at = [&](Point point) { return fmt::format("({},{})", x(point.x), y(point.y)); };
     const auto path = [&](const Polyline& line) {
       std::vector<std::string> places;
       for (const Point& point : line) places.push_back(at(point));
       return fmt::format("{}", fmt::join(places, "--"));
     };
-    for (const Region& region : panel.regions) put("\\fill[{}] {};\n", name(region.colour), path(region.border));
+    const std::string scope = fmt::format(
+        "% in units of the axes{}{}\n\\begin{{scope}}[shift={{({:.4f}mm,{:.4f}mm)}},x={{({:.6g}mm,0mm)}},"
+        "y={{(0mm,{:.6g}mm)}}]\n",
+        x.remark('x'), y.remark('y'), x.start, y.start, x.mm, y.mm);
+    if (!panel.regions.empty()) {
+      put("{}", scope);
+      for (const Region& region : panel.regions) put("\\fill[{}] {};\n", name(region.colour), path(region.border));
+      put("\\end{{scope}}\n");
+    }
     if (!panel.bare) {
       put("\\begin{{axis}}[at={{({:.6g}mm,{:.6g}mm)}},anchor=south west,scale only "
           "axis,width={:.6g}mm,height={:.6g}mm,\n",
           box.left, box.bottom, box.width, box.height);
       axis_options("x", panel.x, layout_.panels[i].x);
       axis_options("y", panel.y, layout_.panels[i].y);
-      put("  axis lines=left,axis line style={{-}},tick align=outside,tick label "
+      put("  axis lines=left,axis line style={{-}},tick align=outside,scaled ticks=false,tick label "
           "style={{scale=0.9}}]\n\\end{{axis}}\n");
     }
+    put("{}", scope);
     for (const Lines& layer : panel.lines) {
       std::string paths;
       for (const Polyline& line : visible(panel, layer.lines)) paths += "\n  " + path(line);
@@ -173,11 +212,10 @@ class Writer {
         const std::optional<Arrow> head = short_arrow(panel, box, arrow);
         if (!head) continue;
         const Point tail = on_paper(panel, head->at), tip = on_paper(panel, arrow.at);
-        put("\\draw[-{{Stealth[length={5:.3g}mm,width={6:.3g}mm]}},draw={0},fill={0},line width=0.3pt] "
-            "({1:.4f},{2:.4f})--({3:.4f},{4:.4f});\n",
-            name(layer.colour), box.left + tail.x * box.width, box.bottom + tail.y * box.height,
-            box.left + tip.x * box.width, box.bottom + tip.y * box.height, layer.size * head_length * layout_.letter,
-            layer.size * 0.48 * layout_.letter);
+        put("\\draw[-{{Stealth[length={1:.3g}mm,width={2:.3g}mm]}},draw={0},fill={0},line width=0.3pt] "
+            "{3} ++({4:.4f}mm,{5:.4f}mm)--{3};\n",
+            name(layer.colour), layer.size * head_length * layout_.letter, layer.size * 0.48 * layout_.letter,
+            at(arrow.at), (tail.x - tip.x) * box.width, (tail.y - tip.y) * box.height);
       }
     }
     for (const Marks& layer : panel.marks) {
@@ -192,6 +230,7 @@ class Writer {
       put("\\node[text={},fill={},inner sep=0.8pt,scale=0.85{}] at {} {{{}}};\n", name(label.colour),
           name(figure_.theme.ground), anchor, at(label.at), tex_text(label.text));
     }
+    put("\\end{{scope}}\n");
   }
 
   const Figure& figure_;

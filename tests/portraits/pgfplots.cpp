@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "figures.hpp"
@@ -52,6 +53,50 @@ TEST_CASE("A document has as many closing braces as opening ones, and only finit
     CHECK(tex.find("\\begin{tikzpicture}") != std::string::npos);
     CHECK(tex == document(view));
   }
+}
+
+TEST_CASE("What TeX draws in a panel is in units of its axes, and lies where they say", "[route]") {
+  portraits::Figure figure;
+  const auto panel = [&](portraits::Axis x, portraits::Axis y) {
+    portraits::Panel& added = figure.panels.emplace_back();
+    added.x = std::move(x);
+    added.y = std::move(y);
+    const auto line = [&](double part) {
+      return portraits::Polyline{portraits::from_paper(added, {0, part}), portraits::from_paper(added, {1, 1 - part})};
+    };
+    added.lines.push_back({{line(0.3)}, {}, ""});
+  };
+  panel({"", -1, 1, false, {}}, {"", 0, 5, false, {}});
+  panel({"", 0, 3e-7, false, {}}, {"", 0, 8e5, false, {}});
+  panel({"", 1000, 1000.15, false, {}}, {"", 1e-3, 1e4, true, {}});
+  figure.max_columns = 1;
+  figure.size = {150, 250};
+  const std::string tex = portraits::pgfplots(figure);
+  const portraits::Layout layout = portraits::lay_out(figure);
+  std::size_t from = 0;
+  const auto number_after = [&](const std::string& words) {
+    from = tex.find(words, from);
+    REQUIRE(from != tex.npos);
+    from += words.size();
+    return std::stod(tex.substr(from));
+  };
+  std::vector<portraits::Point> first;
+  for (const auto& [box, x_ticks, y_ticks, scale, place] : layout.panels) {
+    const double left = number_after("shift={("), bottom = number_after(","), x = number_after("x={(");
+    const double y = number_after("y={(0mm,");
+    first.push_back({number_after("\n  ("), number_after(",")});
+    const portraits::Point last{number_after("--("), number_after(",")};
+    CHECK(left + x * first.back().x == Approx(box.left).margin(0.01));
+    CHECK(bottom + y * first.back().y == Approx(box.bottom + 0.3 * box.height).margin(0.01));
+    CHECK(left + x * last.x == Approx(box.left + box.width).margin(0.01));
+    CHECK(bottom + y * last.y == Approx(box.bottom + 0.7 * box.height).margin(0.01));
+  }
+  CHECK((first[0].x == -1 && first[0].y == 1.5));
+  CHECK((first[1].x == 0 && first[1].y == 2.4));
+  CHECK((first[2].x == 0 && first[2].y == Approx(-0.9)));
+  for (const char* remark :
+       {"% in units of the axes\n", "axes, x in 1e-07, y in 100000\n", "axes, x from 1000, x in 0.1, log10 y\n"})
+    CHECK_THAT(tex, Catch::Contains(remark));
 }
 
 TEST_CASE("TeX draws no field of colours", "[domain]") {
