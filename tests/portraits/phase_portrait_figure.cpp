@@ -244,7 +244,8 @@ TEST_CASE("Planes side by side have one frame, and one colour for one time left"
   REQUIRE(figure.panels.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
     const Panel& panel = figure.panels[i];
-    CHECK(panel.title.words().starts_with("μ = " + fmt::format("{}", flows[i].system().mu())));
+    const portraits::Text own = portraits::math("μ = ") + fmt::format("{}", flows[i].system().mu());
+    CHECK(panel.title.words().starts_with(own.words()));
     CHECK((panel.x.low == -1 && panel.x.high == 1 && panel.y.low == 0 && panel.y.high == 1));
     CHECK(panel.labels.size() == 3);
     const Clock clock(all[i]);
