@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/formula_law.hpp"
 #include "answers/portrait_spec.hpp"
 #include "answers/pressure_profile.hpp"
 #include "contensou/portraits/layout.hpp"
@@ -33,6 +34,7 @@
 #include "contensou/si/course.hpp"
 #include "contensou/si/description.hpp"
 #include "contensou/si/motion.hpp"
+#include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
 
@@ -57,7 +59,7 @@ Law law_of(const std::string& name) {
     answers::CsvReader table("rho,pressure\n" + rows, "pressure.csv");
     return known.emplace(name, answers::read_pressure_profile(table, "pressure.csv")).first->second;
   }
-  if (auto law = reduction::find_law(name)) return known.emplace(name, *law).first->second;
+  if (auto law = answers::find_law_or_formulas(name)) return known.emplace(name, *law).first->second;
   throw std::domain_error(fmt::format("no such law: {}", name));
 }
 
@@ -145,7 +147,7 @@ answers::PortraitSpec question_of(const val& asked, const Flow* known = nullptr)
 /// The plane that the page shows. A plane that was rejected leaves the last good one in place.
 class Plane {
  public:
-  /// Changes law, patch, body and the drive of a slope: what k tends to, and what that means.
+  /// Changes law, patch, body and the drive of a slope or of rolling friction: what k tends to, and what that means.
   val choose(const std::string& law, double mu, double chi, double gamma, double drive) {
     return answer([&] {
       flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}, drive));
@@ -398,7 +400,7 @@ class Plane {
                   list(drawn_.maps, in_panel));
   }
 
-  std::optional<Flow> flow_, level_;  ///< the latter without a slope
+  std::optional<Flow> flow_, level_;  ///< the latter without a drive
   portraits::MappedFigure drawn_;     ///< the last portrait
 };
 
@@ -466,10 +468,27 @@ val catalogue() {
   });
 }
 
-/// What the plane needs to know of a ball; its drive is that of a slope.
+/// Why the plane has no such motion: rolling friction that turns the slip, or that keeps the ball from turning at first.
+std::string without_rolling_friction(const si::Experiment& experiment, const Law& law) {
+  const double u_r = experiment.contact.rolling_friction;
+  const State start = si::reduced_start(experiment);
+  if (u_r == 0 || (start.u == 0 && start.v == 0)) return "";
+  try {
+    (void)si::drive_of(experiment);
+    const auto pieces = si::ResistedMotion(experiment, law, u_r).pieces();
+    return pieces.size() == 1 && pieces.front().turns ? "" : "it keeps this ball from turning at first";
+  } catch (const std::domain_error& error) {
+    return error.what();
+  }
+}
+
+/// What the plane needs to know of a ball; its drive is that of a slope and of rolling friction, which `without` says why it
+/// leaves out.
 val contact(const std::string& law, const val& fields) {
   return answer([&] {
-    const si::Experiment experiment = experiment_of(fields);
+    si::Experiment experiment = experiment_of(fields);
+    const std::string without = without_rolling_friction(experiment, law_of(law));
+    if (!without.empty()) experiment.contact.rolling_friction = 0;
     const double radius = si::patch_radius_of(experiment, law_of(law));
     // The one is proportional to the other.
     const double per_deceleration = si::patch_radius_of_deceleration(
@@ -477,7 +496,7 @@ val contact(const std::string& law, const val& fields) {
         law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);
     return object("mu", si::patch_ratio(experiment, law_of(law)), "patchRadius", radius, "spinDeceleration",
                   radius / per_deceleration, "secondsPerTau", si::seconds(experiment, 1), "drive",
-                  experiment.environment.slope == 0 ? 0 : si::drive_of(experiment));
+                  si::drive_of(experiment), "without", without);
   });
 }
 
@@ -509,5 +528,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
   function("views", &views);
   function("catalogue", &catalogue);
   function("contact", &contact);
+  function("layOut", &layout_value);
+  function("rowsOf", &rows_of);
   emscripten::constant("rollingSlip", contensou::si::rolling_slip);
 }

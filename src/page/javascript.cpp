@@ -1,6 +1,10 @@
 #include "javascript.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -38,8 +42,9 @@ val marks_value(const portraits::Marks& layer) {
                 shapes[static_cast<int>(layer.shape)], "legend", layer.legend);
 }
 
+constexpr const char* alignments[] = {"left", "center", "right"};
+
 val label_value(const portraits::Label& label) {
-  constexpr const char* alignments[] = {"left", "center", "right"};
   return object("x", label.at.x, "y", label.at.y, "text", label.text, "colour", css(label.colour), "align",
                 alignments[static_cast<int>(label.align)]);
 }
@@ -59,7 +64,88 @@ val panel_value(const Panel& panel) {
                 list(panel.regions, region_value), "bare", panel.bare, "toScale", panel.to_scale);
 }
 
+portraits::Text text_of(const val& text) {
+  if (text.isString()) return text.as<std::string>();
+  portraits::Text all;
+  for (const val& run : emscripten::vecFromJSArray<val>(text)) {
+    all += run.isString() ? portraits::Text(run.as<std::string>())
+                          : portraits::Text(portraits::Run{run["words"].as<std::string>(), run["italic"].as<bool>(),
+                                                           run["level"].as<int>()});
+  }
+  return all;
+}
+
+std::vector<Axis::Tick> ticks_of(const val& ticks) {
+  std::vector<Axis::Tick> all;
+  for (const val& tick : emscripten::vecFromJSArray<val>(ticks)) {
+    all.push_back({tick["at"].as<double>(), text_of(tick["text"])});
+  }
+  return all;
+}
+
+Axis axis_of(const val& axis) {
+  return {text_of(axis["name"]), axis["low"].as<double>(), axis["high"].as<double>(), false, ticks_of(axis["ticks"])};
+}
+
+/// What the layout depends on.
+portraits::Figure outline_of(const val& figure) {
+  portraits::Figure outline{.title = {}, .subtitle = text_of(figure["title"]), .panels = {}};
+  outline.max_columns = figure["columns"].as<int>();
+  for (const val& panel : emscripten::vecFromJSArray<val>(figure["panels"])) {
+    outline.panels.push_back({.title = text_of(panel["title"]), .x = axis_of(panel["x"]), .y = axis_of(panel["y"])});
+    outline.panels.back().bare = panel["bare"].as<bool>();
+    outline.panels.back().to_scale = panel["toScale"].as<bool>();
+    for (const char* layers : {"lines", "marks"}) {
+      for (const val& layer : emscripten::vecFromJSArray<val>(panel[layers])) {
+        outline.panels.back().lines.push_back({.lines = {}, .stroke = {}, .legend = text_of(layer["legend"])});
+      }
+    }
+  }
+  if (const val bar = figure["colourBar"]; !bar.isUndefined()) {
+    const auto count = bar["colours"]["length"].as<std::size_t>();
+    outline.colour_bar = {text_of(bar["name"]), std::vector<Colour>(count), ticks_of(bar["ticks"])};
+  }
+  return outline;
+}
+
+/// Millimetres of a pixel: the library lets a panel of 50 mm stand beside others.
+double scale_of(const val& figure) { return 50 / figure["narrowest"].as<double>(); }
+
+constexpr double narrowest = 230;  // pixels that a panel needs beside others
+
 }  // namespace
+
+int rows_of(const val& figure, double width) {
+  const int panels = figure["panels"]["length"].as<int>();
+  return panels / std::min(portraits::panel_columns(width * scale_of(figure), panels), figure["columns"].as<int>());
+}
+
+val layout_value(const val& figure, double width, double height, double letter) {
+  return answer([&] {
+    const double scale = scale_of(figure);
+    portraits::Figure outline = outline_of(figure);
+    outline.size = {width * scale, height * scale};
+    outline.theme.letters = letter * scale / portraits::letter_mm(outline.size.width_mm);
+    const portraits::Layout layout = portraits::lay_out(outline);
+    const auto down = [&](double y) { return height - y / scale; };
+    const auto box = [&](const portraits::Box& of) {
+      return object("left", of.left / scale, "top", down(of.bottom + of.height), "width", of.width / scale, "height",
+                    of.height / scale);
+    };
+    const auto text = [&](const portraits::PlacedText& of) {
+      return object("x", of.at.x / scale, "y", down(of.at.y), "text", of.text, "size", of.size * letter, "align",
+                    alignments[static_cast<int>(of.align)], "turned", of.turned, "bold", of.faint);
+    };
+    const auto panel = [&](const portraits::PanelPlace& of) {
+      return object("box", box(of.box), "x", ticks_value(of.x), "y", ticks_value(of.y));
+    };
+    const auto sample = [&](const portraits::LegendPlace& of) {
+      return object("legend", of.entry.text, "x", of.from.x / scale, "y", down(of.from.y), "width", of.width / scale);
+    };
+    return object("texts", list(layout.texts, text), "panels", list(layout.panels, panel), "legend",
+                  list(layout.legend, sample), "colours", list(layout.colours, box));
+  });
+}
 
 val column(const std::vector<Polyline>& lines) {
   std::vector<double> numbers;
@@ -80,7 +166,7 @@ val text_value(const portraits::Text& text) {
 val figure_value(const portraits::Figure& figure) {
   val value = object("title", figure.title, "panels", list(figure.panels, panel_value), "ground",
                      css(figure.theme.ground), "ink", css(figure.theme.ink), "faint", css(figure.theme.faint), "line",
-                     figure.theme.line, "columns", figure.max_columns);
+                     figure.theme.line, "columns", figure.max_columns, "narrowest", narrowest);
   if (const auto& bar = figure.colour_bar) {
     const auto colour = [](Colour of) { return val(css(of)); };
     value.set("colourBar",

@@ -86,4 +86,12 @@ val object(const KeysAndValues&... keys_and_values) {
 /// The fields of figure.hpp by their names, colours as in a style sheet; lines only where they are seen, as columns.
 val figure_value(const portraits::Figure& figure);
 
+/// How many rows of panels stand in a figure of figure_value's fields, that many pixels wide.
+int rows_of(const val& figure, double width);
+
+/// Where everything goes in a figure of figure_value's fields, in pixels: {texts: {x, y, text, size, align, turned, bold},
+/// panels: {box, x, y: the ticks}, legend: {legend, x, y, width}, colours: boxes, from the bottom up}.
+/// @param letter  the size of letters, pixels
+val layout_value(const val& figure, double width, double height, double letter);
+
 }  // namespace contensou::page

@@ -1,7 +1,9 @@
 // The page: what the reader does changes the state, and the state is drawn.
 import { Address } from "./state/address.js";
 import { Checks } from "./controls/checks.js";
-import { makeControls } from "./controls/controls.js";
+import { makeBallCard } from "./controls/ball_card.js";
+import { makeChoices } from "./controls/choices.js";
+import { makeSliders } from "./controls/sliders.js";
 import { drawCopies } from "./plane/copies_figure.js";
 import { $, isStill, write } from "./dom.js";
 import { Film } from "./share/film.js";
@@ -10,7 +12,7 @@ import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
 import { makeOrbits } from "./controls/orbits.js";
 import { fromFragment, speaksOfNothing } from "./state/page_state.js";
-import { drawPanes } from "./share/panes_figure.js";
+import { drawPanes, panes } from "./share/panes_figure.js";
 import { Plane } from "./plane/plane.js";
 import { Player } from "./state/player.js";
 import { makePresets } from "./controls/presets_nav.js";
@@ -48,7 +50,8 @@ function start(library) {
   const player = new Player(store, ask);
   const hero = new Hero(store, player);
   const plane = new Plane(store, { ask, stopText, removeOrbit: (index) => orbits.remove(index) });
-  const showControls = makeControls(store, plane, { ask, attempt });
+  const controls = [makeChoices, makeSliders, makeBallCard].map((make) => make(store, plane, { ask, attempt }));
+  const showControls = () => controls.forEach((show) => show());
   const orbits = makeOrbits(store, plane, { ask, stopText });
   const checks = new Checks(store);
   const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
@@ -59,13 +62,14 @@ function start(library) {
   const tour = new Tour(go);
   makeThrowing(store, hero, player, plane);
 
-  const panes = new ScreenSurface($("panes"), (surface) => drawPanes(surface, store, store.theme));
+  const paneSurface = new ScreenSurface($("panes"), (surface) => drawPanes(surface, store));
   const copies = new ScreenSurface($("copies"), (surface) => drawCopies(surface, store, plane));
   const draw = () => {
     const { contact, now, end, timeFactor } = store;
     plane.draw();
     hero.draw();
-    panes.drawInSight();
+    paneSurface.fit(library.rowsOf(panes, paneSurface.width));
+    paneSurface.drawInSight();
     copies.drawInSight();
     player.show();
     write($("instant"), now
@@ -98,7 +102,7 @@ function start(library) {
     const { theme, fraction } = store.state;
     screen = { theme, fraction };
     ask((state) => Object.assign(state, { theme: "light", fraction: 1 }));
-    for (const surface of [hero.lanes, hero.patch, plane.surface, panes, copies]) surface.draw();
+    for (const surface of [hero.lanes, hero.patch, plane.surface, paneSurface, copies]) surface.draw();
   });
   addEventListener("afterprint", () => ask((state) => Object.assign(state, screen)));
   $("app").hidden = false;

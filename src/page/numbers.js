@@ -40,21 +40,10 @@ export function roundDown(x) {
   return (x >= 5 * power ? 5 : x >= 2 * power ? 2 : 1) * power;
 }
 
-/** Round numbers in [low, high], about `wanted` of them, but two if more fit than one. */
-export function ticks(low, high, wanted) {
-  const of = (step) => {
-    const first = Math.ceil(low / step - 1e-9);
-    const count = Math.floor(high / step + 1e-9) - first + 1;
-    return Array.from({ length: Math.max(0, count) }, (_, i) => (first + i) * step);
-  };
-  const step = roundDown(((high - low) / wanted) * 1.4);
-  const values = of(step);
-  return values.length >= 2 ? values : of(roundDown(0.6 * step));
-}
-
-/** The text of a tick, with no more digits than its step needs. */
-export function tickText(value, step) {
-  if (Math.abs(value) < step / 1e6) return "0";
-  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return Math.abs(value) >= 1e5 || decimals > 4 ? shown(value, 3) : value.toFixed(decimals).replace("-", "−");
+/** An axis of powers of ten, in decades. */
+export function decades(low, high) {
+  const step = Math.ceil((high - low) / 5);
+  const first = Math.ceil(low / step);
+  const ticks = Array.from({ length: Math.floor(high / step) - first + 1 }, (_, i) => (first + i) * step);
+  return { low, high, ticks: ticks.map((at) => ({ at, text: at === 0 ? "1" : `10${superscript(at)}` })) };
 }

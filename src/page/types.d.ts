@@ -21,7 +21,7 @@ interface Ball {
 interface Law { name: string; meaning: string; letter?: string; example?: number }
 interface Body { name: string; chi: number; gamma: number; mu?: number }
 interface View { name: string; layered: boolean }
-interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number }
+interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number; without: string }
 
 /** What one portrait is asked for by: portrait_request.js. */
 interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
@@ -44,17 +44,25 @@ interface Check { name: string; measured: number; allowed: number; passed: boole
 type Words = import("./drawing/runs.js").Text;
 interface Tick { at: number; text: Words }
 interface Axis { name: Words; low: number; high: number; ticks: Tick[] }
-interface Lines { lines: Float64Array; colour: string; width: number; dashed: boolean; legend: Words; shape?: undefined }
-interface Marks { points: Float64Array; colour: string; size: number; shape: string; legend: Words }
+interface Lines { lines: Float64Array | number[]; colour: string; width: number; dashed: boolean; legend: Words; shape?: undefined }
+interface Marks { points: Float64Array | number[]; colour: string; size: number; shape: string; legend: Words }
 interface Label { x: number; y: number; text: Words; colour: string; align: string }
 interface Panel {
   title: Words; x: Axis; y: Axis; lines: Lines[]; marks: Marks[]; labels: Label[]; bare: boolean; toScale: boolean;
   arrows: { arrows: Float64Array; colour: string }[]; regions: { border: Float64Array; colour: string }[];
 }
 interface Figure {
+  narrowest: number;
   title: Words; panels: Panel[]; ground: string; ink: string; faint: string; line: number; columns: number;
   colourBar?: { name: Words; colours: string[]; ticks: Tick[] };
 }
+/** In pixels; colours from the bottom up. */
+interface Layout {
+  texts: { x: number; y: number; text: Words; size: number; align: string; turned: boolean; bold: boolean }[];
+  panels: { box: Box; x: Tick[]; y: Tick[] }[];
+  legend: { legend: Words; x: number; y: number; width: number }[]; colours: Box[];
+}
+interface Box { left: number; top: number; width: number; height: number }
 interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; moments: boolean; through: Speeds[] }
 
 interface Library {
@@ -62,6 +70,8 @@ interface Library {
   contact(law: string, ball: object): Contact;
   fit(film: string, name: string, ball: object, laws: string): Fitted;
   lawName(called: string): string;
+  layOut(figure: Figure, width: number, height: number, letter: number): Layout;
+  rowsOf(figure: { panels: unknown[]; columns: number; narrowest: number }, width: number): number;
   portraitFile(request: PortraitRequest, ending: string): string;
 }
 /** The name of the ball, and columns in SI units: t, of each observable of the film what was measured and, with _fitted, what was found. */

@@ -54,7 +54,7 @@ test("across its ray it changes curve, and what it leaves behind fans out until 
   assert.notEqual(await picture(), before);
   assert.ok(await page.evaluate(() => globalThis.page.planeScene.ghosts.length > 4));
   await page.click("#orbits li:nth-child(2) button");
-  assert.equal(await page.evaluate(() => globalThis.page.planeScene.ghosts.length), 0);
+  assert.equal(await page.evaluate(() => globalThis.page.plane.scene().ghosts.length), 0);
   await close();
 });
 

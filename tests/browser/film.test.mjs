@@ -49,7 +49,7 @@ test("a film is fitted as the program fits it, and the ball takes what was found
   // What was measured is drawn over the curves, until the ball is another.
   const points = async () => {
     await page.selectOption("#picture", "panes");
-    return Array.from(String(await saved("#save-svg")).matchAll(/<path d="([^"]*a1\.6 [^"]*)"/g), ([, path]) => Array.from(path.matchAll(/M([\d.]+) ([\d.]+)a1\.6/g), ([, x, y]) => [Number(x) - 1.6, Number(y)]));
+    return Array.from(String(await saved("#save-svg")).matchAll(/<path d="([^"]*a1\.8 [^"]*)"/g), ([, path]) => Array.from(path.matchAll(/M([\d.]+) ([\d.]+)a1\.8/g), ([, x, y]) => [Number(x) - 1.8, Number(y)]));
   };
   await page.locator("#span label", { hasText: "rest" }).click();
   const drawnPoints = await points();

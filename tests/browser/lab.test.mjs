@@ -2,7 +2,7 @@
 //   CONTENSOU_PROGRAM=.../contensou node lab.test.mjs
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { assertClose, close, drawn, folder, open, page, program, saved, state, stopTimes } from "./browser.mjs";
@@ -147,7 +147,7 @@ test("a pressure of the reader's own is the program's, in the plane, in the link
   await page.waitForFunction(() => globalThis.page.state.law.startsWith("table:"));
   assertClose((await stopTimes())[0], json("stop", "--mu", "0.3", "--u0", "0.8", "--v0", "3.5", "--law", file).tau_stop, 1e-11, "stops");
   assert.match(await page.textContent("#command"), /--law pressure\.csv --against uniform/);
-  assert.equal(await page.inputValue("#law"), "table");
+  assert.match(await page.inputValue("#law"), /^table:/);
   const [{ law }, link] = [await state(), await page.evaluate(() => new Promise((done) => setTimeout(() => done(location.hash), 400)))];
   await close();
   await open(link);
@@ -162,6 +162,69 @@ test("a pressure of the reader's own is the program's, in the plane, in the link
     await page.click("#fit");
   }
   await close();
+});
+
+test("a law's formulas of the reader's own are the program's, in the plane, in the link and in the command line", async () => {
+  await open("#mu=0.3&orbits=0.8,3.5");
+  const stopBy = (law) => json("stop", "--mu", "0.3", "--u0", "0.8", "--v0", "3.5", "--law", law).tau_stop;
+  const take = async (law) => {
+    await page.fill("#formulas", law);
+    await page.press("#formulas", "Enter");
+  };
+  const all = [
+    "psi = k < 1 ? 0.4 : 0.4/k; phi = sqrt(k^2/(1 + k^2))", "phi = tanh(k); psi = min(1, 1/|k|, 2)*exp(-0)/2", "phi = k/sum(1, k, 0); psi = 0.4/hypot(1, k) + (k > 2 && k <= 1)*(k != 3)",
+    "phi = k*(1 + k)^-1; psi = 2^-1^2*exp(-ln(1 + k))*(1 - 2 - -2)", "phi = k/(1 + k); psi = a/(1 + k) ; a = 0.5",
+  ];
+  for (const law of all) {
+    await take(law);
+    await page.waitForFunction((law) => globalThis.page.state.law === law, law);
+    assertClose((await stopTimes())[0], stopBy(law), 1e-11, law);
+  }
+  const law = all.at(-1);
+  assert.ok((await page.textContent("#command")).includes(`--law '${law}'`));
+  assert.equal(await page.$eval("#law", ({ selectedOptions: [option] }) => option.textContent), "your own formulas");
+  // What is wrong is said in the program's words, and the law stays.
+  for (const [wrong, problem] of [
+    ["phi = k/(1 + kk); psi = 1", /'kk' is no variable, parameter or function.* character 14/], ["phi = v; psi = 1", /the ratio k = v\/\(mu \|u\|\) alone/], ["phi = k/(1 + k); psi = (1", /character/],
+    ["phi = -k; psi = 1/(1 + k)", /friction resists/], ["phi = k", /psi = is missing/],
+  ]) {
+    await take(wrong);
+    await page.waitForFunction(() => document.getElementById("problem").textContent !== "");
+    assert.match(await page.textContent("#problem"), problem);
+    assert.equal((await state()).law, law);
+    await page.click("#fit");
+  }
+  const link = await page.evaluate(() => new Promise((done) => setTimeout(() => done(location.hash), 400)));
+  await close();
+  await open(link);
+  assert.equal((await state()).law, law);
+  await close();
+});
+
+test("rolling friction is a drive of the plane where a reduced motion has it; where not, the page says why", async () => {
+  const motion = ["--ball", "pool", "--slip", "1", "--spin", "20", "--rolling-friction", "0.01"];
+  await open("#ball=pool&orbits=0.5715,1&rollingFriction=0.01");
+  const wanted = json("stop", ...motion);
+  assertClose((await stopTimes())[0] * await page.evaluate(() => globalThis.page.store.timeFactor), wanted.t_stop, 1e-9, "stops after");
+  assert.ok(await page.evaluate(() => globalThis.page.store.request.drive) > 0);
+  assert.match(await page.textContent("#command"), /--rolling-friction 0\.01/);
+  assert.doesNotMatch(await page.textContent("#terminal"), /without/);
+  // The command draws that plane.
+  const [{ orbits: [orbit] }] = [JSON.parse(String(await saved("#save-json")))];
+  const words = (await page.textContent("#command")).replace("portrait.svg", join(folder, "driven.json")).split(" ").slice(1);
+  execFileSync(program, words);
+  const [programs] = JSON.parse(readFileSync(join(folder, "driven.json"), "utf8")).orbits;
+  for (const key of ["u", "ln_v", "tau_left"]) for (const i of [0, 20, 60]) assertClose(orbit[key][i], programs[key][i], 1e-9, `${key} ${i}`);
+  await close();
+  for (const [link, why] of [["orbits=3,4,0.9,0.9", /must roll the way it slides/], ["orbits=30,0.01", /keeps this ball from turning at first/]]) {
+    await open(`#ball=pool&${link}&rollingFriction=0.01`);
+    assert.match(await page.textContent("#terminal"), /The plane is without rolling friction: /);
+    assert.match(await page.textContent("#terminal"), why);
+    assert.equal(await page.evaluate(() => globalThis.page.store.request.drive), 0);
+    assert.doesNotMatch(await page.textContent("#command"), /rolling/);
+    assert.match(await page.textContent("#roll-command"), /--rolling-friction 0\.01/);
+    await close();
+  }
 });
 
 test("on a slope a puck slides as far and as long as the program says, and so it rolls", async () => {

@@ -652,7 +652,8 @@ test("all views are drawn, and a click in each starts the orbit that it points a
       // Where no orbit is near, which a click would choose.
       const free = await page.evaluate((panel) => {
         const { plane, frames: { [panel]: frame } } = globalThis.page;
-        const points = [[0.3, 0.3], [0.7, 0.3], [0.2, 0.2], [0.6, 0.4], [0.45, 0.45]].map(([x, y]) => [frame.left + x * frame.width, frame.top + y * frame.height]);
+        const shares = [0.3, 0.7, 0.2, 0.4, 0.6, 0.5, 0.8, 0.1, 0.9];
+        const points = shares.flatMap((y) => shares.map((x) => [frame.left + x * frame.width, frame.top + y * frame.height]));
         const point = points.find(([x, y]) => plane.pointed(x, y) && plane.orbitAt(x, y, "touch") === null);
         const { u, v } = plane.pointed(...point);
         return [u, v];

@@ -4,12 +4,13 @@ import { test } from "node:test";
 import { commandLine } from "../../src/page/plane/command_line.js";
 import { citation, csvOfFilm, csvOfOrbits, csvOfRide, filmType } from "../../src/page/share/exports.js";
 import { sizeOf } from "../../src/page/plane/copies.js";
+import { panelsOf } from "../../src/page/plane/copies_figure.js";
+import { drawLanes } from "../../src/page/hero/hero_figure.js";
 import { Frame } from "../../src/page/drawing/frame.js";
 import { lawOfTable, lawTitle, tableOfLaw } from "../../src/page/controls/law_field.js";
-import { parseNumber, roundDown, shown, superscript, tickText, ticks } from "../../src/page/numbers.js";
+import { decades, parseNumber, roundDown, shown, superscript } from "../../src/page/numbers.js";
 import { bodyOf, firstState, fromFragment, initialState, moved, requireAllowed, speaksOfNothing, startOf, takeBall, toFragment } from "../../src/page/state/page_state.js";
 import { packed, unpacked } from "../../src/page/packing.js";
-import { layOut, rowsOf } from "../../src/page/plane/portrait_layout.js";
 import { portraitRequest } from "../../src/page/plane/portrait_request.js";
 import { presets, tour } from "../../src/page/state/presets.js";
 import { italic, plain, runsOf } from "../../src/page/drawing/runs.js";
@@ -49,19 +50,14 @@ test("numbers are shown with a few digits, in signs that people write", () => {
   assert.equal(superscript(-120), "⁻¹²⁰");
 });
 
-test("ticks are round, inside, and as many as are wanted", () => {
-  for (const [low, high] of [[0, 1], [-3, 7], [0, 0.00042], [1e6, 5e6], [-1, -0.3], [0.96, 1.04]]) {
-    for (const wanted of [2, 4, 8]) {
-      const all = ticks(low, high, wanted);
-      assert.ok(all.length >= 2 && all.length <= 2.6 * wanted, `${low} to ${high}: ${all}`);
-      const step = all[1] - all[0];
-      const [digit] = step.toExponential(6).split("e").map(Number);
-      assert.ok([1, 2, 5].includes(digit), `step ${step}`);
-      for (const at of all) assert.ok(at >= low - 1e-9 * step && at <= high + 1e-9 * step && Math.abs(at / step - Math.round(at / step)) < 1e-9);
-    }
+test("powers of ten are few, round, and inside", () => {
+  for (const [low, high] of [[-6.1, 0.1], [-1.5, 1.5], [-300, 2], [-7, 2]]) {
+    const { ticks } = decades(low, high);
+    assert.ok(ticks.length >= 2 && ticks.length <= 6, `${low} to ${high}: ${ticks.length}`);
+    for (const { at } of ticks) assert.ok(at >= low && at <= high && Number.isInteger(at));
   }
+  assert.deepEqual(decades(-1.5, 1.5).ticks.map(({ text }) => text), ["10⁻¹", "1", "10¹"]);
   assert.deepEqual([99, 20, 0.07].map(roundDown).map((value) => Number(value.toPrecision(12))), [50, 20, 0.05]);
-  assert.deepEqual([tickText(0.30000000000000004, 0.1), tickText(-5, 5), tickText(1e-17, 0.1), tickText(2e6, 1e6)], ["0.3", "−5", "0", "2·10⁶"]);
 });
 
 test("a text is a string, or strings and runs", () => {
@@ -284,6 +280,39 @@ test("a start is a copy of another where both speeds are as many times as large"
   assert.ok(!sizeOf({ u: 1, v: 2 }, { u: 0, v: 2 }).along);
 });
 
+test("in the strip a copy is the curve moved up, and over their starts both are one line", () => {
+  const tau = [0, 1, 2], [u, v, k] = [[4, 2, 0], [8, 2, 0], [2, 1, 0.5]];
+  const times = (c, column) => column.map((value) => c * value);
+  const curve = (c) => ({ tau: times(c, tau), u: times(c, u), v: times(c, v), k, stop: 2 * c, start: { u: 4 * c, v: 8 * c }, colour: "", width: 1 });
+  const near = (a, b) => a.length === b.length && a.every((value, i) => Math.abs(value - b[i]) < 1e-12);
+  const [byV, byU, strip, sizes] = panelsOf([curve(1), curve(5)], { base: { u: 4, v: 8 }, stop: 2 }, { line: "" });
+  for (const { lines: [one, other] } of [byV, byU]) assert.ok(near(one.lines, other.lines) && one.lines[0] === 0 && one.lines[1] === 1);
+  const [one, other] = strip.lines.map(({ lines }) => lines);
+  assert.ok(near(other, one.map((value, i) => (i % 2 ? value + Math.log10(5) : value))));
+  assert.ok(strip.y.low < one[1] && strip.y.high > other[1]);
+  assert.ok(near(sizes.marks[1].points, [Math.log10(5), Math.log10(5)]));
+});
+
+test("a ball is seen at an angle, a flat body from above", () => {
+  const theme = { textSize: 12, card: "card", ink: "ink", soft: "soft", line: "line" };
+  const spotsOf = (rolls, turn) => {
+    const shapes = [];
+    const surface = { width: 400, height: 200, still: (_keys, _ground, draw) => draw(), shape: (lines, style) => shapes.push({ lines, style }), text() {} };
+    const lane = { title: "", xs: [0, 1], ys: [0, 0], slides: [0, 0, 1, 0], at: { x: 0, y: 0, path: 0, turn }, colour: "#000000", ruler: null };
+    const { places: [{ x, y, radius }] } = drawLanes(/** @type {any} */ (surface), { lanes: [lane], radius: 0.1, unit: "m", rolls, secret: false, aim: null, placed: null }, theme);
+    const [{ lines }] = shapes.filter(({ style, lines }) => style.fill === "card" && lines[0].length > 2);
+    // The middle of each spot, in radii.
+    return lines.map((line) => [0, 1].map((side) => line.filter((_, i) => i % 2 === side).reduce((sum, value) => sum + value, 0) / (line.length / 2))).map(([px, py]) => [(px - x) / radius, (y - py) / radius]);
+  };
+  const still = rotation([0, 0, 0]);
+  const has = (spots, px, py) => spots.some(([sx, sy]) => Math.hypot(sx - px, sy - py) < 0.08);
+  assert.ok(has(spotsOf(false, still), 0, 0));
+  assert.ok(!has(spotsOf(true, still), 0, 0) && has(spotsOf(true, still), 0, Math.sin(0.7) * Math.cos(0.36)), "the top is seen above the middle");
+  // One that rolls to the right takes its top along; one that spins keeps it where it is.
+  assert.ok(has(spotsOf(true, rotation([0, 0, 1])), 0, Math.sin(0.7) * Math.cos(0.36)));
+  assert.ok(has(spotsOf(true, rotation([0, 0.5, 0])), Math.sin(0.5) * Math.cos(0.36), Math.sin(0.7) * Math.cos(0.5) * Math.cos(0.36)));
+});
+
 test("a frame leads from numbers to pixels and back, and a column breaks where it says", () => {
   const frame = new Frame({ left: 10, top: 20, width: 100, height: 50 }, { low: -1, high: 1 }, { low: 0, high: 5 });
   assert.deepEqual([frame.px(0), frame.py(5)], [60, 20]);
@@ -293,24 +322,6 @@ test("a frame leads from numbers to pixels and back, and a column breaks where i
   assert.deepEqual(frame.lines([0, 0, 1, 5, 1, -Infinity]), [[60, 70, 110, 20], []]);
   assert.deepEqual(frame.pixel([9, 9, 0, 5], 2), [60, 20]);
   assert.ok(frame.contains(10, 20) && !frame.contains(10, 72));
-});
-
-test("panels stand side by side where there is room, to scale where they are, and nothing overlaps", () => {
-  const axis = { name: "", low: -1, high: 1, ticks: [] };
-  const panel = { title: "", x: axis, y: { ...axis, low: 0 }, lines: [{ legend: "orbits" }], marks: [], bare: true, toScale: true };
-  const figure = { title: "one,  two", panels: [panel, panel], columns: 4, colourBar: { name: "time left", colours: ["#000000"], ticks: [] } };
-  const four = { panels: [panel, panel, panel, panel], columns: 2 };
-  assert.deepEqual([rowsOf(figure, 500), rowsOf(figure, 400), rowsOf(four, 500), rowsOf(four, 400)], [1, 2, 2, 4]);
-  for (const [width, height] of [[900, 500], [320, 700]]) {
-    const { frames, legend, legendTop } = layOut(figure, width, height, 13);
-    for (const { left, top, width: wide, height: tall } of frames) {
-      assert.ok(left >= 0 && left + wide <= width && top > 13 && top + tall <= legendTop);
-      assert.ok(Math.abs(wide / tall - 2) < 1e-9);
-    }
-    const [first, second] = frames;
-    assert.ok(first.left + first.width <= second.left || first.top + first.height <= second.top);
-    assert.equal(legend.flat().length, 1, "each legend once");
-  }
 });
 
 test("rotations keep lengths and angles, and turn the right way", () => {

@@ -1,11 +1,11 @@
 // The card of a real ball: its values, and those of its motion that the plane knows nothing of.
 import { $, make, write } from "../dom.js";
 import { shown } from "../numbers.js";
-import { addNumber, choose } from "./state_fields.js";
+import { addNumber, choose } from "./fields.js";
 
 const patchTitles = { patch_radius: "its radius ε (m)", spin_deceleration: "spin deceleration (rad/s²)", whole_face: "its whole face" };
 
-/** As makeControls. */
+/** As makeChoices. */
 export function makeBallCard(store, _plane, { ask }) {
   const ofBall = (labels) => Object.entries(labels).map(([key, label]) => ({
     key, moves: /^(along|across|rolling)/.test(key),

@@ -1,17 +1,21 @@
 // Ball, body and law, and what the plane shows.
 import { $, isStill, write } from "../dom.js";
-import { choiceButtons } from "./fields.js";
+import { addNumber, choiceButtons, choose } from "./fields.js";
 import { save, textFile } from "../share/exports.js";
 import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
 import { shown } from "../numbers.js";
 import { bodyOf, fields, initialState, takeBall, unrolled } from "../state/page_state.js";
-import { addNumber, choose } from "./state_fields.js";
 import { isDark } from "../drawing/theme.js";
 import { described } from "../plane/views.js";
 
 const fieldTitles = { none: "none", motion: "of the motion (2.6)", regularised: "regularised (2.7)" };
 
-/** As makeControls. */
+/**
+ * @param {import("../state/store.js").Store} store
+ * @param {import("../plane/plane.js").Plane} plane
+ * @param act  ask(edit) and attempt(action), which tell the reader what is rejected
+ * @returns {() => void} shows the state
+ */
 export function makeChoices(store, plane, { ask, attempt }) {
   const { balls, bodies, laws, views, lawName } = store.library;
   choose("ball", [{ name: "", title: "any size, any unit" }, ...balls], ask, (state, value) => {
@@ -34,6 +38,8 @@ export function makeChoices(store, plane, { ask, attempt }) {
     attempt(() => useLaw("law")(lawOfTable(text)));
     $("pressure").value = "";
   });
+  const formulas = $("formulas");
+  formulas.addEventListener("change", () => attempt(() => useLaw("law")(formulas.value.trim())));
   $("save-pressure").addEventListener("click", () => save("pressure.csv", textFile(tableOfLaw(store.state.law), "text/csv")));
   $("isochrones").addEventListener("change", () => ask((state) => {
     state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
@@ -55,6 +61,7 @@ export function makeChoices(store, plane, { ask, attempt }) {
     const { state, state: { ball }, facts, portrait, view } = store;
     $("lab").setAttribute("aria-expanded", String(state.lab));
     law.show(state.law);
+    if (state.law.includes("=") && document.activeElement !== formulas) formulas.value = state.law;
     $("save-pressure").hidden = !tableOfLaw(state.law);
     against.show(store.request.against);
     for (const option of $("against").options) option.disabled = option.value === state.law;
@@ -67,7 +74,8 @@ export function makeChoices(store, plane, { ask, attempt }) {
     sides.forEach((field, side) => field.show(Number(portrait.window[side].toPrecision(6))));
     viewButtons.show(state.view);
     write($("view-hint"), view.hint);
-    write($("terminal"), `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}`);
+    const without = store.contact?.without ? ` The plane is without rolling friction: ${store.contact.without}.` : "";
+    write($("terminal"), `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}${without}`);
     $("theme").setAttribute("aria-label", `Theme: ${state.theme === "auto" ? "as the system" : state.theme}`);
   };
 }

@@ -1,6 +1,7 @@
 // A field for a number: what is wrong with it is said beside it, and only what is right is used.
 import { $, make, write } from "../dom.js";
 import { parseNumber } from "../numbers.js";
+import { requireAllowed } from "../state/page_state.js";
 
 /**
  * @param input   the text field
@@ -91,3 +92,18 @@ export function slider(name, label, use) {
 export function fillSelect(select, choices) {
   select.replaceChildren(...choices.map(({ name, title }) => new Option(title, name)));
 }
+
+/** A list of choices. @param edit  (state, name) */
+export function choose(id, choices, ask, edit) {
+  fillSelect($(id), choices);
+  $(id).addEventListener("change", () => ask((state) => edit(state, $(id).value)));
+}
+
+/** A number of the state with its label, in `parent`. @param edit  (state, value) */
+export const addNumber = (store, parent, key, label, edit) => addNumberField(parent, {
+  key, label,
+  use(value) {
+    requireAllowed(key, value);
+    store.change((state) => edit(state, value));
+  },
+});

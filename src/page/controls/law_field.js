@@ -5,6 +5,9 @@ import { addNumberField, fillSelect } from "./fields.js";
 const table = "table";  // what the name of a law begins with that is the reader's own: rho/pressure of each row
 const mostRows = 200;   // of it, which go with the link
 
+/** Whether a law is formulas. */
+const isFormula = (law) => law?.includes("=");
+
 /** What a law is called: a table by the file that the program would read. */
 export const lawTitle = (law) => (law?.startsWith(`${table}:`) ? "pressure.csv" : law);
 
@@ -46,13 +49,11 @@ export function lawField(id, { laws, key, none, attempt, use }) {
   }));
   return {
     show(law) {
-      const [name, number] = (law ?? "").split(":");
-      if (name === table) {
-        if (!families.has(name)) select.append(new Option("pressure.csv – your own pressure", name));
-        families.set(name, { name, number });
-      }
+      const own = tableOfLaw(law ?? "") ? "pressure.csv – your own pressure" : isFormula(law) ? "your own formulas" : null;
+      const [name, number] = own ? [law] : (law ?? "").split(":");
+      if (own) ([...select.options].find(({ text }) => text === own) ?? select.appendChild(new Option(own))).value = name;
       select.value = name;
-      place.hidden = number === undefined || name === table;
+      place.hidden = number === undefined;
       if (!place.hidden) field.show(Number(number));
     },
   };

@@ -10,7 +10,7 @@ const fractionToMu = (fraction, largest) => Number((largest * (smallestMu / larg
 const muToFraction = (mu, largest) => 1 - Math.log(mu / largest) / Math.log(smallestMu / largest);
 const round = (value) => Number(value.toPrecision(3));
 
-/** As makeControls. */
+/** As makeChoices. */
 export function makeSliders(store, plane, { ask }) {
   const { balls } = store.library;
   const move = (state, edit) => {

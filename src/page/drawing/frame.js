@@ -1,12 +1,9 @@
 // A rectangle of a figure with its two axes: from numbers to pixels, and back.
-import { ticks, tickText } from "../numbers.js";
-import { widthOf } from "./surface.js";
 
 export class Frame {
   /**
    * @typedef {{left: number, top: number, width: number, height: number}} Box  in pixels
-   * @typedef {{low: number, high: number, label?: Words, tick?: (value: number) => string, ticks?: Tick[]}} Range
-   *   tick turns a tick into its text; ticks count if there are any; without a label nothing is written below the axis
+   * @typedef {{low: number, high: number}} Range
    * @param {Box} place
    * @param {Range} x
    * @param {Range} y
@@ -58,45 +55,5 @@ export class Frame {
       else lines.push((line = []));
     }
     return lines;
-  }
-
-  /** The texts of the ticks: {at, text} of each, about `wanted` of them. */
-  ticksOf(axis, wanted) {
-    if (axis.ticks?.length) return axis.ticks;
-    const values = ticks(axis.low, axis.high, Math.max(2, wanted));
-    const step = values.length > 1 ? values[1] - values[0] : 1;
-    return values.map((at) => ({ at, text: axis.tick ? axis.tick(at) : tickText(at, step) }));
-  }
-
-  /** The room that the ticks of y need beside the frame. */
-  roomForTicks(size) {
-    return 6 + Math.max(0, ...this.ticksOf(this.y, this.height / 55).map(({ text }) => widthOf(text, { size })));
-  }
-
-  draw(surface, theme) {
-    const size = theme.textSize;
-    const style = { colour: theme.soft, size };
-    const label = { colour: theme.ink, size: size + 1, align: "center" };
-    const [bottom, right] = [this.top + this.height, this.left + this.width];
-    const lines = [[this.left, this.top, this.left, bottom, right, bottom]];
-    let free = -Infinity;
-    for (const { at, text } of this.ticksOf(this.x, this.width / 85)) {
-      const [x, half] = [this.px(at), widthOf(text, { size }) / 2];
-      lines.push([x, bottom, x, bottom + 4]);
-      if (this.x.label === undefined || x - half < free) continue;
-      free = x + half + 0.4 * size;
-      surface.text(x, bottom + 6, text, { ...style, align: "center", baseline: "top" });
-    }
-    for (const { at, text } of this.ticksOf(this.y, this.height / 55)) {
-      const y = this.py(at);
-      lines.push([this.left - 4, y, this.left, y]);
-      surface.text(this.left - 6, y, text, { ...style, align: "right", baseline: "middle" });
-    }
-    surface.shape(lines, { stroke: theme.soft });
-    if (this.x.label) surface.text(this.left + this.width / 2, bottom + 6 + 1.5 * size, this.x.label, { ...label, baseline: "top" });
-    if (this.y.label) {
-      const beside = Math.max(3.6 * size, this.roomForTicks(size) + size);
-      surface.text(this.left - beside, this.top + this.height / 2, this.y.label, { ...label, baseline: "middle", turned: true });
-    }
   }
 }

@@ -1,7 +1,7 @@
 // A canvas of the page: of the size that the layout gives it, sharp, and drawn where it is seen.
 import { borderOf, CanvasSurface } from "./surface.js";
 
-const smallestWidth = 120;  // pixels; a hidden or minimised page has none
+const smallestWidth = 200;  // pixels; a hidden or minimised page has none
 
 /** A canvas of the page. */
 export class ScreenSurface extends CanvasSurface {
@@ -28,6 +28,15 @@ export class ScreenSurface extends CanvasSurface {
   /** Asks the page for the size, which lays the page out. */
   measure() {
     this.size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  /** Gives the canvas the height of so many rows of panels. */
+  fit(/** @type {number} */ rows) {
+    const { canvas, canvas: { dataset } } = this;
+    if (dataset.rows === String(rows)) return;
+    dataset.rows = String(rows);
+    canvas.style.setProperty("--rows", dataset.rows);
+    this.measure();
   }
 
   get width() {

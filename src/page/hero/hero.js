@@ -132,7 +132,7 @@ export class Hero {
   drawBalls(surface) {
     const { store: { ride, theme, contact }, balls: lanes, aim, asked } = this;
     const placed = this.ruler.placed && { ...this.ruler.placed, words: this.ruler.words };
-    return ride ? drawLanes(surface, { lanes, radius: ride.radius, unit: contact ? "m" : "", secret: asked !== null, aim, placed }, theme) : { places: [], rulerEnds: null };
+    return ride ? drawLanes(surface, { lanes, radius: ride.radius, rolls: ride.rolls, unit: contact ? "m" : "", secret: asked !== null, aim, placed }, theme) : { places: [], rulerEnds: null };
   }
 
   /** The canvas of a film, on which the balls are drawn from now on under what is said of them, with the clock. */

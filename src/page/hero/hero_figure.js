@@ -1,7 +1,7 @@
 // Two equal balls on the table, seen from above, one of which spins; and the patch on which a ball stands, from below.
 import { length, roundDown, shown } from "../numbers.js";
 import { borderOf, widthOf } from "../drawing/surface.js";
-import { rotation, turnedBy } from "./turning.js";
+import { product, rotation, turnedBy } from "./turning.js";
 
 const smallest = 11;    // pixels, radius of a ball
 const spotSize = 0.36;  // rad
@@ -18,10 +18,14 @@ const spots = [[0, 0], ...rings, [Math.PI, 0]].map(([tilt, fifths]) => {
   return [[0, 0, 1], ...circle].map((point) => turnedBy(tilted, point));
 });
 
-/** A ball with spots, turned by a matrix; a flat body shows the same spots on its face. */
-function drawBall(surface, x, y, radius, turn, colour, theme) {
+/** What rolls is seen from above and before it: its spots go over the top and down, where one that slides shows the same ones. */
+const seen = rotation([-0.7, 0, 0]);
+
+/** A ball with spots, turned by a matrix; a flat body shows the same spots on its face, from above. */
+function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) {
   surface.shape([[x, y]], { radius, fill: colour, stroke: theme.card, width: 2 });
-  const turned = spots.map((spot) => spot.map((point) => turnedBy(turn, point))).filter(([middle]) => middle[2] > -0.3);
+  const view = rolls ? product(seen, turn) : turn;
+  const turned = spots.map((spot) => spot.map((point) => turnedBy(view, point))).filter(([middle]) => middle[2] > -0.3);
   surface.shape(turned.map(([, ...border]) => border.flatMap(([px, py, pz]) => {
     // Behind the horizon the border goes along it.
     const out = 0.985 * radius * (pz < 0 ? 1 / Math.hypot(px, py) : 1);
@@ -32,14 +36,14 @@ function drawBall(surface, x, y, radius, turn, colour, theme) {
 
 /**
  * @param scene  lanes: title, xs, ys, slides (the line of the path until it ceases to slide), at (x, y, turn), colour, and
- *   ruler: {from, to: places, more: m} between where the other stands and this one; radius; unit: "m" or "", lengths in m;
+ *   ruler: {from, to: places, more: m} between where the other stands and this one; radius; unit: "m" or "", lengths in m; rolls: seen at an angle;
  *   secret: the paths are not drawn; aim: {from, to: pixels, words} of a throw; placed: {from, to: places, words} of the
  *   reader's ruler, which then is the only one
  * @returns {{places: {x: number, y: number, radius: number}[], rulerEnds: number[][], toTable: (x: number, y: number) => {x: number, y: number}}}
  *   in pixels where the bodies are, and the ends of the ruler or of the bar of the scale; the place at a pixel on the second table
  */
 export function drawLanes(surface, scene, theme) {
-  const { lanes, radius, unit, secret, aim, placed } = scene;
+  const { lanes, radius, unit, rolls, secret, aim, placed } = scene;
   const size = theme.textSize;
   const keys = [radius, unit, secret, theme, ...lanes.flatMap(({ xs, slides, colour }) => [xs, slides.length, slides.at(-2), colour])];
   const table = surface.still(keys, theme.card, () => drawPaths(surface, scene, theme));
@@ -50,7 +54,7 @@ export function drawLanes(surface, scene, theme) {
       surface.shape([table.pixel(ruler.from, i)], { radius: table.pixels, fill: theme.card, stroke: theme.soft, width: 1.5, dash: [4, 4] });
       if (!placed) ends = drawRuler(surface, besides(table, i, ruler, theme), `${length(ruler.more, unit)} more`, theme) ?? ends;
     }
-    drawBall(surface, x, y, table.pixels, at.turn, colour, theme);
+    drawBall(surface, { x, y, radius: table.pixels, rolls }, at.turn, colour, theme);
     surface.text(table.cells[i].left + 4, table.cells[i].top + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
     return { x, y, radius: table.pixels };
   });
@@ -95,9 +99,11 @@ function drawRuler(surface, ends, words, theme) {
   const point = (share) => [ax + share * (bx - ax), ay + share * (by - ay)];
   surface.shape([[...point(0), ...point(gap)], [...point(1 - gap), ...point(1)], ...ends.map(([x, y]) => [x - 5 * nx, y - 5 * ny, x + 5 * nx, y + 5 * ny])],
     { stroke: theme.ink, width: 1.5 });
-  const before = !steep && !fits && Math.max(ax, bx) + wide > surface.width;
-  const [x, y] = steep ? [(ax + bx) / 2 + 8 * nx, (ay + by) / 2 + 8 * ny] : fits ? point(0.5) : [before ? Math.min(ax, bx) - 8 : Math.max(ax, bx) + 8, ay];
-  const align = before || (steep && nx < 0) ? "right" : fits ? "center" : "left";
+  const [middle, level] = point(0.5);
+  // Where there is no room to the right, to the left.
+  const before = steep ? nx < 0 || middle + 8 * nx + wide > surface.width : !fits && Math.max(ax, bx) + wide > surface.width;
+  const [x, y] = steep ? [middle + (before ? -8 : 8) * Math.abs(nx), level + 8 * ny] : fits ? [middle, level] : [before ? Math.min(ax, bx) - 8 : Math.max(ax, bx) + 8, ay];
+  const align = before ? "right" : fits ? "center" : "left";
   surface.text(x, y, words, { colour: theme.ink, size: theme.textSize, bold: true, baseline: "middle", align });
   return ends;
 }

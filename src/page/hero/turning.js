@@ -1,6 +1,6 @@
 // How a ball turns: rotations as matrices [row, row, row], in axes with z up.
 
-const product = (a, b) => a.map((row) => [0, 1, 2].map((j) => row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j]));
+export const product = (a, b) => a.map((row) => [0, 1, 2].map((j) => row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j]));
 
 /** The rotation by an angle |w| about the axis w. */
 export function rotation(w) {

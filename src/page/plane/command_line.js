@@ -27,7 +27,7 @@ export function commandLine(state, request, through, body, builtIn) {
       ofBall.push(ball.patchBy === "patch_radius" ? "--patch-radius" : "--spin-deceleration", ball.patch);
     }
   }
-  const words = ["contensou", "portrait", ...ofBall];
+  const words = ["contensou", "portrait", ...ofBall, ...(ball?.rolling_friction ? ["--rolling-friction", ball.rolling_friction] : [])];
   if (ball) {
     words.push("--slip", ball.velocity[0], "--spin", ball.angular_velocity[2]);
   } else {

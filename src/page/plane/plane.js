@@ -2,12 +2,11 @@
 import { $, write } from "../dom.js";
 import { Copies, sizeOf } from "./copies.js";
 import { listen } from "../drawing/gestures.js";
+import { drawPortrait } from "../drawing/figure.js";
 import { plain } from "../drawing/runs.js";
 import { shown } from "../numbers.js";
 import { makeSizes } from "./sizes.js";
 import { moved, startOf } from "../state/page_state.js";
-import { drawPortrait } from "./portrait_figure.js";
-import { rowsOf } from "./portrait_layout.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 import { Zooming } from "./zooming.js";
 
@@ -28,7 +27,7 @@ export class Plane {
     this.zooming = new Zooming(store, { ask: act.ask, announce: (text) => this.announce(text) });
     this.surface = new ScreenSurface($("plane"), (surface) => {
       this.planeScene = this.scene();
-      this.frames = drawPortrait(surface, this.planeScene, store.theme);
+      this.frames = drawPortrait(surface, this.planeScene, store);
     });
     listen($("plane"), {
       hold: (x, y, kind) => this.startAt(x, y, kind),
@@ -79,13 +78,8 @@ export class Plane {
   }
 
   draw() {
-    const { surface, surface: { canvas } } = this;
-    const rows = String(rowsOf(this.store.portrait.figure, surface.width));
-    if (canvas.dataset.rows !== rows) {
-      canvas.dataset.rows = rows;
-      canvas.style.setProperty("--rows", rows);
-      surface.measure();
-    }
+    const { surface, store: { library, portrait } } = this;
+    surface.fit(library.rowsOf(portrait.figure, surface.width));
     surface.drawInSight();
     $("clear-isochrone").hidden = !this.store.state.isochrone;
   }

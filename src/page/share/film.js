@@ -3,8 +3,7 @@ import { $ } from "../dom.js";
 import { csvOfFilm, save, textFile } from "./exports.js";
 import { lawTitle } from "../controls/law_field.js";
 import { startOf } from "../state/page_state.js";
-import { drawPortrait } from "../plane/portrait_figure.js";
-import { rowsOf } from "../plane/portrait_layout.js";
+import { drawFigure } from "../drawing/figure.js";
 import { shotOf } from "../plane/portrait_request.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 
@@ -27,8 +26,9 @@ export class Film {
   }
 
   draw(surface) {
-    if (!this.figure) throw new Error("no film has been fitted");
-    drawPortrait(surface, { figure: this.figure, own: [], isochrone: null, marker: null, cross: null }, this.store.theme);
+    const { figure, store } = this;
+    if (!figure) throw new Error("no film has been fitted");
+    drawFigure(surface, [figure], () => figure, store);
   }
 
   redraw() {
@@ -36,12 +36,11 @@ export class Film {
   }
 
   show(figure) {
-    const { picture, picture: { canvas } } = this;
+    const { store, picture, picture: { canvas } } = this;
     this.figure = figure;
     canvas.hidden = $("save-residuals").hidden = !figure;
     if (!figure) return;
-    canvas.style.setProperty("--rows", String(rowsOf(figure, canvas.clientWidth)));
-    picture.measure();
+    picture.fit(store.library.rowsOf(figure, canvas.clientWidth));
     this.redraw();
   }
 

@@ -6,7 +6,7 @@ import { fillSelect, numberField } from "../controls/fields.js";
 import { plain } from "../drawing/runs.js";
 import { toFragment } from "../state/page_state.js";
 import { drawPanes } from "./panes_figure.js";
-import { drawPortrait } from "../plane/portrait_figure.js";
+import { drawPortrait } from "../drawing/figure.js";
 import { SvgSurface } from "../drawing/surface.js";
 
 const widest = 12000;  // pixels; browsers have no larger canvas
@@ -15,10 +15,10 @@ export class Share {
   constructor(store, plane, hero, player, address, film) {
     this.store = store;
     const figures = {
-      plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store.theme)],
+      plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store)],
       lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface)],
       patch: ["the patch", "patch", (surface) => hero.drawPatch(surface)],
-      panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store, store.theme)],
+      panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store)],
       "film-fit": ["the fit of a film", "fit", (surface) => film.draw(surface)],
     };
     fillSelect($("picture"), Object.entries(figures).map(([name, [title]]) => ({ name, title })));

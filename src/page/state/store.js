@@ -86,19 +86,20 @@ export class Store {
   compute(/** @type {State} */ state) {
     const { library, library: { plane } } = this;
     const orbit = state.orbits[state.chosen];
-    // A slope drives what slides, the way it slides.
-    const slides = state.ball?.slope ? orbit : undefined;
-    const contactBy = (law) => library.contact(law, shotOf(state.ball, slides ?? startOf(0, 0)));
-    this.contact = state.ball ? this.keep("contact", [state.law, state.ball, slides], () => contactBy(state.law)) : null;
-    if (this.contact) state.mu = this.contact.mu;
     this.body = bodyOf(state, library);
     const { chi, gamma } = this.body;
+    // A slope and rolling friction drive what slides, the way it slides.
+    const rolling = chi === 1 ? 0 : state.ball?.rollingFriction ?? 0;
+    const slides = state.ball?.slope || rolling ? orbit : undefined;
+    const contactBy = (law) => library.contact(law, shotOf(state.ball, slides ?? startOf(0, 0), slides ? rolling : 0));
+    this.contact = state.ball ? this.keep("contact", [state.law, state.ball, slides], () => contactBy(state.law)) : null;
+    if (this.contact) state.mu = this.contact.mu;
     const drive = this.contact?.drive ?? 0;
     /** @type {[string, number, number, number, number]} */
     const system = [state.law, state.mu, chi, gamma, drive];
     const ofSystem = (name, key, make) => this.keep(name, [...system, ...key], make);
     this.facts = ofSystem("facts", [], () => plane.choose(...system));
-    this.request = portraitRequest(state, { chi, gamma, drive }, isDark(state.theme));
+    this.request = portraitRequest(state, { chi, gamma, drive, resistance: this.contact?.without ? 0 : rolling }, isDark(state.theme));
     this.portrait = this.keep("portrait", this.request, () => plane.portrait(this.request));
     this.motions = this.portrait.own;
     const { against } = this.request;
@@ -125,7 +126,8 @@ export class Store {
       const shot = shotOf(ball, starts[name]);
       return ofSystem(`${name} slide`, [shot, least], () => plane.slide(shot, 0, least));
     };
-    const [plain, own] = [slide("plain"), slide("own")];
+    const plain = slide("plain");
+    const own = { ...slide("own"), ...(resistance > 0 && !this.contact?.without ? { stop: this.motion.stop * timeFactor } : {}) };
     const radius = state.ball?.radius ?? (Math.max(own.path, plain.path) / 4 || 1);
     const ride = (name, until, kept = `${name} ride`) => {
       const shot = shotOf(state.ball ?? ballOf(radius), starts[name]);

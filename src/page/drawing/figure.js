@@ -1,0 +1,148 @@
+// Figures: of the library (portraits/figure.hpp), laid out by it, or of the page with the same fields. And the portrait, with
+// what the page draws itself in it: the reader's own orbits in colours of their own, the moving point, the isochrone that
+// is dragged.
+import { Frame } from "./frame.js";
+import { plain } from "./runs.js";
+import { borderOf } from "./surface.js";
+
+const lineWidth = 0.9;  // pixels of a line of width 1
+const dash = [5, 4];
+const tickSize = 0.9;      // of the letters
+const leastWidth = 15.5;  // of a panel with its numbers, in letters
+
+/** A panel of the page's own. @param {object} x {low, high} and perhaps {name, ticks} @param {object} y as x @returns {Panel} */
+export const panelOf = (title, x, y, lines = /** @type {Partial<Lines>[]} */ ([]), marks = /** @type {Partial<Marks>[]} */ ([])) => ({
+  title, x: { name: "", ticks: [], ...x }, y: { name: "", ticks: [], ...y }, arrows: [], regions: [], labels: [], bare: false, toScale: false,
+  lines: lines.map((line) => /** @type {Lines} */ ({ width: 1.5, dashed: false, legend: "", ...line })),
+  marks: marks.map((mark) => /** @type {Marks} */ ({ size: 1, shape: "dot", legend: "", ...mark })),
+});
+
+/** A figure of the page's own. @param shape  columns, the most, and narrowest, the pixels that a panel needs beside others @param {Panel[]} panels @returns {Figure} */
+export const figureOf = (theme, shape, panels) => ({ title: "", ...shape, panels, ground: theme.card, ink: theme.ink, faint: theme.soft, line: 1 });
+
+/**
+ * @param {unknown[]} keys      what the figure depends on
+ * @param {() => Figure} make
+ * @param {import("../state/store.js").Store} store
+ * @param over      draws in a panel, over its lines
+ * @returns {Frame[]} of the panels
+ */
+export function drawFigure(surface, keys, make, store, over = (/** @type {number} */ _panel, /** @type {Frame} */ _frame) => {}) {
+  const { library, theme } = store;
+  return surface.still([...keys, theme], theme.card, () => {
+    const figure = make();
+    // Where panels are narrow, letters are small.
+    const letter = Math.min(theme.textSize, (surface.width * library.rowsOf(figure, surface.width)) / figure.panels.length / leastWidth);
+    const layout = library.layOut(figure, surface.width, surface.height, letter);
+    const style = { colour: figure.ink, baseline: "middle" };
+    const frames = figure.panels.map(({ x, y }, i) => new Frame(layout.panels[i].box, x, y));
+    figure.panels.forEach((panel, i) => {
+      const frame = frames[i];
+      surface.inside(frame, () => {
+        drawLayers(surface, figure, panel, frame);
+        over(i, frame);
+      });
+      for (const marks of panel.marks) drawMarks(surface, figure, marks, frame.lines(marks.points).flat());
+      if (!panel.bare) drawAxes(surface, frame, layout.panels[i], figure.faint, tickSize * letter);
+      for (const { x, y, text, colour, align } of panel.labels) {
+        surface.text(frame.px(x), frame.py(y), text, { ...style, colour, size: 0.92 * letter, align, halo: figure.ground });
+      }
+    });
+    // From the bottom up.
+    layout.colours.forEach((box, i) => surface.shape([borderOf(box)], { fill: figure.colourBar?.colours[i] }));
+    for (const { legend, x, y, width } of layout.legend) {
+      const named = ({ legend: other }) => plain(other) === plain(legend);
+      const lines = figure.panels.flatMap((panel) => panel.lines).find(named);
+      if (lines) surface.shape([[x, y, x + width, y]], strokeOf(figure, lines));
+      const marks = figure.panels.flatMap((panel) => panel.marks).find(named);
+      if (marks) drawMarks(surface, figure, marks, [x + width / 2, y]);
+    }
+    for (const { x, y, text, ...how } of layout.texts) surface.text(x, y, text, { ...style, ...how });
+    return frames;
+  });
+}
+
+/**
+ * @typedef {OwnOrbit & {index: number, chosen: boolean, start: Float64Array | null}} Drawn  start: x and y in each panel
+ * @param {{figure: Figure, own: Drawn[], isochrone: Float64Array[] | null, marker: {places: Float64Array, index: number} | null,
+ *   cross: {panel: number, x: number, y: number} | null, ghosts: {lines: Float64Array[]}[]}} scene  ghosts: of a pull
+ * @returns {Frame[]} of the panels
+ */
+export function drawPortrait(surface, scene, store) {
+  const { figure, isochrone, marker, cross, ghosts } = scene;
+  const { theme } = store;
+  // The orbits of the reader come with the figure.
+  const frames = drawFigure(surface, [figure, isochrone, ghosts], () => figure, store, (panel, frame) => drawOwn(surface, scene, panel, frame, theme));
+  frames.forEach((frame, i) => {
+    if (marker) {
+      const [x, y] = frame.pixel(marker.places, 2 * i);
+      if (frame.contains(x, y)) surface.shape([[x, y]], { radius: 6.5, fill: theme.swatch(marker.index), stroke: figure.ground, width: 2 });
+    }
+    if (cross && cross.panel === i) {
+      const [x, y] = frame.pixel([cross.x, cross.y]);
+      surface.shape([[x - 9, y, x + 9, y], [x, y - 9, x, y + 9]], { stroke: figure.ink, width: 1.5 });
+    }
+  });
+  return frames;
+}
+
+function drawAxes(surface, frame, { x, y }, colour, size) {
+  const [bottom, right] = [frame.top + frame.height, frame.left + frame.width];
+  const lines = [[frame.left, frame.top, frame.left, bottom, right, bottom]];
+  for (const { at, text } of x) {
+    lines.push([frame.px(at), bottom, frame.px(at), bottom + 4]);
+    surface.text(frame.px(at), bottom + 6, text, { colour, size, align: "center", baseline: "top" });
+  }
+  for (const { at, text } of y) {
+    lines.push([frame.left - 4, frame.py(at), frame.left, frame.py(at)]);
+    surface.text(frame.left - 6, frame.py(at), text, { colour, size, align: "right", baseline: "middle" });
+  }
+  surface.shape(lines, { stroke: colour });
+}
+
+const strokeOf = ({ line }, { colour, width, dashed }) =>
+  ({ stroke: colour, width: lineWidth * line * width, dash: dashed ? dash : [] });
+
+function drawLayers(surface, figure, panel, frame) {
+  for (const { border, colour } of panel.regions) surface.shape(frame.lines(border), { fill: colour });
+  for (const layer of panel.lines) surface.shape(frame.lines(layer.lines), strokeOf(figure, layer));
+  for (const { arrows, colour } of panel.arrows) surface.shape(headsOf(frame, arrows, 7.5), { fill: colour });
+}
+
+/** The heads of arrows, x and y of the tip and of the direction in turn. */
+function headsOf(frame, arrows, length) {
+  const heads = [];
+  for (let i = 0; i < arrows.length; i += 4) {
+    const [x, y] = frame.pixel(arrows, i);
+    const [dx, dy] = [frame.px(arrows[i] + arrows[i + 2]) - x, frame.py(arrows[i + 1] + arrows[i + 3]) - y];
+    const part = length / Math.hypot(dx, dy);
+    if (!Number.isFinite(part)) continue;
+    const [backX, backY] = [x - part * dx, y - part * dy];
+    const [acrossX, acrossY] = [-0.36 * part * dy, 0.36 * part * dx];
+    heads.push([x, y, backX + acrossX, backY + acrossY, backX - acrossX, backY - acrossY]);
+  }
+  return heads;
+}
+
+/** Marks at points, in pixels. */
+function drawMarks(surface, figure, { shape, colour, size }, points) {
+  const radius = 3.6 * size;
+  const style = { fill: shape === "dot" ? colour : figure.ground, stroke: colour, width: 1.8 };
+  if (shape !== "square") return surface.shape([points], { ...style, radius });
+  const corners = [-1, -1, 1, -1, 1, 1, -1, 1, -1, -1].map((side) => side * radius);
+  for (let i = 0; i < points.length; i += 2) surface.shape([corners.map((corner, j) => points[i + (j % 2)] + corner)], style);
+}
+
+/** The orbits of the reader and the isochrone that is dragged. */
+function drawOwn(surface, { figure, own, isochrone, ghosts }, panel, frame, theme) {
+  for (const { lines } of ghosts) surface.shape(frame.lines(lines[panel]), { stroke: `${theme.swatch(own.at(-1)?.index ?? 0)}99`, width: 2 });
+  if (isochrone) surface.shape(frame.lines(isochrone[panel]), { stroke: figure.ink, width: 2, dash: [2, 3] });
+  for (const { panels, index, chosen, start } of own) {
+    const lines = frame.lines(panels[panel].line);
+    const swatch = theme.swatch(index);
+    surface.shape(lines, { stroke: figure.ground, width: chosen ? 6 : 4 });
+    surface.shape(lines, { stroke: swatch, width: chosen ? 3.2 : 2 });
+    surface.shape(headsOf(frame, panels[panel].arrow, 11), { fill: swatch });
+    if (start) surface.shape([frame.pixel(start, 2 * panel)], { radius: chosen ? 5 : 4, fill: swatch, stroke: figure.ground });
+  }
+}
