@@ -103,7 +103,7 @@ const std::array<RollingOrbit::Difference, RollingOrbit::numbers>& RollingOrbit:
   }
   const double greatest = ScaledOrbit::greatest_drive(law_, std::exp(at_[ln_mu] + step), inertia_);
   differences_.emplace();
-  for (int number = 0; number < numbers; ++number) {
+  for (std::size_t number = 0; number < numbers; ++number) {
     const double h = steps[number];
     // To both sides; from the least value that can be, to one.
     const bool bounded = number == slip || number == rolling || number == drive;
@@ -141,7 +141,7 @@ FilmOrbit::Moment RollingOrbit::at(double T, std::size_t& /*cell*/) const {
     result.dcentre = -at_[drive];
   }
   const auto& all = differences();
-  const auto by = [&](int number) {
+  const auto by = [&](std::size_t number) {
     const Difference& each = all[number];
     return each.of_here * result.now + each.of_first * each.first->speeds_at(T) +
            each.of_second * each.second->speeds_at(T);
@@ -159,7 +159,7 @@ double RollingOrbit::stop_T() const { return held_ ? held_from_ + held_->stop().
 FilmOrbit::Stop RollingOrbit::stop() const {
   const auto& all = differences();
   const double here = stop_T();
-  const auto by = [&](int number) {
+  const auto by = [&](std::size_t number) {
     const Difference& each = all[number];
     return each.of_here * here + each.of_first * each.first->stop_T() + each.of_second * each.second->stop_T();
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -30,7 +31,7 @@ class RollingOrbit final : public FilmOrbit {
 
  private:
   /// What it depends on, and how far to either side a difference goes.
-  enum { ln_mu, slip, spin, rolling, drive, numbers };
+  enum : std::size_t { ln_mu, slip, spin, rolling, drive, numbers };
   using Numbers = std::array<double, numbers>;
   struct Difference {
     std::unique_ptr<RollingOrbit> first, second;
