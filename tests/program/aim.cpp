@@ -1,9 +1,16 @@
 // `aim`: against `stop` and `roll`, which go the other way.
+#include <array>
+#include <cstddef>
 #include <string>
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "answers/aim_figure.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/si/catalogue.hpp"
+#include "contensou/si/scaling.hpp"
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;
@@ -64,6 +71,34 @@ TEST_CASE("the cue of aim makes that start", "[cli]") {
     CHECK(roll.at("vx")[0].get<double>() == Approx(json.at("final_velocity").get<double>()).epsilon(1e-9));
     CHECK(roll.at("rolls_after").at("x") == Approx(json.at("rolls_after").at("x").get<double>()).epsilon(1e-9));
   }
+}
+
+TEST_CASE("what the lines of aim's picture say is what its points need", "[figure]") {
+  namespace si = contensou::si;
+  namespace portraits = contensou::portraits;
+  const si::Experiment ball = si::find_ball("pool")->experiment;
+  const contensou::reduction::Law law{contensou::reduction::HertzLaw{}};
+  const contensou::reduction::Flow flow(si::undriven_system(ball, law));
+  const portraits::Figure figure = contensou::answers::aim_figure(ball, law, {1.0, -4.0, {}}, {});
+  const portraits::Panel& panel = figure.panels.front();
+  CHECK(panel.marks.front().points.front().x == Approx(1).epsilon(1e-12));
+  CHECK(panel.marks.front().points.front().y == Approx(4).epsilon(1e-12));
+  REQUIRE(panel.lines.size() == 4);
+  std::array<int, 3> found{};
+  for (const portraits::Label& label : panel.labels) {
+    const si::SlipAndSpin start = si::aimed(ball, flow, {label.at.x, label.at.y, {}});
+    const double time = si::seconds(ball, flow.stop_time({ball.ball.radius * start.spin, start.slip}).tau);
+    const std::array needed{start.slip, start.spin, time};
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+      if (label.colour.rgb != panel.lines[i].stroke.colour.rgb) continue;
+      CAPTURE(i, label.at.x, label.at.y);
+      CHECK(needed[i] == Approx(std::stod(label.text.words())).epsilon(2e-3));
+      ++found[i];
+    }
+  }
+  for (int count : found) CHECK(count >= 4);
+  check_rejected("aim --ball pool --distance 0 --turns 0 -o x.svg", "a plane with a point in it");
+  check_rejected("aim --ball pool --distance 1 --turns 1 --size 80x60", "--size");
 }
 
 TEST_CASE("what aim cannot reach, and what it refuses", "[cli][errors]") {

@@ -1,4 +1,6 @@
 #include "answers/aim_answer.hpp"
+#include "answers/aim_figure.hpp"
+#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
@@ -17,6 +19,7 @@ class AimCommand final : public Verb {
     start_.add_ball(app, "a ball in SI units, built in or from a run file; its own start does not count",
                     StartOptions::no_start);
     law_.add(app);
+    figure_.add(app);
     output_.add(app);
   }
 
@@ -25,7 +28,13 @@ class AimCommand final : public Verb {
     const si::Experiment ball = start_.read_ball(law, at_rest("aim"));
     start_.require_undriven(ball, "aim");
     const Output output = output_.read();
-    output.write(aim_answer(ball, law, {distance_.optional(), turns_.optional(), time_.optional()}));
+    figure_.require_picture(output);
+    const si::Goal goal{distance_.optional(), turns_.optional(), time_.optional()};
+    if (output.picture()) {
+      output.write({figure_.apply(aim_figure(ball, law, goal, figure_.size()), output.format)});
+    } else {
+      output.write(aim_answer(ball, law, goal));
+    }
     return ExitStatus::done;
   }
 
@@ -33,7 +42,8 @@ class AimCommand final : public Verb {
   ArgumentOf<double> distance_, turns_, time_;
   StartOptions start_;
   LawOption law_;
-  OutputOptions output_{{{"a start", answer_formats("text")}}};
+  FigureOptions figure_;
+  OutputOptions output_{{{"a start", with_pictures(answer_formats("text"))}}};
 };
 
 const RegisteredVerb<AimCommand> aim_verb(Purpose::compute, "aim",
