@@ -74,19 +74,35 @@ Engine newton() {
       .title = "Newton",
       .repository = "newton-physics/newton",
       .version = "commit 41a5392",
-      .ball = {.parameters = {{"mu", "", "f", friction_of}, {"mu_torsional", "m", arm_formula, arm_of}},
-               .limit = "M <= mu_torsional N",
-               .needs = {"SolverMuJoCo(cone=\"elliptic\"): \"pyramidal\" is the default"},
-               .settings = {{"SolverMuJoCo, cone elliptic", Cone::elliptic, arm_of},
-                            {"SolverMuJoCo, cone pyramidal (default)", Cone::pyramid, arm_of},
-                            {"SolverXPBD", Cone::box, arm_of},
-                            {"SolverXPBD, mu_torsional 0.005 (default)", Cone::box, five_millimetres}}},
-      .face = {},
+      .ball =
+          {.parameters = {{"mu", "", "f", friction_of}, {"mu_torsional", "m", arm_formula, arm_of}},
+           .limit = "M <= mu_torsional N",
+           .needs = {"SolverMuJoCo(cone=\"elliptic\"): \"pyramidal\" is the default",
+                     "SolverMuJoCo: the shape's custom attribute mujoco:condim 4: with 3, the default, there is no\n"
+                     "moment"},
+           .settings = {{"SolverMuJoCo, cone elliptic", Cone::elliptic, arm_of},
+                        {"SolverMuJoCo, cone pyramidal (default)", Cone::pyramid, arm_of},
+                        {"SolverMuJoCo, condim 3 (default)", Cone::box, no_arm},
+                        {"SolverXPBD", Cone::box, arm_of},
+                        {"SolverXPBD, mu_torsional 0.005 (default)", Cone::box, five_millimetres}}},
+      .face =
+          [] {
+            EngineUse face = face_on_rim("mu", Cone::points);
+            face.needs.emplace_back(
+                "SolverXPBD: mu_torsional 0: by default each contact point has 5 mm times its load on top");
+            return face;
+          }(),
       .combination = "SolverXPBD the mean of the two shapes, SolverMuJoCo the larger: give both shapes the same",
-      .remarks = {"The other solvers do not read mu_torsional.",
-                  "mu_torsional is documented in m, for SolverXPBD and SolverMuJoCo alike."},
-      .sources = {"newton/_src/sim/builder.py:519-520", "newton/_src/solvers/xpbd/kernels.py:2261-2279",
-                  "newton/_src/solvers/xpbd/kernels.py:2353-2376", "newton/_src/solvers/mujoco/kernels.py:2484-2488",
+      .remarks =
+          {"The other solvers do not read mu_torsional.",
+           "mu_torsional is documented in m, for SolverXPBD and SolverMuJoCo alike.",
+           "A cylinder on its face has three contact points on the rim, 120 degrees apart, which stay where they\n"
+           "are in the world while it turns, and its deepest one where it is tilted."},
+      .sources = {"newton/_src/sim/builder.py:519-520", "newton/_src/geometry/collision_primitive.py:535-645",
+                  "newton/_src/solvers/xpbd/kernels.py:2308-2361", "newton/_src/solvers/mujoco/kernels.py:146-177",
+                  "newton/_src/solvers/mujoco/solver_mujoco.py:855-865",
+                  "newton/_src/solvers/xpbd/kernels.py:2261-2279", "newton/_src/solvers/xpbd/kernels.py:2353-2376",
+                  "newton/_src/solvers/mujoco/kernels.py:2484-2488",
                   "newton/_src/solvers/mujoco/solver_mujoco.py:5423-5424"},
   };
 }
@@ -96,7 +112,7 @@ Engine genesis() {
       .name = "genesis",
       .title = "Genesis",
       .repository = "Genesis-Embodied-AI/genesis-world",
-      .version = "commits 3a9e32b (solver), 25ef489 (options), 29d7ade (materials)",
+      .version = "commits 3a9e32b (solver), 25ef489 (options), 29d7ade (materials), 7bf5f6a (contact points)",
       .ball =
           {.parameters = {{"friction", "", "f", friction_of}, {"friction_torsional", "m", arm_formula, arm_of}},
            .limit = "M <= friction_torsional N",
@@ -109,16 +125,21 @@ Engine genesis() {
                         {"friction_cone pyramidal (default)", Cone::pyramid, arm_of},
                         {"friction_cone elliptic, 0.005 (default)", Cone::box, five_millimetres},
                         {"enable_torsional_friction=False (default)", Cone::box, no_arm}}},
-      .face = {},
+      .face = face_on_rim("friction", Cone::points),
       .combination = "the larger of the two materials, number by number: set both",
       .remarks =
           {"Its documentation calls the number the effective radius of the contact patch; f and Psi(0) are missing\n"
            "in that.",
            "Since pull request 3126 friction no longer lifts what slides; in return slip and spin are bounded each\n"
-           "for itself and no longer know of each other. Before 3139 convex was called impedance."},
+           "for itself and no longer know of each other. Before 3139 convex was called impedance.",
+           "A cylinder on its face has up to five contact points on the rim: that of the pose, and of four that are\n"
+           "tilted a little. Each would have a moment of its own: leave enable_torsional_friction off."},
       .sources = {"genesis/engine/materials/rigid.py:35-39",
                   "genesis/options/solvers.py (RigidOptions, contact_resolution)",
-                  "genesis/engine/solvers/rigid/constraint/solver.py (_friction_blocks, _func_disc_middle)"},
+                  "genesis/engine/solvers/rigid/constraint/solver.py (_friction_blocks, _func_disc_middle)",
+                  "genesis/engine/solvers/rigid/collider/narrowphase.py:546-556",
+                  "genesis/engine/solvers/rigid/collider/narrowphase.py:606-628",
+                  "genesis/engine/solvers/rigid/collider/narrowphase.py:868-937"},
   };
 }
 
@@ -172,14 +193,33 @@ Engine bullet() {
                .needs = {"setRollingFriction above 0, however small: without it spinning friction is ignored"},
                .settings = {{"rolling friction > 0", Cone::box, arm_of},
                             {"rolling friction 0 (default)", Cone::box, no_arm}}},
-      .face = {},
+      .face =
+          [] {
+            EngineUse face = face_on_rim("setFriction of the body", Cone::points);
+            face.needs.emplace_back("setFriction(1) of the plane: friction is the product");
+            face.needs.emplace_back(
+                "spinning friction 0, the default: each contact point would have a moment of its own");
+            return face;
+          }(),
       .combination = "friction f = fA fB, spinning friction s = sA fB + sB fA: the plane has 1 and 0",
       .remarks =
           {"The cap bites where the load times the time step exceeds 1 N s: a heavy body spins on.",
+           "A btCylinderShape on a btStaticPlaneShape gets one contact point in a step, on its rim. It keeps four at\n"
+           "most, each until it has moved by 2 % of the shape's size: of a puck that slides or turns by more in a\n"
+           "step one is left, the load is on the rim, and it rocks. A box or hull gets several at once: what is said\n"
+           "here of a face is of one that stands on points around it.",
+           "Friction at a point acts along its own slip, in one row (SOLVER_USE_2_FRICTION_DIRECTIONS: two).",
            "btMultiBody needs no rolling friction and has no cap, but solverMode SOLVER_USE_2_FRICTION_DIRECTIONS."},
       .sources = {"src/BulletCollision/CollisionDispatch/btManifoldResult.cpp:43-60",
                   "src/BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.cpp:1058-1061",
+                  "src/BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.cpp:1096-1105",
+                  "src/BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.cpp:1656-1671",
                   "src/BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.cpp:1679-1687",
+                  "src/BulletCollision/CollisionDispatch/btConvexPlaneCollisionAlgorithm.cpp:112-152",
+                  "src/BulletCollision/CollisionDispatch/btCollisionDispatcher.cpp:74",
+                  "src/BulletCollision/CollisionShapes/btCollisionShape.cpp:42-45",
+                  "src/BulletCollision/NarrowPhaseCollision/btPersistentManifold.h:52",
+                  "src/BulletCollision/NarrowPhaseCollision/btPersistentManifold.cpp:264-296",
                   "src/BulletDynamics/Featherstone/btMultiBodyConstraintSolver.cpp:78-102",
                   "src/BulletDynamics/Featherstone/btMultiBodyConstraintSolver.cpp:1339-1344"},
   };

@@ -90,9 +90,9 @@ TEST_CASE("engine says how far a puck slides and how often it turns, by law and 
   const Run text = run_program("engine --ball puck");
   CHECK(text.status == 0);
   for (const char* part : {"the disc  law uniform", "\njolt      radius of the shape = 0.0254 m",
-                           "\nnewton    has no body that lies flat, or was not read for it\n", "57.2246"})
+                           "\nchrono    has no body that lies flat, or was not read for it\n", "57.2246"})
     CHECK_THAT(text.out, Contains(part));
-  CHECK_THAT(run_program("engine newton --ball puck").out, Contains("type in   has no body that lies flat"));
+  CHECK_THAT(run_program("engine chrono --ball puck").out, Contains("type in   has no body that lies flat"));
 }
 
 TEST_CASE("a program that stands on an engine is told which", "[cli]") {
