@@ -58,7 +58,7 @@ class Directions {
 
 IsochroneTimes asked_times(std::vector<double> times, double unit) {
   std::ranges::sort(times);
-  times.erase(std::ranges::unique(times).begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   const double step = times.front();
   bool even = true;
   for (std::size_t i = 0; i < times.size(); ++i) {

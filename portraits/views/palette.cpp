@@ -88,7 +88,7 @@ TimeBands bands_of(double longest, std::vector<double> isochrones, double step, 
   if (isochrones.empty()) return linear_bands(longest, unit * round_down(longest / unit / 4), unit, palette);
   if (step > 0) return linear_bands(longest, step, unit, palette);
   std::ranges::sort(isochrones);
-  isochrones.erase(std::ranges::unique(isochrones).begin(), isochrones.end());
+  isochrones.erase(std::unique(isochrones.begin(), isochrones.end()), isochrones.end());
   TimeBands bands{isochrones, spread(palette.times, isochrones.size() + 1), {}, {}};
   for (std::size_t band = 0; band <= isochrones.size(); ++band) {
     if (band > 0) bands.arrows.push_back((bands.begin(band - 1) + bands.begin(band)) / 2);
