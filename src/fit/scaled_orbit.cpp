@@ -16,7 +16,7 @@ namespace {
 constexpr double near_axis = 1e-12;  ///< of k or 1/k: from there on the smaller speed goes in proportion to its start
 constexpr double at_rest = 1e-12;    ///< of w at the start
 constexpr double first_width = 0.5, min_width = 1e-4;
-constexpr double ray_step = 1e-3;  ///< of k*: nearer to the ray its neighbourhood is a cubic
+constexpr double ray_step = 1e-3;  ///< of k*: nearer to the ray A - B is a line
 constexpr double on_ray = 1e-14;
 
 }  // namespace
@@ -141,10 +141,7 @@ void ScaledOrbit::find_ray() {
   if (!(rises(low) < 0 && rises(high) > 0))
     throw std::domain_error("fit: under that rolling friction sliding does not end: a smaller one is required");
   ray_ = std::exp(si::crossing(rises, low, high));
-  for (std::size_t i = 0; i < near_ray_.size(); ++i) {
-    constexpr double steps[]{-2, -1, 1, 2};
-    near_ray_[i] = fall_towards_ray(steps[i] * ray_step * ray_);
-  }
+  near_ray_ = {fall_towards_ray(-ray_step * ray_), fall_towards_ray(ray_step * ray_)};
 }
 
 ScaledOrbit::Rates ScaledOrbit::rates(double x) const {
@@ -152,10 +149,8 @@ ScaledOrbit::Rates ScaledOrbit::rates(double x) const {
     const double distance = side_ * std::exp(x), z = distance / (ray_step * ray_);
     const double B = inertia_.gamma * mu_ * mu_ * law_(reduction::slip_of_ratio(ray_ + distance)).moment;
     if (std::abs(z) >= 1) return {fall_towards_ray(distance), B};
-    const auto& [a, b, c, d] = near_ray_;  // at -2, -1, 1, 2
-    return {
-        ((z - 1) * (z + 1) * (d * (z + 2) - a * (z - 2)) - 2 * (z - 2) * (z + 2) * (c * (z + 1) - b * (z - 1))) / 12,
-        B};
+    const auto [below, above] = near_ray_;
+    return {(below + above + z * (above - below)) / 2, B};
   }
   constexpr double smallest = 1e-12;  // below it Phi/k and Psi do not change
   const double k = std::max(std::exp(x), smallest);

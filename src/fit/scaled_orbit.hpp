@@ -94,7 +94,7 @@ class ScaledOrbit final : public FilmOrbit {
   double mu_, accuracy_;
   reduction::Inertia inertia_;
   double drive_, ray_ = 0, side_ = 1;  ///< k = k* + side e^x
-  std::array<double, 4> near_ray_{};   ///< fall_towards_ray at -2, -1, 1 and 2 steps from it
+  std::array<double, 2> near_ray_{};   ///< fall_towards_ray a little below and above it
   std::vector<Cell> cells_;
   std::vector<double> kinks_;  ///< ln k of those ahead, the next one last
   double x_ = 0, width_;       ///< of the next cell

@@ -58,6 +58,15 @@ TEST_CASE("spin takes from the grip: 0.2857, 0.2605, 0.2316, 0.1805 m/s", "[boun
   }
 }
 
+TEST_CASE("the textbook's force and moment act each for itself, of a spinning ball, too", "[bounce]") {
+  const reduction::Law law = *reduction::find_law("exact");
+  const Rebound end = uncoupled_bounce(coming("pool", 2.83e-3, {{1, 0}, {0, 0, 100}}), law, slow);
+  CHECK(1 - end.velocities.velocity.x() == Approx(2.0 / 7).epsilon(1e-12));  // as without spin
+  const double impulse = 1.5, moment = 0.2 * 2.83e-3 * 3 * std::numbers::pi / 16;
+  CHECK(100 - end.velocities.angular_velocity.z() ==
+        Approx(2.5 * moment * impulse / (0.028575 * 0.028575)).epsilon(1e-9));
+}
+
 TEST_CASE("however the load comes and goes, its impulse counts", "[bounce][route]") {
   const reduction::Law law = *reduction::find_law("exact");
   const Experiment ball = coming("pool", 2.83e-3, {{1, 0.5}, {3, -20, 300}});
