@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/scaling.hpp"
+#include "fit/infinity.hpp"
 #include "fit/profile.hpp"
 #include "fit/student.hpp"
 
@@ -23,8 +23,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// An eigenvalue of the correlations of derivatives below which the data do not decide.
 constexpr double undecided = 1e-10;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "fit/infinity.hpp"
 #include "si/crossing.hpp"
 
 namespace contensou::fit {
@@ -14,7 +14,6 @@ namespace {
 constexpr double accuracy = 1e-12;    // of the orbits, so that differences are smooth
 constexpr double step = 1e-4;         // of the numbers
 constexpr double least_drive = 0.01;  // that counts as large beside a step
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
