@@ -8,6 +8,7 @@
 
 #include "answers/formula_law.hpp"
 #include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/instant_gradient.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/phase_plane.hpp"
 #include "contensou/reduction/stop_times_of_mu.hpp"
@@ -208,6 +209,23 @@ void bind_reduction(py::module_& module) {
             return flow.orbit({u, v});
           },
           Released())
+      .def("instant_gradients",
+           [](const Flow& flow, double u, double v, const Numbers& tau) {
+             const py::ssize_t count = tau.size();
+             py::array_t<double> result({py::ssize_t{4}, py::ssize_t{4}, count});
+             double* const out = result.mutable_data();
+             for (py::ssize_t i = 0; i < count; ++i) {
+               const reduction::InstantGradient all = instant_gradient(flow, {u, v}, tau.data()[i]);
+               double* to = out + i;
+               for (const auto& [value, by_u, by_v, by_tau] : {all.u, all.v, all.slip_length, all.turned}) {
+                 for (double each : {value, by_u, by_v, by_tau}) {
+                   *to = each;
+                   to += count;
+                 }
+               }
+             }
+             return result;
+           })
       .def("terminal", &terminal)
       .def("facts", &facts)
       .def("first_integral",

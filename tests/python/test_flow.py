@@ -238,6 +238,22 @@ def test_check():
         failed.raise_for_failure()
 
 
+def test_gradients_of_an_orbit():
+    flow = ct.Flow(mu=0.3)
+    tau = np.array([[0.5, 2], [5, 20]])
+    found = flow.orbit(u=1, v=1).gradient(tau)
+    step = 1e-5
+    for name, moved in (("u", (step, 0)), ("v", (0, step))):
+        more, less = (flow.orbit(u=1 + sign * moved[0], v=1 + sign * moved[1]) for sign in (1, -1))
+        for of in ("u", "v"):
+            assert found[of][name] == pytest.approx((more.at(tau)[of] - less.at(tau)[of]) / (2 * step), rel=1e-6, abs=1e-9)
+        slopes = (more.slip_length(tau) - less.slip_length(tau)) / (2 * step)
+        assert found["slip_length"][name] == pytest.approx(slopes, rel=1e-6, abs=1e-9)
+    assert (found["slip_length"]["tau"] == found["v"]["value"]).all()
+    with pytest.raises(ValueError, match="u not 0 and v > 0 is needed"):
+        flow.orbit(u=1, v=0).gradient(1)
+
+
 @pytest.mark.parametrize("ask, words", [
     (lambda: ct.law("exat"), r"no such law 'exat' \(did you mean 'exact'\?\); laws: exact, pade, .*pressure:P"),
     (lambda: ct.law("pressure:-2"), "-1 < P <= 25 "),

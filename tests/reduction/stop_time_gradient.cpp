@@ -1,6 +1,8 @@
 // How a stop time changes with all that it follows from: (R10), (R57) and (R58) of reduction/README.md.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <random>
 #include <string>
@@ -13,6 +15,7 @@
 #include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/instant_gradient.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 
@@ -132,6 +135,75 @@ TEST_CASE("the gradient on the ellipse is closed, at any spin, with a drive, too
       CHECK(unit * found.by_drive == Approx((v * rest + 2 * drive * (E + drive * v)) / (rest * rest)).epsilon(1e-9));
     }
   }
+}
+
+// Against differences, for all laws, both signs of u, with and without a drive, before the slip has ended, long after, and
+// past the stop; and two spans of time, one after the other, against both at once.
+TEST_CASE("the gradient of an instant is that of differences, and obeys the chain rule", "[gradient][route]") {
+  using Part = InstantGradient::Part;
+  const auto parts = [](const InstantGradient& all) {
+    return std::array<Part, 4>{all.u, all.v, all.slip_length, all.turned};
+  };
+  struct Start {
+    const char* law;
+    double mu, drive, u, v;
+  };
+  // The last but one is on a ray, the last beside it.
+  for (const Start& start : {Start{"exact", 0.1, 0, 1, 1},
+                             {"exact", 0.3, 0.05, -1, 0.2},
+                             {"pade", 0.3, 0, 1, 1},
+                             {"ring", 0.8, 0, -2, 1},
+                             {"elliptic", 0.5, 0.2, 1, 2},
+                             {"exact", 2.0, 0, 1, 3},
+                             {"exact", 2.0, 0, -1, 0.3},
+                             {"exact", 2.0, 0, 1, 0},
+                             {"exact", 2.0, 0, 1, 1e-7}}) {
+    const Flow flow(ReducedSystem(*find_law(start.law), start.mu, homogeneous_ball, start.drive));
+    const double ray = flow.terminal().rays.empty() ? 0 : flow.terminal().rays.front().k;
+    const bool at_ray = start.v < 0.1;
+    const State from{start.u, at_ray ? start.mu * std::abs(start.u) * ray * (1 + start.v) : start.v};
+    const double stop = flow.stop_time(from).tau;
+    for (double tau : {0.03 * stop, 0.5 * stop, 1.2 * stop}) {
+      const auto found = parts(instant_gradient(flow, from, tau));
+      const auto at = [&](double u, double v, double t) {
+        const Orbit::Instant instant = flow.orbit({u, v}).instant(t);
+        return std::array{instant.u, instant.v, instant.slip_length, instant.turned};
+      };
+      constexpr double step = 1e-4;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const auto slope = [&](auto along) {
+          const auto moved = [&](double times) { return along(1 + times * step)[i]; };
+          return (8 * (moved(1) - moved(-1)) - (moved(2) - moved(-2))) / (12 * step);
+        };
+        CAPTURE(start.law, start.mu, from.v, tau / stop, i);
+        const double unit = std::abs(from.u * found[i].by_u) + std::abs(from.v * found[i].by_v) + 1e-300;
+        CHECK(found[i].value == at(from.u, from.v, tau)[i]);
+        const double by_u = slope([&](double c) { return at(from.u * c, from.v, tau); });
+        const double by_v = slope([&](double c) { return at(from.u, from.v * c, tau); });
+        const double by_tau = slope([&](double c) { return at(from.u, from.v, tau * c); });
+        CHECK(std::abs(from.u * found[i].by_u - by_u) <= 2e-8 * unit);
+        CHECK(std::abs(from.v * found[i].by_v - by_v) <= 2e-8 * unit);
+        CHECK(std::abs(tau * found[i].by_tau - by_tau) <= 2e-8 * (unit + std::abs(by_tau)));
+      }
+    }
+    const double first = 0.2 * stop, second = 0.3 * stop;
+    const InstantGradient one = instant_gradient(flow, from, first);
+    const InstantGradient other = instant_gradient(flow, {one.u.value, one.v.value}, second);
+    const InstantGradient both = instant_gradient(flow, from, first + second);
+    const double chained = other.u.by_u * one.u.by_v + other.u.by_v * one.v.by_v;
+    CHECK(both.u.by_v == Approx(chained).epsilon(1e-8).margin(1e-9));
+    CHECK(both.slip_length.by_v - one.slip_length.by_v ==
+          Approx(other.slip_length.by_u * one.u.by_v + other.slip_length.by_v * one.v.by_v).epsilon(1e-8).margin(1e-9));
+  }
+  const Flow flow({HertzLaw{}, 0.1});
+  // When it rolls, at a slip of 1e-3.
+  const double rolls = flow.orbit({1, 1}).time_of_v(1e-3);
+  const InstantGradient then = instant_gradient(flow, {1, 1}, rolls);
+  constexpr double step = 1e-5;
+  CHECK(InstantGradient::time_by(then.v.by_v, then.v) ==
+        Approx((flow.orbit({1, 1 + step}).time_of_v(1e-3) - flow.orbit({1, 1 - step}).time_of_v(1e-3)) / (2 * step))
+            .epsilon(1e-8));
+  CHECK_THROWS_WITH(instant_gradient(flow, {0, 1}, 1), Catch::Matchers::Contains("u not 0 and v > 0 is needed"));
 }
 
 TEST_CASE("the gradient of one speed alone, and of none", "[gradient][errors]") {

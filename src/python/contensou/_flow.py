@@ -174,6 +174,16 @@ class Orbit:
         """The states at equal times from the start to the stop."""
         return self._core.at(np.linspace(0, self.stop_time, count))
 
+    def gradient(self, tau: ArrayLike) -> dict[str, dict[str, Any]]:
+        """What the motion has come to at times tau, with exact derivatives by the start and by tau, each with the others kept:
+        u, v, slip_length (the integral of v) and turned (of u), each {value, u, v, tau}. The time at which v has a value
+        changes with the start's u by -g["v"]["u"]/g["v"]["tau"].
+        Raises ValueError for a start with u or v of 0."""
+        times = numbers("tau", tau)
+        found = self.flow._core.instant_gradients(number("u", self.u), number("v", self.v), times)
+        return {name: {by: found[i, j].reshape(times.shape)[()] for j, by in enumerate(("value", "u", "v", "tau"))}
+                for i, name in enumerate(("u", "v", "slip_length", "turned"))}
+
     def slip_length(self, tau: ArrayLike) -> Any:
         """The integral of v over [0, tau], in the unit of speed squared."""
         return self._core.slip_length(numbers("tau", tau))[()]
