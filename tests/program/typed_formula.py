@@ -12,8 +12,8 @@ import sys
 import tempfile
 
 PROGRAM, README, COMPILER = sys.argv[1:]
-ALLOWED = {"stop_time": 0.00094, "slip_length": 0.00102, "slip_end": 0.0012}  # as the text says
-GLSL = "#include <cmath>\nusing std::exp;\nextern \"C\" {\n%s}\n"  # the part of GLSL that is C++, too
+ALLOWED = {"stop_time": 0.00094, "slip_length": 0.001, "slip_end": 0.00084}  # as the text says
+GLSL = "#include <cmath>\nusing std::exp, std::log;\nextern \"C\" {\n%s}\n"  # the part of GLSL that is C++, too
 
 
 def block(language):
