@@ -311,7 +311,7 @@ TEST_CASE("a batch of motions has the events of each", "[cli]") {
 TEST_CASE("mistakes in a motion are bad input", "[cli]") {
   const std::vector<std::pair<std::string, std::string>> mistakes{
       {"roll", "--ball missing"},
-      {"roll --mu 0.1 --u0 1 --v0 1", "unknown option '--mu': it is an option of check, "},
+      {"roll --mu 0.1 --u0 1 --v0 1", "unknown option '--mu': it is an option of orbit, "},
       {"stop --ball pool --strike 1", "unknown option '--strike': it is an option of roll"},
       {"roll --ball pool --tip 0,0.4", "--tip is of a stroke: add --strike SPEED"},
       {"roll --ball pool --strike 2 --tip 0.4,0.4", "--strike 2: the tip slips off the ball"},
