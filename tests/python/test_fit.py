@@ -16,23 +16,24 @@ T = np.linspace(0, 0.5, 60)
 SD = {"slip": 0.01, "spin": 1.0}
 
 
-def film(seed=1):
+def film(seed=1, rolling_friction=0):
     random = np.random.default_rng(seed)
-    at = BALL.roll(slip=1, spin=100)(T)
+    at = BALL.roll(slip=1, spin=100, rolling_friction=rolling_friction)(T)
     return {"slip": at["slip"] + random.normal(0, SD["slip"], T.size), "spin": at["wz"] + random.normal(0, SD["spin"], T.size)}
 
 
-def by_scipy(seen):
-    """Friction, patch radius, slip and spin by Newton's equations, with their standard errors."""
+def by_scipy(seen, rolling_friction=()):
+    """Friction, patch radius, slip, spin and, with a start of it, rolling friction by Newton's equations, with their standard
+    errors."""
     law = ct.law("exact")
 
     def motion(parameters):
-        friction, patch, slip, spin = parameters
+        friction, patch, slip, spin, resisting = *parameters[:4], *parameters[4:], *([] if rolling_friction else [0])
 
         def rate(t, state):
             ln_v, omega = state
             force, moment = law(np.exp(ln_v) / (patch * omega))
-            return [-3.5 * friction * BALL.gravity * force / np.exp(ln_v),
+            return [-3.5 * (friction * force - resisting) * BALL.gravity / np.exp(ln_v),
                     -2.5 * friction * BALL.gravity * patch * moment / BALL.radius**2]
 
         run = solve_ivp(rate, (0, T[-1]), [np.log(slip), spin], t_eval=T, method="LSODA", rtol=1e-10, atol=1e-10)
@@ -42,7 +43,8 @@ def by_scipy(seen):
         slip, spin = motion(parameters)
         return np.concatenate([(slip - seen["slip"]) / SD["slip"], (spin - seen["spin"]) / SD["spin"]])
 
-    found = least_squares(residuals, [0.3, 2e-3, 0.9, 95], x_scale=[0.2, 3e-3, 1, 100], jac="3-point", xtol=1e-12, ftol=1e-12)
+    found = least_squares(residuals, [0.3, 2e-3, 0.9, 95, *rolling_friction],
+                          x_scale=[0.2, 3e-3, 1, 100, *rolling_friction], jac="3-point", xtol=1e-12, ftol=1e-12)
     return found.x, np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac)))
 
 
@@ -54,6 +56,23 @@ def test_estimates_are_those_of_least_squares_on_the_equations_of_motion():
         estimate = found.estimates[name]
         assert abs(estimate.value - value) < 1e-4 * error
         assert estimate.standard_error == pytest.approx(error, rel=1e-3)
+
+
+def test_rolling_friction_is_that_of_least_squares_on_the_equations_of_motion():
+    seen = film(rolling_friction=0.01)
+    values, errors = by_scipy(seen, rolling_friction=[0.02])
+    found = ct.fit(T, ball=BALL.but(friction=0.5, patch_radius=1e-3, rolling_friction=0.03), sd=SD, **seen)
+    for name, value, error in zip(("friction", "patch_radius", "slip", "spin", "rolling_friction"), values, errors):
+        estimate = found.estimates[name]
+        assert abs(estimate.value - value) < 1e-3 * error
+        assert estimate.standard_error == pytest.approx(error, rel=1e-3)
+    assert found.ball.rolling_friction == found.rolling_friction.value and found.rolling_friction_seen is None
+    free = ["friction", "patch_radius", "slip", "spin"]
+    assert ct.fit(T, ball=BALL.but(rolling_friction=0.01), free=free, sd=SD, **seen).rolling_friction.standard_error == 0
+    without = ct.fit(T, ball=BALL, sd=SD, **seen)
+    assert without.rolling_friction_seen.value == pytest.approx(found.rolling_friction.value, abs=0.004)
+    assert without.rolling_friction_seen.friction > without.friction.value
+    assert ct.fit(T, ball=BALL, sd=SD, **film()).rolling_friction_seen is None
 
 
 @pytest.mark.skipif(not PROGRAM, reason="the program is not built")
