@@ -11,21 +11,20 @@ namespace contensou::fit {
 
 namespace {
 
-constexpr double accuracy = 1e-12;    // of the orbits, so that differences are smooth
 constexpr double step = 1e-4;         // of the numbers
 constexpr double least_drive = 0.01;  // that counts as large beside a step
 
 }  // namespace
 
 RollingOrbit::RollingOrbit(const reduction::Law& law, double mu, reduction::State start, double rolling_at_start,
-                           double by_drive, reduction::Inertia inertia)
+                           double by_drive, reduction::Inertia inertia, double accuracy)
     : RollingOrbit(law,
                    {std::log(mu), start.v, start.u, rolling_at_start,
                     std::min(by_drive, ScaledOrbit::greatest_drive(law, mu, inertia))},
-                   inertia) {}
+                   inertia, accuracy) {}
 
-RollingOrbit::RollingOrbit(reduction::Law law, const Numbers& at, reduction::Inertia inertia)
-    : law_(std::move(law)), at_(at), inertia_(inertia) {
+RollingOrbit::RollingOrbit(reduction::Law law, const Numbers& at, reduction::Inertia inertia, double accuracy)
+    : law_(std::move(law)), at_(at), inertia_(inertia), accuracy_(accuracy) {
   const double share = 1 - 1 / inertia.chi, mu = std::exp(at_[ln_mu]), v = at_[slip], w = mu * std::abs(at_[spin]);
   rests_ = at_[drive] > 0 ? (at_[rolling] + share * v) / at_[drive] : infinity;
   const double force = v > 0 || w > 0 ? law_({v, w}).force : 0;
@@ -33,7 +32,7 @@ RollingOrbit::RollingOrbit(reduction::Law law, const Numbers& at, reduction::Ine
   if (at_[rolling] == 0 && share * force <= at_[drive]) {
     hold(0, start);
   } else {
-    turns_.emplace(law_, mu, reduction::State{.u = at_[spin], .v = v}, accuracy, inertia_, at_[drive]);
+    turns_.emplace(law_, mu, reduction::State{.u = at_[spin], .v = v}, accuracy_, inertia_, at_[drive]);
   }
 }
 
@@ -44,7 +43,7 @@ double RollingOrbit::turning(double T, double v) const {
 void RollingOrbit::hold(double T, const Speeds& then) {
   held_from_ = T;
   then_ = then;
-  held_.emplace(law_, std::exp(at_[ln_mu]), reduction::State{.u = then.u, .v = then.v}, accuracy,
+  held_.emplace(law_, std::exp(at_[ln_mu]), reduction::State{.u = then.u, .v = then.v}, accuracy_,
                 reduction::Inertia{.chi = 1, .gamma = inertia_.gamma});
 }
 
@@ -111,7 +110,7 @@ const std::array<RollingOrbit::Difference, RollingOrbit::numbers>& RollingOrbit:
     const auto orbit = [&](double by) {
       Numbers beside = at_;
       beside[number] += by;
-      std::unique_ptr<RollingOrbit> result(new RollingOrbit(law_, beside, inertia_));
+      std::unique_ptr<RollingOrbit> result(new RollingOrbit(law_, beside, inertia_, accuracy_));
       result->reach(reached_);
       return result;
     };

@@ -21,8 +21,11 @@ class RollingOrbit final : public FilmOrbit {
   /// @param start    v >= 0
   /// @param rolling  W0 >= 0, m/s
   /// @param drive    rho >= 0
+  /// @param accuracy  as of ScaledOrbit; derivatives need the standard one
   RollingOrbit(const reduction::Law& law, double mu, reduction::State start, double rolling, double drive,
-               reduction::Inertia inertia);
+               reduction::Inertia inertia, double accuracy = standard_accuracy);
+
+  static constexpr double standard_accuracy = 1e-12;  ///< so that differences are smooth
 
   void reach(double T) override;
   Moment at(double T, std::size_t& cell) const override;
@@ -38,7 +41,7 @@ class RollingOrbit final : public FilmOrbit {
     double of_here, of_first, of_second;  ///< weights
   };
 
-  RollingOrbit(reduction::Law law, const Numbers& at, reduction::Inertia inertia);
+  RollingOrbit(reduction::Law law, const Numbers& at, reduction::Inertia inertia, double accuracy);
 
   double turning(double T, double v) const;
   void hold(double T, const Speeds& then);
@@ -49,6 +52,7 @@ class RollingOrbit final : public FilmOrbit {
   reduction::Law law_;
   Numbers at_;
   reduction::Inertia inertia_;
+  double accuracy_;
   double reached_ = 0;
   double rests_;  ///< T, if slip and spin have ended before
   std::optional<ScaledOrbit> turns_, held_;

@@ -11,6 +11,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "contensou/si/scaling.hpp"
+#include "fit/rolling_orbit.hpp"
 
 namespace contensou::fit {
 
@@ -218,7 +219,8 @@ std::vector<Track> thinned(const std::vector<Track>& tracks, Index most) {
 Search::Search(const FitRequest& asked, double accuracy)
     : request(asked),
       resisted(asked.free.rolling_friction || asked.ball.contact.rolling_friction > 0),
-      model(asked.ball, asked.law, asked.tracks, accuracy, resisted),
+      model(asked.ball, asked.law, asked.tracks,
+            resisted ? std::min(accuracy, RollingOrbit::standard_accuracy) : accuracy, resisted),
       data(model.rows()),
       weight(model.rows()) {
   const auto set_sd = [&](std::size_t place, double sd) {

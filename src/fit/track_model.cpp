@@ -158,7 +158,7 @@ VectorXd TrackModel::limited(VectorXd parameters) const {
 std::unique_ptr<FilmOrbit> TrackModel::new_orbit(const OrbitNumbers& of) const {
   const double mu = std::exp(of.ln_patch_radius) / radius_;
   const reduction::State start{.u = radius_ * of.spin, .v = of.slip};
-  if (resisted_) return std::make_unique<RollingOrbit>(law_, mu, start, of.rolling, of.drive, inertia_);
+  if (resisted_) return std::make_unique<RollingOrbit>(law_, mu, start, of.rolling, of.drive, inertia_, accuracy_);
   if (!lies_flat_) return std::make_unique<ScaledOrbit>(law_, mu, start, accuracy_, inertia_);
   if (!flows_ || flows_->here.system().mu() != mu)
     flows_ = std::make_shared<const FlowsOfPatch>(reduction::ReducedSystem(law_, mu, inertia_));

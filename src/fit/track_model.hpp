@@ -19,7 +19,7 @@ namespace contensou::fit {
 class TrackModel {
  public:
   /// @param tracks    checked; they are kept by reference
-  /// @param accuracy  of orbits, as ScaledOrbit
+  /// @param accuracy  of orbits, as ScaledOrbit or RollingOrbit
   /// @param resisted  whether there is rolling friction
   TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks, double accuracy,
              bool resisted = false);
