@@ -62,13 +62,15 @@ function start(library) {
   const tour = new Tour(go);
   makeThrowing(store, hero, player, plane);
 
-  const paneSurface = new ScreenSurface($("panes"), (surface) => drawPanes(surface, store));
+  const paneSurface = new ScreenSurface($("panes"), (surface) => {
+    surface.fit(library.rowsOf(panes, surface.width));
+    drawPanes(surface, store);
+  });
   const copies = new ScreenSurface($("copies"), (surface) => drawCopies(surface, store, plane));
   const draw = () => {
     const { contact, now, end, timeFactor } = store;
     plane.draw();
     hero.draw();
-    paneSurface.fit(library.rowsOf(panes, paneSurface.width));
     paneSurface.drawInSight();
     copies.drawInSight();
     player.show();

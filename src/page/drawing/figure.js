@@ -25,9 +25,10 @@ export const figureOf = (theme, shape, panels) => ({ title: "", ...shape, panels
  * @param {() => Figure} make
  * @param {import("../state/store.js").Store} store
  * @param over      draws in a panel, over its lines
+ * @param covered   something that moves is drawn over it
  * @returns {Frame[]} of the panels
  */
-export function drawFigure(surface, keys, make, store, over = (/** @type {number} */ _panel, /** @type {Frame} */ _frame) => {}) {
+export function drawFigure(surface, keys, make, store, over = (/** @type {number} */ _panel, /** @type {Frame} */ _frame) => {}, covered = true) {
   const { library, theme } = store;
   return surface.still([...keys, theme], theme.card, () => {
     const figure = make();
@@ -59,7 +60,7 @@ export function drawFigure(surface, keys, make, store, over = (/** @type {number
     }
     for (const { x, y, text, ...how } of layout.texts) surface.text(x, y, text, { ...style, ...how });
     return frames;
-  });
+  }, covered);
 }
 
 /**

@@ -67,9 +67,10 @@ export class ScreenSurface extends CanvasSurface {
    * @param {unknown[]} keys
    * @param {string} ground
    * @param {() => Value} draw
+   * @param {boolean} covered  something that moves is drawn over it
    * @returns {Value} what `draw` has returned
    */
-  still(keys, ground, draw) {
+  still(keys, ground, draw, covered = true) {
     const { canvas, context, kept } = this;
     const ratio = globalThis.devicePixelRatio || 1;
     const size = { width: Math.round(this.width * ratio), height: Math.round(this.height * ratio) };
@@ -77,6 +78,7 @@ export class ScreenSurface extends CanvasSurface {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const key = [...keys, ratio, size.width, size.height];
     const again = key.every((part, i) => part === kept.key[i]);
+    if (again && !covered) return /** @type {Value} */ (kept.value);
     if (again && kept.picture) context.drawImage(kept.picture, 0, 0, size.width / ratio, size.height / ratio);
     else {
       this.shape([borderOf(this)], { fill: ground });

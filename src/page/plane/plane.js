@@ -26,6 +26,7 @@ export class Plane {
     this.copies = new Copies(store);
     this.zooming = new Zooming(store, { ask: act.ask, announce: (text) => this.announce(text) });
     this.surface = new ScreenSurface($("plane"), (surface) => {
+      surface.fit(store.library.rowsOf(store.portrait.figure, surface.width));
       this.planeScene = this.scene();
       this.frames = drawPortrait(surface, this.planeScene, store);
     });
@@ -78,9 +79,7 @@ export class Plane {
   }
 
   draw() {
-    const { surface, store: { library, portrait } } = this;
-    surface.fit(library.rowsOf(portrait.figure, surface.width));
-    surface.drawInSight();
+    this.surface.drawInSight();
     $("clear-isochrone").hidden = !this.store.state.isochrone;
   }
 
