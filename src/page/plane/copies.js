@@ -67,7 +67,7 @@ export class Copies {
   get now() {
     const { pull, store: { state, orbit } } = this;
     const stays = pull && orbit && pull.index === state.chosen && pull.key === this.key && pull.at.u === orbit.u && pull.at.v === orbit.v;
-    if (!stays) [this.pull, this.ghosts] = [null, []];
+    if (!stays && pull) [this.pull, this.ghosts] = [null, []];
     return this.pull;
   }
 }
