@@ -11,8 +11,8 @@ namespace contensou::fit {
 
 namespace {
 
-constexpr double step = 1e-4;         // of the numbers
-constexpr double least_drive = 0.01;  // that counts as large beside a step
+constexpr double to_either_side = 1e-4;  // of the numbers
+constexpr double least_drive = 0.01;     // that counts as large beside a step
 
 }  // namespace
 
@@ -93,13 +93,13 @@ Speeds RollingOrbit::speeds_at(double T, std::size_t& /*cell*/) const { return s
 const std::array<RollingOrbit::Difference, RollingOrbit::numbers>& RollingOrbit::differences() const {
   if (differences_) return *differences_;
   const double speed = at_[slip] + std::exp(at_[ln_mu]) * std::abs(at_[spin]);
-  Numbers steps{step, step * speed, step * std::abs(at_[spin]), step * (at_[rolling] + at_[slip]),
-                step * std::max(at_[drive], least_drive)};
-  if (at_[spin] == 0) steps[spin] = step * speed;
+  Numbers steps{to_either_side, to_either_side * speed, to_either_side * std::abs(at_[spin]),
+                to_either_side * (at_[rolling] + at_[slip]), to_either_side * std::max(at_[drive], least_drive)};
+  if (at_[spin] == 0) steps[spin] = to_either_side * speed;
   for (double& each : steps) {
-    if (each == 0) each = step;
+    if (each == 0) each = to_either_side;
   }
-  const double greatest = ScaledOrbit::greatest_drive(law_, std::exp(at_[ln_mu] + step), inertia_);
+  const double greatest = ScaledOrbit::greatest_drive(law_, std::exp(at_[ln_mu] + to_either_side), inertia_);
   differences_.emplace();
   for (std::size_t number = 0; number < numbers; ++number) {
     const double h = steps[number];
