@@ -23,26 +23,26 @@ using portraits::Point;
 
 /// What one start of some ratio of the speeds comes to; another of that ratio c times as fast has c times the time and c^2
 /// times the others.
-struct Shot {
+struct Arrival {
   double slip, spin, time, distance, turns;
 };
 
 /// From spin alone to slip alone.
-std::vector<Shot> shots(const si::Experiment& ball, const reduction::Flow& flow) {
+std::vector<Arrival> arrivals(const si::Experiment& ball, const reduction::Flow& flow) {
   const double mu = flow.system().mu(), radius = ball.ball.radius;
-  const auto shot = [&](reduction::State start) {
+  const auto arrival = [&](reduction::State start) {
     const reduction::Reached end = reduction::reached(flow, start);
-    return Shot{start.v, start.u / radius, si::seconds(ball, end.tau), si::seconds(ball, end.distance),
+    return Arrival{start.v, start.u / radius, si::seconds(ball, end.tau), si::seconds(ball, end.distance),
                 si::seconds(ball, end.turned) / (2 * std::numbers::pi * radius)};
   };
-  std::vector<Shot> all{shot({1, 0})};
+  std::vector<Arrival> all{arrival({1, 0})};
   constexpr double widest = 16;  // of ln k
   constexpr int steps = 320;
   for (int i = 0; i <= steps; ++i) {
     const double ln_k = widest * (2.0 * i / steps - 1);
-    all.push_back(shot({std::exp(std::min(0.0, -ln_k)) / mu, std::exp(std::min(0.0, ln_k))}));
+    all.push_back(arrival({std::exp(std::min(0.0, -ln_k)) / mu, std::exp(std::min(0.0, ln_k))}));
   }
-  all.push_back(shot({0, 1}));
+  all.push_back(arrival({0, 1}));
   return all;
 }
 
@@ -64,31 +64,31 @@ std::vector<double> round_values(double least, double largest) {
 
 /// Lines of one value of the shots each, and their numbers.
 struct Family {
-  double Shot::*value;
+  double Arrival::*value;
   const char *name, *unit;
   portraits::Stroke stroke;
   double label;  ///< where on a line its number stands, a fraction of it from slip alone or from spin alone
 };
 
-void add(portraits::Panel& panel, const std::vector<Shot>& all, const Family& family) {
+void add(portraits::Panel& panel, const std::vector<Arrival>& all, const Family& family) {
   portraits::Lines lines{{}, family.stroke, fmt::format("{}, {}", family.name, family.unit)};
-  const auto copy = [&](const Shot& shot, double factor) {
-    return Point{factor * factor * shot.distance, factor * factor * shot.turns};
+  const auto copy = [&](const Arrival& arrival, double factor) {
+    return Point{factor * factor * arrival.distance, factor * factor * arrival.turns};
   };
   // The value at the two corners of each ray: its least and its largest.
   double least = std::numeric_limits<double>::infinity(), largest = 0;
-  for (const Shot& shot : all) {
-    if (!(shot.distance > 0 && shot.turns > 0)) continue;
-    const double in = std::max(panel.x.low / shot.distance, panel.y.low / shot.turns);
-    const double out = std::min(panel.x.high / shot.distance, panel.y.high / shot.turns);
+  for (const Arrival& arrival : all) {
+    if (!(arrival.distance > 0 && arrival.turns > 0)) continue;
+    const double in = std::max(panel.x.low / arrival.distance, panel.y.low / arrival.turns);
+    const double out = std::min(panel.x.high / arrival.distance, panel.y.high / arrival.turns);
     if (in > out) continue;
-    least = std::min(least, std::sqrt(in) * shot.*family.value);
-    largest = std::max(largest, std::sqrt(out) * shot.*family.value);
+    least = std::min(least, std::sqrt(in) * arrival.*family.value);
+    largest = std::max(largest, std::sqrt(out) * arrival.*family.value);
   }
   for (double value : round_values(least, largest)) {
     portraits::Polyline line;
-    for (const Shot& shot : all) {
-      if (shot.distance > 0 && shot.turns > 0) line.push_back(copy(shot, value / shot.*family.value));
+    for (const Arrival& arrival : all) {
+      if (arrival.distance > 0 && arrival.turns > 0) line.push_back(copy(arrival, value / arrival.*family.value));
     }
     for (portraits::Polyline& part : portraits::clipped(panel, line)) {
       constexpr double least_labelled = 0.2;
@@ -110,8 +110,8 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
   constexpr double around = 8;  // times what was asked for, to either side
   const reduction::Flow flow(si::undriven_system(ball, law));
   const si::SlipAndSpin start = si::aimed(ball, flow, goal);
-  const std::vector<Shot> all = shots(ball, flow);
-  const Shot &in_place = all.front(), &straight = all.back();
+  const std::vector<Arrival> all = arrivals(ball, flow);
+  const Arrival &in_place = all.front(), &straight = all.back();
   const reduction::Reached end = reduction::reached(flow, {ball.ball.radius * start.spin, start.slip});
   const double time = si::seconds(ball, end.tau), distance = si::seconds(ball, end.distance);
   const double turns = si::seconds(ball, end.turned) / (2 * std::numbers::pi * ball.ball.radius);
@@ -129,11 +129,11 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
              y * around,
              true,
              {}};
-  add(panel, all, {&Shot::slip, "slip of the start", "m/s", {slip_colour, 1.2, true}, 0.12});
-  add(panel, all, {&Shot::spin, "spin of the start", "rad/s", {spin_colour, 1.2, false, true}, 0.88});
-  add(panel, all, {&Shot::time, "time until slip and spin end", "s", {time_colour, 1.6}, 0.3});
-  const auto ray = std::ranges::min_element(all, {}, [&](const Shot& shot) {
-    return std::abs(shot.slip - flow.system().mu() * shot.spin * ball.ball.radius);
+  add(panel, all, {&Arrival::slip, "slip of the start", "m/s", {slip_colour, 1.2, true}, 0.12});
+  add(panel, all, {&Arrival::spin, "spin of the start", "rad/s", {spin_colour, 1.2, false, true}, 0.88});
+  add(panel, all, {&Arrival::time, "time until slip and spin end", "s", {time_colour, 1.6}, 0.3});
+  const auto ray = std::ranges::min_element(all, {}, [&](const Arrival& arrival) {
+    return std::abs(arrival.slip - flow.system().mu() * arrival.spin * ball.ball.radius);
   });
   const double far = std::max(panel.x.high / ray->distance, panel.y.high / ray->turns);
   const double near = std::min(panel.x.low / ray->distance, panel.y.low / ray->turns);
