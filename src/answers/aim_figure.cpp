@@ -33,7 +33,7 @@ std::vector<Arrival> arrivals(const si::Experiment& ball, const reduction::Flow&
   const auto arrival = [&](reduction::State start) {
     const reduction::Reached end = reduction::reached(flow, start);
     return Arrival{start.v, start.u / radius, si::seconds(ball, end.tau), si::seconds(ball, end.distance),
-                si::seconds(ball, end.turned) / (2 * std::numbers::pi * radius)};
+                   si::seconds(ball, end.turned) / (2 * std::numbers::pi * radius)};
   };
   std::vector<Arrival> all{arrival({1, 0})};
   constexpr double widest = 16;  // of ln k
