@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "contensou/portraits/json.hpp"
+#include "contensou/portraits/pgfplots.hpp"
 
 namespace contensou::answers {
 
@@ -87,12 +90,82 @@ std::string as_text(const Answer& answer, Digits digits) {
   return answer.columns.empty() ? as_csv(answer.rows) : as_text(answer.columns, digits);
 }
 
+std::string tex_number(double value, Digits digits) {
+  if (std::isinf(value)) return value < 0 ? "$-\\infty$" : "$\\infty$";
+  const std::string plain = digits(value);
+  const std::size_t power = plain.find('e');
+  if (power == std::string::npos) return fmt::format("${}$", plain);
+  const std::string factor = plain.starts_with("1e") ? "" : plain.substr(0, power) + "\\cdot";
+  return fmt::format("${}10^{{{}}}$", factor, std::stoi(plain.substr(power + 1)));
+}
+
+/// Columns of a table in TeX: each begins with its name.
+std::vector<std::vector<std::string>> tex_columns(const Answer& answer, Digits digits) {
+  std::vector<std::vector<std::string>> columns;
+  const auto begin = [&](const std::string& name) -> auto& {
+    return columns.emplace_back(std::vector{fmt::format("\\texttt{{{}}}", portraits::tex_text(name))});
+  };
+  for (const Column& column : answer.columns) {
+    auto& cells = begin(column.name);
+    for (double value : column.values) cells.push_back(tex_number(value, digits));
+  }
+  if (!columns.empty()) return columns;
+  for (const Json& row : answer.rows) {
+    std::vector<std::pair<std::string, std::string>> cells;
+    const std::function<void(const Json&)> flatten = [&](const Json& part) {
+      for (const auto& [name, value] : part.items()) {
+        if (value.is_object()) flatten(value);
+        if (value.is_object() || std::ranges::find(answer.beside, name) != answer.beside.end()) continue;
+        cells.emplace_back(name, value.is_string()    ? portraits::tex_text(value.get<std::string>())
+                                 : value.is_boolean() ? (value ? "yes" : "no")
+                                                      : tex_number(value.get<double>(), digits));
+      }
+    };
+    flatten(row);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (i == columns.size()) begin(cells[i].first);
+      columns[i].push_back(std::move(cells[i].second));
+    }
+  }
+  return columns;
+}
+
+std::string as_tex(const Answer& answer, Digits digits) {
+  std::vector<std::vector<std::string>> columns = tex_columns(answer, digits);
+  const std::size_t lines = columns.front().size();
+  const bool turned = lines - 1 < columns.size();
+  if (turned) {
+    std::vector<std::vector<std::string>> across(lines);
+    for (const auto& column : columns) {
+      for (std::size_t i = 0; i < lines; ++i) across[i].push_back(column[i]);
+    }
+    columns = std::move(across);
+  }
+  std::string types, body;
+  for (const auto& column : columns) {
+    constexpr std::size_t wide = 40;
+    const auto is_number = [](const std::string& cell) { return cell.starts_with('$'); };
+    if (std::all_of(column.begin() + (turned ? 0 : 1), column.end(), is_number)) {
+      types += 'r';
+    } else {
+      types += std::ranges::max(column, {}, &std::string::size).size() > wide ? "p{0.3\\linewidth}" : "l";
+    }
+  }
+  for (std::size_t i = 0; i < columns.front().size(); ++i) {
+    for (const auto& column : columns) body += column[i] + (&column == &columns.back() ? " \\\\\n" : " & ");
+    if (i == 0 && !turned) body += "\\hline\n";
+  }
+  return fmt::format(
+      "% contensou {}; a table for \\input\n\\begin{{tabular}}{{{}}}\n\\hline\n{}\\hline\n\\end{{tabular}}\n",
+      CONTENSOU_VERSION, types, body);
+}
+
 struct AnswerFormat {
   std::string_view name;
   std::string (*written)(const Answer&, Digits);
 };
 
-constexpr AnswerFormat all_answer_formats[]{{"text", as_text}, {"csv", as_csv}, {"json", as_json}};
+constexpr AnswerFormat all_answer_formats[]{{"text", as_text}, {"csv", as_csv}, {"json", as_json}, {"tex", as_tex}};
 
 }  // namespace
 

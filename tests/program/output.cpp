@@ -1,6 +1,8 @@
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +22,47 @@ TEST_CASE("-o writes what standard output would get", "[cli]") {
   CHECK(read_file(scratch.file("orbit.csv")) == run_program(orbit).out);
   CHECK(run_program(orbit + " -o -").out == run_program(orbit).out);
   CHECK(scratch.names() == std::vector<std::string>{"orbit.csv"});
+}
+
+TEST_CASE("a table in TeX has the columns of CSV and the digits of text", "[cli]") {
+  const auto cells_of = [](std::string line, const std::string& mark) {
+    std::vector<std::string> cells;
+    for (std::size_t end; (end = line.find(mark)) != line.npos; line.erase(0, end + mark.size()))
+      cells.push_back(line.substr(0, end));
+    cells.push_back(line);
+    return cells;
+  };
+  const auto value = [](std::string cell) {
+    for (const auto& [tex, plain] : {std::pair{"\\cdot10^{", "e"}, {"10^{", "1e"}, {"\\infty", "inf"}}) {
+      if (const std::size_t at = cell.find(tex); at != cell.npos) cell.replace(at, std::string(tex).size(), plain);
+    }
+    REQUIRE(cell.starts_with('$'));
+    return std::stod(cell.substr(1));
+  };
+  const std::string orbit = "orbit --mu 0.3 --u0 1 --v0 1 --samples 9 ";
+  std::istringstream tex(run_program(orbit + "--format tex --digits 4").out), csv(run_program(orbit).out);
+  const auto next = [](std::istringstream& from) {
+    std::string line;
+    do std::getline(from, line);
+    while (line.starts_with('#') || line.starts_with('%') || line.starts_with("\\begin") || line == "\\hline");
+    return line;
+  };
+  CHECK(next(tex) ==
+        "\\texttt{tau} & \\texttt{u} & \\texttt{v} & \\texttt{ln\\_v} & \\texttt{k} & \\texttt{beta} \\\\");
+  CHECK(next(csv) == "tau,u,v,ln_v,k,beta");
+  for (int row = 0; row < 9; ++row) {
+    const auto shown = cells_of(next(tex), " & "), all = cells_of(next(csv), ",");
+    REQUIRE(shown.size() == all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      CHECK(value(shown[i]) == std::stod(fmt::format("{:.4g}", std::stod(all[i]))));
+  }
+  CHECK(next(tex) == "\\end{tabular}");
+  // Of fewer rows than columns it is turned.
+  CHECK_THAT(run_program("stop --mu 0.3 --u0 1 --v0 1 --format tex").out,
+             Contains("\\begin{tabular}{ll}") && Contains("\n\\texttt{mu} & $0.3$ \\\\\n"));
+  CHECK_THAT(run_program("check --mu 0.3 --u0 1 --v0 1 --law exact --format tex").out,
+             Contains("{llrrl}") && Contains("first integral along (2.7) & $"));
+  CHECK_THAT(run_program("law --format tex --digits 3").err, Contains("a picture has no digits"));
 }
 
 TEST_CASE("-o leaves the old file when there is nothing new to write", "[cli]") {

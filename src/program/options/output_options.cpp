@@ -37,6 +37,7 @@ std::string ending_of(const std::string& path) {
 }  // namespace
 
 std::vector<std::string> with_pictures(std::vector<std::string> first, const std::vector<std::string>& last) {
+  std::erase(first, "tex");
   for (std::string_view picture : portraits::picture_formats()) first.emplace_back(picture);
   first.insert(first.end(), last.begin(), last.end());
   return first;
@@ -92,7 +93,7 @@ void OutputOptions::add(CLI::App& app) {
   format_.add(app, "--format", "FORMAT", "where no ending says it: " + formats);
   if (!has_text) return;
   digits_.add(app, "--digits", "N",
-              fmt::format("significant digits of the text format, 1 to 17 (default {})", standard_digits),
+              fmt::format("significant digits of text and of a table in tex, 1 to 17 (default {})", standard_digits),
               whole_number(1, 17));
 }
 
@@ -102,9 +103,10 @@ Output OutputOptions::read(std::size_t place) const {
   if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
   const std::string format = read_format(kind, path);
   const bool has_rounded_text = is_one_of(kind.formats, "text") && is_one_of(kind.formats, "csv");  // no run file has
-  if (digits_.given() && !(format == "text" && has_rounded_text)) {
+  const bool is_picture = portraits::find_picture_format(format) && is_one_of(kind.formats, "svg");
+  if (digits_.given() && !((format == "text" || (format == "tex" && !is_picture)) && has_rounded_text)) {
     digits_.reject(
-        portraits::find_picture_format(format) ? "a picture has no digits"
+        is_picture ? "a picture has no digits"
         : has_rounded_text
             ? fmt::format("{} always has all digits; choose text, with --format text or the ending txt", format)
             : fmt::format("{} always has all digits: leave it out", kind.noun));

@@ -19,7 +19,7 @@ struct OutputKind {
   std::string standard = formats.front();
 };
 
-/// Formats of numbers, those of pictures, and other formats of numbers.
+/// Formats of numbers, those of pictures, and other formats of numbers; tex then is a picture.
 std::vector<std::string> with_pictures(std::vector<std::string> first, const std::vector<std::string>& last = {});
 
 /// Where a result goes and how it looks.

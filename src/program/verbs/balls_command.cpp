@@ -41,6 +41,7 @@ Answer list() {
   Answer answer;
   for (const CatalogueEntry& entry : si::catalogue()) answer.rows.push_back(row_of(entry));
   answer.members["balls"] = answer.rows;
+  answer.beside = {"description", "sources"};
   answer.text = [rows = answer.rows](const Digits& digits) {
     std::string text;
     for (const Json& ball : rows) {

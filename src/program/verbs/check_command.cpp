@@ -48,7 +48,8 @@ class CheckCommand final : public Verb {
     const Output output = output_.read();
     figure_.require_picture(output);
     if (against_.given()) return compare(output);
-    if (output.picture()) throw BadInput("a picture is of a table: add --against FILE, or leave it out");
+    if (output.picture() && output.format != "tex")
+      throw BadInput("a picture is of a table: add --against FILE, or leave it out");
     if (tolerance_.given()) throw BadInput("--tolerance is for a table: add --against FILE");
     const bool of_one_start = start_.given() || start_.body_argument().given();
     const bool one_law = law_.given() || start_.brings_law();

@@ -140,7 +140,7 @@ class FitCommand final : public Verb {
     } catch (const std::domain_error& error) {
       throw BadInput(fmt::format("{}; a way out may be --noise NAME=SD, --free or a longer film", error.what()));
     }
-    if (output.picture()) {
+    if (output.picture() && !plan_) {
       if (only_stop) throw BadInput("one stop time is no curve to draw: leave out the picture");
       output.write({figure_.apply(fit_figure(fits.front(), request.tracks, figure_.size()), output.format)});
     } else if (output.format == "toml") {

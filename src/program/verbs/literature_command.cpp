@@ -68,6 +68,7 @@ class LiteratureCommand final : public Verb {
                              {"recorded", number.confirmed ? "agrees" : "differs"}});
     }
     answer.members["rows"] = answer.rows;
+    answer.beside = {"link", "read", "recorded"};
     answer.text = [&](const Digits& digits) { return as_text(numbers, digits); };
     output.write(answer);
     return std::ranges::all_of(numbers, [](const Published& n) { return n.agrees() == n.confirmed; })

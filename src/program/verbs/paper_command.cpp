@@ -176,6 +176,7 @@ class PaperCommand final : public Verb {
                              {"at", where}});
     }
     answer.members["claims"] = answer.rows;
+    answer.beside = {"recorded", "correction"};
     answer.text = [&](const Digits& digits) { return as_text(rows, digits); };
     output.write(answer);
     return std::ranges::all_of(rows, &StatementRow::as_recorded) ? ExitStatus::done : ExitStatus::check_failed;
