@@ -174,6 +174,20 @@ test("the story has the two bodies in their colours", async () => {
   }
 });
 
+test("every picture is drawn on a phone", async () => {
+  await open("", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  for (const id of ["lanes", "patch", "plane", "copies", "panes"]) {
+    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    await drawn();
+    const colours = await page.$eval(`#${id}`, (canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      return [data.slice(0, 3).join(), new Set(new Uint32Array(data.buffer)).size];
+    });
+    assert.ok(colours[0] === "255,255,255" && colours[1] > 10, `${id}: ${colours}`);
+  }
+  await close();
+});
+
 test("the dare: what came of a throw is what the library says, and the program", async () => {
   await open();
   assert.match(await page.textContent("#dare-line"), /You can't/);

@@ -1,7 +1,7 @@
 // A canvas of the page: of the size that the layout gives it, sharp, and drawn where it is seen.
 import { borderOf, CanvasSurface } from "./surface.js";
 
-const smallestWidth = 200;  // pixels; a hidden or minimised page has none
+const smallestWidth = 120;  // pixels; a hidden or minimised page has none
 
 /** A canvas of the page. */
 export class ScreenSurface extends CanvasSurface {
