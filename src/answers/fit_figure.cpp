@@ -187,7 +187,11 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   };
   line("friction " + with_error(fit.estimates[0], 1));
   line("patch radius " + with_error(fit.estimates[1], 1e3, "mm"));
-  line(fmt::format("their correlation {:.2f}", fit.correlation_of_contact()));
+  if (fit.rolls_with_friction()) {
+    line("rolling friction " + with_error(fit.estimate(fit::Parameter::rolling_friction), 1));
+  } else {
+    line(fmt::format("their correlation {:.2f}", fit.correlation_of_contact()));
+  }
   if (tracks == 1) {
     line("slip at the start " + with_error(fit.estimate(fit::Parameter::slip), 1, "m/s"));
     line("spin at the start " + with_error(fit.estimate(fit::Parameter::spin), 1, "rad/s"));
@@ -207,6 +211,8 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>&
   figure.title = fmt::format("{},  law: {}", portraits::shortened(fit.ball.ball.name), portraits::shortened(fit.law));
   figure.subtitle = fmt::format("friction {}, patch radius {}", with_error(fit.estimates[0], 1),
                                 with_error(fit.estimates[1], 1e3, "mm"));
+  if (fit.rolls_with_friction())
+    figure.subtitle += ", rolling friction " + with_error(fit.estimate(fit::Parameter::rolling_friction), 1);
   if (fit.only)
     figure.subtitle = fmt::format("of friction and patch radius these data determine {} only",
                                   portraits::shortened(fit.only->name()));

@@ -450,6 +450,18 @@ void Reporter::set_ball() {
 }
 
 void Reporter::set_misfits() {
+  for (std::size_t i = 0; i < search_.free.size(); ++i) {
+    const Index place = search_.free[i], column = static_cast<Index>(i);
+    if (TrackModel::parameter_at(place) != Parameter::rolling || parameters_[place] > 0) continue;
+    // By how many standard errors it would go below 0.
+    constexpr double far = 4;
+    if (derivatives_.col(column).dot(residuals_) * deviation_[column] > far) {
+      fit_.misfits.emplace_back(
+          "the ball turns against its sliding at first, as after a draw, which a fit with rolling friction does not "
+          "know: "
+          "leave it out, and the film's end, too (until)");
+    }
+  }
   for (const Noise& noise : fit_.noise) {
     const auto& [observable, name, unit, meaning] = kind_of(noise.observable);
     const double scatter = search_.scatter[static_cast<std::size_t>(observable)];

@@ -76,6 +76,33 @@ TEST_CASE("a film of a ball with rolling friction gives back the ball, or says t
   CHECK_THAT(run_program("fit - --ball puck --free rolling_friction", film_of_it).err, Contains("does not roll"));
 }
 
+TEST_CASE("a slip that does not fade shows f - u_r only", "[cli][.full]") {
+  std::string slip_alone = "t,slip\n";
+  for (const auto& row : rows_of(film(0.001, 0.1, 400, "--rolling-friction 0.01 "))) {
+    if (row[0] != "t" && std::stod(row[0]) < 0.1) slip_alone += row[0] + "," + row[1] + "\n";
+  }
+  const auto open = fit_of(slip_alone, "--noise slip=0.001 --rolling-friction 0.01");
+  CHECK(open["rolling_friction"]["determined"] == false);
+  CHECK(open["friction"]["low"].get<double>() == Approx(0.19).epsilon(0.02));
+}
+
+TEST_CASE("of a draw a fit with rolling friction says that it is none of its motions", "[cli][.full]") {
+  const auto roll = json_of(
+      "roll --ball pool --rolling-friction 0.01 --velocity 1,0 --angular-velocity 0,-20,50 --samples 60 --until 1 "
+      "--format json");
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  std::string text = "t,x,y,spin\n";
+  for (std::size_t i = 0; i < roll["t"].size(); ++i) {
+    text +=
+        fmt::format("{},{},{},{}\n", roll["t"][i].get<double>(), roll["x"][i].get<double>() + 5e-4 * normal(random),
+                    roll["y"][i].get<double>() + 5e-4 * normal(random), roll["wz"][i].get<double>() + normal(random));
+  }
+  const Run run = run_program("fit - --ball pool --rolling-friction 0.01 --noise x=0.0005,y=0.0005,spin=1", text);
+  CHECK(run.status == 1);
+  CHECK_THAT(run.err, Contains("turns against its sliding"));
+}
+
 TEST_CASE("a film of a puck gives back the puck", "[cli]") {
   const auto roll = json_of(
       "roll --ball puck --inertia 0.45 --velocity 3,4 --angular-velocity 0,0,100 --samples 60 --until 5 "
