@@ -58,6 +58,12 @@ void require(const FitRequest& request) {
 /// Friction and patch radius of the ball count as they are where they are not only a start: then they must be what the
 /// model allows.
 void require_limits(const Search& search, bool planned) {
+  const si::Contact& contact = search.request.ball.contact;
+  const Free& free = search.request.free;
+  const bool held = planned || (!free.friction && !free.rolling_friction);
+  if (held && contact.rolling_friction >= contact.friction)
+    throw std::domain_error(fmt::format("fit: rolling friction below friction, {}, is required; got {}",
+                                        contact.friction, contact.rolling_friction));
   const VectorXd given = search.given(), limited = search.model.limited(given);
   for (Index place = 0; place < contact_parameters; ++place) {
     const bool searched = !planned && std::ranges::find(search.free, place) != search.free.end();

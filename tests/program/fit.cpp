@@ -73,6 +73,8 @@ TEST_CASE("a film of a ball with rolling friction gives back the ball, or says t
       run_program("fit - --ball pool --noise slip=0.01,spin=1", film(0.01, 1, 100, "--rolling-friction 0.02 "));
   CHECK_THAT(without.out, Contains("with a rolling friction of about 0.0"));
   CHECK_THAT(run_program("fit - --ball pool --slope 2", film_of_it).err, Contains("level plane"));
+  CHECK_THAT(run_program("fit - --ball pool --rolling-friction 0.5 --free slip,spin", film_of_it).err,
+             Contains("rolling friction below friction, 0.2, is required; got 0.5"));
   CHECK_THAT(run_program("fit - --ball puck --free rolling_friction", film_of_it).err, Contains("does not roll"));
 }
 
