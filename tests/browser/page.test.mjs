@@ -19,7 +19,7 @@ function assertSameText(text, wanted, what, rounded = false) {
   const number = /-?\d+(\.\d+)?(e[-+]?\d+)?/g;
   assert.equal(text.replace(number, "0"), wanted.replace(number, "0"), what);
   const words = text.match(number);
-  const lastPlace = words.map((word) => (rounded && /^-?\d+\.\d{3,6}$/.test(word) ? 10 ** -word.split(".")[1].length : 0));
+  const lastPlace = words.map((word) => (rounded && /^-?\d+\.\d{1,6}$/.test(word) ? 10 ** -word.split(".")[1].length : 0));
   const [numbers, wantedNumbers] = [words, wanted.match(number)].map((all) => all.map(Number));
   const largest = Math.max(...wantedNumbers.filter((value) => Math.abs(value) < 1e3).map(Math.abs));
   numbers.forEach((value, i) => {
