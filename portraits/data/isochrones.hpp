@@ -19,9 +19,9 @@ struct IsochroneTimes {
 };
 
 /// Those that were asked for, in any order.
-/// @param asked  not empty
+/// @param times  not empty
 /// @param unit   of them
-IsochroneTimes asked_times(std::vector<double> asked, double unit);
+IsochroneTimes asked_times(std::vector<double> times, double unit);
 
 /// The pieces of isochrones that lie in the rectangle, by growing time; along each, v/u turns from u > 0 to u < 0.
 ///
