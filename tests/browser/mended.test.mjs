@@ -72,6 +72,7 @@ test("a server is asked for the page, and for nothing else", async () => {
     answer.writeHead(200, { "Content-Type": "text/html" }).end(readFileSync(file));
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  server.unref(); // so that a failure ends
   await open();
   page.removeAllListeners("request");
   await page.goto(`http://127.0.0.1:${server.address().port}/`);
