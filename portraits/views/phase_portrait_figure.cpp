@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -30,18 +31,18 @@ Text body_name(const reduction::Inertia& inertia) {
          fmt::format("{:.4g}", gamma);
 }
 
-bool have_one_mu(const std::vector<PhasePortrait>& portraits) {
+bool have_one_mu(std::span<const PhasePortrait> portraits) {
   return std::ranges::all_of(
       portraits, [&](const PhasePortrait& other) { return other.system().mu() == portraits.front().system().mu(); });
 }
 
-bool have_one_law(const std::vector<PhasePortrait>& portraits) {
+bool have_one_law(std::span<const PhasePortrait> portraits) {
   return std::ranges::all_of(
       portraits, [&](const PhasePortrait& other) { return law_names(other) == law_names(portraits.front()); });
 }
 
 /// @param unit  of the bar's numbers, in tau
-TimeBands bands_of(const std::vector<PhasePortrait>& portraits, double unit, const Palette& palette) {
+TimeBands bands_of(std::span<const PhasePortrait> portraits, double unit, const Palette& palette) {
   double longest = 0, of_highlights = 0;
   std::vector<double> times;
   for (const PhasePortrait& portrait : portraits) {
@@ -56,7 +57,7 @@ TimeBands bands_of(const std::vector<PhasePortrait>& portraits, double unit, con
 }
 
 /// What all have in common: the body, and mu or law where there is one.
-Text common_title(const std::vector<PhasePortrait>& portraits) {
+Text common_title(std::span<const PhasePortrait> portraits) {
   const PhasePortrait& first = portraits.front();
   Text title = body_name(first.system().inertia());
   if (have_one_mu(portraits)) title += ",  " + math("μ = ") + number(first.system().mu());
@@ -103,7 +104,7 @@ PaperSize usual_size(const ViewLayout& layout, std::size_t count) {
                 {.width_mm = width});
 }
 
-MappedFigure draw_all(const std::vector<PhasePortrait>& portraits, const std::vector<PortraitCaption>& captions,
+MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const PortraitCaption> captions,
                       PortraitStyle style) {
   const PhasePortrait& first = portraits.front();
   const ViewLayout& layout = layout_of(first.view);
@@ -155,7 +156,7 @@ MappedFigure draw_all(const std::vector<PhasePortrait>& portraits, const std::ve
 }  // namespace
 
 MappedFigure draw_mapped(const PhasePortrait& portrait, const PortraitCaption& caption, PortraitStyle style) {
-  return draw_all({portrait}, {caption}, style);
+  return draw_all({&portrait, 1}, {&caption, 1}, style);
 }
 
 Figure draw_together(const std::vector<PhasePortrait>& portraits, std::vector<PortraitCaption> captions,

@@ -27,22 +27,24 @@ struct Arrival {
   double slip, spin, time, distance, turns;
 };
 
+Arrival arrival_of(const si::Experiment& ball, const reduction::Flow& flow, reduction::State start) {
+  const double radius = ball.ball.radius;
+  const reduction::Reached end = reduction::reached(flow, start);
+  return {start.v, start.u / radius, si::seconds(ball, end.tau), si::seconds(ball, end.distance),
+          si::seconds(ball, end.turned) / (2 * std::numbers::pi * radius)};
+}
+
 /// From spin alone to slip alone.
 std::vector<Arrival> arrivals(const si::Experiment& ball, const reduction::Flow& flow) {
-  const double mu = flow.system().mu(), radius = ball.ball.radius;
-  const auto arrival = [&](reduction::State start) {
-    const reduction::Reached end = reduction::reached(flow, start);
-    return Arrival{start.v, start.u / radius, si::seconds(ball, end.tau), si::seconds(ball, end.distance),
-                   si::seconds(ball, end.turned) / (2 * std::numbers::pi * radius)};
-  };
-  std::vector<Arrival> all{arrival({1, 0})};
+  const double mu = flow.system().mu();
+  std::vector<Arrival> all{arrival_of(ball, flow, {1, 0})};
   constexpr double widest = 16;  // of ln k
   constexpr int steps = 320;
   for (int i = 0; i <= steps; ++i) {
     const double ln_k = widest * (2.0 * i / steps - 1);
-    all.push_back(arrival({std::exp(std::min(0.0, -ln_k)) / mu, std::exp(std::min(0.0, ln_k))}));
+    all.push_back(arrival_of(ball, flow, {std::exp(std::min(0.0, -ln_k)) / mu, std::exp(std::min(0.0, ln_k))}));
   }
-  all.push_back(arrival({0, 1}));
+  all.push_back(arrival_of(ball, flow, {0, 1}));
   return all;
 }
 
@@ -112,13 +114,11 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
   const si::SlipAndSpin start = si::aimed(ball, flow, goal);
   const std::vector<Arrival> all = arrivals(ball, flow);
   const Arrival &in_place = all.front(), &straight = all.back();
-  const reduction::Reached end = reduction::reached(flow, {ball.ball.radius * start.spin, start.slip});
-  const double time = si::seconds(ball, end.tau), distance = si::seconds(ball, end.distance);
-  const double turns = si::seconds(ball, end.turned) / (2 * std::numbers::pi * ball.ball.radius);
+  const Arrival end = arrival_of(ball, flow, {ball.ball.radius * start.spin, start.slip});
   // Of what is 0 as much as that time allows.
   const auto squared = [](double x) { return x * x; };
-  const double x = distance > 0 ? distance : straight.distance * squared(time / straight.time);
-  const double y = turns > 0 ? turns : in_place.turns * squared(time / in_place.time);
+  const double x = end.distance > 0 ? end.distance : straight.distance * squared(end.time / straight.time);
+  const double y = end.turns > 0 ? end.turns : in_place.turns * squared(end.time / in_place.time);
   if (!(std::min(x, y) > 0))
     throw std::domain_error("a picture is of a plane with a point in it: both are 0, the body rests");
 
@@ -141,8 +141,8 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
       {portraits::clipped(panel, {{near * ray->distance, near * ray->turns}, {far * ray->distance, far * ray->turns}}),
        {faint, 1, true, true},
        portraits::math("k = 1")});
-  if (distance > 0 && turns > 0) {
-    panel.marks.push_back({{{distance, turns}},
+  if (end.distance > 0 && end.turns > 0) {
+    panel.marks.push_back({{{end.distance, end.turns}},
                            spin_colour,
                            1.4,
                            portraits::Marks::Shape::dot,
@@ -152,8 +152,8 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
   portraits::Figure figure;
   figure.title = portraits::title_of(portraits::shortened(ball.ball.name), fmt::format("{:.4g}", flow.system().mu()),
                                      portraits::shortened(law.name()));
-  figure.subtitle = fmt::format("where starts end: {:.4g} m and {:.4g} turns take {:.4g} s", distance,
-                                std::copysign(turns, start.spin), time);
+  figure.subtitle = fmt::format("where starts end: {:.4g} m and {:.4g} turns take {:.4g} s", end.distance,
+                                std::copysign(end.turns, start.spin), end.time);
   figure.size = portraits::fitted({170, 130}, 1, size);
   figure.panels = {std::move(panel)};
   return figure;
