@@ -41,8 +41,9 @@ constexpr Field<AimReport> aim_row[]{
     {"rolls_after", "s, m, m, m/s", "of a ball: when and where its slip is below the threshold",
      [](const AimReport& r) -> Json {
        if (!r.rolls) return {};
-       return {
-           {"t", r.rolls->t}, {"x", r.rolls->place.x()}, {"y", r.rolls->place.y()}, {"threshold", si::rolling_slip}};
+       Json members = members_of(*r.rolls);
+       members["threshold"] = si::rolling_slip;
+       return members;
      },
      "", 0, " {`t`, `x`, `y`, `threshold`}"},
     {"strike", "m/s; 1; kg",

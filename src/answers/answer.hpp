@@ -58,6 +58,12 @@ std::string render(const Answer& answer, const std::string& format, Digits digit
 /// The fields as a line of CSV, in quotes where they need them.
 std::string csv_line(const std::vector<std::string>& fields);
 
+/// The entries of a vector, as a list.
+template <class Values>
+Json list_of(const Values& values) {
+  return std::vector(values.begin(), values.end());
+}
+
 /// The number, or infinity for what is none: no format says NaN.
 double or_infinity(double value);
 

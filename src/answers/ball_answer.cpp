@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "contensou/si/course.hpp"
+#include "contensou/si/load_history.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -22,6 +24,10 @@ Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law
   }
   return members;
 }
+
+Json members_of(const si::Event& event) { return {{"t", event.t}, {"x", event.place.x()}, {"y", event.place.y()}}; }
+
+Json members_of(const si::LoadHistory& load) { return {{"t", load.instants()}, {"load", load.loads()}}; }
 
 std::string ball_heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
   const auto& [ball, contact, start, environment] = experiment;

@@ -5,6 +5,7 @@
 #include "answers/check_answer.hpp"
 #include "answers/engine_answer.hpp"
 #include "answers/phase_plane_answer.hpp"
+#include "answers/roll_answer.hpp"
 #include "answers/stop_answer.hpp"
 
 namespace contensou::answers {
@@ -38,38 +39,7 @@ std::vector<VerbFields> field_table() {
        {
            {"`k`, `phi`, `psi`", "", "force over f N, moment over f N times patch radius"},
        }},
-      {"roll",
-       {
-           {"`t`; `x`, `y`", "s; m", "time; place of the centre, 0 at the start"},
-           {"`vx`, `vy`; `wx`, `wy`, `wz`", "m/s; 1/s", "velocity of the centre, angular velocity, z up"},
-           {"`slip`; `energy`", "m/s; J", "speed of the contact point; kinetic energy"},
-           {"`ball`", "", "as of stop"},
-           {"`velocity`, `angular_velocity`", "m/s; 1/s", "at the start"},
-           {"`t_stop`", "s", "when slip and spin end"},
-           {"`integrated` {`t_stop`, `slip_length`, `turns`, `steps`}", "s; m; 1; 1",
-            "with --route integrated, by it; its rows are, too, and all other events of the reduced route"},
-           {"`rolls_after` {`t`, `x`, `y`, `threshold`}", "s, m, m, m/s",
-            "when and where the slip is below the threshold: --rolling-below, 0.001 m/s unless it is given"},
-           {"`spin_ends` {`t`, `x`, `y`}", "s, m, m", "0 without spin"},
-           {"`rest` {`t`, `x`, `y`}", "s, m, m",
-            "of the centre, with --rolling-friction, or on a slope if it rests: it turns no more and slides below "
-            "0.0001 "
-            "m/s; of a puck, in place of rolls_after"},
-           {"`slip_length`; `turns`; `path`", "m; 1; m",
-            "slid by the contact point; about the vertical; of the centre until it rolls or rests"},
-           {"`load` {`t` [...], `load` [...]}", "s, N",
-            "in: columns `t`, `load` of the table of --load, where it is one"},
-           {"`creeps` {`k`}", "",
-            "with --rolling-friction or --slope: the ratio v/(patch radius abs(wz)) that it tends to while it spins"},
-           {"`energy_balance` {`start`, `lost_sliding`, `lost_spinning`, `kept`}", "J",
-            "kept: for rolling; `lost_rolling` with --rolling-friction; `gained_on_slope` with --slope; where it rolls "
-            "down "
-            "for ever, until slip and spin end"},
-           {"`uncertainty` {`rolls_after` {`t` {`standard`, `quantiles` [...], `shares`, ...}, ...}, ...}",
-            "as the event",
-            "with --uncertainty: of each number of an event as of stop; `t_stop`, `samples`, `outside`"},
-           {"`textbook`", "", "the same events, by the same threshold, where slip and spin do not know of each other"},
-       }},
+      {"roll", roll_fields()},
       {"roll --batch",
        {
            {"in: `slip`, `spin`, or `vx`, `vy`, `wx`, `wy`, `wz`", "m/s, 1/s",

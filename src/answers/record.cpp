@@ -1,5 +1,7 @@
 #include "answers/record.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -47,7 +49,17 @@ FieldText text_of(const std::string& name, const char* columns, const char* unit
 
 std::vector<FieldText> joined(const std::vector<std::vector<FieldText>>& lists) {
   std::vector<FieldText> all;
-  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  std::string before;
+  for (const auto& list : lists) {
+    for (const auto& [names, unit, meaning] : list) {
+      before += names;
+      if (meaning.empty()) {
+        before += ", ";
+      } else {
+        all.push_back({std::exchange(before, ""), unit, meaning});
+      }
+    }
+  }
   return all;
 }
 

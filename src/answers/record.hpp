@@ -22,7 +22,7 @@ template <class Result>
 struct Field {
   const char* name;              ///< of the member of JSON; none: it is in CSV alone
   const char* unit;              ///< none: a pure number, or a name
-  const char* meaning;           ///< none: it is told elsewhere, for all verbs
+  const char* meaning;           ///< null: it is told elsewhere, for all verbs; empty: with the next
   Json (*value)(const Result&);  ///< null where this result has none
 
   /// Names of the columns of CSV, between commas: of the value, of the entries of an array, or of the members of an object; an entry without
@@ -33,6 +33,15 @@ struct Field {
   const char* shape = "";  ///< of an array or object, for README
 };
 
+/// A column of a result that has many rows: of CSV, and a list in JSON.
+template <class Result>
+struct ColumnField {
+  const char* name;
+  const char* unit;
+  const char* meaning;                             ///< as Field's
+  const Eigen::ArrayXd* (*values)(const Result&);  ///< null where this result has none
+};
+
 /// A row of CSV gets the columns of a value.
 /// @param columns  as Field's
 void append_columns(Json& row, const std::string& name, const char* columns, const Json& value);
@@ -40,6 +49,9 @@ void append_columns(Json& row, const std::string& name, const char* columns, con
 /// A field as the table of fields shows it.
 FieldText text_of(const std::string& name, const char* columns, const char* unit, const char* meaning,
                   const char* shape);
+
+/// One list after the other, and a field without a meaning with the next.
+std::vector<FieldText> joined(const std::vector<std::vector<FieldText>>& lists);
 
 /// The members of JSON, in the order of the table.
 template <class Result, std::size_t count>
@@ -68,6 +80,16 @@ Json row_of(const Field<Result> (&fields)[count], const Result& result) {
   return row;
 }
 
+/// The columns that this result has.
+template <class Result, std::size_t count>
+std::vector<Column> columns_of(const ColumnField<Result> (&fields)[count], const Result& result) {
+  std::vector<Column> columns;
+  for (const ColumnField<Result>& field : fields) {
+    if (const Eigen::ArrayXd* values = field.values(result)) columns.push_back({field.name, *values});
+  }
+  return columns;
+}
+
 /// The fields that have a meaning, as texts.
 template <class Result, std::size_t count>
 std::vector<FieldText> texts_of(const Field<Result> (&fields)[count]) {
@@ -75,10 +97,16 @@ std::vector<FieldText> texts_of(const Field<Result> (&fields)[count]) {
   for (const auto& [name, unit, meaning, value, columns, place, shape] : fields) {
     if (meaning != nullptr) texts.push_back(text_of(name, columns, unit, meaning, shape));
   }
-  return texts;
+  return joined({texts});
 }
 
-/// One list after the other.
-std::vector<FieldText> joined(const std::vector<std::vector<FieldText>>& lists);
+template <class Result, std::size_t count>
+std::vector<FieldText> texts_of(const ColumnField<Result> (&fields)[count]) {
+  std::vector<FieldText> texts;
+  for (const auto& [name, unit, meaning, values] : fields) {
+    if (meaning != nullptr) texts.push_back(text_of(name, nullptr, unit, meaning, ""));
+  }
+  return joined({texts});
+}
 
 }  // namespace contensou::answers

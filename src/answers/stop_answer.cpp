@@ -249,10 +249,7 @@ constexpr Field<StopReport> fields[]{
      },
      "", 0, " {`name`, `body`, `radius`, `mass`, `friction`, `gravity`, `patch_radius`, ...}"},
     {"load", "s, N", "in: columns t, load of the table of --load, where it is one",
-     [](const StopReport& r) -> Json {
-       return r.load ? Json{{"t", r.load->instants()}, {"load", r.load->loads()}} : Json();
-     },
-     "", 0, " {`t` [...], `load` [...]}"},
+     [](const StopReport& r) { return r.load ? members_of(*r.load) : Json(); }, "", 0, " {`t` [...], `load` [...]}"},
     {"slip", "m/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::slip_at_start); }, ""},
     {"spin", "1/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::spin_at_start); }, ""},
     {"slip_length", "m", "slid by the contact point of a ball",
@@ -264,15 +261,14 @@ constexpr Field<StopReport> fields[]{
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& /*ball*/) -> Json {
          const auto [velocity, angular_velocity] = final_motion(r.start);
-         return {{"velocity", std::vector(velocity.begin(), velocity.end())},
-                 {"angular_velocity", std::vector(angular_velocity.begin(), angular_velocity.end())}};
+         return {{"velocity", list_of(velocity)}, {"angular_velocity", list_of(angular_velocity)}};
        });
      },
      "", 0, " {`velocity` [x, y], `angular_velocity` [x, y, z]}"},
     {"rest", "s, m, m", "of a ball with rolling friction or on a slope: when and where its centre rests, if it does",
      [](const StopReport& r) -> Json {
        const auto rest = rest_of(r.start);
-       return rest ? Json{{"t", rest->t}, {"x", rest->place.x()}, {"y", rest->place.y()}} : Json();
+       return rest ? members_of(*rest) : Json();
      },
      "", 0, " {`t`, `x`, `y`}"},
 };

@@ -116,7 +116,7 @@ class OrbitCommand final : public Verb {
         return load ? load->time_of(nominal) : nominal;
       };
       const bool given = at != nullptr && at->in_seconds;  // as they were typed, not there and back
-      if (load) answer.members["load"] = Json{{"t", load->instants()}, {"load", load->loads()}};
+      if (load) answer.members["load"] = answers::members_of(*load);
       answer.columns.push_back({"t", given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds))});
     }
     if (reduction_) {
