@@ -120,7 +120,8 @@ std::vector<VerbFields> field_table() {
            {"`tracks` [{`file`, `start`, `slip`, ...}]", "",
             "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start; with rolling friction `rolling` in place of "
             "`vx`, `vy`"},
-           {"`noise` {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`}}", "", "of each column"},
+           {"`noise` {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`, `outliers_at`}}", "",
+            "of each column; `outliers_at` [{`file`, `t`}] is where they are (s)"},
            {"`half_turn_spin`, `other_spins`", "rad/s",
             "of a track with an angle: from where on its turns are found by trial; spins that fit as well by other "
             "turns"},

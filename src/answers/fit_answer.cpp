@@ -32,15 +32,29 @@ Json reduced_chi2(const fit::Fit& fit, bool planned) {
   return fit.degrees_of_freedom > 0 ? Json(fit.reduced_chi2()) : Json();
 }
 
+/// "t = 0.1, 0.25 s", by track where there are several; the first ones.
+std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vector<fit::Track>& tracks) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(outliers.size(), most); ++i) {
+    const auto& [track, t] = outliers[i];
+    const bool first_of_track = i == 0 || outliers[i - 1].track != track;
+    if (first_of_track && i > 0) text += " s; ";
+    if (first_of_track && tracks.size() > 1) text += escaped(tracks[track].name) + ", ";
+    text += fmt::format("{}{:.6g}", first_of_track ? "t = " : ", ", t);
+  }
+  return text + (outliers.size() > most ? ", ... s" : " s");
+}
+
 /// What else is to be known, a sentence each.
 std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::Track>& tracks, bool planned) {
   std::vector<std::string> remarks;
   for (const fit::Noise& noise : fit.noise) {
-    if (noise.outliers == 0 || planned) continue;
-    remarks.push_back(
-        fmt::format("{}: {} of {} values are off by more than 6 standard deviations of the others; Huber's "
-                    "loss (--robust) lets them count for less",
-                    fit::kind_of(noise.observable).name, noise.outliers, noise.values));
+    if (noise.outliers.empty() || planned) continue;
+    remarks.push_back(fmt::format(
+        "{}: {} of {} values are off by more than 6 standard deviations of the others, at {}; Huber's "
+        "loss (--robust) lets them count for less",
+        fit::kind_of(noise.observable).name, noise.outliers.size(), noise.values, places_of(noise.outliers, tracks)));
   }
   for (std::size_t i = 0; i < fit.turns.size(); ++i) {
     const auto& [limit, others] = fit.turns[i];
@@ -203,7 +217,10 @@ Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track
                                                                           {"rms", noise.rms},
                                                                           {"sd", noise.sd},
                                                                           {"estimated", noise.estimated},
-                                                                          {"outliers", noise.outliers}};
+                                                                          {"outliers", noise.outliers.size()}};
+    Json& places = members["noise"][std::string(fit::kind_of(noise.observable).name)]["outliers_at"];
+    places = Json::array();
+    for (const auto& [track, t] : noise.outliers) places.push_back({{"file", tracks[track].name}, {"t", t}});
   }
   members["laws"] = Json::array();
   for (const fit::Fit& fit : fits) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
 
 #include "contensou/portraits/layout.hpp"
+#include "contensou/si/uncoupled_motion.hpp"
 
 namespace contensou::answers {
 
@@ -18,6 +20,7 @@ using portraits::Panel;
 using portraits::Point;
 
 constexpr Colour fit_colour{0x8c0f35};
+constexpr Colour textbook_colour{0x777777};
 constexpr Colour inner_colour{0xd3dff0}, outer_colour{0xeef2f8};
 /// Of the tracks, one after the other; told apart in grey, too.
 constexpr Colour data_colours[]{{0x4a90cc}, {0x3a3a3a}, {0xe0a030}, {0x8050a0}};
@@ -65,17 +68,37 @@ double at_turn_of(double other, double angle) {
   return angle + turn * std::round((other - angle) / turn);
 }
 
+/// What the textbook's ball, from the same start, shows of slip, spin or angle at those times; nothing of others.
+Eigen::ArrayXd of_textbook(const fit::Fit& fit, const reduction::Law& law, std::size_t track,
+                           fit::Observable observable, const Eigen::ArrayXd& times) {
+  using fit::Observable, fit::Parameter;
+  if (fit.rolls_with_friction()) return {};
+  si::Experiment ball = fit.ball;
+  const double spin = fit.estimate(Parameter::spin, track).value;
+  ball.start = si::SlipAndSpin{std::max(0.0, fit.estimate(Parameter::slip, track).value), spin};
+  const si::UncoupledMotion motion(ball, law);
+  if (observable == Observable::slip) return motion.at_times(times).slip;
+  if (observable == Observable::spin) return motion.at_times(times).wz;
+  if (observable != Observable::angle) return {};
+  if (!(motion.spin_end() > 0))
+    return Eigen::ArrayXd::Constant(times.size(), fit.estimate(Parameter::angle, track).value);
+  const Eigen::ArrayXd spinning = times.min(motion.spin_end());
+  return fit.estimate(Parameter::angle, track).value + spin * spinning * (1 - spinning / (2 * motion.spin_end()));
+}
+
 /// Data with the fit, and what is left, of one observable.
 struct Pair {
   Panel data, residuals;
 };
 
-Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const fit::Noise& noise) {
+Pair panels_of(const fit::Fit& fit, const reduction::Law& law, const std::vector<fit::Track>& tracks,
+               const fit::Noise& noise) {
   const auto& [observable, name, si_unit, meaning] = fit::kind_of(noise.observable);
   const auto [unit, factor] = shown_unit(fit, tracks, noise);
   Pair pair{empty("", fmt::format("{}, {}", name, unit)), empty("", fmt::format("{}: residual / sd", name))};
   double last = 0, first = INFINITY;
   portraits::Lines curves{{}, {fit_colour, 3}, "fitted motion"};
+  portraits::Lines textbook{{}, {textbook_colour, 1.6, true}, "textbook (uncoupled)"};
   portraits::Axis& y = pair.data.y;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const fit::Track& track = tracks[i];
@@ -110,12 +133,22 @@ Pair panels_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const
               {{track.t[row], std::copysign(residual_border, residual)}, residual > 0 ? "↑" : "↓", colour});
         }
       }
+      constexpr int pieces = 200;
+      const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(pieces + 1, 0, track.t[track.t.size() - 1] - track.start);
+      if (const Eigen::ArrayXd values = of_textbook(fit, law, i, observable, times); values.size() > 0) {
+        textbook.lines.emplace_back();
+        for (Eigen::Index j = 0; j < times.size(); ++j)
+          textbook.lines.back().push_back({track.start + times[j], factor * values[j]});
+        y.low = std::min(y.low, factor * values.minCoeff());
+        y.high = std::max(y.high, factor * values.maxCoeff());
+      }
       curves.lines.push_back(std::move(curve));
       pair.data.marks.push_back(std::move(data));
       pair.residuals.marks.push_back(std::move(residuals));
     }
   }
   pair.data.lines.push_back(std::move(curves));
+  if (!textbook.lines.empty()) pair.data.lines.push_back(std::move(textbook));
   for (Panel* panel : {&pair.data, &pair.residuals}) {
     // The film's own clock, but from 0 where it begins soon after it.
     panel->x.low = first > 0 && first < 0.1 * last ? 0 : first;
@@ -203,10 +236,17 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   return panel;
 }
 
+/// Whether a number has an error that an axis can show; of data without noise it has none.
+bool has_width(const fit::Estimate& estimate) {
+  constexpr double least = 1e-6;
+  return std::isfinite(estimate.standard_error) && estimate.standard_error > least * estimate.value;
+}
+
 }  // namespace
 
-portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>& tracks,
-                             const portraits::AskedSize& size) {
+portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::Law>& laws,
+                             const std::vector<fit::Track>& tracks, const portraits::AskedSize& size) {
+  const reduction::Law& law = *std::ranges::find(laws, fit.law, [](const auto& each) { return each.name(); });
   portraits::Figure figure;
   figure.title = fmt::format("{},  law: {}", portraits::shortened(fit.ball.ball.name), portraits::shortened(fit.law));
   figure.subtitle = fmt::format("friction {}, patch radius {}", with_error(fit.estimates[0], 1),
@@ -218,14 +258,14 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<fit::Track>&
                                   portraits::shortened(fit.only->name()));
   std::vector<Panel> below;  // residuals, and the words
   for (const fit::Noise& noise : fit.noise) {
-    Pair pair = panels_of(fit, tracks, noise);
+    Pair pair = panels_of(fit, law, tracks, noise);
     figure.panels.push_back(std::move(pair.data));
     below.push_back(std::move(pair.residuals));
   }
   // A page is not high enough for six rows.
   constexpr std::size_t most_rows = 5;
   const bool both = fit.noise.size() < most_rows && fit.estimates[0].free && fit.estimates[1].free &&
-                    std::isfinite(fit.estimates[0].standard_error) && std::isfinite(fit.estimates[1].standard_error) &&
+                    std::ranges::all_of(std::span(fit.estimates).first(fit::contact_parameters), has_width) &&
                     !fit.only;
   if (both) {
     figure.panels.push_back(confidence_panel(fit));

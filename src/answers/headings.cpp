@@ -25,13 +25,21 @@ double factor_of(const std::string& unit, std::string_view si_unit) {
   return angle ? *value * (std::numbers::pi / 180) : *value;
 }
 
-std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit) {
+bool is_in_pixels(const SiColumn& column) { return column.unit == "px" || column.unit == "px/s"; }
+
+std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit,
+                                    std::optional<double> pixel) {
   const auto fail = [&](const std::string& message) { throw table.complaint(table.header_line(), message); };
   std::optional<SiColumn> found;
   for (std::size_t i = 0; i < table.names().size(); ++i) {
     const auto [of, unit] = heading_of(table.names()[i]);
     if (of != name) continue;
     if (found) fail(fmt::format("two columns are called '{}'; one is allowed", name));
+    if ((unit == "px" && si_unit == "m") || (unit == "px/s" && si_unit == "m/s")) {
+      if (!pixel) fail(fmt::format("column {}: pixels need a size: --pixel LENGTH", quotation(table.names()[i])));
+      found = {{table.names()[i], i}, unit, *pixel};
+      continue;
+    }
     try {
       found = {{table.names()[i], i}, unit, factor_of(unit, si_unit)};
     } catch (const BadInput& error) {

@@ -27,7 +27,12 @@ struct SiColumn {
 };
 
 /// The column of that name, in whatever unit its heading has; nothing if there is none.
-/// @throws BadLine  for two of that name, or a unit of something else
-std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit);
+/// @param pixel  m, of a length or speed in px or px/s
+/// @throws BadLine  for two of that name, a unit of something else, or pixels of no size
+std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit,
+                                    std::optional<double> pixel = std::nullopt);
+
+/// Whether its unit is px or px/s.
+bool is_in_pixels(const SiColumn& column);
 
 }  // namespace contensou::answers

@@ -68,7 +68,7 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
   }
   const auto fail = [&](const std::string& message) { throw table.complaint(table.header_line(), message); };
   const auto column = [&](const std::string& name, std::string_view si_unit) {
-    return find_column(table, name, si_unit);
+    return find_column(table, name, si_unit, request.pixel);
   };
 
   auto time = column("t", "s");
@@ -102,6 +102,8 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
                     fmt::join(observable_names(), ", "), deviation, time ? "other column of these is" : "t is", hints,
                     separator ? "; a comma must separate columns" : ""));
   }
+  if (request.pixel && std::ranges::none_of(columns, [](const auto& each) { return is_in_pixels(each.value); }))
+    fail("--pixel is of columns in px or px/s, as 'x [px]'; here is none");
   if (time->column.name != frame) {
     for (const Heading& heading : headings) {
       if (heading.name == frame) unread.insert(frame);

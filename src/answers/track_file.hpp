@@ -20,6 +20,7 @@ struct TrackRequest {
   std::optional<double> from = {};   ///< s, where the motion begins; else the first row's time
   std::optional<double> until = {};  ///< s
   std::optional<double> fps = {};    ///< of a column frame, which stands for t
+  std::optional<double> pixel = {};  ///< m, of columns in px and px/s
 };
 
 /// The names of what a table may say of a ball.

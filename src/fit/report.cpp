@@ -128,6 +128,7 @@ class Reporter {
   Number combined(const Eigen::Vector2d& powers) const;
   void set_profile(const Number& number);
   void set_only(const std::vector<Number>& numbers);
+  Outlier place_of(Eigen::Index row) const;
   void set_noise();
   void set_predicted();
   void set_ball();
@@ -385,6 +386,17 @@ void Reporter::set_only(const std::vector<Number>& numbers) {
   }
 }
 
+/// The track and the time of a row of residuals: each series has one for each time of its track.
+Outlier Reporter::place_of(Index row) const {
+  for (std::size_t i = 0; i < request_.tracks.size(); ++i) {
+    const Track& track = request_.tracks[i];
+    const Index rows = track.t.size() * static_cast<Index>(track.series.size());
+    if (row < rows) return {i, track.t[row % track.t.size()]};
+    row -= rows + (track.stop_time ? 1 : 0);
+  }
+  throw std::logic_error("a stop time has no row of an observable");
+}
+
 void Reporter::set_noise() {
   for (const auto& [observable, name, unit, meaning] : observable_kinds()) {
     const auto place = static_cast<std::size_t>(observable);
@@ -404,9 +416,12 @@ void Reporter::set_noise() {
     const double border =
         far * std::max(sd_by_median(sizes),
                        search_.estimated[place] ? search_.rounding[place] * search_.weight[rows.front()] : 1);
+    std::vector<Outlier> outliers;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (sizes[i] > border) outliers.push_back(place_of(rows[i]));
+    }
     fit_.noise.push_back({observable, static_cast<Index>(rows.size()), std::sqrt(squares / n), std::sqrt(variances / n),
-                          search_.estimated[place],
-                          std::ranges::count_if(sizes, [&](double size) { return size > border; })});
+                          search_.estimated[place], std::move(outliers)});
   }
 }
 

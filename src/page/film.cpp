@@ -50,7 +50,7 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
                   value(fit::Parameter::patch_radius), "slip", slip.norm(), "spin", si::spin_at_start(start),
                   "velocityX", velocity.dot(along), "velocityY", along.x() * velocity.y() - along.y() * velocity.x(),
                   "measured", measured, "figure",
-                  figure_value(answers::fit_figure(fits.front(), request.tracks, {.width_mm = 120})));
+                  figure_value(answers::fit_figure(fits.front(), tried, request.tracks, {.width_mm = 120})));
   });
 }
 

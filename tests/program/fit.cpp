@@ -359,7 +359,7 @@ TEST_CASE("a motion that is not that of the data is not to be overlooked", "[cli
   CHECK(fit_of(film(0.01, 1), "--noise slip=0.01,spin=1")["fits"] == true);
 }
 
-TEST_CASE("frames with --fps, a ball by its radius alone, nan for what was not measured, mm for m", "[cli]") {
+TEST_CASE("frames with --fps, a ball by its radius alone, nan for what was not measured, mm or px for m", "[cli]") {
   std::string frames = "frame,slip,spin\n", in_mm = "t,slip,spin\n";
   int i = 0;
   for (const auto& row : rows_of(film(0.01, 1))) {
@@ -375,8 +375,26 @@ TEST_CASE("frames with --fps, a ball by its radius alone, nan for what was not m
   CHECK(fit["noise"]["slip"]["values"] == 44);
   CHECK(value(fit, "friction") == Approx(0.2).epsilon(0.05));
   CHECK_THAT(run_program("fit - --ball pool", in_mm).err, Contains("is it in mm? Then call it 'slip [mm/s]'"));
+  std::string in_px = "t,x [px],x_sd [mm],spin\n", in_m = "t,x,x_sd,spin\n";
+  for (const auto& row : rows_of(film(0, 1))) {
+    if (row[0] == "t") continue;
+    const double t = std::stod(row[0]), x = t - t * t;  // m
+    in_px += fmt::format("{},{},1,{}\n", row[0], x / 0.4e-3, row[2]);
+    in_m += fmt::format("{},{},0.001,{}\n", row[0], x, row[2]);
+  }
+  CHECK(value(fit_of(in_px, "--pixel 0.4mm"), "slip") == Approx(value(fit_of(in_m), "slip")).epsilon(1e-6));
+  check_rejected("fit - --ball pool", "column 'x [px]': pixels need a size: --pixel LENGTH", in_px);
+  check_rejected("fit - --ball pool --pixel 1mm", "--pixel is of columns in px", in_m);
+  check_rejected("fit - --ball pool --pixel 0", "a length > 0 is needed", in_px);
   check_rejected("fit - --ball pool", "--fps N says how many", frames);
   check_rejected("fit - --ball pool --fps 9", "--fps is of a column frame; here is t", "t,slip\n0,1\n");
+}
+
+TEST_CASE("the figure has the textbook's motion beside slip and spin, and no ellipse of data without noise", "[cli]") {
+  const Run run = run_program("fit - --ball pool --format svg", film(0, 0));
+  INFO(run.err);
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("textbook (uncoupled)") && !Contains("where they lie"));
 }
 
 TEST_CASE("outliers are told", "[cli]") {
@@ -387,8 +405,13 @@ TEST_CASE("outliers are told", "[cli]") {
     text += fmt::format("{},{},{}\n", row[0], std::stod(row[1]) + (place % 20 == 7 ? 0.5 : 0), row[2]);
     ++place;
   }
-  CHECK(fit_of(text)["noise"]["slip"]["outliers"] == 3);
-  CHECK_THAT(run_program("fit - --ball pool", text).out, Contains("slip: 3 of 61 values are off by more than 6"));
+  const auto noise = fit_of(text)["noise"]["slip"];
+  CHECK(noise["outliers"] == 3);
+  REQUIRE(noise["outliers_at"].size() == 3);
+  const auto row = rows_of(film(0.01, 1))[8];
+  CHECK(noise["outliers_at"][0] == nlohmann::json{{"file", "-"}, {"t", std::stod(row[0])}});
+  CHECK_THAT(run_program("fit - --ball pool", text).out,
+             Contains("slip: 3 of 61 values are off by more than 6") && Contains("of the others, at t = " + row[0]));
 }
 
 TEST_CASE("without degrees of freedom there is no reduced chi^2", "[cli]") {

@@ -65,10 +65,13 @@ fit::Free parse_free(const std::string& typed) {
   return free;
 }
 
-double parse_positive_time(const std::string& typed) {
-  const double time = parse_quantity(typed, "s");
-  if (!(time > 0)) throw NotAllowed("a time > 0 is needed, in s");
-  return time;
+/// Reads a time or a length above zero.
+auto positive(const char* what, const char* unit) {
+  return [=](const std::string& typed) {
+    const double value = parse_quantity(typed, unit);
+    if (!(value > 0)) throw NotAllowed(fmt::format("a {} > 0 is needed, in {}", what, unit));
+    return value;
+  };
 }
 
 double parse_rate(const std::string& typed) {
@@ -99,7 +102,9 @@ class FitCommand final : public Verb {
     noise_.add(app, "--noise", "NAME=SD,...",
                "standard deviations of columns that have none, and of stop (default: estimated)", parse_noise);
     stop_time_.add(app, "--stop-time", "TIME", "measured, in seconds from the start; with --noise stop=SD",
-                   parse_positive_time);
+                   positive("time", "s"));
+    pixel_.add(app, "--pixel", "LENGTH", "size of a pixel, of columns in px or px/s, as in 'x [px]'",
+               positive("length", "m"));
     start_.add_ball(
         app, "radius and gravity, the values of what is not free, and rolling friction; --radius alone does, too");
     start_.take_radius_for_ball();
@@ -142,7 +147,7 @@ class FitCommand final : public Verb {
     }
     if (output.picture() && !plan_) {
       if (only_stop) throw BadInput("one stop time is no curve to draw: leave out the picture");
-      output.write({figure_.apply(fit_figure(fits.front(), request.tracks, figure_.size()), output.format)});
+      output.write({figure_.apply(fit_figure(fits.front(), laws, request.tracks, figure_.size()), output.format)});
     } else if (output.format == "toml") {
       Fit& fitted = fits.front();
       if (is_formula_law(fitted.law)) fitted.ball.contact.law = fitted.law;
@@ -194,12 +199,14 @@ class FitCommand final : public Verb {
       const auto note = [](const std::string& text) { fmt::print(stderr, "contensou: {}\n", text); };
       for (const std::string& file : files_.all()) {
         CsvReader table(file);
-        tracks.push_back(
-            read_track(table, file, {noise(), from_.optional(), until_.optional(), fps_.optional()}, note, &unused));
+        tracks.push_back(read_track(table, file,
+                                    {noise(), from_.optional(), until_.optional(), fps_.optional(), pixel_.optional()},
+                                    note, &unused));
       }
     } else {
       tracks.push_back({.name = "--stop-time"});
       if (fps_.given()) fps_.reject("it is of a film: give a FILE with a column frame, or add --plan");
+      if (pixel_.given()) pixel_.reject("it is of a film: give a FILE with columns in px");
     }
     if (!unused.empty()) {
       const std::string& name = unused.begin()->first;
@@ -218,6 +225,7 @@ class FitCommand final : public Verb {
   std::vector<fit::Track> planned_tracks(const fit::FitRequest& request) const {
     if (files_.given()) throw BadInput("--plan is of a film that is not made yet: leave out FILE");
     if (from_.given()) from_.reject("a film that is planned begins with the motion: leave it out");
+    if (pixel_.given()) pixel_.reject("--plan has its noise in SI units: leave it out");
     std::vector<std::string> missing;
     if (!fps_.given()) missing.emplace_back("--fps N");
     if (!noise_.given()) missing.emplace_back("--noise NAME=SD,... of what is seen");
@@ -241,7 +249,7 @@ class FitCommand final : public Verb {
   }
 
   ArgumentOf<std::string> files_;
-  ArgumentOf<double> from_, until_, stop_time_, fps_;
+  ArgumentOf<double> from_, until_, stop_time_, fps_, pixel_;
   ArgumentOf<NoiseByName> noise_;
   ArgumentOf<fit::Free> free_;
   bool robust_ = false, plan_ = false;

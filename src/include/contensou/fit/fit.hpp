@@ -80,14 +80,20 @@ struct Estimate {
   }
 };
 
+/// Where a value is that is far off.
+struct Outlier {
+  std::size_t track;
+  double t;  ///< s
+};
+
 /// The noise of an observable.
 struct Noise {
   Observable observable;
-  Eigen::Index values;    ///< how many were measured
-  double rms;             ///< of the residuals, SI
-  double sd;              ///< that the weights have, of their root mean square
-  bool estimated;         ///< from the residuals
-  Eigen::Index outliers;  ///< how many are farther off than six standard deviations, by the median of the residuals
+  Eigen::Index values;            ///< how many were measured
+  double rms;                     ///< of the residuals, SI
+  double sd;                      ///< that the weights have, of their root mean square
+  bool estimated;                 ///< from the residuals
+  std::vector<Outlier> outliers;  ///< farther off than six standard deviations, by the median of the residuals
 };
 
 /// The only combination f^a eps^b that the data decide: friction, patch radius, their product or their ratio.
