@@ -4,6 +4,7 @@
 #include "answers/bounce_answer.hpp"
 #include "answers/check_answer.hpp"
 #include "answers/engine_answer.hpp"
+#include "answers/fit_answer.hpp"
 #include "answers/phase_plane_answer.hpp"
 #include "answers/roll_answer.hpp"
 #include "answers/stop_answer.hpp"
@@ -101,34 +102,7 @@ std::vector<VerbFields> field_table() {
            {"`tau_stop`; `end`; `routes` [{`name`, `tau_stop`}]", "speed",
             "inf where the centre is not reached; section: by the general way; `failure` of a route instead"},
        }},
-      {"fit",
-       {
-           {"in: `t`; `slip`, `x`, `y`, `vx`, `vy`", "s; m/s, m, m, m/s, m/s", "any of them; others are not read"},
-           {"in: `spin`, `angle`; NAME`_sd`", "rad/s, rad", "about the vertical; standard deviation of NAME"},
-           {"`friction`, `patch_radius`, `slip`, `spin`", "1, m, m/s, 1/s",
-            "the last two of the first track, at its start"},
-           {"`rolling_friction`", "1", "of a ball that has it, or where it was searched"},
-           {"each {`value`, `standard_error`, `low`, `high`, `determined`}", "",
-            "and the 95 % interval; where not determined, value is any of many and standard_error inf"},
-           {"`fits`; `misfits`; `remarks`", "",
-            "whether this may be the motion of the data, and if not why (status 1); what else is to be known"},
-           {"`correlation`; `profiled`", "",
-            "of friction and patch_radius; whether their intervals are by profile likelihood"},
-           {"`reduced_chi2`, `degrees_of_freedom`", "", "1 where the noise is estimated"},
-           {"`only` {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}", "",
-            "the one combination of the two that the data determine, where they do no more"},
-           {"`tracks` [{`file`, `start`, `slip`, ...}]", "",
-            "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start; with rolling friction `rolling` in place of "
-            "`vx`, `vy`"},
-           {"`noise` {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`, `outliers_at`}}", "",
-            "of each column; `outliers_at` [{`file`, `t`}] is where they are (s)"},
-           {"`half_turn_spin`, `other_spins`", "rad/s",
-            "of a track with an angle: from where on its turns are found by trial; spins that fit as well by other "
-            "turns"},
-           {"`laws` [{`law`, `aic`, `friction`, `patch_radius`, `reduced_chi2`}]", "", "the best first"},
-           {"CSV `law`, `track`, `parameter`, `value`, `standard_error`, `low`, `high`, `determined`", "",
-            "a row each"},
-       }},
+      {"fit", fit_fields()},
       {"balls",
        {
            {"`name`, `description`, `sources`; `body`, `law`", "", "ball, hollow-ball, disc or ring; its own"},

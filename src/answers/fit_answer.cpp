@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "answers/parse.hpp"
+#include "answers/text_table.hpp"
 
 namespace contensou::answers {
 
@@ -26,7 +27,7 @@ const std::string_view& name_of(const Estimate& estimate) { return fit::kind_of(
 
 bool is_of_start(const Estimate& estimate) { return static_cast<int>(estimate.parameter) >= fit::shared_parameters; }
 
-/// None without degrees of freedom.
+/// Null without degrees of freedom.
 Json reduced_chi2(const fit::Fit& fit, bool planned) {
   if (planned) return 1;
   return fit.degrees_of_freedom > 0 ? Json(fit.reduced_chi2()) : Json();
@@ -105,13 +106,11 @@ Shown shown(Parameter parameter) {
   return {unit.empty() ? std::string(name) : fmt::format("{}, {}", name, unit), 1};
 }
 
-constexpr int name_width = 18;
-
-std::string line_on(const Estimate& estimate, const Digits& digits) {
+/// The line of an estimate in a table.
+std::vector<std::string> line_on(const Estimate& estimate, const Digits& digits) {
   const auto [name, unit] = shown(estimate.parameter);
   const auto number = [&, unit = unit](double value) { return digits(value / unit); };
-  if (!estimate.free)
-    return fmt::format("{:<{}}{:>{}}  given\n", name, name_width, number(estimate.value), digits.width());
+  if (!estimate.free) return {name, number(estimate.value) + "  given"};
   const auto& [low, high] = estimate.interval;
   const std::string interval = fmt::format("{} to {}", number(low), number(high));
   if (!estimate.determined()) {
@@ -120,28 +119,28 @@ std::string line_on(const Estimate& estimate, const Digits& digits) {
                               : from_above             ? fmt::format(": {} or more", number(low))
                               : from_below             ? fmt::format(": {} or less", number(high))
                                                        : ": " + interval;
-    return fmt::format("{:<{}}{:>{}}{:>12}{:>12}   not determined{}\n", name, name_width, "?", digits.width(), "?", "",
-                       known);
+    return {name, "?", "?", "", "   not determined" + known};
   }
   const bool with_error = !estimate.skewed();
   const double percent = 100 * estimate.standard_error / std::abs(estimate.value);
-  return fmt::format("{:<{}}{:>{}}{:>12}{:>12}   {}\n", name, name_width, number(estimate.value), digits.width(),
-                     with_error ? Digits{std::min(digits.count, 3)}(estimate.standard_error / unit) : "",
-                     with_error && std::isfinite(percent) ? fmt::format("{:.2g} %", percent) : "", interval);
+  return {name, number(estimate.value),
+          with_error ? Digits{std::min(digits.count, 3)}(estimate.standard_error / unit) : "",
+          with_error && std::isfinite(percent) ? fmt::format("{:.2g} %", percent) : "", "   " + interval};
 }
 
 std::string table_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const Digits& digits) {
-  std::string text = fmt::format("{:<{}}{:>{}}{:>12}{:>12}   {}\n", "", name_width, "value", digits.width(), "+-", "",
-                                 "95 % confidence");
+  const auto number = TextTable::right(digits.width());
+  TextTable table({TextTable::left(18), number, TextTable::right(12), TextTable::right(12)});
+  table.add({"", "value", "+-", "", "   95 % confidence"});
   std::size_t track = tracks.size();
   for (const Estimate& estimate : fit.estimates) {
     if (is_of_start(estimate) && estimate.track != track) {
       track = estimate.track;
-      if (tracks.size() > 1) text += escaped(tracks[track].name) + "\n";
+      if (tracks.size() > 1) table.add({escaped(tracks[track].name)});
     }
-    text += line_on(estimate, digits);
+    table.add(line_on(estimate, digits));
   }
-  return text;
+  return table.text();
 }
 
 std::string noise_of(const fit::Fit& fit, bool planned) {
@@ -161,81 +160,122 @@ std::string noise_of(const fit::Fit& fit, bool planned) {
 
 std::string ranking_of(const std::vector<fit::Fit>& fits) {
   const fit::Fit& best = fits.front();
-  std::string text = fmt::format("\n{:<14}{:>12}{:>12}{:>16}\n", "law", "friction", "patch, mm", "AIC less best");
+  TextTable table({TextTable::left(14), TextTable::right(12), TextTable::right(12), TextTable::right(16)});
+  table.add({"law", "friction", "patch, mm", "AIC less best"});
   for (const fit::Fit& fit : fits) {
-    text += fmt::format("{:<14}{:>12.4g}{:>12.4g}{:>16.1f}\n", fit.law, fit.estimates[0].value,
-                        1e3 * fit.estimates[1].value, fit.aic - best.aic);
+    table.add({fit.law, fmt::format("{:.4g}", fit.estimates[0].value),
+               fmt::format("{:.4g}", 1e3 * fit.estimates[1].value), fmt::format("{:.1f}", fit.aic - best.aic)});
   }
   constexpr double hardly = 4;
-  return text + (fits[1].aic - best.aic < hardly ? "these data do not tell the first two apart (by 4 they would)\n"
-                                                 : fmt::format("{} fits better than all others\n", best.law));
+  return "\n" + table.text() +
+         (fits[1].aic - best.aic < hardly ? "these data do not tell the first two apart (by 4 they would)\n"
+                                          : fmt::format("{} fits better than all others\n", best.law));
 }
+
+/// The laws that were fitted, the best first, and to what.
+struct FitReport {
+  const std::vector<fit::Fit>& fits;
+  const std::vector<fit::Track>& tracks;
+  bool planned;
+  const fit::Fit& best = fits.front();
+};
+
+constexpr Field<FitReport> fields[]{
+    {"law", "", nullptr, [](const FitReport& r) -> Json { return r.best.law; }},
+    {"friction", "1", "", [](const FitReport& r) { return members_of(r.best.estimates[0]); }},
+    {"patch_radius", "m", "", [](const FitReport& r) { return members_of(r.best.estimates[1]); }},
+    {"slip", "m/s", "", [](const FitReport& r) { return members_of(r.best.estimate(Parameter::slip)); }},
+    {"spin", "1, m, m/s, 1/s", "estimates; the last two of the first track, at its start",
+     [](const FitReport& r) { return members_of(r.best.estimate(Parameter::spin)); }},
+    {"correlation", "", "of friction and patch_radius",
+     [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }},
+    {"reduced_chi2", "", "1 where the noise is estimated",
+     [](const FitReport& r) {
+       const Json value = reduced_chi2(r.best, r.planned);
+       return value.is_null() ? said_null : value;
+     }},
+    {"degrees_of_freedom", "", "measured values less the numbers that were found",
+     [](const FitReport& r) -> Json { return r.best.degrees_of_freedom; }},
+    {"profiled", "", "whether the intervals are by profile likelihood",
+     [](const FitReport& r) -> Json { return r.best.profiled; }},
+    {"fits", "", "whether this may be the motion of the data",
+     [](const FitReport& r) -> Json { return r.best.fits(); }},
+    {"misfits", "", "and if not why (status 1)", [](const FitReport& r) -> Json { return r.best.misfits; }},
+    {"remarks", "", "what else is to be known",
+     [](const FitReport& r) -> Json { return remarks_on(r.best, r.tracks, r.planned); }},
+    {"rolling_friction", "1", "an estimate, of a ball that has it, or where it was searched",
+     [](const FitReport& r) {
+       return r.best.rolls_with_friction() ? members_of(r.best.estimate(Parameter::rolling_friction)) : Json();
+     }},
+    {"only", "", "the one combination of the two that the data determine, where they do no more",
+     [](const FitReport& r) -> Json {
+       if (!r.best.only) return {};
+       const auto& [friction_power, patch_power, value, error, interval] = *r.best.only;
+       return {{"name", r.best.only->name()},
+               {"friction_power", friction_power},
+               {"patch_power", patch_power},
+               {"value", value},
+               {"standard_error", value * error},
+               {"low", interval.low},
+               {"high", interval.high}};
+     },
+     nullptr, 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
+    {"tracks", "rad/s",
+     "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start; with rolling friction `rolling` in place of `vx`, "
+     "`vy`; of a track with an angle `half_turn_spin`, from where on its turns are found by trial, and `other_spins` "
+     "that fit as well by other turns",
+     [](const FitReport& r) {
+       Json list = Json::array();
+       for (std::size_t i = 0; i < r.tracks.size(); ++i) {
+         Json track{{"file", r.tracks[i].name}, {"start", r.tracks[i].start}};
+         for (const Estimate& estimate : r.best.estimates) {
+           if (is_of_start(estimate) && estimate.track == i)
+             track[std::string(name_of(estimate))] = members_of(estimate);
+         }
+         if (const fit::Turns& turns = r.best.turns[i]; std::isfinite(turns.half_turn_spin))
+           track.update({{"half_turn_spin", turns.half_turn_spin}, {"other_spins", turns.other_spins}});
+         list.push_back(std::move(track));
+       }
+       return list;
+     },
+     nullptr, 0, " [{`file`, `start`, `slip`, ...}]"},
+    {"noise", "", "of each column; `outliers_at` [{`file`, `t`}] is where they are (s)",
+     [](const FitReport& r) {
+       Json noise = Json::object();
+       for (const auto& [observable, values, rms, sd, estimated, outliers] : r.best.noise) {
+         Json places = Json::array();
+         for (const auto& [track, t] : outliers) places.push_back({{"file", r.tracks[track].name}, {"t", t}});
+         noise[std::string(fit::kind_of(observable).name)] = {
+             {"values", values},     {"rms", rms}, {"sd", sd}, {"estimated", estimated}, {"outliers", outliers.size()},
+             {"outliers_at", places}};
+       }
+       return noise;
+     },
+     nullptr, 0, " {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`, `outliers_at`}}"},
+    {"laws", "", "the best first",
+     [](const FitReport& r) {
+       Json laws = Json::array();
+       for (const fit::Fit& fit : r.fits) {
+         laws.push_back({{"law", fit.law},
+                         {"aic", fit.aic},
+                         {"friction", fit.estimates[0].value},
+                         {"patch_radius", fit.estimates[1].value},
+                         {"reduced_chi2", reduced_chi2(fit, r.planned)}});
+       }
+       return laws;
+     },
+     nullptr, 0, " [{`law`, `aic`, `friction`, `patch_radius`, `reduced_chi2`}]"},
+};
 
 }  // namespace
 
 Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned) {
-  const fit::Fit& best = fits.front();
-  Answer answer;
-  Json& members = answer.members;
-  members = {{"law", best.law},
-             {"friction", members_of(best.estimates[0])},
-             {"patch_radius", members_of(best.estimates[1])},
-             {"slip", members_of(best.estimate(Parameter::slip))},
-             {"spin", members_of(best.estimate(Parameter::spin))},
-             {"correlation", best.correlation_of_contact()},
-             {"reduced_chi2", reduced_chi2(best, planned)},
-             {"degrees_of_freedom", best.degrees_of_freedom},
-             {"profiled", best.profiled},
-             {"fits", best.fits()},
-             {"misfits", best.misfits},
-             {"remarks", remarks_on(best, tracks, planned)}};
-  if (best.rolls_with_friction()) members["rolling_friction"] = members_of(best.estimate(Parameter::rolling_friction));
-  if (best.only) {
-    members["only"] = {{"name", best.only->name()},
-                       {"friction_power", best.only->friction_power},
-                       {"patch_power", best.only->patch_power},
-                       {"value", best.only->value},
-                       {"standard_error", best.only->value * best.only->relative_error},
-                       {"low", best.only->interval.low},
-                       {"high", best.only->interval.high}};
-  }
-  members["tracks"] = Json::array();
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    Json track{{"file", tracks[i].name}, {"start", tracks[i].start}};
-    for (const Estimate& estimate : best.estimates) {
-      if (is_of_start(estimate) && estimate.track == i) track[std::string(name_of(estimate))] = members_of(estimate);
-    }
-    if (const fit::Turns& turns = best.turns[i]; std::isfinite(turns.half_turn_spin)) {
-      track["half_turn_spin"] = turns.half_turn_spin;
-      track["other_spins"] = turns.other_spins;
-    }
-    members["tracks"].push_back(std::move(track));
-  }
-  members["noise"] = Json::object();
-  for (const fit::Noise& noise : best.noise) {
-    members["noise"][std::string(fit::kind_of(noise.observable).name)] = {{"values", noise.values},
-                                                                          {"rms", noise.rms},
-                                                                          {"sd", noise.sd},
-                                                                          {"estimated", noise.estimated},
-                                                                          {"outliers", noise.outliers.size()}};
-    Json& places = members["noise"][std::string(fit::kind_of(noise.observable).name)]["outliers_at"];
-    places = Json::array();
-    for (const auto& [track, t] : noise.outliers) places.push_back({{"file", tracks[track].name}, {"t", t}});
-  }
-  members["laws"] = Json::array();
-  for (const fit::Fit& fit : fits) {
-    members["laws"].push_back({{"law", fit.law},
-                               {"aic", fit.aic},
-                               {"friction", fit.estimates[0].value},
-                               {"patch_radius", fit.estimates[1].value},
-                               {"reduced_chi2", reduced_chi2(fit, planned)}});
-  }
+  Answer answer{.members = members_of(fields, {fits, tracks, planned})};
   for (const fit::Fit& fit : fits) {
     for (const Estimate& estimate : fit.estimates) {
       const std::string track = is_of_start(estimate) ? tracks[estimate.track].name : "";
-      Json row{{"law", fit.law}, {"track", track}, {"parameter", name_of(estimate)}};
+      Json& row = answer.rows.emplace_back(Json{{"law", fit.law}, {"track", track}, {"parameter", name_of(estimate)}});
       row.update(members_of(estimate));
-      answer.rows.push_back(std::move(row));
     }
   }
   return answer;
@@ -270,6 +310,16 @@ std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::
   for (const std::string& remark : remarks_on(best, tracks, planned)) text += remark + "\n";
   if (fits.size() > 1) text += ranking_of(fits);
   return text;
+}
+
+std::vector<FieldText> fit_fields() {
+  return joined(
+      {{{"in: `t`; `slip`, `x`, `y`, `vx`, `vy`", "s; m/s, m, m, m/s, m/s", "any of them; others are not read"},
+        {"in: `spin`, `angle`; NAME`_sd`", "rad/s, rad", "about the vertical; standard deviation of NAME"},
+        {"an estimate {`value`, `standard_error`, `low`, `high`, `determined`}", "",
+         "with its 95 % interval; where not determined, value is any of many and standard_error inf"},
+        {"CSV `law`, `track`, `parameter`, `value`, `standard_error`, `low`, `high`, `determined`", "", "a row each"}},
+       texts_of(fields)});
 }
 
 }  // namespace contensou::answers

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "answers/answer.hpp"
+#include "answers/record.hpp"
 #include "contensou/fit/fit.hpp"
 
 namespace contensou::answers {
@@ -16,5 +17,8 @@ Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track
 /// The answer as text on one screen, and what the data do not decide.
 std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned,
                       const Digits& digits);
+
+/// The fields of that answer.
+std::vector<FieldText> fit_fields();
 
 }  // namespace contensou::answers

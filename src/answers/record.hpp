@@ -33,6 +33,9 @@ struct Field {
   const char* shape = "";  ///< of an array or object, for README
 };
 
+/// The value of a field that JSON has as null.
+inline const Json said_null = Json::value_t::discarded;
+
 /// A column of a result that has many rows: of CSV, and a list in JSON.
 template <class Result>
 struct ColumnField {
@@ -59,7 +62,9 @@ Json members_of(const Field<Result> (&fields)[count], const Result& result) {
   Json members = Json::object();
   for (const Field<Result>& field : fields) {
     if (*field.name == '\0') continue;
-    if (Json value = field.value(result); !value.is_null()) members[field.name] = std::move(value);
+    if (Json value = field.value(result); !value.is_null()) {
+      members[field.name] = value.is_discarded() ? Json() : std::move(value);
+    }
   }
   return members;
 }

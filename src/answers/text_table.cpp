@@ -18,7 +18,10 @@ std::string TextTable::text() const {
   for (const auto& cells : lines_) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto [width, align] = i < columns.size() ? columns[i] : Column{0, '<'};
-      text += align == '<' ? fmt::format("{:<{}}", cells[i], width) : fmt::format("{:>{}}", cells[i], width);
+      const bool ends = i + 1 == cells.size();
+      text += align == '<' && ends ? cells[i]
+              : align == '<'       ? fmt::format("{:<{}}", cells[i], width)
+                                   : fmt::format("{:>{}}", cells[i], width);
     }
     text += '\n';
   }

@@ -6,7 +6,7 @@
 
 namespace contensou::answers {
 
-/// A table for people: lines of cells, each padded to the width of its column.
+/// A table for people: lines of cells, each padded to the width of its column; a line does not end in spaces.
 class TextTable {
  public:
   struct Column {
