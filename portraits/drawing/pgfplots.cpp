@@ -149,11 +149,11 @@ class Writer {
     int digits;                   ///< behind the point, for hundredths of mm
 
     Coordinates(const Axis& of, double from_mm, double side_mm) : axis(of) {
-      constexpr double least = 0.2, most = 500, far = 20;  // of a side, and away from it, in its units
+      constexpr double least = 0.2, most = 500, farthest = 20;  // of a side, and away from it, in its units
       const auto [low, high] = std::pair(data(axis.low), data(axis.high));
       const double side = high - low;
       if (side < least || side > most) unit = std::pow(10, std::floor(std::log10(side)));
-      if (std::max(std::abs(low), std::abs(high)) > far * side) origin = low;
+      if (std::max(std::abs(low), std::abs(high)) > farthest * side) origin = low;
       mm = side_mm * unit / side;
       start = from_mm - (low - origin) / unit * mm;
       digits = std::max(0, static_cast<int>(std::ceil(std::log10(mm))) + 2);

@@ -5,15 +5,15 @@
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
-#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "platform/descriptor.hpp"
 
 namespace contensou::platform {
 
 InputFile::InputFile(const std::string& path, std::string name)
-    : name_(std::move(name)), file_(path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    : name_(std::move(name)), file_(path == "-" ? duplicate(STDIN_FILENO) : open_to_read(path.c_str())) {
   if (file_ < 0) fail();
 }
 
@@ -36,10 +36,7 @@ bool InputFile::read(std::string& buffer, std::size_t most) {
   return size > 0;
 }
 
-bool InputFile::ready() const {
-  pollfd file{.fd = file_, .events = POLLIN, .revents = 0};
-  return ::poll(&file, 1, 0) > 0;
-}
+bool InputFile::ready() const { return is_ready(file_); }
 
 void InputFile::fail() const { throw std::system_error(errno, std::generic_category(), "cannot read " + name_); }
 

@@ -7,14 +7,16 @@
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "platform/descriptor.hpp"
 #include "platform/file_failure.hpp"
 #include "platform/interruption.hpp"
+#include "platform/path_text.hpp"
+#include "platform/unfinished_file.hpp"
 
 namespace contensou::platform {
 
@@ -48,22 +50,22 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   const bool is_there = path_ == "-" || ::stat(path_.c_str(), &there) == 0;
   if (!is_there && errno != ENOENT) fail(errno);
   if (is_there && !S_ISREG(there.st_mode)) {
-    file_ = path_ == "-" ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    file_ = path_ == "-" ? duplicate(STDOUT_FILENO) : open_to_write(path_.c_str());
     if (file_ < 0) fail(errno);
     return;
   }
   // A file that may not be written to is not replaced, even where its folder would allow it; nor by root.
   if (is_there && ((there.st_mode & writable) == 0 || ::access(path_.c_str(), W_OK) != 0)) fail(EACCES);
   mode_ = is_there ? there.st_mode : standard_mode();
-  target_ = followed(path_).string();
-  const std::string folder = fs::path(target_).parent_path().string();
+  target_ = text_of(followed(path_of(path_)));
+  const std::string folder = text_of(path_of(target_).parent_path());
   file_ = open_unfinished(folder.empty() ? "." : folder, path_, unfinished_);
   if (file_ < 0) fail(errno);
 }
 
 OutputFile::~OutputFile() {
   if (!unfinished_.empty()) {
-    ::unlink(unfinished_.c_str());
+    remove_file(unfinished_.c_str());
     forget_unfinished();
   }
   if (file_ >= 0) ::close(file_);
@@ -78,8 +80,7 @@ void OutputFile::fail(int error) const {
 }
 
 void OutputFile::reserve(std::uintmax_t bytes) {
-  if (unfinished_.empty()) return;
-  if (::fallocate(file_, 0, 0, static_cast<off_t>(bytes)) != 0 && errno != EOPNOTSUPP) fail(errno);
+  if (!unfinished_.empty() && platform::reserve(file_, bytes) != 0) fail(errno);
 }
 
 void OutputFile::write(std::string_view content) {
@@ -93,11 +94,10 @@ void OutputFile::write(std::string_view content) {
 
 void OutputFile::finish() {
   const BlockedSignals wait;
-  if (!unfinished_.empty())
-    ::fchmod(file_, static_cast<mode_t>(mode_));  // fails where a file system knows no permissions
+  if (!unfinished_.empty()) set_permissions(file_, mode_);
   if (::close(std::exchange(file_, -1)) != 0) fail(errno);
   if (unfinished_.empty()) return;
-  if (std::rename(unfinished_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (replace_file(unfinished_.c_str(), target_.c_str()) != 0) fail(errno);
   unfinished_.clear();
   forget_unfinished();
   std::fputs(fmt::format("wrote {}\n", path_).c_str(), stderr);

@@ -228,7 +228,7 @@ ExitStatus guarded(const std::vector<std::string>& arguments) {
 }  // namespace contensou::program
 
 int main(int argc, char** argv) {
-  contensou::platform::occupy_closed_streams();
+  contensou::platform::prepare_standard_streams();
   contensou::platform::handle_ending_signals();
   return static_cast<int>(contensou::program::guarded({argv + std::min(argc, 1), argv + argc}));
 }

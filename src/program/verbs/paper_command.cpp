@@ -21,6 +21,7 @@
 #include "paper/statements.hpp"
 #include "platform/interruption.hpp"
 #include "platform/output_file.hpp"
+#include "platform/path_text.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -86,7 +87,7 @@ std::vector<File> draw_figures(const fs::path& folder, const FigureOptions& look
   for (const auto& [name, figure] : figures(looks.size())) {
     for (const auto& [ending, format] : {std::pair{".svg", PictureFormat::svg}, {".pdf", PictureFormat::pdf}}) {
       drawings.emplace_back(
-          (folder / (name + ending)).string(),
+          text_of(folder / (name + ending)),
           std::async(std::launch::async, drawn, std::vector{looks.apply(figure, ending + 1)}, format));
     }
   }
@@ -98,7 +99,7 @@ std::vector<File> draw_figures(const fs::path& folder, const FigureOptions& look
 /// Writes all files or none, into a folder that is made if there is none.
 void write_files(const Argument& out, const std::vector<File>& files) {
   const BlockedSignals wait;
-  const fs::path folder = fs::absolute(out.text());
+  const fs::path folder = fs::absolute(path_of(out.text()));
   std::error_code error;
   std::vector<fs::path> missing;  // the deepest first
   for (fs::path path = folder; !fs::exists(path, error); path = path.parent_path()) missing.push_back(path);
@@ -163,7 +164,7 @@ class PaperCommand final : public Verb {
       throw BadInput(fmt::format("{}: without --out DIR nothing is drawn: add it, or leave it out", names));
     }
     const std::vector<StatementRow> rows = recompute();
-    if (out_.given()) write_files(out_, draw_figures(out_.text(), figure_));
+    if (out_.given()) write_files(out_, draw_figures(path_of(out_.text()), figure_));
     Answer answer;
     for (const auto& [statement, found, correction, where] : rows) {
       answer.rows.push_back({{"equation", statement.equation},

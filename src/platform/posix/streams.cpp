@@ -7,7 +7,7 @@ namespace contensou::platform {
 
 bool is_terminal(Stream stream) { return ::isatty(stream == Stream::error ? STDERR_FILENO : STDOUT_FILENO) != 0; }
 
-void occupy_closed_streams() {
+void prepare_standard_streams() {
   int file = 0;
   while (file >= 0 && file <= STDERR_FILENO) file = ::open("/dev/null", O_PATH);
   ::close(file);

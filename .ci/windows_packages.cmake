@@ -1,0 +1,24 @@
+# What the program is made of, by headers alone and behind the compiler's own, because Debian's libraries of C lie beside
+# them.
+function(from_debian target)
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  target_compile_options(${target} INTERFACE -idirafter/usr/include -idirafter/usr/include/eigen3)
+  target_compile_definitions(${target} INTERFACE ${ARGN})
+endfunction()
+
+from_debian(Boost::headers)
+from_debian(CLI11::CLI11)
+from_debian(Eigen3::Eigen)
+from_debian(fmt::fmt FMT_HEADER_ONLY)
+from_debian(nlohmann_json::nlohmann_json)
+from_debian(tomlplusplus::tomlplusplus TOML_HEADER_ONLY=1)
+from_debian(Catch2::Catch2)
+from_debian(muparser::muparser)  # no headers alone: as much of it as the page has
+target_include_directories(muparser::muparser INTERFACE ${CMAKE_SOURCE_DIR}/src/platform/formulas)
+
+macro(provide method package)
+  if("${package}" MATCHES "^(Boost|CLI11|Eigen3|fmt|nlohmann_json|muparser|tomlplusplus|Catch2)$")
+    set(${package}_FOUND TRUE)
+  endif()
+endmacro()
+cmake_language(SET_DEPENDENCY_PROVIDER provide SUPPORTED_METHODS FIND_PACKAGE)

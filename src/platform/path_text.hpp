@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace contensou::platform {
+
+/// A path of a text in UTF-8, and back. In Windows a path of a plain string is of another encoding.
+inline std::filesystem::path path_of(const std::string& text) { return std::u8string(text.begin(), text.end()); }
+
+inline std::string text_of(const std::filesystem::path& path) {
+  const std::u8string text = path.u8string();
+  return {text.begin(), text.end()};
+}
+
+}  // namespace contensou::platform

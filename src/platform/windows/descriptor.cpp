@@ -1,0 +1,77 @@
+#include "platform/descriptor.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <random>
+#include <string_view>
+
+#include <fcntl.h>
+#include <io.h>
+#include <windows.h>
+
+namespace contensou::platform {
+
+namespace {
+
+/// Sets errno to what the system's last error means.
+int failed() {
+  switch (::GetLastError()) {
+    case ERROR_FILE_EXISTS:
+      errno = EEXIST;
+      break;
+    case ERROR_FILE_NOT_FOUND:
+    case ERROR_PATH_NOT_FOUND:
+      errno = ENOENT;
+      break;
+    case ERROR_DISK_FULL:
+      errno = ENOSPC;
+      break;
+    default:
+      errno = EACCES;
+  }
+  return -1;
+}
+
+}  // namespace
+
+int open_to_read(const char* path) { return ::_open(path, _O_RDONLY | _O_BINARY | _O_NOINHERIT); }
+
+int open_to_write(const char* path) { return ::_open(path, _O_WRONLY | _O_BINARY | _O_NOINHERIT); }
+
+int duplicate(int file) { return ::_dup(file); }
+
+int create_unfinished(char* name) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    for (char* letter = name + std::strlen(name) - 6; *letter != '\0'; ++letter)
+      *letter = letters[random() % letters.size()];
+    // Shared so that it can be removed while it is open.
+    const HANDLE file = ::CreateFileA(name, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr, CREATE_NEW,
+                                      FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (file != INVALID_HANDLE_VALUE)
+      return ::_open_osfhandle(reinterpret_cast<intptr_t>(file), _O_WRONLY | _O_BINARY | _O_NOINHERIT);
+    if (failed(), errno != EEXIST) break;
+  }
+  return -1;
+}
+
+void remove_file(const char* path) { ::DeleteFileA(path); }
+
+int replace_file(const char* path, const char* target) {
+  return ::MoveFileExA(path, target, MOVEFILE_REPLACE_EXISTING) != 0 ? 0 : failed();
+}
+
+bool is_ready(int file) {
+  const auto handle = reinterpret_cast<HANDLE>(::_get_osfhandle(file));
+  DWORD bytes = 0;
+  if (::GetFileType(handle) != FILE_TYPE_PIPE) return true;
+  return ::PeekNamedPipe(handle, nullptr, 0, nullptr, &bytes, nullptr) == 0 || bytes > 0;  // not 0: or it has ended
+}
+
+int reserve(int, std::uintmax_t) { return 0; }
+
+void set_permissions(int, unsigned) {}
+
+}  // namespace contensou::platform

@@ -1,0 +1,39 @@
+#include "platform/interruption.hpp"
+
+#include <cstring>
+#include <mutex>
+
+#include <windows.h>
+
+#include "platform/unfinished_file.hpp"
+
+namespace contensou::platform {
+
+namespace {
+
+/// Held while what ends the program has to wait: paper's files, and in it each of them.
+std::recursive_mutex wait;
+
+/// In a thread of its own. The next handler, the system's, ends the program.
+BOOL WINAPI end_program(DWORD) {
+  const std::lock_guard lock(wait);
+  if (const char* message = remove_unfinished()) {
+    DWORD written = 0;
+    ::WriteFile(::GetStdHandle(STD_ERROR_HANDLE), message, static_cast<DWORD>(std::strlen(message)), &written, nullptr);
+  }
+  return FALSE;
+}
+
+}  // namespace
+
+void handle_ending_signals() { ::SetConsoleCtrlHandler(end_program, TRUE); }
+
+struct BlockedSignals::Signals {
+  std::lock_guard<std::recursive_mutex> lock{wait};
+};
+
+BlockedSignals::BlockedSignals() : before_(std::make_unique<Signals>()) {}
+
+BlockedSignals::~BlockedSignals() = default;
+
+}  // namespace contensou::platform
