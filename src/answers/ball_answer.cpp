@@ -10,7 +10,7 @@
 namespace contensou::answers {
 
 Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law) {
-  const auto& [ball, contact, start, environment] = experiment;
+  const auto& [ball, contact, start, environment, spreads] = experiment;
   Json members{{"name", ball.name},
                {"body", ball.body.name},
                {"radius", ball.radius},
@@ -30,7 +30,7 @@ Json members_of(const si::Event& event) { return {{"t", event.t}, {"x", event.pl
 Json members_of(const si::LoadHistory& load) { return {{"t", load.instants()}, {"load", load.loads()}}; }
 
 std::string ball_heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
-  const auto& [ball, contact, start, environment] = experiment;
+  const auto& [ball, contact, start, environment, spreads] = experiment;
   return fmt::format(
       "{}: {}radius {} m, mass {} kg, friction {}, {}\n"
       "patch radius {} m, {}: mu = {}\n",

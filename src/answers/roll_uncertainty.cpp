@@ -36,22 +36,19 @@ std::vector<Place> places_of(const si::Experiment& experiment) {
     const auto add = [&, of = quantity](const std::string& name, double value, std::size_t component, bool corners) {
       places.push_back({{{name, value}, of->unit, corners ? corner : ""}, of, component});
     };
-    if (quantity == &si::velocity || quantity == &si::angular_velocity) {
-      const char* const letter = quantity == &si::velocity ? "v" : "w";
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const bool about_vertical = quantity == &si::angular_velocity && i == 2;
-        if (quantity == &si::velocity || about_vertical || !flat)
-          add(letter + std::string(1, "xyz"[i]), values[i], i, about_vertical);
-      }
-    } else if (values.size() == 1 && quantity != &si::inertia_factor) {
-      add(std::string(quantity->name), values[0], 0, true);
+    if (values.size() > 1 && quantity->section != si::slip.section) continue;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const bool vector = values.size() > 1, about_vertical = quantity == &si::angular_velocity && i == 2;
+      if (flat && quantity == &si::angular_velocity && !about_vertical) continue;
+      if (quantity != &si::inertia_factor)
+        add(si::Component{quantity, i}.name(), values[i], i, !vector || about_vertical);
     }
   }
   return places;
 }
 
 /// In the order of names_of_events.
-using Values = Eigen::Array<double, 10, 1>;
+using Values = Eigen::Matrix<double, 10, 1>;
 
 struct NameOfEvent {
   const char *event, *of, *unit;
@@ -75,11 +72,11 @@ class Shot {
 
   /// The experiment with these numbers in place of its own.
   /// @throws std::domain_error  if there is no such experiment
-  si::Experiment with(const std::vector<Place>& places, const std::vector<double>& values) const {
+  si::Experiment with(const std::vector<Place>& places, const Eigen::VectorXd& values) const {
     si::Description changed = described_;
     for (std::size_t i = 0; i < places.size(); ++i) {
       std::vector<double> numbers = changed.find(*places[i].quantity)->numbers;
-      numbers[places[i].component] = values[i];
+      numbers[places[i].component] = values[static_cast<Eigen::Index>(i)];
       changed.set(*places[i].quantity, std::move(numbers), {"", places[i].known.number.name, ""});
     }
     return si::experiment_of(changed);
@@ -116,12 +113,9 @@ RollUncertainty roll_uncertainty(const si::Experiment& experiment, const reducti
   std::vector<Spreadable> known;
   std::vector<Place> all = places_of(experiment), places;
   for (const Place& place : all) known.push_back(place.known);
-  const std::vector<Spread> numbers = read_spreads(typed, known);
-  std::vector<double> at;
-  for (const Spread& number : numbers) {
+  const Spreads spreads = read_spreads(typed, known, experiment.spreads);
+  for (const Spread& number : spreads.numbers)
     places.push_back(*std::ranges::find(all, number.name, [](const Place& of) { return of.known.number.name; }));
-    at.push_back(number.value);
-  }
 
   const Shot shot(experiment, law, rolling_below);
   const reduction::ReducedSystem system = si::undriven_system(experiment, law);
@@ -132,43 +126,36 @@ RollUncertainty roll_uncertainty(const si::Experiment& experiment, const reducti
     const std::string name = experiment.ball.body.lies_flat() && i < 3 ? "rest" : event;
     result.parts.push_back({name, of, unit, values[static_cast<Eigen::Index>(i)], {}});
   }
-  double ln_mu_standard = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto& [name, value, standard] = numbers[i];
+  const auto count = static_cast<Eigen::Index>(places.size());
+  Eigen::VectorXd at(count), mu_shares = Eigen::VectorXd::Zero(count);
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(values.size(), count);
+  for (Eigen::Index i = 0; i < count; ++i) at[i] = spreads.numbers[static_cast<std::size_t>(i)].value;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& [name, value, standard] = spreads.numbers[static_cast<std::size_t>(i)];
+    if (standard == 0) continue;
     const double step = std::max(1e-5 * std::abs(value), 1e-3 * standard);
-    const auto beside = [&](double sign) {
-      std::vector<double> moved = at;
-      moved[i] += sign * step;
-      return shot.with(places, moved);
-    };
-    const si::Experiment more = beside(1), less = beside(-1);
-    const Values slopes = step > 0 ? Values((shot(more) - shot(less)) / (2 * step)) : Values::Zero();
-    if (step > 0)
-      ln_mu_standard = std::hypot(
-          ln_mu_standard, std::log(si::patch_ratio(more, law) / si::patch_ratio(less, law)) / (2 * step) * standard);
-    for (std::size_t j = 0; j < result.parts.size(); ++j)
-      result.parts[j].known.add_share(name, slopes[static_cast<Eigen::Index>(j)] * standard);
+    const Eigen::VectorXd to = Eigen::VectorXd::Unit(count, i) * step;
+    const si::Experiment more = shot.with(places, at + to), less = shot.with(places, at - to);
+    const double steps = standard / (2 * step);
+    shares.col(i) = steps * (shot(more) - shot(less));
+    mu_shares[i] = steps * std::log(si::patch_ratio(more, law) / si::patch_ratio(less, law));
   }
+  for (std::size_t j = 0; j < result.parts.size(); ++j)
+    result.parts[j].known.set_shares(spreads, shares.row(static_cast<Eigen::Index>(j)));
 
-  constexpr long wanted = 10'000;
-  FlowsOfMu flows(system, ln_mu_standard / 8);
+  FlowsOfMu flows(system, spreads.standard_of(mu_shares) / 8);
   std::vector<std::vector<double>> samples(result.parts.size());
-  Normal normal;
-  for (long i = 0; i < wanted; ++i) {
-    std::vector<double> moved;
-    for (const Spread& number : numbers) moved.push_back(number.value + number.standard * normal());
+  static_cast<Sampled&>(result) = sample(spreads, 10'000, [&](const Eigen::VectorXd& numbers) {
     try {
-      const si::Experiment sample = shot.with(places, moved);
+      const si::Experiment moved = shot.with(places, numbers);
       const Values then =
-          flows(si::patch_ratio(sample, law), [&](const reduction::Flow& flow) { return shot(sample, flow); });
+          flows(si::patch_ratio(moved, law), [&](const reduction::Flow& flow) { return shot(moved, flow); });
       for (std::size_t j = 0; j < samples.size(); ++j) samples[j].push_back(then[static_cast<Eigen::Index>(j)]);
+      return true;
     } catch (const std::domain_error&) {
-      // no ball has such numbers
+      return false;  // no ball has such numbers
     }
-  }
-  result.samples = static_cast<long>(samples.front().size());
-  result.outside = 1 - static_cast<double>(result.samples) / static_cast<double>(wanted);
-  if (result.samples == 0) throw BadInput("no sample of these spreads is a start: make them smaller");
+  });
   for (std::size_t j = 0; j < samples.size(); ++j) result.parts[j].known.compare(result.parts[j].value, samples[j]);
   if (!spins)
     std::erase_if(result.parts, [](const auto& part) { return part.event == "spin_ends" || part.event == "turns"; });

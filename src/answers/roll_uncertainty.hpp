@@ -11,7 +11,7 @@
 namespace contensou::answers {
 
 /// What the events of a motion are known to: its first order by central differences, to 1e-5 of itself.
-struct RollUncertainty {
+struct RollUncertainty : Sampled {
   /// A number of an event.
   struct Part {
     std::string event, of;  ///< as in JSON: rolls_after and t; slip_length and nothing
@@ -19,9 +19,7 @@ struct RollUncertainty {
     double value;
     KnownTo known;
   };
-  std::vector<Part> parts;
-  long samples;
-  double outside;  ///< as Uncertainty's
+  std::vector<Part> parts = {};
 };
 
 /// @param experiment     without rolling friction, on a level plane

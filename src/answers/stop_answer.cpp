@@ -429,10 +429,14 @@ class Text {
     const char* const unit = report_.start.experiment ? " s" : "";
     std::string text = fmt::format("known to +-{}{}, one standard deviation, to first order", number_(standard), unit);
     if (shares.size() > 1) {
+      double alone = 0;
       for (const auto& [name, share] : shares) {
         text += fmt::format("{}{} {}{}", &name == &shares.front().first ? ": " : ", ", name, number_(std::abs(share)),
                             unit);
+        alone = std::hypot(alone, share);
       }
+      constexpr double rounding = 1e-9;
+      if (std::abs(alone - standard) > rounding * standard) text += ", correlated";
     }
     text += fmt::format("\n{} samples: 95 % from {} to {}{}, 68 % from {} to {}{}, median {}{}\n", samples,
                         number_(quantiles[0]), number_(quantiles[4]), unit, number_(quantiles[1]),
@@ -513,7 +517,7 @@ reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
 std::vector<FieldText> stop_fields() { return texts_of(fields); }
 
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient,
-                   const std::vector<Uncertain>& uncertain, const std::optional<si::LoadHistory>& load) {
+                   const std::optional<Spreads>& uncertain, const std::optional<si::LoadHistory>& load) {
   using Estimates = std::vector<reduction::StopEstimate>;
   const auto& [system, state, experiment, resisted] = start;
   const auto pieces = start.pieces();
@@ -529,22 +533,21 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
     if (gradient)
       throw BadInput("--gradient is of one orbit, and this motion with rolling friction is several: leave it out");
   }
-  if (!uncertain.empty() && (system.drive() > 0 || resisted)) {
+  if (uncertain && (system.drive() > 0 || resisted)) {
     throw BadInput("--uncertainty is of a motion without rolling friction, slope and drive: leave it out");
   }
-  if (!uncertain.empty() && start.at_rest())
-    throw BadInput("--uncertainty is of a motion, and this is rest: leave it out");
+  if (uncertain && start.at_rest()) throw BadInput("--uncertainty is of a motion, and this is rest: leave it out");
   const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;
   std::optional<reduction::Flow> flow;
   if (route == reduction::Route::quadrature) {
     flow = reduction::Flow::by_quadrature(system);
-  } else if (!stepped || experiment || gradient || !uncertain.empty()) {
+  } else if (!stepped || experiment || gradient || uncertain) {
     flow = system;
   }
   std::optional<Uncertainty> uncertainty;
-  if (!uncertain.empty()) {
+  if (uncertain) {
     const reduction::StopTimeGradient by = flow->stop_time_gradient(state);
-    uncertainty = uncertainty_of(start, uncertain, experiment ? si::seconds(*experiment, by.tau) : by.tau, by);
+    uncertainty = uncertainty_of(start, *uncertain, experiment ? si::seconds(*experiment, by.tau) : by.tau, by);
   }
   const StopReport report{start,
                           route,

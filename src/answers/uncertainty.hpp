@@ -4,16 +4,18 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <random>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "answers/answer.hpp"
 #include "answers/given_start.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/stop_time_gradient.hpp"
+#include "contensou/si/spreads.hpp"
 
 namespace contensou::answers {
 
@@ -31,23 +33,32 @@ struct Spreadable {
   std::string_view corner = {};  ///< what has a corner, and so no first order, where it is 0; empty: nothing
 };
 
-/// Reads "slip=1%, spin=2 rad/s, ...". A % is of the value.
-/// @param known  by their names, with an underscore
-/// @throws BadInput  naming what is wrong, what is allowed, and for a value that is 0: there may be a corner
-std::vector<Spread> read_spreads(const std::string& typed, const std::vector<Spreadable>& known);
+/// Numbers that are known to so much, and how their errors go together.
+struct Spreads {
+  std::vector<Spread> numbers;
+  Eigen::MatrixXd correlation;  ///< 1 on the diagonal
 
-/// Standard normal numbers, the same on every machine: Box and Muller, from Mersenne's twister.
-class Normal {
- public:
-  double operator()();
-
- private:
-  double uniform() { return (static_cast<double>(twister_() >> 11) + 0.5) * 0x1p-53; }
-
-  std::mt19937_64 twister_{20260317};
-  double second_ = 0;
-  bool has_second_ = false;
+  /// The standard deviation of a sum of the numbers, each times what is given here over its own.
+  double standard_of(const Eigen::VectorXd& shares) const { return std::sqrt(shares.dot(correlation * shares)); }
 };
+
+/// Reads "slip=1%, spin=2 rad/s, ...". A % is of the value. "fit" is what the ball itself is known to, which numbers that are
+/// named beside it replace: those are independent of the others.
+/// @param known  by their names, with an underscore
+/// @param own    of the ball
+/// @throws BadInput  naming what is wrong, what is allowed, and for a value that is 0: there may be a corner
+Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& known, const si::Spreads& own);
+
+/// How many samples were taken, and the share of those that no start can have (a friction below 0, say), left out.
+struct Sampled {
+  long samples = 0;
+  double outside = 0;
+};
+
+/// Samples of numbers that are normal: the same ones each time, on every machine.
+/// @param take  is given the numbers, and says whether there is such a start
+/// @throws BadInput  if there is none at all
+Sampled sample(const Spreads& spreads, long wanted, const std::function<bool(const Eigen::VectorXd& numbers)>& take);
 
 /// Solutions of one system but for its mu: of those a step of ln mu apart, and linear between two of them.
 class FlowsOfMu {
@@ -73,16 +84,18 @@ class FlowsOfMu {
   std::map<long, reduction::Flow> flows_;
 };
 
-/// What a number is known to that follows from others, which are independent and normal.
+/// What a number is known to that follows from others, which are normal.
 struct KnownTo {
-  double standard = 0;                                      ///< to first order
-  std::vector<std::pair<std::string, double>> shares = {};  ///< of each of them, with the sign of the derivative
-  std::array<double, 5> quantiles = {};                     ///< of samples, at probabilities
+  double standard = 0;  ///< to first order
+  /// Of each of them alone, with the sign of the derivative: where they are independent, standard is the root of the sum of squares.
+  std::vector<std::pair<std::string, double>> shares = {};
+  std::array<double, 5> quantiles = {};  ///< of samples, at probabilities
   bool holds = true;  ///< whether the first order says the same as the quantiles, to a tenth of standard
 
   static constexpr std::array<double, 5> probabilities{0.025, 0.16, 0.5, 0.84, 0.975};
 
-  void add_share(const std::string& name, double share);
+  /// The first order.
+  void set_shares(const Spreads& spreads, const Eigen::VectorXd& share);
 
   /// @param value    where all numbers are what they are given as
   /// @param samples  one or more
@@ -92,24 +105,16 @@ struct KnownTo {
 /// {standard, quantiles, shares, first_order_holds}
 Json members_of(const KnownTo& known);
 
-/// A number of a start of which stop times go by powers. Radius, friction, a patch and all else act so: time, u, v and mu
-/// go like the number to so much.
-struct Uncertain : Spread {
-  double of_time = 0, of_u = 0, of_v = 0, of_mu = 0;
-};
-
-/// As read_spreads: of a ball its quantities, else u0, v0 and mu.
-std::vector<Uncertain> read_uncertain(const std::string& typed, const GivenStart& start);
+/// As read_spreads: of a ball its quantities, with slip and spin whatever its start is given by; else u0, v0 and mu.
+Spreads read_uncertain(const std::string& typed, const GivenStart& start);
 
 /// What a stop time is known to, its first order by the exact gradient.
-struct Uncertainty : KnownTo {
-  long samples = 0;
-  double outside = 0;  ///< the share of samples that no start can have (a friction below 0, say), left out
-};
+struct Uncertainty : KnownTo, Sampled {};
 
-/// The samples are the same ones each time.
-/// @param stop    the stop time; standard and quantiles are in its unit
-Uncertainty uncertainty_of(const GivenStart& start, const std::vector<Uncertain>& numbers, double stop,
+/// @param spreads  as read_uncertain has them
+/// @param stop     the stop time; standard and quantiles are in its unit
+/// @throws BadInput  as sample
+Uncertainty uncertainty_of(const GivenStart& start, const Spreads& spreads, double stop,
                            const reduction::StopTimeGradient& gradient);
 
 }  // namespace contensou::answers

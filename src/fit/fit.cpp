@@ -45,7 +45,7 @@ VectorXd with_signs(const FitRequest& request, VectorXd parameters) {
 
 void require(const FitRequest& request) {
   si::require_experiment(request.ball);
-  const auto& [ball, contact, start, environment] = request.ball;
+  const auto& [ball, contact, start, environment, spreads] = request.ball;
   if (environment.slope != 0)
     throw std::domain_error(
         fmt::format("fit: a film is of a ball on a level plane: slope must be 0, got {} degrees", environment.slope));

@@ -454,7 +454,7 @@ std::string portrait_file(const val& asked, const std::string& ending) {
 
 val catalogue() {
   return list(si::catalogue(), [](const si::CatalogueEntry& entry) {
-    const auto& [ball, contact, start, environment] = entry.experiment;
+    const auto& [ball, contact, start, environment, spreads] = entry.experiment;
     const auto* by_spin = std::get_if<si::SpinDeceleration>(&contact.patch);
     const bool whole = std::holds_alternative<si::WholeFace>(contact.patch);
     return object(

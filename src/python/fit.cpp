@@ -50,6 +50,7 @@ py::dict found_of(const fit::Fit& found) {
   for (Eigen::Index i = 0; i < found.correlation.rows(); ++i) {
     for (Eigen::Index j = 0; j < found.correlation.cols(); ++j) matrix.mutable_at(i, j) = found.correlation(i, j);
   }
+  result["ball"] = fields_of(si::describe(found.ball));
   result["estimates"] = estimates;
   result["names"] = names;
   result["correlation_matrix"] = matrix;

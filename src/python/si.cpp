@@ -117,6 +117,66 @@ void write_events(const si::Course<si::BallMotion>& course, double stop_time, do
 
 constexpr py::ssize_t columns_of_events = 13;
 
+constexpr const char *uncertainty_field = "uncertainty", *correlation_field = "correlation";
+
+/// Of a dict its names and numbers.
+/// @param what  it is, for a message
+template <class Take>
+void for_numbers(const py::handle& dict, const std::string& what, const Take& take) {
+  if (!py::isinstance<py::dict>(dict))
+    throw py::type_error(fmt::format("{}: a dict of numbers by their names is needed; got {}", what, words_of(dict)));
+  for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(dict)) {
+    const auto name = py::str(key).cast<std::string>();
+    if (name == correlation_field) continue;
+    const auto of = si::find_component(name);
+    if (!of) {
+      throw std::domain_error(fmt::format("{}: no such number '{}'{}; numbers: {}", what, name,
+                                          suggestion(name, si::uncertain_names()),
+                                          fmt::join(si::uncertain_names(), ", ")));
+    }
+    take(*of, value, fmt::format("{} of {}", what, name));
+  }
+}
+
+double number_in(const py::handle& value, const std::string& what) {
+  try {
+    return value.cast<double>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(fmt::format("{}: a number is needed; got {}", what, words_of(value)));
+  }
+}
+
+/// The field uncertainty of a Ball: as the table of a run file.
+void add_spreads(si::Description& described, const py::handle& field) {
+  for_numbers(field, uncertainty_field, [&](const si::Component& of, const py::handle& value, const std::string& what) {
+    described.add_spread(of, number_in(value, what), {"", what, ""});
+  });
+  const auto fields = py::reinterpret_borrow<py::dict>(field);
+  if (!fields.contains(correlation_field)) return;
+  for_numbers(fields[correlation_field], correlation_field,
+              [&](const si::Component& one, const py::handle& row, const std::string& what) {
+                for_numbers(row, what, [&](const si::Component& other, const py::handle& value, const std::string& of) {
+                  described.correlate(one, other, number_in(value, of), {"", of, ""});
+                });
+              });
+}
+
+py::dict dict_of(const si::Spreads& spreads) {
+  py::dict result, correlation;
+  for (std::size_t i = 0; i < spreads.numbers.size(); ++i) {
+    const py::str name(spreads.numbers[i].of.name());
+    result[name] = spreads.numbers[i].standard;
+    py::dict row;
+    for (std::size_t j = 0; j < i; ++j) {
+      const double both = spreads.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (both != 0) row[py::str(spreads.numbers[j].of.name())] = both;
+    }
+    if (row.size() > 0) correlation[name] = row;
+  }
+  if (correlation.size() > 0) result[correlation_field] = correlation;
+  return result;
+}
+
 /// What the fields of a Ball of Python say, by their names; None says nothing.
 si::Description described_by(const py::dict& fields) {
   si::Description described;
@@ -137,6 +197,8 @@ si::Description described_by(const py::dict& fields) {
   }
   if (fields.contains("name")) described.set_name(fields["name"].cast<std::string>());
   if (fields.contains("body")) described.set_body(fields["body"].cast<std::string>(), {"", "body", ""});
+  if (fields.contains(uncertainty_field) && !fields[uncertainty_field].is_none())
+    add_spreads(described, fields[uncertainty_field]);
   return described;
 }
 
@@ -147,7 +209,8 @@ si::Description at_rest() {
   return still;
 }
 
-/// The fields of a Ball of Python.
+}  // namespace
+
 py::dict fields_of(const si::Description& described) {
   py::dict fields;
   if (!described.name().empty()) fields["name"] = described.name();
@@ -159,8 +222,11 @@ py::dict fields_of(const si::Description& described) {
     fields[name] = given->numbers.size() == 1 ? py::object(py::float_(given->numbers[0]))
                                               : py::object(py::tuple(py::cast(given->numbers)));
   }
+  if (!described.spreads().empty()) fields[uncertainty_field] = dict_of(described.spreads());
   return fields;
 }
+
+namespace {
 
 /// The fields of a Ball of Python that it has without being told.
 py::dict fields_of_ball(const si::Description& described) {

@@ -14,6 +14,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "contensou/si/description.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::python {
@@ -76,6 +77,9 @@ Value one_of(std::string_view kind, std::string_view kinds, const std::vector<st
   throw std::domain_error(
       fmt::format("no such {} '{}'{}; {}: {}", kind, typed, suggestion(typed, names), kinds, fmt::join(names, ", ")));
 }
+
+/// The fields of a Ball of Python.
+py::dict fields_of(const si::Description& described);
 
 void bind_reduction(py::module_& module);
 void bind_planar(py::module_& module);

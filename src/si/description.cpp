@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -116,6 +117,32 @@ void Description::set_body(const std::string& name, const Source& source) {
       fmt::format("no such body '{:.80}'{}; bodies: {}", name, suggestion(name, names), fmt::join(names, ", ")));
 }
 
+void Description::add_spread(const Component& of, double standard, const Source& source) {
+  if (!(standard >= 0) || !std::isfinite(standard))
+    source.fail(fmt::format("{}: a standard deviation is finite and >= 0, got {}", of.name(), standard));
+  spreads_.add(of, standard);
+}
+
+void Description::require_given(const Component& of, const Source& source) const {
+  if (find(*of.quantity)) return;
+  source.fail(
+      fmt::format("{} has a standard deviation and no value here: give its value, too, or leave it out", of.name()));
+}
+
+void Description::correlate(const Component& one, const Component& other, double correlation, const Source& source) {
+  const auto i = spreads_.place(one), j = spreads_.place(other);
+  if (!i || !j) {
+    source.fail(fmt::format("{} has no standard deviation: give it one, or no correlation", (i ? other : one).name()));
+  }
+  if (*i == *j) source.fail(fmt::format("{} with itself is always 1: leave it out", one.name()));
+  if (!(std::abs(correlation) <= 1))
+    source.fail(fmt::format("a correlation is at least -1 and at most 1, got {}", correlation));
+  double &of_row = spreads_.correlation(*i, *j), &of_column = spreads_.correlation(*j, *i);
+  if (of_row != 0)
+    source.fail(fmt::format("{} and {} are correlated twice: once is allowed", one.name(), other.name()));
+  of_row = of_column = correlation;
+}
+
 const Description::Values* Description::find(const Quantity& quantity) const {
   const auto found = values_.find(&quantity);
   return found == values_.end() ? nullptr : &found->second;
@@ -141,6 +168,11 @@ Description Description::under(const Description& above) const {
     }
   }
   for (const auto& [quantity, values] : above.values_) result.values_[quantity] = values;
+  result.spreads_ = spreads_.of([&](const Component& of) {
+    const Values *own = find(*of.quantity), *now = result.find(*of.quantity);
+    return own && now && own->numbers[of.index] == now->numbers[of.index];
+  });
+  if (!above.spreads_.empty()) result.spreads_ = above.spreads_;
   if (!above.name_.empty()) result.name_ = above.name_;
   if (!above.law_.empty()) result.law_ = above.law_;
   if (above.body_) result.body_ = above.body_;
@@ -157,6 +189,14 @@ void Description::require_no_contradiction() const {
     const auto placed = std::ranges::find_if(given, [](const Source& source) { return !source.place.empty(); });
     (placed == given.end() ? given.front() : *placed)
         .fail(fmt::format("{} exclude each other: {}", joined(given), ways_out(*this, ways)));
+  }
+  if (spreads_.empty()) return;
+  if (const double least = least_eigenvalue(spreads_.correlation); least < -eigenvalue_rounding) {
+    const auto place = places_.find("uncertainty");
+    Source{place == places_.end() ? "" : place->second, "", ""}.fail(fmt::format(
+        "no numbers have these correlations: of their matrix an eigenvalue is {:.3g}, and none may be below 0; make "
+        "them smaller",
+        least));
   }
 }
 
@@ -183,16 +223,19 @@ Description describe(const Experiment& experiment) {
   described.set_law(experiment.contact.law);
   for (const auto& [quantity, values] : given_by(experiment))
     described.set(*quantity, values, {"", std::string(quantity->name), ""});
+  described.set_spreads(experiment.spreads);
   return described;
 }
 
 Experiment experiment_of(const Description& described) {
   described.require_no_contradiction();
+  for (const auto& [of, standard] : described.spreads().numbers) described.require_given(of, {"", of.name(), ""});
   const Body body = body_of(described);
   Experiment experiment{
       .ball = {.name = described.name().empty() ? "ball" : described.name(), .mass = 0, .radius = 0, .body = body},
       .contact = {.friction = 0, .patch = WholeFace{}, .law = described.law()},
-      .start = SlipAndSpin{}};
+      .start = SlipAndSpin{},
+      .spreads = described.spreads()};
   for (const Quantity* quantity : quantities()) {
     if (double* const member = member_of(experiment, *quantity))
       *member =

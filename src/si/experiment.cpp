@@ -87,7 +87,7 @@ std::string law_of(const Experiment& experiment) {
 }
 
 double patch_radius_of(const Experiment& experiment, const reduction::Law& law) {
-  const auto& [ball, contact, start, environment] = experiment;
+  const auto& [ball, contact, start, environment, spreads] = experiment;
   double patch = 0;
   if (const auto* given = std::get_if<PatchRadius>(&contact.patch)) {
     patch = given->value;

@@ -152,6 +152,10 @@ struct WordKey {
 constexpr WordKey name_key{"ball", "name"}, body_key{"ball", "body"}, law_key{"contact", "law"},
     param_key{"contact", "param"};
 
+/// What the numbers are known to, and how their errors go together.
+constexpr std::string_view spreads_path = "uncertainty", correlation_key = "correlation",
+                           correlation_path = "uncertainty.correlation";
+
 class Reader {
  public:
   Reader(std::string_view source, const FindLaw& find_law) : source_(source), find_law_(find_law) {}
@@ -165,6 +169,8 @@ class Reader {
       sections.push_back(section(sections, quantity->section));
       places.emplace(quantity->section, place(sections.back().position));
     }
+    for (const std::string_view path : {spreads_path, correlation_path}) sections.push_back(section(sections, path));
+    places.emplace(spreads_path, place(sections[sections.size() - 2].position));
     for (const Section& each : sections) require_known_keys(each, sections);
 
     Description described(std::move(places));
@@ -194,11 +200,35 @@ class Reader {
           contact.table->get(param_key.key)->source().begin,
           "[contact.param] is for the formulas of a law: add law = \"phi = F; psi = G\" to [contact], or leave it out");
     }
+    read_spreads(described, sections);
     described.require_no_contradiction();
     return described;
   }
 
  private:
+  void read_spreads(Description& described, const std::vector<Section>& sections) const {
+    const Section& spreads = *std::ranges::find(sections, spreads_path, &Section::path);
+    const Section& pairs = *std::ranges::find(sections, correlation_path, &Section::path);
+    const auto source = [&](const toml::node& node) { return Source{place(node.source().begin), "", ""}; };
+    for (const auto& [key, node] : *spreads.table) {
+      if (key.str() == correlation_key) continue;
+      const Component of = *find_component(key.str());
+      described.require_given(of, source(node));
+      const double value = described.find(*of.quantity)->numbers[of.index];
+      described.add_spread(of, spread(node, spreads, of, value), source(node));
+    }
+    for (const auto& [key, node] : *pairs.table) {
+      const Section row{fmt::format("{}.{}", correlation_path, key.str()), node.as_table(), node.source().begin};
+      if (row.table == nullptr)
+        fail(row.position, fmt::format("{0} must be a table of numbers: write {1} = {{NAME = 0.5}}",
+                                       called(pairs, key.str()), key.str()));
+      require_known_keys(row, {});
+      for (const auto& [other, value] : *row.table)
+        described.correlate(*find_component(key.str()), *find_component(other.str()),
+                            plain_number(value, called(row, other.str()), nullptr), source(value));
+    }
+  }
+
   std::string place(toml::source_position where) const {
     return fmt::format("{}:{}:{}", source_, where.line, where.column);
   }
@@ -243,6 +273,7 @@ class Reader {
     for (const Quantity* quantity : quantities()) {
       if (quantity->section == section.path) names.emplace_back(quantity->name);
     }
+    if (section.path.starts_with(spreads_path)) names = uncertain_names();
     const std::string before = section.path.empty() ? "" : section.path + ".";
     for (const Section& other : sections) {
       if (other.path.size() > before.size() && other.path.starts_with(before) &&
@@ -298,22 +329,33 @@ class Reader {
     source.fail(fmt::format("no such law '{:.80}'{}; laws: {}", text, suggestion(text, names), fmt::join(names, ", ")));
   }
 
+  double plain_number(const toml::node& node, const std::string& name, const Dimension* dimension,
+                      std::string_view other = "") const {
+    if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+    if (const auto* real = node.as_floating_point()) return real->get();
+    std::string ways = dimension ? units_of(*dimension) : "";
+    if (!other.empty()) ways += fmt::format("{}{}", ways.empty() ? "" : ", or ", other);
+    fail(node.source().begin,
+         fmt::format("{} must be a number{}{}", name, dimension ? fmt::format(", in {}", dimension->symbol) : "",
+                     ways.empty() ? "" : fmt::format(", or one in quotes with {} behind it", ways)));
+  }
+
+  double spread(const toml::node& node, const Section& section, const Component& of, double value) const {
+    const std::string name = called(section, of.name());
+    try {
+      const auto* text = node.as_string();
+      if (const auto read = text ? parse_spread(text->get(), of.quantity->unit, value) : std::nullopt) return *read;
+    } catch (const std::domain_error& error) {
+      fail(node.source().begin, fmt::format("{} {}", name, error.what()));
+    }
+    return plain_number(node, name, find_dimension(of.quantity->unit), "%");
+  }
+
   double number(const toml::node& node, const Section& section, const Quantity& quantity) const {
     const Dimension* dimension = find_dimension(quantity.unit);
     const auto* text = node.as_string();
-    double value = 0;
-    if (const auto with_unit = text && dimension ? parse_quantity(text->get(), *dimension) : std::nullopt) {
-      value = *with_unit;
-    } else if (const auto* integer = node.as_integer()) {
-      value = static_cast<double>(integer->get());
-    } else if (const auto* real = node.as_floating_point()) {
-      value = real->get();
-    } else {
-      fail(node.source().begin, fmt::format("{} must be a number{}", called(section, quantity.name),
-                                            dimension ? fmt::format(", in {0}, or one in quotes with {1} behind it",
-                                                                    quantity.unit, units_of(*dimension))
-                                                      : ""));
-    }
+    const auto with_unit = text && dimension ? parse_quantity(text->get(), *dimension) : std::nullopt;
+    const double value = with_unit ? *with_unit : plain_number(node, called(section, quantity.name), dimension);
     try {
       require(quantity, value);
     } catch (const std::domain_error& error) {
@@ -346,6 +388,25 @@ std::string line(const Quantity& quantity, const std::vector<double>& values) {
   const bool one = values.size() == 1;
   return fmt::format("{} = {}{}{}  # {}{}{}\n", quantity.name, one ? "" : "[", fmt::join(texts, ", "), one ? "" : "]",
                      quantity.unit, quantity.unit.empty() ? "" : ", ", quantity.meaning);
+}
+
+std::string spreads_text(const Spreads& spreads) {
+  if (spreads.empty()) return "";
+  std::string text = fmt::format("\n[{}]  # standard deviations, for --uncertainty fit\n", spreads_path);
+  std::string pairs;
+  for (std::size_t i = 0; i < spreads.numbers.size(); ++i) {
+    const auto& [of, standard] = spreads.numbers[i];
+    const std::string_view unit = of.quantity->unit;
+    text += fmt::format("{} = {}{}{}\n", of.name(), shortest(standard), unit.empty() ? "" : "  # ", unit);
+    std::vector<std::string> row;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (const double both = spreads.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+          both != 0)
+        row.push_back(fmt::format("{} = {}", spreads.numbers[j].of.name(), shortest(both)));
+    }
+    if (!row.empty()) pairs += fmt::format("{} = {{{}}}\n", of.name(), fmt::join(row, ", "));
+  }
+  return pairs.empty() ? text : fmt::format("{}\n[{}]\n{}", text, correlation_path, pairs);
 }
 
 }  // namespace
@@ -387,7 +448,7 @@ std::string run_file(const Experiment& experiment, std::string_view remark) {
     text += line(*quantity, values);
     if (quantity == &friction && !experiment.contact.law.empty()) text += word(law_key, experiment.contact.law);
   }
-  return text;
+  return text + spreads_text(experiment.spreads);
 }
 
 }  // namespace contensou::si

@@ -27,7 +27,7 @@ reduction::ReducedSystem undriven_system(const Experiment& experiment, const red
 }
 
 Drives drives_along(const Experiment& experiment, const Eigen::Vector2d& along, double chi) {
-  const auto& [ball, contact, start, environment] = experiment;
+  const auto& [ball, contact, start, environment, spreads] = experiment;
   const double steepness = pull(environment).dot(along) / pressing(environment);
   return {steepness / (chi * contact.friction), contact.rolling_friction / contact.friction};
 }
@@ -46,7 +46,7 @@ Eigen::Vector2d direction_at_start(const Experiment& experiment) {
 }
 
 double drive_of(const Experiment& experiment) {
-  const auto& [ball, contact, start, environment] = experiment;
+  const auto& [ball, contact, start, environment, spreads] = experiment;
   if (contact.rolling_friction == 0 && environment.slope == 0) return 0;
   require_stop(experiment);
   const Eigen::Vector2d along = direction_at_start(experiment);
@@ -70,7 +70,7 @@ double drive_of(const Experiment& experiment) {
 }
 
 void require_stop(const Experiment& experiment) {
-  const auto& [ball, contact, start, environment] = experiment;
+  const auto& [ball, contact, start, environment, spreads] = experiment;
   if (environment.slope == 0) return;
   // What turns slides with the drive of both; what resistance keeps from turning is a puck.
   const double chi = ball.body.inertia.chi, friction = contact.friction, u_r = contact.rolling_friction;

@@ -82,6 +82,76 @@ TEST_CASE("--uncertainty says whether the first order does", "[cli]") {
         Approx(0.0152868423111).epsilon(1e-10));
 }
 
+TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
+  // Friction and patch that go together entirely are one number: its quantiles are at the quantiles of both.
+  const TemporaryDirectory directory;
+  const std::string ball = run_program("balls gel").out;
+  const auto with = [&](const std::string& correlation) {
+    write_file(directory.file("ball.toml"), ball +
+                                                "[uncertainty]\nfriction = 0.05\nradius = \"1 mm\"\nspin = \"2%\"\n" +
+                                                "[uncertainty.correlation]\n" + correlation);
+    return "--ball " + directory.file("ball.toml") + " --slip 0.5 --spin 300 ";
+  };
+  const double friction = 0.5, radius = 0.03;
+  const auto at = [&](double z, int sign) {
+    return t_stop(fmt::format("--ball gel --slip 0.5 --spin 300 --friction {:.17g} --radius {:.17g}",
+                              friction + 0.05 * z, radius + sign * 1e-3 * z));
+  };
+  for (const int sign : {1, -1}) {
+    const std::string start = with(fmt::format("radius = {{friction = {}}}\n", sign));
+    const auto known = uncertainty(start + "--uncertainty fit");
+    constexpr double step = 1e-3;
+    CHECK(known.at("standard").get<double>() ==
+          Approx(std::abs(at(step, sign) - at(-step, sign)) / (2 * step)).epsilon(1e-5));
+    CHECK(known.at("shares").size() == 2);  // the spin is another than the file's
+    const bool falls = at(1, sign) < at(-1, sign);
+    for (const auto& [i, z] : {std::pair{0, -1.959964}, {1, -0.994458}, {2, 0.0}, {3, 0.994458}, {4, 1.959964}}) {
+      CHECK(known.at("quantiles")[static_cast<std::size_t>(i)].at("value").get<double>() ==
+            Approx(at(falls ? -z : z, sign)).epsilon(3e-3));
+    }
+    if (sign < 0) continue;
+    // What is named replaces what the ball has, and is independent of it.
+    const auto named = uncertainty(start + "--uncertainty fit,radius=1mm");
+    const auto& shares = named.at("shares");
+    CHECK(shares == known.at("shares"));
+    CHECK(named.at("standard").get<double>() ==
+          Approx(std::hypot(shares.at("friction").get<double>(), shares.at("radius").get<double>())).epsilon(1e-14));
+  }
+  CHECK_THAT(run_program("stop " + with("radius = {friction = 0.5}\n") + "--uncertainty fit").out,
+             Contains(" s, correlated\n"));
+  check_rejected("stop --ball gel --uncertainty fit", "fit: the ball has no [uncertainty]");
+  check_rejected("stop --mu 0.3 --u0 1 --v0 1 --uncertainty fit", "fit: the ball has no [uncertainty]");
+}
+
+TEST_CASE("a run file of fit carries what it is known to", "[cli]") {
+  const TemporaryDirectory directory;
+  const std::string film = directory.file("film.csv"), ball = directory.file("ball.toml");
+  const auto seen = [&](const std::string& start) {
+    std::string rows = run_program("roll --ball gel --samples 40 --until 0.6 " + start).out;
+    write_file(film, rows.replace(rows.find("wz,slip"), 2, "spin"));
+    const std::string fit = "fit " + film + " --ball gel --noise spin=1,slip=0.01,x=5e-4,y=5e-4,vx=0.02,vy=0.02";
+    CHECK(run_program(fit + " -o " + ball).status == 0);
+    return nlohmann::json::parse(run_program(fit + " --format json").out);
+  };
+  const auto found = seen("--velocity 0.4,0.3 --angular-velocity 2,-1,80");
+  // By velocities in the file, and by slip and spin to the stop time: with the errors that the fit says of these.
+  const auto known = uncertainty("--ball " + ball + " --uncertainty fit");
+  std::string errors;
+  for (const std::string name : {"friction", "patch_radius", "slip", "spin"})
+    errors +=
+        fmt::format("{}{}={:.17g}", errors.empty() ? "" : ",", name, found.at(name).at("standard_error").get<double>());
+  const auto apart = uncertainty("--ball " + ball + " --uncertainty " + errors);
+  for (const auto& [name, share] : apart.at("shares").items())
+    CHECK(known.at("shares").at(name).get<double>() == Approx(share.get<double>()).epsilon(1e-9));
+  CHECK_THAT(read_file(ball), Contains("[uncertainty.correlation]\n") && Contains("wy = {friction = "));
+  const auto roll = json_of("roll --format json --samples 2 --ball " + ball + " --uncertainty fit").at("uncertainty");
+  CHECK(roll.at("t_stop").at("standard").get<double>() == Approx(known.at("standard").get<double>()).epsilon(1e-5));
+  // A film that leaves a number open has no spread that tells it.
+  write_file(film, "t,spin\n0,100\n0.1,99\n0.2,98.02\n0.3,97\n");
+  CHECK(run_program("fit " + film + " --ball pool --noise spin=0.1 -o " + ball).status == 0);
+  CHECK_THAT(read_file(ball), !Contains("[uncertainty]\n") && Contains("no [uncertainty]"));
+}
+
 TEST_CASE("what --uncertainty refuses", "[cli][errors]") {
   const auto refused = [](const std::string& options, const std::string& words) {
     check_rejected("stop " + options, words);
@@ -89,7 +159,7 @@ TEST_CASE("what --uncertainty refuses", "[cli][errors]") {
   refused("--ball pool --uncertainty slipp=1%",
           "no such number 'slipp' (did you mean 'slip'?); numbers of this start: ");
   refused("--ball pool --uncertainty slip", "NAME=SPREAD is needed");
-  refused("--ball pool --uncertainty slip=x%", "'x' is not a number");
+  refused("--ball pool --uncertainty slip=x%", "slip: 'x%' is no number with %, m/s, cm/s");
   refused("--ball pool --uncertainty slip=-1%", "a spread must be >= 0");
   refused("--ball pool --uncertainty slip=1kg", "is no number with %, m/s, cm/s");
   refused("--ball pool --uncertainty slip=1%,slip=2%", "slip is given twice");

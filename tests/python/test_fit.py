@@ -144,3 +144,66 @@ def test_a_fit_is_drawn_with_the_angle_at_its_turn():
     shown = {each.get_ylabel().split(",")[0]: each for each in axes[0]}
     np.testing.assert_allclose(np.diff(shown["angle"].lines[0].get_ydata()), np.diff(turned), atol=0.1)
     assert abs(axes[1, 1].lines[0].get_ydata()).max() < 0.1
+
+
+def test_the_fitted_ball_carries_its_covariance(tmp_path):
+    ball = ct.Ball.gel()
+    t = np.linspace(0, 0.8, 80)
+    at = ball.roll(velocity=(0.4, 0.3), angular_velocity=(2, -1, 80))(t)
+    sd = {"x": 5e-5, "y": 5e-5, "slip": 0.001, "spin": 0.05}
+    found = ct.fit(t, ball=ball, sd=sd, x=at["x"], y=at["y"], slip=at["slip"], spin=at["wz"])
+    random = np.random.default_rng(3)
+    # The start's velocities from samples of what was found.
+    names = ["friction", "patch_radius", "slip", "spin", "direction", "vx", "vy"]
+    places = [found.names.index(name) for name in names]
+    errors = np.array([found.estimates[name].standard_error for name in names])
+    covariance = errors[:, None] * found.correlation_matrix[np.ix_(places, places)] * errors
+    drawn = random.multivariate_normal([found.estimates[name].value for name in names], covariance, 200_000, method="eigh").T
+    friction, patch, slip, spin, direction, vx, vy = drawn
+    wy, wx = (vx - slip * np.cos(direction)) / -ball.radius, (vy - slip * np.sin(direction)) / ball.radius
+    by_name = {"friction": friction, "patch_radius": patch, "vx": vx, "vy": vy, "wx": -wx, "wy": -wy, "wz": spin}
+    known = dict(found.ball.uncertainty)
+    pairs = known.pop("correlation")
+    assert list(known) == list(by_name)
+    for name, standard in known.items():
+        assert standard == pytest.approx(np.std(by_name[name]), rel=0.01)
+        for other, correlation in pairs.get(name, {}).items():
+            assert correlation == pytest.approx(np.corrcoef(by_name[name], by_name[other])[0, 1], abs=0.01)
+    # The file has all of it.
+    found.ball.write(tmp_path / "ball.toml")
+    again = ct.Ball.read(tmp_path / "ball.toml")
+    assert again == found.ball and again.uncertainty == found.ball.uncertainty
+    # First order by NumPy: differences, and that covariance.
+    values = {"velocity": found.ball.velocity, "angular_velocity": found.ball.angular_velocity,
+              "friction": found.ball.friction, "patch_radius": found.ball.patch_radius}
+
+    def length(name, by):
+        moved = {key: list(np.atleast_1d(value)) for key, value in values.items()}
+        key, place = {"vx": ("velocity", 0), "vy": ("velocity", 1), "wx": ("angular_velocity", 0),
+                      "wy": ("angular_velocity", 1), "wz": ("angular_velocity", 2)}.get(name, (name, 0))
+        moved[key][place] += by
+        roll = found.ball.but(velocity=moved["velocity"], angular_velocity=moved["angular_velocity"],
+                              friction=moved["friction"][0], patch_radius=moved["patch_radius"][0]).roll()
+        return np.array([roll.slip_length, roll.rolls_after.x, roll.turns])
+
+    slopes = np.array([(length(name, 1e-3 * sd) - length(name, -1e-3 * sd)) / (2e-3 * sd) for name, sd in known.items()])
+    spread = np.sqrt(np.diag(slopes.T @ np.cov([by_name[name] for name in known]) @ slopes))
+    told = found.ball.roll().uncertainty("fit")
+    for event, want in zip((told["slip_length"], told["rolls_after"]["x"], told["turns"]), spread):
+        assert event["standard"] == pytest.approx(want, rel=0.01)
+        low, high = event["quantiles"][0]["value"], event["quantiles"][-1]["value"]
+        assert (high - low) / (2 * 1.96) == pytest.approx(want, rel=0.1)
+
+
+def test_what_an_uncertainty_must_be():
+    ball = ct.Ball.pool()
+    with pytest.raises(ValueError, match="uncertainty: no such number 'fricton' .did you mean 'friction'"):
+        ball.but(uncertainty={"fricton": 0.1})
+    with pytest.raises(TypeError, match="uncertainty of slip: a number is needed; got 'x'"):
+        ball.but(uncertainty={"slip": "x"})
+    with pytest.raises(ValueError, match="no numbers have these correlations"):
+        ball.but(uncertainty={"slip": 1, "spin": 1, "friction": 0.1,
+                              "correlation": {"slip": {"spin": 0.9, "friction": 0.9}, "spin": {"friction": -0.9}}})
+    known = ball.but(uncertainty={"slip": 0.1, "friction": 0.01})
+    assert known.but(slip=2).uncertainty == {"friction": 0.01}
+    assert known.but(slip=ball.slip).uncertainty == {"slip": 0.1, "friction": 0.01}

@@ -428,3 +428,50 @@ TEST_CASE("inertia is a key, and that of a name is the name", "[invariant]") {
                              "and at most 2/3, as of a hollow-ball with R the radius"));
   CHECK_THROWS_WITH(inertia_of("body = \"disc\"\ninertia = 1.1"), Contains("x.toml:5:1: ") && Contains("as of a ring"));
 }
+
+TEST_CASE("[uncertainty]: what the numbers are known to, and the same again from what is written", "[invariant]") {
+  const std::string known =
+      good + "[uncertainty]\nfriction = \"5%\"\nspin = \"10 rpm\"\nslip = 0.01\n[uncertainty.correlation]\n" +
+      "slip = {friction = 0.8, spin = -0.5}\n";
+  const Experiment experiment = read(known, "x.toml");
+  const Spreads& spreads = experiment.spreads;
+  const Component of_friction{&friction, 0}, of_spin{&spin, 0}, of_slip{&slip, 0};
+  CHECK(spreads.numbers.size() == 3);
+  CHECK(spreads.numbers[static_cast<std::size_t>(*spreads.place(of_friction))].standard == Approx(0.01).epsilon(1e-15));
+  CHECK(spreads.numbers[static_cast<std::size_t>(*spreads.place(of_spin))].standard ==
+        Approx(10 * std::numbers::pi / 30).epsilon(1e-15));
+  CHECK(spreads.correlation(*spreads.place(of_slip), *spreads.place(of_friction)) == 0.8);
+  CHECK(spreads.correlation(*spreads.place(of_spin), *spreads.place(of_slip)) == -0.5);
+  CHECK(spreads.correlation(*spreads.place(of_spin), *spreads.place(of_friction)) == 0);
+  const std::string written = run_file(experiment);
+  CHECK(run_file(read(written, "y.toml")) == written);
+  CHECK_THAT(written, Contains("[uncertainty.correlation]\n"));
+  // A value in place of the file's own is known; one that is the same changes nothing.
+  CHECK(read(known, "x.toml", {{&slip, {2}}}).spreads.numbers.size() == 2);
+  CHECK(read(known, "x.toml", {{&slip, {1}}}).spreads.numbers.size() == 3);
+  CHECK(read(known, "x.toml", {{&velocity, {1, 0}}, {&angular_velocity, {0, 0, 1}}}).spreads.numbers.size() == 1);
+
+  const auto refused = [&](const std::string& lines, const std::string& words) {
+    INFO(lines);
+    CHECK_THROWS_WITH(parse_run_file(good + lines, "f"), Contains(words));
+  };
+  refused("[uncertainty]\nfricton = 0.1\n",
+          "f:12:1: unknown key 'fricton' in [uncertainty] (did you mean 'friction'?)");
+  refused("[uncertainty]\npatch_radius = 0.1\n", "f:12:16: patch_radius has a standard deviation and no value here");
+  refused("[uncertainty]\nfriction = -0.1\n", "f:12:12: friction: a standard deviation is finite and >= 0, got -0.1");
+  refused("[uncertainty]\nslip = \"5 kg\"\n",
+          "f:12:8: 'slip' in [uncertainty] must be a number, in m/s, or one in quotes with m/s, ");
+  refused("[uncertainty]\nslip = 1\n[uncertainty.correlation]\nslip = 0.4\n",
+          "f:14:8: 'slip' in [uncertainty.correlation] must be a table of numbers");
+  refused("[uncertainty]\nslip = 1\n[uncertainty.correlation]\nslip = {spin = 0.4}\n",
+          "f:14:16: spin has no standard deviation");
+  refused("[uncertainty]\nslip = 1\n[uncertainty.correlation]\nslip = {slip = 0.4}\n", "with itself is always 1");
+  refused("[uncertainty]\nslip = 1\n[uncertainty.correlation]\nslip = {spun = 0.4}\n",
+          "f:14:9: unknown key 'spun' in [uncertainty.correlation.slip] (did you mean 'spin'?)");
+  const std::string three = "[uncertainty]\nslip = 1\nspin = 1\nfriction = 0.1\n[uncertainty.correlation]\n";
+  refused(three + "slip = {spin = 1.4}\n", "f:16:16: a correlation is at least -1 and at most 1, got 1.4");
+  refused(three + "slip = {spin = 0.4}\nspin = {slip = 0.4}\n", "are correlated twice");
+  refused(three + "slip = {spin = 0.9, friction = 0.9}\nspin = {friction = -0.9}\n",
+          "f:11:1: no numbers have these correlations: of their matrix an eigenvalue is -0.8");
+  CHECK_NOTHROW(parse_run_file(good + three + "slip = {spin = 1, friction = -1}\nspin = {friction = -1}\n", "f"));
+}

@@ -18,7 +18,7 @@ namespace {
 using si::CatalogueEntry;
 
 Json row_of(const CatalogueEntry& entry) {
-  const auto& [ball, contact, start, environment] = entry.experiment;
+  const auto& [ball, contact, start, environment, spreads] = entry.experiment;
   const reduction::Law law = *reduction::find_law(si::law_of(entry.experiment));
   std::string sources = entry.sources;
   std::ranges::replace(sources, '\n', ' ');

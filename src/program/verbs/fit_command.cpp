@@ -174,6 +174,7 @@ class FitCommand final : public Verb {
     std::string text = fmt::format("fitted to {} values, law {}: {}, {}", fit.values, fit.law,
                                    error(fit.estimates[0], ""), error(fit.estimates[1], " m"));
     if (fit.rolls_with_friction()) text += ", " + error(fit.estimate(fit::Parameter::rolling_friction), "");
+    if (fit.ball.spreads.empty()) text += "\nno [uncertainty]: no standard deviations tell what is known of them";
     if (!fit.fits()) text += fmt::format("\nTHIS DOES NOT FIT: {}", fmt::join(fit.misfits, "; "));
     return text;
   }

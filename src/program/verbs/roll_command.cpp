@@ -116,7 +116,7 @@ class RollCommand final : public Verb {
         [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
                      "standard deviations of numbers of the ball and its start, such as slip=1%,friction=5%, or of "
-                     "vx, vy, wx, wy, wz: what the events are known to");
+                     "vx, vy, wx, wy, wz, or fit, those of the run file: what the events are known to");
     CLI::Option* at = instants_.add(app, "t", "s", "");
     until_.add(app, "--until", "TIME", "the last of them, in seconds (default: a little past the stop)", parse_end)
         ->excludes(at);

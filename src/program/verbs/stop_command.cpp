@@ -35,7 +35,8 @@ class StopCommand final : public Verb {
                  "and how tau_stop changes with u0, v0, mu, the body's chi and gamma, and a drive: exact derivatives");
     uncertainty_.add(
         app, "--uncertainty", "NAME=SPREAD,...",
-        "standard deviations of numbers of the start, such as slip=1%,friction=5%: what the stop time is known to");
+        "standard deviations of numbers of the start, such as slip=1%,friction=5%, or fit, those of the run file: "
+        "what the stop time is known to");
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
                "CSV with columns mu,u0,v0, to which it adds tau_stop; with --ball columns slip,spin in m/s, rad/s and "
@@ -59,8 +60,8 @@ class StopCommand final : public Verb {
   }
 
  private:
-  std::vector<Uncertain> read_uncertainty(const GivenStart& start) const {
-    if (!uncertainty_.given()) return {};
+  std::optional<Spreads> read_uncertainty(const GivenStart& start) const {
+    if (!uncertainty_.given()) return std::nullopt;
     try {
       return read_uncertain(uncertainty_.text(), start);
     } catch (const BadInput& error) {

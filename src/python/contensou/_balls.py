@@ -40,6 +40,9 @@ class Ball:
     about the ball that names none: a name, a Law or a function; that of the body if left out.
     body: ball, hollow-ball; or disc (puck) and ring, which lie flat and turn about the vertical only. Their patch is the
     whole face, of the body's radius, if none is given. inertia: over m R^2, in place of that of the body's name.
+    uncertainty: what its numbers are known to, as the table of a run file: standard deviations by name, {"friction": 0.01,
+    "patch_radius": 1e-4}, vx, vy, wx, wy, wz of velocities, and how they go together under "correlation":
+    {"patch_radius": {"friction": -0.7}}. A number that `but` replaces is known.
     `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
     """
 
@@ -63,10 +66,11 @@ class Ball:
     body: str = "ball"
     inertia: Optional[float] = None
     counter_radius: Optional[float] = None
+    uncertainty: Optional[dict[str, Any]] = field(default=None, hash=False)
     _experiment: _core.Experiment = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        given = {name: getattr(self, name) for name in ("name", "body", *_core.quantities)}
+        given = {name: getattr(self, name) for name in ("name", "body", "uncertainty", *_core.quantities)}
         known = _core.changed({}, given)
         core = _core.Experiment(known)
         if self.velocity is not None or self.angular_velocity is not None:
@@ -433,9 +437,10 @@ class Roll:
         """m along the path of the centre until it rolls."""
         return self._core.path
 
-    def uncertainty(self, **spreads: Union[str, float]) -> dict[str, Any]:
+    def uncertainty(self, *own: str, **spreads: Union[str, float]) -> dict[str, Any]:
         """What the events are known to, where numbers of the ball or of its start are known to a standard deviation each:
         `roll.uncertainty(slip="1%", spin="2 rad/s", friction=0.01)`, or vx, vy, wx, wy, wz of a start by velocities.
+        `roll.uncertainty("fit")` takes what the ball itself is known to (Ball.uncertainty); what is named beside it replaces it.
 
         The member uncertainty of `contensou roll --uncertainty --format json`: of each number of an event standard, to first
         order, shares of it by name, quantiles of 10 000 samples, and first_order_holds, whether these agree.
@@ -445,7 +450,7 @@ class Roll:
         if self.textbook or self.load is not None:
             raise ValueError("uncertainty is of this motion under a constant load, and not of the textbook's")
         ball = self.ball.but(rolling_friction=self.rolling_friction)
-        typed = ",".join(f"{name}={spread if isinstance(spread, str) else repr(number(name, spread))}" for name, spread in spreads.items())
+        typed = ",".join([*own, *(f"{name}={spread if isinstance(spread, str) else repr(number(name, spread))}" for name, spread in spreads.items())])
         found: dict[str, Any] = json.loads(_core.roll_uncertainty(ball._experiment, self.law._core, self.rolling_below, typed))
         return found
 

@@ -52,7 +52,8 @@ class Combination(NamedTuple):
 class Fit:
     """What a film says of a ball; `fit` makes one.
 
-    ball:         with the fitted friction, patch radius, slip and spin
+    ball:         with the fitted contact and start, and with the covariance of all that was found in its uncertainty, where
+                  the film determines them
     estimates:    of friction, patch_radius, slip, spin, and what places the film: direction, vx, vy, x, y, angle at the start;
                   with rolling friction also rolling_friction, and rolling (m/s, R omega along the slip) for vx and vy
     names, correlation_matrix:  of those that were free
@@ -185,7 +186,7 @@ def fit(
               for name, values in seen.items()]
     known_law = ball._law(law)
     found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), robust, False)
-    return _report(ball, known_law, found, t, seen)
+    return _report(known_law, found, t, seen)
 
 
 def fit_plan(
@@ -208,18 +209,12 @@ def fit_plan(
     known_law = ball._law(law)
     series = [(name, np.zeros_like(t), np.broadcast_to(numbers(f"sd of {name}", each), t.shape)) for name, each in sd.items()]
     found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), False, True)
-    return _report(ball, known_law, found, t, dict.fromkeys(sd))
+    return _report(known_law, found, t, dict.fromkeys(sd))
 
 
-def _report(ball: Ball, known_law: Law, found: dict[str, Any], t: NDArray[np.float64], seen: dict[str, Any]) -> Fit:
+def _report(known_law: Law, found: dict[str, Any], t: NDArray[np.float64], seen: dict[str, Any]) -> Fit:
     estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
-    patch = estimates["patch_radius"]
-    on_its_face = all(each is None for each in (ball.patch_radius, ball.spin_deceleration, ball.youngs_modulus))
-    given = {"patch_radius": patch.value} if patch.standard_error != 0 or not on_its_face else {}
-    fitted = ball.but(friction=estimates["friction"].value, slip=max(0.0, estimates["slip"].value),
-                      spin=estimates["spin"].value, law=known_law, **given)
-    if "rolling_friction" in estimates:
-        fitted = fitted.but(rolling_friction=estimates["rolling_friction"].value)
+    fitted = Ball._of(found.pop("ball"), {"law": known_law})
     only = found.pop("only")
     seen_rolling = found.pop("rolling_friction_seen")
     predicted = dict(zip(seen, found.pop("predicted")))

@@ -10,6 +10,7 @@
 
 #include "contensou/si/experiment.hpp"
 #include "contensou/si/quantity.hpp"
+#include "contensou/si/spreads.hpp"
 
 namespace contensou::si {
 
@@ -58,21 +59,35 @@ class Description {
   /// By its name, or by formulas.
   void set_law(std::string text) { law_ = std::move(text); }
 
+  /// Says what a number is known to.
+  /// @throws std::domain_error  or RunFileError for a standard deviation below 0
+  void add_spread(const Component& of, double standard, const Source& source);
+
+  /// Says how the errors of two numbers go together.
+  /// @throws std::domain_error  or RunFileError, if one of them has no spread, if it is said twice, and outside [-1, 1]
+  void correlate(const Component& one, const Component& other, double correlation, const Source& source);
+
+  /// Rejects a spread of what is not given.
+  /// @throws std::domain_error  or RunFileError
+  void require_given(const Component& of, const Source& source) const;
+  void set_spreads(Spreads spreads) { spreads_ = std::move(spreads); }
+
   /// Null if it is not given.
   const Values* find(const Quantity& quantity) const;
   const std::string& name() const { return name_; }
   const std::optional<Body>& body() const { return body_; }
   const std::string& law() const { return law_; }
+  const Spreads& spreads() const { return spreads_; }
 
   /// Whether none of the values is given.
   bool empty() const { return values_.empty(); }
 
   /// This one with what is said above it in place of its own. What is given in another way (alternatives) goes: a patch
   /// radius replaces moduli, a load gravity, slip with spin velocities. A velocity replaces its part of a slip with a spin,
-  /// and the other part stays.
+  /// and the other part stays. What a number was known to goes with it, and the correlations of the rest stay.
   Description under(const Description& above) const;
 
-  /// Rejects two ways to give one thing.
+  /// Rejects two ways to give one thing, and correlations that no numbers have.
   /// @throws std::domain_error  or RunFileError, naming the values and where they are
   void require_no_contradiction() const;
 
@@ -89,6 +104,7 @@ class Description {
   std::string name_, law_;  ///< empty if not given
   std::optional<Body> body_;
   std::map<const Quantity*, Values> values_;
+  Spreads spreads_;
   std::map<std::string, std::string, std::less<>> places_;
   bool in_file_ = false;
 };

@@ -10,10 +10,9 @@
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/si/body.hpp"
 #include "contensou/si/hertz_contact.hpp"
+#include "contensou/si/spreads.hpp"
 
 namespace contensou::si {
-
-struct Quantity;
 
 /// A ball, or a body that lies flat.
 struct Ball {
@@ -84,6 +83,7 @@ struct Experiment {
   Contact contact;
   Start start;
   Environment environment{};
+  Spreads spreads = {};  ///< what its numbers are known to, where that is said
 };
 
 /// What a quantity has been given, as many values as it has components.
