@@ -2,13 +2,20 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <iterator>
 #include <system_error>
 
+#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+extern char** environ;
 
 namespace contensou::portraits {
 
@@ -44,10 +51,27 @@ class MemoryFile {
   }
 
  private:
+  static int open();
   [[noreturn]] static void fail() { throw std::system_error(errno, std::generic_category()); }
 
-  int file_ = ::memfd_create("contensou", MFD_CLOEXEC);
+  int file_ = open();
 };
+
+/// What only Linux has, and what stands in for it elsewhere, in macOS.
+#ifdef __linux__
+int MemoryFile::open() { return ::memfd_create("contensou", MFD_CLOEXEC); }
+
+void end_with_parent() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
+#else
+int MemoryFile::open() {
+  char name[] = "/tmp/contensou-XXXXXX";
+  const int file = ::mkostemp(name, O_CLOEXEC);
+  ::unlink(name);
+  return file;
+}
+
+void end_with_parent() {}
+#endif
 
 /// @return  its status as of waitpid()
 int run(std::vector<const char*> command, const MemoryFile& input, const MemoryFile& output, const MemoryFile& messages,
@@ -66,10 +90,11 @@ int run(std::vector<const char*> command, const MemoryFile& input, const MemoryF
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
     std::signal(SIGALRM, SIG_DFL);
     ::alarm(seconds);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    end_with_parent();
+    environ = const_cast<char**>(environment.data());
     if (::getppid() == parent && ::dup2(input.get(), STDIN_FILENO) >= 0 && ::dup2(output.get(), STDOUT_FILENO) >= 0 &&
         ::dup2(messages.get(), STDERR_FILENO) >= 0) {
-      ::execvpe(command.front(), const_cast<char**>(command.data()), const_cast<char**>(environment.data()));
+      ::execvp(command.front(), const_cast<char**>(command.data()));
     }
     ::_exit(not_run);
   }

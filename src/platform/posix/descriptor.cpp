@@ -28,10 +28,14 @@ bool is_ready(int file) {
   return ::poll(&polled, 1, 0) > 0;
 }
 
+#ifdef __linux__
 int reserve(int file, std::uintmax_t bytes) {
   const int result = ::fallocate(file, 0, 0, static_cast<off_t>(bytes));
   return result != 0 && errno == EOPNOTSUPP ? 0 : result;
 }
+#else
+int reserve(int, std::uintmax_t) { return 0; }
+#endif
 
 void set_permissions(int file, unsigned mode) {
   if (::fchmod(file, static_cast<mode_t>(mode)) != 0) errno = 0;

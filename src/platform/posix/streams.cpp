@@ -3,6 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#ifndef O_PATH  // Linux's: neither for reading nor for writing
+#define O_PATH O_RDONLY
+#endif
+
 namespace contensou::platform {
 
 bool is_terminal(Stream stream) { return ::isatty(stream == Stream::error ? STDERR_FILENO : STDOUT_FILENO) != 0; }
