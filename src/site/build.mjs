@@ -84,22 +84,90 @@ function page(path, title, body) {
       .map(({ id, title }) => `<li><a href="${root}/${to}#${id}">${escape(title)}</a></li>`);
     return `<li>${link(to, to === "README.html" ? "README" : title)}${parts.length ? `<ul>${parts.join("")}</ul>` : ""}</li>`;
   });
-  const main = [["index.html", "contensou"], ...(ball ? [["explore.html", "Play"]] : []), ["gallery.html", "Gallery"], ["reference/index.html", "Reference"]];
+  const main = [["index.html", "contensou"], ...(ball ? [["explore.html", "Play"]] : []), ...readers.map(({ path, title }) => [path, title]), ["reference/index.html", "Reference"]];
   const values = { title: escape(title), root, version, body, main: main.map((each) => link(...each)).join("\n"), texts: list.join("\n") };
   write(path, template.replace(/\{\{(\w+)\}\}/g, (_, name) => values[name]));
 }
 
-// The gallery: the pictures of portraits/README.md, each with the command and the words that stand above it.
-function gallery() {
+// Width and height of a picture of the project, and the picture at its own size, a link to it.
+function sizeOf(picture) {
+  const bytes = readFileSync(join(project, picture));
+  return picture.endsWith(".png") ? [bytes.readUInt32BE(16), bytes.readUInt32BE(20)] : /viewBox="0 0 (\d+) (\d+)"/.exec(bytes.toString()).slice(1).map(Number);
+}
+function linkedPicture(picture, title, to = picture) {
+  const [width, height] = sizeOf(picture);
+  others.add(picture);
+  return `<a href="${to}"><img src="${picture}" alt="${escape(title)}" width="${width}" height="${height}"></a>`;
+}
+
+// The pictures of portraits/README.md, each with the command and the words that stand above it.
+function shownPictures() {
   const text = read("portraits/README.md");
   const shown = [...text.matchAll(/^`(contensou [^`]+)`\n\n([^`!]+?)\n\n!\[(.*)\]\((.+)\)$/gm)];
   if (shown.length !== text.match(/^!\[/gm).length) throw new Error("portraits/README.md: a picture stands below its command and its words, a paragraph each");
-  const figures = shown.map(([, command, words, title, picture]) => {
-    const [, width, height] = /viewBox="0 0 (\d+) (\d+)"/.exec(read(`portraits/${picture}`));
-    return `<figure${width > 1.8 * height ? ' class="broad"' : ""}><a href="portraits/${picture}"><img src="portraits/${picture}" alt="${escape(title)}" width="${width}" height="${height}"></a>
+  return shown.map(([, command, words, title, picture]) => ({ command, words, title, picture: `portraits/${picture}` }));
+}
+
+function gallery() {
+  const figures = shownPictures().map(({ command, words, title, picture }) => {
+    const [width, height] = sizeOf(picture);
+    return `<figure${width > 1.8 * height ? ' class="broad"' : ""}>${linkedPicture(picture, title)}
 <figcaption>${markdown.renderInline(words)}<pre tabindex="0"><code>${escape(command)}</code></pre></figcaption></figure>`;
   });
   page("gallery.html", "Gallery", `<h1>Gallery</h1>\n<p>Every picture is drawn by the command below it.</p>\n<div class="gallery">${figures.join("\n")}</div>`);
+}
+
+// A page for each sort of reader: a command, its picture, what README says of it, and where to go on.
+const readers = [
+  { path: "start.html", title: "First ten minutes", words: "On a fresh Debian 12 this builds the program, asks it when a pool ball stops, and draws the plane of all its motions.",
+    command: "bash .ci/demo", picture: "portraits/pool.svg", alt: "Phase portrait of a pool ball", parts: ["#run-it"],
+    links: [["src/README.md#the-program", "The program, verb by verb"], ["src/site/field.md", "What other tools do of this"]] },
+  { path: "draw.html", title: "Draw", gallery: "uv.svg", parts: ["Draw:"],
+    links: [["gallery.html", "Gallery: every picture with its command"], ["portraits/README.md", "How a portrait is made"]] },
+  { path: "compute.html", title: "Compute", gallery: "roll.svg", parts: ["Compute:", "#how-good-the-numbers-are"],
+    links: [["src/README.md#the-program", "Columns and fields of each verb"], ["src/javascript/README.md", "In JavaScript"]] },
+  { path: "check.html", title: "Check", gallery: "reduction.svg", parts: ["Reduce and check:", "#the-paper"],
+    links: [["reduction/README.md#errata-of-the-paper", "Where the paper errs"], ["tests/README.md", "What is tested how"]] },
+  { path: "python.html", title: "Python", words: "The whole library with NumPy's arrays: here the plane of a puck, by matplotlib.", picture: "src/python/notebook/plane.png",
+    command: 'import contensou as ct\nct.portrait(body="disc").plot()', language: "python", alt: "The plane of a puck", parts: ["In Python,"],
+    links: [["src/python/README.md", "The tour"], ["src/python/notebook/README.md", "Why a spinning ball slides farther: a lesson as a notebook"]] },
+  { path: "engines.html", title: "Engines", words: "What to type in so that a ball's spin dies out as it does, for sixteen engines. Of these curves of force against moment an engine has the ellipse or the chord, or it bounds each for itself.",
+    command: "contensou engine mujoco --ball pool\ncontensou law --surface -o surface.svg", picture: "portraits/gallery/surface.svg", alt: "Limit surfaces", parts: ["Physics engines"],
+    links: [["src/site/cases/README.md", "Ten motions as data, for an engine's own tests"], ["src/README.md", "The wrench of a patch, in C and C++"]] },
+  { path: "film.html", title: "Film", words: "Friction and patch radius from a film, with intervals that hold; here a real slide, beside the exact motion and the textbook's.",
+    command: "contensou fit hit10.csv --fps 360 --ball cylinder.toml --law uniform -o film.png", picture: "src/fit/film.png", alt: "A cylinder that slides and turns: measured, exact, textbook", parts: ["Real bodies:", "A real slide"],
+    links: [["src/fit/README.md#how-to-film-it", "How to film it"], ["src/fit/README.md#real-films", "Two real slides"], ["src/fit/README.md#the-estimate", "The estimate"]] },
+  { path: "mathematics.html", title: "Mathematics", gallery: "similarity.svg", parts: [],
+    links: ["theory", "proofs", "laws", "the-plane-at-the-origin-and-at-infinity", "a-constant-drive", "any-planar-field", "numerics", "symbols", "errata-of-the-paper"].map((id) => [`reduction/README.md#${id}`]) },
+];
+
+// Of README: the section of "#id"; or the paragraph that begins so, with the block of code below it.
+function partOfReadme(part) {
+  const { tokens, env } = texts.get("README.md");
+  const starts = (token, i) => (part.startsWith("#") ? token.type === "heading_open" && token.attrGet("id") === part.slice(1)
+    : token.type === "paragraph_open" && tokens[i + 1].content.startsWith(part));
+  const first = tokens.findIndex(starts);
+  if (first < 0) throw new Error(`README.md has no ${part}`);
+  const next = part.startsWith("#") ? tokens.findIndex(({ type, tag }, i) => i > first && type === "heading_open" && tag === "h2") : first + 3;
+  const end = next < 0 ? tokens.length : next;
+  return html(tokens.slice(first, end + (!part.startsWith("#") && ["fence", "code_block"].includes(tokens[end]?.type) ? 1 : 0)), env);
+}
+
+function reader({ path, title, gallery, parts, links, language = "bash", ...given }) {
+  const { command, words, picture, alt } = gallery ? (({ title, ...shown }) => ({ ...shown, alt: title }))(shownPictures().find((each) => each.picture.endsWith(`/${gallery}`))) : given;
+  const list = links.map(([to, text]) => {
+    const [file, part] = to.split("#");
+    const heading = part && texts.get(file).headings.find(({ id }) => id === part);
+    if (part && !heading) throw new Error(`${path} leads to ${to}, which is not there`);
+    return `<li><a href="${texts.has(file) ? pageOf(file) : file}${part ? `#${part}` : ""}">${escape(text ?? heading.title)}</a></li>`;
+  });
+  page(path, title, `<h1>${escape(title)}</h1>
+<pre tabindex="0"><code>${highlight(command, language)}</code></pre>
+<figure class="first">${linkedPicture(picture, alt)}<figcaption>${markdown.renderInline(words)}</figcaption></figure>
+${parts.map(partOfReadme).join("\n")}
+<h2>Go on</h2>
+<ul>${list.join("\n")}</ul>`);
+  return `<figure>${linkedPicture(picture, alt, path)}<figcaption><a href="${path}">${escape(title)}</a></figcaption></figure>`;
 }
 
 // The public headers, by doxygen; of its pages what lies between its own head and foot.
@@ -146,6 +214,7 @@ for (const first of ["README.md", ".github/CONTRIBUTING.md", ".github/CHANGELOG.
 }
 const readme = texts.get("README.md");
 for (const [path, { tokens, env, title }] of texts) page(pageOf(path), title, html(tokens, env));
+const cards = readers.map(reader);
 for (const path of others) {
   const language = path.startsWith(".ci/") ? "bash" : extname(path).slice(1);
   if (isRaw(path)) write(path, readFileSync(join(project, path)));
@@ -160,16 +229,10 @@ const first = ball ? '<iframe src="explore.html#embed" title="Two equal pucks le
   : "<p><em>Built without the page of <code>contensou explore</code>: <code>-DCONTENSOU_PAGE=ON</code> adds it.</em></p>";
 const [heading, rest] = [readme.tokens.slice(0, 3), readme.tokens.slice(3, second)].map((tokens) => html(tokens, readme.env));
 page("index.html", "contensou: a ball that slides and spins", `${heading}${first}${rest}
-<h2>Go on</h2>
-<ul>
-${ball ? '<li><a href="explore.html">Play</a>: change slip, spin, friction and patch; choose motions in the plane</li>' : ""}
-<li><a href="gallery.html">Look</a>: the plane in eight views, each picture with its command</li>
-<li><a href="README.html#run-it">Run it</a>: on your own machine, in the shell, in C++ or <a href="src/python/README.html">in Python</a></li>
-<li><a href="reduction/README.html">Read</a>: the mathematics, with numbered equations, and where the paper errs</li>
-<li><a href="src/fit/README.html">Measure</a>: friction and patch from a film of a ball</li>
-<li><a href="src/site/cases/README.html">Compare</a>: ten motions as data, for the tests of physics engines</li>
-<li><a href="reference/index.html">Look up</a>: every public header</li>
-</ul>`);
+<h2>What brings you here?</h2>
+${ball ? '<p><a href="explore.html">Play</a>: change slip, spin, friction and patch; choose motions in the plane. Or:</p>' : ""}
+<div class="cards">${cards.join("\n")}</div>
+<p>Every picture is in the <a href="gallery.html">gallery</a>, every public header in the <a href="reference/index.html">reference</a>.</p>`);
 
 if (ball) write("explore.html", readFileSync(ball, "utf8").replace("exactly.</p>", 'exactly. <a href="index.html">More about it</a></p>'));
 write("style.css", readFileSync(join(here, "style.css")));
