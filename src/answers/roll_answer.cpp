@@ -146,6 +146,11 @@ constexpr Field<Roll> end_fields[]{
      [](const Roll& roll) {
        return members_of(event_fields, RollEvents{events_of(roll.textbook), roll.lies_flat()});
      }},
+    {"gradient", "SI",
+     "with --gradient: how each number of an event changes with each of the ball and its start, the others kept; "
+     "without those at which it has a corner",
+     [](const Roll& roll) { return roll.gradient ? members_of(*roll.gradient) : Json(); }, nullptr, 0,
+     " {`rolls_after` {`t` {NAME: derivative}, ...}, ...}"},
     {"uncertainty", "as the event",
      "with --uncertainty: of each number of an event as of stop; `t_stop`, `samples`, `outside`",
      [](const Roll& roll) { return roll.uncertainty ? members_of(*roll.uncertainty) : Json(); }, nullptr, 0,
@@ -273,6 +278,7 @@ std::string roll_text(const Roll& roll, const Digits& digits) {
                                                     digits(roll.load->nominal()), digits(roll.load->loads().back()))
                                       : "") +
                            "\n" + events_text(roll, digits) + "\n" +
+                           (roll.gradient ? text_of(*roll.gradient, digits) + "\n" : "") +
                            (roll.uncertainty ? text_of(*roll.uncertainty, digits) + "\n" : "") + ending(roll, digits);
   if (roll.in_steps) {
     const auto rest = rest_of(*roll.in_steps);

@@ -33,6 +33,7 @@ struct Roll {
       integrated && whole.resisted ? std::optional<si::ResistedMotion>({experiment, law, rolling_friction, true})
                                    : std::nullopt;
   std::optional<RollUncertainty> uncertainty = {};
+  std::optional<si::EventGradient> gradient = {};
 
   /// How the events are found.
   bool reduced() const { return !whole.resisted || whole.resisted->is_reduced(); }

@@ -6,11 +6,12 @@
 
 #include "answers/uncertainty.hpp"
 #include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/event_gradient.hpp"
 #include "contensou/si/experiment.hpp"
 
 namespace contensou::answers {
 
-/// What the events of a motion are known to: its first order by central differences, to 1e-5 of itself.
+/// What the events of a motion are known to: its first order by si::EventNumbers::slopes.
 struct RollUncertainty : Sampled {
   /// A number of an event.
   struct Part {
@@ -22,13 +23,17 @@ struct RollUncertainty : Sampled {
   std::vector<Part> parts = {};
 };
 
-/// @param experiment     without rolling friction, on a level plane
 /// @param rolling_below  as si::Course's
 /// @param typed          as read_spreads has it: of the ball's numbers, and of the start slip, spin or vx, vy, wx, wy, wz
-/// @throws BadInput  as read_spreads, of a motion that is at rest or has rolling friction or a slope, and where all samples
-///                   are outside
+/// @throws BadInput  as read_spreads, of a motion that is at rest, and where all samples are outside
 RollUncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,
                                  const std::string& typed);
+
+/// {rolls_after: {t: {NAME: slope, ...}, x, y}, ...}, by the names of components.
+Json members_of(const si::EventGradient& gradient);
+
+/// A table of them.
+std::string text_of(const si::EventGradient& gradient, const Digits& digits);
 
 /// {rolls_after: {t, x, y}, spin_ends: {t, x, y}, slip_length, turns, path, t_stop, samples, outside}
 Json members_of(const RollUncertainty& uncertainty);

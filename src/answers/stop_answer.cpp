@@ -534,7 +534,9 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
       throw BadInput("--gradient is of one orbit, and this motion with rolling friction is several: leave it out");
   }
   if (uncertain && (system.drive() > 0 || resisted)) {
-    throw BadInput("--uncertainty is of a motion without rolling friction, slope and drive: leave it out");
+    throw BadInput(
+        "--uncertainty is of a motion without rolling friction, slope and drive: leave it out, or take "
+        "'contensou roll --uncertainty', which has t_stop with rolling friction and on a slope");
   }
   if (uncertain && start.at_rest()) throw BadInput("--uncertainty is of a motion, and this is rest: leave it out");
   const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;

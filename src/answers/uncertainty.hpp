@@ -90,7 +90,8 @@ struct KnownTo {
   /// Of each of them alone, with the sign of the derivative: where they are independent, standard is the root of the sum of squares.
   std::vector<std::pair<std::string, double>> shares = {};
   std::array<double, 5> quantiles = {};  ///< of samples, at probabilities
-  bool holds = true;  ///< whether the first order says the same as the quantiles, to a tenth of standard
+  bool holds =
+      true;  ///< whether the first order says the same as the quantiles, to a tenth of standard, and of few samples to what they tell
 
   static constexpr std::array<double, 5> probabilities{0.025, 0.16, 0.5, 0.84, 0.975};
 

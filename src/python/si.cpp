@@ -405,6 +405,13 @@ void bind_si(py::module_& module) {
             answers::members_of(answers::roll_uncertainty(experiment, law, rolling_below, spreads)));
       },
       Released());
+  module.def(
+      "roll_gradient",
+      [](const si::Experiment& experiment, const Law& law, double rolling_below) {
+        const si::EventNumbers numbers(experiment, law, rolling_below);
+        return portraits::json_document(answers::members_of(si::event_gradient(numbers)));
+      },
+      Released());
   module.attr("rolling_slip") = si::rolling_slip;
   module.attr("standard_cue_mass") = si::standard_cue_mass;
 }

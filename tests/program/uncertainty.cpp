@@ -208,6 +208,27 @@ TEST_CASE("roll --uncertainty: each number of an event against differences and i
              Contains("rest t") && Contains("+-") && Contains("*"));
 }
 
+TEST_CASE("roll --uncertainty and --gradient with rolling friction", "[cli]") {
+  const auto roll = [](const std::string& options) {
+    return json_of("roll --format json --samples 2 --ball pool --patch-radius 8mm --rolling-friction " + options);
+  };
+  const auto asked = roll("0.01 --gradient --uncertainty rolling-friction=5%");
+  const auto known = asked.at("uncertainty");
+  CHECK(known.at("samples") == 1000);
+  const auto more = roll("0.0101"), less = roll("0.0099");
+  for (const std::string part : {"/rolls_after/t", "/rest/t", "/rest/x", "/slip_length", "/path", "/t_stop"}) {
+    INFO(part);
+    const nlohmann::json::json_pointer number(part);
+    const double slope = (more.at(number).get<double>() - less.at(number).get<double>()) / 0.0002;
+    CHECK(asked.at("gradient").at(number).at("rolling_friction").get<double>() == Approx(slope).epsilon(1e-3));
+    CHECK(known.at(number).at("shares").at("rolling_friction").get<double>() == Approx(slope * 5e-4).epsilon(1e-3));
+    CHECK(std::abs(known.at(number).at("quantiles")[2].at("value").get<double>() - asked.at(number).get<double>()) <
+          0.2 * known.at(number).at("standard").get<double>());
+  }
+  CHECK_THAT(run_program("roll --ball pool --gradient --format text").out,
+             Contains("derivatives, SI, by") && Contains("spin_deceleration"));
+}
+
 TEST_CASE("what roll --uncertainty refuses", "[cli][errors]") {
   const auto refused = [](const std::string& options, const std::string& words) {
     check_rejected("roll --ball pool " + options, words);
@@ -216,7 +237,9 @@ TEST_CASE("what roll --uncertainty refuses", "[cli][errors]") {
           "no such number 'vx'; numbers of this start: mass, radius, friction, spin_deceleration, ");
   refused("--velocity 1,0 --angular-velocity 0,0,9 --uncertainty vy=1%", "vy is 0, of which there is no %");
   refused("--velocity 1,0 --angular-velocity 0,0,0 --uncertainty wz=1", "wz is 0, where the events have a corner");
-  refused("--slope 1 --uncertainty slip=1%", "without rolling friction and without a slope");
+  refused("--gradient -o x.svg", "--gradient is of numbers");
+  refused("--batch x.csv --gradient", "leave out --gradient");
+  refused("--slip 0 --spin 0 --gradient", "this is rest");
   refused("--slip 0 --spin 0 --uncertainty friction=1%", "this is rest");
   refused("--batch x.csv --uncertainty slip=1%", "leave out --uncertainty");
   refused("--uncertainty slip=1% -o x.svg", "leave it out of a picture");

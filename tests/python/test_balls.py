@@ -449,7 +449,11 @@ def test_what_events_are_known_to():
     assert [each["probability"] for each in known["t_stop"]["quantiles"]] == [0.025, 0.16, 0.5, 0.84, 0.975]
     with pytest.raises(ValueError, match="no such number 'slp'"):
         roll.uncertainty(slp=0.1)
-    with pytest.raises(ValueError, match="without rolling friction"):
-        ct.Ball.pool().roll(slip=2, spin=30, rolling_friction=0.01).uncertainty(slip=0.1)
+    assert "rolling_friction" in ct.Ball.pool().roll(slip=2, spin=30, rolling_friction=0.01).gradient()["rest"]["t"]
+    gradient = roll.gradient()
+    assert gradient["rolls_after"]["t"]["slip"] == pytest.approx((more.rolls_after.t - less.rolls_after.t) / (4 * step), rel=1e-6)
+    assert known["path"]["shares"]["friction"] == pytest.approx(0.01 * gradient["path"]["friction"], rel=1e-12)
+    with pytest.raises(ValueError, match="gradient is of this motion"):
+        roll.uncoupled.gradient()
     with pytest.raises(ValueError, match="textbook"):
         roll.uncoupled.uncertainty(slip=0.1)

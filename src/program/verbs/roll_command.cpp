@@ -114,6 +114,8 @@ class RollCommand final : public Verb {
             "which at 0 rolls after 2 v/(7 f g) if homogeneous",
             si::rolling_slip),
         [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
+    app.add_flag("--gradient", gradient_,
+                 "and how each number of an event changes with each of the ball and its start: derivatives");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
                      "standard deviations of numbers of the ball and its start, such as slip=1%,friction=5%, or of "
                      "vx, vy, wx, wy, wz, or fit, those of the run file: what the events are known to");
@@ -145,6 +147,9 @@ class RollCommand final : public Verb {
     si::require_finite_motion(roll.experiment, roll.stop_time(), last);
     const double end = until_.value_or(roll.standard_end());
     roll.uncertainty = read_uncertainty(roll);
+    if (gradient_ && (roll.load || output.picture()))
+      throw BadInput("--gradient is of numbers, under a constant load: leave it out");
+    if (gradient_) roll.gradient = gradient_of(roll);
     if (output.picture()) {
       if (roll.uncertainty) throw BadInput("--uncertainty is of numbers: leave it out of a picture");
       const bool moves = output.picture() == portraits::PictureFormat::gif;
@@ -188,9 +193,18 @@ class RollCommand final : public Verb {
     }
   }
 
+  static si::EventGradient gradient_of(const Roll& roll) {
+    try {
+      return si::event_gradient(si::EventNumbers(roll.experiment, roll.law, roll.rolling_below));
+    } catch (const std::domain_error& error) {
+      throw BadInput(fmt::format("--gradient: {}: leave it out", error.what()));
+    }
+  }
+
   ExitStatus run_many() const {
     const std::string others =
-        names_given({&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_, &uncertainty_});
+        names_given({&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_, &uncertainty_}) +
+        (gradient_ ? "--gradient" : "");
     if (!others.empty() || start_.overrides_start() || instants_.given()) {
       throw BadInput(fmt::format("--batch has the starts in the file, and gives events alone: leave out {}",
                                  !others.empty()     ? others
@@ -298,7 +312,7 @@ class RollCommand final : public Verb {
   ArgumentOf<double> until_, rolling_below_, strike_, elevation_, cue_mass_;
   ArgumentOf<Eigen::Vector2d> tip_;
   Argument batch_, uncertainty_;
-  bool keep_going_ = false;
+  bool keep_going_ = false, gradient_ = false;
   BulkOptions bulk_;
   FigureOptions figure_;
   OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};

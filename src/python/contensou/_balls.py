@@ -444,15 +444,25 @@ class Roll:
 
         The member uncertainty of `contensou roll --uncertainty --format json`: of each number of an event standard, to first
         order, shares of it by name, quantiles of 10 000 samples, and first_order_holds, whether these agree.
-        Raises ValueError for what has no spread or is no spread, for rolling friction, a slope, a load that changes, and the
-        textbook's ball.
+        Raises ValueError for what has no spread or is no spread, a load that changes, and the textbook's ball.
         """
-        if self.textbook or self.load is not None:
-            raise ValueError("uncertainty is of this motion under a constant load, and not of the textbook's")
-        ball = self.ball.but(rolling_friction=self.rolling_friction)
         typed = ",".join([*own, *(f"{name}={spread if isinstance(spread, str) else repr(number(name, spread))}" for name, spread in spreads.items())])
-        found: dict[str, Any] = json.loads(_core.roll_uncertainty(ball._experiment, self.law._core, self.rolling_below, typed))
+        found: dict[str, Any] = json.loads(_core.roll_uncertainty(*self._undisturbed("uncertainty"), typed))
         return found
+
+    def gradient(self) -> dict[str, Any]:
+        """How each number of an event changes with each number of the ball and of its start, the others kept, in SI units:
+        `roll.gradient()["rolls_after"]["t"]["friction"]`, the member gradient of `contensou roll --gradient --format json`.
+        A number at which the events have a corner, as a spin of 0, is left out. To 1e-8, of a motion with rolling friction or
+        on a slope that is integrated to 1e-5.
+        """
+        found: dict[str, Any] = json.loads(_core.roll_gradient(*self._undisturbed("gradient")))
+        return found
+
+    def _undisturbed(self, asked: str) -> tuple[_core.Experiment, _core.Law, float]:
+        if self.textbook or self.load is not None:
+            raise ValueError(f"{asked} is of this motion under a constant load, and not of the textbook's")
+        return self.ball.but(rolling_friction=self.rolling_friction)._experiment, self.law._core, self.rolling_below
 
 
 _place = [("t", "f8"), ("x", "f8"), ("y", "f8")]

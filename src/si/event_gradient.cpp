@@ -1,0 +1,128 @@
+#include "contensou/si/event_gradient.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/course.hpp"
+#include "contensou/si/scaling.hpp"
+
+namespace contensou::si {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+Experiment without_spreads(Experiment experiment) {
+  experiment.spreads = {};
+  return experiment;
+}
+
+}  // namespace
+
+EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& law, double rolling_below)
+    : experiment_(without_spreads(experiment)),
+      described_(describe(experiment_)),
+      law_(law),
+      rolling_below_(rolling_below),
+      flow_(undriven_system(experiment, law)) {
+  const bool flat = experiment.ball.body.lies_flat();
+  if (slip_at_start(experiment) == 0 && spin_at_start(experiment) == 0)
+    throw std::domain_error("it is of a motion, and this is rest");
+  const auto add = [&](const char* event) {
+    for (const auto& [of, unit] : {std::pair{"t", "s"}, {"x", "m"}, {"y", "m"}}) names_.push_back({event, of, unit});
+  };
+  add(flat ? "rest" : "rolls_after");
+  add("spin_ends");
+  if (!flat && resisted()) {
+    const Course<BallMotion> course(experiment_, {experiment_, flow_}, rolling_below_,
+                                    experiment_.contact.rolling_friction);
+    if (course.rest()) add("rest");
+  }
+  names_.insert(names_.end(), {{"slip_length", "", "m"}, {"turns", "", ""}, {"path", "", "m"}, {"t_stop", "", "s"}});
+  for (const Component& each : uncertain_components()) {
+    const bool fixed = flat && each.quantity == &angular_velocity && each.index < 2;
+    if (described_.find(*each.quantity) && !fixed) components_.push_back(each);
+  }
+  values_ = of(experiment_, flow_);
+}
+
+bool EventNumbers::resisted() const {
+  return experiment_.contact.rolling_friction != 0 || experiment_.environment.slope != 0;
+}
+
+double EventNumbers::value(const Component& of) const { return described_.find(*of.quantity)->numbers[of.index]; }
+
+Experiment EventNumbers::with(const std::vector<Component>& components, const VectorXd& values) const {
+  Description changed = described_;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const auto& [quantity, index] = components[i];
+    std::vector<double> numbers = changed.find(*quantity)->numbers;
+    numbers[index] = values[static_cast<Index>(i)];
+    changed.set(*quantity, std::move(numbers), {"", components[i].name(), ""});
+  }
+  return experiment_of(changed);
+}
+
+VectorXd EventNumbers::of(const Experiment& other, const reduction::Flow& flow) const {
+  const Course<BallMotion> course(other, {other, flow}, rolling_below_, other.contact.rolling_friction);
+  const Events events = events_of(course);
+  VectorXd values(static_cast<Index>(names_.size()));
+  Index place = 0;
+  const auto add = [&](const Event& event) {
+    for (double each : {event.t, event.place.x(), event.place.y()}) values[place++] = each;
+  };
+  add(events.rolls);
+  add(events.spin_ends);
+  constexpr Index numbers_by_themselves = 4;
+  if (place + numbers_by_themselves < values.size()) {
+    if (!events.rest) throw std::domain_error("it rolls for ever");
+    add(*events.rest);
+  }
+  const double stop = course.resisted ? course.resisted->stop_time() : course.motion.stop_time();
+  for (double each : {events.slip_length, events.turns, events.path, stop}) values[place++] = each;
+  return values;
+}
+
+VectorXd EventNumbers::of(const Experiment& other) const {
+  const bool same = patch_ratio(other, law_) == flow_.system().mu();
+  return of(other, same ? flow_ : reduction::Flow(undriven_system(other, law_)));
+}
+
+std::optional<VectorXd> EventNumbers::slopes(const Component& by) const {
+  const bool by_velocities = std::holds_alternative<Velocities>(experiment_.start);
+  const Eigen::Vector2d rolls = velocities_of(experiment_.start).angular_velocity.head<2>();
+  const double slip_speed = slip_at_start(experiment_), at = value(by);
+  // What the slip is a length of has a corner where that is 0; the rest at 0 of its own.
+  double scale = std::abs(at);
+  if (by.quantity == &velocity) scale = slip_speed;
+  if (by.quantity == &angular_velocity && by.index < 2) scale = slip_speed / experiment_.ball.radius;
+  if (by.quantity == &radius && by_velocities && rolls != Eigen::Vector2d::Zero())
+    scale = std::min(scale, slip_speed / rolls.norm());
+  if (scale == 0) return std::nullopt;
+  constexpr double share = 1e-3;
+  const double step = share * scale;
+  const auto beside = [&](double steps) { return of(with({by}, VectorXd::Constant(1, at + steps * step))); };
+  try {
+    return (8 * (beside(1) - beside(-1)) - (beside(2) - beside(-2))) / (12 * step);
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+}
+
+EventGradient event_gradient(const EventNumbers& numbers) {
+  EventGradient gradient{numbers.names(), {}, Eigen::MatrixXd(numbers.values().size(), 0)};
+  for (const Component& by : numbers.components()) {
+    const auto slopes = numbers.slopes(by);
+    if (!slopes) continue;
+    gradient.by.push_back(by);
+    gradient.slopes.conservativeResize(Eigen::NoChange, gradient.slopes.cols() + 1);
+    gradient.slopes.rightCols<1>() = *slopes;
+  }
+  return gradient;
+}
+
+}  // namespace contensou::si
