@@ -179,6 +179,7 @@ class OrbitTracer {
   }
 
   std::vector<Seed> seeds(int count) const {
+    if (count == 0) return {};
     struct Step {
       double place, across;
     };
@@ -211,7 +212,6 @@ class OrbitTracer {
       const double fraction = (wanted - before->across) / (after->across - before->across);
       result.push_back(on_border(std::lerp(before->place, after->place, fraction)));
     }
-    if (count == 0) return result;
     for (const auto& curve : flow_.solution().curves()) {
       // A sector between two rays that is too narrow for any of these has one in its middle.
       const auto inside = [&](const Seed& at) { return flow_.solution().through(ln_k(at)) == curve; };

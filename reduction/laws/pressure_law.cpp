@@ -15,8 +15,8 @@ namespace contensou::reduction {
 namespace {
 
 /// C = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)) = Psi(0).
-long double pivoting_moment_of(long double p) {
-  return std::sqrt(std::numbers::pi_v<long double>) / 2 * boost::math::tgamma_delta_ratio(p + 2, 0.5L);
+Wide pivoting_moment_of(Wide p) {
+  return std::sqrt(std::numbers::pi_v<Wide>) / 2 * boost::math::tgamma_delta_ratio(p + 2, Wide{0.5});
 }
 
 /// The smaller speed over the larger, its square, and 1 minus its square without the subtraction.
@@ -34,12 +34,12 @@ Ratio ratio(double smaller, double larger) {
 }  // namespace
 
 struct PressureLaw::Series {
-  explicit Series(long double p)
-      : inner_force(0.5L, -p - 0.5L, 2),
-        inner_moment(0.5L, -p - 1.5L, 1),
-        outer_force(-0.5L, 0.5L, p + 2),
-        outer_moment(0.5L, 0.5L, p + 3),
-        force_slope(static_cast<double>(pivoting_moment_of(p) * (p + 1.5L))),
+  explicit Series(Wide p)
+      : inner_force(0.5, -p - 0.5, 2),
+        inner_moment(0.5, -p - 1.5, 1),
+        outer_force(-0.5, 0.5, p + 2),
+        outer_moment(0.5, 0.5, p + 3),
+        force_slope(static_cast<double>(pivoting_moment_of(p) * (p + 1.5))),
         pivoting_moment(static_cast<double>(pivoting_moment_of(p))),
         outer_scale(static_cast<double>(1 / (2 * (p + 2)))) {}
 

@@ -17,33 +17,33 @@ namespace {
 struct Continuation {
   static constexpr int terms = 48;
 
-  long double a;
-  long double b;
-  long double c;
-  long double x;
-  long double value;
-  long double slope;
+  Wide a;
+  Wide b;
+  Wide c;
+  Wide x;
+  Wide value;
+  Wide slope;
 
   /// Taylor coefficients in powers of (distance/unit).
-  std::array<long double, terms> series(long double unit) const {
-    std::array<long double, terms> f{value, slope * unit};
+  std::array<Wide, terms> series(Wide unit) const {
+    std::array<Wide, terms> f{value, slope * unit};
     for (int i = 0; i + 2 < terms; ++i) {
-      const auto n = static_cast<long double>(i);
-      const long double damping = n * (1 - 2 * x) + c - (a + b + 1) * x;
+      const auto n = static_cast<Wide>(i);
+      const Wide damping = n * (1 - 2 * x) + c - (a + b + 1) * x;
       f[i + 2] =
           unit * ((n + a) * (n + b) * unit * f[i] - (n + 1) * damping * f[i + 1]) / (x * (1 - x) * (n + 1) * (n + 2));
     }
     return f;
   }
 
-  void move_to(long double target) {
-    const long double unit = target - x;
+  void move_to(Wide target) {
+    const Wide unit = target - x;
     const auto f = series(unit);
-    long double sum = 0;
-    long double weighted = 0;
+    Wide sum = 0;
+    Wide weighted = 0;
     for (int n = terms - 1; n > 0; --n) {
       sum += f[n];
-      weighted += static_cast<long double>(n) * f[n];
+      weighted += static_cast<Wide>(n) * f[n];
     }
     value += sum;
     slope = weighted / unit;
@@ -51,13 +51,13 @@ struct Continuation {
   }
 
   /// The series of the panel between here and the far end, in powers of its half width; then to that end.
-  GaussFunction::Panel cross_to(long double end) {
-    const long double half = std::abs(end - x) / 2;
+  GaussFunction::Panel cross_to(Wide end) {
+    const Wide half = std::abs(end - x) / 2;
     move_to((x + end) / 2);
     const auto f = series(half);
     GaussFunction::Panel panel{};
     std::transform(f.begin(), f.begin() + panel.size(), panel.begin(),
-                   [](long double term) { return static_cast<double>(term); });
+                   [](Wide term) { return static_cast<double>(term); });
     move_to(end);
     return panel;
   }
@@ -79,25 +79,25 @@ double on_panel(std::span<const GaussFunction::Panel> panels, double x) {
 
 }  // namespace
 
-GaussFunction::GaussFunction(long double a, long double b, long double c) {
+GaussFunction::GaussFunction(Wide a, Wide b, Wide c) {
   // The terms begin to grow where (|a| + n)(|b| + n) x exceeds (c + n)(1 + n).
-  while (std::max(std::abs(a), std::abs(b)) > std::ldexp(2.0L * std::max(c, 1.0L), near_exponent_)) ++near_exponent_;
+  while (std::max(std::abs(a), std::abs(b)) > std::ldexp(2 * std::max(c, Wide{1}), near_exponent_)) ++near_exponent_;
 
-  Continuation at{a, b, c, std::ldexp(1.0L, -near_exponent_), 0, 0};
+  Continuation at{a, b, c, std::ldexp(Wide{1}, -near_exponent_), 0, 0};
   constexpr int many = 160;  // terms of the series at 0, for the start
-  long double coefficient = 1;
-  long double power = 1;  // x^n
+  Wide coefficient = 1;
+  Wide power = 1;  // x^n
   for (int i = 0; i < many; ++i) {
-    const auto n = static_cast<long double>(i);
+    const auto n = static_cast<Wide>(i);
     if (i < near_terms) near_[static_cast<std::size_t>(i)] = static_cast<double>(coefficient);
     at.value += coefficient * power;
     at.slope += n * coefficient * power / at.x;
     coefficient *= (a + n) * (b + n) / ((c + n) * (1 + n));
     power *= at.x;
   }
-  while (at.x < 0.5L) middle_.insert(middle_.begin(), at.cross_to(2 * at.x));
+  while (at.x < 0.5) middle_.insert(middle_.begin(), at.cross_to(2 * at.x));
 
-  at = {a, b, a + b + 1 - c, 0.5L, at.value, -at.slope};
+  at = {a, b, a + b + 1 - c, 0.5, at.value, -at.slope};
   while (far_.size() < far_panels) far_.push_back(at.cross_to(at.x / 2));
 }
 

@@ -160,13 +160,18 @@ class Plane {
 
   /// What the program draws when asked so of the plane's system; but the orbits that were asked for come by themselves,
   /// for the page to draw: their motions from start to stop, and in each panel the line and where its arrow is.
-  val portrait(const val& asked) {
+  /// @param behind  whether what lies behind them is drawn, too; else it is as it was drawn last, in the same window
+  val portrait(const val& asked, bool behind) {
     return answer([&] {
       answers::PortraitSpec question = question_of(asked, &flow());
       question.request.drawn_only = true;
       question.style.asked = false;
+      if (!behind) {
+        question.request.orbits_per_side = question.request.isochrones = 0;
+        question.request.comparison.reset();
+      }
       const portraits::PhasePortrait portrait = question.portrait();
-      drawn_ = question.mapped_figure(portrait);
+      if (behind) drawn_ = question.mapped_figure(portrait);
       val own = val::array();
       auto through = portrait.through.begin();
       for (const State& start : states_of(asked["orbits"])) {
@@ -178,10 +183,11 @@ class Plane {
         own.set(index, own_orbit(start, orbit, portrait.window));
       }
       const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
-      return object("figure", figure_value(drawn_.figure), "window",
-                    list(std::array{portrait.window.u, portrait.window.v}, [](double side) { return val(side); }),
-                    "own", own, "moments", drawn_.maps.front().state == nullptr, "through",
-                    list(question.request.through, point));
+      val result =
+          object("own", own, "through", list(question.request.through, point), "window",
+                 list(std::array{portrait.window.u, portrait.window.v}, [](double side) { return val(side); }));
+      if (behind) result.set("figure", figure_value(drawn_.figure));
+      return result;
     });
   }
 
@@ -406,8 +412,8 @@ class Plane {
 
 /// {name, meaning} of each law, and of each family also what its number is: {letter, example}.
 val laws() {
-  val all = list(reduction::named_laws(), [](const Law& law) {
-    return object("name", law.name(), "meaning", reduction::meaning_of_law(law.name()));
+  val all = list(reduction::names_of_laws(), [](std::string_view name) {
+    return object("name", name, "meaning", reduction::meaning_of_law(name));
   });
   for (const reduction::LawFamily& family : reduction::law_families()) {
     all.call<void>("push", object("name", family.name, "meaning", family.meaning, "letter", family.letter, "example",
@@ -433,12 +439,14 @@ val bodies() {
   });
 }
 
-/// {name, layered}: whether isochrones and a field are drawn in it. Not of the view of beta: there a click is no moment.
+/// {name, layered: whether isochrones and a field are drawn in it, moments: whether its points are moments and not
+/// states}. Not of the view of beta: there a click is no moment.
 val views() {
   std::vector<portraits::View> shown = portraits::views();
   std::erase(shown, portraits::View::regularised);
   return list(shown, [](portraits::View view) {
-    return object("name", portraits::name(view), "layered", portraits::shows_window(view));
+    return object("name", portraits::name(view), "layered", portraits::shows_window(view), "moments",
+                  portraits::shows_moments(view));
   });
 }
 

@@ -20,7 +20,7 @@ interface Ball {
 
 interface Law { name: string; meaning: string; letter?: string; example?: number }
 interface Body { name: string; chi: number; gamma: number; mu?: number }
-interface View { name: string; layered: boolean }
+interface View { name: string; layered: boolean; moments: boolean }
 interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number; without: string }
 
 /** What one portrait is asked for by: portrait_request.js. */
@@ -63,7 +63,7 @@ interface Layout {
   legend: { legend: Words; x: number; y: number; width: number }[]; colours: Box[];
 }
 interface Box { left: number; top: number; width: number; height: number }
-interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; moments: boolean; through: Speeds[] }
+interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; through: Speeds[] }
 
 interface Library {
   laws: Law[]; bodies: Body[]; balls: Ball[]; views: View[]; rollingSlip: number; plane: LibraryPlane;
@@ -80,7 +80,7 @@ interface Measured { ball: string; columns: Columns }
 interface Fitted { measured: Columns; report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number; figure: Figure }
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number, drive: number): { terminalRatio: number; meaning: string };
-  portrait(request: PortraitRequest): Portrait;
+  portrait(request: PortraitRequest, behind: boolean): Portrait;
   stop(u: number, v: number): number;
   stopBy(law: string, mu: number, u: number, v: number): number;
   instant(u: number, v: number, tau: number): Instant;

@@ -79,6 +79,34 @@ test("while a start is held, all that stop at one time with it are a line throug
   await close();
 });
 
+test("while a start is held, what lies behind it stays; then it is what a link to it draws", async () => {
+  const plane = async () => {
+    await page.evaluate(() => globalThis.page.store.move({ fraction: 0.5 }));
+    await drawn();
+    return page.evaluate(() => document.getElementById("plane").toDataURL());
+  };
+  const behind = () => page.evaluate(() => (globalThis.seen ??= []).push(globalThis.page.planeScene.figure) && new Set(globalThis.seen).size);
+  const link = "#ball=gel&window=11,0.6&orbits=9,0.5;-4,0.5&chosen=1&view=pair";
+  await open(link);
+  await behind();
+  await page.mouse.move(...await pixelOf(-4, 0.5));
+  await page.mouse.down();
+  for (const v of [0.45, 0.4, 0.35]) {
+    await page.mouse.move(...await pixelOf(-3, v), { steps: 4 });
+    assert.equal(await behind(), 2);
+  }
+  await page.mouse.up();
+  assert.equal(await behind(), 3);
+  const { orbits: [, { u, v }] } = await state();
+  await page.evaluate(() => globalThis.page.plane.copies.pull = null);
+  await page.evaluate(() => globalThis.page.plane.copies.ghosts = []);
+  const picture = await plane();
+  await close();
+  await open(link.replace("-4,0.5", `${u},${v}`));
+  assert.ok(picture === await plane(), "the picture of the link");
+  await close();
+});
+
 test("keys make copies, too, twice as large in two steps", async () => {
   await open();
   const { orbits: [before] } = await state();

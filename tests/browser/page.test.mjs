@@ -648,7 +648,7 @@ test("all views are drawn, and a click in each starts the orbit that it points a
     await drawn();
     const picture = await page.evaluate(() => document.getElementById("plane").toDataURL());
     pictures.add(picture);
-    const panels = await page.evaluate(() => globalThis.page.frames.map(() => !globalThis.page.store.portrait.moments));
+    const panels = await page.evaluate(() => globalThis.page.frames.map(() => !globalThis.page.store.view.moments));
     for (const panel of panels.keys()) {
       if (!panels[panel]) continue;
       // Where no orbit is near, which a click would choose.

@@ -21,9 +21,9 @@ export function makePresets(library, go) {
     return link;
   });
   $("presets").append(...links);
+  const motions = presets.map(({ fragment }) => motionOf(fromFragment(fragment, library)));
   return (state) => {
-    const motion = motionOf(state);
-    chosen = presets.findIndex(({ fragment }) => motionOf(fromFragment(fragment, library)) === motion);
+    chosen = motions.indexOf(motionOf(state));
     links.forEach((link, index) => link.setAttribute("aria-current", String(index === chosen)));
     say(chosen);
   };

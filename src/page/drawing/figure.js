@@ -24,11 +24,11 @@ export const figureOf = (theme, shape, panels) => ({ title: "", ...shape, panels
  * @param {unknown[]} keys      what the figure depends on
  * @param {() => Figure} make
  * @param {import("../state/store.js").Store} store
- * @param over      draws in a panel, over its lines
  * @param covered   something that moves is drawn over it
+ * @param labelled  else what lies over its lines is drawn later
  * @returns {Frame[]} of the panels
  */
-export function drawFigure(surface, keys, make, store, over = (/** @type {number} */ _panel, /** @type {Frame} */ _frame) => {}, covered = true) {
+export function drawFigure(surface, keys, make, store, { covered = true, labelled = true } = {}) {
   const { library, theme } = store;
   return surface.still([...keys, theme], theme.card, () => {
     const figure = make();
@@ -36,18 +36,12 @@ export function drawFigure(surface, keys, make, store, over = (/** @type {number
     const letter = Math.min(theme.textSize, (surface.width * library.rowsOf(figure, surface.width)) / figure.panels.length / leastWidth);
     const layout = library.layOut(figure, surface.width, surface.height, letter);
     const style = { colour: figure.ink, baseline: "middle" };
-    const frames = figure.panels.map(({ x, y }, i) => new Frame(layout.panels[i].box, x, y));
+    const frames = figure.panels.map(({ x, y }, i) => new Frame(layout.panels[i].box, x, y, letter));
     figure.panels.forEach((panel, i) => {
       const frame = frames[i];
-      surface.inside(frame, () => {
-        drawLayers(surface, figure, panel, frame);
-        over(i, frame);
-      });
-      for (const marks of panel.marks) drawMarks(surface, figure, marks, frame.lines(marks.points).flat());
+      surface.inside(frame, () => drawLayers(surface, figure, panel, frame));
       if (!panel.bare) drawAxes(surface, frame, layout.panels[i], figure.faint, tickSize * letter);
-      for (const { x, y, text, colour, align } of panel.labels) {
-        surface.text(frame.px(x), frame.py(y), text, { ...style, colour, size: 0.92 * letter, align, halo: figure.ground });
-      }
+      if (labelled) drawLabels(surface, figure, panel, frame);
     });
     // From the bottom up.
     layout.colours.forEach((box, i) => surface.shape([borderOf(box)], { fill: figure.colourBar?.colours[i] }));
@@ -72,8 +66,14 @@ export function drawFigure(surface, keys, make, store, over = (/** @type {number
 export function drawPortrait(surface, scene, store) {
   const { figure, isochrone, marker, cross, ghosts } = scene;
   const { theme } = store;
-  // The orbits of the reader come with the figure.
-  const frames = drawFigure(surface, [figure, isochrone, ghosts], () => figure, store, (panel, frame) => drawOwn(surface, scene, panel, frame, theme));
+  const frames = surface.still([figure, store.motions, isochrone, ghosts, theme], theme.card, () => {
+    const frames = drawFigure(surface, [figure], () => figure, store, { labelled: false });
+    frames.forEach((frame, i) => {
+      surface.inside(frame, () => drawOwn(surface, scene, i, frame, theme));
+      drawLabels(surface, figure, figure.panels[i], frame);
+    });
+    return frames;
+  });
   frames.forEach((frame, i) => {
     if (marker) {
       const [x, y] = frame.pixel(marker.places, 2 * i);
@@ -85,6 +85,14 @@ export function drawPortrait(surface, scene, store) {
     }
   });
   return frames;
+}
+
+/** Points and words, which lie over lines. */
+function drawLabels(surface, figure, { marks, labels }, frame) {
+  for (const layer of marks) drawMarks(surface, figure, layer, frame.lines(layer.points).flat());
+  for (const { x, y, text, colour, align } of labels) {
+    surface.text(frame.px(x), frame.py(y), text, { colour, size: 0.92 * frame.letter, align, baseline: "middle", halo: figure.ground });
+  }
 }
 
 function drawAxes(surface, frame, { x, y }, colour, size) {

@@ -7,12 +7,14 @@ export class Frame {
    * @param {Box} place
    * @param {Range} x
    * @param {Range} y
+   * @param letter  the size of words in it
    */
-  constructor(place, x, y) {
+  constructor(place, x, y, letter = 0) {
     this.left = place.left;
     this.top = place.top;
     this.width = place.width;
     this.height = place.height;
+    this.letter = letter;
     this.x = x;
     this.y = y;
   }

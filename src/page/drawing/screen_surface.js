@@ -8,16 +8,18 @@ export class ScreenSurface extends CanvasSurface {
   size = { width: 0, height: 0 };
   inSight = true;
   late = false;  // what is there now has still to be drawn
-  /** @type {{key: unknown[], value?: unknown, picture?: HTMLCanvasElement}} */
-  kept = { key: [] };
+  /** @type {{key: unknown[], value?: unknown, picture?: HTMLCanvasElement}[]} pictures of `still`, each with the next in it */
+  kept = [];
+  depth = 0;
 
   /** @param picture  draws on the surface, also when the page gives the canvas another size */
   constructor(canvas, picture) {
     super(canvas);
     this.picture = picture;
     new ResizeObserver(() => {
+      const { width, height } = this.size;
       this.measure();
-      this.draw();
+      if (width !== this.size.width || height !== this.size.height) this.draw();
     }).observe(canvas);
     new IntersectionObserver(([{ isIntersecting }]) => {
       this.inSight = isIntersecting;
@@ -61,7 +63,7 @@ export class ScreenSurface extends CanvasSurface {
 
   /**
    * Begins a picture with its ground and what stays while only the moment moves: a copy, unless something in `keys` has
-   * changed.
+   * changed. In `draw` another may begin, which stays for longer.
    *
    * @template Value
    * @param {unknown[]} keys
@@ -71,7 +73,8 @@ export class ScreenSurface extends CanvasSurface {
    * @returns {Value} what `draw` has returned
    */
   still(keys, ground, draw, covered = true) {
-    const { canvas, context, kept } = this;
+    const { canvas, context } = this;
+    const kept = (this.kept[this.depth] ??= { key: [] });
     const ratio = globalThis.devicePixelRatio || 1;
     const size = { width: Math.round(this.width * ratio), height: Math.round(this.height * ratio) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
@@ -82,13 +85,18 @@ export class ScreenSurface extends CanvasSurface {
     if (again && kept.picture) context.drawImage(kept.picture, 0, 0, size.width / ratio, size.height / ratio);
     else {
       this.shape([borderOf(this)], { fill: ground });
-      this.kept = { key, value: draw() };
+      this.depth += 1;
+      try {
+        Object.assign(kept, { key, value: draw(), picture: undefined });
+      } finally {
+        this.depth -= 1;
+      }
     }
     // What changes at each drawing is not worth a copy.
     if (again && !kept.picture) {
-      this.kept.picture = Object.assign(document.createElement("canvas"), size);
-      this.kept.picture.getContext("2d")?.drawImage(canvas, 0, 0);
+      kept.picture = Object.assign(document.createElement("canvas"), size);
+      kept.picture.getContext("2d")?.drawImage(canvas, 0, 0);
     }
-    return /** @type {Value} */ (this.kept.value);
+    return /** @type {Value} */ (kept.value);
   }
 }

@@ -25,7 +25,7 @@ export function drawCopies(surface, store, { copies, sizes }) {
     { ...motion, start: orbit, colour: theme.swatch(chosen), width: 3 },
   ];
   if (!first) return surface.still([theme], theme.card, () => {});
-  drawFigure(surface, [motions, pull, sizes.from, copies.ghosts, chosen], () => figureOf(theme, shape, panelsOf(curves(), first, theme)), store, undefined, false);
+  drawFigure(surface, [motions, pull, sizes.from, copies.ghosts, chosen], () => figureOf(theme, shape, panelsOf(curves(), first, theme)), store, { covered: false });
 }
 
 /** The four panels: v and u over their starts, the strip, stop times by sizes. */

@@ -65,10 +65,10 @@ export class Plane {
   // --- drawing -----------------------------------------------------------------------------------------------------
 
   scene() {
-    const { state, portrait, motion, now, isochrone, library } = this.store;
+    const { state, portrait, motion, now, isochrone, library, view } = this.store;
     const own = portrait.own.map((orbit, index) => {
       const { u, v } = state.orbits[index];
-      return { ...orbit, index, chosen: index === state.chosen, start: portrait.moments ? null : library.plane.place(u, v) };
+      return { ...orbit, index, chosen: index === state.chosen, start: view.moments ? null : library.plane.place(u, v) };
     });
     return {
       figure: portrait.figure, isochrone, ghosts: this.copies.now ? this.copies.ghosts : none,
@@ -140,7 +140,7 @@ export class Plane {
   choose(x, y, kind) {
     const { store } = this;
     const at = this.panelAt(x, y);
-    if (at && store.portrait.moments && store.motion) return store.move({ fraction: Math.min(1, (at.x * store.motion.stop) / store.end) });
+    if (at && store.view.moments && store.motion) return store.move({ fraction: Math.min(1, (at.x * store.motion.stop) / store.end) });
     const index = kind === "key" ? null : this.startAt(x, y, kind) ?? this.orbitAt(x, y, kind);
     const start = this.pointed(x, y);
     if (index !== null) this.act.ask((state) => Object.assign(state, { chosen: index, fraction: 0 }));
@@ -170,8 +170,9 @@ export class Plane {
       state.orbits[index] = moved(state.orbits[index], u, v);
       Object.assign(state, { chosen: index, fraction: 0, isochrone });
     }, () => {
+      const { ghosts } = this.copies;
       this.announce(this.copies.note());
-      this.draw();
+      if (ghosts !== this.copies.ghosts) this.draw();
     });
   }
 

@@ -13,12 +13,12 @@ export class Address {
     this.store = store;
     // While the reader holds something, what he makes of it is one change.
     addEventListener("pointerdown", () => {
-      this.held = true;
+      store.held = true;
       clearTimeout(this.timer);
     }, true);
     for (const end of ["pointerup", "pointercancel"]) {
       addEventListener(end, () => {
-        this.held = false;
+        store.release();
         this.rememberSoon();
       }, true);
     }
@@ -30,7 +30,7 @@ export class Address {
 
   rememberSoon() {
     clearTimeout(this.timer);
-    if (!this.held) this.timer = setTimeout(() => this.remember(), pause);
+    if (!this.store.held) this.timer = setTimeout(() => this.remember(), pause);
   }
 
   remember() {

@@ -17,6 +17,8 @@ export class Store {
   redraws = [];
   kept = new Map();
   settled = false;
+  held = false;    // something by the reader, whose changes are one until he lets go
+  isLate = false;  // what lies behind the orbits is as it was when he took hold of it
   /** @type {Contact | null} */
   contact = null;
   request = /** @type {PortraitRequest} */ ({});
@@ -66,6 +68,14 @@ export class Store {
     if (this.redraws.length > 200) this.redraws.shift();
   }
 
+  /** The reader has let go: what lies behind his orbits makes room for them. */
+  release() {
+    this.held = false;
+    if (!this.isLate) return;
+    this.compute(this.state);
+    this.move({});
+  }
+
   /** Changes the moment or the isochrone, from which nothing else follows. */
   move(values) {
     Object.assign(this.state, values);
@@ -100,7 +110,15 @@ export class Store {
     const ofSystem = (name, key, make) => this.keep(name, [...system, ...key], make);
     this.facts = ofSystem("facts", [], () => plane.choose(...system));
     this.request = portraitRequest(state, { chi, gamma, drive, resistance: this.contact?.without ? 0 : rolling }, isDark(state.theme));
-    this.portrait = this.keep("portrait", this.request, () => plane.portrait(this.request));
+    // While the reader holds something, what lies behind his orbits stays where its window does.
+    const stays = this.held && state.window !== null && !this.viewOf(state).moments;
+    const behind = { ...this.request, orbits: [], chosen: 0, ball: null };
+    this.portrait = this.keep("portrait", stays ? behind : this.request, () => {
+      this.kept.delete("own");
+      return plane.portrait(this.request, true);
+    });
+    if (stays) this.portrait = { ...this.portrait, ...this.keep("own", this.request, () => plane.portrait(this.request, false)) };
+    this.isLate = stays;
     this.motions = this.portrait.own;
     const { against } = this.request;
     this.others = against ? ofSystem("others", [against, state.ball, state.orbits], () => {
@@ -157,7 +175,11 @@ export class Store {
   }
 
   get view() {
-    return described(this.library.views.find(({ name }) => name === this.state.view));
+    return this.viewOf(this.state);
+  }
+
+  viewOf(/** @type {State} */ { view }) {
+    return described(this.library.views.find(({ name }) => name === view));
   }
 
   get orbit() {
