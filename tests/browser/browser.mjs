@@ -13,6 +13,10 @@ export const folder = mkdtempSync(join(tmpdir(), "contensou-page-"));
 export const file = join(folder, "page.html");
 const address = pathToFileURL(file).href;
 
+const help = execFileSync(program, ["help", "views"], { encoding: "utf8" });
+// The view of beta is the program's alone: a click in it is no moment.
+export const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name).filter((name) => name !== "regularised");
+
 let browser;
 export let page;
 let complaints;
@@ -55,9 +59,12 @@ export async function close(expected = []) {
 export const stopTimes = () => page.$$eval("#orbits li", (items) => items.map((item) => Number(item.dataset.tau)));
 export const state = () => page.evaluate(() => globalThis.page.state);
 
-export function programStop(...words) {
-  return JSON.parse(execFileSync(program, ["stop", ...words.map(String), "--format", "json"], { encoding: "utf8" })).tau_stop;
-}
+/** An answer of the program. */
+export const json = (...words) => JSON.parse(execFileSync(program, [...words.map(String), "--format", "json"], { encoding: "utf8" }));
+export const programStop = (...words) => json("stop", ...words).tau_stop;
+
+/** How the body of the chosen orbit slides, and one that does not spin. */
+export const slides = () => page.evaluate(() => [globalThis.page.store.ride.own, globalThis.page.store.ride.plain]);
 
 export function assertClose(measured, wanted, tolerance, what) {
   const error = Math.abs(measured / wanted - 1);

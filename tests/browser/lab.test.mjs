@@ -5,9 +5,8 @@ import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assertClose, close, drawn, folder, open, page, program, saved, state, stopTimes } from "./browser.mjs";
+import { assertClose, close, drawn, folder, json, open, page, program, saved, state, stopTimes } from "./browser.mjs";
 
-const json = (...words) => JSON.parse(execFileSync(program, [...words, "--format", "json"], { encoding: "utf8" }));
 const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 const inLab = ["#columns", "#views", "#mu-control", "#friction-control"];
 

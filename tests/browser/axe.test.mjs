@@ -1,0 +1,33 @@
+// Whoever reads the page by a screen reader or by keys, in each of its states, by the rules of axe.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { close, open, page } from "./browser.mjs";
+
+test("axe finds nothing to complain of", async () => {
+  const film = async () => {
+    await page.setInputFiles("#film", { name: "film.csv", mimeType: "text/csv", buffer: Buffer.from(`t,spin\n${Array.from({ length: 30 }, (_, i) => `${i / 20},${100 - 0.5 * i + Math.sin(99 * i)}`).join("\n")}\n`) });
+    await page.locator("#film-report").filter({ visible: true }).waitFor();
+  };
+  const wrong = async () => {
+    await page.setInputFiles("#film", { name: "film.csv", mimeType: "text/csv", buffer: Buffer.from("t,slip\n0,x\n") });
+    await page.fill("#mu", "7");
+    await page.fill("#png-width", "7");
+  };
+  for (const [fragment, options, act] of [["", {}], ["", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" }],
+    ["#law=pressure:2&body=own&mu=0.3&view=pair&orbits=0.8,3.5;0.5,1&isochrone=3&against=pade", {}],
+    ["#ball=pool&rollingFriction=0.01&part=whole", { colorScheme: "dark" }, film], ["#ball=pool", { viewport: { width: 390, height: 844 } }, film], ["#ball=puck", {}], ["#ball=pool", {}, wrong],
+    ["#law=exact&mu=0.3&orbits=", {}, null], ["#embed", {}, null], ["#embed", { colorScheme: "dark", viewport: { width: 390, height: 844 } }, null]]) {
+    await open(fragment, options, act !== null);
+    await act?.();
+    if (act !== null) {
+      await page.click("#checks-card summary");
+      await page.waitForFunction(() => document.querySelectorAll("#checks tbody tr").length >= 8);
+    }
+    await page.addScriptTag({ content: readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8") });
+    const { violations } = await page.evaluate(() => globalThis.axe.run());
+    assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`), []);
+    await close();
+  }
+});
