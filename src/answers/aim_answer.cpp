@@ -1,7 +1,6 @@
 #include "answers/aim_answer.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
@@ -23,6 +22,7 @@ struct AimReport {
   si::FinalMotion final;
   std::optional<si::Event> rolls;  ///< of a ball
   std::optional<si::CueStrike> strike;
+  std::optional<si::Event> rest;  ///< with rolling friction
 
   bool is_ball() const { return !experiment.ball.body.lies_flat(); }
 };
@@ -33,11 +33,13 @@ constexpr Field<AimReport> aim_row[]{
     {"slip", "m/s", "the start: sliding speed, along x; of a ball that does not roll yet, that of its centre",
      [](const AimReport& r) -> Json { return r.start.slip; }},
     {"spin", "1/s", "the start: about the vertical", [](const AimReport& r) -> Json { return r.start.spin; }},
-    {"distance", "m", "of the centre, when slip and spin end", [](const AimReport& r) -> Json { return r.distance; }},
+    {"distance", "m", "of the centre, when slip and spin end, with rolling friction at rest",
+     [](const AimReport& r) -> Json { return r.distance; }},
     {"turns", "", "about the vertical, until then", [](const AimReport& r) -> Json { return r.turns; }},
-    {"time", "s", "when slip and spin end", [](const AimReport& r) -> Json { return r.time; }},
-    {"final_velocity", "m/s", "of a ball: how fast it rolls then",
-     [](const AimReport& r) { return r.is_ball() ? Json(r.final.velocity.x()) : Json(); }},
+    {"time", "s", "when slip and spin end, with rolling friction all motion",
+     [](const AimReport& r) -> Json { return r.time; }},
+    {"final_velocity", "m/s", "of a ball without rolling friction: how fast it rolls then",
+     [](const AimReport& r) { return r.is_ball() && !r.rest ? Json(r.final.velocity.x()) : Json(); }},
     {"rolls_after", "s, m, m, m/s", "of a ball: when and where its slip is below the threshold",
      [](const AimReport& r) -> Json {
        if (!r.rolls) return {};
@@ -46,6 +48,8 @@ constexpr Field<AimReport> aim_row[]{
        return members;
      },
      "", 0, " {`t`, `x`, `y`, `threshold`}"},
+    {"rest", "s, m, m", "of a ball with rolling friction: when and where its centre rests",
+     [](const AimReport& r) { return r.rest ? members_of(*r.rest) : Json(); }, "", 0, " {`t`, `x`, `y`}"},
     {"strike", "m/s; 1; kg",
      "of a ball: the level stroke that starts it, of a cue of this mass; right of the centre in radii",
      [](const AimReport& r) -> Json {
@@ -68,12 +72,13 @@ std::string text_of(const AimReport& r, const Digits& number) {
         fmt::format("       no level stroke gives it: its tip would meet the ball more than {} radii off the centre\n",
                     number(si::largest_tip_offset));
   }
-  text += fmt::format("end    {} m from the start, after {} turns and {} s: slip and spin end\n", number(r.distance),
-                      number(r.turns), number(r.time));
+  text += fmt::format("end    {} m from the start, after {} turns and {} s: {} end\n", number(r.distance),
+                      number(r.turns), number(r.time), r.rest ? "rolling and spin" : "slip and spin");
   if (r.is_ball()) {
-    text += fmt::format("       it rolls on at {} m/s; its slip is below {} m/s from {} s and {} m on\n",
-                        number(r.final.velocity.x()), number(si::rolling_slip), number(r.rolls->t),
-                        number(r.rolls->place.x()));
+    text += fmt::format("       it {}; its slip is below {} m/s from {} s and {} m on\n",
+                        r.rest ? fmt::format("rests after {} s", number(r.rest->t))
+                               : fmt::format("rolls on at {} m/s", number(r.final.velocity.x())),
+                        number(si::rolling_slip), number(r.rolls->t), number(r.rolls->place.x()));
   }
   return text;
 }
@@ -84,25 +89,27 @@ Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const si
   const reduction::Flow flow(si::undriven_system(experiment, law));
   const si::SlipAndSpin start = si::aimed(experiment, flow, goal);
   experiment.start = start;
-  const si::BallMotion motion(experiment, flow);
-  const double time = motion.stop_time();
+  const double u_r = experiment.contact.rolling_friction;
+  const si::Course<si::BallMotion> course(experiment, {experiment, flow}, si::rolling_slip, u_r);
+  const double time = course.resisted ? course.resisted->last_time() : course.motion.stop_time();
   si::require_finite_motion(experiment, time);
+  const std::optional<si::Event> rest = course.rest();
   std::optional<si::Event> rolls;
   std::optional<si::CueStrike> strike;
   if (!experiment.ball.body.lies_flat()) {
-    const double t = motion.slip_time(si::rolling_slip);
-    rolls = si::Event{t, motion.at_time(t).position};
+    rolls = course.event(course.rolls);
     strike = si::level_strike(experiment.ball, start);
   }
   AimReport report{experiment,
                    law,
                    start,
-                   motion.at_time(time).position.x(),
-                   motion.spin_angle() / (2 * std::numbers::pi),
+                   rest ? rest->place.x() : course.at_time(time).position.x(),
+                   course.turns(),
                    time,
                    si::final_motion(experiment),
                    rolls,
-                   strike};
+                   strike,
+                   rest};
   Answer answer{.members = members_of(aim_row, report), .rows = {row_of(aim_row, report)}};
   answer.text = [report = std::move(report)](const Digits& digits) { return text_of(report, digits); };
   return answer;

@@ -1,6 +1,7 @@
 #include "contensou/si/aim.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/aim.hpp"
+#include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::si {
@@ -47,11 +49,85 @@ std::string out_of_reach(const Goal& goal, double least) {
                   "in place");
 }
 
+/// The start of a ball with rolling friction that has turned so often when nothing moves any more, and rests after a
+/// distance or has taken so long. Lengths and turns go with the square of the speeds and times with them, but for
+/// resting_slip; so the ratio k at the start is the root of a quotient (reduction/README.md), and the speeds follow.
+/// @param goal  of which turns is one
+SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Law& law, const Goal& goal) {
+  struct Reached {
+    double turns, other;  ///< other: what goes with the square of the speeds, too, distance or the square of the time
+  };
+  const double R = experiment.ball.radius, turns = std::abs(*goal.turns);
+  const double other = goal.distance ? *goal.distance : *goal.time * *goal.time;
+  const auto flows = std::make_shared<ResistedFlows>();
+  const auto reached = [&](const SlipAndSpin& start) -> Reached {
+    Experiment shot = experiment;
+    shot.start = start;
+    const ResistedMotion motion(shot, law, experiment.contact.rolling_friction, false, flows);
+    const double time = motion.last_time();
+    return {motion.spin_angle() / (2 * std::numbers::pi), goal.distance ? motion.rest_position().x() : time * time};
+  };
+  // A start with these speeds, and from it the one of the same kind that comes to what is asked for.
+  const auto settled = [&](const auto& start_of) {
+    double speed = 1;
+    constexpr int most = 40;
+    for (int i = 0; i < most; ++i) {
+      const SlipAndSpin start = start_of(speed);
+      const Reached at = reached(start);
+      const double factor = std::sqrt(turns > 0 ? turns / at.turns : other / at.other);
+      constexpr double rounding = 1e-11;
+      if (std::abs(factor - 1) < rounding) return start;
+      speed *= factor;
+    }
+    throw std::runtime_error("aim: no scale of the start was found");
+  };
+  if (turns == 0 && other == 0) return {0, 0};
+  if (turns == 0) return settled([](double speed) { return SlipAndSpin{speed, 0}; });
+  const auto in_place = [&](double speed) { return SlipAndSpin{0, speed / R}; };
+  if (goal.time) {
+    const Reached soonest = reached(in_place(1));
+    if (const double least = std::sqrt(soonest.other * turns / soonest.turns); *goal.time < least)
+      throw std::domain_error(out_of_reach(goal, least));
+  }
+  if (other == 0) return settled(in_place);
+  const double mu = patch_ratio(experiment, law);
+  const SlipAndSpin found = settled([&](double speed) {
+    SlipAndSpin start{};
+    double low = -30, high = 30;  // of ln k; beyond, a start spins or slides alone, to rounding
+    constexpr int halvings = 60;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = (low + high) / 2, slip = mu * std::exp(middle), size = std::hypot(slip, 1);
+      start = {speed * slip / size, speed / size / R};
+      const Reached at = reached(start);
+      (at.other * turns < other * at.turns ? low : high) = middle;
+    }
+    return start;
+  });
+  constexpr double close = 1e-6;
+  if (const double there = reached(found).other; std::abs(there - other) > close * other) {
+    throw std::domain_error(fmt::format(
+        "no start comes to {} turns and this {}: so close to a start that {} alone there is none that rests there",
+        *goal.turns, goal.distance ? "distance" : "time", there > other ? "spins" : "slides"));
+  }
+  return {found.slip, std::copysign(found.spin, *goal.turns)};
+}
+
 }  // namespace
 
 SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal) {
-  require_undriven(experiment, "aim");
   require_goal(goal);
+  if (experiment.environment.slope != 0) {
+    throw std::domain_error(
+        fmt::format("aim knows no slope: on one of {} degrees a ball may roll for ever, and one distance may have "
+                    "several starts; --slope 0 leaves it out",
+                    experiment.environment.slope));
+  }
+  if (experiment.contact.rolling_friction != 0) {
+    if (goal.turns) return aimed_to_rest(experiment, flow.system().law(), goal);
+    throw std::domain_error(
+        "with rolling friction one distance in one time may have two starts, a slow spin and a fast one: give turns "
+        "with one of them; --rolling-friction 0 leaves it out");
+  }
   const double second = 1 / seconds(experiment, 1);  // in the paper's time; of lengths the same
   const double turn = 2 * std::numbers::pi * experiment.ball.radius;
   const auto times = [](const std::optional<double>& value, double factor) {

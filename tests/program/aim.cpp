@@ -1,4 +1,5 @@
 // `aim`: against `stop` and `roll`, which go the other way.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -115,7 +116,42 @@ TEST_CASE("what aim cannot reach, and what it refuses", "[cli][errors]") {
   check_rejected("aim --ball pool --distance -1 --time 1", "distance must be finite and >= 0, got -1");
   check_rejected("aim --ball pool --distance 1kg --time 1", "'1kg'");
   check_rejected("aim --distance 1 --time 1", "--ball");
-  check_rejected("aim --ball pool --slope 2 --distance 1 --time 1", "knows neither rolling friction nor a slope");
-  check_rejected("aim --ball pool --rolling-friction 0.01 --distance 1 --time 1",
-                 "neither rolling friction nor a slope");
+  check_rejected("aim --ball pool --slope 2 --distance 1 --time 1", "aim knows no slope");
+  check_rejected("aim --ball pool --rolling-friction 0.01 --distance 1 --time 1", "may have two starts");
+  check_rejected("aim --ball pool --rolling-friction 0.01 --distance 1 --turns 1 -o x.svg",
+                 "the plane of aims knows neither rolling friction nor a slope");
+  check_rejected("aim --ball pool --rolling-friction 0.01 --turns 100 --time 1",
+                 "no start comes to 100 turns in 1 s: that takes ");
+}
+
+TEST_CASE("aim with rolling friction: the motion from its start comes to the goal", "[cli]") {
+  const auto motion_from = [](const nlohmann::json& aimed) {
+    return json_of(
+        fmt::format("roll --ball pool --rolling-friction 0.01 --format json --samples 2 --slip {:.17g} "
+                    "--spin {:.17g}",
+                    aimed.at("slip").get<double>(), aimed.at("spin").get<double>()));
+  };
+  const std::string aim = "aim --ball pool --rolling-friction 0.01 --format json ";
+  for (const auto& [distance, turns] : {std::pair{2.0, -30.0}, {0.5, 3.0}, {3.0, 0.0}, {0.0, 5.0}}) {
+    const auto aimed = json_of(aim + fmt::format("--distance {} --turns {}", distance, turns));
+    const auto motion = motion_from(aimed);
+    INFO(distance << ' ' << turns);
+    CHECK(motion.at("rest").at("x").get<double>() == Approx(distance).epsilon(1e-9).margin(1e-12));
+    CHECK(motion.at("turns").get<double>() == Approx(turns).epsilon(1e-9).margin(1e-12));
+    CHECK(aimed.at("rest").at("t") == motion.at("rest").at("t"));
+    CHECK_FALSE(aimed.contains("final_velocity"));
+  }
+  const auto aimed = json_of(aim + "--turns 30 --time 9");
+  const auto motion = motion_from(aimed);
+  CHECK(motion.at("turns").get<double>() == Approx(30).epsilon(1e-9));
+  CHECK(std::max(motion.at("rest").at("t").get<double>(), motion.at("t_stop").get<double>()) ==
+        Approx(9).epsilon(1e-9));
+  CHECK_THAT(run_program("aim --ball pool --rolling-friction 0.01 --distance 2 --turns 30").out,
+             Contains("rolling and spin end"));
+  // Two starts that come as far in the same time: why distance and time are refused.
+  for (const auto& [slip, spin] : {std::pair{1.097088, 78.541367}, {1.098345, 48.564403}}) {
+    const auto two = motion_from({{"slip", slip}, {"spin", spin}});
+    CHECK(two.at("rest").at("x").get<double>() == Approx(3.1690917).epsilon(1e-5));
+    CHECK(std::max(two.at("rest").at("t").get<double>(), two.at("t_stop").get<double>()) == Approx(8).epsilon(1e-5));
+  }
 }

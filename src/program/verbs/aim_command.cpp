@@ -13,7 +13,9 @@ namespace {
 class AimCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    distance_.add(app, "--distance", "LENGTH", "of the centre from the start, when slip and spin end", quantity("m"));
+    distance_.add(app, "--distance", "LENGTH",
+                  "of the centre from the start, when slip and spin end, with rolling friction when it rests",
+                  quantity("m"));
     turns_.add(app, "--turns", "N", "about the vertical until then, of either sign", number);
     time_.add(app, "--time", "TIME", "when slip and spin end; two of the three decide the start", quantity("s"));
     start_.add_ball(app, "a ball in SI units, built in or from a run file; its own start does not count",
@@ -26,11 +28,11 @@ class AimCommand final : public Verb {
   ExitStatus run() override {
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment ball = start_.read_ball(law, at_rest("aim"));
-    start_.require_undriven(ball, "aim");
     const Output output = output_.read();
     figure_.require_picture(output);
     const si::Goal goal{distance_.optional(), turns_.optional(), time_.optional()};
     if (output.picture()) {
+      start_.require_undriven(ball, "the plane of aims");
       output.write({figure_.apply(aim_figure(ball, law, goal, figure_.size()), output.format)});
     } else {
       output.write(aim_answer(ball, law, goal));

@@ -26,7 +26,9 @@ def aim(
     and what it comes to: distance, turns, time; of a ball also final_velocity, rolls_after, and strike, the stroke of a cue
     that starts it, if there is one. The ball's own start does not count.
 
-    Raises ValueError where no start comes to both, with what is nearest, and for rolling friction or a slope.
+    Raises ValueError where no start comes to both, with what is nearest, for a slope, and for distance
+    with time of a ball with rolling friction, of which several starts may come there. Such a ball is asked where it rests, and
+    when all motion ends.
     """
     found: dict[str, Any] = json.loads(_core.aim(ball._experiment, ball._law(law)._core, distance, turns, time))
     return found
