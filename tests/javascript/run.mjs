@@ -10,7 +10,7 @@ import { fileURLToPath } from "node:url";
 const here = dirname(fileURLToPath(import.meta.url));
 const { CONTENSOU_PROGRAM: program, CONTENSOU_NPM_TARBALL: tarball } = process.env;
 const folder = mkdtempSync(join(tmpdir(), "contensou-npm-"));
-const run = (command, ...words) => execFileSync(command, words, { cwd: folder, encoding: "utf8", env: { ...process.env, npm_config_cache: join(folder, "cache") } });
+const run = (command, ...words) => execFileSync(command, words, { cwd: folder, encoding: "utf8", env: { ...process.env, npm_config_cache: join(folder, "cache"), npm_config_update_notifier: "false" } });
 const ofProgram = (...words) => JSON.parse(run(program, ...words, "--format", "json"));
 const write = (name, text) => writeFileSync(join(folder, name), text);
 const close = (a, b) => assert.ok(Math.abs(a - b) <= 1e-11 * Math.abs(b), `${a} is not ${b}`);
