@@ -214,6 +214,11 @@ for (const first of ["README.md", ".github/CONTRIBUTING.md", ".github/CHANGELOG.
 }
 const readme = texts.get("README.md");
 for (const [path, { tokens, env, title }] of texts) page(pageOf(path), title, html(tokens, env));
+// The lesson as a file for programs of notebooks.
+const lesson = "src/python/notebook/lesson.ipynb";
+mkdirSync(dirname(join(out, lesson)), { recursive: true });
+execFileSync("python3", [join(project, "src/python/notebook/notebook.py"), "build", join(out, lesson)]);
+readers.find(({ title }) => title === "Python").links.push([lesson, "The lesson as a file, lesson.ipynb"]);
 const cards = readers.map(reader);
 for (const path of others) {
   const language = path.startsWith(".ci/") ? "bash" : extname(path).slice(1);
