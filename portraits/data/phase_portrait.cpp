@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "data/isochrones.hpp"

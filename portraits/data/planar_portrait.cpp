@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "data/isochrones.hpp"
 #include "data/lists.hpp"
 #include "data/round_numbers.hpp"

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "contensou/reduction/infinity.hpp"
 
 namespace contensou::portraits {
 
@@ -24,7 +25,7 @@ double round_step(double range, double pieces) { return round_down(range / piece
 
 double step_for(double x, int count, std::initializer_list<double> digits) {
   const double near = std::floor(std::log10(x / count));
-  double best = 0, off = std::numeric_limits<double>::infinity();
+  double best = 0, off = infinity;
   for (double digit : digits) {
     for (double power : {near - 1, near, near + 1}) {
       const double step = digit * std::pow(10, power);

@@ -1,11 +1,11 @@
 // The whole half-plane in one picture: the Poincare disc, and the same with the origin blown up.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/infinity.hpp"
 #include "views/portrait_views.hpp"
 
 namespace contensou::portraits {
@@ -55,7 +55,7 @@ void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
       if (point.kind != which) continue;
       if (point.place == SingularPlace::origin && map.hole == 0) continue;
       const double theta = std::atan(point.k);
-      const double rho = point.place == SingularPlace::origin ? 0 : std::numeric_limits<double>::infinity();
+      const double rho = point.place == SingularPlace::origin ? 0 : infinity;
       marks.points.push_back(map.at(rho, theta, 1));
       if (std::cos(theta) > 1e-12) marks.points.push_back(map.at(rho, theta, -1));
     }
@@ -82,7 +82,7 @@ void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
     const auto [force, moment] = system.law()(reduction::slip_of_ratio(k));
     const double turn = force - system.drive() - system.r() * k * moment > 0 ? -1 : 1;  // of theta
     for (double sign : {1.0, -1.0}) {
-      for (double rho : {0.0, std::numeric_limits<double>::infinity()}) {
+      for (double rho : {0.0, infinity}) {
         if (rho == 0 && map.hole == 0) continue;
         arrows.arrows.push_back(
             {map.at(rho, middle, sign), {-sign * turn * std::sin(middle), turn * std::cos(middle)}});
@@ -136,7 +136,7 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   };
   layers.add_copies(copies, true);
   const auto half_line = [&](double theta, double sign) {
-    return Polyline{map.at(std::numeric_limits<double>::infinity(), theta, sign), map.at(0, theta, sign)};
+    return Polyline{map.at(infinity, theta, sign), map.at(0, theta, sign)};
   };
   layers.add_invariant({half_line(pi / 2, 1)}, {half_line(0, 1), half_line(0, -1)}, [&](double ln_k) {
     const double theta = std::atan(std::exp(ln_k));

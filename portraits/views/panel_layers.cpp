@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "contensou/reduction/infinity.hpp"
 
 namespace contensou::portraits {
 
@@ -144,7 +144,7 @@ void PanelLayers::add_directions(const std::function<std::optional<Drift>(Point)
     double size;
   };
   std::vector<Needle> needles;
-  double min_size = std::numeric_limits<double>::infinity(), max_size = 0;
+  double min_size = infinity, max_size = 0;
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
       const Point middle{(i + 0.5) / columns, (j + 0.5) / rows};

@@ -1,7 +1,6 @@
 #include "contensou/portraits/phase_portrait_figure.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "data/round_numbers.hpp"
 #include "views/portrait_views.hpp"
 
@@ -116,7 +116,7 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   if (layout.times == nullptr) {
     look.bands = bands_of(portraits, time_unit, look.palette);
   } else {
-    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    double shortest = infinity, longest = 0;
     for (const PhasePortrait& portrait : portraits) {
       const auto [its_shortest, its_longest] = layout.times(portrait);
       shortest = std::min(shortest, its_shortest);

@@ -7,6 +7,7 @@
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "data/round_numbers.hpp"
 #include "views/panel_layers.hpp"
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "contensou/reduction/infinity.hpp"
 #include "views/portrait_views.hpp"
 
 namespace contensou::portraits {
@@ -22,7 +22,7 @@ double rate_at(const reduction::ReducedSystem& system, double w, double v) {
 
 /// 1 + beta/beta_1: on the axis v = 0, u is u0 over this, and on u = 0, v is v0 over this.
 double regularised_time(const reduction::Flow& flow, const Instant& at, const Instant& start) {
-  if (at.tau_left == 0) return std::numeric_limits<double>::infinity();
+  if (at.tau_left == 0) return infinity;
   const double mu = flow.system().mu();
   const auto b_over_speed = [&](const Instant& it) {
     const auto& curve = *flow.solution().through(it.ln_k);

@@ -15,6 +15,7 @@
 
 #include "check/braking.hpp"
 #include "check/motion_recorder.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "numerics/root.hpp"
 #include "system/regularising_weight.hpp"
 
@@ -90,7 +91,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
     const double wanted = report.next_time();
     Values rate;
     equations(x, rate, s);
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = infinity;
     for (double kink : kinks) distance = std::min(distance, std::abs(x[1] - x[0] - kink));
     distance = std::max(distance, nearest_kink);
     const double limit = std::min(wanted - s, fraction_of_distance * distance / std::abs(rate[1] - rate[0]));

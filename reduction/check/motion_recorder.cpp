@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "numerics/infinity.hpp"
 
 namespace contensou::reduction {
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -21,6 +20,7 @@
 #include <Eigen/LU>
 #include <boost/math/quadrature/gauss.hpp>
 
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "numerics/gauss_function.hpp"
 
@@ -292,7 +292,7 @@ std::vector<double> sharpest_bends(const Eigen::ArrayXd& rho, const Eigen::Array
   const double largest = pressure.maxCoeff();
   const Eigen::Index last = rho.size() - 1;
   const auto slope = [&](Eigen::Index i) {
-    if (i > last) return pressure[last] == 0 ? 0.0 : std::numeric_limits<double>::infinity();
+    if (i > last) return pressure[last] == 0 ? 0.0 : infinity;
     const double change = (pressure[i] - pressure[i - 1]) / largest;
     return change == 0 ? 0.0 : change / ((rho[i] - rho[i - 1]) * (rho[i] + rho[i - 1]));
   };
@@ -341,7 +341,7 @@ class TabulatedPressureLaw::Rings {
     std::vector<Piece> cut;
     for (const Piece& piece : std::span(pieces).subspan(1)) add_narrow_parts(piece, cut);
     if (!cut.empty()) add_blocks(cut);
-    const Sum sliding = sum(std::numeric_limits<double>::infinity());
+    const Sum sliding = sum(infinity);
     const Sum pivoting = sum(0);
     load_ = sliding.force;
     pivoting_moment_ = pivoting.moment;

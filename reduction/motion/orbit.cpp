@@ -17,8 +17,8 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "numerics/infinity.hpp"
 #include "numerics/root.hpp"
 
 namespace contensou::reduction {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "numerics/infinity.hpp"
+#include "contensou/reduction/infinity.hpp"
 
 namespace contensou::reduction {
 

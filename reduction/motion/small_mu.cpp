@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/infinity.hpp"
 #include "numerics/legendre_series.hpp"
 #include "numerics/root.hpp"
 #include "similarity/regular_solution.hpp"
@@ -240,14 +241,14 @@ double SmallMuMotion::stop_time() const { return pivoting_ + sliding_ * (layer_ 
 SmallMuMotion::Speeds SmallMuMotion::at_time(double tau) const {
   if (!(tau >= 0)) throw std::domain_error(fmt::format("SmallMuMotion::at_time: tau must be >= 0, got {}", tau));
   const double stop = stop_time();
-  if (tau >= stop) return {0, 0, -std::numeric_limits<double>::infinity()};
+  if (tau >= stop) return {0, 0, -infinity};
   if (!layer_) {
     const double left = 1 - tau / stop;
     return {left * start_.u, left * start_.v, std::log(start_.v) + std::log(left)};
   }
   const auto& [gain0, pivoting0] = layer_->start();
   const double theta = gain0 - unit_rate_ * tau;
-  if (pivoting_rate_ * theta <= -1) return {0, 0, -std::numeric_limits<double>::infinity()};
+  if (pivoting_rate_ * theta <= -1) return {0, 0, -infinity};
   const double clock = theta >= 0 ? theta : std::log1p(pivoting_rate_ * theta) / pivoting_rate_;
   const auto [ln_k, now] = layer_->where(pivoting0 + clock);
   // For theta >= 0 the two are equal, and theta - k m0 may have no digits.

@@ -12,8 +12,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include "contensou/reduction/infinity.hpp"
 #include "numerics/epsilon.hpp"
-#include "numerics/infinity.hpp"
 #include "planar/strip.hpp"
 
 namespace contensou::reduction {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -15,6 +14,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "contensou/reduction/infinity.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/matrix_exponential.hpp"
 
@@ -72,7 +72,7 @@ struct Slope {
 std::optional<Slope> slope(Sampler& field, const Vector2d& x, int i, double first_step) {
   constexpr int rows = 8;
   std::array<std::array<Vector2d, rows>, rows> table;
-  Slope best{Vector2d::Zero(), std::numeric_limits<double>::infinity()};
+  Slope best{Vector2d::Zero(), infinity};
   double step = first_step;
   for (int row = 0; row < rows; ++row, step /= 2) {
     Vector2d ahead = x, behind = x;
@@ -327,7 +327,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   constexpr double hidden = 1e-2;
   if (result.level > hidden) result.verdict = PlanarSymmetries::Verdict::undecided;
   const double zero = std::max(result.level, nullity > 0 ? result.singular_values[nullity - 1] : 0);
-  result.gap = nullity < 7 ? result.singular_values[nullity] / zero : std::numeric_limits<double>::infinity();
+  result.gap = nullity < 7 ? result.singular_values[nullity] / zero : infinity;
   if (nullity == 0 || result.verdict == PlanarSymmetries::Verdict::undecided) return result;
   result.verdict = PlanarSymmetries::Verdict::found;
 
@@ -386,24 +386,11 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   return result;
 }
 
-namespace {
-
-template <class Field>
-PlanarField mirrored(Field field) {
+PlanarField planar_field(const ReducedSystem& system) {
   return [=](const Vector2d& x) {
-    const Rate rate = field(State{x[0], std::abs(x[1])});
+    const Rate rate = system.field({x[0], std::abs(x[1])});
     return Vector2d(rate.u, std::copysign(1, x[1]) * rate.v);
   };
-}
-
-}  // namespace
-
-PlanarField planar_field(const ReducedSystem& system) {
-  return mirrored([=](State state) { return system.field(state); });
-}
-
-PlanarField planar_regularised_field(const ReducedSystem& system) {
-  return mirrored([=](State state) { return system.regularised_field(state); });
 }
 
 }  // namespace contensou::reduction

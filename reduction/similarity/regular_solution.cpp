@@ -19,9 +19,9 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/tangent.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "numerics/infinity.hpp"
 #include "numerics/linear_ode.hpp"
 
 namespace contensou::reduction {

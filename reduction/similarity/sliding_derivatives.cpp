@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/infinity.hpp"
+#include "contensou/reduction/infinity.hpp"
 
 namespace contensou::reduction {
 

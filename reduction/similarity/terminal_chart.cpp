@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "numerics/infinity.hpp"
+#include "contensou/reduction/infinity.hpp"
 
 namespace contensou::reduction {
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/infinity.hpp"
 #include "system/regularising_weight.hpp"
 
 namespace contensou::reduction {
@@ -86,12 +87,11 @@ double ReducedSystem::pivoting_limit(double u) const {
 
 Bounds ReducedSystem::stop_time_bounds(State start) const {
   require_state("ReducedSystem::stop_time_bounds", start);
-  if (!law_.sliding_bounds()) return {0, std::numeric_limits<double>::infinity()};
+  if (!law_.sliding_bounds()) return {0, infinity};
   const double sliding = sliding_limit(start.v);
   const double pivoting = pivoting_limit(start.u);
   const auto [min, max] = *law_.sliding_bounds();
   const double min_sliding = min == 0 ? 0 : min * sliding;  // sliding may be infinite
-  const double infinity = std::numeric_limits<double>::infinity();
   // Outwards by the rounding of these sums and of the stop time itself, so that it is never outside.
   const double rounding = (8 + std::log1p(r_)) * std::numeric_limits<double>::epsilon() / (1 - drive_);
   const double lower = std::max({pivoting, (pivoting + min_sliding) / (1 - min * drive_), sliding / (1 - drive_)});

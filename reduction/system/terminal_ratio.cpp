@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <boost/math/tools/minima.hpp>
 
+#include "contensou/reduction/infinity.hpp"
 #include "numerics/epsilon.hpp"
-#include "numerics/infinity.hpp"
 #include "numerics/root.hpp"
 
 namespace contensou::reduction {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "contensou/portraits/json.hpp"
 #include "contensou/portraits/pgfplots.hpp"
+#include "contensou/reduction/infinity.hpp"
 
 namespace contensou::answers {
 
@@ -201,6 +201,6 @@ std::string csv_line(const std::vector<std::string>& fields) {
   return line + '\n';
 }
 
-double or_infinity(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
+double or_infinity(double value) { return std::isnan(value) ? infinity : value; }
 
 }  // namespace contensou::answers

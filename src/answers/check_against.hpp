@@ -1,12 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "answers/csv.hpp"
 #include "contensou/reduction/friction_law.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/si/description.hpp"
 #include "contensou/si/experiment.hpp"
 
@@ -14,10 +14,10 @@ namespace contensou::answers {
 
 /// How far slip or spin of a table is from that of a model.
 struct Deviation {
-  double error = 0;                                         ///< the worst, in m/s or rad/s
-  double relative = 0;                                      ///< the same, of the start
-  double t = std::numeric_limits<double>::infinity();       ///< s in the table, of the worst row
-  double leaves = std::numeric_limits<double>::infinity();  ///< s in the table, of the first row beyond the tolerance
+  double error = 0;          ///< the worst, in m/s or rad/s
+  double relative = 0;       ///< the same, of the start
+  double t = infinity;       ///< s in the table, of the worst row
+  double leaves = infinity;  ///< s in the table, of the first row beyond the tolerance
 };
 
 /// A model of the motion beside a table.

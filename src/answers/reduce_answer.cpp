@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 
 #include "contensou/portraits/reduced_orbits.hpp"
 #include "contensou/reduction/canonical_coordinates.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "contensou/reduction/stop_time.hpp"
@@ -25,8 +25,6 @@ using reduction::PlanarSymmetries;
 using std::numbers::pi;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Json json_of(const Generator& x) {
   Json json{{"time", x.time},

@@ -1,7 +1,6 @@
 #include "answers/stop_answer.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "answers/law_forms.hpp"
 #include "answers/text_table.hpp"
 #include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/small_mu.hpp"
@@ -509,7 +509,7 @@ reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
     accuracy += piece.orbit.accuracy() + of_root;
     evaluations += piece.orbit.evaluations();
   }
-  return {si::stop_time(pieces), accuracy, evaluations, {0, std::numeric_limits<double>::infinity()}};
+  return {si::stop_time(pieces), accuracy, evaluations, {0, infinity}};
 }
 
 }  // namespace

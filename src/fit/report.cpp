@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
-#include "fit/infinity.hpp"
 #include "fit/profile.hpp"
 #include "fit/student.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fit/infinity.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "si/crossing.hpp"
 
 namespace contensou::fit {
@@ -26,7 +26,7 @@ RollingOrbit::RollingOrbit(const reduction::Law& law, double mu, reduction::Stat
 RollingOrbit::RollingOrbit(reduction::Law law, const Numbers& at, reduction::Inertia inertia, double accuracy)
     : law_(std::move(law)), at_(at), inertia_(inertia), accuracy_(accuracy) {
   const double share = 1 - 1 / inertia.chi, mu = std::exp(at_[ln_mu]), v = at_[slip], w = mu * std::abs(at_[spin]);
-  rests_ = at_[drive] > 0 ? (at_[rolling] + share * v) / at_[drive] : std::numeric_limits<double>::infinity();
+  rests_ = at_[drive] > 0 ? (at_[rolling] + share * v) / at_[drive] : infinity;
   const double force = v > 0 || w > 0 ? law_({v, w}).force : 0;
   const Speeds start{v, at_[spin], 0, 0, v, 0};
   if (at_[rolling] == 0 && share * force <= at_[drive]) {

@@ -10,6 +10,7 @@
 
 #include "answers/planar_system.hpp"
 #include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "planar.hpp"
 
 namespace contensou::python {
@@ -45,9 +46,7 @@ py::array_t<double> like(const Numbers& given) {
   return py::array_t<double>(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
 }
 
-double stop_time_of(const PlanarOrbit& orbit) {
-  return orbit.end() == PlanarEnd::centre ? orbit.end_time() : std::numeric_limits<double>::infinity();
-}
+double stop_time_of(const PlanarOrbit& orbit) { return orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity; }
 
 /// A number at each of the points; NaN where there is none.
 template <class Function>

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
@@ -20,6 +19,7 @@
 #include "answers/formula_law.hpp"
 #include "answers/roll_uncertainty.hpp"
 #include "contensou/portraits/json.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/course.hpp"
@@ -106,10 +106,9 @@ constexpr py::ssize_t columns_of_start = 5;
 
 /// The events of a shot, in the order of Python's fields; a rest that never comes is infinite.
 void write_events(const si::Course<si::BallMotion>& course, double stop_time, double* row) {
-  constexpr double never = std::numeric_limits<double>::infinity();
   const si::Events events = si::events_of(course);
   for (const si::Event& event :
-       {events.rolls, events.spin_ends, events.rest.value_or(si::Event{never, {never, never}})}) {
+       {events.rolls, events.spin_ends, events.rest.value_or(si::Event{infinity, {infinity, infinity}})}) {
     for (double value : {event.t, event.place.x(), event.place.y()}) *row++ = value;
   }
   for (double value : {events.slip_length, events.turns, events.path, stop_time}) *row++ = value;

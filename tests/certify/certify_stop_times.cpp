@@ -14,6 +14,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pade_curve.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "motion/stop_time_table.hpp"
@@ -25,7 +26,7 @@ using namespace contensou::tests;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using contensou::infinity;
 constexpr double largest = std::numeric_limits<double>::max();
 
 constexpr int points = CONTENSOU_FULL_TESTS ? 100'000 : 10'000;

@@ -221,9 +221,7 @@ TEST_CASE("what a film that is wrong makes of friction and patch radius", "[inva
 }
 
 TEST_CASE("films that decide little: intervals hold the truth, or are open", "[invariant]") {
-  si::Experiment gel{.ball = {.name = "gel", .mass = 0.113, .radius = 0.03},
-                     .contact = {.friction = 0.5, .patch = si::PatchRadius{7.2e-3}},
-                     .start = si::SlipAndSpin{.slip = 0.5, .spin = 30}};
+  const si::Experiment gel = gel_ball();
   si::Experiment fast = pool_ball();
   fast.start = si::SlipAndSpin{.slip = 1, .spin = 300};
   using enum Observable;

@@ -58,6 +58,13 @@ inline contensou::si::Experiment pool_ball() {
           .start = contensou::si::SlipAndSpin{.slip = 1, .spin = 100}};
 }
 
+/// A gel ball, whose patch is wide.
+inline contensou::si::Experiment gel_ball() {
+  return {.ball = {.name = "gel", .mass = 0.113, .radius = 0.03},
+          .contact = {.friction = 0.5, .patch = contensou::si::PatchRadius{7.2e-3}},
+          .start = contensou::si::SlipAndSpin{.slip = 0.5, .spin = 30}};
+}
+
 struct Seen {
   contensou::fit::Observable observable;
   double sd;

@@ -147,9 +147,7 @@ TEST_CASE("of a puck the way says slip and friction, whose velocity is the slip"
 
 TEST_CASE("an interval has every value with which a fit anew is as good", "[route]") {
   // x and y alone decide little: slip and friction change together over decades, to the limits of the model.
-  si::Experiment gel{.ball = {.name = "gel", .mass = 0.113, .radius = 0.03},
-                     .contact = {.friction = 0.5, .patch = si::PatchRadius{7.2e-3}},
-                     .start = si::SlipAndSpin{.slip = 0.5, .spin = 30}};
+  const si::Experiment gel = gel_ball();
   const std::vector<Seen> seen{{Observable::x, 0.001}, {Observable::y, 0.001}};
   const Track film = track_of({gel}, ArrayXd::LinSpaced(120, 0, 119 / 120.0), seen);
   std::mt19937_64 random(5);

@@ -44,12 +44,18 @@ void check_derivatives(const TrackModel& model, const VectorXd& parameters, Inde
   }
 }
 
+/// Thirty instants at which all is seen, from 0.3 s on.
+Track all_seen_until(double last) {
+  Track track{.name = "model", .t = ArrayXd::LinSpaced(30, 0.3, last), .start = 0.3};
+  for (const ObservableKind& kind : observable_kinds()) track.series.push_back({kind.observable, track.t, {}});
+  track.stop_time = Measured{9, 0.1};
+  return track;
+}
+
 }  // namespace
 
 TEST_CASE("derivatives of all that is seen are those of differences", "[route]") {
-  Track track{.name = "model", .t = ArrayXd::LinSpaced(30, 0.3, 1.3), .start = 0.3};
-  for (const ObservableKind& kind : observable_kinds()) track.series.push_back({kind.observable, track.t, {}});
-  track.stop_time = Measured{9, 0.1};
+  const Track track = all_seen_until(1.3);
   const std::vector<Track> tracks{track, track};
   for (const reduction::Law& law : reduction::paper_laws()) {
     for (const auto& [slip, spin] :
@@ -69,9 +75,7 @@ TEST_CASE("derivatives of all that is seen are those of differences", "[route]")
 TEST_CASE("derivatives of a ball with rolling friction are those of differences, also when it no longer turns",
           "[route]") {
   // The centre rests after some 7 s, the spin ends later.
-  Track track{.name = "model", .t = ArrayXd::LinSpaced(30, 0.3, 8.7), .start = 0.3};
-  for (const ObservableKind& kind : observable_kinds()) track.series.push_back({kind.observable, track.t, {}});
-  track.stop_time = Measured{9, 0.1};
+  const Track track = all_seen_until(8.7);
   const std::vector<Track> tracks{track};
   for (const reduction::Law& law : reduction::paper_laws()) {
     for (const auto& [slip, spin, rolling] : std::vector<std::tuple<double, double, double>>{
@@ -87,9 +91,7 @@ TEST_CASE("derivatives of a ball with rolling friction are those of differences,
 }
 
 TEST_CASE("derivatives of the motion of a puck are those of differences, on its ray and on the axes, too", "[route]") {
-  Track track{.name = "model", .t = ArrayXd::LinSpaced(30, 0.3, 3.1), .start = 0.3};
-  for (const ObservableKind& kind : observable_kinds()) track.series.push_back({kind.observable, track.t, {}});
-  track.stop_time = Measured{9, 0.1};
+  const Track track = all_seen_until(3.1);
   const std::vector<Track> tracks{track};
   const si::Experiment puck = si::find_ball("puck")->experiment;
   for (const char* name : {"uniform", "exact", "annulus:0.5"}) {

@@ -1,10 +1,10 @@
 #include "contensou/portraits/json.hpp"
+#include "contensou/reduction/infinity.hpp"
 
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -25,7 +25,7 @@ std::string text_of(const Json& value) {
   return text;
 }
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using contensou::infinity;
 
 }  // namespace
 

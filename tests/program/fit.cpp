@@ -39,6 +39,18 @@ nlohmann::json fit_of(const std::string& text, const std::string& options = "") 
 
 double value(const nlohmann::json& fit, const char* name) { return fit.at(name).at("value"); }
 
+/// A noisy film, some slips of which are too large by 0.5 m/s: of so many rows one, beginning with that place.
+std::string film_with_outliers(int period, int first) {
+  std::string text = "t,slip,spin\n";
+  int place = 0;
+  for (const auto& row : rows_of(film(0.01, 1))) {
+    if (row[0] == "t") continue;
+    text += fmt::format("{},{},{}\n", row[0], std::stod(row[1]) + (place % period == first ? 0.5 : 0), row[2]);
+    ++place;
+  }
+  return text;
+}
+
 }  // namespace
 
 TEST_CASE("a film without errors gives back the ball and its start, whatever ball it begins from", "[cli]") {
@@ -232,13 +244,7 @@ TEST_CASE("rows before --from and after --until are left out", "[cli]") {
 }
 
 TEST_CASE("outliers count for little with --robust", "[cli]") {
-  std::string text = "t,slip,spin\n";
-  int place = 0;
-  for (const auto& row : rows_of(film(0.01, 1))) {
-    if (row[0] == "t") continue;
-    text += fmt::format("{},{},{}\n", row[0], std::stod(row[1]) + (place % 9 == 4 ? 0.5 : 0), row[2]);
-    ++place;
-  }
+  const std::string text = film_with_outliers(9, 4);
   const double plain = std::abs(value(fit_of(text), "friction") - 0.2);
   const double robust = std::abs(value(fit_of(text, "--robust"), "friction") - 0.2);
   CHECK(plain > 0.02);
@@ -398,13 +404,7 @@ TEST_CASE("the figure has the textbook's motion beside slip and spin, and no ell
 }
 
 TEST_CASE("outliers are told", "[cli]") {
-  std::string text = "t,slip,spin\n";
-  int place = 0;
-  for (const auto& row : rows_of(film(0.01, 1))) {
-    if (row[0] == "t") continue;
-    text += fmt::format("{},{},{}\n", row[0], std::stod(row[1]) + (place % 20 == 7 ? 0.5 : 0), row[2]);
-    ++place;
-  }
+  const std::string text = film_with_outliers(20, 7);
   const auto noise = fit_of(text)["noise"]["slip"];
   CHECK(noise["outliers"] == 3);
   REQUIRE(noise["outliers_at"].size() == 3);

@@ -13,6 +13,19 @@
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 
+namespace {
+
+/// The first line that a command of the shell says before it ends with status 4.
+std::string failure_of(const std::string& command) {
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  char said[200] = "";
+  CHECK(std::fgets(said, sizeof said, pipe) != nullptr);
+  CHECK(WEXITSTATUS(::pclose(pipe)) == 4);
+  return said;
+}
+
+}  // namespace
+
 TEST_CASE("-o writes what standard output would get", "[cli]") {
   const TemporaryDirectory scratch;
   const std::string orbit = "orbit --mu 0.1 --u0 1 --v0 1";
@@ -117,11 +130,7 @@ TEST_CASE("a limit on the size of files is named as the cause", "[limit]") {
   const TemporaryDirectory scratch;
   const std::string command =
       fmt::format("ulimit -f 8; '{}' portrait --mu 0.3 -o '{}' 2>&1", CONTENSOU_PROGRAM, scratch.file("p.svg"));
-  std::FILE* const pipe = ::popen(command.c_str(), "r");
-  char said[200] = "";
-  CHECK(std::fgets(said, sizeof said, pipe) != nullptr);
-  CHECK(WEXITSTATUS(::pclose(pipe)) == 4);
-  CHECK_THAT(said, Contains("File too large"));
+  CHECK_THAT(failure_of(command), Contains("File too large"));
   CHECK(scratch.names().empty());
 }
 
@@ -180,10 +189,6 @@ TEST_CASE("a name may be as long as the file system allows", "[cli]") {
 TEST_CASE("out of memory is status 4, with a way out", "[limit]") {
   const std::string command = fmt::format(
       "ulimit -v 300000; '{}' orbit --mu 0.1 --u0 1 --v0 1 --samples 9000000 2>&1 >/dev/null", CONTENSOU_PROGRAM);
-  std::FILE* const pipe = ::popen(command.c_str(), "r");
-  char said[200] = "";
-  CHECK(std::fgets(said, sizeof said, pipe) != nullptr);
-  CHECK(WEXITSTATUS(::pclose(pipe)) == 4);
-  CHECK_THAT(said, Contains("contensou: out of memory") && Contains("ulimit -v"));
+  CHECK_THAT(failure_of(command), Contains("contensou: out of memory") && Contains("ulimit -v"));
 }
 #endif

@@ -1,3 +1,4 @@
+#include "contensou/reduction/infinity.hpp"
 #include "paper/statements.hpp"
 
 #include <cmath>
@@ -24,7 +25,7 @@ using contensou::reduction::State;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using contensou::infinity;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <int tenths>

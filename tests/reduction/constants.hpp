@@ -2,6 +2,8 @@
 
 #include <limits>
 
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
+#include "contensou/reduction/infinity.hpp"
+
+using contensou::infinity;
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double eps = std::numeric_limits<double>::epsilon();

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/infinity.hpp"
+
 namespace contensou::tests {
 
 /// The worst of many comparisons, and where it was.
@@ -44,7 +46,6 @@ class WorstCase {
  private:
   static double in_eps(long double wanted, double got, long double scale) {
     constexpr double largest = std::numeric_limits<double>::max();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     if (std::abs(wanted) > static_cast<long double>(largest)) {
       return std::isinf(got) && std::signbit(got) == std::signbit(wanted) ? 0 : infinity;
     }

@@ -4,6 +4,7 @@
 #include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/stop_time.hpp"
@@ -18,8 +19,7 @@ using namespace reduction;
 using namespace zh98;
 
 constexpr double limit = 1e-6;  ///< a limit read off at a small distance from it
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double a = 2;  ///< the factor of the similarity
+constexpr double a = 2;         ///< the factor of the similarity
 
 constexpr State start{1, 0.5}, mirrored{-1, 0.5}, scaled{a * start.u, a*start.v};
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "answers/ball_answer.hpp"
 #include "answers/load_table.hpp"
 #include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/instants_option.hpp"
@@ -25,7 +25,6 @@ namespace {
 /// q = v/u, p = ln v and the first integral on every row. Where the integral has no value, on the axes, on an
 /// invariant ray and at rest, it is infinite.
 std::array<Column, 3> canonical_columns(const GivenStart& start, const reduction::OrbitColumns& motion) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const reduction::Flow flow(start.system);
   Eigen::ArrayXd integral = Eigen::ArrayXd::Constant(motion.rows(), infinity);
   for (Eigen::Index i = 0; i < motion.rows(); ++i) {
@@ -90,8 +89,7 @@ class OrbitCommand final : public Verb {
                              : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
     // At rest k is what it tends to.
     if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
-      const double k0 = start.state.u == 0 ? std::numeric_limits<double>::infinity()
-                                           : start.state.v / (system.mu() * std::abs(start.state.u));
+      const double k0 = start.state.u == 0 ? infinity : start.state.v / (system.mu() * std::abs(start.state.u));
       const reduction::ReducedSystem& last = pieces.empty() ? system : pieces.back().system;
       const double k_end = start.at_rest() ? 0 : reduction::Flow(last).terminal().end_of(k0).k;
       motion.k = at_rest.select(k_end, motion.k);

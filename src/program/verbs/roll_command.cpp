@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include "answers/load_table.hpp"
 #include "answers/roll_answer.hpp"
 #include "contensou/portraits/roll_figure.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/quantity.hpp"
@@ -260,8 +260,7 @@ class RollCommand final : public Verb {
     add(rolls);
     add(spin_ends);
     for (double value : {slip_length, turns, path}) *place++ = value;
-    constexpr double never = std::numeric_limits<double>::infinity();
-    if (place != results.end()) add(rest.value_or(si::Event{never, {never, never}}));
+    if (place != results.end()) add(rest.value_or(si::Event{infinity, {infinity, infinity}}));
   }
 
   /// The load, if it changes.

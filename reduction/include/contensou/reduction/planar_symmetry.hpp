@@ -2,12 +2,12 @@
 
 #include <array>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::reduction {
@@ -58,7 +58,7 @@ struct PlanarSymmetries {
   std::optional<Generator> scaling = {};
 
   /// max of |f(exp(s A) x) - exp(s (A - c)) f(x)| over |f|, with x about the centre, for the scaling and s = ln 2
-  double residual = std::numeric_limits<double>::infinity();
+  double residual = infinity;
 
   int points = 0;  ///< that the equations were sampled at
 };
@@ -74,8 +74,7 @@ struct PlanarSymmetries {
 ///                            points: then with the message of its own first exception
 PlanarSymmetries find_symmetries(const PlanarField& field, const Eigen::Vector2d& around);
 
-/// The right side of (2.6) or, in the time beta, (2.7), x = (u, v); continued to v < 0 by its mirror image.
+/// The right side of (2.6), x = (u, v); continued to v < 0 by its mirror image.
 PlanarField planar_field(const ReducedSystem& system);
-PlanarField planar_regularised_field(const ReducedSystem& system);
 
 }  // namespace contensou::reduction

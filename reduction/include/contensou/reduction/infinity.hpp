@@ -2,8 +2,8 @@
 
 #include <limits>
 
-namespace contensou::fit {
+namespace contensou {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-}  // namespace contensou::fit
+}  // namespace contensou
