@@ -19,7 +19,10 @@ export class Hero {
   /** What moves, the body without spin first. */
   rides = /** @type {ReturnType<typeof rideOn>[]} */ ([]);
   titles = /** @type {string[]} */ ([]);
+  /** When and where each ceases to slide, and its path until then. */
   ends = /** @type {number[]} */ ([]);
+  stops = /** @type {ReturnType<ReturnType<typeof rideOn>["at"]>[]} */ ([]);
+  slides = /** @type {number[][]} */ ([]);
   /** What is drawn. */
   balls = /** @type {ReturnType<Hero["ballsNow"]>} */ ([]);
   /** @type {{x: number, y: number, radius: number}[]} where the bodies are, in pixels */
@@ -82,6 +85,8 @@ export class Hero {
     const heading = (Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0) - (orbit.heading * Math.PI) / 180;
     this.rides = ride.courses.map((course) => rideOn(course, heading, this.spinShown));
     this.ends = [plain.end, own.end];
+    this.stops = this.rides.map((ride, i) => ride.at(Math.min(1, this.ends[i] / lasts)));
+    this.slides = this.rides.map((ride, i) => ride.until(this.ends[i] / lasts));
     const { spin, rolls } = this.facts;
     this.titles = ["without spin", spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`];
     const { headline, story, names = {} } = this.asked ? question : say(this.facts);
@@ -158,21 +163,20 @@ export class Hero {
   }
 
   ballsNow() {
-    const { store: { state, ride, timeFactor, end, theme, contact }, rides, ends, titles } = this;
+    const { store: { state, ride, timeFactor, end, theme, contact }, rides, ends, stops, slides, titles } = this;
     const lasts = end * timeFactor;
     const time = state.fraction * lasts;
     const unit = contact ? "m" : "";
     const slid = [ride.plain, ride.own];
     const has = ends.map((t) => time >= (1 - 1e-12) * t);
     const rest = (i) => (!ride.rolls ? "stands" : time < (rides[i].rest?.t ?? Infinity) ? "rolls" : "rests");
-    // Where each ceases to slide; a ruler lies between them where both go straight.
-    const stops = rides.map((ride, i) => ride.at(Math.min(1, ends[i] / lasts)));
+    // A ruler lies between them where both go straight.
     const straight = stops.every(({ x, y, path }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
     const own = has[1] ? { ...stops[1], path: slid[1].path } : rides[1].at(state.fraction);
     const ruler = straight && own.path > 1.02 * slid[0].path ? { from: stops[0], to: own, more: own.path - slid[0].path } : null;
     return rides.map((ride, i) => ({
       title: `${titles[i]}: ${has[i] ? `${rest(i)}, after ${length(slid[i].path, unit)} in ${duration(ends[i], contact ? "s" : "")}` : "slides"}`,
-      xs: ride.xs, ys: ride.ys, at: ride.at(state.fraction), slides: ride.until(ends[i] / lasts),
+      xs: ride.xs, ys: ride.ys, at: ride.at(state.fraction), slides: slides[i],
       colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
     }));
   }
