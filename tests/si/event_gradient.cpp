@@ -17,9 +17,9 @@ using namespace contensou::si;
 
 namespace {
 
-const reduction::Law law{reduction::HertzLaw{}};
+const reduction::Law of_hertz{reduction::HertzLaw{}};
 
-Experiment shot() {
+Experiment gel_shot() {
   Experiment experiment = find_ball("gel")->experiment;
   experiment.contact.patch = PatchRadius{0.006};
   experiment.start = Velocities{{0.5, 0.2}, {3, -5, 80}};
@@ -32,7 +32,7 @@ class Exact {
   Exact(const Experiment& experiment, const Velocities& change, double by_friction)
       : start_(velocities_of(experiment.start)),
         contact_(slip_velocity_at_start(experiment)),
-        flow_(undriven_system(experiment, law)),
+        flow_(undriven_system(experiment, of_hertz)),
         state_(reduced_start(experiment)),
         chi_(experiment.ball.body.inertia.chi),
         second_(seconds(experiment, 1)),
@@ -92,8 +92,8 @@ class Exact {
 }  // namespace
 
 TEST_CASE("events change with the start and with friction as the algebra has it", "[invariant]") {
-  const Experiment experiment = shot();
-  const EventNumbers numbers(experiment, law, rolling_slip);
+  const Experiment experiment = gel_shot();
+  const EventNumbers numbers(experiment, of_hertz, rolling_slip);
   const auto check = [&](const Component& by, const Velocities& change, double by_friction) {
     const Eigen::VectorXd slopes = *numbers.slopes(by);
     const Exact exact(experiment, change, by_friction);
@@ -118,11 +118,11 @@ TEST_CASE("events change with the start and with friction as the algebra has it"
 }
 
 TEST_CASE("the stop time changes with the patch and with R as the exact gradient has it", "[invariant]") {
-  Experiment experiment = shot();
+  Experiment experiment = gel_shot();
   experiment.start = SlipAndSpin{0.5, 80};
-  const EventNumbers numbers(experiment, law, rolling_slip);
+  const EventNumbers numbers(experiment, of_hertz, rolling_slip);
   const double R = experiment.ball.radius;
-  const auto by = reduction::Flow(undriven_system(experiment, law)).stop_time_gradient(reduced_start(experiment));
+  const auto by = reduction::Flow(undriven_system(experiment, of_hertz)).stop_time_gradient(reduced_start(experiment));
   const double second = seconds(experiment, 1);
   CHECK((*numbers.slopes({&patch_radius, 0})).tail<1>()[0] == Approx(second * by.by_mu / R).epsilon(1e-8));
   CHECK((*numbers.slopes({&radius, 0})).tail<1>()[0] ==
@@ -131,13 +131,13 @@ TEST_CASE("the stop time changes with the patch and with R as the exact gradient
 
 TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", "[invariant]") {
   // Rolling already, it loses u_r g a second: t = V/(u_r g), x = V^2/(2 u_r g); its spin changes neither.
-  Experiment experiment = shot();
+  Experiment experiment = gel_shot();
   experiment.contact.rolling_friction = 0.01;
   const double V = 0.6, R = experiment.ball.radius, g = experiment.environment.gravity;
   experiment.start = Velocities{{V, 0}, {0, V / R, 0}};
-  CHECK_THROWS_WITH(EventNumbers(experiment, law, rolling_slip), "it is of a motion, and this is rest");
+  CHECK_THROWS_WITH(EventNumbers(experiment, of_hertz, rolling_slip), "it is of a motion, and this is rest");
   experiment.start = SlipAndSpin{0.5, 0};
-  const EventNumbers numbers(experiment, law, rolling_slip);
+  const EventNumbers numbers(experiment, of_hertz, rolling_slip);
   const auto names = numbers.names();
   CHECK(names.size() == 13);
   CHECK(names[6].event == "rest");
