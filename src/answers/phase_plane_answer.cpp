@@ -99,7 +99,7 @@ constexpr Field<TerminalRatios> list_fields[]{
 };
 
 /// What both answers say; of the ends the usual one stands before the others.
-Json members_of(const TerminalRatios& ratios) {
+Json ratio_members(const TerminalRatios& ratios) {
   Json members = members_of(regime_fields, ratios);
   members.update(members_of(end_fields, end_of(ratios, ratios.ends[usual_end(ratios)])));
   members.update(members_of(list_fields, ratios));
@@ -226,7 +226,7 @@ Answer terminal_answer(const ReducedSystem& system) {
   const TerminalRatios ratios = reduction::terminal_ratios(system.law(), system.r(), system.drive());
   Answer answer{.members = members_of(system_fields, system),
                 .text = [=](const Digits& digits) { return as_text(system, ratios, digits); }};
-  answer.members.update(members_of(ratios));
+  answer.members.update(ratio_members(ratios));
   for (const TerminalRatio& end : ratios.ends) {
     Json& row = answer.rows.emplace_back(row_of(system_fields, system));
     row.update(row_of(regime_fields, ratios));
@@ -247,7 +247,7 @@ Answer phase_plane_answer(const ReducedSystem& system) {
                             {"r", system.r()}},
                 .text = [=](const Digits& digits) { return as_text(system, plane, digits); }};
   if (system.drive() > 0) answer.members["drive"] = system.drive();
-  answer.members.update(members_of(plane.terminal));
+  answer.members.update(ratio_members(plane.terminal));
   answer.members.update(members_of(plane_fields, plane));
   for (const SingularPoint& point : plane.points) answer.rows.push_back(row_of(point_fields, point));
   return answer;

@@ -68,7 +68,7 @@ std::string text_of(const Generator& x, std::string_view time, const Digits& dig
   return text;
 }
 
-Json members_of(const PlanarSymmetries& found) {
+Json symmetry_members(const PlanarSymmetries& found) {
   Json generators = Json::array();
   for (const Generator& x : found.generators) generators.push_back(json_of(x));
   return {{"generators", generators},
@@ -118,8 +118,8 @@ Json row_of(const Json& members, const PlanarSymmetries& found) {
 }
 
 /// The orbit of the start in the strip, and the starts of its copies: each is the same curve with another p.
-Json members_of(const portraits::ReducedOrbits& from, const char* x,
-                const std::function<double(const Vector2d&)>& time_left) {
+Json strip_members(const portraits::ReducedOrbits& from, const char* x,
+                   const std::function<double(const Vector2d&)>& time_left) {
   constexpr std::size_t most = 100;
   const auto place = [&](portraits::Point at) {
     const auto [u, v] = from.in_plane(at);
@@ -160,7 +160,7 @@ ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::strin
   if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
   const PlanarSymmetries found = reduction::find_symmetries(field, start);
   Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}};
-  answer.members.update(members_of(found));
+  answer.members.update(symmetry_members(found));
   std::function<std::string(const Digits&)> solution;
   if (found.scaling) {
     const PlanarReduction plane(field, *found.scaling, start, found.residual);
@@ -186,7 +186,7 @@ ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::strin
     if (integral) answer.members["first_integral"] = *integral;
     answer.members.update({{"rays", rays}, {"kind", plane.kind()}});
     if (integral && plane.kind() != "bordered") {
-      answer.members.update(members_of(portraits::reduced_orbits(field, plane, start), "q", [&](const Vector2d& x) {
+      answer.members.update(strip_members(portraits::reduced_orbits(field, plane, start), "q", [&](const Vector2d& x) {
         const auto there = plane.orbit(x);
         return there.end() == PlanarEnd::centre ? there.end_time() : infinity;
       }));
@@ -280,7 +280,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
                             {"u0", state.u},
                             {"v0", state.v}}};
   if (driven) answer.members["drive"] = system.drive();
-  answer.members.update(members_of(found));
+  answer.members.update(symmetry_members(found));
   // The axes are rays themselves: there q and p are limits, and the first integral has no value.
   std::optional<double> integral;
   if (given.slides_and_spins()) {
@@ -298,7 +298,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   }
   answer.members.update({{"rays", rays}, {"kind", plane.kind()}, {"tau_stop", stop.tau}, {"routes", routes}});
   if (integral) {
-    answer.members.update(members_of(portraits::reduced_orbits(flow, state), "ln_k", [&](const Vector2d& x) {
+    answer.members.update(strip_members(portraits::reduced_orbits(flow, state), "ln_k", [&](const Vector2d& x) {
       return flow.stop_time(reduction::State{x[0], x[1]}).tau;
     }));
   }

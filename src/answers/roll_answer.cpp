@@ -103,7 +103,7 @@ constexpr Field<RollEvents> event_fields[]{
      [](const RollEvents& events) -> Json { return events.of.path; }},
 };
 
-constexpr Field<Roll> end_fields[]{
+constexpr Field<Roll> rest_of_roll_fields[]{
     {"creeps", "",
      "with --rolling-friction or --slope: the ratio v/(patch radius abs(wz)) that it tends to while it spins",
      [](const Roll& roll) -> Json {
@@ -267,7 +267,7 @@ double Roll::standard_end() const {
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times) {
   Answer answer{.members = members_of(start_fields, roll), .columns = columns_of(columns, roll.at_times(times))};
   answer.members.update(members_of(event_fields, {events_of(roll.whole), roll.lies_flat(), roll.rolling_below}));
-  answer.members.update(members_of(end_fields, roll));
+  answer.members.update(members_of(rest_of_roll_fields, roll));
   answer.remarks = answer.members;
   return answer;
 }
@@ -299,7 +299,7 @@ std::string roll_text(const Roll& roll, const Digits& digits) {
 }
 
 std::vector<FieldText> roll_fields() {
-  return joined({texts_of(columns), texts_of(start_fields), texts_of(event_fields), texts_of(end_fields)});
+  return joined({texts_of(columns), texts_of(start_fields), texts_of(event_fields), texts_of(rest_of_roll_fields)});
 }
 
 }  // namespace contensou::answers
