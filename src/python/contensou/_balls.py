@@ -453,8 +453,8 @@ class Roll:
     def gradient(self) -> dict[str, Any]:
         """How each number of an event changes with each number of the ball and of its start, the others kept, in SI units:
         `roll.gradient()["rolls_after"]["t"]["friction"]`, the member gradient of `contensou roll --gradient --format json`.
-        A number at which the events have a corner, as a spin of 0, is left out. To 1e-8, of a motion with rolling friction or
-        on a slope that is integrated to 1e-5.
+        A number at which the events have a corner, as a spin of 0, is left out. By differences of fourth order: to 1e-8,
+        less sharp of a motion with rolling friction or on a slope that is integrated in steps.
         """
         found: dict[str, Any] = json.loads(_core.roll_gradient(*self._undisturbed("gradient")))
         return found

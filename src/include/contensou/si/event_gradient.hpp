@@ -43,9 +43,9 @@ class EventNumbers {
   Eigen::VectorXd of(const Experiment& other, const reduction::Flow& flow) const;
   Eigen::VectorXd of(const Experiment& other) const;
 
-  /// How they change with a component, the others kept, by differences of fourth order: to 1e-8 of the change that a
-  /// change of the component by itself makes, 1e-5 of a motion that is integrated in steps. None where
-  /// they have a corner, as at a spin of 0, and at the end of what a ball can have.
+  /// How they change with a component, the others kept, by differences of fourth order, a thousandth of it apart: those by
+  /// the start and by friction to 1e-8 against the algebra of (R61). Less sharp of a motion that is integrated in
+  /// steps, which was not measured. None where they have a corner, as at a spin of 0, and at the end of what a ball can have.
   std::optional<Eigen::VectorXd> slopes(const Component& by) const;
 
  private:
