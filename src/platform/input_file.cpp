@@ -29,7 +29,7 @@ bool InputFile::read(std::string& buffer, std::size_t most) {
   const std::size_t before = buffer.size();
   buffer.resize(before + most);
   ssize_t size = 0;
-  do size = ::read(file_, buffer.data() + before, most);
+  do size = ::read(file_, buffer.data() + before, static_cast<unsigned>(most));
   while (size < 0 && errno == EINTR);
   if (size < 0) fail();
   buffer.resize(before + static_cast<std::size_t>(size));

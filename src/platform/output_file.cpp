@@ -1,5 +1,6 @@
 #include "platform/output_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -38,9 +39,9 @@ fs::path followed(fs::path path) {
 
 /// The permissions of a new file.
 mode_t standard_mode() {
-  const mode_t mask = ::umask(0);
+  const auto mask = ::umask(0);
   ::umask(mask);
-  return 0666 & ~mask;
+  return static_cast<mode_t>(0666 & ~mask);
 }
 
 }  // namespace
@@ -85,7 +86,8 @@ void OutputFile::reserve(std::uintmax_t bytes) {
 
 void OutputFile::write(std::string_view content) {
   while (!content.empty()) {
-    const ssize_t written = ::write(file_, content.data(), content.size());
+    constexpr std::size_t most = 1 << 30;  // Windows takes an unsigned number
+    const auto written = ::write(file_, content.data(), static_cast<unsigned>(std::min(content.size(), most)));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
     content.remove_prefix(static_cast<std::size_t>(written));

@@ -372,7 +372,7 @@ class SweepCommand final : public Verb {
                                  max_drawn, grid.points()));
     }
     const auto values = [](const Range& range) -> Eigen::ArrayXd {
-      return Eigen::ArrayXd::NullaryExpr(range.count, [&](Eigen::Index i) { return range[i]; });
+      return Eigen::ArrayXd::NullaryExpr(range.count, [&](Eigen::Index i) { return range[static_cast<long>(i)]; });
     };
     const reduction::Flow flow(system);
     tell_if_refused(flow, static_cast<std::size_t>(grid.points()));
