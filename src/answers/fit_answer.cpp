@@ -180,7 +180,7 @@ struct FitReport {
   const fit::Fit& best = fits.front();
 };
 
-constexpr Field<FitReport> fields[]{
+constexpr Field<FitReport> answer_fields[]{
     {"law", "", nullptr, [](const FitReport& r) -> Json { return r.best.law; }},
     {"friction", "1", "", [](const FitReport& r) { return members_of(r.best.estimates[0]); }},
     {"patch_radius", "m", "", [](const FitReport& r) { return members_of(r.best.estimates[1]); }},
@@ -270,7 +270,7 @@ constexpr Field<FitReport> fields[]{
 }  // namespace
 
 Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned) {
-  Answer answer{.members = members_of(fields, {fits, tracks, planned})};
+  Answer answer{.members = members_of(answer_fields, {fits, tracks, planned})};
   for (const fit::Fit& fit : fits) {
     for (const Estimate& estimate : fit.estimates) {
       const std::string track = is_of_start(estimate) ? tracks[estimate.track].name : "";
@@ -319,7 +319,7 @@ std::vector<FieldText> fit_fields() {
         {"an estimate {`value`, `standard_error`, `low`, `high`, `determined`}", "",
          "with its 95 % interval; where not determined, value is any of many and standard_error inf"},
         {"CSV `law`, `track`, `parameter`, `value`, `standard_error`, `low`, `high`, `determined`", "", "a row each"}},
-       texts_of(fields)});
+       texts_of(answer_fields)});
 }
 
 }  // namespace contensou::answers

@@ -1,4 +1,4 @@
-"""The wheel: the module alone, with what it needs of this tree, fmt and toml++ inside.
+"""The wheel: the module alone, with what it needs of this tree, its libraries inside.
 
 It is tagged for this Python, and for machines with the C library of this one or a later one.
 """

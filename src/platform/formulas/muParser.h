@@ -1,5 +1,5 @@
-// As much of muParser 2.3 as answers/formulas.cpp asks for, with its grammar, for the page: that is compiled from headers
-// alone, and Debian's muParser is a library of the system with streams.
+// As much of muParser 2.3 as answers/formulas.cpp asks for, with its grammar, where all is compiled from headers alone (the page,
+// the wheel, Windows), and Debian's muParser, a library with streams, is not at hand.
 #pragma once
 
 #include <algorithm>
