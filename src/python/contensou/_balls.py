@@ -334,6 +334,9 @@ def _solved(ball: Ball, law: Law) -> _core.Flow:
     return ball._experiment.undriven_flow(law._core)
 
 
+_Undisturbed = tuple[_core.Experiment, _core.Law, float]  # of no class: there _core is its own
+
+
 @dataclass(frozen=True)
 class Roll:
     """The motion of a ball: called with times t >= 0 in s, of any shape, it gives a structured array of that shape with
@@ -459,7 +462,7 @@ class Roll:
         found: dict[str, Any] = json.loads(_core.roll_gradient(*self._undisturbed("gradient")))
         return found
 
-    def _undisturbed(self, asked: str) -> tuple[_core.Experiment, _core.Law, float]:
+    def _undisturbed(self, asked: str) -> _Undisturbed:
         if self.textbook or self.load is not None:
             raise ValueError(f"{asked} is of this motion under a constant load, and not of the textbook's")
         return self.ball.but(rolling_friction=self.rolling_friction)._experiment, self.law._core, self.rolling_below
