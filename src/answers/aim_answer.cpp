@@ -17,7 +17,8 @@ namespace {
 struct AimReport {
   si::Experiment experiment;  ///< with the start that was found
   reduction::Law law;
-  si::SlipAndSpin start;
+  si::Velocities start;
+  double slip;                   ///< at the start
   double distance, turns, time;  ///< that it comes to
   si::FinalMotion final;
   std::optional<si::Event> rolls;  ///< of a ball
@@ -31,8 +32,20 @@ constexpr Field<AimReport> aim_row[]{
     {"law", "", nullptr, [](const AimReport& r) -> Json { return r.law.name(); }},
     {"ball", "", "as of stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"slip", "m/s", "the start: sliding speed, along x; of a ball that does not roll yet, that of its centre",
-     [](const AimReport& r) -> Json { return r.start.slip; }},
-    {"spin", "1/s", "the start: about the vertical", [](const AimReport& r) -> Json { return r.start.spin; }},
+     [](const AimReport& r) -> Json { return r.slip; }},
+    {"spin", "1/s", "the start: about the vertical",
+     [](const AimReport& r) -> Json { return r.start.angular_velocity.z(); }},
+    {"velocity", "m/s", "the start, of the centre",
+     [](const AimReport& r) -> Json {
+       return {r.start.velocity.x(), r.start.velocity.y()};
+     },
+     "", 0, " [x, y]"},
+    {"angular_velocity", "1/s", "the start",
+     [](const AimReport& r) -> Json {
+       const Eigen::Vector3d& w = r.start.angular_velocity;
+       return {w.x(), w.y(), w.z()};
+     },
+     "", 0, " [x, y, z]"},
     {"distance", "m", "of the centre, when slip and spin end, with rolling friction at rest",
      [](const AimReport& r) -> Json { return r.distance; }},
     {"turns", "", "about the vertical, until then", [](const AimReport& r) -> Json { return r.turns; }},
@@ -51,22 +64,31 @@ constexpr Field<AimReport> aim_row[]{
     {"rest", "s, m, m", "of a ball with rolling friction: when and where its centre rests",
      [](const AimReport& r) { return r.rest ? members_of(*r.rest) : Json(); }, "", 0, " {`t`, `x`, `y`}"},
     {"strike", "m/s; 1; kg",
-     "of a ball: the level stroke that starts it, of a cue of this mass; right of the centre in radii",
+     "of a ball: the level stroke that starts it, of a cue of this mass; right of the centre and above it in radii",
      [](const AimReport& r) -> Json {
        if (!r.strike) return {};
-       return {{"speed", r.strike->speed}, {"right", r.strike->right}, {"mass", r.strike->mass}};
+       const auto& [speed, right, above, elevation, mass] = *r.strike;
+       return {{"speed", speed}, {"right", right}, {"above", above}, {"mass", mass}};
      },
-     "", 0, " {`speed`, `right`, `mass`}"},
+     "", 0, " {`speed`, `right`, `above`, `mass`}"},
 };
 
 std::string text_of(const AimReport& r, const Digits& number) {
   const std::string side = r.strike && r.strike->right < 0 ? "left" : "right";
-  std::string text =
-      ball_heading(r.experiment, r.law, number) + fmt::format("law {}\n\nstart  slip {} m/s, spin {} rad/s\n",
-                                                              r.law.name(), number(r.start.slip), number(r.start.spin));
+  const double turning = r.start.angular_velocity.y();
+  std::string text = ball_heading(r.experiment, r.law, number) +
+                     fmt::format("law {}\n\nstart  slip {} m/s, spin {} rad/s\n", r.law.name(), number(r.slip),
+                                 number(r.start.angular_velocity.z()));
+  if (turning != 0) {
+    text += fmt::format("       its centre at {} m/s, turning {} at {} rad/s\n", number(r.start.velocity.x()),
+                        turning < 0 ? "backwards" : "forwards", number(std::abs(turning)));
+  }
   if (r.strike) {
-    text += fmt::format("       struck by a level cue of {} kg at {} m/s, {} radii {} of the centre\n",
-                        number(r.strike->mass), number(r.strike->speed), number(std::abs(r.strike->right)), side);
+    const double above = r.strike->above;
+    text += fmt::format(
+        "       struck by a level cue of {} kg at {} m/s, {} radii {} of the centre{}\n", number(r.strike->mass),
+        number(r.strike->speed), number(std::abs(r.strike->right)), side,
+        above == 0 ? "" : fmt::format(" and {} {} it", number(std::abs(above)), above < 0 ? "below" : "above"));
   } else if (r.is_ball()) {
     text +=
         fmt::format("       no level stroke gives it: its tip would meet the ball more than {} radii off the centre\n",
@@ -85,10 +107,15 @@ std::string text_of(const AimReport& r, const Digits& number) {
 
 }  // namespace
 
-Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const si::Goal& goal) {
+Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const AimGoal& goal) {
   const reduction::Flow flow(si::undriven_system(experiment, law));
-  const si::SlipAndSpin start = si::aimed(experiment, flow, goal);
-  experiment.start = start;
+  const auto* const rolling = std::get_if<si::RollingGoal>(&goal);
+  if (rolling) {
+    experiment.start = si::aimed_to_roll(experiment, flow, *rolling);
+  } else {
+    experiment.start = si::aimed(experiment, flow, std::get<si::Goal>(goal));
+  }
+  const si::Velocities start = si::velocities_of(experiment.start);
   const double u_r = experiment.contact.rolling_friction;
   const si::Course<si::BallMotion> course(experiment, {experiment, flow}, si::rolling_slip, u_r);
   const double time = course.resisted ? course.resisted->last_time() : course.motion.stop_time();
@@ -96,6 +123,8 @@ Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const si
   const std::optional<si::Event> rest = course.rest();
   std::optional<si::Event> rolls;
   std::optional<si::CueStrike> strike;
+  si::FinalMotion final = si::final_motion(experiment);
+  if (rolling) final.velocity.x() = rolling->speed;
   if (!experiment.ball.body.lies_flat()) {
     rolls = course.event(course.rolls);
     strike = si::level_strike(experiment.ball, start);
@@ -103,10 +132,11 @@ Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const si
   AimReport report{experiment,
                    law,
                    start,
+                   start.velocity.x() - experiment.ball.radius * start.angular_velocity.y(),
                    rest ? rest->place.x() : course.at_time(time).position.x(),
                    course.turns(),
                    time,
-                   si::final_motion(experiment),
+                   final,
                    rolls,
                    strike,
                    rest};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <variant>
+
 #include "answers/answer.hpp"
 #include "answers/record.hpp"
 #include "contensou/reduction/friction_law.hpp"
@@ -7,8 +9,10 @@
 
 namespace contensou::answers {
 
+using AimGoal = std::variant<si::Goal, si::RollingGoal>;
+
 /// What `aim` says: the start that comes to the goal, what it comes to, and how a cue makes it. Throws as si::aimed.
-Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const si::Goal& goal);
+Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const AimGoal& goal);
 
 /// The fields of that answer.
 std::vector<FieldText> aim_fields();

@@ -394,7 +394,14 @@ void bind_si(py::module_& module) {
       "aim",
       [](const si::Experiment& experiment, const Law& law, std::optional<double> distance, std::optional<double> turns,
          std::optional<double> time) {
-        return portraits::json_document(answers::aim_answer(experiment, law, {distance, turns, time}).members);
+        return portraits::json_document(answers::aim_answer(experiment, law, si::Goal{distance, turns, time}).members);
+      },
+      Released());
+  module.def(
+      "aim_to_roll",
+      [](const si::Experiment& experiment, const Law& law, double place, double speed, double spin) {
+        return portraits::json_document(
+            answers::aim_answer(experiment, law, si::RollingGoal{place, speed, spin}).members);
       },
       Released());
   module.def(

@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/aim.hpp"
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
+#include "crossing.hpp"
 
 namespace contensou::si {
 
@@ -31,6 +34,14 @@ void require_goal(const Goal& goal) {
   if (given == 2) return;
   throw std::domain_error(fmt::format("two of distance, turns and time decide a start, got {}: {}", given,
                                       given < 2 ? "give one more" : "leave one out"));
+}
+
+void require_level(const Experiment& experiment) {
+  if (experiment.environment.slope == 0) return;
+  throw std::domain_error(
+      fmt::format("aim knows no slope: on one of {} degrees a ball may roll for ever, and one distance may have "
+                  "several starts; --slope 0 leaves it out",
+                  experiment.environment.slope));
 }
 
 /// @param least  s, in which the other one is reached at the soonest
@@ -116,12 +127,7 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Law& la
 
 SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal) {
   require_goal(goal);
-  if (experiment.environment.slope != 0) {
-    throw std::domain_error(
-        fmt::format("aim knows no slope: on one of {} degrees a ball may roll for ever, and one distance may have "
-                    "several starts; --slope 0 leaves it out",
-                    experiment.environment.slope));
-  }
+  require_level(experiment);
   if (experiment.contact.rolling_friction != 0) {
     if (goal.turns) return aimed_to_rest(experiment, flow.system().law(), goal);
     throw std::domain_error(
@@ -139,13 +145,53 @@ SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, con
   return {start->v, std::copysign(start->u / experiment.ball.radius, goal.turns.value_or(1))};
 }
 
-std::optional<CueStrike> level_strike(const Ball& ball, const SlipAndSpin& start) {
-  if (ball.body.lies_flat() || start.slip == 0) return std::nullopt;
+Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& flow, const RollingGoal& goal) {
+  require_level(experiment);
+  const auto require = [](const char* name, double value, bool possible, const char* range) {
+    if (!std::isfinite(value) || !possible)
+      throw std::domain_error(fmt::format("{}: must be finite{}, got {}", name, range, value));
+  };
+  require("rolls_at", goal.place, goal.place > 0, " and > 0");
+  require("rolling_speed", goal.speed, goal.speed >= 0, " and >= 0");
+  require("spin", goal.spin, true, "");
+  if (experiment.ball.body.lies_flat())
+    throw std::domain_error("a body that lies flat never rolls: give two of distance, turns and time");
+  if (experiment.contact.rolling_friction != 0) {
+    throw std::domain_error(
+        "aim knows where a ball begins to roll without rolling friction only; --rolling-friction 0 leaves it out");
+  }
+  // What its slip adds to the speed of the centre at the start.
+  Experiment shot = experiment;
+  const auto added = [&](double slip) {
+    shot.start = SlipAndSpin{slip, goal.spin};
+    return slip - final_motion(shot).velocity.x();
+  };
+  const auto too_far = [&](double slip) {
+    const double more = added(slip);
+    const BallMotion motion(shot, flow);
+    const double rolls = motion.slip_time(rolling_slip);
+    return motion.at_time(rolls).position.x() + (goal.speed + more - slip) * rolls - goal.place;
+  };
+  double high = 2 * rolling_slip;
+  constexpr double most = 1e100;
+  while (too_far(high) < 0) {
+    high *= 2;
+    if (high > most) throw std::domain_error(fmt::format("rolls_at: too far to be computed, got {}", goal.place));
+  }
+  const double slip = crossing(too_far, high / 2, high);
+  const double speed = goal.speed + added(slip);
+  return {{speed, 0}, {0, (speed - slip) / experiment.ball.radius, goal.spin}};
+}
+
+std::optional<CueStrike> level_strike(const Ball& ball, const Velocities& start) {
+  const double speed = start.velocity.x();
+  if (ball.body.lies_flat() || !(speed > 0)) return std::nullopt;
   const double gamma = ball.body.inertia.gamma;
-  const double right = start.spin * ball.radius / (gamma * start.slip);
-  if (std::abs(right) > largest_tip_offset) return std::nullopt;
-  const double speed = start.slip * (1 + ball.mass / standard_cue_mass + gamma * right * right) / 2;
-  return CueStrike{.speed = speed, .right = right, .above = 0, .elevation = 0};
+  const auto offset = [&](double turning) { return turning * ball.radius / (gamma * speed); };
+  const double right = offset(start.angular_velocity.z()), above = offset(start.angular_velocity.y());
+  if (std::hypot(right, above) > largest_tip_offset) return std::nullopt;
+  const double of_cue = speed * (1 + ball.mass / standard_cue_mass + gamma * right * right + gamma * above * above) / 2;
+  return CueStrike{.speed = of_cue, .right = right, .above = above, .elevation = 0};
 }
 
 }  // namespace contensou::si

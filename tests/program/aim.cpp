@@ -74,6 +74,55 @@ TEST_CASE("the cue of aim makes that start", "[cli]") {
   }
 }
 
+TEST_CASE("a ball begins to roll where and as fast as aim was asked", "[cli]") {
+  struct Asked {
+    const char* ball;
+    double place, speed, spin;
+  };
+  for (const auto& [ball, place, speed, spin] : {Asked{"pool", 0.5, 1, 0},
+                                                 {"pool", 0.5, 0.5, 30},
+                                                 {"pool", 1, 0, -80},
+                                                 {"gel", 0.05, 0.2, 300},
+                                                 {"basketball", 2, 3, 40},
+                                                 {"pool --law pade", 1e-6, 1, 5},
+                                                 {"pool", 1e6, 1, 100}}) {
+    const auto json = json_of(fmt::format("aim --ball {} --rolls-at {} --rolling-speed {} --spin {} --format json",
+                                          ball, place, speed, spin));
+    INFO(json);
+    const auto& v = json.at("velocity");
+    const auto& w = json.at("angular_velocity");
+    const auto roll = json_of(
+        fmt::format("roll --ball {} --velocity {:.17g},0 --angular-velocity 0,{:.17g},{:.17g} "
+                    "--format json --at {:.17g}",
+                    ball, v[0].get<double>(), w[1].get<double>(), w[2].get<double>(), json.at("time").get<double>()));
+    CHECK(w[2] == spin);
+    CHECK(roll.at("rolls_after").at("x").get<double>() == Approx(place).epsilon(1e-9));
+    CHECK(roll.at("vx")[0].get<double>() == Approx(speed).epsilon(1e-12).margin(1e-12 * v[0].get<double>()));
+    CHECK(json.at("rolls_after").at("x").get<double>() == Approx(place).epsilon(1e-9));
+    CHECK(json.at("final_velocity") == speed);
+  }
+  // Without spin by Coulomb's law: slip falls at (7/2) f g, to 1 mm/s, and the centre is braked by f g.
+  const double fg = 0.2 * 9.80665;
+  const auto json = json_of("aim --ball pool --rolls-at 0.5 --rolling-speed 1 --format json");
+  const double slip = json.at("slip"), v = json.at("velocity")[0], t = (slip - 1e-3) / (3.5 * fg);
+  CHECK(v * t - fg * t * t / 2 == Approx(0.5).epsilon(1e-12));
+  CHECK(v - 2 * slip / 7 == Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("the cue of aim makes a ball roll there", "[cli]") {
+  const auto json = json_of("aim --ball pool --rolls-at 10cm --rolling-speed 1 --spin 8 --format json");
+  const auto& strike = json.at("strike");
+  CHECK(strike.at("above").get<double>() > 0.1);
+  const auto roll = json_of(fmt::format("roll --ball pool --strike {:.17g} --tip {:.17g},{:.17g} --format json",
+                                        strike.at("speed").get<double>(), strike.at("right").get<double>(),
+                                        strike.at("above").get<double>()));
+  CHECK(roll.at("rolls_after").at("x").get<double>() == Approx(0.1).epsilon(1e-9));
+  CHECK_THAT(run_program("aim --ball pool --rolls-at 10cm --rolling-speed 1 --spin 8").out,
+             Contains(" radii right of the centre and ") && Contains(" above it\n") &&
+                 Contains("turning forwards at") &&
+                 Contains("it rolls on at 1 m/s; its slip is below 0.001 m/s from") && Contains(" s and 0.1 m on\n"));
+}
+
 TEST_CASE("what the lines of aim's picture say is what its points need", "[figure]") {
   namespace si = contensou::si;
   namespace portraits = contensou::portraits;
@@ -116,6 +165,16 @@ TEST_CASE("what aim cannot reach, and what it refuses", "[cli][errors]") {
   check_rejected("aim --ball pool --distance -1 --time 1", "distance must be finite and >= 0, got -1");
   check_rejected("aim --ball pool --distance 1kg --time 1", "'1kg'");
   check_rejected("aim --distance 1 --time 1", "--ball");
+  check_rejected("aim --ball pool --rolls-at 1", "--rolls-at and --rolling-speed are needed together");
+  check_rejected("aim --ball pool --rolls-at 1 --rolling-speed 1 --turns 2",
+                 "--turns and --rolls-at, --rolling-speed exclude each other");
+  check_rejected("aim --ball pool --rolls-at 1 --rolling-speed 1 -o x.svg", "a picture is of --distance");
+  check_rejected("aim --ball pool --rolls-at 0 --rolling-speed 1", "rolls_at: must be finite and > 0, got 0");
+  check_rejected("aim --ball pool --rolls-at 1 --rolling-speed -1", "rolling_speed: must be finite and >= 0, got -1");
+  check_rejected("aim --ball pool --rolls-at 1e300 --rolling-speed 1", "too far to be computed");
+  check_rejected("aim --ball puck --rolls-at 1 --rolling-speed 1", "never rolls");
+  check_rejected("aim --ball pool --rolling-friction 0.01 --rolls-at 1 --rolling-speed 1", "--rolling-friction 0");
+  check_rejected("aim --ball pool --slope 2 --rolls-at 1 --rolling-speed 1", "aim knows no slope");
   check_rejected("aim --ball pool --slope 2 --distance 1 --time 1", "aim knows no slope");
   check_rejected("aim --ball pool --rolling-friction 0.01 --distance 1 --time 1", "may have two starts");
   check_rejected("aim --ball pool --rolling-friction 0.01 --distance 1 --turns 1 -o x.svg",

@@ -21,6 +21,18 @@ def test_a_start_is_found_again(ball):
         assert all(found[name] == pytest.approx(value, rel=1e-12) for name, value in asked.items())
 
 
+def test_a_ball_begins_to_roll_where_it_is_asked():
+    pool = ct.Ball.pool()
+    found = ct.aim(pool, rolls_at=0.5, rolling_speed=0.5, spin=30)
+    roll = pool.roll(velocity=found["velocity"], angular_velocity=found["angular_velocity"])
+    assert roll.rolls_after.x == pytest.approx(0.5, rel=1e-9)
+    assert roll(found["time"])["vx"] == pytest.approx(0.5, rel=1e-12)
+    with pytest.raises(ValueError, match="rolls_at and rolling_speed are given together"):
+        ct.aim(pool, rolls_at=0.5)
+    with pytest.raises(ValueError, match="and no distance, turns and time"):
+        ct.aim(pool, rolls_at=0.5, rolling_speed=1, turns=1)
+
+
 @pytest.mark.skipif(not PROGRAM, reason="the program is not built")
 def test_aim_is_the_programs():
     words = [PROGRAM, "aim", "--ball", "puck", "--distance", "20", "--turns", "3", "--law", "exact", "--format", "json"]

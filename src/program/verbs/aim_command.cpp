@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "answers/aim_answer.hpp"
 #include "answers/aim_figure.hpp"
 #include "options/figure_options.hpp"
@@ -18,6 +20,13 @@ class AimCommand final : public Verb {
                   quantity("m"));
     turns_.add(app, "--turns", "N", "about the vertical until then, of either sign", number);
     time_.add(app, "--time", "TIME", "when slip and spin end; two of the three decide the start", quantity("s"));
+    rolls_at_.add(app, "--rolls-at", "LENGTH",
+                  "in place of two of them, of a ball: where it is to begin to roll, its slip below 1 mm/s",
+                  quantity("m"));
+    rolling_speed_.add(app, "--rolling-speed", "SPEED", "with --rolls-at: how fast it rolls on in the end; 0: it stays",
+                       quantity("m/s"));
+    spin_.add(app, "--spin", "SPIN", "with --rolls-at: about the vertical at the start, of either sign (default: 0)",
+              quantity("1/s"));
     start_.add_ball(app, "a ball in SI units, built in or from a run file; its own start does not count",
                     StartOptions::no_start);
     law_.add(app);
@@ -30,6 +39,15 @@ class AimCommand final : public Verb {
     const si::Experiment ball = start_.read_ball(law, at_rest("aim"));
     const Output output = output_.read();
     figure_.require_picture(output);
+    if (const std::string names = names_given({&rolls_at_, &rolling_speed_, &spin_}); !names.empty()) {
+      const std::string others = names_given({&distance_, &turns_, &time_});
+      if (!others.empty()) throw BadInput(fmt::format("{} and {} exclude each other: leave one out", others, names));
+      if (!rolls_at_.given() || !rolling_speed_.given())
+        throw BadInput(fmt::format("{}: --rolls-at and --rolling-speed are needed together", names));
+      if (output.picture()) throw BadInput(fmt::format("{}: a picture is of --distance, --turns and --time", names));
+      output.write(aim_answer(ball, law, si::RollingGoal{*rolls_at_, *rolling_speed_, spin_.value_or(0)}));
+      return ExitStatus::done;
+    }
     const si::Goal goal{distance_.optional(), turns_.optional(), time_.optional()};
     if (output.picture()) {
       start_.require_undriven(ball, "the plane of aims");
@@ -41,7 +59,7 @@ class AimCommand final : public Verb {
   }
 
  private:
-  ArgumentOf<double> distance_, turns_, time_;
+  ArgumentOf<double> distance_, turns_, time_, rolls_at_, rolling_speed_, spin_;
   StartOptions start_;
   LawOption law_;
   FigureOptions figure_;

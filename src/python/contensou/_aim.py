@@ -16,19 +16,34 @@ def aim(
     distance: Optional[float] = None,
     turns: Optional[float] = None,
     time: Optional[float] = None,
+    rolls_at: Optional[float] = None,
+    rolling_speed: Optional[float] = None,
+    spin: Optional[float] = None,
     law: Optional[LawLike] = None,
 ) -> dict[str, Any]:
     """The one start of a ball, or of a body that lies flat, that comes to two of these by the time when slip and spin end:
 
     distance:  m, of the centre; turns: about the vertical, of either sign; time: s
 
+    Or, of a ball, the one with a slip forwards that begins to roll at a place, its slip below 1 mm/s:
+
+    rolls_at:  m from the start; rolling_speed: m/s with which it rolls on in the end, 0 where it stays there
+    spin:      rad/s about the vertical at the start, 0 unless given
+
     The fields of `contensou aim --format json`: slip (m/s) and spin (rad/s) of the start, which roll(slip=, spin=) takes,
     and what it comes to: distance, turns, time; of a ball also final_velocity, rolls_after, and strike, the stroke of a cue
-    that starts it, if there is one. The ball's own start does not count.
+    that starts it, if there is one; velocity and angular_velocity are the whole start. The ball's own start does not count.
 
     Raises ValueError where no start comes to both, with what is nearest, for a slope, and for distance
     with time of a ball with rolling friction, of which several starts may come there. Such a ball is asked where it rests, and
     when all motion ends.
     """
-    found: dict[str, Any] = json.loads(_core.aim(ball._experiment, ball._law(law)._core, distance, turns, time))
+    experiment, core = ball._experiment, ball._law(law)._core
+    found: dict[str, Any]
+    if rolls_at is None and rolling_speed is None and spin is None:
+        found = json.loads(_core.aim(experiment, core, distance, turns, time))
+        return found
+    if rolls_at is None or rolling_speed is None or (distance, turns, time) != (None, None, None):
+        raise ValueError("rolls_at and rolling_speed are given together, spin beside them, and no distance, turns and time")
+    found = json.loads(_core.aim_to_roll(experiment, core, rolls_at, rolling_speed, spin or 0.0))
     return found

@@ -23,8 +23,24 @@ struct Goal {
 ///                            is nearest; for distance and time with rolling friction, and for a slope
 SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal);
 
-/// The level stroke of a standard cue that gives a ball this slip and spin, struck(ball, it): at the height of the centre,
-/// to the side. None for a body that lies flat, without slip, and where the tip would slip off the ball.
-std::optional<CueStrike> level_strike(const Ball& ball, const SlipAndSpin& start);
+/// Where a ball is to begin to roll, its slip below rolling_slip, and how.
+struct RollingGoal {
+  double place;     ///< m from the start, > 0
+  double speed;     ///< m/s with which it rolls on in the end, >= 0; 0: it stays there
+  double spin = 0;  ///< rad/s about the vertical, at the start
+};
+
+/// The one start along x that comes to the goal with a slip forwards. In a frame that moves with the speed the centre is
+/// carried by the slip alone, and of two such starts with one spin that with the greater slip slips on faster, turns on
+/// faster and so begins to roll later: were the slips equal at some instant, the faster spin would brake its slip less,
+/// and likewise for equal spins. So the place grows with the slip, from 0 to any.
+/// Accuracy  1e-9 of the place, as BallMotion's.
+/// @param flow  as above
+/// @throws std::domain_error  for a goal out of its range, a body that lies flat, rolling friction and a slope
+Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& flow, const RollingGoal& goal);
+
+/// The level stroke of a standard cue that gives a ball this start along x, struck(ball, it). None for a body that lies
+/// flat, for a centre that does not move forwards, and where the tip would slip off the ball.
+std::optional<CueStrike> level_strike(const Ball& ball, const Velocities& start);
 
 }  // namespace contensou::si
