@@ -1,12 +1,13 @@
 // The page: what the reader does changes the state, and the state is drawn.
 import { Address } from "./state/address.js";
-import { Checks } from "./controls/checks.js";
+import { makeChecks } from "./controls/checks.js";
 import { makeBallCard } from "./controls/ball_card.js";
 import { makeChoices } from "./controls/choices.js";
+import { makeControls } from "./controls/fields.js";
 import { makeSliders } from "./controls/sliders.js";
 import { drawCopies } from "./plane/copies_figure.js";
 import { $, isStill, write } from "./dom.js";
-import { Film } from "./share/film.js";
+import { makeFilm } from "./share/film.js";
 import { Hero } from "./hero/hero.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
@@ -16,11 +17,11 @@ import { drawPanes, panes } from "./share/panes_figure.js";
 import { Plane } from "./plane/plane.js";
 import { Player } from "./state/player.js";
 import { makePresets } from "./controls/presets_nav.js";
-import { Share } from "./share/share.js";
+import { makeShare } from "./share/share.js";
 import { Store } from "./state/store.js";
 import { ScreenSurface } from "./drawing/screen_surface.js";
 import { makeThrowing } from "./hero/throwing.js";
-import { Tour } from "./controls/tour.js";
+import { makeTour } from "./controls/tour.js";
 
 function start(library) {
   const opens = speaksOfNothing(location.hash);
@@ -31,7 +32,7 @@ function start(library) {
       action();
       write($("problem"), "");
     } catch (error) {
-      showControls();
+      controls.show();
       write($("problem"), error.message);
     }
   };
@@ -50,16 +51,12 @@ function start(library) {
   const player = new Player(store, ask);
   const hero = new Hero(store, player);
   const plane = new Plane(store, { ask, stopText, removeOrbit: (index) => orbits.remove(index) });
-  const controls = [makeChoices, makeSliders, makeBallCard].map((make) => make(store, plane, { ask, attempt }));
-  const showControls = () => controls.forEach((show) => show());
+  const controls = makeControls(store, ask);
+  for (const make of [makeChoices, makeSliders, makeBallCard]) make(controls, store, plane, { ask, attempt });
   const orbits = makeOrbits(store, plane, { ask, stopText });
-  const checks = new Checks(store);
-  const address = new Address(store, library, (asked) => ask((state) => Object.assign(state, asked)));
-  const film = new Film(store, player, ask);
-  const share = new Share(store, plane, hero, player, address, film);
+  const address = new Address(store, (asked) => ask((state) => Object.assign(state, asked)));
+  const film = makeFilm(store, player, ask);
   const go = (fragment, step = 0) => ask((state) => Object.assign(state, fromFragment(fragment, library), { step, theme: state.theme, embed: state.embed, lab: state.lab }), () => player.toggle(player.moves));
-  const showPresets = makePresets(library, go);
-  const tour = new Tour(go);
   makeThrowing(store, hero, player, plane);
 
   const paneSurface = new ScreenSurface($("panes"), (surface) => {
@@ -79,20 +76,15 @@ function start(library) {
         `${shown(end * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}${now.u === 0 && now.v === 0 ? ", no slip" : `, k = ${shown(now.k, 4)}`}`
       : "No orbit yet: click the plane.");
   };
+  const shows = [
+    () => plane.label(), () => hero.show(), controls.show, orbits.show, makeShare(store, { plane, hero, player, address, film }), makeChecks(store), film.redraw,
+    makeTour(go), makePresets(library, go),
+  ];
   store.listen(({ moment }) => {
     if (!moment) {
       for (const kind of ["embed", "lab"]) document.documentElement.classList.toggle(kind, store.state[kind]);
       document.documentElement.dataset.step = String(store.state.step);
-      plane.announce("");
-      hero.show();
-      showControls();
-      orbits.show();
-      share.show();
-      plane.label();
-      checks.show();
-      film.redraw();
-      tour.show(store.state.step);
-      showPresets(store.state);
+      for (const show of shows) show(store.state);
     }
     draw();
     if (!player.playing || !moment) address.rememberSoon();

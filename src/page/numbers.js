@@ -1,13 +1,13 @@
 // Numbers as people type and read them.
 
-/** A number from a field, or a sentence that says why it is none. @returns {{value: number, problem?: string}} */
+/** The number that a text is. @throws {Error} with a sentence that says why it is none */
 export function parseNumber(text) {
   const trimmed = text.trim().replace("−", "-");
-  if (trimmed === "") return { value: NaN, problem: "a number is needed" };
-  if (/^[-+]?\d+,\d+$/.test(trimmed)) return { value: NaN, problem: `write ${trimmed.replace(",", ".")} with a point` };
+  if (trimmed === "") throw new Error("a number is needed");
+  if (/^[-+]?\d+,\d+$/.test(trimmed)) throw new Error(`write ${trimmed.replace(",", ".")} with a point`);
   const value = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(trimmed) ? Number(trimmed) : NaN;
-  if (!Number.isFinite(value)) return { value, problem: `'${trimmed}' is not a finite number` };
-  return { value };
+  if (!Number.isFinite(value)) throw new Error(`'${trimmed}' is not a finite number`);
+  return value;
 }
 
 /** A number with a few digits, without needless zeros. */

@@ -184,7 +184,7 @@ test("with rolling friction the ball comes to rest, when and where the program s
   for (const key of ["t", "x", "y"]) assertClose(own[key], rest[key], 1e-10, key);
   assert.ok(end * factor >= rest.t);
   assert.ok((await page.textContent("#story")).includes(`It rests after ${Number(rest.t.toPrecision(3))} s, ${Number(Math.hypot(rest.x, rest.y).toPrecision(3))} m from its start.`));
-  const at = (share) => page.evaluate((share) => globalThis.page.hero.rides[1].at(share), share);
+  const at = (share) => page.evaluate((share) => globalThis.page.hero.bodies[1].at(share), share);
   const [last, before, rolling] = await Promise.all([at(1), at(rest.t / (end * factor)), at(0.5)]);
   // It rests once it turns no more and slides below 0.1 mm/s: while it still spins it creeps on by some micrometres.
   assertClose(Math.hypot(last.x, last.y), Math.hypot(rest.x, rest.y), 1e-6, "where it rests");

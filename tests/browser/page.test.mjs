@@ -47,7 +47,7 @@ test("of a ball the path until it rolls is told, as the program has it, with the
       for (const part of ["slides 12.5 mm, then it rolls", "it slides 0.239 m, 0.227 m more: 19 times as far and 22 times as long", "once its slip is below 1 mm/s"]) assert.ok((await story()).includes(part), await story());
     }
     // At the end both balls are where the program has them.
-    const [at, end] = await page.evaluate(() => [globalThis.page.hero.rides[1].at(1), globalThis.page.store.end * globalThis.page.store.timeFactor]);
+    const [at, end] = await page.evaluate(() => [globalThis.page.hero.bodies[1].at(1), globalThis.page.store.end * globalThis.page.store.timeFactor]);
     const there = execFileSync(program, ["roll", "--ball", "gel", ...words, "--law", "exact", "--at", String(end), "--format", "csv"], { encoding: "utf8" }).trim().split("\n").at(-1).split(",").map(Number);
     assertClose(Math.hypot(at.x, at.y), Math.hypot(there[1], there[2]), 1e-9, "place at the end");
     await close();
@@ -358,7 +358,7 @@ test("a ball that does not spin is seen to roll, and nothing of its patch slips"
   await open("#ball=gel&orbits=0,0.5");
   await page.evaluate(() => globalThis.page.store.move({ fraction: 0.7 }));
   assert.match(await page.textContent("#instant"), /no slip/);
-  const [{ x }, radius] = await page.evaluate(() => [globalThis.page.hero.rides[1].at(1), globalThis.page.state.ball.radius]);
+  const [{ x }, radius] = await page.evaluate(() => [globalThis.page.hero.bodies[1].at(1), globalThis.page.state.ball.radius]);
   assert.ok(x > 5.9 * radius && x < 6.5 * radius, `${x} m`);
   await close();
 });

@@ -24,7 +24,7 @@ test("a click anywhere in the plane is answered in words: no NaN, no power of te
         plane.choose(...at, "key");
         const start = store.orbit;
         const words = `${document.getElementById("headline").textContent} ${document.getElementById("story").textContent} ` +
-          `${document.getElementById("told").textContent} ${globalThis.page.hero.balls.map(({ title }) => title).join(" ")}`;
+          `${document.getElementById("told").textContent} ${globalThis.page.hero.lanesNow().map(({ title }) => title).join(" ")}`;
         if (/NaN|∞|undefined|·10/.test(words)) answers.push([start, words]);
         if (store.state.ball && library.rollingSlip > start.v && !(start.u === 0 ? /already rolls|at rest/ : /already rolls|in place/).test(words)) answers.push([start, words]);
         store.state = opened;
@@ -81,7 +81,7 @@ test("the velocity of the centre is its orbit's: what is done to one orbit leave
 test("the ball without spin is grey, whichever orbit is chosen", async () => {
   await open();
   await clickPlane(-1, 0.3);
-  const colours = () => page.evaluate(() => globalThis.page.hero.balls.map(({ colour }) => colour));
+  const colours = () => page.evaluate(() => globalThis.page.hero.lanesNow().map(({ colour }) => colour));
   const grey = await page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--soft").trim());
   for (const i of [1, 2]) {
     await page.click(`#orbits li:nth-child(${i}) button`);

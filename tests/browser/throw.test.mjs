@@ -64,16 +64,31 @@ test("a body is thrown: how far is how fast, the wheel is the spin, and the thro
   await close();
 });
 
+test("what is held is let go where its release is not heard of, such as outside of the window", async () => {
+  await open();
+  const held = () => page.evaluate(() => [globalThis.page.hero.aim !== null, globalThis.page.store.held, globalThis.page.state.orbits.length]);
+  // A mouse that comes back without its button; a capture that ends.
+  for (const event of ["pointermove", "lostpointercapture"]) {
+    await fling(80, 0, 0, { held: true });
+    assert.deepEqual(await held(), [true, true, 1]);
+    await page.evaluate((event) => document.getElementById("lanes").dispatchEvent(new PointerEvent(event, { pointerId: 1, pointerType: "mouse", bubbles: true })), event);
+    assert.deepEqual(await held(), [false, event !== "pointermove", 1]);
+    await page.mouse.up();
+    assert.deepEqual(await held(), [false, false, 1], "nothing is thrown");
+  }
+  await close();
+});
+
 test("what is thrown goes where the hand went, in the picture, and nothing is cut", async () => {
   for (const [dx, dy] of [[100, 0], [100, -80], [-100, -80], [0, 100], [-120, 0]]) {
     await open();
     await fling(dx, dy);
-    const { places, rides, width, height } = await page.evaluate(() => {
-      const { hero: { places, rides, lanes: { width, height } } } = globalThis.page;
-      return { places, rides: rides.map(({ xs, ys }) => [xs.at(-1), ys.at(-1)]), width, height };
+    const { places, ends, width, height } = await page.evaluate(() => {
+      const { hero: { places, bodies, lanes: { width, height } } } = globalThis.page;
+      return { places, ends: bodies.map(({ xs, ys }) => [xs.at(-1), ys.at(-1)]), width, height };
     });
     const far = Math.hypot(dx, dy);
-    for (const [x, y] of rides) assert.ok(Math.hypot(x / Math.hypot(x, y) - dx / far, y / Math.hypot(x, y) + dy / far) < 0.02, `${x}, ${y} for ${dx}, ${dy}`);
+    for (const [x, y] of ends) assert.ok(Math.hypot(x / Math.hypot(x, y) - dx / far, y / Math.hypot(x, y) + dy / far) < 0.02, `${x}, ${y} for ${dx}, ${dy}`);
     for (const { x, y, radius } of places) assert.ok(x > radius && x < width - radius && y > radius && y < height - radius, JSON.stringify({ x, y, radius }));
     await page.selectOption("#picture", "lanes");
     const svg = String(await saved("#save-svg"));
@@ -160,7 +175,7 @@ test("the story has the two bodies in their colours", async () => {
     await open("#ball=puck&orbits=2.286,0.5;2,0.5&chosen=1", { colorScheme });
     const { words, drawn: bodies } = await page.evaluate(() => {
       const probe = document.body.appendChild(document.createElement("i"));
-      const seen = globalThis.page.hero.balls.map(({ colour }) => {
+      const seen = globalThis.page.hero.lanesNow().map(({ colour }) => {
         probe.style.color = colour;
         return getComputedStyle(probe).color;
       });

@@ -4,33 +4,32 @@ import { shown } from "../numbers.js";
 
 const pause = 350;  // ms
 
-export class Checks {
-  constructor(store) {
-    this.store = store;
-    $("checks-card").addEventListener("toggle", () => this.show());
-  }
-
-  show() {
-    const { state: { law, mu, body, chi, gamma }, orbit } = this.store;
-    const key = JSON.stringify([law, mu, body, chi, gamma, orbit]);
-    if (key === this.key || !$("checks-card").open) return;
-    this.key = key;
-    clearTimeout(this.timer);
-    $("checks").setAttribute("aria-busy", "true");
-    this.timer = setTimeout(() => this.check(orbit), pause);
-  }
-
-  check(orbit) {
-    const cell = (textContent, properties) => make("td", { textContent, ...properties });
-    const row = ({ name, measured, allowed, passed }) =>
-      make("tr", {}, cell(name), cell(shown(measured, 2)), cell(shown(allowed, 2)), cell(passed ? "ok" : "FAIL", { className: passed ? "" : "failed" }));
-    $("checks").removeAttribute("aria-busy");
-    let rows;
+/** @param {import("../state/store.js").Store} store @returns shows the state */
+export function makeChecks(store) {
+  const [card, table] = [$("checks-card"), $("checks")];
+  let [known, timer] = ["", 0];
+  const cell = (textContent, properties = {}) => make("td", { textContent, ...properties });
+  const row = ({ name, measured, allowed, passed }) =>
+    make("tr", {}, cell(name), cell(shown(measured, 2)), cell(shown(allowed, 2)), cell(passed ? "ok" : "FAIL", { className: passed ? "" : "failed" }));
+  const rowsOf = ({ u, v }) => {
     try {
-      rows = orbit ? this.store.library.plane.checks(orbit.u, orbit.v).map(row) : [];
+      return store.library.plane.checks(u, v).map(row);
     } catch (error) {
-      rows = [make("tr", {}, cell(error.message, { colSpan: 4 }))];
+      return [make("tr", {}, cell(error.message, { colSpan: 4 }))];
     }
-    $("checks").tBodies[0].replaceChildren(...rows);
-  }
+  };
+  const show = () => {
+    const { state: { law, mu, body, chi, gamma }, orbit } = store;
+    const key = JSON.stringify([law, mu, body, chi, gamma, orbit]);
+    if (key === known || !card.open) return;
+    known = key;
+    clearTimeout(timer);
+    table.setAttribute("aria-busy", "true");
+    timer = setTimeout(() => {
+      table.removeAttribute("aria-busy");
+      table.tBodies[0].replaceChildren(...orbit ? rowsOf(orbit) : []);
+    }, pause);
+  };
+  card.addEventListener("toggle", show);
+  return show;
 }

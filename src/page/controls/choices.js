@@ -1,6 +1,6 @@
 // Ball, body and law, and what the plane shows.
 import { $, isStill, write } from "../dom.js";
-import { addNumber, choiceButtons, choose } from "./fields.js";
+import { choiceButtons } from "./fields.js";
 import { save, textFile } from "../share/exports.js";
 import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
 import { shown } from "../numbers.js";
@@ -11,25 +11,32 @@ import { described } from "../plane/views.js";
 const fieldTitles = { none: "none", motion: "of the motion (2.6)", regularised: "regularised (2.7)" };
 
 /**
+ * @param {ReturnType<import("./fields.js").makeControls>} controls
  * @param {import("../state/store.js").Store} store
  * @param {import("../plane/plane.js").Plane} plane
  * @param act  ask(edit) and attempt(action), which tell the reader what is rejected
- * @returns {() => void} shows the state
  */
-export function makeChoices(store, plane, { ask, attempt }) {
+export function makeChoices(controls, store, plane, { ask, attempt }) {
   const { balls, bodies, laws, views, lawName } = store.library;
-  choose("ball", [{ name: "", title: "any size, any unit" }, ...balls], ask, (state, value) => {
+  controls.choose("ball", [{ name: "", title: "any size, any unit" }, ...balls], ({ ball }) => ball?.name ?? "", (state, value) => {
     const ball = balls.find(({ name }) => name === value);
     if (ball) takeBall(state, ball);
     else Object.assign(state, { ball: null, part: "whole", orbits: state.orbits.map(unrolled) });
   });
   const titles = bodies.map(({ name }) => ({ name, title: name.replace("-", " ") }));
-  choose("body", [...titles, { name: "own", title: "your own χ and γ" }], ask, (state, body) => {
+  controls.choose("body", [...titles, { name: "own", title: "your own χ and γ" }], ({ body }) => body, (state, body) => {
     state.body = body;
     const { mu, largestMu } = bodyOf(state, store.library);
     state.mu = mu ?? Math.min(state.mu, largestMu);
   });
-  choose("field", fields.map((name) => ({ name, title: fieldTitles[name] })), ask, (state, field) => (state.field = field));
+  for (const [key, label] of Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" })) {
+    controls.number($("inertia"), key, label, ({ state }) => state[key], (state, value) => (state[key] = value));
+  }
+  controls.choose("field", fields.map((name) => ({ name, title: fieldTitles[name] })), ({ field }) => field, (state, field) => (state.field = field));
+  ["U", "V"].forEach((name, side) => controls.number($("window"), name, name, ({ portrait }) => Number(portrait.window[side].toPrecision(6)), (state, value) => {
+    plane.zooming.before = undefined;
+    state.window = store.portrait.window.map((shown, i) => (i === side ? value : shown));
+  }));
   const useLaw = (key) => (name) => store.change((state) => (state[key] = name && lawName(name)));
   const law = lawField("law", { laws, key: "exponent", attempt, use: useLaw("law") });
   const against = lawField("against", { laws, key: "against-exponent", none: "no other law", attempt, use: useLaw("against") });
@@ -50,32 +57,23 @@ export function makeChoices(store, plane, { ask, attempt }) {
   }));
   $("lab").addEventListener("click", () => ask((state) => (state.lab = !state.lab), () => store.state.lab &&
     $("columns").scrollIntoView({ behavior: isStill() ? "instant" : "smooth" })));
-  const inertia = Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" }).map(([key, label]) =>
-    ({ key, field: addNumber(store, $("inertia"), key, label, (state, value) => (state[key] = value)) }));
-  const sides = ["U", "V"].map((name, side) => addNumber(store, $("window"), `window-${name}`, name, (state, value) => {
-    plane.zooming.before = undefined;
-    state.window = store.portrait.window.map((shown, i) => (i === side ? value : shown));
-  }));
 
-  return function show() {
-    const { state, state: { ball }, facts, portrait, view } = store;
+  controls.shows.push(() => {
+    const { state, facts, view, contact, request } = store;
     $("lab").setAttribute("aria-expanded", String(state.lab));
     law.show(state.law);
     if (state.law.includes("=") && document.activeElement !== formulas) formulas.value = state.law;
     $("save-pressure").hidden = !tableOfLaw(state.law);
-    against.show(store.request.against);
+    against.show(request.against);
     for (const option of $("against").options) option.disabled = option.value === state.law;
-    for (const [id, value] of Object.entries({ ball: ball?.name ?? "", field: state.field, body: state.body })) $(id).value = value;
     $("isochrones").checked = state.isochrones > 0;
     $("field").disabled = $("isochrones").disabled = !view.layered;
-    $("body-label").hidden = Boolean(ball);
+    $("body-label").hidden = Boolean(state.ball);
     $("inertia").hidden = state.body !== "own";
-    for (const { key, field } of inertia) field.show(state[key]);
-    sides.forEach((field, side) => field.show(Number(portrait.window[side].toPrecision(6))));
     viewButtons.show(state.view);
     write($("view-hint"), view.hint);
-    const without = store.contact?.without ? ` The plane is without rolling friction: ${store.contact.without}.` : "";
+    const without = contact?.without ? ` The plane is without rolling friction: ${contact.without}.` : "";
     write($("terminal"), `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}${without}`);
     $("theme").setAttribute("aria-label", `Theme: ${state.theme === "auto" ? "as the system" : state.theme}`);
-  };
+  });
 }

@@ -1,31 +1,29 @@
 // A field for a number: what is wrong with it is said beside it, and only what is right is used.
 import { $, make, write } from "../dom.js";
 import { parseNumber } from "../numbers.js";
-import { requireAllowed } from "../state/page_state.js";
+import { allowed } from "../state/page_state.js";
 
 /**
- * @param input   the text field
- * @param output  where a problem is said
- * @param use     called with a number that was typed; throws an Error whose message says why it will not do
+ * @param input  the text field
+ * @param use    called with a number that was typed; throws an Error whose message says why it will not do
+ * @returns show(value), and the element that says what is wrong, which is put where there is room
  */
-export function numberField(input, output, use) {
+export function numberField(input, use) {
+  const output = make("output", { className: "error", id: `${input.id || input.name}-error`, htmlFor: input.id, ariaLive: "off" });  // each key would be announced
+  input.setAttribute("aria-describedby", output.id);
   const say = (problem) => {
     write(output, problem);
     input.setAttribute("aria-invalid", problem ? "true" : "false");
   };
-  const read = () => {
-    const { value, problem } = parseNumber(input.value);
-    if (problem) return say(problem);
+  let last = input.value;
+  input.addEventListener("input", () => {
     try {
-      use(value);
+      use(parseNumber(input.value));
       say("");
     } catch (error) {
       say(error.message);
     }
-  };
-  let last = input.value;
-  output.setAttribute("aria-live", "off");  // it is the field's description; each key would be announced
-  input.addEventListener("input", read);
+  });
   // What cannot be used does not stay.
   input.addEventListener("change", () => {
     if (output.textContent === "") return;
@@ -33,6 +31,7 @@ export function numberField(input, output, use) {
     say("");
   });
   return {
+    output,
     /** Shows a value that came from elsewhere, unless the reader is typing. */
     show(value) {
       const text = last = Math.abs(value) >= 1e6 ? value.toExponential() : String(value);
@@ -40,18 +39,19 @@ export function numberField(input, output, use) {
       if (input.value !== text) input.value = text;
       say("");
     },
-    say,
   };
 }
 
-/** A labelled number field with its place for a problem, in `parent`. */
+/** A number field with its label, in `parent`; hidden where it is shown no value. */
 export function addNumberField(parent, { key, label, use }) {
   const input = make("input", { className: "number", inputMode: "decimal", autocomplete: "off", name: key });
-  const output = make("output", { className: "error", id: `${key}-error` });
-  input.setAttribute("aria-describedby", output.id);
+  const { output, show } = numberField(input, use);
   const wrapper = make("label", {}, label, input, output);
   parent.append(wrapper);
-  return { ...numberField(input, output, use), hide: (hidden) => (wrapper.hidden = hidden) };
+  return (value) => {
+    wrapper.hidden = value === undefined;
+    if (value !== undefined) show(value);
+  };
 }
 
 /** Choices side by side, of which one is chosen. */
@@ -72,38 +72,60 @@ export function forgiveTouches(input) {
   });
 }
 
-/** A slider above the patch's; `use` takes a fraction of its length. */
-export function slider(name, label, use) {
-  const input = make("input", { type: "range", min: 0, max: 1000, id: `${name}-slider` });
-  const output = make("output", { htmlFor: input.id });
-  const title = make("label", { htmlFor: input.id, textContent: label });
-  $("mu-control").before(make("div", { className: "slider", id: `${name}-control` }, title, output, input));
-  input.addEventListener("input", () => use(Number(input.value) / 1000));
-  forgiveTouches(input);
-  return {
-    show(fraction, text) {
-      if (document.activeElement !== input) input.value = Math.round(1000 * fraction);
-      write(output, text);
-      input.setAttribute("aria-valuetext", text);
-    },
-  };
-}
-
 export function fillSelect(select, choices) {
   select.replaceChildren(...choices.map(({ name, title }) => new Option(title, name)));
 }
 
-/** A list of choices. @param edit  (state, name) */
-export function choose(id, choices, ask, edit) {
-  fillSelect($(id), choices);
-  $(id).addEventListener("change", () => ask((state) => edit(state, $(id).value)));
-}
+/**
+ * Controls of the state: each shows a value of it, and changes it.
+ *
+ * @param {import("../state/store.js").Store} store
+ * @param ask  (edit): tells the reader what is rejected
+ * @returns show(); and shows, what each does then
+ */
+export function makeControls(store, ask) {
+  const shows = /** @type {(() => void)[]} */ ([]);
+  return {
+    shows,
+    show: () => shows.forEach((show) => show()),
 
-/** A number of the state with its label, in `parent`. @param edit  (state, value) */
-export const addNumber = (store, parent, key, label, edit) => addNumberField(parent, {
-  key, label,
-  use(value) {
-    requireAllowed(key, value);
-    store.change((state) => edit(state, value));
-  },
-});
+    /** A list of choices. @param of  (state): the name of the one that is chosen @param edit  (state, name) */
+    choose(id, choices, of, edit) {
+      fillSelect($(id), choices);
+      $(id).addEventListener("change", () => ask((state) => edit(state, $(id).value)));
+      shows.push(() => ($(id).value = of(store.state)));
+    },
+
+    /** A number with its label, in `parent`. @param of  (store): its value; hidden where it has none @param edit  (state, value) */
+    number(parent, key, label, of, edit) {
+      const show = addNumberField(parent, { key, label, use: (value) => store.change((state) => edit(state, allowed(key, value))) });
+      shows.push(() => show(of(store)));
+    },
+
+    /**
+     * A slider.
+     *
+     * @param of  (store): {share of its length, text, perhaps spoken and disabled}; hidden where there is none
+     * @param edit  (state, share)
+     * @returns the element around it, and that of its text
+     */
+    slider(name, label, of, edit) {
+      const input = make("input", { type: "range", min: 0, max: 1000, id: `${name}-slider` });
+      const output = make("output", { htmlFor: input.id });
+      const all = make("div", { className: "slider", id: `${name}-control` }, make("label", { htmlFor: input.id, textContent: label }), output, input);
+      $("sliders").append(all);
+      input.addEventListener("input", () => ask((state) => edit(state, Number(input.value) / 1000)));
+      forgiveTouches(input);
+      shows.push(() => {
+        const shown = of(store);
+        all.hidden = !shown;
+        if (!shown) return;
+        if (document.activeElement !== input) input.value = Math.round(1000 * shown.share);
+        input.disabled = Boolean(shown.disabled);
+        write(output, shown.text);
+        input.setAttribute("aria-valuetext", shown.spoken ?? shown.text);
+      });
+      return { all, output };
+    },
+  };
+}

@@ -36,7 +36,7 @@ export function lawField(id, { laws, key, none, attempt, use }) {
     ...(none ? [{ name: "", title: none }] : []),
     ...laws.map(({ name, meaning, letter }) => ({ name, title: `${letter ? `${name}:${letter}` : name} – ${meaning}` })),
   ]);
-  const field = addNumberField(place, {
+  const showNumber = addNumberField(place, {
     key, label: "its number",
     use: (value) => {
       use(`${select.value}:${value}`);
@@ -54,7 +54,7 @@ export function lawField(id, { laws, key, none, attempt, use }) {
       if (own) ([...select.options].find(({ text }) => text === own) ?? select.appendChild(new Option(own))).value = name;
       select.value = name;
       place.hidden = number === undefined;
-      if (!place.hidden) field.show(Number(number));
+      showNumber(number && Number(number));
     },
   };
 }

@@ -38,19 +38,20 @@ export function makeOrbits(store, plane, { ask, stopText }) {
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const say = (text) => (write(form.querySelector("output"), text));
-    const [u, v] = ["u", "v"].map((name) => parseNumber(form.elements[name].value));
-    if (u.problem || v.problem) return say(u.problem ? `u₀: ${u.problem}` : `v₀: ${v.problem}`);
-    if (v.value < 0) return say("a sliding speed is ≥ 0");
-    if (u.value === 0 && v.value === 0) return say("u₀ = v₀ = 0 is rest");
-    say("");
-    plane.startOrbit({ u: u.value, v: v.value }, (edit, done) => {
-      try {
-        store.change(edit);
-        done();
-      } catch (error) {
-        say(`This start cannot be shown: ${error.message}`);
-      }
-    });
+    let what = "";
+    try {
+      const [u, v] = ["u", "v"].map((name) => {
+        what = `${name}₀: `;
+        return parseNumber(form.elements[name].value);
+      });
+      what = "This start cannot be shown: ";
+      if (v < 0) throw new Error("a sliding speed is ≥ 0");
+      if (u === 0 && v === 0) throw new Error("u₀ = v₀ = 0 is rest");
+      plane.startOrbit({ u, v }, (edit, done) => done(store.change(edit)));
+      say("");
+    } catch (error) {
+      say(what + error.message);
+    }
   });
   $("clear-orbits").addEventListener("click", () => ask((state) => Object.assign(state, { orbits: [], isochrone: 0, fraction: 0 })));
 

@@ -1,68 +1,58 @@
 // The sliders: slip and spin of the chosen orbit, friction and patch.
-import { $, write } from "../dom.js";
-import { forgiveTouches, numberField, slider } from "./fields.js";
+import { make } from "../dom.js";
+import { numberField } from "./fields.js";
 import { shown } from "../numbers.js";
-import { moved, requireAllowed } from "../state/page_state.js";
+import { allowed, moved } from "../state/page_state.js";
 
 const smallestMu = 1e-3;
 const mostFriction = 1.2;
-const fractionToMu = (fraction, largest) => Number((largest * (smallestMu / largest) ** (1 - fraction)).toPrecision(3));
-const muToFraction = (mu, largest) => 1 - Math.log(mu / largest) / Math.log(smallestMu / largest);
+const shareToMu = (share, largest) => Number((largest * (smallestMu / largest) ** (1 - share)).toPrecision(3));
+const muToShare = (mu, largest) => 1 - Math.log(mu / largest) / Math.log(smallestMu / largest);
 const round = (value) => Number(value.toPrecision(3));
 
 /** As makeChoices. */
-export function makeSliders(store, plane, { ask }) {
-  const { balls } = store.library;
+export function makeSliders(controls, store, plane) {
+  /** What the sliders of slip and spin go to: they do not move under the reader's hand. */
+  const most = ({ ball }) => {
+    const built = store.library.balls.find(({ name }) => name === ball?.name);
+    return built ? { v: Math.max(2, 2 * built.slip), spin: 500 } : { v: 5, spin: 5 };
+  };
   const move = (state, edit) => {
     const orbit = state.orbits[state.chosen];
     const { u, v } = { ...orbit, ...edit(orbit) };
     state.orbits[state.chosen] = moved(orbit, u, v);
-  };
-  /** What the sliders of slip and spin go to: they do not move under the reader's hand. */
-  const largest = ({ ball }) => {
-    const built = balls.find(({ name }) => name === ball?.name);
-    return built ? { v: Math.max(2, 2 * built.slip), spin: 500 } : { v: 5, spin: 5 };
-  };
-  const slip = slider("slip", "slip", (fraction) => ask((state) => {
-    move(state, () => ({ v: round(Math.max(fraction, 0.01) * largest(state).v) }));
     plane.zooming.freeze(state);
-  }));
-  const spin = slider("spin", "spin", (fraction) => ask((state) => {
-    const value = round(fraction * largest(state).spin);
-    move(state, ({ u }) => ({ u: (u < 0 ? -1 : 1) * value * (state.ball?.radius ?? 1) }));
-    plane.zooming.freeze(state);
-  }));
-  const friction = slider("friction", "friction f", (fraction) => ask((state) => {
-    state.ball.friction = round(Math.max(fraction, 0.002) * mostFriction);
-  }));
+  };
+  controls.slider("slip", "slip", ({ orbit, state }) => orbit && {
+    share: orbit.v / most(state).v, text: state.ball ? `${shown(orbit.v, 3)} m/s` : `v₀ = ${shown(orbit.v, 3)}`,
+  }, (state, share) => move(state, () => ({ v: round(Math.max(share, 0.01) * most(state).v) })));
+  controls.slider("spin", "spin", ({ orbit, state }) => {
+    const spin = orbit && orbit.u / (state.ball?.radius ?? 1);
+    return orbit && { share: Math.abs(spin) / most(state).spin, text: state.ball ? `${shown(spin, 3)} rad/s` : `u₀ = ${shown(spin, 3)}` };
+  }, (state, share) => move(state, ({ u }) => ({ u: (u < 0 ? -1 : 1) * round(share * most(state).spin) * (state.ball?.radius ?? 1) })));
+  controls.slider("friction", "friction f", ({ state: { ball } }) => ball && { share: ball.friction / mostFriction, text: shown(ball.friction, 3) },
+    (state, share) => (state.ball.friction = round(Math.max(share, 0.002) * mostFriction)));
   const setMu = (state, mu) => {
     const { largestMu } = store.body;
-    requireAllowed("mu", mu);
-    if (mu > largestMu) throw new Error(`mu is the patch radius over R: at most ${largestMu} here`);
+    if (allowed("mu", mu) > largestMu) throw new Error(`mu is the patch radius over R: at most ${largestMu} here`);
     // Patch radius and spin deceleration are proportional to mu.
     if (state.ball) state.ball.patch = Number(((state.ball.patch * mu) / state.mu).toPrecision(12));
     else state.mu = mu;
   };
-  const muSlider = $("mu-slider");
-  muSlider.addEventListener("input", () => ask((state) => setMu(state, fractionToMu(Number(muSlider.value) / 1000, store.body.largestMu))));
-  forgiveTouches(muSlider);
-  const muField = numberField($("mu"), $("mu-error"), (mu) => store.change((state) => setMu(state, mu)));
-
-  return function show() {
-    const { state, state: { ball }, body, contact, orbit } = store;
-    muSlider.value = Math.round(1000 * muToFraction(state.mu, body.largestMu));
-    muSlider.disabled = $("mu").disabled = ball ? ball.patchBy === "whole_face" : body.mu !== undefined;
-    const patch = contact ? `${shown(1000 * contact.patchRadius, 3)} mm` : "";
-    write($("patch-size"), patch);
-    muSlider.setAttribute("aria-valuetext", `${patch ? `${patch}, ` : ""}mu ${shown(state.mu)}`);
-    muField.show(ball ? Number(state.mu.toPrecision(6)) : state.mu);
-    $("slip-control").hidden = $("spin-control").hidden = !orbit;
-    $("friction-control").hidden = !ball;
-    if (ball) friction.show(ball.friction / mostFriction, shown(ball.friction, 3));
-    if (!orbit) return;
-    const most = largest(state);
-    const turns = orbit.u / (ball?.radius ?? 1);
-    slip.show(orbit.v / most.v, ball ? `${shown(orbit.v, 3)} m/s` : `v₀ = ${shown(orbit.v, 3)}`);
-    spin.show(Math.abs(turns) / most.spin, ball ? `${shown(turns, 3)} rad/s` : `u₀ = ${shown(turns, 3)}`);
-  };
+  const isGiven = () => (store.state.ball ? store.state.ball.patchBy === "whole_face" : store.body.mu !== undefined);
+  const { all, output } = controls.slider("mu", "patch", ({ state: { mu }, body, contact }) => {
+    const text = contact ? `${shown(1000 * contact.patchRadius, 3)} mm` : "";
+    return { share: muToShare(mu, body.largestMu), disabled: isGiven(), text, spoken: `${text && `${text}, `}mu ${shown(mu)}` };
+  }, (state, share) => setMu(state, shareToMu(share, store.body.largestMu)));
+  // And mu as a number.
+  const input = make("input", { id: "mu", className: "number", inputMode: "decimal", autocomplete: "off", ariaLabel: "mu, as a number" });
+  const field = numberField(input, (mu) => store.change((state) => setMu(state, mu)));
+  const line = make("span");
+  output.before(line);
+  line.append(output, " ", make("i", { textContent: "μ" }), " ", input);
+  all.append(field.output);
+  controls.shows.push(() => {
+    input.disabled = isGiven();
+    field.show(store.state.ball ? Number(store.state.mu.toPrecision(6)) : store.state.mu);
+  });
 }

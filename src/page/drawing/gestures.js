@@ -35,6 +35,8 @@ export function listen(canvas, on) {
   });
   canvas.addEventListener("pointermove", (event) => {
     const [x, y] = place(event);
+    // A button that was released where no page hears of it.
+    if (event.buttons === 0) lose(event);
     if (fingers.has(event.pointerId)) fingers.set(event.pointerId, [x, y]);
     if (fingers.size === 2) {
       const [before, now] = [spread, spreadNow()];
@@ -64,7 +66,8 @@ export function listen(canvas, on) {
     if (start && !start.dragged) on.tap?.(...place(event), kindOf(event));
     else if (start && start.held !== null) on.release?.();
   }));
-  canvas.addEventListener("pointercancel", (event) => lift(event, () => on.cancel?.()));
+  const lose = (event) => fingers.has(event.pointerId) && lift(event, () => on.cancel?.());
+  for (const lost of ["pointercancel", "lostpointercapture"]) canvas.addEventListener(lost, lose);
   canvas.addEventListener("pointerleave", () => on.leave?.());
   // A finger scrolls the page up and down, unless it takes hold of something.
   canvas.addEventListener("touchstart", (event) => {

@@ -5,7 +5,6 @@ const smallestWidth = 120;  // pixels; a hidden or minimised page has none
 
 /** A canvas of the page. */
 export class ScreenSurface extends CanvasSurface {
-  size = { width: 0, height: 0 };
   inSight = true;
   late = false;  // what is there now has still to be drawn
   /** @type {{key: unknown[], value?: unknown, picture?: HTMLCanvasElement}[]} pictures of `still`, each with the next in it */
@@ -17,9 +16,9 @@ export class ScreenSurface extends CanvasSurface {
     super(canvas);
     this.picture = picture;
     new ResizeObserver(() => {
-      const { width, height } = this.size;
+      const { width, height } = this;
       this.measure();
-      if (width !== this.size.width || height !== this.size.height) this.draw();
+      if (width !== this.width || height !== this.height) this.draw();
     }).observe(canvas);
     new IntersectionObserver(([{ isIntersecting }]) => {
       this.inSight = isIntersecting;
@@ -29,7 +28,8 @@ export class ScreenSurface extends CanvasSurface {
 
   /** Asks the page for the size, which lays the page out. */
   measure() {
-    this.size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+    this.width = this.canvas.clientWidth;
+    this.height = this.canvas.clientHeight;
   }
 
   /** Gives the canvas the height of so many rows of panels. */
@@ -41,17 +41,9 @@ export class ScreenSurface extends CanvasSurface {
     this.measure();
   }
 
-  get width() {
-    if (this.size.width === 0) this.measure();
-    return this.size.width;
-  }
-
-  get height() {
-    return this.size.height;
-  }
-
   draw() {
     this.late = false;
+    if (this.width === 0) this.measure();
     if (this.width >= smallestWidth) this.picture(this);
   }
 

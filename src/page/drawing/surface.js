@@ -42,27 +42,29 @@ export const borderOf = ({ left = 0, top = 0, width, height }) =>
  * @typedef {{fill?: string, stroke?: string, width?: number, dash?: number[], radius?: number}} Style
  */
 
-/** A canvas of so many pixels for a picture of that width and height. */
-export class CanvasSurface {
-  constructor(canvas, { width = 0, height = 0 } = {}) {
-    this.canvas = canvas;
-    this.context = canvas.getContext("2d", { alpha: false });
-    this.size = { width, height };
-    if (width) this.context.scale(canvas.width / width, canvas.height / height);
-  }
-
-  get width() {
-    return this.size.width;
-  }
-
-  get height() {
-    return this.size.height;
+class Surface {
+  constructor(width, height) {
+    this.width = width;
+    this.height = height;
   }
 
   /** Begins a picture with its ground and what stays while only the moment moves. @returns what `draw` has returned */
   still(_keys, ground, draw) {
     this.shape([borderOf(this)], { fill: ground });
     return draw();
+  }
+
+  /** @param {ArrayLike<number>[]} _lines @param {Style} _style */
+  shape(_lines, _style) {}
+}
+
+/** A canvas of so many pixels for a picture of that width and height. */
+export class CanvasSurface extends Surface {
+  constructor(canvas, { width = 0, height = 0 } = {}) {
+    super(width, height);
+    this.canvas = canvas;
+    this.context = canvas.getContext("2d", { alpha: false });
+    if (width) this.context.scale(canvas.width / width, canvas.height / height);
   }
 
   /** @param {ArrayLike<number>[]} lines @param {Style} style */
@@ -129,17 +131,11 @@ const coordinate = (value) => String(Math.round(value * 100) / 100);
 const round = 'stroke-linejoin="round" stroke-linecap="round"';
 const escaped = (text) => text.replace(/[&<>"]/g, (character) => `&#${character.charCodeAt(0)};`);
 
-export class SvgSurface {
+export class SvgSurface extends Surface {
   constructor(width, height, title) {
-    this.width = width;
-    this.height = height;
+    super(width, height);
     this.parts = [`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" ` +
       `viewBox="0 0 ${width} ${height}" role="img"><title>${escaped(title)}</title>`];
-  }
-
-  still(_keys, ground, draw) {
-    this.shape([borderOf(this)], { fill: ground });
-    return draw();
   }
 
   /** @param {ArrayLike<number>[]} lines @param {Style} style */

@@ -22,8 +22,11 @@ export function makeHandles(story) {
     story.setPointerCapture(event.pointerId);
     held = { key, x: event.clientX, value: Number(sliderOf(key).value) };
   });
-  story.addEventListener("pointermove", (event) => held && set(held.key, held.value + (1000 * (event.clientX - held.x)) / travel));
-  for (const end of ["pointerup", "pointercancel"]) story.addEventListener(end, () => (held = null));
+  story.addEventListener("pointermove", ({ buttons, clientX }) => {
+    if (buttons === 0) held = null;
+    if (held) set(held.key, held.value + (1000 * (clientX - held.x)) / travel);
+  });
+  for (const end of ["pointerup", "lostpointercapture"]) story.addEventListener(end, () => (held = null));
   story.addEventListener("keydown", (event) => {
     const key = keyOf(event);
     if (!key || !steps[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;

@@ -17,14 +17,7 @@ export class Hero {
   /** What is said. */
   facts = /** @type {import("./story.js").Facts} */ ({});
   /** What moves, the body without spin first. */
-  rides = /** @type {ReturnType<typeof rideOn>[]} */ ([]);
-  titles = /** @type {string[]} */ ([]);
-  /** When and where each ceases to slide, and its path until then. */
-  ends = /** @type {number[]} */ ([]);
-  stops = /** @type {ReturnType<ReturnType<typeof rideOn>["at"]>[]} */ ([]);
-  slides = /** @type {number[][]} */ ([]);
-  /** What is drawn. */
-  balls = /** @type {ReturnType<Hero["ballsNow"]>} */ ([]);
+  bodies = /** @type {ReturnType<Hero["bodiesOf"]>} */ ([]);
   /** @type {{x: number, y: number, radius: number}[]} where the bodies are, in pixels */
   places = [];
   /** @type {{from: number[], to: number[], words: string} | null} of a throw */
@@ -65,7 +58,7 @@ export class Hero {
 
   /** Everything but the moment. */
   show() {
-    const { store, store: { state: { ball }, ride, orbit, timeFactor } } = this;
+    const { store, store: { ride } } = this;
     if (this.asked !== store.motion) this.asked = null;
     for (const id of ["lanes", "patch"]) $(id).hidden = !ride;
     $("answers").hidden = !this.asked;
@@ -77,23 +70,27 @@ export class Hero {
       return;
     }
     this.facts = factsOf(store);
-    const { radius, own, plain } = ride;
-    const lasts = ride.end * timeFactor;
-    this.spinShown = Math.min(1, (fastest * this.player.seconds * radius) / (Math.abs(orbit.u) * lasts) || 1);
-    // A path that curves is seen from where it leads to the right, or where it was thrown to.
-    const [x, y] = ["x", "y"].map((key) => ride.courses[1][key].at(-1));
-    const heading = (Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0) - (orbit.heading * Math.PI) / 180;
-    this.rides = ride.courses.map((course) => rideOn(course, heading, this.spinShown));
-    this.ends = [plain.end, own.end];
-    this.stops = this.rides.map((ride, i) => ride.at(Math.min(1, this.ends[i] / lasts)));
-    this.slides = this.rides.map((ride, i) => ride.until(this.ends[i] / lasts));
-    const { spin, rolls } = this.facts;
-    this.titles = ["without spin", spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`];
+    this.bodies = this.bodiesOf(ride);
     const { headline, story, names = {} } = this.asked ? question : say(this.facts);
     write($("headline"), headline);
     this.tell(story, names);
-    write($("dare-line"), dare[rolls ? "rolls" : "stops"]);
+    write($("dare-line"), dare[ride.rolls ? "rolls" : "stops"]);
     $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${story}`);
+  }
+
+  /** Both bodies: how they move, and when and where each ceases to slide. */
+  bodiesOf({ courses, plain, own, radius, end }) {
+    const { player, facts: { spin }, store: { state: { ball }, orbit, timeFactor } } = this;
+    const lasts = end * timeFactor;
+    const spinShown = Math.min(1, (fastest * player.seconds * radius) / (Math.abs(orbit.u) * lasts) || 1);
+    // A path that curves is seen from where it leads to the right, or where it was thrown to.
+    const [x, y] = ["x", "y"].map((key) => courses[1][key].at(-1));
+    const heading = (Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0) - (orbit.heading * Math.PI) / 180;
+    const titles = ["without spin", spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`];
+    return [plain, own].map(({ end, path }, i) => {
+      const ride = rideOn(courses[i], heading, spinShown);
+      return { ...ride, title: titles[i], end, far: path, stop: ride.at(Math.min(1, end / lasts)), slides: ride.until(end / lasts) };
+    });
   }
 
   /** The story: words in the colours of what they name, and numbers that are handles. @param names  what each word names */
@@ -135,9 +132,9 @@ export class Hero {
   }
 
   drawBalls(surface) {
-    const { store: { ride, theme, contact }, balls: lanes, aim, asked } = this;
+    const { store: { ride, theme, contact }, aim, asked } = this;
     const placed = this.ruler.placed && { ...this.ruler.placed, words: this.ruler.words };
-    return ride ? drawLanes(surface, { lanes, radius: ride.radius, rolls: ride.rolls, unit: contact ? "m" : "", secret: asked !== null, aim, placed }, theme) : { places: [], rulerEnds: null };
+    return ride ? drawLanes(surface, { lanes: this.lanesNow(), radius: ride.radius, rolls: ride.rolls, unit: contact ? "m" : "", secret: asked !== null, aim, placed }, theme) : { places: [], rulerEnds: null };
   }
 
   /** The canvas of a film, on which the balls are drawn from now on under what is said of them, with the clock. */
@@ -162,21 +159,20 @@ export class Hero {
     film.context.drawImage(lanes.canvas, 0, titleLines * textSize, lanes.width, lanes.height);
   }
 
-  ballsNow() {
-    const { store: { state, ride, timeFactor, end, theme, contact }, rides, ends, stops, slides, titles } = this;
-    const lasts = end * timeFactor;
-    const time = state.fraction * lasts;
-    const unit = contact ? "m" : "";
-    const slid = [ride.plain, ride.own];
-    const has = ends.map((t) => time >= (1 - 1e-12) * t);
-    const rest = (i) => (!ride.rolls ? "stands" : time < (rides[i].rest?.t ?? Infinity) ? "rolls" : "rests");
+  lanesNow() {
+    const { store: { state, timeFactor, ride, end, theme, contact }, bodies } = this;
+    const time = state.fraction * end * timeFactor;
+    const places = bodies.map(({ at }) => at(state.fraction));
+    const has = bodies.map((body) => time >= (1 - 1e-12) * body.end);
+    const word = ({ rest }) => (!ride.rolls ? "stands" : time < (rest?.t ?? Infinity) ? "rolls" : "rests");
     // A ruler lies between them where both go straight.
-    const straight = stops.every(({ x, y, path }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
-    const own = has[1] ? { ...stops[1], path: slid[1].path } : rides[1].at(state.fraction);
-    const ruler = straight && own.path > 1.02 * slid[0].path ? { from: stops[0], to: own, more: own.path - slid[0].path } : null;
-    return rides.map((ride, i) => ({
-      title: `${titles[i]}: ${has[i] ? `${rest(i)}, after ${length(slid[i].path, unit)} in ${duration(ends[i], contact ? "s" : "")}` : "slides"}`,
-      xs: ride.xs, ys: ride.ys, at: ride.at(state.fraction), slides: slides[i],
+    const [plain, own] = bodies;
+    const straight = bodies.every(({ stop: { x, y, path } }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
+    const [to, path] = has[1] ? [own.stop, own.far] : [places[1], places[1].path];
+    const ruler = straight && path > 1.02 * plain.far ? { from: plain.stop, to, more: path - plain.far } : null;
+    return bodies.map((body, i) => ({
+      title: `${body.title}: ${has[i] ? `${word(body)}, after ${length(body.far, contact ? "m" : "")} in ${duration(body.end, contact ? "s" : "")}` : "slides"}`,
+      xs: body.xs, ys: body.ys, at: places[i], slides: body.slides,
       colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
     }));
   }
@@ -188,7 +184,6 @@ export class Hero {
       this.asked = null;
       this.show();
     }
-    this.balls = this.ballsNow();
     if (this.film) this.drawFilm(this.film);
     else this.lanes.drawInSight();
     this.patch.drawInSight();

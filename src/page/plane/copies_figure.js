@@ -12,20 +12,20 @@ const shape = { columns: 2, narrowest: 150 };
 /**
  * @param surface  what it is drawn on
  * @param {import("../state/store.js").Store} store
- * @param {{copies: import("./copies.js").Copies, sizes: ReturnType<import("./sizes.js").makeSizes>}} plane
+ * @param {{copies: import("./copies.js").Copies}} plane
  */
-export function drawCopies(surface, store, { copies, sizes }) {
+export function drawCopies(surface, store, { copies }) {
   const { theme, orbit, motion, state: { orbits, chosen }, motions } = store;
   const pull = copies.now;
   // What sizes are compared with.
-  const first = pull ?? sizes.from ?? (orbit ? { base: orbit, stop: motion.stop } : null);
+  const first = pull ?? (orbit ? { base: orbit, stop: motion.stop } : null);
   const curves = () => [
     ...motions.map((own, index) => ({ ...own, start: orbits[index], colour: theme.swatch(index), width: 1.5 })),
     ...copies.ghosts.map(({ motion, stop, ...start }) => ({ ...motion, stop, start, colour: `${theme.swatch(chosen)}99`, width: 1.5 })),
     { ...motion, start: orbit, colour: theme.swatch(chosen), width: 3 },
   ];
   if (!first) return surface.still([theme], theme.card, () => {});
-  drawFigure(surface, [motions, pull, sizes.from, copies.ghosts, chosen], () => figureOf(theme, shape, panelsOf(curves(), first, theme)), store, { covered: false });
+  drawFigure(surface, [motions, pull?.base, copies.ghosts, chosen], () => figureOf(theme, shape, panelsOf(curves(), first, theme)), store, { covered: false });
 }
 
 /** The four panels: v and u over their starts, the strip, stop times by sizes. */

@@ -5,7 +5,6 @@ import { listen } from "../drawing/gestures.js";
 import { drawPortrait } from "../drawing/figure.js";
 import { plain } from "../drawing/runs.js";
 import { shown } from "../numbers.js";
-import { makeSizes } from "./sizes.js";
 import { moved, startOf } from "../state/page_state.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 import { Zooming } from "./zooming.js";
@@ -23,8 +22,9 @@ export class Plane {
   constructor(store, act) {
     this.store = store;
     this.act = act;
-    this.copies = new Copies(store);
-    this.zooming = new Zooming(store, { ask: act.ask, announce: (text) => this.announce(text) });
+    const announce = (text) => this.announce(text);
+    this.copies = new Copies(store, { ask: act.ask, announce });
+    this.zooming = new Zooming(store, { ask: act.ask, announce });
     this.surface = new ScreenSurface($("plane"), (surface) => {
       surface.fit(store.library.rowsOf(store.portrait.figure, surface.width));
       this.planeScene = this.scene();
@@ -54,7 +54,6 @@ export class Plane {
       grow: (factor) => this.scale(factor),
       remove: () => store.motion && act.removeOrbit(store.state.chosen),
     });
-    this.sizes = makeSizes(store, act.ask, (text) => this.announce(text));
     $("zoom-in").addEventListener("click", () => this.zooming.by(0.7));
     $("zoom-out").addEventListener("click", () => this.zooming.by(1 / 0.7));
     $("zoom-ever").addEventListener("click", () => this.zooming.forEver());
@@ -85,8 +84,9 @@ export class Plane {
 
   /** What a screen reader says of the plane; nothing that changes with the moment. */
   label() {
-    this.sizes.show();
     const { portrait, state, motion } = this.store;
+    this.copies.show();
+    this.announce("");
     const legend = portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
     const count = state.orbits.length;
     $("plane").setAttribute("aria-label",
@@ -171,7 +171,8 @@ export class Plane {
       Object.assign(state, { chosen: index, fraction: 0, isochrone });
     }, () => {
       const { ghosts } = this.copies;
-      this.announce(this.copies.note());
+      this.copies.note();
+      this.announce(this.copies.words);
       if (ghosts !== this.copies.ghosts) this.draw();
     });
   }

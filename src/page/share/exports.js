@@ -56,7 +56,7 @@ export function csvOfOrbits(motions) {
 export const csvOfRide = ({ t, x, y, vx, vy, wx, wy, wz, slip, energy }) => csv({ t, x, y, vx, vy, wx, wy, wz, slip, energy });
 
 /** What a film has measured, what was found, and what is left; an angle is known up to whole turns. */
-export function csvOfFilm({ t, ...columns }) {
+export function csvOfFilm(/** @type {Columns} */ { t, ...columns }) {
   const whole = 2 * Math.PI;
   const parts = Object.keys(columns).filter((name) => columns[`${name}_fitted`]).flatMap((name) => {
     const [measured, fitted] = [columns[name], columns[`${name}_fitted`]];

@@ -11,88 +11,88 @@ import { SvgSurface } from "../drawing/surface.js";
 
 const widest = 12000;  // pixels; browsers have no larger canvas
 
-export class Share {
-  constructor(store, plane, hero, player, address, film) {
-    this.store = store;
-    const figures = {
-      plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store)],
-      lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface)],
-      patch: ["the patch", "patch", (surface) => hero.drawPatch(surface)],
-      panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store)],
-      "film-fit": ["the fit of a film", "fit", (surface) => film.draw(surface)],
-    };
-    fillSelect($("picture"), Object.entries(figures).map(([name, [title]]) => ({ name, title })));
-    const picture = () => {
-      const [title, name, draw] = figures[$("picture").value];
-      const { width, height } = $($("picture").value).getBoundingClientRect();
-      return { title, name, draw, width: Math.round(width), height: Math.round(height) };
-    };
-    const tell = (text) => write($("copied"), text);
-    /** What a button does, and where it cannot, why. */
-    const on = (id, action) => $(id).addEventListener("click", async () => {
-      try {
-        await action();
-      } catch (error) {
-        tell(`This could not be done: ${error.message || error.name}.`);
-      }
-    });
-    const copy = async (text, what) => {
-      const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
-      tell(copied ? `${what} copied.` : text);
-    };
-    on("copy-link", () => {
-      if (!address.link) return tell(`This page has no address of its own here. What follows # in a link to it: ${toFragment(store.state)}`);
-      return copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
-    });
-    on("copy-embed", async () => {
-      const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
-      await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
-      if (location.protocol === "file:") $("copied").append(" It names the file on this computer: readers need the page on a server, and its address there.");
-    });
-    on("copy-citation", () => copy(citation(address.link ?? "", $("version").textContent), "BibTeX"));
-    on("copy-command", () => copy($("command").textContent, "Command"));
-    on("copy-roll", () => copy($("roll-command").textContent, "Command"));
-    on("save-svg", () => {
-      const { title, name, draw, width, height } = picture();
-      const surface = new SvgSurface(width, height, `${title}: ${plain(store.portrait.figure.title)}`);
-      draw(surface);
-      save(`${name}.svg`, textFile(surface.toString(), "image/svg+xml"));
-    });
-    let pngWidth = Math.max(2000, screen.width * devicePixelRatio);
-    numberField($("png-width"), $("png-width-error"), (width) => {
-      if (!(width >= 100 && width <= widest)) throw new Error(`100 to ${widest} pixels`);
-      pngWidth = Math.round(width);
-    }).show(pngWidth);
-    on("save-png", async () => {
-      const { name, draw, ...size } = picture();
-      save(`${name}.png`, await pngOf(draw, size, pngWidth));
-    });
-    on("save-film", async () => {
-      const type = filmType();
-      if (!type) throw new Error("this browser takes no films");
-      tell(`The film is being taken: ${Math.ceil(player.seconds)} s.`);
-      try {
-        save(`balls.${/mp4|webm/.exec(type)}`, await filmOf(hero.beginFilm(), type, (done) => player.once(done)));
-      } finally {
-        hero.film = null;
-      }
-      tell("The film is saved.");
-    });
-    for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
-      on(`save-${ending}`, () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending), type)));
+/** @param {import("../state/store.js").Store} store @returns shows the state */
+export function makeShare(store, { plane, hero, player, address, film }) {
+  const figures = {
+    plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store)],
+    lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface)],
+    patch: ["the patch", "patch", (surface) => hero.drawPatch(surface)],
+    panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store)],
+    "film-fit": ["the fit of a film", "fit", (surface) => film.draw(surface)],
+  };
+  fillSelect($("picture"), Object.entries(figures).map(([name, [title]]) => ({ name, title })));
+  const picture = () => {
+    const [title, name, draw] = figures[$("picture").value];
+    const { width, height } = $($("picture").value).getBoundingClientRect();
+    return { title, name, draw, width: Math.round(width), height: Math.round(height) };
+  };
+  const tell = (text) => write($("copied"), text);
+  /** What a button does, and where it cannot, why. */
+  const on = (id, action) => $(id).addEventListener("click", async () => {
+    try {
+      await action();
+    } catch (error) {
+      tell(`This could not be done: ${error.message || error.name}.`);
     }
-    on("save-csv", () => {
-      const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
-        : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
-      save(`${name}.csv`, textFile(text, "text/csv"));
-    });
+  });
+  const copy = async (text, what) => {
+    const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
+    tell(copied ? `${what} copied.` : text);
+  };
+  on("copy-link", () => {
+    if (!address.link) return tell(`This page has no address of its own here. What follows # in a link to it: ${toFragment(store.state)}`);
+    return copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
+  });
+  on("copy-embed", async () => {
+    const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
+    await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
+    if (location.protocol === "file:") $("copied").append(" It names the file on this computer: readers need the page on a server, and its address there.");
+  });
+  on("copy-citation", () => copy(citation(address.link ?? "", $("version").textContent), "BibTeX"));
+  on("copy-command", () => copy($("command").textContent, "Command"));
+  on("copy-roll", () => copy($("roll-command").textContent, "Command"));
+  on("save-svg", () => {
+    const { title, name, draw, width, height } = picture();
+    const surface = new SvgSurface(width, height, `${title}: ${plain(store.portrait.figure.title)}`);
+    draw(surface);
+    save(`${name}.svg`, textFile(surface.toString(), "image/svg+xml"));
+  });
+  let pngWidth = Math.max(2000, screen.width * devicePixelRatio);
+  const pixels = numberField($("png-width"), (width) => {
+    if (!(width >= 100 && width <= widest)) throw new Error(`100 to ${widest} pixels`);
+    pngWidth = Math.round(width);
+  });
+  pixels.show(pngWidth);
+  $("pictures").append(pixels.output);
+  on("save-png", async () => {
+    const { name, draw, ...size } = picture();
+    save(`${name}.png`, await pngOf(draw, size, pngWidth));
+  });
+  on("save-film", async () => {
+    const type = filmType();
+    if (!type) throw new Error("this browser takes no films");
+    tell(`The film is being taken: ${Math.ceil(player.seconds)} s.`);
+    try {
+      save(`balls.${/mp4|webm/.exec(type)}`, await filmOf(hero.beginFilm(), type, (done) => player.once(done)));
+    } finally {
+      hero.film = null;
+    }
+    tell("The film is saved.");
+  });
+  for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
+    on(`save-${ending}`, () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending), type)));
   }
+  on("save-csv", () => {
+    const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
+      : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
+    save(`${name}.csv`, textFile(text, "text/csv"));
+  });
 
-  show() {
-    const { store: { state, request, portrait: { through }, body, library } } = this;
+  return () => {
+    const { state, request, portrait: { through }, body, library } = store;
     const { portrait, roll } = commandLine(state, request, through, body, library.balls.find((ball) => ball.name === state.ball?.name));
     write($("command"), portrait);
     write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
-  }
+  };
 }

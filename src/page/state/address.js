@@ -6,25 +6,26 @@ const steps = (fragment) => fragment.replace(/(^|&)(at|isochrone|theme)=[^&]*/g,
 
 export class Address {
   /**
-   * @param known  of the library, with the names of the views
    * @param use    called with the state of an address that the reader has gone to
    */
-  constructor(store, known, use) {
+  constructor(store, use) {
     this.store = store;
     // While the reader holds something, what he makes of it is one change.
     addEventListener("pointerdown", () => {
       store.held = true;
       clearTimeout(this.timer);
     }, true);
-    for (const end of ["pointerup", "pointercancel"]) {
-      addEventListener(end, () => {
+    // The last shows that it was released where no page hears of it.
+    for (const end of /** @type {const} */ (["pointerup", "pointercancel", "pointermove"])) {
+      addEventListener(end, ({ buttons }) => {
+        if (!store.held || buttons !== 0) return;
         store.release();
         this.rememberSoon();
       }, true);
     }
     addEventListener("hashchange", () => {
       clearTimeout(this.timer);
-      if (location.hash.slice(1) !== toFragment(store.state)) use(fromFragment(location.hash, known));
+      if (location.hash.slice(1) !== toFragment(store.state)) use(fromFragment(location.hash, store.library));
     });
   }
 

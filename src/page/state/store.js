@@ -26,8 +26,6 @@ export class Store {
   body = { chi: 1, gamma: 1, largestMu: 1, mu: /** @type {number | undefined} */ (undefined) };
   /** @type {OwnOrbit[]} */
   motions = [];
-  /** @type {{motion: OwnOrbit, fraction: number, end: number, now: Instant} | null} the last that was asked for */
-  moment = null;
   /** @type {number[] | null} when they stop by the law compared with, in tau */
   others = null;
   /** @type {Measured | null} the last film */
@@ -195,11 +193,7 @@ export class Store {
   }
 
   get now() {
-    const { motion, orbit, moment, state: { fraction }, end } = this;
-    if (!motion) return null;
-    if (moment?.motion === motion && moment.fraction === fraction && moment.end === end) return moment.now;
-    const now = this.library.plane.instant(orbit.u, orbit.v, fraction * end);
-    this.moment = { motion, fraction, end, now };
-    return now;
+    const { orbit, state: { fraction }, end, library: { plane } } = this;
+    return orbit ? plane.instant(orbit.u, orbit.v, fraction * end) : null;
   }
 }
