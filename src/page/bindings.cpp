@@ -104,23 +104,15 @@ State inside(const Flow& flow, State start, const portraits::Window& window) {
   return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};
 }
 
-/// The question of portrait_request.js.
-/// @param known  the flow, where it is known
-answers::PortraitSpec question_of(const val& asked, const Flow* known = nullptr) {
+/// The question of portrait_request.js, of a flow.
+answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   const auto has = [&](const char* key) { return !asked[key].isNull(); };
   std::optional<si::Experiment> experiment;
   if (has("ball")) {
     experiment = experiment_of(asked["ball"]);
     experiment->ball.name = asked["ball"]["title"].as<std::string>();
   }
-  const auto flow = [&]() -> Flow {
-    if (known) return *known;
-    const Law law = law_of(asked["law"].as<std::string>());
-    return ReducedSystem(law, experiment ? si::patch_ratio(*experiment, law) : asked["mu"].as<double>(),
-                         {.chi = asked["chi"].as<double>(), .gamma = asked["gamma"].as<double>()},
-                         asked["drive"].as<double>());
-  };
-  answers::PortraitSpec question{.flow = flow(), .experiment = experiment};
+  answers::PortraitSpec question{.flow = flow, .experiment = experiment};
   portraits::PortraitRequest& request = question.request;
   request.view = portraits::find_view(asked["view"].as<std::string>());
   request.linear = asked["linear"].as<bool>();
@@ -149,90 +141,93 @@ class Plane {
  public:
   /// Changes law, patch, body and the drive of a slope or of rolling friction: what k tends to, and what that means.
   val choose(const std::string& law, double mu, double chi, double gamma, double drive) {
-    return answer([&] {
-      flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}, drive));
-      level_.emplace(drive == 0 ? *flow_ : ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
-      // Of the motions that slide and pivot at one speed, if it depends on the start.
-      const auto end = flow().terminal().end_of(1);
-      return object("terminalRatio", end.k, "meaning", reduction::meaning(end.regime));
-    });
+    flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}, drive));
+    level_.emplace(drive == 0 ? *flow_ : ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
+    // Of the motions that slide and pivot at one speed, if it depends on the start.
+    const auto end = flow().terminal().end_of(1);
+    return object("terminalRatio", end.k, "meaning", reduction::meaning(end.regime));
   }
 
   /// What the program draws when asked so of the plane's system; but the orbits that were asked for come by themselves,
   /// for the page to draw: their motions from start to stop, and in each panel the line and where its arrow is.
   /// @param behind  whether what lies behind them is drawn, too; else it is as it was drawn last, in the same window
   val portrait(const val& asked, bool behind) {
-    return answer([&] {
-      answers::PortraitSpec question = question_of(asked, &flow());
-      question.request.drawn_only = true;
-      question.style.asked = false;
-      if (!behind) {
-        question.request.orbits_per_side = question.request.isochrones = 0;
-        question.request.comparison.reset();
-      }
-      const portraits::PhasePortrait portrait = question.portrait();
-      if (behind) drawn_ = question.mapped_figure(portrait);
-      val own = val::array();
-      auto through = portrait.through.begin();
-      for (const State& start : states_of(asked["orbits"])) {
-        const int index = own["length"].as<int>();
-        const bool chosen = index == asked["chosen"].as<int>(), on_axis = start.u == 0 || start.v == 0;
-        const portraits::PortraitOrbit* orbit = chosen && portrait.highlight ? &*portrait.highlight
-                                                : chosen || on_axis          ? nullptr
-                                                                             : &*through++;
-        own.set(index, own_orbit(start, orbit, portrait.window));
-      }
-      const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
-      val result =
-          object("own", own, "through", list(question.request.through, point), "window",
-                 list(std::array{portrait.window.u, portrait.window.v}, [](double side) { return val(side); }));
-      if (behind) result.set("figure", figure_value(drawn_.figure));
-      return result;
-    });
+    answers::PortraitSpec question = question_of(asked, flow());
+    question.request.drawn_only = true;
+    question.style.asked = false;
+    if (!behind) {
+      question.request.orbits_per_side = question.request.isochrones = 0;
+      question.request.comparison.reset();
+    }
+    const portraits::PhasePortrait portrait = question.portrait();
+    if (behind) drawn_ = question.mapped_figure(portrait);
+    val own = val::array();
+    auto through = portrait.through.begin();
+    for (const State& start : states_of(asked["orbits"])) {
+      const int index = own["length"].as<int>();
+      const bool chosen = index == asked["chosen"].as<int>(), on_axis = start.u == 0 || start.v == 0;
+      const portraits::PortraitOrbit* orbit = chosen && portrait.highlight ? &*portrait.highlight
+                                              : chosen || on_axis          ? nullptr
+                                                                           : &*through++;
+      own.set(index, own_orbit(start, orbit, portrait.window));
+    }
+    const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
+    val result = object("own", own, "through", list(question.request.through, point), "window",
+                        list(std::array{portrait.window.u, portrait.window.v}, [](double side) { return val(side); }));
+    if (behind) result.set("figure", figure_value(drawn_.figure));
+    return result;
+  }
+
+  /// The file that the program writes when asked so of the plane's system, ending in tex or json.
+  std::string portrait_file(const val& asked, const std::string& ending) const {
+    const answers::PortraitSpec question = question_of(asked, flow());
+    const portraits::PhasePortrait portrait = question.portrait();
+    return ending == "tex" ? portraits::pgfplots(question.figure(portrait))
+                           : portraits::to_json(portrait, question.source());
   }
 
   /// The stop time of one start.
-  double stop(double u, double v) const {
-    return answer([&] { return flow().orbit({.u = u, .v = v}).stop_time(); });
-  }
+  double stop(double u, double v) const { return flow().orbit({.u = u, .v = v}).stop_time(); }
 
   /// The stop time of one start by another law, for which mu may be another.
   double stop_by(const std::string& law, double mu, double u, double v) const {
-    return answer([&] {
-      const Flow other(ReducedSystem(law_of(law), mu, system().inertia(), system().drive()));
-      return other.orbit({.u = u, .v = v}).stop_time();
-    });
+    const Flow other(ReducedSystem(law_of(law), mu, system().inertia(), system().drive()));
+    return other.orbit({.u = u, .v = v}).stop_time();
   }
 
   /// The motion from one start to its stop: dense while it slides, and in equal times.
   val motion(double u, double v) const {
-    return answer([&] {
-      const auto columns = instants(flow().orbit({.u = u, .v = v}));
-      return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
-    });
+    const Orbit orbit = flow().orbit({.u = u, .v = v});
+    const double stop = orbit.stop_time();
+    constexpr int count = 120;
+    std::vector<double> times;
+    for (int i = 0; i <= count; ++i) times.push_back(stop * i / count);
+    // Sliding may be over long before the stop: also in steps of the time that sliding alone takes.
+    const double sliding = std::min(stop, 2 * system().sliding_limit(v));
+    for (int i = 1; i < count; ++i) times.push_back(sliding * i / count);
+    std::ranges::sort(times);
+    const auto columns =
+        orbit.at_times(Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())));
+    return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
   }
 
   /// One instant of the motion from one start, the friction there as a fraction of f N, and where it is in each panel.
   val instant(double u, double v, double tau) const {
-    return answer([&] {
-      const Orbit orbit = flow().orbit({.u = u, .v = v});
-      const auto point = orbit.at_time(tau);
-      const double pivoting = system().mu() * std::abs(point.u);
-      const bool moves = point.v > 0 || pivoting > 0;
-      const double force = moves ? system().law()({.sliding = point.v, .pivoting = pivoting}).force : 0;
-      const double left = std::max(0.0, orbit.stop_time() - point.tau);
-      const Instant now{point.u, point.v, point.ln_v, std::log(point.k), left};
-      return object("tau", point.tau, "u", point.u, "v", point.v, "k", point.k, "force", force, "places",
-                    places(now, state({u, v}, orbit.stop_time())));
-    });
+    const Orbit orbit = flow().orbit({.u = u, .v = v});
+    const auto point = orbit.at_time(tau);
+    const double pivoting = system().mu() * std::abs(point.u);
+    const bool moves = point.v > 0 || pivoting > 0;
+    const double force = moves ? system().law()({.sliding = point.v, .pivoting = pivoting}).force : 0;
+    const double left = std::max(0.0, orbit.stop_time() - point.tau);
+    const Instant now{point.u, point.v, point.ln_v, std::log(point.k), left};
+    return object("tau", point.tau, "u", point.u, "v", point.v, "k", point.k, "force", force, "places",
+                  places(now, state({u, v}, orbit.stop_time())));
   }
 
   /// Where a state is in each panel: x and y in turn.
   val place(double u, double v) const {
-    return answer([&] {
-      const Instant at = state({u, v}, 1);
-      return column(places(at, at));
-    });
+    const Instant at = state({u, v}, 1);
+    return column(places(at, at));
   }
 
   /// The state at a point of a panel; null where there is none.
@@ -247,78 +242,69 @@ class Plane {
   /// ball when its slip has fallen to `least`, m/s, what lies flat when it stops. And when slip and spin have ended, s.
   /// @param fields  as those of ride
   val slide(const val& fields, double rolling_friction, double least) const {
-    return answer([&] {
-      const auto course = course_of(fields, rolling_friction, least);
-      const bool flat = system().inertia().chi == 1;
-      const double end = course.rolls;
-      const auto heading = [&](double t) {
-        const Eigen::Vector2d velocity = course.at_time(t).velocity;
-        return std::atan2(velocity.y(), velocity.x());
-      };
-      const double turned = flat ? 0 : std::remainder(heading(end) - heading(0), 2 * std::numbers::pi);
-      return object("end", end, "path", flat ? course.slip_length() : course.path_length(end), "turned",
-                    turned * 180 / std::numbers::pi, "stop",
-                    course.resisted ? course.resisted->stop_time() : course.motion.stop_time());
-    });
+    const auto course = course_of(fields, rolling_friction, least);
+    const bool flat = system().inertia().chi == 1;
+    const double end = course.rolls;
+    const auto heading = [&](double t) {
+      const Eigen::Vector2d velocity = course.at_time(t).velocity;
+      return std::atan2(velocity.y(), velocity.x());
+    };
+    const double turned = flat ? 0 : std::remainder(heading(end) - heading(0), 2 * std::numbers::pi);
+    return object("end", end, "path", flat ? course.slip_length() : course.path_length(end), "turned",
+                  turned * 180 / std::numbers::pi, "stop",
+                  course.resisted ? course.resisted->stop_time() : course.motion.stop_time());
   }
 
   /// The motion over the table until `end`, in s, as columns in times that are dense at its beginning: those of `contensou
   /// roll`. And {t, x, y} of where it rests, with rolling friction or on a slope, if it does.
   /// @param fields  a ball whose patch the plane knows better
   val ride(const val& fields, double rolling_friction, double end) const {
-    return answer([&] {
-      const auto course = course_of(fields, rolling_friction, 0);
-      constexpr Eigen::Index pieces = 160;
-      const Eigen::ArrayXd times = end * Eigen::ArrayXd::LinSpaced(pieces + 1, 0, 1).square();
-      const si::MotionColumns motion = course.at_times(times);
-      val result = object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx",
-                          motion.wx, "wy", motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy);
-      if (const auto rest = course.rest()) {
-        result.set("rest", object("t", rest->t, "x", rest->place.x(), "y", rest->place.y()));
-      }
-      return result;
-    });
+    const auto course = course_of(fields, rolling_friction, 0);
+    constexpr Eigen::Index pieces = 160;
+    const Eigen::ArrayXd times = end * Eigen::ArrayXd::LinSpaced(pieces + 1, 0, 1).square();
+    const si::MotionColumns motion = course.at_times(times);
+    val result = object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx", motion.wx,
+                        "wy", motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy);
+    if (const auto rest = course.rest()) {
+      result.set("rest", object("t", rest->t, "x", rest->place.x(), "y", rest->place.y()));
+    }
+    return result;
   }
 
   /// The lines in each panel of all states that stop after that time, u > 0 and u < 0.
   val isochrone(double tau) const {
-    return answer([&] {
-      std::vector<State> states;
-      const auto add = [&](State direction) {
-        const double scale = tau / flow().orbit(direction).stop_time();
-        states.push_back({scale * direction.u, scale * direction.v});
-      };
-      add({.u = 1, .v = 0});
-      // Even in angle where both speeds take the same time to stop, and down to small k.
-      for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
-      const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
-      constexpr int pieces = 96;
-      for (int i = 1; i < pieces; ++i) {
-        const double angle = std::numbers::pi / 2 * i / pieces;
-        add({.u = std::cos(angle), .v = aspect * std::sin(angle)});
+    std::vector<State> states;
+    const auto add = [&](State direction) {
+      const double scale = tau / flow().orbit(direction).stop_time();
+      states.push_back({scale * direction.u, scale * direction.v});
+    };
+    add({.u = 1, .v = 0});
+    // Even in angle where both speeds take the same time to stop, and down to small k.
+    for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
+    const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
+    constexpr int pieces = 96;
+    for (int i = 1; i < pieces; ++i) {
+      const double angle = std::numbers::pi / 2 * i / pieces;
+      add({.u = std::cos(angle), .v = aspect * std::sin(angle)});
+    }
+    add({.u = 0, .v = 1});
+    std::size_t panel = 0;
+    const auto lines = [&](const portraits::PanelMap& map) {
+      std::vector<portraits::Polyline> both(2);
+      for (std::size_t i = 0; map.state && i < 2 * states.size(); ++i) {
+        const State& right = states[i / 2];
+        const Instant at = state({i % 2 == 0 ? right.u : -right.u, right.v}, tau);
+        both[i % 2].push_back(map.place(at, at));
       }
-      add({.u = 0, .v = 1});
-      std::size_t panel = 0;
-      const auto lines = [&](const portraits::PanelMap& map) {
-        std::vector<portraits::Polyline> both(2);
-        for (std::size_t i = 0; map.state && i < 2 * states.size(); ++i) {
-          const State& right = states[i / 2];
-          const Instant at = state({i % 2 == 0 ? right.u : -right.u, right.v}, tau);
-          both[i % 2].push_back(map.place(at, at));
-        }
-        return column(portraits::visible(drawn_.figure.panels[panel++], both));
-      };
-      return list(drawn_.maps, lines);
-    });
+      return column(portraits::visible(drawn_.figure.panels[panel++], both));
+    };
+    return list(drawn_.maps, lines);
   }
 
   /// The table of checks of one start.
   val checks(double u, double v) const {
-    return answer([&] {
-      return list(reduction::verify(flow(), State{.u = u, .v = v}), [](const reduction::Check& check) {
-        return object("name", check.name, "measured", check.measured, "allowed", check.allowed, "passed",
-                      check.passed());
-      });
+    return list(reduction::verify(flow(), State{.u = u, .v = v}), [](const reduction::Check& check) {
+      return object("name", check.name, "measured", check.measured, "allowed", check.allowed, "passed", check.passed());
     });
   }
 
@@ -352,18 +338,6 @@ class Plane {
     return result;
   }
 
-  reduction::OrbitColumns instants(const Orbit& orbit) const {
-    const double stop = orbit.stop_time();
-    constexpr int count = 120;
-    std::vector<double> times;
-    for (int i = 0; i <= count; ++i) times.push_back(stop * i / count);
-    // Sliding may be over long before the stop: also in steps of the time that sliding alone takes.
-    const double sliding = std::min(stop, 2 * system().sliding_limit(orbit.at_time(0).v));
-    for (int i = 1; i < count; ++i) times.push_back(sliding * i / count);
-    std::ranges::sort(times);
-    return orbit.at_times(Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())));
-  }
-
   /// @param drawn  the portrait's orbit through the start, if there is one: it may begin before, or in the window
   val own_orbit(State start, const portraits::PortraitOrbit* drawn, const portraits::Window& window) const {
     const Orbit orbit = flow().orbit(start);
@@ -379,15 +353,9 @@ class Plane {
               from_start(first.ln_k, drawn->ln_k), from_start(stop, drawn->tau_left)};
     }
     const bool is_seen = drawn && std::abs(start.u) <= window.u && start.v <= window.v;
-    reduction::OrbitColumns motion;
-    if (is_seen) {
-      motion.tau = stop - rows.tau_left;
-      motion.u = rows.u;
-      motion.v = rows.v;
-      motion.k = rows.ln_k.exp();
-    } else {
-      motion = instants(orbit);
-    }
+    val own = is_seen ? object("tau", Eigen::ArrayXd(stop - rows.tau_left), "u", rows.u, "v", rows.v, "k",
+                               Eigen::ArrayXd(rows.ln_k.exp()))
+                      : motion(start.u, start.v);
     std::size_t panel = 0;
     const auto in_panel = [&](const portraits::PanelMap& map) {
       const portraits::Panel& axes = drawn_.figure.panels[panel++];
@@ -402,8 +370,9 @@ class Plane {
       }
       return object("line", line, "arrow", arrow);
     };
-    return object("stop", stop, "tau", motion.tau, "u", motion.u, "v", motion.v, "k", motion.k, "panels",
-                  list(drawn_.maps, in_panel));
+    own.set("stop", stop);
+    own.set("panels", list(drawn_.maps, in_panel));
+    return own;
   }
 
   std::optional<Flow> flow_, level_;  ///< the latter without a drive
@@ -424,10 +393,8 @@ val laws() {
 
 /// The name of the law that is called so, as the library writes it.
 std::string law_name(const std::string& called) {
-  return answer([&] {
-    const Law law = law_of(called);
-    return called.starts_with(table_of_pressure) ? called : law.name();
-  });
+  const Law law = law_of(called);
+  return called.starts_with(table_of_pressure) ? called : law.name();
 }
 
 /// {name, chi, gamma} of each body, and `mu` of one that decides it.
@@ -447,16 +414,6 @@ val views() {
   return list(shown, [](portraits::View view) {
     return object("name", portraits::name(view), "layered", portraits::shows_window(view), "moments",
                   portraits::shows_moments(view));
-  });
-}
-
-/// The file that the program writes when asked so, ending in tex or json.
-std::string portrait_file(const val& asked, const std::string& ending) {
-  return answer([&] {
-    const answers::PortraitSpec question = question_of(asked);
-    const portraits::PhasePortrait portrait = question.portrait();
-    return ending == "tex" ? portraits::pgfplots(question.figure(portrait))
-                           : portraits::to_json(portrait, question.source());
   });
 }
 
@@ -493,19 +450,17 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
 /// What the plane needs to know of a ball; its drive is that of a slope and of rolling friction, which `without` says why it
 /// leaves out.
 val contact(const std::string& law, const val& fields) {
-  return answer([&] {
-    si::Experiment experiment = experiment_of(fields);
-    const std::string without = without_rolling_friction(experiment, law_of(law));
-    if (!without.empty()) experiment.contact.rolling_friction = 0;
-    const double radius = si::patch_radius_of(experiment, law_of(law));
-    // The one is proportional to the other.
-    const double per_deceleration = si::patch_radius_of_deceleration(
-        experiment.ball.radius, 1, experiment.contact.friction, experiment.environment.gravity,
-        law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);
-    return object("mu", si::patch_ratio(experiment, law_of(law)), "patchRadius", radius, "spinDeceleration",
-                  radius / per_deceleration, "secondsPerTau", si::seconds(experiment, 1), "drive",
-                  si::drive_of(experiment), "without", without);
-  });
+  si::Experiment experiment = experiment_of(fields);
+  const std::string without = without_rolling_friction(experiment, law_of(law));
+  if (!without.empty()) experiment.contact.rolling_friction = 0;
+  const double radius = si::patch_radius_of(experiment, law_of(law));
+  // The one is proportional to the other.
+  const double per_deceleration = si::patch_radius_of_deceleration(
+      experiment.ball.radius, 1, experiment.contact.friction, experiment.environment.gravity,
+      law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);
+  return object("mu", si::patch_ratio(experiment, law_of(law)), "patchRadius", radius, "spinDeceleration",
+                radius / per_deceleration, "secondsPerTau", si::seconds(experiment, 1), "drive",
+                si::drive_of(experiment), "without", without);
 }
 
 }  // namespace
@@ -517,26 +472,26 @@ EMSCRIPTEN_BINDINGS(contensou) {
   using emscripten::function;
   emscripten::class_<Plane>("Plane")
       .constructor<>()
-      .function("choose", &Plane::choose)
-      .function("portrait", &Plane::portrait)
-      .function("stop", &Plane::stop)
-      .function("stopBy", &Plane::stop_by)
-      .function("motion", &Plane::motion)
-      .function("instant", &Plane::instant)
-      .function("place", &Plane::place)
-      .function("at", &Plane::at)
-      .function("slide", &Plane::slide)
-      .function("ride", &Plane::ride)
-      .function("isochrone", &Plane::isochrone)
-      .function("checks", &Plane::checks);
-  function("portraitFile", &portrait_file);
+      .function("choose", answering<&Plane::choose>)
+      .function("portrait", answering<&Plane::portrait>)
+      .function("portraitFile", answering<&Plane::portrait_file>)
+      .function("stop", answering<&Plane::stop>)
+      .function("stopBy", answering<&Plane::stop_by>)
+      .function("motion", answering<&Plane::motion>)
+      .function("instant", answering<&Plane::instant>)
+      .function("place", answering<&Plane::place>)
+      .function("at", answering<&Plane::at>)
+      .function("slide", answering<&Plane::slide>)
+      .function("ride", answering<&Plane::ride>)
+      .function("isochrone", answering<&Plane::isochrone>)
+      .function("checks", answering<&Plane::checks>);
   function("laws", &laws);
-  function("lawName", &law_name);
+  function("lawName", answering<law_name>);
   function("bodies", &bodies);
   function("views", &views);
   function("catalogue", &catalogue);
-  function("contact", &contact);
-  function("layOut", &layout_value);
+  function("contact", answering<contact>);
+  function("layOut", answering<layout_value>);
   function("rowsOf", &rows_of);
   emscripten::constant("rollingSlip", contensou::si::rolling_slip);
 }

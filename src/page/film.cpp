@@ -22,40 +22,37 @@ namespace {
 /// with _fitted, that of the fitted motion}, and the figure of `contensou fit`}.
 /// @param laws  between commas
 val fit(const std::string& text, const std::string& name, const val& ball, const std::string& laws) {
-  return answer([&] {
-    si::Experiment experiment = experiment_of(ball);
-    experiment.ball.name = ball["title"].as<std::string>();
-    std::vector<reduction::Law> tried;
-    for (const std::string& law : answers::split(laws, ',')) tried.push_back(law_of(law));
-    answers::CsvReader table(text, name);
-    std::string notes;
-    fit::FitRequest request{
-        .ball = experiment, .law = tried.front(), .tracks = {}, .free = fit::usually_free(experiment)};
-    request.tracks.push_back(
-        answers::read_track(table, name, {}, [&](const std::string& note) { notes += note + "\n"; }));
-    const std::vector<fit::Fit> fits = fit::fit_laws(request, tried);
-    const auto& start = fits.front().ball;
-    const Eigen::Vector2d slip = si::slip_velocity_at_start(start), velocity = si::velocities_of(start.start).velocity;
-    const Eigen::Vector2d along = slip.norm() > 0 ? Eigen::Vector2d(slip.normalized()) : Eigen::Vector2d(1, 0);
-    const fit::Track& track = request.tracks.front();
-    val measured = object("t", Eigen::ArrayXd(track.t - track.start));
-    for (std::size_t i = 0; i < track.series.size(); ++i) {
-      const std::string name(fit::kind_of(track.series[i].observable).name);
-      measured.set(name, column(track.series[i].value));
-      measured.set(name + "_fitted", column(fits.front().predicted.front()[i]));
-    }
-    const auto value = [&](fit::Parameter parameter) { return fits.front().estimate(parameter).value; };
-    return object("notes", notes, "report", answers::report_on(fits, request.tracks, false, {6}), "law",
-                  fits.front().law, "friction", value(fit::Parameter::friction), "patch",
-                  value(fit::Parameter::patch_radius), "slip", slip.norm(), "spin", si::spin_at_start(start),
-                  "velocityX", velocity.dot(along), "velocityY", along.x() * velocity.y() - along.y() * velocity.x(),
-                  "measured", measured, "figure",
-                  figure_value(answers::fit_figure(fits.front(), tried, request.tracks, {.width_mm = 120})));
-  });
+  si::Experiment experiment = experiment_of(ball);
+  experiment.ball.name = ball["title"].as<std::string>();
+  std::vector<reduction::Law> tried;
+  for (const std::string& law : answers::split(laws, ',')) tried.push_back(law_of(law));
+  answers::CsvReader table(text, name);
+  std::string notes;
+  fit::FitRequest request{
+      .ball = experiment, .law = tried.front(), .tracks = {}, .free = fit::usually_free(experiment)};
+  request.tracks.push_back(
+      answers::read_track(table, name, {}, [&](const std::string& note) { notes += note + "\n"; }));
+  const std::vector<fit::Fit> fits = fit::fit_laws(request, tried);
+  const auto& start = fits.front().ball;
+  const Eigen::Vector2d slip = si::slip_velocity_at_start(start), velocity = si::velocities_of(start.start).velocity;
+  const Eigen::Vector2d along = slip.norm() > 0 ? Eigen::Vector2d(slip.normalized()) : Eigen::Vector2d(1, 0);
+  const fit::Track& track = request.tracks.front();
+  val measured = object("t", Eigen::ArrayXd(track.t - track.start));
+  for (std::size_t i = 0; i < track.series.size(); ++i) {
+    const std::string name(fit::kind_of(track.series[i].observable).name);
+    measured.set(name, column(track.series[i].value));
+    measured.set(name + "_fitted", column(fits.front().predicted.front()[i]));
+  }
+  const auto value = [&](fit::Parameter parameter) { return fits.front().estimate(parameter).value; };
+  return object("notes", notes, "report", answers::report_on(fits, request.tracks, false, {6}), "law", fits.front().law,
+                "friction", value(fit::Parameter::friction), "patch", value(fit::Parameter::patch_radius), "slip",
+                slip.norm(), "spin", si::spin_at_start(start), "velocityX", velocity.dot(along), "velocityY",
+                along.x() * velocity.y() - along.y() * velocity.x(), "measured", measured, "figure",
+                figure_value(answers::fit_figure(fits.front(), tried, request.tracks, {.width_mm = 120})));
 }
 
 }  // namespace
 
 }  // namespace contensou::page
 
-EMSCRIPTEN_BINDINGS(film) { emscripten::function("fit", &contensou::page::fit); }
+EMSCRIPTEN_BINDINGS(film) { emscripten::function("fit", contensou::page::answering<contensou::page::fit>); }

@@ -121,30 +121,28 @@ int rows_of(const val& figure, double width) {
 }
 
 val layout_value(const val& figure, double width, double height, double letter) {
-  return answer([&] {
-    const double scale = scale_of(figure);
-    portraits::Figure outline = outline_of(figure);
-    outline.size = {width * scale, height * scale};
-    outline.theme.letters = letter * scale / portraits::letter_mm(outline.size.width_mm);
-    const portraits::Layout layout = portraits::lay_out(outline);
-    const auto down = [&](double y) { return height - y / scale; };
-    const auto box = [&](const portraits::Box& of) {
-      return object("left", of.left / scale, "top", down(of.bottom + of.height), "width", of.width / scale, "height",
-                    of.height / scale);
-    };
-    const auto text = [&](const portraits::PlacedText& of) {
-      return object("x", of.at.x / scale, "y", down(of.at.y), "text", of.text, "size", of.size * letter, "align",
-                    alignments[static_cast<int>(of.align)], "turned", of.turned, "bold", of.faint);
-    };
-    const auto panel = [&](const portraits::PanelPlace& of) {
-      return object("box", box(of.box), "x", ticks_value(of.x), "y", ticks_value(of.y));
-    };
-    const auto sample = [&](const portraits::LegendPlace& of) {
-      return object("legend", of.entry.text, "x", of.from.x / scale, "y", down(of.from.y), "width", of.width / scale);
-    };
-    return object("texts", list(layout.texts, text), "panels", list(layout.panels, panel), "legend",
-                  list(layout.legend, sample), "colours", list(layout.colours, box));
-  });
+  const double scale = scale_of(figure);
+  portraits::Figure outline = outline_of(figure);
+  outline.size = {width * scale, height * scale};
+  outline.theme.letters = letter * scale / portraits::letter_mm(outline.size.width_mm);
+  const portraits::Layout layout = portraits::lay_out(outline);
+  const auto down = [&](double y) { return height - y / scale; };
+  const auto box = [&](const portraits::Box& of) {
+    return object("left", of.left / scale, "top", down(of.bottom + of.height), "width", of.width / scale, "height",
+                  of.height / scale);
+  };
+  const auto text = [&](const portraits::PlacedText& of) {
+    return object("x", of.at.x / scale, "y", down(of.at.y), "text", of.text, "size", of.size * letter, "align",
+                  alignments[static_cast<int>(of.align)], "turned", of.turned, "bold", of.faint);
+  };
+  const auto panel = [&](const portraits::PanelPlace& of) {
+    return object("box", box(of.box), "x", ticks_value(of.x), "y", ticks_value(of.y));
+  };
+  const auto sample = [&](const portraits::LegendPlace& of) {
+    return object("legend", of.entry.text, "x", of.from.x / scale, "y", down(of.from.y), "width", of.width / scale);
+  };
+  return object("texts", list(layout.texts, text), "panels", list(layout.panels, panel), "legend",
+                list(layout.legend, sample), "colours", list(layout.colours, box));
 }
 
 val column(const std::vector<Polyline>& lines) {

@@ -20,17 +20,34 @@ namespace contensou::page {
 
 using emscripten::val;
 
-/// The answer of a function; an exception of C++ would reach JavaScript without its message.
-template <class Function>
-auto answer(Function function) {
+/// What a call answers; what it throws, as an Error with its message, without which an exception of C++ would reach JavaScript.
+template <class Call>
+auto answer(Call call) {
   std::string problem;
   try {
-    return function();
+    return call();
   } catch (const std::exception& error) {
     problem = error.what();
   }
   val::global("Error").new_(problem).throw_();
 }
+
+/// A function, or a method, that answers so.
+template <auto function>
+inline constexpr auto answering = nullptr;
+
+template <class Result, class... Given, Result (*function)(Given...)>
+inline constexpr auto answering<function> = +[](Given... given) { return answer([&] { return function(given...); }); };
+
+template <class Class, class Result, class... Given, Result (Class::*method)(Given...)>
+inline constexpr auto answering<method> = +[](Class& self, Given... given) {
+  return answer([&] { return (self.*method)(given...); });
+};
+
+template <class Class, class Result, class... Given, Result (Class::*method)(Given...) const>
+inline constexpr auto answering<method> = +[](const Class& self, Given... given) {
+  return answer([&] { return (self.*method)(given...); });
+};
 
 /// Laws are kept: some of them begin with a table.
 /// @throws std::domain_error  if there is no such law

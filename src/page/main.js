@@ -77,8 +77,8 @@ function start(library) {
       : "No orbit yet: click the plane.");
   };
   const shows = [
-    () => plane.label(), () => hero.show(), controls.show, orbits.show, makeShare(store, { plane, hero, player, address, film }), makeChecks(store), film.redraw,
-    makeTour(go), makePresets(library, go),
+    () => plane.label(), () => hero.show(), controls.show, orbits.show, film.redraw, makeChecks(store), makeTour(go), makePresets(library, go),
+    makeShare(store, { plane, hero, player, address, film }),
   ];
   store.listen(({ moment }) => {
     if (!moment) {

@@ -72,7 +72,6 @@ interface Library {
   lawName(called: string): string;
   layOut(figure: Figure, width: number, height: number, letter: number): Layout;
   rowsOf(figure: { panels: unknown[]; columns: number; narrowest: number }, width: number): number;
-  portraitFile(request: PortraitRequest, ending: string): string;
 }
 /** The name of the ball, and columns in SI units: t, of each observable of the film what was measured and, with _fitted, what was found. */
 type Columns = Record<string, Float64Array>;
@@ -81,6 +80,7 @@ interface Fitted { measured: Columns; report: string; notes: string; law: string
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number, drive: number): { terminalRatio: number; meaning: string };
   portrait(request: PortraitRequest, behind: boolean): Portrait;
+  portraitFile(request: PortraitRequest, ending: string): string;
   stop(u: number, v: number): number;
   stopBy(law: string, mu: number, u: number, v: number): number;
   instant(u: number, v: number, tau: number): Instant;

@@ -32,7 +32,7 @@ async function assertSamePicture(what) {
     return readFileSync(name, "utf8");
   };
   for (const ending of ["json", "tex"]) {
-    const text = await page.evaluate((ending) => globalThis.page.library.portraitFile(globalThis.page.request, ending), ending);
+    const text = await page.evaluate((ending) => globalThis.page.library.plane.portraitFile(globalThis.page.request, ending), ending);
     assertSameText(text, written(ending), `${what}, ${words.join(" ")}: ${ending}`, ending === "tex");
   }
   // Of what the page itself draws: the orbits of its list, and those that fill a plane, begin where the program's do.

@@ -1,7 +1,7 @@
 // Ball, body and law, and what the plane shows.
 import { $, isStill, write } from "../dom.js";
 import { choiceButtons } from "./fields.js";
-import { save, textFile } from "../share/exports.js";
+import { save } from "../share/exports.js";
 import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
 import { shown } from "../numbers.js";
 import { bodyOf, fields, initialState, takeBall, unrolled } from "../state/page_state.js";
@@ -32,11 +32,15 @@ export function makeChoices(controls, store, plane, { ask, attempt }) {
   for (const [key, label] of Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" })) {
     controls.number($("inertia"), key, label, ({ state }) => state[key], (state, value) => (state[key] = value));
   }
-  controls.choose("field", fields.map((name) => ({ name, title: fieldTitles[name] })), ({ field }) => field, (state, field) => (state.field = field));
-  ["U", "V"].forEach((name, side) => controls.number($("window"), name, name, ({ portrait }) => Number(portrait.window[side].toPrecision(6)), (state, value) => {
-    plane.zooming.before = undefined;
-    state.window = store.portrait.window.map((shown, i) => (i === side ? value : shown));
-  }));
+  const directions = fields.map((name) => ({ name, title: fieldTitles[name] }));
+  controls.choose("field", directions, ({ field }) => field, (state, field) => (state.field = field));
+  ["U", "V"].forEach((name, side) => {
+    const shown = ({ portrait }) => Number(portrait.window[side].toPrecision(6));
+    controls.number($("window"), name, name, shown, (state, value) => {
+      plane.zooming.before = undefined;
+      state.window = store.portrait.window.map((other, i) => (i === side ? value : other));
+    });
+  });
   const useLaw = (key) => (name) => store.change((state) => (state[key] = name && lawName(name)));
   const law = lawField("law", { laws, key: "exponent", attempt, use: useLaw("law") });
   const against = lawField("against", { laws, key: "against-exponent", none: "no other law", attempt, use: useLaw("against") });
@@ -47,7 +51,7 @@ export function makeChoices(controls, store, plane, { ask, attempt }) {
   });
   const formulas = $("formulas");
   formulas.addEventListener("change", () => attempt(() => useLaw("law")(formulas.value.trim())));
-  $("save-pressure").addEventListener("click", () => save("pressure.csv", textFile(tableOfLaw(store.state.law), "text/csv")));
+  $("save-pressure").addEventListener("click", () => save("pressure.csv", tableOfLaw(store.state.law), "text/csv"));
   $("isochrones").addEventListener("change", () => ask((state) => {
     state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
   }));

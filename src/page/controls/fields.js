@@ -9,7 +9,8 @@ import { allowed } from "../state/page_state.js";
  * @returns show(value), and the element that says what is wrong, which is put where there is room
  */
 export function numberField(input, use) {
-  const output = make("output", { className: "error", id: `${input.id || input.name}-error`, htmlFor: input.id, ariaLive: "off" });  // each key would be announced
+  // Each key would be announced.
+  const output = make("output", { className: "error", id: `${input.id || input.name}-error`, htmlFor: input.id, ariaLive: "off" });
   input.setAttribute("aria-describedby", output.id);
   const say = (problem) => {
     write(output, problem);
@@ -112,7 +113,8 @@ export function makeControls(store, ask) {
     slider(name, label, of, edit) {
       const input = make("input", { type: "range", min: 0, max: 1000, id: `${name}-slider` });
       const output = make("output", { htmlFor: input.id });
-      const all = make("div", { className: "slider", id: `${name}-control` }, make("label", { htmlFor: input.id, textContent: label }), output, input);
+      const title = make("label", { htmlFor: input.id, textContent: label });
+      const all = make("div", { className: "slider", id: `${name}-control` }, title, output, input);
       $("sliders").append(all);
       input.addEventListener("input", () => ask((state) => edit(state, Number(input.value) / 1000)));
       forgiveTouches(input);

@@ -9,7 +9,8 @@ export function makeTour(go) {
   const [list, back, on] = ["steps", "step-back", "step-on"].map($);
   let [at, timer] = [0, 0];
   const to = (step) => list.scrollTo({ left: step * list.clientWidth, behavior: isStill() ? "instant" : "smooth" });
-  list.append(...tour.map(({ title, text }, i) => make("li", {}, make("h3", { textContent: `${i + 1}. ${title}` }), make("p", { textContent: text }))));
+  const item = ({ title, text }, i) => make("li", {}, make("h3", { textContent: `${i + 1}. ${title}` }), make("p", { textContent: text }));
+  list.append(...tour.map(item));
   list.addEventListener("scroll", () => {
     clearTimeout(timer);
     timer = setTimeout(() => {

@@ -170,8 +170,9 @@ export class Hero {
     const straight = bodies.every(({ stop: { x, y, path } }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
     const [to, path] = has[1] ? [own.stop, own.far] : [places[1], places[1].path];
     const ruler = straight && path > 1.02 * plain.far ? { from: plain.stop, to, more: path - plain.far } : null;
+    const slid = (body) => `${word(body)}, after ${length(body.far, contact ? "m" : "")} in ${duration(body.end, contact ? "s" : "")}`;
     return bodies.map((body, i) => ({
-      title: `${body.title}: ${has[i] ? `${word(body)}, after ${length(body.far, contact ? "m" : "")} in ${duration(body.end, contact ? "s" : "")}` : "slides"}`,
+      title: `${body.title}: ${has[i] ? slid(body) : "slides"}`,
       xs: body.xs, ys: body.ys, at: places[i], slides: body.slides,
       colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
     }));

@@ -21,7 +21,11 @@ export function sizeOf({ u, v }, base) {
 }
 
 export class Copies {
-  /** @type {{from: unknown, index: number, base: Speeds, at: Speeds, window: [number, number], stop: number, keys: string[]} | null} the pull, and where the start is now */
+  /**
+   * The pull, and where the start is now.
+   *
+   * @type {{from: unknown, index: number, base: Speeds, at: Speeds, window: [number, number], stop: number, keys: string[]} | null}
+   */
   pull = null;
   /** @type {(Speeds & {stop: number, motion: Motion, lines: Float64Array[]})[]} where it has been */
   ghosts = [];
@@ -64,7 +68,10 @@ export class Copies {
     return (pull.at = along ? { u: times * pull.base.u, v: times * pull.base.v } : at);
   }
 
-  /** The chosen start, c times as large: one that leaves the plane flies to the rim of the disc, one that vanishes in it into the blown-up origin. */
+  /**
+   * The chosen start, c times as large: one that leaves the plane flies to the rim of the disc, one that vanishes in it into
+   * the blown-up origin.
+   */
   resize(c) {
     const { slider, act, store: { state: { chosen }, orbit } } = this;
     if (!orbit) return;
@@ -113,6 +120,7 @@ export class Copies {
     if (!pull) return "";
     const { c, along } = sizeOf(orbit, pull.base);
     const [before, after] = [pull.stop, motion.stop].map((tau) => (contact ? `${shown(tau * timeFactor, 4)} s` : `τ = ${shown(tau, 4)}`));
-    return along ? `A copy, c = ${shown(c, 3)}: it stops after ${after}, c times ${before}.` : `Another curve: it stops after ${after}, the first after ${before}.`;
+    return along ? `A copy, c = ${shown(c, 3)}: it stops after ${after}, c times ${before}.`
+      : `Another curve: it stops after ${after}, the first after ${before}.`;
   }
 }

@@ -25,7 +25,8 @@ export function drawCopies(surface, store, { copies }) {
     { ...motion, start: orbit, colour: theme.swatch(chosen), width: 3 },
   ];
   if (!first) return surface.still([theme], theme.card, () => {});
-  drawFigure(surface, [motions, pull?.base, copies.ghosts, chosen], () => figureOf(theme, shape, panelsOf(curves(), first, theme)), store, { covered: false });
+  const figure = () => figureOf(theme, shape, panelsOf(curves(), first, theme));
+  drawFigure(surface, [motions, pull?.base, copies.ghosts, chosen], figure, store, { covered: false });
 }
 
 /** The four panels: v and u over their starts, the strip, stop times by sizes. */

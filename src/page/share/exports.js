@@ -1,15 +1,14 @@
 // Files that the page hands out.
 import { CanvasSurface } from "../drawing/surface.js";
 
-export function save(name, blob) {
-  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+/** Hands out a text, or a blob, as a file. */
+export function save(name, content, type) {
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([content], { type })), download: name });
   document.body.append(link);
   link.click();
   link.remove();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
-
-export const textFile = (text, type) => new Blob([text], { type });
 
 /**
  * A figure as PNG of so many pixels across.

@@ -1,6 +1,6 @@
 // A film of a ball that the reader gives to the page: the library finds its friction and its patch, and the ball takes them.
 import { $ } from "../dom.js";
-import { csvOfFilm, save, textFile } from "./exports.js";
+import { csvOfFilm, save } from "./exports.js";
 import { lawTitle } from "../controls/law_field.js";
 import { startOf } from "../state/page_state.js";
 import { drawFigure } from "../drawing/figure.js";
@@ -66,7 +66,7 @@ export function makeFilm(store, player, ask) {
     $("film").value = "";
   };
   $("film").addEventListener("change", () => read($("film").files[0]));
-  $("save-residuals").addEventListener("click", () => save("residuals.csv", textFile(csvOfFilm(store.measured?.columns ?? {}), "text/csv")));
+  $("save-residuals").addEventListener("click", () => save("residuals.csv", csvOfFilm(store.measured?.columns ?? {}), "text/csv"));
   addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
     event.preventDefault();

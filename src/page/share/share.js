@@ -1,7 +1,7 @@
 // What the reader takes along: a link, a command line, files.
 import { commandLine } from "../plane/command_line.js";
 import { $, write } from "../dom.js";
-import { citation, csvOfOrbits, csvOfRide, filmOf, filmType, pngOf, save, textFile } from "./exports.js";
+import { citation, csvOfOrbits, csvOfRide, filmOf, filmType, pngOf, save } from "./exports.js";
 import { fillSelect, numberField } from "../controls/fields.js";
 import { plain } from "../drawing/runs.js";
 import { toFragment } from "../state/page_state.js";
@@ -46,7 +46,8 @@ export function makeShare(store, { plane, hero, player, address, film }) {
   on("copy-embed", async () => {
     const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
     await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
-    if (location.protocol === "file:") $("copied").append(" It names the file on this computer: readers need the page on a server, and its address there.");
+    if (location.protocol !== "file:") return;
+    $("copied").append(" It names the file on this computer: readers need the page on a server, and its address there.");
   });
   on("copy-citation", () => copy(citation(address.link ?? "", $("version").textContent), "BibTeX"));
   on("copy-command", () => copy($("command").textContent, "Command"));
@@ -55,7 +56,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     const { title, name, draw, width, height } = picture();
     const surface = new SvgSurface(width, height, `${title}: ${plain(store.portrait.figure.title)}`);
     draw(surface);
-    save(`${name}.svg`, textFile(surface.toString(), "image/svg+xml"));
+    save(`${name}.svg`, surface.toString(), "image/svg+xml");
   });
   let pngWidth = Math.max(2000, screen.width * devicePixelRatio);
   const pixels = numberField($("png-width"), (width) => {
@@ -66,26 +67,26 @@ export function makeShare(store, { plane, hero, player, address, film }) {
   $("pictures").append(pixels.output);
   on("save-png", async () => {
     const { name, draw, ...size } = picture();
-    save(`${name}.png`, await pngOf(draw, size, pngWidth));
+    save(`${name}.png`, await pngOf(draw, size, pngWidth), "image/png");
   });
   on("save-film", async () => {
     const type = filmType();
     if (!type) throw new Error("this browser takes no films");
     tell(`The film is being taken: ${Math.ceil(player.seconds)} s.`);
     try {
-      save(`balls.${/mp4|webm/.exec(type)}`, await filmOf(hero.beginFilm(), type, (done) => player.once(done)));
+      save(`balls.${/mp4|webm/.exec(type)}`, await filmOf(hero.beginFilm(), type, (done) => player.once(done)), type);
     } finally {
       hero.film = null;
     }
     tell("The film is saved.");
   });
   for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
-    on(`save-${ending}`, () => save(`portrait.${ending}`, textFile(store.library.portraitFile(store.request, ending), type)));
+    on(`save-${ending}`, () => save(`portrait.${ending}`, store.library.plane.portraitFile(store.request, ending), type));
   }
   on("save-csv", () => {
     const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
       : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
-    save(`${name}.csv`, textFile(text, "text/csv"));
+    save(`${name}.csv`, text, "text/csv");
   });
 
   return () => {

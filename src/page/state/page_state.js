@@ -90,13 +90,17 @@ const value = (name, first, read) => ({
   read: (text, known) => ({ [name]: read(text, known) }),
 });
 const always = (name, first, read) => ({ ...value(name, first, read), write: (state) => state[name] });
-const ofBall = (key, read) => ({ write: ({ ball }) => ball?.[key], read: (text, _known, { ball }) => ball && { ball: { ...ball, [key]: read(text, ball) } } });
+const ofBall = (key, read) => ({
+  write: ({ ball }) => ball?.[key],
+  read: (text, _known, { ball }) => ball && { ball: { ...ball, [key]: read(text, ball) } },
+});
 
 /**
  * The state and what a link says of it, by the names in the link and in the order in which they are read: what a part of
  * the state is first; its text, or null for none; and what of the state a text decides.
  *
- * @type {Record<string, {first?: Partial<State>, write: (state: State) => unknown, read: (text: string, known: Library, state: State) => object | void | null}>}
+ * @type {Record<string, {first?: Partial<State>, write: (state: State) => unknown,
+ *   read: (text: string, known: Library, state: State) => object | void | null}>}
  */
 const parts = {
   body: {
@@ -122,10 +126,13 @@ const parts = {
   view: always("view", "uv", (text, { views }) => oneOf(namesOf(views), text)),
   // [U, V]: |u| <= U, v <= V are shown; null: the library's choice for the orbits.
   window: value("window", null, (text) => numbersOf(["U", "V"], text)),
-  field: value("field", fields[0], (text) => oneOf(fields, text)),                        // of directions
-  isochrones: value("isochrones", 7, (text) => Number(oneOf(["0", "7"], text))),          // of the stop time, about so many
+  field: value("field", fields[0], (text) => oneOf(fields, text)),                // of directions
+  isochrones: value("isochrones", 7, (text) => Number(oneOf(["0", "7"], text))),  // of the stop time, about so many
   // Of the motion: "whole", or "sliding", as that of a ball is first.
-  part: { ...value("part", "whole", (text) => oneOf(["whole", "sliding"], text)), write: ({ ball, part }) => (part === (ball ? "sliding" : "whole") ? null : part) },
+  part: {
+    ...value("part", "whole", (text) => oneOf(["whole", "sliding"], text)),
+    write: ({ ball, part }) => (part === (ball ? "sliding" : "whole") ? null : part),
+  },
   orbits: {
     first: { orbits: [startOf(0.8, 3.5)] },
     write: ({ orbits }) => orbits.map(({ u, v, along, across, heading }) =>
@@ -133,13 +140,16 @@ const parts = {
     read: (text) => ({ orbits: text.split(";").flatMap((start) => readable(startFrom, start) ?? []) }),
   },
   chosen: always("chosen", 0, (text) => Math.floor(numberOf("chosen", text))),
-  step: value("step", 0, (text) => Number(oneOf(Object.keys(tour), text))),               // of the tour
+  step: value("step", 0, (text) => Number(oneOf(Object.keys(tour), text))),       // of the tour
   // Of the stop time, or of the part that is shown, that the moving point has reached.
   at: { ...value("fraction", 0, (text) => numberOf("at", text)), write: ({ fraction }) => Number(fraction.toFixed(4)) || null },
-  isochrone: value("isochrone", 0, (text) => numberOf("isochrone", text)),                // stop time of that which the reader has drawn; 0 for none
+  // The stop time of that which the reader has drawn; 0 for none.
+  isochrone: value("isochrone", 0, (text) => numberOf("isochrone", text)),
   theme: value("theme", "auto", (text) => oneOf(["light", "dark"], text)),
-  embed: { ...value("embed", false, () => true), write: ({ embed }) => (embed ? 1 : null) },     // only the balls are shown, for a page around this one
-  lab: { ...value("lab", false, (text) => text === "1"), write: ({ lab }) => Number(lab) },      // all is shown, not the first floor alone
+  // Only the balls are shown, for a page around this one.
+  embed: { ...value("embed", false, () => true), write: ({ embed }) => (embed ? 1 : null) },
+  // All is shown, not the first floor alone.
+  lab: { ...value("lab", false, (text) => text === "1"), write: ({ lab }) => Number(lab) },
 };
 
 /** Of what a link speaks that only the Lab shows, and that is more than how the page looks. */
@@ -173,7 +183,9 @@ export function fromFragment(fragment, known) {
   const query = queryOf(fragment);
   const state = speaksOfNothing(fragment) ? fromFragment(opening, known) : initialState();
   state.lab = labParts.some((key) => query.has(key));
-  for (const [key, { read }] of Object.entries(parts)) if (query.has(key)) Object.assign(state, readable(read, query.get(key), known, state));
+  for (const [key, { read }] of Object.entries(parts)) {
+    if (query.has(key)) Object.assign(state, readable(read, query.get(key), known, state));
+  }
   const { mu, largestMu, chi } = bodyOf(state, known);
   state.mu = mu ?? Math.min(state.mu, largestMu);
   // What cannot roll does not turn forward.
