@@ -238,7 +238,7 @@ void Reporter::set_estimates() {
 
 void Reporter::set_only_by_curvature() {
   if (!both_free() || !planned_) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information_of_contact(information_));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(information_of_contact(information_));
   constexpr double least_share = 1e-8;  // below which it counts as none
   const double strong = solver.eigenvalues()[1], weak = std::max(solver.eigenvalues()[0], least_share * strong);
   double least = infinity;

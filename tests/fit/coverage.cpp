@@ -17,7 +17,7 @@ using Eigen::ArrayXd;
 
 namespace {
 
-constexpr int trials = CONTENSOU_FULL_TESTS ? 1000 : 100;
+constexpr int trials = CONTENSOU_FULL_TESTS ? 1000 : 40;
 constexpr int trials_with_rolling_friction = CONTENSOU_FULL_TESTS ? 1000 : 10;
 
 /// Of a parameter over many films: how often the 95 % interval has its true value; the error on the average, relative and
