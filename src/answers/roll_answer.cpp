@@ -253,9 +253,9 @@ std::string ending(const Roll& roll, const Digits& digits) {
 si::MotionColumns Roll::at_times(const Eigen::ArrayXd& times) const {
   if (!integrated) return whole.at_times(times);
   if (!in_steps) return si::integrate_motion(experiment, law, times).points;
-  si::MotionColumns columns(times.size());
-  for (Eigen::Index i = 0; i < times.size(); ++i) columns.set(i, in_steps->at_time(times[i]));
-  return columns;
+  si::MotionColumns moments(times.size());
+  for (Eigen::Index i = 0; i < times.size(); ++i) moments.set(i, in_steps->at_time(times[i]));
+  return moments;
 }
 
 double Roll::standard_end() const {

@@ -1,7 +1,6 @@
 // What intervals and standard errors are worth: films of a known ball with random errors, fitted one after the other.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -9,85 +8,13 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/si/scaling.hpp"
-#include "films.hpp"
+#include "scores.hpp"
 
 using namespace contensou;
 using namespace contensou::fit;
 using Eigen::ArrayXd;
 
-namespace {
-
-constexpr int trials = CONTENSOU_FULL_TESTS ? 1000 : 40;
 constexpr int trials_with_rolling_friction = CONTENSOU_FULL_TESTS ? 1000 : 10;
-
-/// Of a parameter over many films: how often the 95 % interval has its true value; the error on the average, relative and
-/// in standard errors; its root mean square in standard errors.
-struct Score {
-  double covered = 0, error = 0, bias = 0, spread = 0;
-};
-struct Scores {
-  Score friction, patch;
-  double reduced_chi2 = 0;
-};
-
-struct Films {
-  Track film;  ///< without errors
-  std::vector<Seen> seen;
-  bool robust = false;
-  std::function<void(Track&, std::mt19937_64&)> spoil = {};  ///< what else happens to a film
-};
-
-Scores scores(const Films& films) {
-  std::mt19937_64 random(7);
-  const double truth[] = {0.2, 2.827e-3};
-  Scores result;
-  for (int i = 0; i < trials; ++i) {
-    Track track = noisy(films.film, films.seen, random);
-    if (films.spoil) films.spoil(track, random);
-    const Fit found = fit::fit(
-        {.ball = pool_ball(), .law = reduction::HertzLaw{}, .tracks = {track}, .free = {}, .robust = films.robust});
-    result.reduced_chi2 += found.reduced_chi2() / trials;
-    for (int place : {0, 1}) {
-      Score& score = place == 0 ? result.friction : result.patch;
-      const Estimate& estimate = found.estimates[static_cast<std::size_t>(place)];
-      const double error = std::log(estimate.value / truth[place]);
-      const double in_standard_errors = error * estimate.value / estimate.standard_error;
-      score.covered +=
-          (estimate.interval.low <= truth[place] && truth[place] <= estimate.interval.high) / double{trials};
-      score.error += error / trials;
-      score.bias += in_standard_errors / trials;
-      score.spread += in_standard_errors * in_standard_errors / trials;
-    }
-  }
-  for (Score* score : {&result.friction, &result.patch}) {
-    score->spread = std::sqrt(score->spread);
-    UNSCOPED_INFO("covered " << score->covered << ", error " << score->error << ", bias " << score->bias
-                             << " and spread " << score->spread << " in standard errors; reduced chi^2 "
-                             << result.reduced_chi2);
-  }
-  return result;
-}
-
-/// The intervals hold the truth in 95 of 100 films, as far as so many films can tell: to three standard deviations.
-void check_covered(const Scores& scores) {
-  for (const Score& score : {scores.friction, scores.patch}) {
-    CHECK(score.covered == Approx(0.95).margin(3 * std::sqrt(0.95 * 0.05 / trials)));
-  }
-}
-
-/// The same, and the errors are as large as they are said to be.
-void check(const Scores& scores) {
-  check_covered(scores);
-  const double n = trials;
-  for (const Score& score : {scores.friction, scores.patch}) {
-    CHECK(std::abs(score.bias) < 3 / std::sqrt(n) + 0.05);
-    CHECK(score.spread == Approx(1).margin(3 / std::sqrt(2 * n) + 0.02));
-  }
-}
-
-}  // namespace
-
-const ArrayXd half_second = ArrayXd::LinSpaced(60, 0, 0.5);
 
 TEST_CASE("intervals of 95 % hold the truth in 95 of 100 films", "[invariant]") {
   SECTION("errors known") { check(scores({track_of({pool_ball()}, half_second, slip_and_spin), slip_and_spin})); }
@@ -158,66 +85,6 @@ TEST_CASE("where three instants hardly decide friction and patch radius the inte
   const Scores found = scores({track_of({pool_ball()}, Eigen::Array3d(0, 0.25, 0.5), slip_and_spin), slip_and_spin});
   CHECK(found.friction.covered > 0.93);
   CHECK(found.patch.covered > 0.93);
-}
-
-TEST_CASE("with Huber's loss one value in twenty may be wrong by far", "[invariant]") {
-  const Track film = track_of({pool_ball()}, half_second, slip_and_spin, false);
-  const auto spoil = [](Track& track, std::mt19937_64& random) {
-    for (int i = 0; i < 3; ++i) {
-      track.series[0].value[static_cast<Eigen::Index>(random() % 60)] += 0.3;
-      track.series[1].value[static_cast<Eigen::Index>(random() % 60)] -= 30;
-    }
-  };
-  const Scores robust = scores({film, slip_and_spin, true, spoil});
-  const Scores plain = scores({film, slip_and_spin, false, spoil});
-  CHECK(robust.friction.covered > 0.85);
-  CHECK(robust.patch.covered > 0.85);
-  CHECK(plain.friction.covered + plain.patch.covered < robust.friction.covered + robust.patch.covered);
-}
-
-TEST_CASE("what a film that is wrong makes of friction and patch radius", "[invariant]") {
-  const Track film = track_of({pool_ball()}, half_second, slip_and_spin);
-  const double frame = half_second[1];
-  SECTION("all times are late: only slip and spin are those of another instant") {
-    const Scores late = scores({film, slip_and_spin, false, [&](Track& track, auto&) { track.t += frame; }});
-    check(late);
-  }
-  SECTION("the spin is that of the middle between two pictures") {
-    Film between{pool_ball()};
-    Track track = film;
-    for (Eigen::Index i = 0; i < 60; ++i)
-      track.series[1].value[i] = between.value(Observable::spin, half_second[i] + frame / 2);
-    const Scores shifted = scores({track, slip_and_spin});
-    CHECK(std::abs(shifted.friction.error) < 0.005);
-    CHECK(std::abs(shifted.patch.error) < 0.01);
-  }
-  SECTION("one picture in ten is lost and the others are numbered through") {
-    const auto lose = [&](Track& track, std::mt19937_64& random) {
-      std::vector<Eigen::Index> kept;
-      for (Eigen::Index i = 0; i < 60; ++i) {
-        if (i == 0 || random() % 10 != 0) kept.push_back(i);
-      }
-      const auto count = static_cast<Eigen::Index>(kept.size());
-      track.t = half_second.head(count).eval();
-      for (Series& series : track.series) {
-        series.value = ArrayXd(series.value(kept));
-        series.sd = ArrayXd(series.sd(kept));
-      }
-    };
-    const Scores lost = scores({film, slip_and_spin, false, lose});
-    CHECK(lost.friction.error == Approx(0.107).margin(0.01));
-    CHECK(lost.friction.covered < 0.5);
-    CHECK(lost.reduced_chi2 > 1.3);  // the film tells that something is wrong
-  }
-  SECTION("the law is another one") {
-    const Film other{pool_ball(), reduction::PressureLaw::uniform()};
-    const Scores wrong = scores({track_of(other, half_second, slip_and_spin), slip_and_spin});
-    // What this film shows is f and f eps Psi(0), which is kept; so it does not tell that the law is wrong.
-    const double factor = other.law.pivoting_moment() / reduction::Law(reduction::HertzLaw{}).pivoting_moment();
-    CHECK(std::abs(wrong.friction.error) < 0.01);
-    CHECK(wrong.patch.error == Approx(std::log(factor)).margin(0.02));
-    CHECK(wrong.reduced_chi2 == Approx(1).margin(0.03));
-  }
 }
 
 TEST_CASE("films that decide little: intervals hold the truth, or are open", "[invariant]") {
