@@ -16,7 +16,7 @@ Canonical to_canonical(State state);
 /// @throws std::domain_error  if q = 0 or a coordinate is not finite
 State from_canonical(Canonical point);
 
-/// dp/dq of the separated equation: p is absent, so it is solved by one quadrature.
+/// dp/dq = Phi/(q D) of the separated equation (README (R2)): p is absent, so it is solved by one quadrature.
 /// Pade, ball: 7 (16 mu + 15 pi q)/(q (mu A + B q)), A = 8 (14 - 5 mu^2), B = 15 pi (7 - mu^2).
 /// @throws std::domain_error  if q = 0 or not finite
 double separated_slope(const ReducedSystem& system, double q);

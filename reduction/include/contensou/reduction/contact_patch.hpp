@@ -6,7 +6,7 @@
 
 namespace contensou::reduction {
 
-/// Coulomb friction of a circular patch from its definition: the local slip field, integrated over the disc. Slow, and
+/// Coulomb friction of a circular patch from its definition, (1.1) and (1.2) of Zh98: the local slip over the disc. Slow, and
 /// sharing no formula with any law: it is what the laws are tested against.
 ///
 /// Unit of length: the radius eps of the patch. Pressures are relative; only their ratio to the load matters.

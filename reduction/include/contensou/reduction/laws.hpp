@@ -8,7 +8,7 @@
 
 namespace contensou::reduction {
 
-/// The two laws of the paper: the exact one of Hertz's pressure, and the Pade pair that approximates it.
+/// The two laws of Zh98: the exact one of Hertz's pressure, (1.3) and (1.5), and its Pade pair, (1.4) and (1.6).
 const std::vector<Law>& paper_laws();
 
 /// The name of every law that has one, in the order in which they are shown: those of the paper first.

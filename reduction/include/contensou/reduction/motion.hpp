@@ -28,7 +28,7 @@ struct Motion {
 
 /// Settings of both steppers.
 struct StepperSettings {
-  double tolerance = 1e-14;  ///< local error of ln u, ln v and tau/(S + P)
+  double tolerance = 1e-14;  ///< local error of ln u, ln v and tau/(S + P), README (R18)
   long step_limit = 2'000'000;
 };
 

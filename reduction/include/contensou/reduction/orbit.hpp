@@ -14,7 +14,7 @@ namespace contensou::reduction {
 class Flow;
 
 /// The motion from one start to its stop (Flow::orbit): the system's similarity curve, scaled to pass through the
-/// start.
+/// start. Times are by README (R4) and (R5), slip and angle by (R13), (R38) and (R50), beta by (R7).
 ///
 /// There are no time steps: any instant is found by itself. Invariant axes (u0 = 0, v0 = 0), the invariant ray and rest
 /// are ordinary starts.

@@ -9,8 +9,8 @@ namespace contensou::reduction {
 
 /// Coulomb friction of a circular patch whose pressure is proportional to (1 - rho^2)^p, rho = distance/eps.
 ///
-/// p = 1/2 is Hertz (HertzLaw), p = 0 a uniform disc, p = -1/2 a flat rigid punch, p -> -1 a thin ring, p = 1 a
-/// paraboloid (a soft foundation).
+/// p = 1/2 is Hertz (HertzLaw), p = 0 a uniform disc, p = -1/2 a flat rigid punch, p -> -1 a thin ring (README (R32)),
+/// p = 1 a paraboloid (a soft foundation).
 ///
 /// Source    z = k^2:   Phi = C (p + 3/2) k 2F1(1/2, -p - 1/2; 2; z),  Psi = C 2F1(1/2, -p - 3/2; 1; z),   k <= 1
 ///           z = k^-2:  Phi = 2F1(-1/2, 1/2; p + 2; z),  Psi = 2F1(1/2, 1/2; p + 3; z)/(2 (p + 2) k),      k >= 1

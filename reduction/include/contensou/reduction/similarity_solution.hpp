@@ -44,13 +44,13 @@ class SimilaritySolution {
   std::vector<Curve> curves_;
 };
 
-/// By quadrature: for any law and r.
+/// By quadrature: for any law and r (README (R2), (R19), (R24), (R31)).
 /// @param ratios  terminal_ratios(law, r, drive)
 /// @throws std::domain_error   unless r is positive and finite
 /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
 SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios, double drive = 0);
 
-/// In closed form, found by the law's type: PadeCurve for PadeLaw up to PadeCurve::max_r; empty for all else. The one
+/// In closed form, found by the law's type: PadeCurve (README (R8) to (R14)) for PadeLaw up to its max_r; else empty. The one
 /// place that knows which laws have one.
 SimilaritySolution closed_solution(const Law& law, double r, double drive = 0);
 
