@@ -70,7 +70,7 @@ void Law::Function::require_degree_0() const {
 void Law::Function::require_approach() const {
   // A bounded quantity at two ratios, the second 64 times nearer to the limit: it may not grow like a power of it.
   const auto require_bounded = [&](const char* what, double first, double second, double allowance) {
-    if (second <= 2 * first + allowance) return;
+    if (std::abs(second) <= 2 * std::abs(first) + allowance) return;
     reject(name, fmt::format("{}: it is {} and, 64 times nearer to the limit, {}", what, first, second));
   };
   constexpr double near = 0x1p-10;

@@ -148,6 +148,13 @@ TEST_CASE("a law that does not resist, or comes to its limits too slowly, is rej
   CHECK_THROWS_WITH(
       Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k / (1 + std::sqrt(k) + k); }, root_moment)),
       Contains("Phi must come to 1"));
+  // From above: 1 + 2/k comes to 1, 1 + 1/k^0.75 too slowly.
+  CHECK_NOTHROW(
+      Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k * (k + 3) / (k * k + k + 1); }, root_moment)));
+  CHECK_THROWS_WITH(
+      Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k / (1 + k) + k / std::pow(1 + k, 1.75); },
+                     root_moment)),
+      Contains("Phi must come to 1"));
   CHECK_THROWS_WITH(Law(from_ratio(root_force, [](double k) { return 1 / std::sqrt(1 + k); })),
                     Contains("k Psi must have a limit"));
 }
