@@ -52,26 +52,17 @@ State axis_start(const Flow& flow, const Aim& aim) {
   return aim.distance ? sliding_over(flow, *aim.distance) : pivoting_through(flow, *aim.turned);
 }
 
-}  // namespace
-
-Reached reached(const Flow& flow, State start) {
-  require_level(flow);
-  const Orbit orbit = flow.orbit(start);
-  const double tau = orbit.stop_time();
-  const Orbit::Instant end = orbit.instant(tau);
-  const double chi = flow.system().inertia().chi;
-  return {tau, (1 - 1 / chi) * start.v * tau + end.slip_length / chi, std::abs(end.turned)};
+/// Whether a start comes to what is asked for.
+bool comes_to(const Reached& here, const Aim& aim) {
+  const auto same = [](double got, const std::optional<double>& asked) {
+    constexpr double close = 1e-6;
+    return !asked || (std::isfinite(got) && std::abs(got - *asked) <= close * *asked);
+  };
+  return same(here.tau, aim.tau) && same(here.distance, aim.distance) && same(here.turned, aim.turned);
 }
 
-double least_time(const Flow& flow, const Aim& aim) {
-  require_level(flow);
-  require_two(aim);
-  return flow.stop_time(axis_start(flow, aim)).tau;
-}
-
-std::optional<State> aimed(const Flow& flow, const Aim& aim) {
-  require_level(flow);
-  require_two(aim);
+/// As aimed, but that it may not come to it where it is far away.
+std::optional<State> best_start(const Flow& flow, const Aim& aim) {
   // With one of them 0 the motion is on an axis.
   const bool in_place = aim.distance && *aim.distance == 0;
   const bool straight = aim.turned && *aim.turned == 0;
@@ -108,14 +99,61 @@ std::optional<State> aimed(const Flow& flow, const Aim& aim) {
     low = high, at_low = at_high;
     high = std::min(high + step, widest), at_high = residual(high);
   }
-  if (at_low > 0 || at_high < 0) {
-    if (aim.tau) return axis_start(flow, aim);  // but for what no double shows
-    throw std::domain_error(fmt::format("aim: {} and {} are too far apart for a double", *aim.distance, *aim.turned));
-  }
+  if (at_low > 0 || at_high < 0) return axis_start(flow, aim);  // but for what no double shows
   const State start = unit_start(flow, root_between(residual, low, high, at_low, at_high));
   const Reached here = reached(flow, start);
   if (aim.distance) return scaled(start, square_root_of_ratio(*aim.distance, here.distance));
   return scaled(start, square_root_of_ratio(*aim.turned, here.turned));
+}
+
+}  // namespace
+
+Reached reached(const Flow& flow, State start) {
+  require_level(flow);
+  const Orbit orbit = flow.orbit(start);
+  const double tau = orbit.stop_time();
+  const Orbit::Instant end = orbit.instant(tau);
+  const double chi = flow.system().inertia().chi;
+  return {tau, (1 - 1 / chi) * start.v * tau + end.slip_length / chi, std::abs(end.turned)};
+}
+
+double least_time(const Flow& flow, const Aim& aim) {
+  require_level(flow);
+  require_two(aim);
+  return flow.stop_time(axis_start(flow, aim)).tau;
+}
+
+void require_monotone(const Law& law) {
+  constexpr double from = 1e-6, to = 1e6, step = 1.1, noise = 1e-6;
+  struct Extreme {
+    double value, k;
+  };
+  Extreme force{0, 0}, moment{law.pivoting_moment(), 0};
+  const auto refuse = [](const char* what, const char* does, const Extreme& before, const Extreme& now) {
+    throw std::domain_error(fmt::format(
+        "aim needs a force that does not fall and a moment that does not grow with k; this law's {} {} from "
+        "{:.6g} at k = {:.6g} to {:.6g} at k = {:.6g}",
+        what, does, before.value, before.k, now.value, now.k));
+  };
+  for (double k = from; k < to; k *= step) {
+    const auto [phi, psi] = law(slip_of_ratio(k));
+    if (phi < force.value * (1 - noise)) refuse("Phi", "falls", force, {phi, k});
+    if (psi > moment.value * (1 + noise)) refuse("Psi", "grows", moment, {psi, k});
+    if (phi > force.value) force = {phi, k};
+    if (psi < moment.value) moment = {psi, k};
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (force.value > 1 + noise) refuse("Phi", "falls", force, {1, infinity});
+}
+
+std::optional<State> aimed(const Flow& flow, const Aim& aim) {
+  require_level(flow);
+  require_two(aim);
+  require_monotone(flow.system().law());
+  const std::optional<State> start = best_start(flow, aim);
+  if (start && !(std::isfinite(start->u + start->v) && comes_to(reached(flow, *start), aim)))
+    throw TooFarApart("aim: what is asked for is too far apart for a double");
+  return start;
 }
 
 }  // namespace contensou::reduction

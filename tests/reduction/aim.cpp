@@ -39,6 +39,17 @@ std::vector<Case> cases() {
   return all;
 }
 
+/// A law whose Phi falls from 2.1 near k = 1.2 to 1, or whose Psi grows first: what (R59) does not allow.
+struct WavyLaw {
+  double force = 6, moment = 0;
+
+  Resistance operator()(Slip slip) const {
+    const double size = std::hypot(slip.sliding, slip.pivoting), s = slip.sliding / size, p = slip.pivoting / size;
+    const double wave = s * s * p * p;
+    return {s * (1 + force * wave), 0.6 * p * (1 + moment * wave)};
+  }
+};
+
 }  // namespace
 
 TEST_CASE("two of time, distance and turning lead back to the start", "[aim][invariant]") {
@@ -153,4 +164,16 @@ TEST_CASE("what the reversed question refuses", "[aim][edge]") {
   CHECK_THROWS_AS(aimed(flow, {1, -1, {}}), std::domain_error);
   CHECK_THROWS_AS(aimed(flow, {1, std::nan(""), {}}), std::domain_error);
   CHECK_THROWS_AS(aimed(Flow({PadeLaw{}, 0.2, homogeneous_ball, 0.1}), {1, 1, {}}), std::domain_error);
+  // What the plane does not reach at its edge, in doubles.
+  CHECK_THROWS_AS(aimed(flow, {1e200, 1, {}}), TooFarApart);
+  CHECK_THROWS_AS(aimed(flow, {1e200, {}, 1}), TooFarApart);
+  CHECK_THROWS_AS(aimed(flow, {{}, 1e300, 1e-300}), TooFarApart);
+  // It goes farther in a time with spin than without.
+  using Catch::Matchers::Contains;
+  const Flow falls({WavyLaw{}, 1, {1, 2}});
+  const Reached spinning = reached(falls, {0.823, 2.38}), straight = reached(falls, {0, 1});
+  CHECK(spinning.distance / (spinning.tau * spinning.tau) > straight.distance / (straight.tau * straight.tau));
+  CHECK_THROWS_WITH(aimed(falls, {spinning.tau, spinning.distance, {}}), Contains("this law's Phi falls from"));
+  CHECK_THROWS_WITH(aimed(Flow({WavyLaw{0, 6}, 0.2}), {1, 1, {}}), Contains("this law's Psi grows from"));
+  for (const std::string& name : names) CHECK_NOTHROW(require_monotone(*find_law(name)));
 }
