@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contensou/reduction/infinity.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/course.hpp"
 #include "contensou/si/scaling.hpp"
@@ -96,14 +97,21 @@ std::optional<VectorXd> EventNumbers::slopes(const Component& by) const {
   const bool by_velocities = std::holds_alternative<Velocities>(experiment_.start);
   const Eigen::Vector2d rolls = velocities_of(experiment_.start).angular_velocity.head<2>();
   const double slip_speed = slip_at_start(experiment_), at = value(by);
-  // What the slip is a length of has a corner where that is 0; the rest at 0 of its own.
+  // What the slip is a length of has a corner where that is 0; the rest at 0 of its own. Where the slip is the threshold,
+  // those by what moves it have one more: on neither side of it do two steps reach beyond.
+  constexpr double share = 1e-3, reach = 2.5 * share;
+  const double beyond = std::abs(slip_speed - (experiment_.ball.body.lies_flat() ? 0 : rolling_below_));
+  const double free = std::min(slip_speed, beyond / reach);
   double scale = std::abs(at);
-  if (by.quantity == &velocity) scale = slip_speed;
-  if (by.quantity == &angular_velocity && by.index < 2) scale = slip_speed / experiment_.ball.radius;
-  if (by.quantity == &radius && by_velocities && rolls != Eigen::Vector2d::Zero())
-    scale = std::min(scale, slip_speed / rolls.norm());
+  const auto limit = [&](double slip_by_it, double own) {
+    constexpr double too_near = 1e-6;
+    scale = beyond < too_near * slip_speed ? 0 : std::min(own, free / slip_by_it);
+  };
+  if (by.quantity == &slip) limit(1, scale);
+  if (by.quantity == &velocity) limit(1, infinity);
+  if (by.quantity == &angular_velocity && by.index < 2) limit(experiment_.ball.radius, infinity);
+  if (by.quantity == &radius && by_velocities && rolls != Eigen::Vector2d::Zero()) limit(rolls.norm(), scale);
   if (scale == 0) return std::nullopt;
-  constexpr double share = 1e-3;
   const double step = share * scale;
   const auto beside = [&](double steps) { return of(with({by}, VectorXd::Constant(1, at + steps * step))); };
   try {

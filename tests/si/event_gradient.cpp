@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -155,4 +156,29 @@ TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", 
   const EventGradient gradient = event_gradient(numbers);
   CHECK(std::ranges::find(gradient.by, Component{&spin, 0}) == gradient.by.end());
   CHECK(gradient.slopes.cols() == static_cast<Eigen::Index>(gradient.by.size()));
+}
+
+TEST_CASE("at the threshold of rolling what moves the slip has a corner, and near it none of its steps meets it",
+          "[edge]") {
+  // Without spin slip falls at chi f g.
+  Experiment experiment = gel_shot();
+  const double R = experiment.ball.radius, threshold = 0.5;
+  const double slowing =
+      experiment.ball.body.inertia.chi * experiment.contact.friction * experiment.environment.gravity;
+  for (const auto& [v, wanted] : {std::pair{0.5001, 1 / slowing}, {0.4999, 0.0}, {0.50001, 1 / slowing}}) {
+    INFO(v);
+    const auto first = [&](const Component& by) {
+      return (*EventNumbers(experiment, of_hertz, threshold).slopes(by))[0];
+    };
+    experiment.start = SlipAndSpin{v, 0};
+    CHECK(first({&slip, 0}) == Approx(wanted).epsilon(1e-8).margin(1e-12));
+    experiment.start = Velocities{{0, 0}, {0, -v / R, 0}};
+    CHECK(first({&velocity, 0}) == Approx(wanted).epsilon(1e-8).margin(1e-12));
+    CHECK(first({&angular_velocity, 1}) == Approx(-R * wanted).epsilon(1e-8).margin(1e-12));
+    CHECK(first({&radius, 0}) == Approx(v / R * wanted).epsilon(1e-8).margin(1e-12));
+  }
+  experiment.start = SlipAndSpin{threshold, 20};
+  const EventNumbers there(experiment, of_hertz, threshold);
+  CHECK_FALSE(there.slopes({&slip, 0}));
+  CHECK(there.slopes({&spin, 0}));
 }
