@@ -60,8 +60,9 @@ MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, 
 
   MotionPoint point;
   point.t = t;
-  point.position = start.velocity * t - (v0 * t - slip_length) * (1 / chi) * along;
-  point.velocity = start.velocity - lost * (1 / chi) * along;
+  const FinalMotion final = final_motion(experiment);
+  point.position = final.velocity * t + slip_length * (1 / chi) * along;
+  point.velocity = slip == 0 ? final.velocity : start.velocity - lost * (1 / chi) * along;
   point.angular_velocity = {start.angular_velocity.x() - rolling * along.y(),
                             start.angular_velocity.y() + rolling * along.x(), spin};
   point.slip = slip;

@@ -86,3 +86,18 @@ TEST_CASE("rolling resistance slows a ball of any inertia at u_r g while it roll
   CHECK(motion.rest_time() == Approx(1 / (0.01 * 9.80665)).epsilon(1e-9));
   CHECK(motion.rolling_loss() == Approx(0.1701 / 2 * 1.6).epsilon(1e-6));
 }
+
+TEST_CASE("a disc on a small patch goes as far as its contact slides, and stands still from the stop on",
+          "[invariant]") {
+  // It slides at a small share of its slip for long: the way is what is left of v0 t.
+  Experiment experiment = find_ball("puck")->experiment;
+  experiment.contact.patch = PatchRadius{1e-9};
+  const reduction::Law law = *reduction::find_law("uniform");
+  for (const Start& start : {Start{SlipAndSpin{0.3, 1e7}}, Start{Velocities{{0.1, 0.2}, {0, 0, -1e7}}}}) {
+    experiment.start = start;
+    const BallMotion motion(experiment, law);
+    const MotionPoint end = motion.at_time(motion.stop_time());
+    CHECK(end.position.norm() == Approx(motion.slip_length()).epsilon(1e-12));
+    CHECK(end.velocity == Eigen::Vector2d(0, 0));
+  }
+}

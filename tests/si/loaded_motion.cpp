@@ -143,3 +143,17 @@ TEST_CASE("a load that comes and goes, against the equations of motion in steps"
     }
   }
 }
+
+TEST_CASE("from its stop on a body under a load that changes stands still", "[edge]") {
+  const Experiment puck = pressed("puck", {.slip = 3, .spin = 40});
+  const reduction::Law law = *reduction::find_law("uniform");
+  const LoadHistory lifted({0, 1, 3}, {1.6, 0.8, 1.6});
+  const Loaded<BallMotion> motion(puck, {puck, law}, lifted);
+  for (double t : {motion.stop_time(), motion.stop_time() + 0.9874, 8.0, 80.0}) {
+    CAPTURE(t);
+    const MotionPoint at = motion.at_time(t);
+    CHECK(at.velocity == Eigen::Vector2d(0, 0));
+    CHECK(at.angular_velocity == Eigen::Vector3d(0, 0, 0));
+    CHECK(at.position.x() == Approx(motion.slip_length()).epsilon(1e-12));
+  }
+}

@@ -40,6 +40,7 @@ class Loaded {
   MotionPoint at_time(double t) const {
     if (!load_) return motion_.at_time(t);
     if (!(t >= 0)) return motion_.at_time(t);  // says what is wrong
+    if (t >= end_) return motion_by_slip(experiment_, t, 0, slid_.back(), 0);
     const MotionPoint then = nominal_at(t);
     return motion_by_slip(experiment_, t, then.slip, slid(t), then.angular_velocity.z());
   }
