@@ -106,14 +106,7 @@ function start(library) {
   // Who opens the page is asked; a link to a moment shows that moment, other links play.
   if (player.moves && opens && !store.state.embed) hero.ask();
   else if (player.moves && store.state.fraction === 0) player.toggle(true);
-  return {
-    store, player, hero, plane, library,
-    get state() { return store.state; },
-    get request() { return store.request; },
-    get frames() { return plane.frames; },
-    get planeScene() { return plane.planeScene; },
-    redraws: store.redraws,
-  };
+  return { store, player, hero, plane, library, get state() { return store.state; } };
 }
 
 loadLibrary().then((library) => (globalThis.page = start(library))).catch(globalThis.contensouFailed);

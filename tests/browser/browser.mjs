@@ -76,7 +76,7 @@ export const drawn = () => page.evaluate(() => new Promise((done) => requestAnim
 
 /** The pixel of a state in a panel of the plane. */
 export const pixelOf = (u, v, panel = 0) => page.evaluate(([u, v, panel]) => {
-  const { frames: { [panel]: frame }, library } = globalThis.page;
+  const { plane: { frames: { [panel]: frame } }, library } = globalThis.page;
   const [x, y] = library.plane.place(u, v).slice(2 * panel);
   const box = document.getElementById("plane").getBoundingClientRect();
   return [box.left + frame.px(x), box.top + frame.py(y)];

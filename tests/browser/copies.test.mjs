@@ -52,7 +52,7 @@ test("across its ray it changes curve, and what it leaves behind fans out until 
   assertClose(all[0].stop, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "stop");
   assert.ok(new Set(all.map(({ shares }) => shares[1].toFixed(3))).size >= 4, JSON.stringify(all));
   assert.notEqual(await picture(), before);
-  assert.ok(await page.evaluate(() => globalThis.page.planeScene.ghosts.length > 4));
+  assert.ok(await page.evaluate(() => globalThis.page.plane.planeScene.ghosts.length > 4));
   await page.click("#orbits li:nth-child(2) button");
   assert.equal(await page.evaluate(() => globalThis.page.plane.scene().ghosts.length), 0);
   await close();
@@ -68,7 +68,7 @@ test("while a start is held, all that stop at one time with it are a line throug
   const { orbits: [{ u, v }], isochrone } = await state();
   assertClose(isochrone, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "its time");
   const least = await page.evaluate(([u, v]) => {
-    const { planeScene: { isochrone: [line] }, library: { plane }, frames: [frame] } = globalThis.page;
+    const { plane: { planeScene: { isochrone: [line] }, frames: [frame] }, library: { plane } } = globalThis.page;
     const start = frame.pixel(plane.place(u, v));
     return Math.min(...frame.lines(line).flatMap((part) => Array.from({ length: part.length / 2 }, (_, i) => Math.hypot(part[2 * i] - start[0], part[2 * i + 1] - start[1]))));
   }, [u, v]);
@@ -85,7 +85,7 @@ test("while a start is held, what lies behind it stays; then it is what a link t
     await drawn();
     return page.evaluate(() => document.getElementById("plane").toDataURL());
   };
-  const behind = () => page.evaluate(() => (globalThis.seen ??= []).push(globalThis.page.planeScene.figure) && new Set(globalThis.seen).size);
+  const behind = () => page.evaluate(() => (globalThis.seen ??= []).push(globalThis.page.plane.planeScene.figure) && new Set(globalThis.seen).size);
   const link = "#ball=gel&window=11,0.6&orbits=9,0.5;-4,0.5&chosen=1&view=pair";
   await open(link);
   await behind();
@@ -122,7 +122,7 @@ test("keys make copies, too, twice as large in two steps", async () => {
 test("zoomed for ever, the numbers run and the curves stand still, until something is pressed", async () => {
   /** The curves of the plane in parts of the window, and the window. */
   const seen = () => page.evaluate(() => {
-    const { planeScene: { figure: { panels: [{ lines }] } }, store: { portrait: { window: [U, V] } } } = globalThis.page;
+    const { plane: { planeScene: { figure: { panels: [{ lines }] } } }, store: { portrait: { window: [U, V] } } } = globalThis.page;
     return { U, lines: lines.filter(({ dashed }) => !dashed).map(({ lines }) => [...lines].map((value, i) => value / (i % 2 ? V : U))) };
   });
   const same = (a, b) => {

@@ -165,7 +165,7 @@ test("every orbit has a contrast of 3:1 to its ground, in light and dark", async
   for (const colorScheme of ["light", "dark"]) {
     await open("#law=exact&mu=0.3&window=1,4&orbits=0.8,3.5;0.5,3;0.3,2;-0.3,2;-0.5,3;-0.8,3", { colorScheme });
     const { card, ground, own, times } = await page.evaluate(() => {
-      const { figure } = globalThis.page.planeScene;
+      const { figure } = globalThis.page.plane.planeScene;
       return {
         card: getComputedStyle(document.documentElement).getPropertyValue("--card").trim(), ground: figure.ground, times: figure.colourBar.colours,
         own: [...document.querySelectorAll("#orbits li")].map((item) => item.style.getPropertyValue("--swatch")),

@@ -233,7 +233,7 @@ test("keys reach the isochrone and every panel", async () => {
   await page.focus("#plane");
   await page.keyboard.press("p");
   await page.keyboard.press("p");
-  assert.equal(await page.evaluate(() => globalThis.page.planeScene.cross.panel), 1);
+  assert.equal(await page.evaluate(() => globalThis.page.plane.planeScene.cross.panel), 1);
   await page.keyboard.press("i");
   assert.ok((await state()).isochrone > 0);
   assert.match(await page.textContent("#pointed"), /dotted line/);
@@ -274,7 +274,7 @@ test("a phone scrolls past the plane, and two fingers zoom it", async () => {
 test("an orbit that begins far outside the window has no more points than others", async () => {
   for (const fragment of ["#window=0.00001,0.00005&orbits=0.8,3.5", "#window=1,5&orbits=1e20,1"]) {
     await open(fragment);
-    assert.ok(await page.evaluate(() => globalThis.page.planeScene.own.every(({ u, panels }) => u.length < 2000 && panels[0].line.length < 4000)));
+    assert.ok(await page.evaluate(() => globalThis.page.plane.planeScene.own.every(({ u, panels }) => u.length < 2000 && panels[0].line.length < 4000)));
     await close();
   }
 });
@@ -391,7 +391,7 @@ test("the page travels: a strict policy, a page inside a page, no path of the ma
 
 test("a dark page is printed light, in one piece", async () => {
   await open("", { colorScheme: "dark" });
-  const ground = () => page.evaluate(() => globalThis.page.planeScene.figure.ground);
+  const ground = () => page.evaluate(() => globalThis.page.plane.planeScene.figure.ground);
   const dark = await ground();
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   assert.notEqual(await ground(), dark);
@@ -436,7 +436,7 @@ test("a drag shows the isochrone through the pointer", async () => {
   assertClose(isochrone, programStop("--mu", 0.3, "--u0", at.u, "--v0", at.v, "--law", "pade"), 1e-12, "its time");
   // Each of its points has that stop time.
   const points = await page.evaluate(() => {
-    const { planeScene: { isochrone: [line] }, library: { plane } } = globalThis.page;
+    const { plane: { planeScene: { isochrone: [line] } }, library: { plane } } = globalThis.page;
     return [1, 10, 20].map((i) => plane.at(0, line[2 * i], line[2 * i + 1]));
   });
   for (const { u, v } of points) {
@@ -472,7 +472,7 @@ test("a link that the library rejects opens the page all the same, and says why"
 test("beside the plane a click starts nothing", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5");
   const { left, right, top, bottom } = await page.evaluate(() => {
-    const [frame] = globalThis.page.frames;
+    const [frame] = globalThis.page.plane.frames;
     const box = document.getElementById("plane").getBoundingClientRect();
     return { left: box.left + 5, right: box.left + frame.left + frame.width / 2, top: box.top + 5, bottom: box.bottom - 5 };
   });
@@ -530,7 +530,7 @@ test("the exponent of a pressure law has a field of its own", async () => {
 test("a click in the view of time is a moment", async () => {
   await open("#law=exact&mu=0.3&view=time&orbits=0.8,3.5");
   const [x, y] = await page.evaluate(() => {
-    const frame = globalThis.page.frames[1];
+    const frame = globalThis.page.plane.frames[1];
     const box = document.getElementById("plane").getBoundingClientRect();
     return [box.left + frame.px(0.25), box.top + frame.py(0.5)];
   });
@@ -611,7 +611,7 @@ test("a new size of the window is a new drawing, sharp", async () => {
     await page.setViewportSize({ width, height: 900 });
     await page.waitForFunction(() => {
       const canvas = document.getElementById("plane");
-      return canvas.width === Math.round(canvas.clientWidth * devicePixelRatio) && globalThis.page.frames[0].width < canvas.clientWidth;
+      return canvas.width === Math.round(canvas.clientWidth * devicePixelRatio) && globalThis.page.plane.frames[0].width < canvas.clientWidth;
     });
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   }

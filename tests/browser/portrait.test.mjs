@@ -32,13 +32,13 @@ async function assertSamePicture(what) {
     return readFileSync(name, "utf8");
   };
   for (const ending of ["json", "tex"]) {
-    const text = await page.evaluate((ending) => globalThis.page.library.plane.portraitFile(globalThis.page.request, ending), ending);
+    const text = await page.evaluate((ending) => globalThis.page.library.plane.portraitFile(globalThis.page.store.request, ending), ending);
     assertSameText(text, written(ending), `${what}, ${words.join(" ")}: ${ending}`, ending === "tex");
   }
   // Of what the page itself draws: the orbits of its list, and those that fill a plane, begin where the program's do.
   const portrait = JSON.parse(written("json"));
   const { state, own, drawn, placed, isochrones } = await page.evaluate((V) => {
-    const { state, library: { plane }, planeScene: { own, figure } } = globalThis.page;
+    const { state, library: { plane }, plane: { planeScene: { own, figure } } } = globalThis.page;
     return {
       state, placed: [...plane.place(1, 1e-300 * V)],
       own: own.map(({ index, stop, u, v, panels }) => ({ ...state.orbits[index], chosen: index === state.chosen, stop, us: [...u], vs: [...v], line: [...panels[0].line] })),
@@ -126,7 +126,16 @@ test("mu is dragged, and everything follows", async (t) => {
   for (const law of ["pade", "exact"]) {
     await open(`#law=${law}&mu=0.9&orbits=0.8,3.5;-0.4,2`);
     const before = await stopTimes();
-    await page.evaluate(() => (globalThis.page.redraws.length = 0));
+    await page.evaluate(() => {
+      const { store } = globalThis.page;
+      const change = store.change.bind(store);
+      globalThis.redraws = [];
+      store.change = (edit) => {
+        const started = performance.now();
+        change(edit);
+        globalThis.redraws.push(performance.now() - started);
+      };
+    });
     await dragSlider("mu-slider", 0.98, 0.4, 60);
     const { mu, orbits } = await state();
     assert.ok(mu < 0.03 && mu > 0.005, `mu is ${mu}`);
@@ -135,7 +144,7 @@ test("mu is dragged, and everything follows", async (t) => {
     orbits.forEach(({ u, v }, i) => {
       assertClose(times[i], programStop("--mu", mu, "--u0", u, "--v0", v, "--law", law), 1e-12, `mu = ${mu}`);
     });
-    const redraws = await page.evaluate(() => [...globalThis.page.redraws].sort((a, b) => a - b));
+    const redraws = await page.evaluate(() => [...globalThis.redraws].sort((a, b) => a - b));
     assert.ok(redraws.length >= 30, `${redraws.length} redraws`);
     t.diagnostic(`law ${law}: median redraw ${redraws[redraws.length >> 1].toFixed(1)} ms, worst ${redraws.at(-1).toFixed(1)} ms, of ${redraws.length}`);
     await close();
@@ -178,7 +187,7 @@ test("the page places its own orbits where the program draws them", async () => 
       execFileSync(program, words.map((word) => (word === "portrait.svg" ? name : word)));
       const drawn = highlightedLines(readFileSync(name, "utf8"));
       const own = await page.evaluate(() => {
-        const { panels } = globalThis.page.planeScene.own.find(({ chosen }) => chosen);
+        const { panels } = globalThis.page.plane.planeScene.own.find(({ chosen }) => chosen);
         return panels.map(({ line }) => [...line].map((x, i) => [x, line[i + 1]]).filter(([x], i) => i % 2 === 0 && !Number.isNaN(x)));
       });
       assert.equal(drawn.length, own.length, `panels of ${view}`);
@@ -202,12 +211,12 @@ test("all views are drawn, and a click in each starts the orbit that it points a
     await drawn();
     const picture = await page.evaluate(() => document.getElementById("plane").toDataURL());
     pictures.add(picture);
-    const panels = await page.evaluate(() => globalThis.page.frames.map(() => !globalThis.page.store.view.moments));
+    const panels = await page.evaluate(() => globalThis.page.plane.frames.map(() => !globalThis.page.store.view.moments));
     for (const panel of panels.keys()) {
       if (!panels[panel]) continue;
       // Where no orbit is near, which a click would choose.
       const free = await page.evaluate((panel) => {
-        const { plane, frames: { [panel]: frame } } = globalThis.page;
+        const { plane, plane: { frames: { [panel]: frame } } } = globalThis.page;
         const shares = [0.3, 0.7, 0.2, 0.4, 0.6, 0.5, 0.8, 0.1, 0.9];
         const points = shares.flatMap((y) => shares.map((x) => [frame.left + x * frame.width, frame.top + y * frame.height]));
         const point = points.find(([x, y]) => plane.pointed(x, y) && plane.orbitAt(x, y, "touch") === null);
@@ -312,7 +321,7 @@ async function planeLegend() {
   await page.locator("#plane").scrollIntoViewIfNeeded();
   await drawn();
   await drawn();
-  return page.evaluate(() => globalThis.page.planeScene.figure.panels[0].lines.map(({ legend }) => legend.map(({ words }) => words).join("")));
+  return page.evaluate(() => globalThis.page.plane.planeScene.figure.panels[0].lines.map(({ legend }) => legend.map(({ words }) => words).join("")));
 }
 
 test("another law is drawn against the first, and leaves again", async () => {
@@ -379,7 +388,7 @@ test("bodies that end on a ray, or with k growing, are explored like balls", asy
     assert.match(await page.textContent("#terminal"), limit);
     for (const view of views) {
       await page.click(`#views [value=${view}]`);
-      assert.ok(await page.evaluate(() => globalThis.page.planeScene.figure.panels.every((panel) =>
+      assert.ok(await page.evaluate(() => globalThis.page.plane.planeScene.figure.panels.every((panel) =>
         panel.lines.reduce((sum, { lines }) => sum + (lines.length > 0) + [...lines].filter(Number.isNaN).length / 2, 0) >= 5)), view);
     }
     const times = await stopTimes();

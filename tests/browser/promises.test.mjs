@@ -12,7 +12,7 @@ test("a click anywhere in the plane is answered in words: no NaN, no power of te
   for (const fragment of ["#ball=gel&orbits=9,0.5", "#ball=pool&orbits=2.8575,1", "#ball=steel&orbits=0,0.5", "", "#ball=curling-stone", "#mu=0.3&orbits=0.8,3.5"]) {
     await open(fragment);
     const { answers, count } = await page.evaluate(() => {
-      const { plane, frames: [frame], store, library } = globalThis.page;
+      const { plane, plane: { frames: [frame] }, store, library } = globalThis.page;
       const [answers, all] = [[], 13];
       store.held = true;  // what lies behind the orbits, which nobody is asked about, stays
       const opened = store.state;
@@ -40,7 +40,7 @@ test("a click anywhere in the plane is answered in words: no NaN, no power of te
 test("the log view has one scale, and all starts in it", async () => {
   await open("#mu=0.3&view=log&orbits=0.8,3.5;0.4,1.75;0.2,0.875");
   const { places, box } = await page.evaluate(() => {
-    const { frames: [frame], library, state } = globalThis.page;
+    const { plane: { frames: [frame] }, library, state } = globalThis.page;
     return {
       places: state.orbits.map(({ u, v }) => frame.pixel(library.plane.place(u, v))),
       box: [frame.left, frame.top, frame.left + frame.width, frame.top + frame.height],

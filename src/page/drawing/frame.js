@@ -2,7 +2,6 @@
 
 export class Frame {
   /**
-   * @typedef {{left: number, top: number, width: number, height: number}} Box  in pixels
    * @typedef {{low: number, high: number}} Range
    * @param {Box} place
    * @param {Range} x

@@ -14,7 +14,6 @@ const ballOf = (radius) =>
 export class Store {
   /** @type {((change: {moment: boolean}) => void)[]} */
   listeners = [];
-  redraws = [];
   kept = new Map();
   settled = false;
   held = false;    // something by the reader, whose changes are one until he lets go
@@ -50,7 +49,6 @@ export class Store {
     const next = structuredClone(before);
     edit(next);
     next.chosen = Math.max(0, Math.min(next.chosen, next.orbits.length - 1));
-    const started = performance.now();
     try {
       this.compute(next);
     } catch (error) {
@@ -64,8 +62,6 @@ export class Store {
     this.state = next;
     this.settled = true;
     for (const listener of this.listeners) listener({ moment: false });
-    this.redraws.push(performance.now() - started);
-    if (this.redraws.length > 200) this.redraws.shift();
   }
 
   /** The reader has let go: what lies behind his orbits makes room for them. */
