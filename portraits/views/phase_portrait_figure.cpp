@@ -128,9 +128,9 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   MappedFigure mapped;
   Figure& figure = mapped.figure;
   figure.title = captions.front().title.empty() ? common_title(portraits) : captions.front().title;
-  figure.subtitle = !captions.front().subtitle.empty() ? captions.front().subtitle
-                    : first.scale.linear()             ? layout.shows
-                                                       : bent_shows;
+  figure.subtitle = !captions.front().subtitle.empty()             ? captions.front().subtitle
+                    : first.scale.linear() || portraits.size() > 1 ? layout.shows
+                                                                   : bent_shows;
   if (const double drive = first.system().drive(); drive > 0) {
     figure.title += ",  drive " + math("ϱ = ") + number(drive);
     if (captions.front().subtitle.empty() && layout.shows_driven) figure.subtitle = driven_shows;

@@ -91,8 +91,9 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   for (Lines* lines : {&attracting, &repelling}) {
     if (!lines->lines.empty()) panel.lines.push_back(std::move(*lines));
   }
-  panel.labels = {{{high, drive > 0 ? 1.6 / ends : ends / 1.6}, math("r") + sub("high"), guide_colour}};
-  if (drive == 0) panel.labels.push_back({{low, 1.6 / ends}, math("r") + sub("low"), guide_colour});
+  // Each where the curve of the ratios does not come: it leaves r_low at 0 and comes to r_high at infinity.
+  panel.labels = {{{high, 1.6 / ends}, math("r") + sub("high"), guide_colour}};
+  if (drive == 0) panel.labels.push_back({{low, ends / 1.6}, math("r") + sub("low"), guide_colour});
   if (marked) panel.lines.push_back({{{{*marked, 1 / ends}, {*marked, ends}}}, {marked_colour, 1.6, true, true}, ""});
   return panel;
 }

@@ -50,7 +50,7 @@ std::string footer() {
   for (const VerbEntry& entry : verbs()) text += fmt::format("  {}\n", entry.example);
   return text + "\n" +
          help_paragraph(
-             "'contensou help VERB' lists the options of a verb, 'contensou help laws|views|units|files' "
+             "'contensou help VERB' lists the options of a verb, 'contensou help laws|views|units|files|theory' "
              "explains what they take.") +
          help_paragraph(
              "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot "

@@ -117,6 +117,7 @@ TEST_CASE("the cue of aim makes a ball roll there", "[cli]") {
                                         strike.at("speed").get<double>(), strike.at("right").get<double>(),
                                         strike.at("above").get<double>()));
   CHECK(roll.at("rolls_after").at("x").get<double>() == Approx(0.1).epsilon(1e-9));
+  CHECK(json_of("aim --ball pool --rolls-at 10cm --rolling-speed 1 --spin 8rad/s --format json") == json);
   CHECK_THAT(run_program("aim --ball pool --rolls-at 10cm --rolling-speed 1 --spin 8").out,
              Contains(" radii right of the centre and ") && Contains(" above it\n") &&
                  Contains("turning forwards at") &&

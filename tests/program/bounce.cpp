@@ -47,7 +47,7 @@ TEST_CASE("a ball that is dropped comes down at sqrt(2 g h), on the patch of the
 }
 
 TEST_CASE("bounce says what it misses and what it does not know of", "[cli][bounce]") {
-  check_rejected("bounce --ball pool --restitution 0.5", "--normal-speed missing: give it, or --drop HEIGHT");
+  check_rejected("bounce --ball pool --restitution 0.5", "--normal-speed missing: give it, or --drop LENGTH");
   check_rejected("bounce --ball pool --drop 1", "--restitution missing");
   check_rejected("bounce --ball pool --drop 1 --normal-speed 2 --restitution 1", "exclude each other");
   check_rejected("bounce --ball pool --drop 1 --restitution 1.5", "0 to 1 is needed");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -68,6 +69,11 @@ std::string with_name(const std::string& names, const std::string& more) {
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings) {
   return typed.find('/') != std::string::npos ||
          std::ranges::any_of(endings, [&](const std::string& ending) { return typed.ends_with(ending); });
+}
+
+std::string_view known_unit(std::string_view symbol) {
+  if (si::find_dimension(symbol) == nullptr) throw std::logic_error(fmt::format("no unit '{}'", symbol));
+  return symbol;
 }
 
 double parse_quantity(const std::string& typed, std::string_view symbol) {

@@ -95,8 +95,10 @@ inline auto whole_number(long lowest, long highest) {
 /// Reads a number in a unit, or with a unit of the same kind behind it.
 /// @param symbol  of the unit (si::dimensions); none for a pure number
 double parse_quantity(const std::string& typed, std::string_view symbol);
+/// @throws std::logic_error  unless it is a symbol of si::dimensions
+std::string_view known_unit(std::string_view symbol);
 inline auto quantity(std::string_view symbol) {
-  return [=](const std::string& typed) { return parse_quantity(typed, symbol); };
+  return [unit = known_unit(symbol)](const std::string& typed) { return parse_quantity(typed, unit); };
 }
 
 /// Reads each text as parse_quantity. A unit behind the last is of all of them, unless each has its own.

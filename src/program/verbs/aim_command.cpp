@@ -21,12 +21,13 @@ class AimCommand final : public Verb {
     turns_.add(app, "--turns", "N", "about the vertical until then, of either sign", number);
     time_.add(app, "--time", "TIME", "when slip and spin end; two of the three decide the start", quantity("s"));
     rolls_at_.add(app, "--rolls-at", "LENGTH",
-                  "in place of two of them, of a ball: where it is to begin to roll, its slip below 1 mm/s",
+                  "in place of two of them, of a ball: where it is to begin to roll, its slip below 1 mm/s; the start "
+                  "whose slip is forwards (a ball struck with follow may have another)",
                   quantity("m"));
     rolling_speed_.add(app, "--rolling-speed", "SPEED", "with --rolls-at: how fast it rolls on in the end; 0: it stays",
                        quantity("m/s"));
-    spin_.add(app, "--spin", "SPIN", "with --rolls-at: about the vertical at the start, of either sign (default: 0)",
-              quantity("1/s"));
+    spin_.add(app, "--spin", "ROTATION",
+              "with --rolls-at: about the vertical at the start, of either sign (default: 0)", quantity("rad/s"));
     start_.add_ball(app, "a ball in SI units, built in or from a run file; its own start does not count",
                     StartOptions::no_start);
     law_.add(app);
@@ -66,9 +67,9 @@ class AimCommand final : public Verb {
   OutputOptions output_{{{"a start", with_pictures(answer_formats("text"))}}};
 };
 
-const RegisteredVerb<AimCommand> aim_verb(Purpose::compute, "aim",
-                                          "The start that goes so far, turns so often or lasts so long",
-                                          "contensou aim --ball puck --distance 20m --turns 3");
+const RegisteredVerb<AimCommand> aim_verb(
+    Purpose::compute, "aim", "The start that goes so far, turns so often, lasts so long or rolls from there on",
+    "contensou aim --ball puck --distance 20m --turns 3");
 
 }  // namespace
 

@@ -30,7 +30,7 @@ class BounceCommand final : public Verb {
                             return speed;
                           });
     drop_
-        .add(app, "--drop", "HEIGHT",
+        .add(app, "--drop", "LENGTH",
              "in its place: the height of its lowest point from which it was let go, in metres, above 0",
              [](const std::string& typed) {
                const double height = parse_quantity(typed, "m");
@@ -61,7 +61,7 @@ class BounceCommand final : public Verb {
     const reduction::Law law = law_.read(start_.standard_law());
     si::Experiment experiment = start_.read_rolling_ball(law);
     start_.require_undriven(experiment, "bounce");
-    if (!normal_speed_.given() && !drop_.given()) throw BadInput("--normal-speed missing: give it, or --drop HEIGHT");
+    if (!normal_speed_.given() && !drop_.given()) throw BadInput("--normal-speed missing: give it, or --drop LENGTH");
     if (!restitution_.given()) throw BadInput("--restitution missing: 0 (it stays down) to 1 (it loses nothing)");
     if (experiment.environment.load && drop_.given())
       drop_.reject(

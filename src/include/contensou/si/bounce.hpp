@@ -46,7 +46,7 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
 /// however the load rises and falls. Rigid bodies; the patch does not change during the impact and does not roll or
 /// yield sideways, and gravity counts for nothing beside the impact.
 ///
-/// @param start          of the experiment: what the ball does when it touches the plane
+/// @param experiment     its start is what the ball does when it touches the plane
 /// @param rolling_below  m/s, >= 0: a slip from which on it rolls; 0: none, which a ball that spins does not reach before its spin ends
 /// @throws std::domain_error  as pressed_in and BallMotion
 Rebound bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
