@@ -189,7 +189,8 @@ export class Store {
   }
 
   get now() {
-    const { orbit, state: { fraction }, end, library: { plane } } = this;
-    return orbit ? plane.instant(orbit.u, orbit.v, fraction * end) : null;
+    const { orbit, state: { fraction }, end, request, library: { plane } } = this;
+    const at = fraction * end;
+    return orbit ? this.keep("now", [orbit.u, orbit.v, at, request], () => plane.instant(orbit.u, orbit.v, at)) : null;
   }
 }
