@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contensou/reduction/reduced_system.hpp"
+#include "system/regularising_weight.hpp"
 
 namespace contensou::reduction {
 
@@ -11,14 +12,16 @@ namespace contensou::reduction {
 ///   -d ln w/ds = r of_spin/larger,   -d ln v/ds = of_slip/larger
 struct Braking {
   double larger, of_spin, of_slip;
+  double weight;  ///< dtau/dbeta of scaled speeds
 };
 
-/// @param w, v  scaled speeds, > 0
-/// @param k     v/w, a number
-inline Braking braking(const ReducedSystem& system, double w, double v, double k) {
+/// At scaled speeds. Where the law had no number before, nothing is one: a run ends with its outcome.
+inline Braking braking(const ReducedSystem& system, double ln_w, double ln_v) {
+  const double w = std::exp(ln_w), v = std::exp(ln_v), k = std::exp(ln_v - ln_w);
+  if (std::isnan(k)) return {k, k, k, k};
   const auto [force, moment] = system.law()(slip_of_ratio(k));
-  const double net = force - system.drive();
-  return k > 1 ? Braking{v, k * moment, net} : Braking{w, moment, net / k};
+  const double net = force - system.drive(), weight = regularising_weight(w, v);
+  return k > 1 ? Braking{v, k * moment, net, weight} : Braking{w, moment, net / k, weight};
 }
 
 }  // namespace contensou::reduction

@@ -16,8 +16,7 @@
 #include "check/braking.hpp"
 #include "check/motion_recorder.hpp"
 #include "contensou/reduction/infinity.hpp"
-#include "numerics/root.hpp"
-#include "system/regularising_weight.hpp"
+#include "contensou/reduction/root.hpp"
 
 namespace contensou::reduction {
 
@@ -45,17 +44,9 @@ struct DirectEquations {
 
   void operator()(const Values& x, Values& rate, double /*s*/) {
     ++evaluations;
-    const double w = std::exp(x[0]);
-    const double v = std::exp(x[1]);
-    const double k = std::exp(x[1] - x[0]);
-    if (std::isnan(k)) {  // the law had no number before: the run ends with its outcome
-      rate.fill(k);
-      return;
-    }
-    const auto [larger, of_spin, of_slip] = braking(system, w, v, k);
+    const auto [larger, of_spin, of_slip, weight] = braking(system, x[0], x[1]);
     rate[0] = -system.r() * (of_spin / larger);
     rate[1] = -(of_slip / larger);
-    const double weight = regularising_weight(w, v);
     rate[2] = std::exp(-x[2]) / (beta_unit * weight);
   }
 };

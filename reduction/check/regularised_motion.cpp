@@ -13,8 +13,7 @@
 
 #include "check/braking.hpp"
 #include "check/motion_recorder.hpp"
-#include "numerics/root.hpp"
-#include "system/regularising_weight.hpp"
+#include "contensou/reduction/root.hpp"
 
 namespace contensou::reduction {
 
@@ -33,15 +32,7 @@ struct RegularisedEquations {
 
   void operator()(const Values& x, Values& rate, double /*beta*/) {
     ++evaluations;
-    const double w = std::exp(x[0]);
-    const double v = std::exp(x[1]);
-    const double k = std::exp(x[1] - x[0]);
-    if (std::isnan(k)) {  // the law had no number before: the run ends with its outcome
-      rate.fill(k);
-      return;
-    }
-    const auto [larger, of_spin, of_slip] = braking(system, w, v, k);
-    const double weight = regularising_weight(w, v);
+    const auto [larger, of_spin, of_slip, weight] = braking(system, x[0], x[1]);
     rate[0] = -(weight / larger * of_spin) * system.r();
     rate[1] = -(weight / larger * of_slip);
     rate[2] = weight / time_scale;
@@ -95,8 +86,7 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
         stepper.calc_state(beta, at);
         return function(at);
       };
-      const auto [low, high] = interval;
-      return root_between(along, low, high, along(low), along(high));
+      return root_between(along, interval.first, interval.second);
     };
 
     double end = interval.second;

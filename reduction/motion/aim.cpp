@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
-#include "numerics/root.hpp"
 
 namespace contensou::reduction {
 

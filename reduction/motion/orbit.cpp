@@ -18,8 +18,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "numerics/root.hpp"
 
 namespace contensou::reduction {
 

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/root.hpp"
 #include "numerics/legendre_series.hpp"
-#include "numerics/root.hpp"
 #include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {
@@ -197,7 +197,7 @@ class SmallMuMotion::Layer {
     const auto panel = std::lower_bound(panels_.begin(), panels_.end(), both,
                                         [](const Panel& each, double value) { return each.at_end().both() < value; });
     const auto excess = [&](double t) { return panel->at(t).both() - both; };
-    const double t = root_between(excess, -1, 1, excess(-1), excess(1));
+    const double t = root_between(excess, -1, 1);
     return {panel->ln_k(t), panel->at(t)};
   }
 

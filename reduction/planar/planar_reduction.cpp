@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/strip.hpp"
 
@@ -39,10 +39,7 @@ double root_below(const std::function<double(double)>& function, double high) {
     if (width > widest) return low;
     high = std::exchange(low, low - (width *= 2));
   }
-  boost::uintmax_t steps = 200;
-  const auto [left, right] =
-      boost::math::tools::toms748_solve(function, low, high, boost::math::tools::eps_tolerance<double>(52), steps);
-  return (left + right) / 2;
+  return root_between(function, low, high);
 }
 
 /// How an orbit is found again: the strip that it is in, or that q stays.
@@ -152,24 +149,18 @@ void PlanarReduction::Solved::scan() {
     }
     if (!changes) continue;
     const double step = angle_between(turned(here.anchor, here.offset), turned(next.anchor, next.offset));
-    double left = here.offset, right = here.offset + step;
+    const double left = here.offset, right = here.offset + step;
     if (here.rates && next.rates) {
-      boost::uintmax_t steps = 200;
       const auto angular = [&](double offset) {
         const auto rates = at(here.anchor, offset);
         return rates ? rates->angular : 0;
       };
-      std::tie(left, right) =
-          boost::math::tools::toms748_solve(angular, left, right, here.rates->angular, next.rates->angular,
-                                            boost::math::tools::eps_tolerance<double>(53), steps);
-      const double middle = (left + right) / 2;
-      add(turned(here.anchor, middle), vanishes(here.anchor, middle));
+      const double root = root_between(angular, left, right, here.rates->angular, next.rates->angular);
+      add(turned(here.anchor, root), vanishes(here.anchor, root));
     } else {
-      for (int halving = 0; halving < 60; ++halving) {
-        const double middle = (left + right) / 2;
-        (at(here.anchor, middle).has_value() == here.rates.has_value() ? left : right) = middle;
-      }
-      add(turned(here.anchor, here.rates ? left : right), false);
+      const auto has_value = [&](double offset) { return at(here.anchor, offset).has_value(); };
+      const double last = last_where(has_value, here.rates ? left : right, here.rates ? right : left);
+      add(turned(here.anchor, last), false);
     }
   }
   make_strips();

@@ -11,9 +11,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/linear_ode.hpp"
 #include "planar/matrix_exponential.hpp"
@@ -83,11 +83,7 @@ std::pair<Vector2d, double> SectionField::canonical(const Vector2d& x) const {
   double p = low;
   if (high - low > 4 * eps * std::abs(low)) {
     const double wider = 1e-12 * (1 + std::abs(low) + std::abs(high));
-    boost::uintmax_t steps = 100;
-    const auto [left, right] =
-        boost::math::tools::toms748_solve([&](double at) { return std::log(moved(at).stableNorm()); }, low - wider,
-                                          high + wider, boost::math::tools::eps_tolerance<double>(52), steps);
-    p = (left + right) / 2;
+    p = root_between([&](double at) { return std::log(moved(at).stableNorm()); }, low - wider, high + wider);
   }
   return {moved(p).stableNormalized(), p};
 }

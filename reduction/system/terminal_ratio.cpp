@@ -10,8 +10,8 @@
 #include <boost/math/tools/minima.hpp>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
-#include "numerics/root.hpp"
 
 namespace contensou::reduction {
 

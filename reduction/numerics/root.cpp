@@ -1,4 +1,4 @@
-#pragma once
+#include "contensou/reduction/root.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -8,10 +8,8 @@
 
 namespace contensou::reduction {
 
-/// The root of a function between two places at which it has, to rounding, values of different signs: to the last bits,
-/// by Boost's TOMS 748.
-template <class Function>
-double root_between(Function function, double low, double high, double at_low, double at_high) {
+double root_between(const std::function<double(double)>& function, double low, double high, double at_low,
+                    double at_high) {
   if (at_low == 0 || (at_low < 0) == (at_high < 0)) return std::abs(at_low) <= std::abs(at_high) ? low : high;
   constexpr int digits = std::numeric_limits<double>::digits - 2;
   std::uintmax_t most = 200;
