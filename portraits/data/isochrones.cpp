@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "contensou/reduction/root.hpp"
+#include "data/round_numbers.hpp"
+
 namespace contensou::portraits {
 
 namespace {
@@ -69,6 +72,12 @@ IsochroneTimes asked_times(std::vector<double> times, double unit) {
   return {times, even ? step * unit : 0};
 }
 
+IsochroneTimes even_times(double last, double unit, std::optional<int> asked, int usual) {
+  const double step =
+      asked ? step_for(last / unit, *asked, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5}) : step_for(last / unit, usual, {1, 2, 5});
+  return {multiples(0, last, step * unit), step * unit};
+}
+
 std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& rectangle,
                                   const std::vector<double>& times) {
   const State low = rectangle.low, high = rectangle.high;
@@ -83,11 +92,8 @@ std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& 
     const auto inside = [&](State at) { return at.u >= low.u && at.u <= high.u && at.v >= low.v && at.v <= high.v; };
     // The last state inside, between a direction outside and one inside.
     const auto border = [&](double outside, double within) {
-      for (int i = 0; i < 50; ++i) {
-        const double middle = (outside + within) / 2;
-        (inside(scaled(directions.unit(middle))) ? within : outside) = middle;
-      }
-      return scaled(directions.unit(within));
+      const auto is_inside = [&](double direction) { return inside(scaled(directions.unit(direction))); };
+      return scaled(directions.unit(reduction::last_where(is_inside, within, outside)));
     };
     std::vector<State> piece;
     for (std::size_t i = 0; i < all.size(); ++i) {

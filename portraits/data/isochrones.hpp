@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "contensou/portraits/phase_portrait.hpp"
@@ -22,6 +23,10 @@ struct IsochroneTimes {
 /// @param times  not empty
 /// @param unit   of them
 IsochroneTimes asked_times(std::vector<double> times, double unit);
+
+/// Multiples of a round time up to the last, in its unit: as many as are asked for, as nearly as round times allow; about as
+/// many as usual, by the roundest steps, where no number is.
+IsochroneTimes even_times(double last, double unit, std::optional<int> asked, int usual);
 
 /// The pieces of isochrones that lie in the rectangle, by growing time; along each, v/u turns from u > 0 to u < 0.
 ///

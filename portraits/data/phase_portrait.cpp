@@ -10,6 +10,7 @@
 
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "data/isochrones.hpp"
 #include "data/lists.hpp"
@@ -101,13 +102,9 @@ void refine(Track& track, double from, const std::vector<double>& places, At at,
 
 /// The last number in the direction of a step from another at which a condition holds, before it fails for good.
 template <class Holds>
-double last_where(Holds holds, double from, double step) {
+double last_along(Holds holds, double from, double step) {
   for (; holds(from + step); step *= 1.5) from += step;
-  for (int i = 0; i < 50; ++i) {
-    step /= 2;
-    if (holds(from + step)) from += step;
-  }
-  return from;
+  return reduction::last_where(holds, from, from + step);
 }
 
 /// Whether a curve has begun no later than at xi: with a drive orbits come from v = 0, not from infinity.
@@ -307,7 +304,7 @@ class OrbitTracer {
     };
     const auto outside = [this](State state) { return !(std::abs(state.u) <= window_.u && state.v <= window_.v); };
     return upstream(
-        last_where([&](double xi) { return !begins(curve, system_, xi) && !outside(upstream(xi)); }, here, 1));
+        last_along([&](double xi) { return !begins(curve, system_, xi) && !outside(upstream(xi)); }, here, 1));
   }
 
   Track stepped(State start) const {
@@ -432,10 +429,7 @@ std::vector<IsochroneTimes> round_times(const std::vector<double>& lasts, const 
   if (request.isochrones == 0) return all({{}, 0});
   const auto [shortest, longest] = std::ranges::minmax(lasts);
   if (longest < alike * shortest) {
-    const double last = near * longest / unit;
-    const double step = request.isochrones ? step_for(last, *request.isochrones, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5})
-                                           : step_for(last, lasts.size() > 1 ? usual_beside_others : usual, {1, 2, 5});
-    return all({multiples(0, last * unit, step * unit), step * unit});
+    return all(even_times(near * longest, unit, request.isochrones, lasts.size() > 1 ? usual_beside_others : usual));
   }
   const int count = request.isochrones.value_or(usual_of_series);
   std::vector<IsochroneTimes> result;
@@ -491,10 +485,10 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
   constexpr double downstream = 30;
   const double first =
       upstream > 0
-          ? last_where([&](double xi) { return !begins(curve, flow.system(), xi) && ln_size(xi) < size + upstream; },
+          ? last_along([&](double xi) { return !begins(curve, flow.system(), xi) && ln_size(xi) < size + upstream; },
                        here, 1)
           : here;
-  const double last = last_where([&](double xi) { return ln_size(xi) > size - downstream; }, here, -1);
+  const double last = last_along([&](double xi) { return ln_size(xi) > size - downstream; }, here, -1);
   Track track{at(first)};
   // By u where it does not underflow: ln v - ln k has no digit left where orbits hug the axis.
   const auto its_ln_size = [mu = flow.system().mu()](const Instant& it) {

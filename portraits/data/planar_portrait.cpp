@@ -435,9 +435,8 @@ PlanarPortrait planar_portrait(reduction::PlanarField field, const PlanarReducti
     // Next to a ray that leads elsewhere times grow beyond all.
     const double last = 0.95 * std::min(times.back(), 3 * times[times.size() / 2]);
     constexpr int usual = 7;
-    const double step = request.isochrones ? step_for(last, *request.isochrones, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5})
-                                           : step_for(last, usual, {1, 2, 5});
-    portrait.isochrones = tracer.isochrones(multiples(0, last, step));
+    const auto [even, step] = even_times(last, 1, request.isochrones, usual);
+    portrait.isochrones = tracer.isochrones(even);
     portrait.isochrone_step = step;
   }
   return portrait;
