@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "contensou/reduction/infinity.hpp"
-#include "si/crossing.hpp"
+#include "contensou/reduction/root.hpp"
 
 namespace contensou::fit {
 
@@ -60,7 +60,7 @@ void RollingOrbit::reach(double T) {
     constexpr double first = 1e-9;
     if (std::isfinite(last) && turning_at(last) < -1e-13 * (at_[slip] + at_[rolling])) {
       const double from = at_[rolling] > 0 ? 0 : first * last;
-      const double ends = turning_at(from) > 0 ? si::crossing(turning_at, from, last) : from;
+      const double ends = turning_at(from) > 0 ? reduction::root_between(turning_at, from, last) : from;
       hold(ends, speeds_at(ends));
     }
   }

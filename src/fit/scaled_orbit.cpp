@@ -7,7 +7,7 @@
 
 #include <Eigen/LU>
 
-#include "si/crossing.hpp"
+#include "contensou/reduction/root.hpp"
 
 namespace contensou::fit {
 
@@ -140,7 +140,7 @@ void ScaledOrbit::find_ray() {
   const double low = std::log(drive_) - 5, high = 20;
   if (!(rises(low) < 0 && rises(high) > 0))
     throw std::domain_error("fit: under that rolling friction sliding does not end: a smaller one is required");
-  ray_ = std::exp(si::crossing(rises, low, high));
+  ray_ = std::exp(reduction::root_between(rises, low, high));
   near_ray_ = {fall_towards_ray(-ray_step * ray_), fall_towards_ray(ray_step * ray_)};
 }
 

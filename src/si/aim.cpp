@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/aim.hpp"
+#include "contensou/reduction/root.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
-#include "crossing.hpp"
 
 namespace contensou::si {
 
@@ -178,7 +178,7 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
     high *= 2;
     if (high > most) throw std::domain_error(fmt::format("rolls_at: too far to be computed, got {}", goal.place));
   }
-  const double slip = crossing(too_far, high / 2, high);
+  const double slip = reduction::root_between(too_far, high / 2, high);
   const double speed = goal.speed + added(slip);
   return {{speed, 0}, {0, (speed - slip) / experiment.ball.radius, goal.spin}};
 }

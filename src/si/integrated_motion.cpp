@@ -21,6 +21,8 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_cash_karp54.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 
+#include "contensou/reduction/root.hpp"
+
 namespace contensou::si {
 
 namespace {
@@ -167,18 +169,16 @@ bool in_tail(const Ballistics& ball, const Values& x, double t) {
   return v <= 1e-17 * ball.eps * omega || pivoting <= 1e-18 * sliding || sliding + pivoting <= 1e-14 * t;
 }
 
-/// The length of the step from `before` that ends at k = 1, and its end, by bisection.
+/// The length of the step from `before` that ends at k = 1, and its end.
 double step_to_kink(const Ballistics& ball, const Values& before, double t, double longest, Values& end) {
   CashKarp base;
-  double low = 0;
-  double high = longest;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = low + (high - low) / 2;
-    base.do_step(std::cref(ball), before, t, end, middle);
-    (ball.log_ratio(end) > 0 ? low : high) = middle;
-  }
-  base.do_step(std::cref(ball), before, t, end, high);
-  return high;
+  const auto passes = [&](double length) {
+    base.do_step(std::cref(ball), before, t, end, length);
+    return ball.log_ratio(end) <= 0;
+  };
+  const double length = reduction::last_where(passes, longest, 0);
+  passes(length);
+  return length;
 }
 
 MotionPoint point_of(const Ballistics& ball, const Ball& body, const Values& x, double t) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "crossing.hpp"
+#include "contensou/reduction/root.hpp"
 
 namespace contensou::si {
 
@@ -92,7 +92,7 @@ PureRolling::Here PureRolling::after(double seconds) const {
   while (turned_time(high) < seconds && high < most) high *= 2;
   if (turned_time(high) <= seconds) return turned(high);
   if (seconds <= 0) return turned(0);
-  return turned(crossing([&](double fall) { return turned_time(fall) - seconds; }, 0, high));
+  return turned(reduction::root_between([&](double fall) { return turned_time(fall) - seconds; }, 0, high));
 }
 
 }  // namespace contensou::si

@@ -19,8 +19,8 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 
 #include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/root.hpp"
 #include "contensou/si/scaling.hpp"
-#include "crossing.hpp"
 #include "pure_rolling.hpp"
 
 namespace contensou::si {
@@ -169,7 +169,7 @@ class ResistedMotion::Course {
     const auto excess = [&](double t) { return at(t).slip.norm() - speed; };
     for (auto knot = knots_.rbegin(); knot != knots_.rend(); ++knot) {
       if (excess(*knot) <= 0) continue;
-      return knot == knots_.rbegin() ? *knot : crossing(excess, *knot, *std::prev(knot));
+      return knot == knots_.rbegin() ? *knot : reduction::root_between(excess, *knot, *std::prev(knot));
     }
     return 0;
   }
@@ -292,7 +292,7 @@ class Straight final : public ResistedMotion::Course {
     constexpr double far = 100;
     const auto excess = [&](double ln_k) { return body_.law(reduction::slip_of_ratio(std::exp(ln_k))).force - force; };
     if (excess(-far) >= 0 || excess(far) <= 0) return std::nullopt;
-    const double ln_k = crossing(excess, -far, far);
+    const double ln_k = reduction::root_between(excess, -far, far);
     const auto [low, high] = std::minmax({piece.orbit.start_log_ratio(), piece.orbit.chart().log_terminal_ratio()});
     if (!(low < ln_k && ln_k < high)) return std::nullopt;
     return piece.t + seconds(body_.experiment, piece.orbit.at_log_ratio(ln_k).tau);
@@ -306,7 +306,7 @@ class Straight final : public ResistedMotion::Course {
     constexpr double first = 1e-9;
     double from = piece.start.rolling.norm() > 0 ? piece.t : piece.t + first * (stop - piece.t);
     for (const double to : {passes_holding(piece).value_or(from), stop}) {
-      if (turning(to) < 0) return turning(from) > 0 ? crossing(turning, from, to) : from;
+      if (turning(to) < 0) return turning(from) > 0 ? reduction::root_between(turning, from, to) : from;
       from = to;
     }
     return std::nullopt;
