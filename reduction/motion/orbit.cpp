@@ -326,7 +326,7 @@ double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction,
   const double at_limit = rest(limit);
   if (at_limit >= 0) return limit - at_limit / (at_limit - rest(limit - 1));
   const double at_from = from == xi0_ ? -ln_fraction : rest(from);
-  return root_between(rest, limit, from, at_limit, at_from);
+  return root_between(std::cref(rest), limit, from, at_limit, at_from);
 }
 
 double Orbit::coordinate_of_fastest() const {
