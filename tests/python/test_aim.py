@@ -48,3 +48,13 @@ def test_what_is_refused():
         ct.aim(ct.Ball.puck(), distance=20)
     with pytest.raises(ValueError, match="may have two starts"):
         ct.aim(ct.Ball.pool(rolling_friction=0.01), distance=1, time=1)
+
+
+def test_what_is_no_number_and_no_ball():
+    pool = ct.Ball.pool()
+    with pytest.raises(TypeError, match="distance: real numbers are needed, got <U1"):
+        ct.aim(pool, distance="1", turns=1)
+    with pytest.raises(TypeError, match="rolling_speed: one number is needed"):
+        ct.aim(pool, rolls_at=1, rolling_speed=[1, 2])
+    with pytest.raises(TypeError, match="ball: a Ball is needed, as Ball.pool\\(\\); got 'pool'"):
+        ct.aim("pool", distance=1, turns=1)

@@ -7,6 +7,7 @@ from typing import Any, Optional
 
 from . import _core
 from ._balls import Ball
+from ._numbers import number
 from ._flow import LawLike
 
 
@@ -30,14 +31,23 @@ def aim(
     rolls_at:  m from the start; rolling_speed: m/s with which it rolls on in the end, 0 where it stays there
     spin:      rad/s about the vertical at the start, 0 unless given
 
-    The fields of `contensou aim --format json`: slip (m/s) and spin (rad/s) of the start, which roll(slip=, spin=) takes,
-    and what it comes to: distance, turns, time; of a ball also final_velocity, rolls_after, and strike, the stroke of a cue
-    that starts it, if there is one; velocity and angular_velocity are the whole start. The ball's own start does not count.
+    The fields of `contensou aim --format json`: velocity and angular_velocity, the start, which roll takes by these names; its
+    slip (m/s) and spin (rad/s), which roll(slip=, spin=) takes of a start by distance, turns and time, as that does not roll
+    yet; and what it comes to: distance, turns, time; of a ball also final_velocity, rolls_after, and strike, the stroke of a
+    cue that starts it, if there is one. The ball's own start does not count.
 
     Raises ValueError where no start comes to both, with what is nearest, for a slope, and for distance
     with time of a ball with rolling friction, of which several starts may come there. Such a ball is asked where it rests, and
-    when all motion ends.
+    when all motion ends. TypeError for what is no ball or no number.
     """
+    if not isinstance(ball, Ball):
+        raise TypeError(f"ball: a Ball is needed, as Ball.pool(); got {ball!r}")
+
+    def asked(name: str, given: Optional[float]) -> Optional[float]:
+        return None if given is None else number(name, given)
+
+    distance, turns, time = asked("distance", distance), asked("turns", turns), asked("time", time)
+    rolls_at, rolling_speed, spin = asked("rolls_at", rolls_at), asked("rolling_speed", rolling_speed), asked("spin", spin)
     experiment, core = ball._experiment, ball._law(law)._core
     found: dict[str, Any]
     if rolls_at is None and rolling_speed is None and spin is None:

@@ -416,7 +416,8 @@ class Roll:
 
     @property
     def rest(self) -> Optional[Event]:
-        """When its centre rests, with rolling friction or on a slope; None where it rolls on for ever."""
+        """When its centre rests, with rolling friction or on a slope; None where it rolls on for ever, and of a body that lies
+        flat on a level plane, whose rest is its rolls_after."""
         rest = self._core.rest
         return None if rest is None else Event(*rest)
 
@@ -476,7 +477,7 @@ class Rolls:
     S, they give a structured array of shape (N, *S) with the fields of Roll; an index gives one Roll.
 
     events:  a structured array of shape (N,): rolls_after, spin_ends and rest, each with t, x, y (s, m), as Roll has them, rest
-             infinite where it rolls on for ever; slip_length, path (m), turns, stop_time (s). Each is an attribute, too.
+             infinite where that is None; slip_length, path (m), turns, stop_time (s). Each is an attribute, too.
     """
 
     #: Of events.
