@@ -39,13 +39,13 @@ constexpr Field<AimReport> aim_row[]{
      [](const AimReport& r) -> Json {
        return {r.start.velocity.x(), r.start.velocity.y()};
      },
-     "", 0, " [x, y]"},
+     "vx,", 0, " [x, y]"},
     {"angular_velocity", "1/s", "the start",
      [](const AimReport& r) -> Json {
        const Eigen::Vector3d& w = r.start.angular_velocity;
        return {w.x(), w.y(), w.z()};
      },
-     "", 0, " [x, y, z]"},
+     ",wy,", 0, " [x, y, z]"},
     {"distance", "m", "of the centre, when slip and spin end, with rolling friction at rest",
      [](const AimReport& r) -> Json { return r.distance; }},
     {"turns", "", "about the vertical, until then", [](const AimReport& r) -> Json { return r.turns; }},
@@ -89,6 +89,8 @@ std::string text_of(const AimReport& r, const Digits& number) {
         "       struck by a level cue of {} kg at {} m/s, {} radii {} of the centre{}\n", number(r.strike->mass),
         number(r.strike->speed), number(std::abs(r.strike->right)), side,
         above == 0 ? "" : fmt::format(" and {} {} it", number(std::abs(above)), above < 0 ? "below" : "above"));
+  } else if (r.is_ball() && r.start.velocity.isZero(0) && r.start.angular_velocity.isZero(0)) {
+    text += "       it is at rest\n";
   } else if (r.is_ball()) {
     text +=
         fmt::format("       no level stroke gives it: its tip would meet the ball more than {} radii off the centre\n",
@@ -98,8 +100,9 @@ std::string text_of(const AimReport& r, const Digits& number) {
                       number(r.turns), number(r.time), r.rest ? "rolling and spin" : "slip and spin");
   if (r.is_ball()) {
     text += fmt::format("       it {}; its slip is below {} m/s from {} s and {} m on\n",
-                        r.rest ? fmt::format("rests after {} s", number(r.rest->t))
-                               : fmt::format("rolls on at {} m/s", number(r.final.velocity.x())),
+                        r.rest                      ? fmt::format("rests after {} s", number(r.rest->t))
+                        : r.final.velocity.x() == 0 ? "stays there"
+                                                    : fmt::format("rolls on at {} m/s", number(r.final.velocity.x())),
                         number(si::rolling_slip), number(r.rolls->t), number(r.rolls->place.x()));
   }
   return text;

@@ -139,6 +139,8 @@ std::string text_of(const RollUncertainty& uncertainty, const Digits& digits) {
   std::string text =
       fmt::format("known to, one standard deviation to first order; 95 % of {} samples\n", uncertainty.samples);
   const int width = digits.count + 8;
+  if (std::ranges::all_of(uncertainty.parts, [](const auto& part) { return part.known.standard == 0; }))
+    text = "known to: none of these numbers changes it\n";
   bool all_hold = true;
   for (const auto& [event, of, unit, value, known] : uncertainty.parts) {
     if (known.standard == 0) continue;

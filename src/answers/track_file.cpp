@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::string_view deviation = "_sd";
 constexpr const char* frame = "frame";
+/// Of the spin, as a motion in CSV calls it.
+constexpr const char* spin_of_motion = "wz";
 
 /// Of a field: empty, and what numpy and R write for it, was not.
 bool is_measured(std::string_view field) {
@@ -54,7 +56,7 @@ std::vector<std::string> observable_names() {
 
 fit::Track read_track(CsvReader& table, const std::string& track_name, const TrackRequest& request,
                       const std::function<void(const std::string&)>& note, NoiseByName* unused) {
-  std::vector<std::string> known{"t", frame};
+  std::vector<std::string> known{"t", frame, spin_of_motion};
   for (const std::string& name : observable_names()) known.push_back(name);
   std::set<std::string> unread;
   std::vector<Heading> headings;
@@ -82,12 +84,19 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
   }
   std::vector<SeriesColumns> columns;
   for (const auto& [observable, name, unit, meaning] : fit::observable_kinds()) {
-    const auto value = column(std::string(name), unit);
-    auto sd = column(fmt::format("{}{}", name, deviation), unit);
+    std::string called(name);
+    auto value = column(called, unit);
+    if (observable == fit::Observable::spin) {
+      if (const auto other = column(spin_of_motion, unit)) {
+        if (value) unread.insert(spin_of_motion);
+        if (!value) value = other, called = spin_of_motion;
+      }
+    }
+    auto sd = column(called + std::string(deviation), unit);
     if (value && sd && sd->unit.empty()) sd->factor = value->factor;
     if (value) columns.push_back({observable, *value, sd});
     if (!value && sd)
-      fail(fmt::format("column {0}{1} is the standard deviation of {0}, which is not there", name, deviation));
+      fail(fmt::format("column {0}{1} is the standard deviation of {0}, which is not there", called, deviation));
   }
   if (!time || columns.empty()) {
     std::string hints;

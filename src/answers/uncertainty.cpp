@@ -166,7 +166,9 @@ void KnownTo::compare(double value, std::vector<double> samples) {
     // What quantiles of so many normal numbers are off by, four times.
     const double density = std::exp(-normal_quantiles[i] * normal_quantiles[i] / 2) / std::sqrt(2 * std::numbers::pi);
     const double by_chance = 4 * std::sqrt(p * (1 - p) / static_cast<double>(samples.size())) / density;
-    if (std::abs(*at - (value + normal_quantiles[i] * standard)) > std::max(0.1, by_chance) * standard) holds = false;
+    constexpr double rounding = 1e-12;
+    const double allowed = std::max(0.1, by_chance) * standard + rounding * std::abs(value);
+    if (std::abs(*at - (value + normal_quantiles[i] * standard)) > allowed) holds = false;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -39,7 +40,12 @@ struct Spreads {
   Eigen::MatrixXd correlation;  ///< 1 on the diagonal
 
   /// The standard deviation of a sum of the numbers, each times what is given here over its own.
-  double standard_of(const Eigen::VectorXd& shares) const { return std::sqrt(shares.dot(correlation * shares)); }
+  double standard_of(const Eigen::VectorXd& shares) const {
+    const double largest = shares.size() > 0 ? shares.cwiseAbs().maxCoeff() : 0;
+    if (!(largest > 0)) return 0;
+    const Eigen::VectorXd unit = shares / largest;  // its squares are doubles still
+    return largest * std::sqrt(std::max(0.0, unit.dot(correlation * unit)));
+  }
 };
 
 /// Reads "slip=1%, spin=2 rad/s, ...". A % is of the value. "fit" is what the ball itself is known to, which numbers that are

@@ -1,6 +1,7 @@
 #include "contensou/si/aim.hpp"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -25,8 +26,7 @@ void require_goal(const Goal& goal) {
     if (!value) return;
     ++given;
     if (std::isfinite(*value) && (signed_ || *value >= 0)) return;
-    throw std::domain_error(
-        fmt::format("{0}: {0} must be finite{1}, got {2}", name, signed_ ? "" : " and >= 0", *value));
+    throw std::domain_error(fmt::format("{}: it must be finite{}, got {}", name, signed_ ? "" : " and >= 0", *value));
   };
   take("distance", goal.distance, false);
   take("turns", goal.turns, true);
@@ -42,6 +42,33 @@ void require_level(const Experiment& experiment) {
       fmt::format("aim knows no slope: on one of {} degrees a ball may roll for ever, and one distance may have "
                   "several starts; --slope 0 leaves it out",
                   experiment.environment.slope));
+}
+
+[[noreturn]] void too_far_apart(const Goal& goal) {
+  std::string asked;
+  const auto add = [&](const std::optional<double>& value, const char* unit) {
+    if (value) asked += fmt::format("{}{} {}", asked.empty() ? "" : " and ", *value, unit);
+  };
+  add(goal.distance, "m");
+  add(goal.turns, "turns");
+  add(goal.time, "s");
+  throw std::domain_error(fmt::format(
+      "{} are too far apart for a double: no start that one can write down comes to both; nearer ones have one",
+      asked));
+}
+
+[[noreturn]] void too_far_apart(const RollingGoal& goal) {
+  throw std::domain_error(
+      fmt::format("no start in doubles begins to roll within 1e-6 of {} m and rolls on at {} m/s with a spin of {} "
+                  "rad/s: the three "
+                  "are too far apart for a double",
+                  goal.place, goal.speed, goal.spin));
+}
+
+/// Whether it is what was asked for, to 1e-6.
+bool comes_to(double there, double asked) {
+  constexpr double close = 1e-6;
+  return std::isfinite(there) && std::abs(there - asked) <= close * asked;
 }
 
 /// @param least  s, in which the other one is reached at the soonest
@@ -80,25 +107,34 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Law& la
   };
   // A start with these speeds, and from it the one of the same kind that comes to what is asked for.
   const auto settled = [&](const auto& start_of) {
-    double speed = 1;
-    constexpr int most = 40;
-    for (int i = 0; i < most; ++i) {
+    // What such a start comes to may jump by more than the first, where the root does.
+    constexpr double rounding = 1e-11, enough = 1e-9;
+    constexpr int most = 40, patience = 4;
+    double speed = 1, least_off = std::numeric_limits<double>::infinity();
+    SlipAndSpin best{};
+    for (int i = 0, since = 0; i < most && since < patience && std::isfinite(speed); ++i, ++since) {
       const SlipAndSpin start = start_of(speed);
       const Reached at = reached(start);
       const double factor = std::sqrt(turns > 0 ? turns / at.turns : other / at.other);
-      constexpr double rounding = 1e-11;
-      if (std::abs(factor - 1) < rounding) return start;
+      if (const double off = std::abs(factor - 1); off < least_off) best = start, least_off = off, since = 0;
+      if (least_off < rounding) break;
       speed *= factor;
     }
-    throw std::runtime_error("aim: no scale of the start was found");
+    if (!(least_off < enough)) too_far_apart(goal);
+    return best;
   };
   if (turns == 0 && other == 0) return {0, 0};
   if (turns == 0) return settled([](double speed) { return SlipAndSpin{speed, 0}; });
   const auto in_place = [&](double speed) { return SlipAndSpin{0, speed / R}; };
   if (goal.time) {
     const Reached soonest = reached(in_place(1));
-    if (const double least = std::sqrt(soonest.other * turns / soonest.turns); *goal.time < least)
-      throw std::domain_error(out_of_reach(goal, least));
+    const double least = std::sqrt(soonest.other) * std::sqrt(turns / soonest.turns);
+    constexpr double rounding = 1e-11;
+    if (*goal.time < least * (1 - rounding)) throw std::domain_error(out_of_reach(goal, least));
+    if (*goal.time <= least * (1 + rounding)) {
+      const SlipAndSpin found = settled(in_place);
+      return {0, std::copysign(found.spin, *goal.turns)};
+    }
   }
   if (other == 0) return settled(in_place);
   const double mu = patch_ratio(experiment, law);
@@ -114,8 +150,8 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Law& la
     }
     return start;
   });
-  constexpr double close = 1e-6;
-  if (const double there = reached(found).other; std::abs(there - other) > close * other) {
+  if (!std::isfinite(other)) too_far_apart(goal);
+  if (const double there = reached(found).other; !comes_to(there, other)) {
     throw std::domain_error(fmt::format(
         "no start comes to {} turns and this {}: so close to a start that {} alone there is none that rests there",
         *goal.turns, goal.distance ? "distance" : "time", there > other ? "spins" : "slides"));
@@ -128,6 +164,7 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Law& la
 SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal) {
   require_goal(goal);
   require_level(experiment);
+  reduction::require_monotone(flow.system().law());
   if (experiment.contact.rolling_friction != 0) {
     if (goal.turns) return aimed_to_rest(experiment, flow.system().law(), goal);
     throw std::domain_error(
@@ -140,7 +177,16 @@ SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, con
     return value ? std::optional(std::abs(*value) * factor) : std::nullopt;
   };
   const reduction::Aim aim{times(goal.time, second), times(goal.distance, second), times(goal.turns, turn * second)};
-  const auto start = reduction::aimed(flow, aim);
+  for (const auto& each : {aim.tau, aim.distance, aim.turned}) {
+    if (each && !std::isfinite(*each)) too_far_apart(goal);
+  }
+  const auto start = [&] {
+    try {
+      return reduction::aimed(flow, aim);
+    } catch (const reduction::TooFarApart&) {
+      too_far_apart(goal);
+    }
+  }();
   if (!start) throw std::domain_error(out_of_reach(goal, seconds(experiment, reduction::least_time(flow, aim))));
   return {start->v, std::copysign(start->u / experiment.ball.radius, goal.turns.value_or(1))};
 }
@@ -149,7 +195,7 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
   require_level(experiment);
   const auto require = [](const char* name, double value, bool possible, const char* range) {
     if (!std::isfinite(value) || !possible)
-      throw std::domain_error(fmt::format("{}: must be finite{}, got {}", name, range, value));
+      throw std::domain_error(fmt::format("{}: it must be finite{}, got {}", name, range, value));
   };
   require("rolls_at", goal.place, goal.place > 0, " and > 0");
   require("rolling_speed", goal.speed, goal.speed >= 0, " and >= 0");
@@ -160,6 +206,7 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
     throw std::domain_error(
         "aim knows where a ball begins to roll without rolling friction only; --rolling-friction 0 leaves it out");
   }
+  reduction::require_monotone(flow.system().law());
   // What its slip adds to the speed of the centre at the start.
   Experiment shot = experiment;
   const auto added = [&](double slip) {
@@ -176,11 +223,15 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
   constexpr double most = 1e100;
   while (too_far(high) < 0) {
     high *= 2;
-    if (high > most) throw std::domain_error(fmt::format("rolls_at: too far to be computed, got {}", goal.place));
+    if (high > most) too_far_apart(goal);
   }
   const double slip = reduction::root_between(too_far, high / 2, high);
   const double speed = goal.speed + added(slip);
-  return {{speed, 0}, {0, (speed - slip) / experiment.ball.radius, goal.spin}};
+  const Velocities start{{speed, 0}, {0, (speed - slip) / experiment.ball.radius, goal.spin}};
+  shot.start = start;
+  const BallMotion motion(shot, flow);
+  if (!comes_to(motion.at_time(motion.slip_time(rolling_slip)).position.x(), goal.place)) too_far_apart(goal);
+  return start;
 }
 
 std::optional<CueStrike> level_strike(const Ball& ball, const Velocities& start) {

@@ -242,7 +242,7 @@ class Straight final : public ResistedMotion::Course {
     if (rolls_ && t >= stop_) return rolled_on(last_, t - stop_, *rolls_);
     const auto after = std::ranges::upper_bound(pieces_, t, {}, &Piece::t);
     const Piece& piece = after == pieces_.begin() ? *after : *std::prev(after);
-    const double passed = t - piece.t;
+    const double passed = std::max(0.0, t - piece.t);
     State now = piece.start;
     const double v0 = now.slip.norm(), W0 = now.rolling.norm();
     const double tau = std::min(passed * body_.tau_per_second(), piece.orbit.stop_time());

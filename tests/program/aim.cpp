@@ -56,7 +56,7 @@ TEST_CASE("aim of a puck and of a ball in words", "[cli]") {
   CHECK_THAT(puck, !Contains("cue") && !Contains("rolls"));
   CHECK(run_program("aim --ball puck --distance 2000cm --turns 3").out == puck);
   CHECK(run_program("aim --ball puck --distance 20m --turns 3 --format csv")
-            .out.starts_with("law,slip,spin,distance,turns,time\n"));
+            .out.starts_with("law,slip,spin,vx,wy,distance,turns,time\n"));
   CHECK_THAT(run_program("aim --ball pool --distance 10cm --turns -5").out, Contains("no level stroke gives it"));
 }
 
@@ -163,16 +163,17 @@ TEST_CASE("what aim cannot reach, and what it refuses", "[cli][errors]") {
                  "turns at most, in place");
   check_rejected("aim --ball pool --turns 3", "two of distance, turns and time decide a start, got 1: give one more");
   check_rejected("aim --ball pool --turns 3 --time 1s --distance 1m", "got 3: leave one out");
-  check_rejected("aim --ball pool --distance -1 --time 1", "distance must be finite and >= 0, got -1");
+  check_rejected("aim --ball pool --distance -1 --time 1", "--distance -1: a value >= 0 is needed, in m");
   check_rejected("aim --ball pool --distance 1kg --time 1", "'1kg'");
   check_rejected("aim --distance 1 --time 1", "--ball");
   check_rejected("aim --ball pool --rolls-at 1", "--rolls-at and --rolling-speed are needed together");
   check_rejected("aim --ball pool --rolls-at 1 --rolling-speed 1 --turns 2",
                  "--turns and --rolls-at, --rolling-speed exclude each other");
   check_rejected("aim --ball pool --rolls-at 1 --rolling-speed 1 -o x.svg", "a picture is of --distance");
-  check_rejected("aim --ball pool --rolls-at 0 --rolling-speed 1", "rolls_at: must be finite and > 0, got 0");
-  check_rejected("aim --ball pool --rolls-at 1 --rolling-speed -1", "rolling_speed: must be finite and >= 0, got -1");
-  check_rejected("aim --ball pool --rolls-at 1e300 --rolling-speed 1", "too far to be computed");
+  check_rejected("aim --ball pool --rolls-at 0 --rolling-speed 1", "--rolls-at 0: a value > 0 is needed, in m");
+  check_rejected("aim --ball pool --rolls-at 1 --rolling-speed -1",
+                 "--rolling-speed -1: a value >= 0 is needed, in m/s");
+  check_rejected("aim --ball pool --rolls-at 1e300 --rolling-speed 1", "too far apart for a double");
   check_rejected("aim --ball puck --rolls-at 1 --rolling-speed 1", "never rolls");
   check_rejected("aim --ball pool --rolling-friction 0.01 --rolls-at 1 --rolling-speed 1", "--rolling-friction 0");
   check_rejected("aim --ball pool --slope 2 --rolls-at 1 --rolling-speed 1", "aim knows no slope");
@@ -214,4 +215,45 @@ TEST_CASE("aim with rolling friction: the motion from its start comes to the goa
     CHECK(two.at("rest").at("x").get<double>() == Approx(3.1690917).epsilon(1e-5));
     CHECK(std::max(two.at("rest").at("t").get<double>(), two.at("t_stop").get<double>()) == Approx(8).epsilon(1e-5));
   }
+}
+
+TEST_CASE("aim refuses what no start in doubles comes to, in the units of who asks", "[cli]") {
+  check_rejected("aim --ball pool --distance 1 --time 1e200", "1 m and 1e+200 s are too far apart for a double");
+  check_rejected("aim --ball pool --turns 1 --time 1e138", "1 turns and 1e+138 s are too far apart for a double");
+  check_rejected("aim --ball pool --turns 1 --time 1e200 --rolling-friction 0.01", "1 turns and 1e+200 s are too far");
+  check_rejected("aim --ball pool --rolls-at 100 --rolling-speed 1e13", "within 1e-6 of 100 m");
+  check_rejected("aim --ball pool --rolls-at 1e100 --rolling-speed 1e100", "within 1e-6 of 1e+100 m");
+  const std::string law = "phi=k/hypot(1,k)*(1+6*k^2/(1+k^2)^2);psi=0.6/hypot(1,k)";
+  for (const std::string goal : {"puck --distance 1 --time 1.15", "pool --rolls-at 1 --rolling-speed 1",
+                                 "pool --rolling-friction 0.01 --turns 1 --time 9"})
+    check_rejected("aim --law " + law + " --ball " + goal, "this law's Phi falls from");
+}
+
+TEST_CASE("aim with rolling friction at the least time, and at far scales", "[cli]") {
+  const auto least = json_of(
+      "aim --ball steel --rolling-friction 0.01 --turns 0.5238089926174072 --time 3.2911889661822333 --format json");
+  CHECK(least.at("slip") == 0);
+  CHECK(least.at("spin").get<double>() == Approx(2).epsilon(1e-10));
+  // The root jumps by more than it is asked for.
+  const auto far = json_of(
+      "aim --ball pool --mass 1 --radius 0.03 --friction 0.4 --rolling-friction 0.03 --patch-radius 1e-5 "
+      "--turns 4010.4623037205697 --time 886.1097134881317 --format json");
+  CHECK(far.at("turns").get<double>() == Approx(4010.4623037205697).epsilon(3e-9));
+  CHECK(far.at("time").get<double>() == Approx(886.1097134881317).epsilon(3e-9));
+  CHECK(run_program("aim --ball pool --turns 1e20 --distance 1 --rolling-friction 0.01").err.find("tau must") ==
+        std::string::npos);
+}
+
+TEST_CASE("aim says what goes with what, and where nothing moves", "[cli]") {
+  check_rejected("aim --ball pool --spin 8 --distance 1", "--spin goes with --rolls-at");
+  check_rejected("aim --ball pool --distance -20 --turns 1", "--distance -20: a value >= 0 is needed, in m");
+  check_rejected("aim --ball pool --rolls-at -1 --rolling-speed 1", "--rolls-at -1: a value > 0 is needed");
+  check_rejected("roll --ball puck --strike 2", "leave out --strike");
+  check_rejected("roll --ball pool --strike 2 --tip 0.6,0", "--strike, --tip: the tip slips off");
+  CHECK_THAT(run_program("aim --ball pool --distance 0 --turns 0").out,
+             Contains("it is at rest") && !Contains("no level stroke"));
+  CHECK_THAT(run_program("aim --ball pool --rolls-at 1 --rolling-speed 0").out, Contains("it stays there"));
+  CHECK_THAT(run_program("stop --ball pool --uncertainty mass=1%").out, !Contains("does not do here"));
+  CHECK_THAT(run_program("roll --ball pool --format text --uncertainty mass=1%").out,
+             Contains("none of these numbers changes it"));
 }

@@ -489,3 +489,16 @@ TEST_CASE("columns that are not read are named, an empty field was not measured"
   CHECK(fit["noise"]["spin"]["values"] == 41);
   CHECK(value(fit, "friction") == Approx(0.2).epsilon(0.05));
 }
+
+TEST_CASE("a column wz, as a motion in CSV has it, is the spin; beside a spin it is not read", "[cli]") {
+  const std::string text = film(0, 1);
+  std::string as_wz = text, both;
+  as_wz.replace(as_wz.find("spin"), 4, "wz");
+  CHECK(fit_of(as_wz) == fit_of(text));
+  for (const auto& row : rows_of(text))
+    both += fmt::format("{},{},{},{}\n", row[0], row[1], row[2], row[0] == "t" ? "wz" : "7");
+  const Run run = run_program("fit - --ball pool --format json", both);
+  CHECK_THAT(run.err, Contains("column 'wz' is not read"));
+  CHECK(value(nlohmann::json::parse(run.out), "friction") == Approx(0.2).epsilon(1e-6));
+  CHECK_THAT(run_program("fit --help").out, Contains("[FILE...]"));
+}

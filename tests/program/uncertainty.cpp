@@ -119,6 +119,8 @@ TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
   }
   CHECK_THAT(run_program("stop " + with("radius = {friction = 0.5}\n") + "--uncertainty fit").out,
              Contains(" s, correlated\n"));
+  CHECK_THAT(run_program("roll --ball " + directory.file("ball.toml") + " --spin 77 --uncertainty fit").err,
+             Contains("fit leaves out spin: the file has its spread"));
   check_rejected("stop --ball gel --uncertainty fit", "fit: the ball has no [uncertainty]");
   check_rejected("stop --mu 0.3 --u0 1 --v0 1 --uncertainty fit", "fit: the ball has no [uncertainty]");
 }

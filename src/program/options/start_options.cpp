@@ -332,11 +332,11 @@ void StartOptions::require_undriven(const si::Experiment& experiment, const std:
   }
 }
 
-si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const si::Description& between) const {
+si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const std::string& way_out,
+                                               const si::Description& between) const {
   const si::Experiment experiment = read_ball(law, between);
   if (!experiment.ball.body.lies_flat()) return experiment;
-  ball_.reject(
-      fmt::format("a {} lies flat and never rolls; 'contensou roll' gives its motion", experiment.ball.body.name));
+  ball_.reject(fmt::format("a {} lies flat and never rolls; {}", experiment.ball.body.name, way_out));
 }
 
 std::string StartOptions::standard_law() const {
@@ -363,6 +363,16 @@ void StartOptions::tell_new_patch(const si::Experiment& experiment, const reduct
              "note: the patch radius goes from {:.6g} m to {:.6g} m: what was measured is the spin deceleration,\n"
              "{} rad/s^2, and it is kept; --patch-radius {:.6g} keeps the patch instead\n",
              own, patch, measured->value, own);
+}
+
+void StartOptions::tell_spreads_left_out(const si::Experiment& experiment) const {
+  std::vector<std::string> left_out;
+  for (const auto& [of, standard] : ball_of_its_own().spreads().numbers) {
+    if (!experiment.spreads.place(of)) left_out.push_back(of.name());
+  }
+  if (left_out.empty()) return;
+  fmt::print(stderr, "note: fit leaves out {}: the file has its spread, and the command line another value\n",
+             fmt::join(left_out, ", "));
 }
 
 si::Description at_rest(const std::string& source) {

@@ -128,8 +128,13 @@ class StartOptions {
   /// Whether the ball says its law itself, or its body has another than a ball.
   bool brings_law() const;
 
+  /// Says which spreads of the ball's run file do not hold for this experiment, whose numbers are others.
+  void tell_spreads_left_out(const si::Experiment& experiment) const;
+
   /// The ball of --ball where it has to roll. Throws as read_ball, and BadInput for a body that lies flat.
-  si::Experiment read_rolling_ball(const reduction::Law& law, const si::Description& between = {}) const;
+  /// @param way_out  what may be asked of such a body
+  si::Experiment read_rolling_ball(const reduction::Law& law, const std::string& way_out,
+                                   const si::Description& between = {}) const;
 
   /// The ball of --ball. Throws as read.
   ///

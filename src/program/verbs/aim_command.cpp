@@ -12,20 +12,30 @@ namespace contensou::program {
 
 namespace {
 
+/// Reads a quantity that is not negative.
+auto at_least_0(const char* unit, bool above = false) {
+  return [=](const std::string& typed) {
+    const double value = parse_quantity(typed, unit);
+    if (!(above ? value > 0 : value >= 0))
+      throw NotAllowed(fmt::format("a value {} 0 is needed, in {}", above ? ">" : ">=", unit));
+    return value;
+  };
+}
+
 class AimCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     distance_.add(app, "--distance", "LENGTH",
                   "of the centre from the start, when slip and spin end, with rolling friction when it rests",
-                  quantity("m"));
+                  at_least_0("m"));
     turns_.add(app, "--turns", "N", "about the vertical until then, of either sign", number);
-    time_.add(app, "--time", "TIME", "when slip and spin end; two of the three decide the start", quantity("s"));
+    time_.add(app, "--time", "TIME", "when slip and spin end; two of the three decide the start", at_least_0("s"));
     rolls_at_.add(app, "--rolls-at", "LENGTH",
                   "in place of two of them, of a ball: where it is to begin to roll, its slip below 1 mm/s; the start "
                   "whose slip is forwards (a ball struck with follow may have another)",
-                  quantity("m"));
+                  at_least_0("m", true));
     rolling_speed_.add(app, "--rolling-speed", "SPEED", "with --rolls-at: how fast it rolls on in the end; 0: it stays",
-                       quantity("m/s"));
+                       at_least_0("m/s"));
     spin_.add(app, "--spin", "ROTATION",
               "with --rolls-at: about the vertical at the start, of either sign (default: 0)", quantity("rad/s"));
     start_.add_ball(app, "a ball in SI units, built in or from a run file; its own start does not count",
@@ -42,6 +52,12 @@ class AimCommand final : public Verb {
     figure_.require_picture(output);
     if (const std::string names = names_given({&rolls_at_, &rolling_speed_, &spin_}); !names.empty()) {
       const std::string others = names_given({&distance_, &turns_, &time_});
+      if (!others.empty() && !rolls_at_.given() && !rolling_speed_.given()) {
+        throw BadInput(
+            fmt::format("{} goes with --rolls-at and --rolling-speed; with {} leave it out, two of --distance, "
+                        "--turns and --time decide the start",
+                        names, others));
+      }
       if (!others.empty()) throw BadInput(fmt::format("{} and {} exclude each other: leave one out", others, names));
       if (!rolls_at_.given() || !rolling_speed_.given())
         throw BadInput(fmt::format("{}: --rolls-at and --rolling-speed are needed together", names));

@@ -59,7 +59,7 @@ class BounceCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     const reduction::Law law = law_.read(start_.standard_law());
-    si::Experiment experiment = start_.read_rolling_ball(law);
+    si::Experiment experiment = start_.read_rolling_ball(law, "'contensou roll' gives its motion");
     start_.require_undriven(experiment, "bounce");
     if (!normal_speed_.given() && !drop_.given()) throw BadInput("--normal-speed missing: give it, or --drop LENGTH");
     if (!restitution_.given()) throw BadInput("--restitution missing: 0 (it stays down) to 1 (it loses nothing)");

@@ -86,13 +86,14 @@ class FitCommand final : public Verb {
     files_
         .add(
             app, "FILE", "",
-            "CSV with t, or frame and --fps, and any of slip, spin, x, y, vx, vy, angle, in SI units (rad) or with a "
+            "CSV with t, or frame and --fps, and any of slip, spin (or wz), x, y, vx, vy, angle, in SI units (rad) or "
+            "with a "
             "unit, "
             "as in 'spin [rpm]'; NAME_sd is the standard deviation of NAME, empty, nan or NA: not measured; - is "
             "standard "
             "input. Several files: one ball",
             [](const std::string& typed) { return typed; }, true)
-        ->expected(1, 1000)
+        ->expected(1, -1)
         ->allow_extra_args();
     app.option_defaults()->group("Data");
     from_.add(app, "--from", "TIME",

@@ -186,6 +186,7 @@ class RollCommand final : public Verb {
   std::optional<RollUncertainty> read_uncertainty(const Roll& roll) const {
     if (!uncertainty_.given()) return std::nullopt;
     if (roll.load) uncertainty_.reject("it is of a constant load: give --load a number");
+    if (uncertainty_.text().find("fit") != std::string::npos) start_.tell_spreads_left_out(roll.experiment);
     try {
       return roll_uncertainty(roll.experiment, roll.law, roll.rolling_below, uncertainty_.text());
     } catch (const BadInput& error) {
@@ -289,7 +290,8 @@ class RollCommand final : public Verb {
     }
     if (start_.overrides_start())
       throw BadInput(fmt::format("--strike is a start of its own: leave out {}", start_.start_names()));
-    si::Experiment experiment = start_.read_rolling_ball(law, at_rest(strike_.name()));
+    si::Experiment experiment = start_.read_rolling_ball(
+        law, "leave out --strike: 'contensou roll' gives its motion from --slip and --spin", at_rest(strike_.name()));
     const Eigen::Vector2d tip = tip_.value_or(Eigen::Vector2d::Zero());
     try {
       experiment.start = si::struck(experiment.ball, {.speed = *strike_,
@@ -298,7 +300,7 @@ class RollCommand final : public Verb {
                                                       .elevation = elevation_.value_or(0) * (std::numbers::pi / 180),
                                                       .mass = cue_mass_.value_or(si::standard_cue_mass)});
     } catch (const std::domain_error& error) {
-      strike_.reject(error.what());
+      throw BadInput(fmt::format("{}: {}", names_given({&strike_, &tip_, &elevation_, &cue_mass_}), error.what()));
     }
     si::require_experiment(experiment);
     return experiment;

@@ -62,6 +62,8 @@ class StopCommand final : public Verb {
  private:
   std::optional<Spreads> read_uncertainty(const GivenStart& start) const {
     if (!uncertainty_.given()) return std::nullopt;
+    if (start.experiment && uncertainty_.text().find("fit") != std::string::npos)
+      start_.tell_spreads_left_out(*start.experiment);
     try {
       return read_uncertain(uncertainty_.text(), start);
     } catch (const BadInput& error) {
