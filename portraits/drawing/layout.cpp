@@ -192,11 +192,11 @@ int panel_columns(double width_mm, int panels) {
   return columns;
 }
 
-PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked) {
+PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked, int max_columns) {
   const double width = asked.width_mm.value_or(usual.width_mm);
   if (asked.height_mm || !asked.width_mm) return {width, asked.height_mm.value_or(usual.height_mm)};
   constexpr double around = 25, highest = 0.62;
-  const int columns = panel_columns(width, panels), rows = panels / columns;
+  const int columns = std::min(panel_columns(width, panels), max_columns), rows = panels / columns;
   const double shape = std::min(highest, (usual.height_mm - around) / (usual.width_mm / panels));
   return {width, shape * width / columns * rows + around * letter_mm(width) / letter_mm(170)};
 }

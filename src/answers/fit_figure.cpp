@@ -286,7 +286,7 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::L
       figure.panels.insert(figure.panels.begin() + i + 1, std::move(below[static_cast<std::size_t>(i)]));
     usual = {100.0 * static_cast<double>(figure.panels.size()), 67};
   }
-  figure.size = portraits::fitted(usual, static_cast<int>(figure.panels.size()), size);
+  figure.size = portraits::fitted(usual, static_cast<int>(figure.panels.size()), size, figure.max_columns);
   return figure;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -124,9 +125,11 @@ double letter_mm(double width_mm);
 int panel_columns(double width_mm, int panels);
 
 /// The size of a figure: what is asked for, the rest so that its panels keep their shape.
-/// @param usual   the size in which its panels, side by side, look best
-/// @param panels  how many; a width alone that is asked for decides how many stand side by side
-PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked);
+/// @param usual        the size in which its panels, side by side, look best
+/// @param panels       how many; a width alone that is asked for decides how many stand side by side
+/// @param max_columns  of the figure; fills its rows
+PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked,
+                 int max_columns = std::numeric_limits<int>::max());
 
 /// A figure of one panel to scale, lower by what that leaves empty above and below; any other as it is.
 /// @throws std::domain_error  as lay_out
