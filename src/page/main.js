@@ -26,37 +26,22 @@ import { makeTour } from "./controls/tour.js";
 function start(library) {
   const opens = speaksOfNothing(location.hash);
   const store = new Store(library, fromFragment(location.hash, library));
-  /** Runs what may be rejected, and tells the reader. */
-  const attempt = (action) => {
-    try {
-      action();
-      write($("problem"), "");
-    } catch (error) {
-      controls.show();
-      write($("problem"), error.message);
-    }
+  store.moves = !isStill();
+  store.tell = (problem) => {
+    if (problem) controls.show();
+    write($("problem"), problem);
   };
-  const ask = (edit, done = () => {}) => attempt(() => {
-    store.change((state) => {
-      edit(state);
-      // Without motion the end is shown.
-      if (!player.moves && state.fraction === 0) state.fraction = 1;
-    });
-    done();
-  });
-  const stopText = (tau) => {
-    const inTau = `τ* = ${shown(tau, 7)}${store.contact ? " m/s" : ""}`;
-    return store.contact ? `${shown(tau * store.timeFactor, 6)} s  (${inTau})` : inTau;
-  };
-  const player = new Player(store, ask);
+  const player = new Player(store);
   const hero = new Hero(store, player);
-  const plane = new Plane(store, { ask, stopText, removeOrbit: (index) => orbits.remove(index) });
-  const controls = makeControls(store, ask);
-  for (const make of [makeChoices, makeSliders, makeBallCard]) make(controls, store, plane, { ask, attempt });
-  const orbits = makeOrbits(store, plane, { ask, stopText });
-  const address = new Address(store, (asked) => ask((state) => Object.assign(state, asked)));
-  const film = makeFilm(store, player, ask);
-  const go = (fragment, step = 0) => ask((state) => Object.assign(state, fromFragment(fragment, library), { step, theme: state.theme, embed: state.embed, lab: state.lab }), () => player.toggle(player.moves));
+  const plane = new Plane(store);
+  const controls = makeControls(store);
+  for (const make of [makeChoices, makeSliders, makeBallCard]) make(controls, store, plane);
+  const address = new Address(store);
+  const film = makeFilm(store, player);
+  const go = (fragment, step = 0) => store.ask((state) => {
+    const { theme, embed, lab } = state;
+    Object.assign(state, fromFragment(fragment, library), { step, theme, embed, lab });
+  }, () => player.begin());
   makeThrowing(store, hero, player, plane);
 
   const paneSurface = new ScreenSurface($("panes"), (surface) => {
@@ -77,10 +62,10 @@ function start(library) {
       : "No orbit yet: click the plane.");
   };
   const shows = [
-    () => plane.label(), () => hero.show(), controls.show, orbits.show, film.redraw, makeChecks(store), makeTour(go), makePresets(library, go),
-    makeShare(store, { plane, hero, player, address, film }),
+    () => plane.label(), () => hero.show(), controls.show, makeOrbits(store, plane), film.redraw, makeChecks(store),
+    makeTour(go), makePresets(library, go), makeShare(store, { plane, hero, player, address, film }),
   ];
-  store.listen(({ moment }) => {
+  store.changed = (moment) => {
     if (!moment) {
       for (const kind of ["embed", "lab"]) document.documentElement.classList.toggle(kind, store.state[kind]);
       document.documentElement.dataset.step = String(store.state.step);
@@ -88,24 +73,23 @@ function start(library) {
     }
     draw();
     if (!player.playing || !moment) address.rememberSoon();
-  });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => ask(() => {}));
+  };
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => store.ask(() => {}));
   // Paper is light, and has the end.
   let screen;
   addEventListener("beforeprint", () => {
     const { theme, fraction } = store.state;
     screen = { theme, fraction };
-    ask((state) => Object.assign(state, { theme: "light", fraction: 1 }));
+    store.ask((state) => Object.assign(state, { theme: "light", fraction: 1 }));
     for (const surface of [hero.lanes, hero.patch, plane.surface, paneSurface, copies]) surface.draw();
   });
-  addEventListener("afterprint", () => ask((state) => Object.assign(state, screen)));
+  addEventListener("afterprint", () => store.ask((state) => Object.assign(state, screen)));
   $("app").hidden = false;
   $("first-picture").remove();
-  player.moves = !isStill();
-  ask(() => {});
+  store.ask(() => {});
   // Who opens the page is asked; a link to a moment shows that moment, other links play.
-  if (player.moves && opens && !store.state.embed) hero.ask();
-  else if (player.moves && store.state.fraction === 0) player.toggle(true);
+  if (store.moves && opens && !store.state.embed) hero.ask();
+  else if (store.state.fraction === 0) player.begin();
   return { store, player, hero, plane, library, get state() { return store.state; } };
 }
 

@@ -40,10 +40,13 @@ export function roundDown(x) {
   return (x >= 5 * power ? 5 : x >= 2 * power ? 2 : 1) * power;
 }
 
-/** An axis of powers of ten, in decades. */
+/** An axis of powers of ten, in decades; where it has few, also of 2 and 5 times each. */
 export function decades(low, high) {
+  const few = high - low < 2.5;
   const step = Math.ceil((high - low) / 5);
-  const first = Math.ceil(low / step);
-  const ticks = Array.from({ length: Math.floor(high / step) - first + 1 }, (_, i) => (first + i) * step);
-  return { low, high, ticks: ticks.map((at) => ({ at, text: at === 0 ? "1" : `10${superscript(at)}` })) };
+  const [first, last] = [low, high].map((at) => Math.floor(at / step));
+  const powers = Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
+  const ticks = few ? powers.flatMap((power) => [1, 2, 5].map((times) => power + Math.log10(times))) : powers;
+  const text = (at) => (few ? shown(10 ** at, 1) : at === 0 ? "1" : `10${superscript(at)}`);
+  return { low, high, ticks: ticks.filter((at) => at >= low && at <= high).map((at) => ({ at, text: text(at) })) };
 }

@@ -1,7 +1,17 @@
 // What the modules hand to each other; the functions of the library are those of bindings.cpp.
 
+type Store = import("./state/store.js").Store;
+type Player = import("./state/player.js").Player;
+type Hero = import("./hero/hero.js").Hero;
+type Facts = import("./hero/story.js").Facts;
+type Plane = import("./plane/plane.js").Plane;
+type Copies = import("./plane/copies.js").Copies;
+type Frame = import("./drawing/frame.js").Frame;
+type Controls = ReturnType<typeof import("./controls/fields.js").makeControls>;
+
 interface Speeds { u: number; v: number }
-/** A motion's; along and across: the velocity of a real ball's centre, m/s, in the direction of the slip and to the left of it; heading: degrees, page_state.js. */
+/** A motion's. along, across: the velocity of a real ball's centre, m/s, in the direction of the slip and to the left of it;
+ *  heading: degrees to the left, in which it is seen to be thrown. */
 interface Start extends Speeds { along: number; across: number; heading: number }
 
 /** page_state.js says what each means. */
@@ -20,7 +30,7 @@ interface Ball {
 
 interface Law { name: string; meaning: string; letter?: string; example?: number }
 interface Body { name: string; chi: number; gamma: number; mu?: number }
-interface View { name: string; layered: boolean; moments: boolean }
+interface View { name: string; title: string; hint: string; layered: boolean; moments: boolean }
 interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number; without: string }
 
 /** What one portrait is asked for by: portrait_request.js. */
@@ -93,8 +103,9 @@ interface LibraryPlane {
   checks(u: number, v: number): Check[];
 }
 
-/** An element of the page, of whatever kind: with what fields, lists, forms, details and tables have. */
+/** An element of the page, of whatever kind: with what fields, lists, forms, details, tables, links and canvases have. */
 interface PageElement extends HTMLElement {
+  href: string; width: number; height: number; toBlob: HTMLCanvasElement["toBlob"];
   get value(): string; set value(value: string | number);
   checked: boolean; disabled: boolean; open: boolean; options: HTMLCollectionOf<HTMLOptionElement>; files: FileList;
   elements: Record<string, PageElement>; tBodies: HTMLCollectionOf<HTMLTableSectionElement>;

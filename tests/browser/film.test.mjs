@@ -46,6 +46,13 @@ test("a film is fitted as the program fits it, and the ball takes what was found
   numbers.forEach((value, i) => assert.ok(Math.abs(value - wantedNumbers[i]) <= 2e-5 * Math.abs(wantedNumbers[i]) + 1e-3, `number ${i}: ${value}, not ${wantedNumbers[i]}`));
   for (const part of [/friction +0\.50/, /95 % confidence/, /pade/, /exact fits better than all others/]) assert.match(said, part);
   assert.match(await page.textContent("#story"), /leave at 0\.[56]/);
+  // Its panels go below each other where the page is made narrow.
+  const height = () => page.$eval("#film-fit", (canvas) => canvas.clientHeight);
+  const before = await height();
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.waitForFunction((before) => document.getElementById("film-fit").clientHeight > before, before);
+  await page.setViewportSize({ width: 1280, height: 900 });
+  await page.waitForFunction((before) => document.getElementById("film-fit").clientHeight === before, before);
   // What was measured is drawn over the curves, until the ball is another.
   const points = async () => {
     await page.selectOption("#picture", "panes");

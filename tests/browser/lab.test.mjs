@@ -262,3 +262,15 @@ test("points and residuals of a film are handed out, with what was fitted", asyn
   }
   await close();
 });
+
+test("a start that a slider takes out of the window takes the window along", async () => {
+  await open("#ball=puck&orbits=2.286,0.5");
+  const seen = () => page.evaluate(() => [globalThis.page.store.portrait.window[1], globalThis.page.store.orbit.v]);
+  const [before] = await seen();
+  await page.locator("#slip-slider").press("ArrowRight");
+  assert.equal((await seen())[0], before, "within it, it stays");
+  await page.locator("#slip-slider").press("End");
+  const [top, v] = await seen();
+  assert.ok(v > before && top >= v, `${v} is beyond ${top}`);
+  await close();
+});

@@ -256,11 +256,13 @@ test("what is not seen is not drawn, and after three rounds it rests", async () 
     Object.defineProperty(globalThis.page.player, "seconds", { get: () => 0.05 });
     globalThis.starts = 0;
     let last = 0;
-    globalThis.page.store.listen(() => {
-      const { fraction } = globalThis.page.state;
+    const { store, store: { changed } } = globalThis.page;
+    store.changed = (moment) => {
+      changed(moment);
+      const { fraction } = store.state;
       if (fraction < last) globalThis.starts += 1;
       last = fraction;
-    });
+    };
     globalThis.page.player.toggle(true);
   });
   await page.waitForFunction(() => !globalThis.page.player.playing, null, { timeout: 20000 });

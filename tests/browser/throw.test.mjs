@@ -239,6 +239,15 @@ test("each preset says in one sentence what is to be seen, with numbers that are
     assert.equal(says.match(/\d(?![\d.])/g).length, numbers.length, `a number of '${says}' has no unit`);
     assert.match(says, /^[^.]*(\.\d[^.]*)*\.$/, "one sentence");
   }
+  // What is said of one that is pointed at moves none of them.
+  await page.setViewportSize({ width: 1024, height: 900 });
+  const places = () => page.$$eval("#presets a", (all) => all.map(({ offsetTop }) => offsetTop));
+  const before = await places();
+  for (const link of links) {
+    await link.hover();
+    assert.deepEqual(await places(), before);
+  }
+  await page.setViewportSize({ width: 1280, height: 900 });
   // It is said of a link that is pointed at, and not of a motion that is none of them.
   await links[0].hover();
   assert.match(await page.textContent("#says"), /^Spun 9\.5 times/);

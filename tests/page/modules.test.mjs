@@ -57,6 +57,7 @@ test("powers of ten are few, round, and inside", () => {
     for (const { at } of ticks) assert.ok(at >= low && at <= high && Number.isInteger(at));
   }
   assert.deepEqual(decades(-1.5, 1.5).ticks.map(({ text }) => text), ["10⁻¹", "1", "10¹"]);
+  assert.deepEqual(decades(-1.6, -0.1).ticks.map(({ text }) => text), ["0.05", "0.1", "0.2", "0.5"], "few have more between them");
   assert.deepEqual([99, 20, 0.07].map(roundDown).map((value) => Number(value.toPrecision(12))), [50, 20, 0.05]);
 });
 

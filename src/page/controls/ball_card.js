@@ -25,8 +25,7 @@ export function makeBallCard(controls, store) {
   add(ballLabels);
   const patchBy = make("select", { id: "patch-by" });
   $("ball-fields").append(make("label", {}, "patch known by", patchBy));
-  const ways = Object.entries(patchTitles).map(([name, title]) => ({ name, title }));
-  controls.choose("patch-by", ways, ({ ball }) => ball?.patchBy ?? "", (state, by) => {
+  controls.choose("patch-by", patchTitles, ({ ball }) => ball?.patchBy ?? "", (state, by) => {
     const { patchRadius, spinDeceleration } = store.contact;
     const patch = Number((by === "spin_deceleration" ? spinDeceleration : patchRadius).toPrecision(12));
     Object.assign(state.ball, { patchBy: by, patch });

@@ -4,7 +4,7 @@ import { shown } from "../numbers.js";
 
 const pause = 350;  // ms
 
-/** @param {import("../state/store.js").Store} store @returns shows the state */
+/** @param {Store} store @returns shows the state */
 export function makeChecks(store) {
   const [card, table] = [$("checks-card"), $("checks")];
   let [known, timer] = ["", 0];

@@ -55,12 +55,14 @@ export function addNumberField(parent, { key, label, use }) {
   };
 }
 
-/** Choices side by side, of which one is chosen. */
-export function choiceButtons(parent, choices, choose) {
-  const radio = ({ name }) => make("input", { type: "radio", name: parent.id, value: name, onchange: () => choose(name) });
-  const inputs = choices.map(radio);
-  parent.append(...choices.map(({ title }, i) => make("label", {}, inputs[i], title)));
-  return { show: (name) => inputs.forEach((input) => (input.checked = input.value === name)) };
+/** Choices side by side, of which one is chosen. @param titles  of their names @returns shows the chosen one */
+export function choiceButtons(parent, titles, choose) {
+  const inputs = Object.entries(titles).map(([name, title]) => {
+    const input = make("input", { type: "radio", name: parent.id, value: name, onchange: () => choose(name) });
+    parent.append(make("label", {}, input, title));
+    return input;
+  });
+  return (name) => inputs.forEach((input) => (input.checked = input.value === name));
 }
 
 /** A finger that goes on to scroll has touched a slider by chance: that is taken back. */
@@ -73,27 +75,22 @@ export function forgiveTouches(input) {
   });
 }
 
-export function fillSelect(select, choices) {
-  select.replaceChildren(...choices.map(({ name, title }) => new Option(title, name)));
+/** @param titles  of the names of what can be chosen */
+export function fillSelect(select, titles) {
+  select.replaceChildren(...Object.entries(titles).map(([name, title]) => new Option(title, name)));
 }
 
-/**
- * Controls of the state: each shows a value of it, and changes it.
- *
- * @param {import("../state/store.js").Store} store
- * @param ask  (edit): tells the reader what is rejected
- * @returns show(); and shows, what each does then
- */
-export function makeControls(store, ask) {
+/** Controls of the state: each shows a value of it, and changes it. @param {Store} store @returns show(), and shows: what each does then */
+export function makeControls(store) {
   const shows = /** @type {(() => void)[]} */ ([]);
   return {
     shows,
     show: () => shows.forEach((show) => show()),
 
     /** A list of choices. @param of  (state): the name of the one that is chosen @param edit  (state, name) */
-    choose(id, choices, of, edit) {
-      fillSelect($(id), choices);
-      $(id).addEventListener("change", () => ask((state) => edit(state, $(id).value)));
+    choose(id, titles, of, edit) {
+      fillSelect($(id), titles);
+      $(id).addEventListener("change", () => store.ask((state) => edit(state, $(id).value)));
       shows.push(() => ($(id).value = of(store.state)));
     },
 
@@ -116,7 +113,7 @@ export function makeControls(store, ask) {
       const title = make("label", { htmlFor: input.id, textContent: label });
       const all = make("div", { className: "slider", id: `${name}-control` }, title, output, input);
       $("sliders").append(all);
-      input.addEventListener("input", () => ask((state) => edit(state, Number(input.value) / 1000)));
+      input.addEventListener("input", () => store.ask((state) => edit(state, Number(input.value) / 1000)));
       forgiveTouches(input);
       shows.push(() => {
         const shown = of(store);

@@ -25,27 +25,27 @@ export const tableOfLaw = (law) => (law.startsWith(`${table}:`) ? `rho,pressure\
 
 /**
  * @param {string} id  of the list, and with -exponent of where the number's field goes
- * @param {{laws: Law[], key: string, none?: string, attempt: (action: () => void) => void, use: (name: string | null) => void}} how
- *   none: the title of no law at all, if that is a choice; attempt: runs what may be rejected, and tells the reader;
+ * @param {Store} store
+ * @param {{key: string, none?: string, use: (name: string | null) => void}} how
+ *   none: the title of no law at all, if that is a choice;
  *   use: called with what a law is called, or null for none; throws an Error whose message says why it will not do
  */
-export function lawField(id, { laws, key, none, attempt, use }) {
+export function lawField(id, store, { key, none, use }) {
+  const { laws } = store.library;
   const [select, place] = [$(id), $(`${id}-exponent`)];
-  const families = new Map(laws.filter(({ letter }) => letter).map((family) => [family.name, { name: family.name, number: String(family.example) }]));
-  fillSelect(select, [
-    ...(none ? [{ name: "", title: none }] : []),
-    ...laws.map(({ name, meaning, letter }) => ({ name, title: `${letter ? `${name}:${letter}` : name} – ${meaning}` })),
-  ]);
+  const numbers = new Map(laws.filter(({ letter }) => letter).map(({ name, example }) => [name, example]));
+  const titles = laws.map(({ name, meaning, letter }) => [name, `${letter ? `${name}:${letter}` : name} – ${meaning}`]);
+  fillSelect(select, { ...(none && { "": none }), ...Object.fromEntries(titles) });
   const showNumber = addNumberField(place, {
     key, label: "its number",
     use: (value) => {
       use(`${select.value}:${value}`);
-      families.set(select.value, { name: select.value, number: String(value) });
+      numbers.set(select.value, value);
     },
   });
-  select.addEventListener("change", () => attempt(() => {
-    const family = families.get(select.value);
-    use(family ? `${family.name}:${family.number}` : select.value || null);
+  select.addEventListener("change", () => store.attempt(() => {
+    const number = numbers.get(select.value);
+    use(number === undefined ? select.value || null : `${select.value}:${number}`);
   }));
   return {
     show(law) {

@@ -3,13 +3,8 @@ import { $, make, showList, write } from "../dom.js";
 import { lawTitle } from "./law_field.js";
 import { parseNumber, shown } from "../numbers.js";
 
-/**
- * @param {import("../state/store.js").Store} store
- * @param {import("../plane/plane.js").Plane} plane
- * @param act  ask(edit), which tells the reader what is rejected; stopText(tau)
- * @returns show(), and remove(index)
- */
-export function makeOrbits(store, plane, { ask, stopText }) {
+/** @param {Store} store @param {Plane} plane @returns shows the state */
+export function makeOrbits(store, plane) {
   const list = $("orbits");
   const form = $("add-orbit");
 
@@ -18,10 +13,10 @@ export function makeOrbits(store, plane, { ask, stopText }) {
     const discard = make("button", { type: "button", textContent: "✕", className: "remove" });
     const entry = make("li", {}, choose, discard);
     const index = () => [...list.children].indexOf(entry);
-    choose.addEventListener("click", () => ask((state) => Object.assign(state, { chosen: index(), fraction: 0 })));
+    choose.addEventListener("click", () => plane.chooseOrbit(index()));
     discard.addEventListener("click", () => {
       const removed = index();
-      remove(removed);
+      plane.removeOrbit(removed);
       // The focus stays near the one that is gone.
       const next = list.children[Math.min(removed, list.children.length - 1)];
       /** @type {HTMLElement} */ (next?.querySelector(".remove") ?? form.elements.u).focus();
@@ -29,16 +24,9 @@ export function makeOrbits(store, plane, { ask, stopText }) {
     return entry;
   }
 
-  const remove = (index) => ask((state) => {
-    state.orbits.splice(index, 1);
-    if (state.chosen >= index) state.chosen -= 1;
-    state.fraction = 0;
-  });
-
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    const say = (text) => (write(form.querySelector("output"), text));
-    let what = "";
+    let [what, problem] = ["", ""];
     try {
       const [u, v] = ["u", "v"].map((name) => {
         what = `${name}₀: `;
@@ -48,29 +36,28 @@ export function makeOrbits(store, plane, { ask, stopText }) {
       if (v < 0) throw new Error("a sliding speed is ≥ 0");
       if (u === 0 && v === 0) throw new Error("u₀ = v₀ = 0 is rest");
       plane.startOrbit({ u, v }, (edit, done) => done(store.change(edit)));
-      say("");
     } catch (error) {
-      say(what + error.message);
+      problem = what + error.message;
     }
+    write(form.querySelector("output"), problem);
   });
-  $("clear-orbits").addEventListener("click", () => ask((state) => Object.assign(state, { orbits: [], isochrone: 0, fraction: 0 })));
+  $("clear-orbits").addEventListener("click",
+    () => store.ask((state) => Object.assign(state, { orbits: [], isochrone: 0, fraction: 0 })));
 
-  return {
-    remove,
-    show() {
-      const { state: { orbits, chosen, ball }, motions, others, request, theme } = store;
-      $("clear-orbits").hidden = orbits.length < 2;
-      showList(list, orbits, item, (entry, { u, v }, index) => {
-        entry.className = index === chosen ? "chosen" : "";
-        entry.style.setProperty("--swatch", theme.swatch(index));
-        entry.dataset.tau = motions[index].stop;
-        const [choose, discard] = entry.children;
-        choose.setAttribute("aria-pressed", String(index === chosen));
-        write(choose.children[0], `u₀ = ${shown(u, 4)}, v₀ = ${shown(v, 4)}` +
-          (ball ? `: spin ${shown(u / ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : ""));
-        write(choose.children[1], `stops at ${stopText(motions[index].stop)}${others ? `; by ${lawTitle(request.against)} ${stopText(others[index])}` : ""}`);
-        discard.setAttribute("aria-label", `Remove orbit ${index + 1}`);
-      });
-    },
+  return ({ orbits, chosen, ball }) => {
+    const { motions, others, request, theme } = store;
+    $("clear-orbits").hidden = orbits.length < 2;
+    showList(list, orbits, item, (entry, { u, v }, index) => {
+      entry.className = index === chosen ? "chosen" : "";
+      entry.style.setProperty("--swatch", theme.swatch(index));
+      entry.dataset.tau = motions[index].stop;
+      const [choose, discard] = entry.children;
+      choose.setAttribute("aria-pressed", String(index === chosen));
+      write(choose.children[0], `u₀ = ${shown(u, 4)}, v₀ = ${shown(v, 4)}` +
+        (ball ? `: spin ${shown(u / ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : ""));
+      const other = others ? `; by ${lawTitle(request.against)} ${store.stopText(others[index])}` : "";
+      write(choose.children[1], `stops at ${store.stopText(motions[index].stop)}${other}`);
+      discard.setAttribute("aria-label", `Remove orbit ${index + 1}`);
+    });
   };
 }

@@ -21,7 +21,7 @@ export function makeSliders(controls, store, plane) {
     const orbit = state.orbits[state.chosen];
     const { u, v } = { ...orbit, ...edit(orbit) };
     state.orbits[state.chosen] = moved(orbit, u, v);
-    plane.zooming.freeze(state);
+    plane.zooming.freeze(state, { u, v });
   };
   controls.slider("slip", "slip", ({ orbit, state }) => orbit && {
     share: orbit.v / most(state).v, text: state.ball ? `${shown(orbit.v, 3)} m/s` : `v₀ = ${shown(orbit.v, 3)}`,

@@ -3,7 +3,7 @@
 // is dragged.
 import { Frame } from "./frame.js";
 import { plain } from "./runs.js";
-import { borderOf } from "./surface.js";
+import { borderOf, widthOf } from "./surface.js";
 
 const lineWidth = 0.9;  // pixels of a line of width 1
 const dash = [5, 4];
@@ -23,7 +23,7 @@ export const figureOf = (theme, shape, panels) => ({ title: "", ...shape, panels
 /**
  * @param {unknown[]} keys      what the figure depends on
  * @param {() => Figure} make
- * @param {import("../state/store.js").Store} store
+ * @param {Store} store
  * @param covered   something that moves is drawn over it
  * @param labelled  else what lies over its lines is drawn later
  * @returns {Frame[]} of the panels
@@ -52,7 +52,11 @@ export function drawFigure(surface, keys, make, store, { covered = true, labelle
       const marks = figure.panels.flatMap((panel) => panel.marks).find(named);
       if (marks) drawMarks(surface, figure, marks, [x + width / 2, y]);
     }
-    for (const { x, y, text, ...how } of layout.texts) surface.text(x, y, text, { ...style, ...how });
+    for (const { x, y, text, ...how } of layout.texts) {
+      // A title that is too long is small.
+      const fitting = how.turned ? 1 : Math.min(1, surface.width / widthOf(text, how));
+      surface.text(x, y, text, { ...style, ...how, size: fitting * how.size });
+    }
     return frames;
   }, covered);
 }

@@ -1,13 +1,8 @@
 // A rectangle of a figure with its two axes: from numbers to pixels, and back.
 
+/** @typedef {{low: number, high: number}} Range */
 export class Frame {
-  /**
-   * @typedef {{low: number, high: number}} Range
-   * @param {Box} place
-   * @param {Range} x
-   * @param {Range} y
-   * @param letter  the size of words in it
-   */
+  /** @param {Box} place @param {Range} x @param {Range} y @param letter  the size of words in it */
   constructor(place, x, y, letter = 0) {
     this.left = place.left;
     this.top = place.top;

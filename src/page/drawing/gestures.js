@@ -1,7 +1,6 @@
 // What fingers, mouse and keys do on a canvas, in its pixels.
 
-const slack = 6;  // pixels that a finger may move and still tap
-
+const slack = 6;    // pixels that a finger may move and still tap
 const notch = 400;  // pixels that the wheel turns by for a radian
 
 /**
@@ -14,10 +13,7 @@ export function listen(canvas, on) {
   const fingers = new Map();
   let start = null;
   let spread = [0, 0];  // of two fingers: pixels, and an angle to the left
-  const place = (event) => {
-    const box = canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  };
+  const place = ({ clientX, clientY }, { left, top } = canvas.getBoundingClientRect()) => [clientX - left, clientY - top];
   const kindOf = (event) => (event.pointerType === "touch" ? "touch" : "mouse");
   const spreadNow = () => {
     const [[ax, ay], [bx, by]] = [...fingers.values()];

@@ -15,7 +15,7 @@ const late = 0.99;  // of the time until the stop, at which the last speeds are 
 
 export class Hero {
   /** What is said. */
-  facts = /** @type {import("./story.js").Facts} */ ({});
+  facts = /** @type {Facts} */ ({});
   /** What moves, the body without spin first. */
   bodies = /** @type {ReturnType<Hero["bodiesOf"]>} */ ([]);
   /** @type {{x: number, y: number, radius: number}[]} where the bodies are, in pixels */
@@ -143,7 +143,7 @@ export class Hero {
     const ratio = globalThis.devicePixelRatio || 1;
     const size = { width, height: height + titleLines * textSize };
     const even = (side) => 2 * Math.round((ratio * side) / 2);  // as films need it
-    this.film = new CanvasSurface(Object.assign(document.createElement("canvas"), { width: even(size.width), height: even(size.height) }), size);
+    this.film = new CanvasSurface(make("canvas", { width: even(size.width), height: even(size.height) }), size);
     return this.film.canvas;
   }
 

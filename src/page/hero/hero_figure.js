@@ -109,7 +109,7 @@ function drawRuler(surface, ends, words, theme) {
 }
 
 /** The table with the paths; returns where the bodies go. */
-function drawPaths(surface, { lanes, radius, unit, secret }, theme) {
+function drawPaths(surface, { lanes, radius, unit, secret, rolls }, theme) {
   const size = theme.textSize;
   const [xs, ys] = ["xs", "ys"].map((key) => lanes.flatMap((lane) => lane[key]));
   const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
@@ -134,7 +134,7 @@ function drawPaths(surface, { lanes, radius, unit, secret }, theme) {
     const pixelsOf = (line) => Array.from({ length: line.length / 2 }, (_, j) => pixel({ x: line[2 * j], y: line[2 * j + 1] }, i)).flat();
     const slides = pixelsOf(lane.slides);
     const rest = pixelsOf(lane.xs.flatMap((x, j) => (2 * j < slides.length - 2 ? [] : [x, lane.ys[j]])));
-    surface.shape([[...slides.slice(-2), ...rest]], { stroke: theme.soft, width: 1.5 });
+    if (rolls) surface.shape([[...slides.slice(-2), ...rest]], { stroke: theme.soft, width: 1.5 });
     surface.shape([slides], { stroke: `${lane.colour}66`, width: Math.min(16, pixels / 2) });
   });
   const bar = roundDown((surface.width * 0.22) / scale);

@@ -16,7 +16,7 @@ export class Ruler {
   /** @type {string | undefined} what keys move */
   part = undefined;
 
-  /** @param {import("./hero.js").Hero} hero */
+  /** @param {Hero} hero */
   constructor(hero) {
     this.hero = hero;
   }

@@ -14,10 +14,7 @@ const keySteps = 40;   // to the full speed, and to the full spin
 
 const round = (value) => Number(value.toPrecision(3));
 
-/**
- * @param {import("../state/store.js").Store} store
- * @param {import("./hero.js").Hero} hero
- */
+/** @param {Store} store @param {Hero} hero @param {Player} player @param {Plane} plane */
 export function makeThrowing(store, hero, player, plane) {
   const canvas = $("lanes");
   /** @type {{slip: number, spin: number, heading: number, from: number[]} | null} */
@@ -49,7 +46,8 @@ export function makeThrowing(store, hero, player, plane) {
     cancel();
     if (!thrown || thrown.slip * pixelsPerSpeed() < shortest) return;
     const start = { u: round(thrown.spin) * radiusOf(), v: round(thrown.slip), heading: thrown.heading };
-    plane.startOrbit(start, undefined, () => player.toggle(player.moves));
+    plane.startOrbit(start);
+    player.begin();
   };
   /** More spin, or the other way. */
   const spun = (by) => {

@@ -30,10 +30,10 @@ export class Copies {
   /** @type {(Speeds & {stop: number, motion: Motion, lines: Float64Array[]})[]} where it has been */
   ghosts = [];
 
-  /** @param {import("../state/store.js").Store} store @param act  ask(edit, done), announce(text) */
-  constructor(store, act) {
+  /** @param {Store} store */
+  constructor(store, announce) {
     this.store = store;
-    this.act = act;
+    this.announce = announce;
     this.slider = $("size");
     this.slider.addEventListener("input", () => this.resize(10 ** ((decades * Number(this.slider.value)) / 1000)));
     forgiveTouches(this.slider);
@@ -73,17 +73,17 @@ export class Copies {
    * the blown-up origin.
    */
   resize(c) {
-    const { slider, act, store: { state: { chosen }, orbit } } = this;
+    const { slider, store, store: { state: { chosen }, orbit } } = this;
     if (!orbit) return;
     const pull = this.begin(chosen, slider);
     const { base, window } = pull;
     const at = pull.at = { u: Number((c * base.u).toPrecision(6)), v: Number((c * base.v).toPrecision(6)) };
     const share = Math.max(Math.abs(at.u) / window[0], at.v / window[1]);
     const view = share > 1 ? "disc" : share < vanished ? "blowup" : "uv";
-    act.ask((state) => {
+    store.ask((state) => {
       state.orbits[chosen] = moved(orbit, at.u, at.v);
       Object.assign(state, { view, window, fraction: 0, isochrone: 0 });
-    }, () => act.announce(this.words + hints[view]));
+    }, () => this.announce(this.words + hints[view]));
   }
 
   /** Remembers where the start is now. */

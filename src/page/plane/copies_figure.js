@@ -9,11 +9,7 @@ const fewest = 1.3;  // decades that are seen to either side of the size 1
 const deep = 1.3;    // decades of v that the strip shows below the starts, at least
 const shape = { columns: 2, narrowest: 150 };
 
-/**
- * @param surface  what it is drawn on
- * @param {import("../state/store.js").Store} store
- * @param {{copies: import("./copies.js").Copies}} plane
- */
+/** @param surface  what it is drawn on @param {Store} store @param {{copies: Copies}} plane */
 export function drawCopies(surface, store, { copies }) {
   const { theme, orbit, motion, state: { orbits, chosen }, motions } = store;
   const pull = copies.now;

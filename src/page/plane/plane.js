@@ -13,18 +13,18 @@ const none = [];
 const reach = { touch: 24, mouse: 10 };  // pixels from which a start or an orbit is taken hold of
 
 export class Plane {
-  /** @type {import("../drawing/frame.js").Frame[]} */
+  /** @type {Frame[]} */
   frames = [];
   planeScene = /** @type {ReturnType<Plane["scene"]>} */ ({});
   /** @type {{panel: number, x: number, y: number} | null} */
   cross = null;
-  /** @param {import("../state/store.js").Store} store @param act  ask(edit), removeOrbit(index), stopText(tau) */
-  constructor(store, act) {
+  announce = (text) => write($("pointed"), text || "\u00a0");
+
+  /** @param {Store} store */
+  constructor(store) {
     this.store = store;
-    this.act = act;
-    const announce = (text) => this.announce(text);
-    this.copies = new Copies(store, { ask: act.ask, announce });
-    this.zooming = new Zooming(store, { ask: act.ask, announce });
+    this.copies = new Copies(store, this.announce);
+    this.zooming = new Zooming(store, this.announce);
     this.surface = new ScreenSurface($("plane"), (surface) => {
       surface.fit(store.library.rowsOf(store.portrait.figure, surface.width));
       this.planeScene = this.scene();
@@ -46,34 +46,30 @@ export class Plane {
         this.draw();
       },
       move: (dx, dy) => this.moveCross(dx, dy),
-      panel: () => this.nextPanel(),
+      panel: () => this.moveCross(0, 0, ((this.cross?.panel ?? -1) + 1) % this.frames.length),
       enter: () => this.atCross((x, y) => this.choose(x, y, "key")),
       isochrone: () => this.atCross((x, y) => this.drawIsochrone(x, y)),
       clear: () => this.clear(),
       zoom: (factor) => this.zooming.by(factor),
       grow: (factor) => this.scale(factor),
-      remove: () => store.motion && act.removeOrbit(store.state.chosen),
+      remove: () => store.motion && this.removeOrbit(store.state.chosen),
     });
-    $("zoom-in").addEventListener("click", () => this.zooming.by(0.7));
-    $("zoom-out").addEventListener("click", () => this.zooming.by(1 / 0.7));
-    $("zoom-ever").addEventListener("click", () => this.zooming.forEver());
-    $("fit").addEventListener("click", () => this.zooming.fit());
-    $("clear-isochrone").addEventListener("click", () => this.clear());
+    const buttons = {
+      "zoom-in": () => this.zooming.by(0.7), "zoom-out": () => this.zooming.by(1 / 0.7), "fit": () => this.zooming.fit(),
+      "zoom-ever": () => this.zooming.forEver(), "clear-isochrone": () => this.clear(),
+    };
+    for (const [id, action] of Object.entries(buttons)) $(id).addEventListener("click", action);
   }
-
-  // --- drawing -----------------------------------------------------------------------------------------------------
 
   scene() {
     const { state, portrait, motion, now, isochrone, library, view } = this.store;
     const own = portrait.own.map((orbit, index) => {
       const { u, v } = state.orbits[index];
       return { ...orbit, index, chosen: index === state.chosen, start: view.moments ? null : library.plane.place(u, v) };
-    });
+    }).sort((a, b) => Number(a.chosen) - Number(b.chosen));
     return {
-      figure: portrait.figure, isochrone, ghosts: this.copies.now ? this.copies.ghosts : none,
-      own: [...own.filter(({ chosen }) => !chosen), ...own.filter(({ chosen }) => chosen)],
+      figure: portrait.figure, isochrone, ghosts: this.copies.now ? this.copies.ghosts : none, own, cross: this.cross,
       marker: now && now.tau < motion.stop ? { index: state.chosen, places: now.places } : null,
-      cross: this.cross,
     };
   }
 
@@ -92,10 +88,8 @@ export class Plane {
     $("plane").setAttribute("aria-label",
       `Phase portrait, view ${this.store.view.title}: ${plain(portrait.figure.title)}; drawn are ` +
       `${[...new Set(legend)].join(", ") || "orbits"}; ${count} ${count === 1 ? "orbit" : "orbits"} of yours` +
-      (motion ? `; the chosen one stops at ${this.act.stopText(motion.stop)}` : ""));
+      (motion ? `; the chosen one stops at ${this.store.stopText(motion.stop)}` : ""));
   }
-
-  // --- what lies under a pixel ---------------------------------------------------------------------------------------
 
   /** The panel under a pixel, with the numbers there; none beside and between them. */
   panelAt(x, y) {
@@ -135,29 +129,38 @@ export class Plane {
     return nearest;
   }
 
-  // --- what the reader does --------------------------------------------------------------------------------------------
-
   choose(x, y, kind) {
     const { store } = this;
     const at = this.panelAt(x, y);
     if (at && store.view.moments && store.motion) return store.move({ fraction: Math.min(1, (at.x * store.motion.stop) / store.end) });
     const index = kind === "key" ? null : this.startAt(x, y, kind) ?? this.orbitAt(x, y, kind);
     const start = this.pointed(x, y);
-    if (index !== null) this.act.ask((state) => Object.assign(state, { chosen: index, fraction: 0 }));
+    if (index !== null) this.chooseOrbit(index);
     else if (start) this.startOrbit(rounded(start, store.portrait));
     else this.announce("Nothing is here.");
   }
 
-  /** @param heading  of a throw @param done  called when it has started */
-  startOrbit({ u, v, heading = 0 }, ask = this.act.ask, done = (/** @type {void} */ _) => {}) {
+  chooseOrbit(index) {
+    this.store.ask((state) => Object.assign(state, { chosen: index, fraction: 0 }));
+  }
+
+  removeOrbit(index) {
+    this.store.ask((state) => {
+      state.orbits.splice(index, 1);
+      if (state.chosen >= index) state.chosen -= 1;
+      state.fraction = 0;
+    });
+  }
+
+  /** @param heading  of a throw @param ask  as store.ask, unless what is rejected is to be thrown */
+  startOrbit({ u, v, heading = 0 }, ask = (edit, done) => this.store.ask(edit, done)) {
     const { store } = this;
     ask((state) => {
-      // What is pointed at stays where it is.
-      if (Math.abs(u) <= store.portrait.window[0] && v <= store.portrait.window[1]) this.zooming.freeze(state);
-      else state.window = null;
+      this.zooming.freeze(state, { u, v });
       state.orbits.push(startOf(u, v, v, 0, heading));
       Object.assign(state, { chosen: state.orbits.length - 1, fraction: 0, isochrone: 0 });
-    }, () => done(this.announce(`Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${this.act.stopText(store.motion.stop)}.`)));
+    }, () => this.announce(
+      `Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${store.stopText(store.motion.stop)}.`));
   }
 
   /** @param from  the same during one pull @param held  all that stop at one time with it are shown */
@@ -165,7 +168,7 @@ export class Plane {
     if (!at) return;
     const { u, v } = this.copies.to(rounded(at, this.store.portrait), index, from);
     const isochrone = held ? this.store.library.plane.stop(u, v) : 0;
-    this.act.ask((state) => {
+    this.store.ask((state) => {
       this.zooming.freeze(state);
       state.orbits[index] = moved(state.orbits[index], u, v);
       Object.assign(state, { chosen: index, fraction: 0, isochrone });
@@ -191,7 +194,7 @@ export class Plane {
     if (!at) return;
     const tau = this.store.library.plane.stop(at.u, at.v);
     this.store.move({ isochrone: tau });
-    this.announce(`All states on the dotted line stop at ${this.act.stopText(tau)}. Esc clears it.`);
+    this.announce(`All states on the dotted line stop at ${this.store.stopText(tau)}. Esc clears it.`);
   }
 
   clear() {
@@ -200,8 +203,7 @@ export class Plane {
     this.store.move({ isochrone: 0 });
   }
 
-  // --- the cross that keys move -------------------------------------------------------------------------------------
-
+  /** The cross that keys move. */
   moveCross(dx, dy, panel = Math.min(this.cross?.panel ?? 0, this.frames.length - 1)) {
     const frame = this.frames[panel];
     const { x, y } = this.cross?.panel === panel ? this.cross : { x: (frame.x.low + 2 * frame.x.high) / 3, y: (frame.y.low + frame.y.high) / 2 };
@@ -209,10 +211,6 @@ export class Plane {
     this.cross = { panel, ...moved };
     this.draw();
     this.describe(this.pointed(frame.px(moved.x), frame.py(moved.y)), "Nothing is here.");
-  }
-
-  nextPanel() {
-    this.moveCross(0, 0, ((this.cross?.panel ?? -1) + 1) % this.frames.length);
   }
 
   atCross(action) {
@@ -223,12 +221,9 @@ export class Plane {
 
   describe(at, otherwise = "") {
     if (!at) return this.announce(otherwise);
-    const tau = this.store.library.plane.stop(at.u, at.v);
-    this.announce(`u = ${shown(at.u, 4)}, v = ${shown(at.v, 4)}, k = ${shown(at.v / (this.store.state.mu * Math.abs(at.u)), 4)}: stops at ${this.act.stopText(tau)}`);
-  }
-
-  announce(text) {
-    write($("pointed"), text || "\u00a0");
+    const { store, store: { state: { mu }, library: { plane } } } = this;
+    this.announce(`u = ${shown(at.u, 4)}, v = ${shown(at.v, 4)}, k = ${shown(at.v / (mu * Math.abs(at.u)), 4)}: ` +
+      `stops at ${store.stopText(plane.stop(at.u, at.v))}`);
   }
 }
 

@@ -9,30 +9,33 @@ export class Zooming {
   before = undefined;
   running = {};
 
-  /** @param {import("../state/store.js").Store} store @param act  ask(edit, done), announce(text) */
-  constructor(store, act) {
+  /** @param {Store} store */
+  constructor(store, announce) {
     this.store = store;
-    this.act = act;
+    this.announce = announce;
   }
 
-  /** Keeps the window as it is, in this view. */
-  freeze(state) {
+  /** Keeps the window as it is, in this view; unless a start lies beyond it, which is to be seen. */
+  freeze(state, { u, v } = { u: 0, v: 0 }) {
+    const [U, V] = this.store.portrait.window;
     if (this.before === undefined) this.before = state.window;
-    state.window ??= this.store.portrait.window;
+    state.window = Math.abs(u) > U || v > V ? null : state.window ?? [U, V];
   }
 
   by(factor, from = this.store.portrait.window, text = "") {
-    this.act.ask((state) => {
+    this.store.ask((state) => {
       this.freeze(state);
       state.window = from.map((side) => Number((side * factor).toPrecision(4)));
-    }, () => text && this.act.announce(text));
+    }, () => text && this.announce(text));
   }
 
   /** A decade a second, until the reader does something; a decade where he wants no motion. */
   forEver() {
     const from = this.store.portrait.window;
     const run = this.running = {};
-    const to = (decades) => this.by(10 ** -decades, from, `${decades < 1 ? "Closer" : `10${superscript(Math.floor(decades))} times closer`}: the numbers run, the curves stand still. All sizes are one.`);
+    const closer = (decades) => (decades < 1 ? "Closer" : `10${superscript(Math.floor(decades))} times closer`);
+    const to = (decades) => this.by(10 ** -decades, from,
+      `${closer(decades)}: the numbers run, the curves stand still. All sizes are one.`);
     if (isStill()) return to(1);
     const began = performance.now();
     const step = (time) => {
@@ -49,12 +52,12 @@ export class Zooming {
   /** The library's choice again. */
   fit() {
     this.before = undefined;
-    this.act.ask((state) => (state.window = null));
+    this.store.ask((state) => (state.window = null));
   }
 
   /** Another view, in a window of its own. */
   view(name) {
-    this.act.ask((state) => {
+    this.store.ask((state) => {
       if (this.before !== undefined) state.window = this.before;
       this.before = undefined;
       state.view = name;

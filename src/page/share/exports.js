@@ -1,23 +1,19 @@
 // Files that the page hands out.
+import { make } from "../dom.js";
 import { CanvasSurface } from "../drawing/surface.js";
 
 /** Hands out a text, or a blob, as a file. */
 export function save(name, content, type) {
-  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([content], { type })), download: name });
+  const link = make("a", { href: URL.createObjectURL(new Blob([content], { type })), download: name });
   document.body.append(link);
   link.click();
   link.remove();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/**
- * A figure as PNG of so many pixels across.
- *
- * @param draw  draws it on a surface
- * @param size  width and height that it is drawn for
- */
+/** A figure as PNG of so many pixels across. @param draw  draws it on a surface @param size  that it is drawn for */
 export async function pngOf(draw, size, width) {
-  const canvas = Object.assign(document.createElement("canvas"), { width, height: Math.round((size.height * width) / size.width) });
+  const canvas = make("canvas", { width, height: Math.round((size.height * width) / size.width) });
   draw(new CanvasSurface(canvas, size));
   const blob = await new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
   if (!blob) throw new Error(`this browser has no canvas of ${canvas.width} × ${canvas.height} pixels`);
@@ -68,11 +64,7 @@ export function csvOfFilm(/** @type {Columns} */ { t, ...columns }) {
 /** The first kind of film that a browser can take: MP4 plays everywhere. */
 export const filmType = () => ["video/mp4;codecs=avc1.42E01E", "video/mp4", "video/webm"].find((type) => globalThis.MediaRecorder?.isTypeSupported(type));
 
-/**
- * A film of a canvas.
- *
- * @param run  plays what is to be seen, and calls back at its end
- */
+/** A film of a canvas. @param run  plays what is to be seen, and calls back at its end */
 export function filmOf(canvas, type, run) {
   const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type });
   const parts = [];

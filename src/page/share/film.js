@@ -7,12 +7,8 @@ import { drawFigure } from "../drawing/figure.js";
 import { shotOf } from "../plane/portrait_request.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 
-/**
- * @param {import("../state/store.js").Store} store
- * @param {import("../state/player.js").Player} player
- * @returns draw(surface), and redraw()
- */
-export function makeFilm(store, player, ask) {
+/** @param {Store} store @param {Player} player @returns draw(surface), and redraw() */
+export function makeFilm(store, player) {
   /** @type {Figure | null} the data with the fitted motion, and what is left */
   let figure = null;
   const draw = (surface) => {
@@ -20,8 +16,11 @@ export function makeFilm(store, player, ask) {
     if (!fitted) throw new Error("no film has been fitted");
     drawFigure(surface, [fitted], () => fitted, store);
   };
-  const picture = new ScreenSurface($("film-fit"), draw);
-  const redraw = () => figure && picture.drawInSight();
+  const picture = new ScreenSurface($("film-fit"), (surface) => {
+    if (!figure) return;
+    surface.fit(store.library.rowsOf(figure, surface.width));
+    draw(surface);
+  });
 
   /** What the library finds, in words and as a figure; the ball is then as it was found. */
   const fit = (name, text) => {
@@ -31,12 +30,12 @@ export function makeFilm(store, player, ask) {
     const ball = request.ball ?? shotOf(state.ball, startOf(0, 0));
     const found = library.fit(text, name, ball, laws.join());
     store.measured = { columns: found.measured, ball: ball.name };
-    ask((next) => Object.assign(next, {
+    store.ask((next) => Object.assign(next, {
       law: laws.find((law) => lawTitle(law) === found.law) ?? found.law, window: null, chosen: 0, fraction: 0,
       orbits: [startOf(found.spin * ball.radius, found.slip, found.velocityX, found.velocityY)],
       ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch },
     }));
-    player.toggle(player.moves);
+    player.begin();
     return { report: `${found.notes}${found.report}`, figure: found.figure };
   };
 
@@ -46,12 +45,12 @@ export function makeFilm(store, player, ask) {
     $("film-report").textContent = found.report;
     figure = found.figure;
     $("film-report").hidden = $("film-fit").hidden = $("save-residuals").hidden = !figure;
-    if (figure) picture.fit(store.library.rowsOf(figure, picture.canvas.clientWidth));
-    redraw();
+    picture.measure();
+    picture.draw();
     $("film-card").scrollIntoView({ block: "nearest" });
   };
   const read = async (file) => {
-    ask((state) => (state.lab = true));
+    store.ask((state) => (state.lab = true));
     try {
       say(`${file.name} is fitted...`);
       const text = await file.text();
@@ -73,5 +72,5 @@ export function makeFilm(store, player, ask) {
     const file = event.dataTransfer?.files[0];
     if (file) read(file);
   });
-  return { draw, redraw };
+  return { draw, redraw: () => picture.drawInSight() };
 }

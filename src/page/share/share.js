@@ -11,7 +11,7 @@ import { SvgSurface } from "../drawing/surface.js";
 
 const widest = 12000;  // pixels; browsers have no larger canvas
 
-/** @param {import("../state/store.js").Store} store @returns shows the state */
+/** @param {Store} store @returns shows the state */
 export function makeShare(store, { plane, hero, player, address, film }) {
   const figures = {
     plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store)],
@@ -20,7 +20,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store)],
     "film-fit": ["the fit of a film", "fit", (surface) => film.draw(surface)],
   };
-  fillSelect($("picture"), Object.entries(figures).map(([name, [title]]) => ({ name, title })));
+  fillSelect($("picture"), Object.fromEntries(Object.entries(figures).map(([name, [title]]) => [name, title])));
   const picture = () => {
     const [title, name, draw] = figures[$("picture").value];
     const { width, height } = $($("picture").value).getBoundingClientRect();

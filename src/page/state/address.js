@@ -5,10 +5,8 @@ const pause = 250;  // ms
 const steps = (fragment) => fragment.replace(/(^|&)(at|isochrone|theme)=[^&]*/g, "");
 
 export class Address {
-  /**
-   * @param use    called with the state of an address that the reader has gone to
-   */
-  constructor(store, use) {
+  /** @param {Store} store */
+  constructor(store) {
     this.store = store;
     // While the reader holds something, what he makes of it is one change.
     addEventListener("pointerdown", () => {
@@ -25,7 +23,8 @@ export class Address {
     }
     addEventListener("hashchange", () => {
       clearTimeout(this.timer);
-      if (location.hash.slice(1) !== toFragment(store.state)) use(fromFragment(location.hash, store.library));
+      const asked = fromFragment(location.hash, store.library);
+      if (location.hash.slice(1) !== toFragment(store.state)) store.ask((state) => Object.assign(state, asked));
     });
   }
 

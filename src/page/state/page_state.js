@@ -2,19 +2,12 @@
 import { parseNumber, shown } from "../numbers.js";
 import { tour } from "./presets.js";
 
-const largestOwnMu = 10;
-
 /**
  * chi, gamma and the largest mu of the state's body; and mu itself where the body decides it.
  * @returns {{chi: number, gamma: number, largestMu: number, mu: number | undefined}}
  */
-export function bodyOf(state, { bodies }) {
-  return state.body === "own"
-    ? { chi: state.chi, gamma: state.gamma, largestMu: largestOwnMu, mu: undefined }
-    : { ...bodies.find(({ name }) => name === state.body), largestMu: 1 };
-}
-
-export const fields = ["none", "motion", "regularised"];
+export const bodyOf = ({ body, chi, gamma }, { bodies }) => (body === "own"
+  ? { chi, gamma, largestMu: ranges.mu[1], mu: undefined } : { ...bodies.find(({ name }) => name === body), largestMu: 1 });
 
 export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "rollingFriction", "slope"];
 
@@ -35,14 +28,7 @@ export function allowed(key, value) {
   return value;
 }
 
-/**
- * A motion from u and v.
- *
- * @param along   the velocity of a real ball's centre, m/s, in the direction of the slip
- * @param across  and to the left of it
- * @param heading  degrees to the left, in which it is seen to be thrown
- * @returns {Start}
- */
+/** A motion from u and v; types.d.ts says what else it has. @returns {Start} */
 export const startOf = (u, v, along = v, across = 0, heading = 0) => ({ u, v, along, across, heading });
 
 /** The same of what does not turn forward: what cannot roll, and what has no size. */
@@ -126,7 +112,7 @@ const parts = {
   view: always("view", "uv", (text, { views }) => oneOf(namesOf(views), text)),
   // [U, V]: |u| <= U, v <= V are shown; null: the library's choice for the orbits.
   window: value("window", null, (text) => numbersOf(["U", "V"], text)),
-  field: value("field", fields[0], (text) => oneOf(fields, text)),                // of directions
+  field: value("field", "none", (text) => oneOf(["none", "motion", "regularised"], text)),  // of directions
   isochrones: value("isochrones", 7, (text) => Number(oneOf(["0", "7"], text))),  // of the stop time, about so many
   // Of the motion: "whole", or "sliding", as that of a ball is first.
   part: {

@@ -9,11 +9,11 @@ const rest = 1500;   // ms at the end, before the motion begins again
 const rounds = 3;    // after which it rests
 
 export class Player {
-  constructor(store, ask) {
+  /** @param {Store} store */
+  constructor(store) {
     this.store = store;
-    this.moves = true;  // it plays by itself
-    this.partButtons = choiceButtons($("span"), [{ name: "sliding", title: "while it slides" }, { name: "whole", title: "until rest" }],
-      (name) => ask((state) => Object.assign(state, { part: name, fraction: 0 })));
+    this.showPart = choiceButtons($("span"), { sliding: "while it slides", whole: "until rest" },
+      (part) => store.ask((state) => Object.assign(state, { part, fraction: 0 })));
     $("play").addEventListener("click", () => this.toggle());
     forgiveTouches($("time"));
     $("time").addEventListener("input", () => store.move({ fraction: Number($("time").value) / 1000 }));
@@ -27,7 +27,7 @@ export class Player {
 
   show() {
     const { state, end, timeFactor, contact, now } = this.store;
-    this.partButtons.show(state.part);
+    this.showPart(state.part);
     const factor = this.seconds / (end * timeFactor);
     write($("pace"), !contact ? "" : factor > 1.05 ? `slowed ${shown(factor, 2)} times` : factor < 0.95 ? `${shown(1 / factor, 2)} times as fast` : "in real time");
     $("time").value = Math.round(1000 * state.fraction);
@@ -46,10 +46,14 @@ export class Player {
     this.done = done;
   }
 
+  /** Plays from the beginning, unless the reader wants no motion. */
+  begin() {
+    this.toggle(this.store.moves);
+  }
+
   toggle(playing = !this.playing) {
     this.done?.();
     this.done = null;
-
     this.playing = playing && Boolean(this.store.motion);
     write($("play"), this.playing ? "❚❚" : "▶");
     $("play").setAttribute("aria-label", this.playing ? "Pause" : "Play");

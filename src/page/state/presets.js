@@ -12,7 +12,7 @@ export const presets = [
 ].map(([title, fragment, says]) => ({ title, fragment, says }));
 
 export const tour = [
-  ["What couples", "Every point of the patch rubs against its own slip, and spin turns most of that slip sideways. So little is left of the friction to stop the ball: watch the pink arrow under the patch.", ""],
+  ["What couples", "Every point of the patch rubs against its own slip, and spin turns most of that slip sideways. So little is left of the friction to stop what slides: watch the pink arrow under the patch.", ""],
   ["The plane", "Each motion is one curve here: up is sliding, sideways is spinning. Every curve ends in the same point, rest, and the dot goes with the ball.", "ball=gel&orbits=9,0.5;4,0.5;1,0.5;-3,0.4"],
   ["One curve for all", "Leave twice as fast and spin twice as fast: the same curve, twice as large, and twice as long until the stop. Pull a start along its ray, or its size c from 0 to ∞: it runs through its copies, and below all of them are one line.", "body=disc&law=uniform&window=2,2&orbits=1.6,1.4;0.8,0.7;0.4,0.35"],
   ["The symmetry", "Spin to the left or to the right: the ball slides equally far. The plane is its own mirror image.", "mu=0.3&window=1,4&orbits=0.8,3.5;-0.8,3.5"],

@@ -1,8 +1,8 @@
 // The state of the page, and all that follows from it: each value is computed once for what it depends on.
 import { bodyOf, initialState, startOf } from "./page_state.js";
 import { portraitRequest, shotOf } from "../plane/portrait_request.js";
+import { shown } from "../numbers.js";
 import { isDark, themeOf } from "../drawing/theme.js";
-import { described } from "../plane/views.js";
 
 const longest = 10;    // s that a ball is let roll
 const slow = 1 / 500;  // of the fastest slip in the patch at first: without units, what slips no faster counts as rolling
@@ -12,14 +12,18 @@ const ballOf = (radius) =>
   ({ mass: 1, radius, friction: 2 / (3 * Math.PI), gravity: 1, patchBy: "patch_radius", patch: radius, body: "ball", rollingFriction: 0, slope: 0 });
 
 export class Store {
-  /** @type {((change: {moment: boolean}) => void)[]} */
-  listeners = [];
+  /** Called after each change; with true where only the moment or the isochrone has changed. */
+  changed = (/** @type {boolean} */ _moment) => {};
+  /** Tells the reader what the library rejects, or "". */
+  tell = (/** @type {string} */ _problem) => {};
+  moves = true;    // motions play by themselves; else the end is shown
   kept = new Map();
   settled = false;
   held = false;    // something by the reader, whose changes are one until he lets go
   isLate = false;  // what lies behind the orbits is as it was when he took hold of it
   /** @type {Contact | null} */
   contact = null;
+  view = /** @type {View} */ ({});
   request = /** @type {PortraitRequest} */ ({});
   portrait = /** @type {Portrait} */ ({});
   body = { chi: 1, gamma: 1, largestMu: 1, mu: /** @type {number | undefined} */ (undefined) };
@@ -31,6 +35,8 @@ export class Store {
   measured = null;
   /** The chosen one; none where there is no orbit. */
   motion = /** @type {OwnOrbit} */ (/** @type {unknown} */ (undefined));
+  timeFactor = 1;  // of tau, to the time that is told
+  end = 1;         // of the time slider, in tau
 
   /** @param {Library} library @param {State} state */
   constructor(library, state) {
@@ -38,9 +44,22 @@ export class Store {
     this.state = state;
   }
 
-  /** Calls `listener` after each change; with {moment: true} where only the moment or the isochrone has changed. */
-  listen(listener) {
-    this.listeners.push(listener);
+  /** Runs what may be rejected, and tells the reader. */
+  attempt(action) {
+    try {
+      action();
+      this.tell("");
+    } catch (error) {
+      this.tell(error.message);
+    }
+  }
+
+  /** Changes the state as the reader asks for it. */
+  ask(edit, done = () => {}) {
+    this.attempt(() => {
+      this.change(edit);
+      done();
+    });
   }
 
   /** Changes the state; if the library rejects the new one, the old one stays and the reason is thrown. */
@@ -49,6 +68,7 @@ export class Store {
     const next = structuredClone(before);
     edit(next);
     next.chosen = Math.max(0, Math.min(next.chosen, next.orbits.length - 1));
+    if (!this.moves && next.fraction === 0) next.fraction = 1;
     try {
       this.compute(next);
     } catch (error) {
@@ -61,7 +81,7 @@ export class Store {
     }
     this.state = next;
     this.settled = true;
-    for (const listener of this.listeners) listener({ moment: false });
+    this.changed(false);
   }
 
   /** The reader has let go: what lies behind his orbits makes room for them. */
@@ -75,7 +95,7 @@ export class Store {
   /** Changes the moment or the isochrone, from which nothing else follows. */
   move(values) {
     Object.assign(this.state, values);
-    for (const listener of this.listeners) listener({ moment: true });
+    this.changed(true);
   }
 
   /** The value of that name: computed again only where what it depends on, the key, has changed. */
@@ -93,6 +113,7 @@ export class Store {
     const { library, library: { plane } } = this;
     const orbit = state.orbits[state.chosen];
     this.body = bodyOf(state, library);
+    this.view = /** @type {View} */ (library.views.find(({ name }) => name === state.view));
     const { chi, gamma } = this.body;
     // A slope and rolling friction drive what slides, the way it slides.
     const rolling = chi === 1 ? 0 : state.ball?.rollingFriction ?? 0;
@@ -100,6 +121,7 @@ export class Store {
     const contactBy = (law) => library.contact(law, shotOf(state.ball, slides ?? startOf(0, 0), slides ? rolling : 0));
     this.contact = state.ball ? this.keep("contact", [state.law, state.ball, slides], () => contactBy(state.law)) : null;
     if (this.contact) state.mu = this.contact.mu;
+    this.timeFactor = this.contact?.secondsPerTau ?? 1;
     const drive = this.contact?.drive ?? 0;
     /** @type {[string, number, number, number, number]} */
     const system = [state.law, state.mu, chi, gamma, drive];
@@ -107,7 +129,7 @@ export class Store {
     this.facts = ofSystem("facts", [], () => plane.choose(...system));
     this.request = portraitRequest(state, { chi, gamma, drive, resistance: this.contact?.without ? 0 : rolling }, isDark(state.theme));
     // While the reader holds something, what lies behind his orbits stays where its window does.
-    const stays = this.held && state.window !== null && !this.viewOf(state).moments;
+    const stays = this.held && state.window !== null && !this.view.moments;
     const behind = { ...this.request, orbits: [], chosen: 0, ball: null };
     this.portrait = this.keep("portrait", stays ? behind : this.request, () => {
       this.kept.delete("own");
@@ -123,6 +145,7 @@ export class Store {
     }) : null;
     this.motion = this.motions[state.chosen];
     this.ride = orbit ? this.rideOf(state, orbit, ofSystem) : null;
+    this.end = this.ride?.end ?? 1;
   }
 
   /** How the body of an orbit slides over the table, and beside it one that does not spin: SI units, but `end` in tau. */
@@ -157,25 +180,14 @@ export class Store {
     return { own, plain, least, end, rolls, rest, radius, courses: [ride("plain", end), ride("own", end)] };
   }
 
-  get timeFactor() {
-    return this.contact ? this.contact.secondsPerTau : 1;
-  }
-
-  /** The time at the end of the slider, in tau. */
-  get end() {
-    return this.ride ? this.ride.end : 1;
+  /** A time until a stop, as it is told. */
+  stopText(tau) {
+    const inTau = `τ* = ${shown(tau, 7)}${this.contact ? " m/s" : ""}`;
+    return this.contact ? `${shown(tau * this.timeFactor, 6)} s  (${inTau})` : inTau;
   }
 
   get theme() {
     return themeOf(this.state.theme);
-  }
-
-  get view() {
-    return this.viewOf(this.state);
-  }
-
-  viewOf(/** @type {State} */ { view }) {
-    return described(this.library.views.find(({ name }) => name === view));
   }
 
   get orbit() {
