@@ -398,3 +398,17 @@ test("bodies that end on a ray, or with k growing, are explored like balls", asy
     await close();
   }
 });
+
+test("no words of a picture are cut", async () => {
+  await open("#body=1.5,2.5&law=pressure:0.4&against=pade&mu=0.4&orbits=0.8,3.5", { viewport: { width: 1440, height: 900 } });
+  const beyond = await page.evaluate((svg) => {
+    const holder = document.createElement("div");
+    holder.innerHTML = svg;
+    document.body.append(holder);
+    const { left, right } = holder.firstElementChild.getBoundingClientRect();
+    const boxes = Array.from(holder.querySelectorAll("text"), (text) => [text.textContent, text.getBoundingClientRect()]);
+    return boxes.filter(([, box]) => box.left < left - 1 || box.right > right + 1).map(([words]) => words);
+  }, String(await saved("#save-svg")));
+  assert.deepEqual(beyond, []);
+  await close();
+});

@@ -240,7 +240,7 @@ test("each preset says in one sentence what is to be seen, with numbers that are
     assert.match(says, /^[^.]*(\.\d[^.]*)*\.$/, "one sentence");
   }
   // What is said of one that is pointed at moves none of them.
-  await page.setViewportSize({ width: 1024, height: 900 });
+  await page.setViewportSize({ width: 1160, height: 900 });
   const places = () => page.$$eval("#presets a", (all) => all.map(({ offsetTop }) => offsetTop));
   const before = await places();
   for (const link of links) {
