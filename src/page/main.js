@@ -1,10 +1,7 @@
 // The page: what the reader does changes the state, and the state is drawn.
 import { Address } from "./state/address.js";
 import { makeChecks } from "./controls/checks.js";
-import { makeBallCard } from "./controls/ball_card.js";
-import { makeChoices } from "./controls/choices.js";
-import { makeControls } from "./controls/fields.js";
-import { makeSliders } from "./controls/sliders.js";
+import { makeSettings } from "./controls/settings.js";
 import { drawCopies } from "./plane/copies_figure.js";
 import { $, isStill, write } from "./dom.js";
 import { makeFilm } from "./share/film.js";
@@ -28,20 +25,23 @@ function start(library) {
   const store = new Store(library, fromFragment(location.hash, library));
   store.moves = !isStill();
   store.tell = (problem) => {
-    if (problem) controls.show();
+    if (problem) store.show();
     write($("problem"), problem);
   };
   const player = new Player(store);
   const hero = new Hero(store, player);
   const plane = new Plane(store);
-  const controls = makeControls(store);
-  for (const make of [makeChoices, makeSliders, makeBallCard]) make(controls, store, plane);
+  makeSettings(store, plane);
+  makeOrbits(store, plane);
+  makeChecks(store);
   const address = new Address(store);
-  const film = makeFilm(store, player);
+  makeShare(store, { plane, hero, player, address, film: makeFilm(store, player) });
   const go = (fragment, step = 0) => store.ask((state) => {
     const { theme, embed, lab } = state;
     Object.assign(state, fromFragment(fragment, library), { step, theme, embed, lab });
   }, () => player.begin());
+  makeTour(store, go);
+  makePresets(store, go);
   makeThrowing(store, hero, player, plane);
 
   const paneSurface = new ScreenSurface($("panes"), (surface) => {
@@ -61,15 +61,12 @@ function start(library) {
         `${shown(end * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}${now.u === 0 && now.v === 0 ? ", no slip" : `, k = ${shown(now.k, 4)}`}`
       : "No orbit yet: click the plane.");
   };
-  const shows = [
-    () => plane.label(), () => hero.show(), controls.show, makeOrbits(store, plane), film.redraw, makeChecks(store),
-    makeTour(go), makePresets(library, go), makeShare(store, { plane, hero, player, address, film }),
-  ];
+
   store.changed = (moment) => {
     if (!moment) {
       for (const kind of ["embed", "lab"]) document.documentElement.classList.toggle(kind, store.state[kind]);
       document.documentElement.dataset.step = String(store.state.step);
-      for (const show of shows) show(store.state);
+      store.show();
     }
     draw();
     if (!player.playing || !moment) address.rememberSoon();

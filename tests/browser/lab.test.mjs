@@ -274,3 +274,10 @@ test("a start that a slider takes out of the window takes the window along", asy
   assert.ok(v > before && top >= v, `${v} is beyond ${top}`);
   await close();
 });
+
+test("in a tall window bodies and plane keep together", async () => {
+  await open("#lab=0", { viewport: { width: 1440, height: 2400 } });
+  const [lanes, plane] = await page.$$eval("#lanes, #plane", (all) => all.map(({ clientHeight, clientWidth }) => clientHeight / clientWidth));
+  assert.ok(lanes < 0.7 && plane < 1, `${lanes}, ${plane}`);
+  await close();
+});

@@ -217,3 +217,13 @@ test("what is copied while a motion plays is what would be drawn", async () => {
   (await pictures()).forEach((picture, i) => assert.ok(picture === copied[i], `picture ${i}`));
   await close();
 });
+
+test("the story is whole again after there was no motion", async () => {
+  await open("#ball=puck&orbits=2.286,0.5");
+  const story = await page.textContent("#story");
+  await page.click("#orbits li .remove");
+  assert.equal(await page.textContent("#story"), "Up is sliding, sideways is spinning.");
+  await page.click("#presets a");
+  assert.equal(await page.textContent("#story"), story);
+  await close();
+});

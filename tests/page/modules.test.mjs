@@ -190,10 +190,11 @@ test("what there is to see follows from the numbers, and is said in words withou
     const said = say(all);
     assert.match(said.headline, headline);
     assert.match(said.story, story);
-    // What is named in it is there; numbers that are handles stand in it.
-    for (const [words, kind] of Object.entries(said.names)) assert.ok(["own", "plain", "slip", "spin"].includes(kind) && words);
+    // What is named in it are bodies and numbers that are handles.
+    for (const [kind, words] of said.pieces) assert.ok(["", "own", "plain", "slip", "spin"].includes(kind) && (words || !kind));
+    assert.doesNotMatch(said.story, /[[\]|]/);
     if (["much", "more", "soon", "together", "plain"].includes(regime)) {
-      for (const kind of ["slip", "spin"]) assert.ok(Object.entries(said.names).some(([words, its]) => its === kind && said.story.includes(words)), `${regime}: ${kind}`);
+      for (const kind of ["slip", "spin"]) assert.ok(said.pieces.some(([its]) => its === kind), `${regime}: ${kind}`);
     }
     assert.doesNotMatch(`${said.headline} ${said.story}`, /NaN|Infinity|∞|undefined|·10/);
     seen.add(regime);
@@ -247,6 +248,10 @@ test("the command line names what differs from what the program would do", () =>
     portrait: "contensou portrait --ball gel --friction 0.25 --slip 0.5 --spin 300 --law exact --view uv --scale linear -o portrait.svg",
     roll: "contensou roll --ball gel --friction 0.25 --velocity 0.5,1.5 --angular-velocity -50,0,300 --law exact",
   });
+  assert.notEqual(0.9 / 0.03, 30);
+  ball.orbits = [startOf(0.9, 0.5)];
+  assert.match(line(ball).portrait, / --spin 30 /, "without the digits of rounding");
+  assert.match(line(ball).roll, / --spin 30 /);
 });
 
 test("a pressure of the reader's own is a law that a link carries, and a file that the program reads", () => {

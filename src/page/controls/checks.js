@@ -4,7 +4,7 @@ import { shown } from "../numbers.js";
 
 const pause = 350;  // ms
 
-/** @param {Store} store @returns shows the state */
+/** @param {Store} store */
 export function makeChecks(store) {
   const [card, table] = [$("checks-card"), $("checks")];
   let [known, timer] = ["", 0];
@@ -31,5 +31,5 @@ export function makeChecks(store) {
     }, pause);
   };
   card.addEventListener("toggle", show);
-  return show;
+  store.shows.push(show);
 }

@@ -80,24 +80,20 @@ export function fillSelect(select, titles) {
   select.replaceChildren(...Object.entries(titles).map(([name, title]) => new Option(title, name)));
 }
 
-/** Controls of the state: each shows a value of it, and changes it. @param {Store} store @returns show(), and shows: what each does then */
+/** Controls of the state: each shows a value of it, and changes it. @param {Store} store */
 export function makeControls(store) {
-  const shows = /** @type {(() => void)[]} */ ([]);
   return {
-    shows,
-    show: () => shows.forEach((show) => show()),
-
     /** A list of choices. @param of  (state): the name of the one that is chosen @param edit  (state, name) */
     choose(id, titles, of, edit) {
       fillSelect($(id), titles);
       $(id).addEventListener("change", () => store.ask((state) => edit(state, $(id).value)));
-      shows.push(() => ($(id).value = of(store.state)));
+      store.shows.push((state) => ($(id).value = of(state)));
     },
 
     /** A number with its label, in `parent`. @param of  (store): its value; hidden where it has none @param edit  (state, value) */
     number(parent, key, label, of, edit) {
       const show = addNumberField(parent, { key, label, use: (value) => store.change((state) => edit(state, allowed(key, value))) });
-      shows.push(() => show(of(store)));
+      store.shows.push(() => show(of(store)));
     },
 
     /**
@@ -115,7 +111,7 @@ export function makeControls(store) {
       $("sliders").append(all);
       input.addEventListener("input", () => store.ask((state) => edit(state, Number(input.value) / 1000)));
       forgiveTouches(input);
-      shows.push(() => {
+      store.shows.push(() => {
         const shown = of(store);
         all.hidden = !shown;
         if (!shown) return;

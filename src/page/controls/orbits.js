@@ -3,7 +3,7 @@ import { $, make, showList, write } from "../dom.js";
 import { lawTitle } from "./law_field.js";
 import { parseNumber, shown } from "../numbers.js";
 
-/** @param {Store} store @param {Plane} plane @returns shows the state */
+/** @param {Store} store @param {Plane} plane */
 export function makeOrbits(store, plane) {
   const list = $("orbits");
   const form = $("add-orbit");
@@ -44,7 +44,7 @@ export function makeOrbits(store, plane) {
   $("clear-orbits").addEventListener("click",
     () => store.ask((state) => Object.assign(state, { orbits: [], isochrone: 0, fraction: 0 })));
 
-  return ({ orbits, chosen, ball }) => {
+  store.shows.push(({ orbits, chosen, ball }) => {
     const { motions, others, request, theme } = store;
     $("clear-orbits").hidden = orbits.length < 2;
     showList(list, orbits, item, (entry, { u, v }, index) => {
@@ -59,5 +59,5 @@ export function makeOrbits(store, plane) {
       write(choose.children[1], `stops at ${store.stopText(motions[index].stop)}${other}`);
       discard.setAttribute("aria-label", `Remove orbit ${index + 1}`);
     });
-  };
+  });
 }

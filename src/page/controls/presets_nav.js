@@ -6,8 +6,8 @@ import { presets } from "../state/presets.js";
 /** What a link says of the motion alone. */
 const motionOf = (state) => toFragment({ ...state, fraction: 0, isochrone: 0, window: null, step: 0, theme: "auto", embed: false, lab: false });
 
-/** @param go  called with the fragment of a preset @returns shows which of them the state is */
-export function makePresets(library, go) {
+/** @param {Store} store @param go  called with the fragment of a preset */
+export function makePresets(store, go) {
   let chosen = -1;
   const say = (index) => write($("says"), presets[index]?.says ?? "");
   const links = presets.map(({ title, fragment, says }, index) => {
@@ -21,10 +21,10 @@ export function makePresets(library, go) {
     return link;
   });
   $("presets").append(...links);
-  const motions = presets.map(({ fragment }) => motionOf(fromFragment(fragment, library)));
-  return (state) => {
+  const motions = presets.map(({ fragment }) => motionOf(fromFragment(fragment, store.library)));
+  store.shows.push((state) => {
     chosen = motions.indexOf(motionOf(state));
     links.forEach((link, index) => link.setAttribute("aria-current", String(index === chosen)));
     say(chosen);
-  };
+  });
 }

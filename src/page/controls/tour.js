@@ -4,8 +4,8 @@ import { tour } from "../state/presets.js";
 
 const pause = 120;  // ms
 
-/** @param go  called with the fragment of a step, and its number @returns shows the state */
-export function makeTour(go) {
+/** @param {Store} store @param go  called with the fragment of a step, and its number */
+export function makeTour(store, go) {
   const [list, back, on] = ["steps", "step-back", "step-on"].map($);
   let [at, timer] = [0, 0];
   const to = (step) => list.scrollTo({ left: step * list.clientWidth, behavior: isStill() ? "instant" : "smooth" });
@@ -20,9 +20,9 @@ export function makeTour(go) {
   });
   back.addEventListener("click", () => to(at - 1));
   on.addEventListener("click", () => to(at + 1));
-  return ({ step }) => {
+  store.shows.push(({ step }) => {
     back.disabled = step === 0;
     on.disabled = step >= tour.length - 1;
     if (step !== at) to(at = step);
-  };
+  });
 }

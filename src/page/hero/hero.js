@@ -4,7 +4,7 @@ import { drawLanes, drawPatch } from "./hero_figure.js";
 import { duration, length, shown } from "../numbers.js";
 import { makeHandles } from "./handles.js";
 import { Ruler } from "./ruler.js";
-import { dare, factsOf, outcome, question, say } from "./story.js";
+import { dare, factsOf, nothing, outcome, question, say } from "./story.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 import { borderOf, CanvasSurface, widthOf } from "../drawing/surface.js";
 import { rideOn } from "./turning.js";
@@ -41,6 +41,7 @@ export class Hero {
     this.patch = new ScreenSurface($("patch"), (surface) => this.drawPatch(surface));
     this.ruler = new Ruler(this);
     this.handles = makeHandles($("story"));
+    store.shows.push(() => this.show());
     $("answers").append(...question.answers.map((textContent) => make("button", { type: "button", textContent, onclick: () => this.answer(textContent) })));
   }
 
@@ -64,17 +65,14 @@ export class Hero {
     $("answers").hidden = !this.asked;
     $("dare").hidden = !ride || Boolean(this.asked);
     $("says").classList.toggle("later", Boolean(this.asked));
-    if (!ride) {
-      write($("headline"), "Click the plane: a motion starts there");
-      write($("story"), "Up is sliding, sideways is spinning.");
-      return;
+    if (ride) {
+      this.facts = factsOf(store);
+      this.bodies = this.bodiesOf(ride);
     }
-    this.facts = factsOf(store);
-    this.bodies = this.bodiesOf(ride);
-    const { headline, story, names = {} } = this.asked ? question : say(this.facts);
+    const { headline, story, pieces = [["", story]] } = !ride ? nothing : this.asked ? question : say(this.facts);
     write($("headline"), headline);
-    this.tell(story, names);
-    write($("dare-line"), dare[ride.rolls ? "rolls" : "stops"]);
+    this.tell(pieces);
+    write($("dare-line"), dare[ride?.rolls ? "rolls" : "stops"]);
     $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${story}`);
   }
 
@@ -93,23 +91,22 @@ export class Hero {
     });
   }
 
-  /** The story: words in the colours of what they name, and numbers that are handles. @param names  what each word names */
-  tell(story, names) {
+  /** The story: words in the colours of what they name, and numbers that are handles. */
+  tell(pieces) {
     const { handles, store: { state: { chosen }, theme } } = this;
-    const escaped = Object.keys(names).sort((a, b) => b.length - a.length).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
-    const parts = escaped.length ? story.split(new RegExp(`(?<![\\d.])(${escaped.join("|")})(?![\\d·/]|\\.\\d)`)) : [story];
-    const kinds = parts.map((part, i) => (i % 2 ? names[part] : ""));
+    const kinds = pieces.map(([kind]) => kind);
+    const nodeOf = (kind, i) => (!kind ? new Text() : handles[kind] && kinds.indexOf(kind) === i ? handles[kind] : make("b"));
     const shape = kinds.join();
     // What stays keeps the focus.
     if (shape !== this.shape) {
       const focused = Object.entries(handles).find(([, handle]) => handle === document.activeElement);
-      $("story").replaceChildren(...kinds.map((kind, i) => (!kind ? "" : handles[kind] && kinds.indexOf(kind) === i ? handles[kind] : make("b"))).map((node) => node || document.createTextNode("")));
+      $("story").replaceChildren(...kinds.map(nodeOf));
       if (focused) (focused[1].isConnected ? focused[1] : $(`${focused[0]}-slider`)).focus();
       this.shape = shape;
     }
     const colours = { plain: theme.soft, own: theme.swatch(chosen), spin: theme.swatch(chosen) };
     $("story").childNodes.forEach((node, i) => {
-      write(node, parts[i]);
+      write(node, pieces[i][1]);
       if (node instanceof HTMLElement) node.style.color = colours[kinds[i]] ?? "";
     });
     for (const [key, handle] of Object.entries(handles)) {

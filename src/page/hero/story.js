@@ -38,6 +38,9 @@ export function regimeOf(/** @type {Facts} */ { real, rolls, slip, spin, along, 
 
 const more = (ratio, word) => (ratio >= much ? `${shown(ratio, 2)} times as ${word}` : `${shown(100 * (ratio - 1), 2)} % ${{ far: "farther", long: "longer" }[word]}`);
 
+/** Words of a sentence that name something: a body, own or plain, or slip or spin. */
+const named = (kind, words) => `[${kind}|${words}]`;
+
 /** The parts of the sentences. */
 function wordsOf(/** @type {Facts} */ facts) {
   const { name, real, rolls, slip, spin, along, across, least, own, plain } = facts;
@@ -46,15 +49,17 @@ function wordsOf(/** @type {Facts} */ facts) {
   const leave = along === slip && across === 0 ? "leave" : "touch down, slipping";
   const turns = spin === 0 ? "does not spin" : real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
   return {
-    ...facts, thing: name.split(" ").at(-1), speed: real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`, time, leave, turns, then: rolls ? "then it rolls" : "then it stops",
-    far: length(own.path, unit), farther: length(own.path - plain.path, unit), farPlain: length(plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
+    ...facts, thing: name.split(" ").at(-1), time, leave, then: rolls ? "then it rolls" : "then it stops",
+    speed: named("slip", real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`), turns: named("spin", turns),
+    far: named("own", length(own.path, unit)), farPlain: named("plain", length(plain.path, unit)),
+    farther: length(own.path - plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
     threshold: rolls ? ` Here it rolls once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : "1/500 of the first"}.` : "",
   };
 }
 
 const two = ({ name, leave, speed, farPlain, then, turns, far, farther, longer, times }) =>
-  `Two equal ${name}s ${leave} at ${speed}. One does not spin: it slides ${farPlain}, ${then}. The other spins ${turns}: it slides ${far}, ` +
-  `${farther} more: ${more(times, "far")} and ${longer}. Textbooks say ${farPlain} both times.`;
+  `Two equal ${name}s ${leave} at ${speed}. ${named("plain", "One does not spin")}: it slides ${farPlain}, ${then}. ` +
+  `${named("own", "The other spins")} ${turns}: it slides ${far}, ${farther} more: ${more(times, "far")} and ${longer}. Textbooks say ${farPlain} both times.`;
 
 const sentences = {
   much: (words) => [`Spin a ${words.thing}, and it slides ${shown(words.times, 2)} times as far`, two(words) + words.threshold],
@@ -68,7 +73,7 @@ const sentences = {
     `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}; then it rolls straight on. It spins ${words.turns}; without spin it would curve by ` +
     `${shown(Math.abs(words.plain.turned), 2)}° in ${words.farPlain}.${words.threshold}`],
   plain: (words) => ["Without spin, textbooks are right",
-    `This ${words.name} ${words.leave.replace(/^(leave|touch)/, (verb) => `${verb}${verb === "touch" ? "es" : "s"}`)} at ${words.speed} and does not spin: ` +
+    `This ${words.name} ${words.leave.replace(/^(leave|touch)/, (verb) => `${verb}${verb === "touch" ? "es" : "s"}`)} at ${words.speed} and ${words.turns}: ` +
     `it slides ${words.farPlain}, ${words.then}. Textbooks say the same of one that spins: give it spin, and see.${words.threshold}`],
   rolls: (words) => [`This ${words.thing} already rolls`,
     `Its slip is too small to be seen.${words.spin === 0 ? "" : ` Only its spin is left: it ends after ${words.time(words.stop)}.`}${words.threshold}`],
@@ -77,15 +82,17 @@ const sentences = {
   rests: (words) => [`A ${words.thing} at rest`, "Nothing slides and nothing spins."],
 };
 
-/** {headline, story} of a motion, and what words in the story name: the body without spin or the other, slip or spin. */
+/** {headline, story} of a motion, and the story's pieces: [what it names, or nothing; words]. */
 export function say(/** @type {Facts} */ facts) {
-  const words = wordsOf(facts);
-  const [headline, story] = sentences[regimeOf(facts)](words);
+  const [headline, sentence] = sentences[regimeOf(facts)](wordsOf(facts));
   const { rest } = facts;
-  const { speed, turns, far, farPlain } = words;
-  const names = { [far]: "own", [farPlain]: "plain", "One does not spin": "plain", "The other spins": "own", [speed]: "slip", [turns]: "spin" };
-  return { headline, names, story: rest ? `${story} It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), "m")} from its start.` : story };
+  const end = rest ? ` It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), "m")} from its start.` : "";
+  const pieces = `${sentence}${end}`.split(/\[(.*?)\]/).map((piece, i) => (i % 2 ? piece.split("|") : ["", piece]));
+  return { headline, pieces, story: pieces.map(([, words]) => words).join("") };
 }
+
+/** Said where there is no motion. */
+export const nothing = { headline: "Click the plane: a motion starts there", story: "Up is sliding, sideways is spinning." };
 
 /** Asked before anything is told. */
 export const question = {

@@ -59,6 +59,7 @@ export class Plane {
       "zoom-ever": () => this.zooming.forEver(), "clear-isochrone": () => this.clear(),
     };
     for (const [id, action] of Object.entries(buttons)) $(id).addEventListener("click", action);
+    store.shows.push(() => this.label());
   }
 
   scene() {

@@ -7,7 +7,7 @@ import { drawFigure } from "../drawing/figure.js";
 import { shotOf } from "../plane/portrait_request.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 
-/** @param {Store} store @param {Player} player @returns draw(surface), and redraw() */
+/** @param {Store} store @param {Player} player @returns draw(surface) */
 export function makeFilm(store, player) {
   /** @type {Figure | null} the data with the fitted motion, and what is left */
   let figure = null;
@@ -72,5 +72,6 @@ export function makeFilm(store, player) {
     const file = event.dataTransfer?.files[0];
     if (file) read(file);
   });
-  return { draw, redraw: () => picture.drawInSight() };
+  store.shows.push(() => picture.drawInSight());
+  return { draw };
 }

@@ -11,7 +11,7 @@ import { SvgSurface } from "../drawing/surface.js";
 
 const widest = 12000;  // pixels; browsers have no larger canvas
 
-/** @param {Store} store @returns shows the state */
+/** @param {Store} store */
 export function makeShare(store, { plane, hero, player, address, film }) {
   const figures = {
     plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store)],
@@ -89,11 +89,11 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     save(`${name}.csv`, text, "text/csv");
   });
 
-  return () => {
+  store.shows.push(() => {
     const { state, request, portrait: { through }, body, library } = store;
     const { portrait, roll } = commandLine(state, request, through, body, library.balls.find((ball) => ball.name === state.ball?.name));
     write($("command"), portrait);
     write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
-  };
+  });
 }

@@ -14,6 +14,8 @@ const ballOf = (radius) =>
 export class Store {
   /** Called after each change; with true where only the moment or the isochrone has changed. */
   changed = (/** @type {boolean} */ _moment) => {};
+  /** @type {((state: State) => void)[]} what each part of the page shows of the state, but for the moment */
+  shows = [];
   /** Tells the reader what the library rejects, or "". */
   tell = (/** @type {string} */ _problem) => {};
   moves = true;    // motions play by themselves; else the end is shown
@@ -42,6 +44,10 @@ export class Store {
   constructor(library, state) {
     this.library = library;
     this.state = state;
+  }
+
+  show() {
+    for (const show of this.shows) show(this.state);
   }
 
   /** Runs what may be rejected, and tells the reader. */

@@ -1,0 +1,178 @@
+// What moves, and on what: ball, body and law, what the plane shows, the sliders, and the card of a real ball.
+import { $, isStill, make, write } from "../dom.js";
+import { choiceButtons, makeControls, numberField } from "./fields.js";
+import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
+import { isDark } from "../drawing/theme.js";
+import { shown } from "../numbers.js";
+import { save } from "../share/exports.js";
+import { allowed, bodyOf, initialState, moved, takeBall, unrolled } from "../state/page_state.js";
+
+/** The titles of entries of the library, by their names. */
+const titlesOf = (entries) => Object.fromEntries(entries.map(({ name, title = name.replace("-", " ") }) => [name, title]));
+
+const fieldTitles = { none: "none", motion: "of the motion (2.6)", regularised: "regularised (2.7)" };
+const patchTitles = { patch_radius: "its radius ε (m)", spin_deceleration: "spin deceleration (rad/s²)", whole_face: "its whole face" };
+const ballLabels = {
+  radius: "radius R (m)", mass: "mass m (kg)", friction: "friction f", gravity: "gravity g (m/s²)", patchBy: "patch known by",
+  patch: "patch", along: "centre: along the slip (m/s)", across: "across it (m/s)", rollingFriction: "rolling friction (pool: 0.01)",
+  slope: "slope (degrees; downhill < 0)",
+};
+
+const smallestMu = 1e-3;
+const mostFriction = 1.2;
+const shareToMu = (share, largest) => Number((largest * (smallestMu / largest) ** (1 - share)).toPrecision(3));
+const muToShare = (mu, largest) => 1 - Math.log(mu / largest) / Math.log(smallestMu / largest);
+const round = (value) => Number(value.toPrecision(3));
+const radiusOf = ({ ball }) => ball?.radius ?? 1;
+
+/** @param {Store} store @param {Plane} plane */
+export function makeSettings(store, plane) {
+  const controls = makeControls(store);
+  makeChoices(controls, store, plane);
+  makeSliders(controls, store, plane);
+  makeBallCard(controls, store);
+}
+
+/** @param {Controls} controls @param {Store} store @param {Plane} plane */
+function makeChoices(controls, store, plane) {
+  const { balls, bodies, views, lawName } = store.library;
+  const ofBalls = { "": "any size, any unit", ...titlesOf(balls) };
+  controls.choose("ball", ofBalls, ({ ball }) => ball?.name ?? "", (state, value) => {
+    const ball = balls.find(({ name }) => name === value);
+    if (ball) takeBall(state, ball);
+    else Object.assign(state, { ball: null, part: "whole", orbits: state.orbits.map(unrolled) });
+  });
+  controls.choose("body", { ...titlesOf(bodies), own: "your own χ and γ" }, ({ body }) => body, (state, body) => {
+    state.body = body;
+    const { mu, largestMu } = bodyOf(state, store.library);
+    state.mu = mu ?? Math.min(state.mu, largestMu);
+  });
+  for (const [key, label] of Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" })) {
+    controls.number($("inertia"), key, label, ({ state }) => state[key], (state, value) => (state[key] = value));
+  }
+  controls.choose("field", fieldTitles, ({ field }) => field, (state, field) => (state.field = field));
+  ["U", "V"].forEach((name, side) => {
+    const shown = ({ portrait }) => Number(portrait.window[side].toPrecision(6));
+    controls.number($("window"), name, name, shown, (state, value) => {
+      plane.zooming.before = undefined;
+      state.window = store.portrait.window.map((other, i) => (i === side ? value : other));
+    });
+  });
+  const useLaw = (key) => (name) => store.change((state) => (state[key] = name && lawName(name)));
+  const law = lawField("law", store, { key: "exponent", use: useLaw("law") });
+  const against = lawField("against", store, { key: "against-exponent", none: "no other law", use: useLaw("against") });
+  $("pressure").addEventListener("change", async () => {
+    const text = await $("pressure").files[0]?.text().catch(() => "") ?? "";
+    store.attempt(() => useLaw("law")(lawOfTable(text)));
+    $("pressure").value = "";
+  });
+  const formulas = $("formulas");
+  formulas.addEventListener("change", () => store.attempt(() => useLaw("law")(formulas.value.trim())));
+  $("save-pressure").addEventListener("click", () => save("pressure.csv", tableOfLaw(store.state.law), "text/csv"));
+  $("isochrones").addEventListener("change", () => store.ask((state) => {
+    state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
+  }));
+  const showView = choiceButtons($("views"), titlesOf(views), (name) => plane.zooming.view(name));
+  $("theme").addEventListener("click", () => store.ask((state) => {
+    state.theme = state.theme === "auto" ? (isDark("auto") ? "light" : "dark") : "auto";
+  }));
+  $("lab").addEventListener("click", () => store.ask((state) => (state.lab = !state.lab), () => store.state.lab &&
+    $("columns").scrollIntoView({ behavior: isStill() ? "instant" : "smooth" })));
+
+  store.shows.push((state) => {
+    const { facts, view, contact, request } = store;
+    $("lab").setAttribute("aria-expanded", String(state.lab));
+    law.show(state.law);
+    if (state.law.includes("=") && document.activeElement !== formulas) formulas.value = state.law;
+    $("save-pressure").hidden = !tableOfLaw(state.law);
+    against.show(request.against);
+    for (const option of $("against").options) option.disabled = option.value === state.law;
+    $("isochrones").checked = state.isochrones > 0;
+    $("field").disabled = $("isochrones").disabled = !view.layered;
+    $("body-label").hidden = Boolean(state.ball);
+    $("inertia").hidden = state.body !== "own";
+    showView(state.view);
+    write($("view-hint"), view.hint);
+    const without = contact?.without ? `. The plane is without rolling friction: ${contact.without}.` : "";
+    write($("terminal"), `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}${without}`);
+    $("theme").setAttribute("aria-label", `Theme: ${state.theme === "auto" ? "as the system" : state.theme}`);
+  });
+}
+
+/** @param {Controls} controls @param {Store} store @param {Plane} plane */
+function makeSliders(controls, store, plane) {
+  /** What the sliders of slip and spin go to: they do not move under the reader's hand. */
+  const most = ({ ball }) => {
+    const built = store.library.balls.find(({ name }) => name === ball?.name);
+    return built ? { slip: Math.max(2, 2 * built.slip), spin: 500 } : { slip: 5, spin: 5 };
+  };
+  const move = (state, edit) => {
+    const orbit = state.orbits[state.chosen];
+    const { u, v } = { ...orbit, ...edit(orbit) };
+    state.orbits[state.chosen] = moved(orbit, u, v);
+    plane.zooming.freeze(state, { u, v });
+  };
+  controls.slider("slip", "slip", ({ orbit, state }) => orbit && {
+    share: orbit.v / most(state).slip, text: state.ball ? `${shown(orbit.v, 3)} m/s` : `v₀ = ${shown(orbit.v, 3)}`,
+  }, (state, share) => move(state, () => ({ v: round(Math.max(share, 0.01) * most(state).slip) })));
+  controls.slider("spin", "spin", ({ orbit, state }) => {
+    const spin = orbit && orbit.u / radiusOf(state);
+    return orbit && { share: Math.abs(spin) / most(state).spin, text: state.ball ? `${shown(spin, 3)} rad/s` : `u₀ = ${shown(spin, 3)}` };
+  }, (state, share) => move(state, ({ u }) => ({ u: (u < 0 ? -1 : 1) * round(share * most(state).spin) * radiusOf(state) })));
+  controls.slider("friction", "friction f", ({ state: { ball } }) => ball && { share: ball.friction / mostFriction, text: shown(ball.friction, 3) },
+    (state, share) => (state.ball.friction = round(Math.max(share, 0.002) * mostFriction)));
+  const setMu = (state, mu) => {
+    const { largestMu } = store.body;
+    if (allowed("mu", mu) > largestMu) throw new Error(`mu is the patch radius over R: at most ${largestMu} here`);
+    // Patch radius and spin deceleration are proportional to mu.
+    if (state.ball) state.ball.patch = Number(((state.ball.patch * mu) / state.mu).toPrecision(12));
+    else state.mu = mu;
+  };
+  const isGiven = () => (store.state.ball ? store.state.ball.patchBy === "whole_face" : store.body.mu !== undefined);
+  const { all, output } = controls.slider("mu", "patch", ({ state: { mu }, body, contact }) => {
+    const text = contact ? `${shown(1000 * contact.patchRadius, 3)} mm` : "";
+    return { share: muToShare(mu, body.largestMu), disabled: isGiven(), text, spoken: `${text && `${text}, `}mu ${shown(mu)}` };
+  }, (state, share) => setMu(state, shareToMu(share, store.body.largestMu)));
+  // And mu as a number.
+  const input = make("input", { id: "mu", className: "number", inputMode: "decimal", autocomplete: "off", ariaLabel: "mu, as a number" });
+  const field = numberField(input, (mu) => store.change((state) => setMu(state, mu)));
+  const line = make("span");
+  output.before(line);
+  line.append(output, " ", make("i", { textContent: "μ" }), " ", input);
+  all.append(field.output);
+  store.shows.push(({ ball, mu }) => {
+    input.disabled = isGiven();
+    field.show(ball ? Number(mu.toPrecision(6)) : mu);
+  });
+}
+
+/** @param {Controls} controls @param {Store} store */
+function makeBallCard(controls, store) {
+  /** The ball, or of what the chosen orbit owns the orbit, if there is one. */
+  const ownerOf = (key, { ball, orbits, chosen }) => (key in ball ? ball : orbits[chosen]);
+  const isHidden = (key, { state: { ball }, body }) =>
+    !ball || (key === "patch" && ball.patchBy === "whole_face") || (/^(along|across|rolling)/.test(key) && body.chi === 1);
+  const patchBy = make("select", { id: "patch-by" });
+  for (const [key, label] of Object.entries(ballLabels)) {
+    if (key === "patchBy") $("ball-fields").append(make("label", {}, label, patchBy));
+    else controls.number($("ball-fields"), key, label, (store) => (isHidden(key, store) ? undefined : ownerOf(key, store.state)?.[key]), (state, value) => {
+      // The spin in rad/s stays.
+      if (key === "radius") for (const orbit of state.orbits) orbit.u *= value / state.ball.radius;
+      ownerOf(key, state)[key] = value;
+    });
+  }
+  controls.choose("patch-by", patchTitles, ({ ball }) => ball?.patchBy ?? "", (state, by) => {
+    const { patchRadius, spinDeceleration } = /** @type {Contact} */ (store.contact);
+    const patch = Number((by === "spin_deceleration" ? spinDeceleration : patchRadius).toPrecision(12));
+    Object.assign(state.ball, { patchBy: by, patch });
+  });
+  store.shows.push(({ ball, mu }) => {
+    const { body, contact } = store;
+    $("ball-card").hidden = !ball;
+    if (!ball || !contact) return;
+    write($("ball-title"), ball.title);
+    // A puck rests on its whole face, a stone on a band, and neither rolls.
+    patchBy.options[patchBy.options.length - 1].disabled = body.mu === undefined;
+    write($("ball-facts"), `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(mu, 5)}. ${ball.sources}`);
+  });
+}
