@@ -117,12 +117,12 @@ const SimilaritySolution& Flow::solution() const { return solved_->solution; }
 bool Flow::is_by_quadrature() const { return solved_->is_by_quadrature; }
 
 Orbit Flow::orbit(State start) const {
-  constexpr double max_r = 1e250;
-  if (system().r() > max_r) {
-    throw std::domain_error(
-        fmt::format("Flow::orbit: gamma mu^2/chi = {} is too large: at most {} is allowed; such a body slides as if on "
-                    "the axis u = 0",
-                    system().r(), max_r));
+  constexpr double min_r = 1e-300, max_r = 1e250;
+  if (!(system().r() >= min_r && system().r() <= max_r)) {
+    throw std::domain_error(fmt::format(
+        "Flow::orbit: gamma mu^2/chi = {:.3g}, of mu = {:.3g}: {} to {} is allowed; a body with less spins as if "
+        "v did not change u, and one with more slides as if on the axis u = 0",
+        system().r(), system().mu(), min_r, max_r));
   }
   return Orbit(solved_->system, start, solved_->solution).begun();
 }

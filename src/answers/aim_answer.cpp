@@ -20,7 +20,7 @@ struct AimReport {
   si::Velocities start;
   double slip;                   ///< at the start
   double distance, turns, time;  ///< that it comes to
-  si::FinalMotion final;
+  si::Velocities final;
   std::optional<si::Event> rolls;  ///< of a ball
   std::optional<si::CueStrike> strike;
   std::optional<si::Event> rest;  ///< with rolling friction
@@ -126,7 +126,7 @@ Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const Ai
   const std::optional<si::Event> rest = course.rest();
   std::optional<si::Event> rolls;
   std::optional<si::CueStrike> strike;
-  si::FinalMotion final = si::final_motion(experiment);
+  si::Velocities final = si::final_motion(experiment);
   if (rolling) final.velocity.x() = rolling->speed;
   if (!experiment.ball.body.lies_flat()) {
     rolls = course.event(course.rolls);

@@ -31,7 +31,7 @@ struct BounceReport {
 
 /// From the normal of the plane, in degrees.
 double angle(const Eigen::Vector2d& along, double normal) {
-  return std::atan2(along.norm(), normal) * (180 / std::numbers::pi);
+  return std::atan2(along.stableNorm(), normal) * (180 / std::numbers::pi);
 }
 
 Json motion(const si::Velocities& velocities, double normal, double slip) {

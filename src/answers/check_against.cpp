@@ -95,9 +95,9 @@ std::vector<Instant> read_instants(CsvReader& table, const si::Ball& ball) {
   std::vector<Instant> instants;
   table.for_each_row([&](const CsvRow& row) {
     const Instant instant = columns.read(row);
-    if (instant.speeds.slip < 0)
+    if (instants.empty() && instant.speeds.slip < 0)  // later ones may be less by their errors
       throw table.complaint(instant.line,
-                            fmt::format("slip: a speed, 0 or more, is needed, got {}", instant.speeds.slip));
+                            fmt::format("slip: the start is a speed, 0 or more, got {}", instant.speeds.slip));
     if (!instants.empty() && instant.t < instants.back().t) {
       throw table.complaint(instant.line,
                             fmt::format("t: {} is before {} of the row above: put the rows in order of time", instant.t,

@@ -119,7 +119,7 @@ double slip_length(const reduction::Flow& flow, reduction::State start) {
 }
 
 /// How a ball moves when slip and spin have ended.
-si::FinalMotion final_motion(const GivenStart& start) {
+si::Velocities final_motion(const GivenStart& start) {
   if (!start.resisted) return si::final_motion(*start.experiment);
   const si::MotionPoint end = start.resisted->at_time(start.resisted->stop_time());
   return {end.velocity, end.angular_velocity};

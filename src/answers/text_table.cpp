@@ -9,9 +9,9 @@ namespace contensou::answers {
 std::string TextTable::text() const {
   std::vector<Column> columns = columns_;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].width > 0) continue;
+    const std::size_t gap = columns[i].width > 0 && columns[i].align == '>' && i > 0 ? 2 : 0;
     for (const auto& cells : lines_) {
-      if (i < cells.size()) columns[i].width = std::max(columns[i].width, cells[i].size());
+      if (i < cells.size()) columns[i].width = std::max(columns[i].width, cells[i].size() + gap);
     }
   }
   std::string text;

@@ -10,8 +10,9 @@ namespace contensou::answers {
 class TextTable {
  public:
   struct Column {
-    std::size_t width;  ///< 0: that of its widest cell
-    char align;         ///< < or >
+    std::size_t
+        width;   ///< at least: as wide as its widest cell, and of numbers that stand behind another column by two more
+    char align;  ///< < or >
   };
 
   /// Columns of words, at the left; and of numbers, at the right.

@@ -136,7 +136,14 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
       const bool measured = is_measured(row[value.column.place]);
       const double number = measured ? value.factor * table.number(row, value.column) : NAN;
       double error = 1;
-      if (sd && measured) error = sd->factor * table.number(row, sd->column);
+      if (sd && measured) {
+        if (!is_measured(row[sd->column.place]))
+          throw table.complaint(row.line(),
+                                fmt::format("{}: empty beside a {} that was measured: give its error, or leave "
+                                            "both empty",
+                                            sd->column.name, value.column.name));
+        error = sd->factor * table.number(row, sd->column);
+      }
       if (!(error > 0)) {
         throw table.complaint(row.line(),
                               fmt::format("{}: a standard deviation > 0 is required, got {}", sd->column.name, error));

@@ -529,6 +529,14 @@ void Reporter::set_misfits() {
           "leave it out, and the film's end, too (until)");
     }
   }
+  for (const Estimate& slip : fit_.estimates) {
+    constexpr double clearly = 4;
+    if (slip.parameter == Parameter::slip && slip.value < -clearly * slip.standard_error)
+      fit_.misfits.push_back(fmt::format(
+          "the slip at the start is {:.4g} m/s, and a speed is 0 or more: turn the sign of what was measured, "
+          "vx - R wy of a ball that spins faster than it rolls",
+          slip.value));
+  }
   for (const Noise& noise : fit_.noise) {
     const auto& [observable, name, unit, meaning] = kind_of(noise.observable);
     const double scatter = search_.scatter[static_cast<std::size_t>(observable)];

@@ -45,6 +45,12 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
       moduli ? hertz_impact_patch_radius(experiment.ball.mass, normal_speed, experiment.ball.radius, *moduli)
              : patch_radius_of(experiment, law)};
   pressed.environment = {.gravity = 1};
+  if (const double patch = std::get<PatchRadius>(pressed.contact.patch).value;
+      moduli && !(patch > 0 && patch <= pressed.ball.radius))
+    throw std::domain_error(fmt::format(
+        "by Hertz's formula an impact at a normal speed of {} m/s presses a patch of {:.3g} m, and a ball of "
+        "radius {} m has none: a patch above 0 and up to the radius is needed",
+        normal_speed, patch, pressed.ball.radius));
   require_experiment(pressed);
   return pressed;
 }

@@ -36,7 +36,7 @@ EnergyLoss energy_loss(const Experiment& experiment) {
   return {experiment.ball.mass * v * v / (2 * chi), experiment.ball.mass * u * u / (2 * gamma)};
 }
 
-FinalMotion final_motion(const Experiment& experiment) {
+Velocities final_motion(const Experiment& experiment) {
   const double R = experiment.ball.radius;
   const double chi = experiment.ball.body.inertia.chi;
   if (experiment.ball.body.lies_flat()) return {Eigen::Vector2d::Zero(), Eigen::Vector3d::Zero()};
@@ -60,7 +60,7 @@ MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, 
 
   MotionPoint point;
   point.t = t;
-  const FinalMotion final = final_motion(experiment);
+  const Velocities final = final_motion(experiment);
   point.position = final.velocity * t + slip_length * (1 / chi) * along;
   point.velocity = slip == 0 ? final.velocity : start.velocity - lost * (1 / chi) * along;
   point.angular_velocity = {start.angular_velocity.x() - rolling * along.y(),

@@ -431,7 +431,11 @@ class Integrated final : public ResistedMotion::Course {
     stop_ = t;
     rolls_.emplace(body_.rolling_on(state_of(x)));
     rest_ = stop_ + rolls_->rest_time();
-    if (rest_ == stop_ && start.spin != 0) rest_ = slip_time(resting_slip);
+    if (rest_ == stop_ && start.spin != 0) {
+      auto held_from = steps_.rbegin();
+      while (held_from->held && std::next(held_from) != steps_.rend() && std::next(held_from)->held) ++held_from;
+      rest_ = std::max(held_from->t, slip_time(resting_slip));
+    }
   }
 
   double turn_;

@@ -46,6 +46,19 @@ TEST_CASE("a ball that is dropped comes down at sqrt(2 g h), on the patch of the
   CHECK_THAT(run_program("bounce --ball pool --drop 0.5 --restitution 0.9").err, Contains("the patch stays at"));
 }
 
+TEST_CASE("columns of a bounce stand apart, and its angle is right at any speed", "[cli][bounce]") {
+  CHECK_THAT(run_program("bounce --ball pool --speed 1 --angular-velocity=-12.3456,23.4567,-345.678 --normal-speed 1 "
+                         "--restitution 0.5")
+                 .out,
+             Contains("-345.678)  (") && !Contains(")("));
+  for (const std::string speed : {"1e-200", "1e200"}) {
+    const auto start = json_of("bounce --ball pool --format json --spin 0 --restitution 1 --speed " + speed +
+                               " --normal-speed " + speed)
+                           .at("start");
+    CHECK(start.at("angle").get<double>() == Approx(45).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("bounce says what it misses and what it does not know of", "[cli][bounce]") {
   check_rejected("bounce --ball pool --restitution 0.5", "--normal-speed missing: give it, or --drop LENGTH");
   check_rejected("bounce --ball pool --drop 1", "--restitution missing");
@@ -54,6 +67,8 @@ TEST_CASE("bounce says what it misses and what it does not know of", "[cli][boun
   check_rejected("bounce --ball pool --normal-speed -1 --restitution 1", "above 0");
   check_rejected("bounce --ball pool --drop 0 --restitution 1", "above 0");
   check_rejected("bounce --ball puck --drop 1 --restitution 1", "lies flat and never rolls");
+  check_rejected("bounce --ball gel --normal-speed 30 --restitution 1",
+                 "an impact at a normal speed of 30 m/s presses a patch of 0.0596 m");
 }
 
 TEST_CASE("stop and orbit follow a load that changes, as roll does", "[cli][load]") {

@@ -246,7 +246,7 @@ TEST_CASE("mistakes in a table that is checked", "[cli]") {
       {"t,slip,slip [mm/s],spin\n0,0,0,1\n", "<stdin>:1: two columns are called 'slip'; one is allowed"},
       {"t,slip,spin\n", "<stdin>:1: two rows or more are needed, got 0"},
       {"t,slip,spin\n0,1,1\n", "<stdin>:2: two rows or more are needed, got 1"},
-      {"t,slip,spin\n0,1,1\n1,-1,1\n", "<stdin>:3: slip: a speed, 0 or more, is needed, got -1"},
+      {"t,slip,spin\n0,-1,1\n1,1,1\n", "<stdin>:2: slip: the start is a speed, 0 or more, got -1"},
       {"t,slip,spin\n0,1,1\n-1,1,1\n", "<stdin>:3: t: -1 is before 0 of the row above"},
       {"t,slip,spin\n0,1,1\n1,nan,1\n", "<stdin>:3: slip: 'nan' is not a finite number"},
       {"t,slip,spin\n0,1,1\n1,1\n", "<stdin>:3: 2 fields where the header has 3"},

@@ -111,6 +111,16 @@ TEST_CASE("sweep, stop --batch and reduce with a drive", "[cli]") {
   CHECK(run_program("reduce --mu 0.3 --u0 1 --v0 1 --drive 0.2 -o - --format gp").status == 0);
 }
 
+TEST_CASE("rolling friction as large as friction, and larger, holds the ball: it slides like a puck", "[cli][route]") {
+  for (const std::string u_r : {"0.2", "0.25"}) {
+    const std::string ball = " --ball pool --format json --rolling-friction " + u_r;
+    const double t = json_of("stop" + ball).at("t_stop").get<double>();
+    CHECK(t == json_of("roll" + ball).at("t_stop").get<double>());
+    CHECK(t ==
+          Approx(json_of("roll --route integrated" + ball).at("integrated").at("t_stop").get<double>()).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("what is no drive is refused", "[cli][errors]") {
   check_rejected("stop --mu 0.1 --u0 1 --v0 1 --drive 1", "--drive 1: friction is at most 1 in this unit");
   check_rejected("stop --mu 0.1 --u0 1 --v0 1 --drive -0.1", "against the slip");

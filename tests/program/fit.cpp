@@ -467,9 +467,22 @@ TEST_CASE("fit says what is wrong with a track, and where, and writes nothing", 
   check_rejected("fit --stop-time 9 --ball pool", "add --noise stop=SD");
   check_rejected("fit --plan --ball pool", "--plan needs --fps N and --noise");
   check_rejected("fit --plan --ball pool --fps 1e9 --noise slip=1", "pictures; 2 to 1e+07 are allowed");
+  check_rejected(fit, "<stdin>:3: slip_sd: empty beside a slip that was measured", "t,slip,slip_sd\n0,1,0.1\n1,0.5,\n");
   const TemporaryDirectory scratch;
   check_rejected(fit + " -o " + scratch.file("fit.json"), "<stdin>:3", "t,slip\n0,1\n0,1\n");
   CHECK(scratch.names().empty());
+  write_file(scratch.file("pressure.csv"), "rho,pressure\n0,1\n0.5,0.5625\n1,0\n");
+  check_rejected(given + "-o " + scratch.file("ball.toml") + " --law " + scratch.file("pressure.csv"),
+                 "a run file has a law by its name or its formulas", track);
+  CHECK(scratch.names() == std::vector<std::string>{"pressure.csv"});
+}
+
+TEST_CASE("a slip below 0 by more than its error is no speed", "[cli]") {
+  const Run run =
+      run_program("fit - --ball pool --noise slip=0.01,spin=1",
+                  "t,slip,spin\n0,-1,100\n0.05,-0.74,99.6\n0.1,-0.5,99.1\n0.2,-0.15,98.2\n0.3,-0.02,97.1\n");
+  CHECK(run.status == 1);
+  CHECK_THAT(run.err, Contains("this does not fit: the slip at the start is -") && Contains("turn the sign"));
 }
 
 TEST_CASE("columns that are not read are named, an empty field was not measured", "[cli]") {

@@ -70,6 +70,7 @@ TEST_CASE("the state by the time left", "[cli]") {
   CHECK(rows[3].back() == "2");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 99", "99 is before the start, which is 11.626");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left -1", "tau_left >= 0");
+  check_rejected("orbit --mu 1e-155 --u0 1 --v0 1", "of mu = 1e-155: 1e-300 to 1e+250 is allowed");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --samples 3", "exclude each other");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --at 1", "exclude each other");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --route direct", "closed and quadrature");

@@ -134,6 +134,9 @@ TEST_CASE("half of the samples lie where the ball slides", "[cli]") {
   }
   CHECK(adapted.back() == even.back());
   check_rejected("roll --ball pool --at 1 --equidistant", "exclude each other");
+  for (const std::string of_events : {"--gradient", "--uncertainty slip=1%"})
+    check_rejected("roll --ball pool --format text --samples 3 --until 1 " + of_events,
+                   "with --samples, --until the text is a table of instants");
 }
 
 TEST_CASE("rolling friction acts while the ball slides, too, and brings it to rest", "[cli]") {
@@ -302,6 +305,10 @@ TEST_CASE("a batch of motions has the events of each", "[cli]") {
   check("vx,vy,wx,wy,wz\n1,0,40,35,-50\n", 5, {"--velocity 1,0 --angular-velocity 40,35,-50"});
   check_rejected("roll --ball pool --batch -", "<stdin>:2: at speeds of 1e+300", "spin,slip\n1,1e300\n");
   check_rejected("roll --ball pool --batch -", "no column is called 'slip'", "mu,u0,v0\n1,1,1\n");
+  check_rejected("roll --ball pool --batch - --until 1 --gradient --at 1 --spin 2", "exclude each other",
+                 "spin,slip\n1,1\n");
+  check_rejected("roll --ball pool --batch - --until 1 --gradient --samples 3 --spin 2",
+                 "leave out --until, --gradient, --samples, --spin\n", "spin,slip\n1,1\n");
   const Run kept = run_program("roll --ball pool --keep-going --batch -", "spin,slip\n1,-1\n1,1\n");
   CHECK(kept.status == 2);
   CHECK_THAT(kept.out, Contains("\n1,-1,,,,,,,,,\n1,1,0.1"));
@@ -356,7 +363,7 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
       {"roll --ball pool --slip 1e10 --until 1e300", "up to 1.8e+06 is allowed"},
       {"roll --ball pool --slip 1 --batch -", "leave out --slip"},
       {"roll --ball pool --strike 1 --batch -", "leave out --strike"},
-      {"roll --ball pool --samples 3 --batch -", "leave out --at, --samples"},
+      {"roll --ball pool --samples 3 --batch -", "leave out --samples\n"},
       {"roll --ball pool --keep-going", "--keep-going is for many starts: add --batch FILE"},
       {"roll --ball pool --threads 2", "--threads is for many starts: add --batch FILE"},
       {"roll --ball pool --rolling-below nan", "'nan' is not a finite number"},

@@ -57,8 +57,15 @@ TEST_CASE("a batch of a ball has SI columns", "[cli]") {
   CHECK_THAT(run_program("stop --ball pool --batch -", "slip\n1\n").err, Contains("no column is called 'spin'"));
   CHECK_THAT(run_program("stop --ball pool --batch -", "slip,spin\n-1,1\n").err,
              Contains("<stdin>:2: slip: slip >= 0"));
-  check_rejected("stop --ball pool --slip 1 --batch -", "the starts are in the file");
+  check_rejected("stop --ball pool --slip 1 --batch -", "--batch and --slip exclude each other: the starts are in");
   check_rejected("stop --ball pool --mu 0.1 --batch -", "--ball pool and --mu exclude each other");
+}
+
+TEST_CASE("a column that is a quantity and is not read is told", "[cli]") {
+  const Run run = run_program("stop --ball pool --batch -", "slip,spin,friction,shot\n1,100,0.4,a\n");
+  CHECK(run.status == 0);
+  CHECK(run.out.starts_with("slip,spin,friction,shot,t_stop\n1,100,0.4,a,"));
+  CHECK(run.err == "note: the column friction is handed on and not read: all rows have one friction\n");
 }
 
 TEST_CASE("quoted fields pass through", "[cli]") {
@@ -347,4 +354,5 @@ TEST_CASE("a batch is written to a file whole or not at all", "[cli]") {
 TEST_CASE("a table of the other kind of starts is told what it needs", "[cli]") {
   check_rejected("stop --batch -", "<stdin>:1: columns slip, spin are in SI units: add --ball", "slip,spin\n1,2\n");
   check_rejected("stop --ball pool --batch -", "roll --batch", "vx,vy,wx,wy,wz\n1,1,1,1,1\n");
+  check_rejected("stop --ball pool --batch -", "roll --batch", "slip,spin,vx\n1,1,1\n");
 }

@@ -108,7 +108,7 @@ TEST_CASE("after the stop the ball rolls on a straight line", "[invariant]") {
     const Experiment experiment = experiment_of(motion_case, 0.1);
     const BallMotion motion(experiment, reduction::HertzLaw{});
     const double stop = motion.stop_time();
-    const FinalMotion rolling = final_motion(experiment);
+    const Velocities rolling = final_motion(experiment);
     const MotionPoint here = motion.at_time(stop);
     const MotionPoint later = motion.at_time(stop + 3);
     CHECK((later.position - here.position - 3 * rolling.velocity).norm() < 1e-13 * (1 + later.position.norm()));

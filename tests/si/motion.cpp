@@ -50,7 +50,7 @@ TEST_CASE("any start ends in rolling along one line", "[invariant]") {
   CHECK(rolling.y() - 0.4 * R * turning.x() == Approx(0.5 - 0.4 * R * 20).epsilon(1e-15));
   // The two ways to give one start agree.
   experiment.start = Velocities{{2, 0}, {0, 0, 7}};
-  const FinalMotion general = final_motion(experiment);
+  const Velocities general = final_motion(experiment);
   experiment.start = SlipAndSpin{.slip = 2, .spin = 7};
   CHECK(general.velocity.isApprox(final_motion(experiment).velocity, 1e-15));
   CHECK(general.angular_velocity.isApprox(final_motion(experiment).angular_velocity, 1e-15));

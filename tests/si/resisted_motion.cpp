@@ -93,6 +93,25 @@ TEST_CASE("without steps and in steps: one motion", "[route]") {
   }
 }
 
+TEST_CASE("a ball whose slip is below 1e-4 m/s while it rolls is not at rest", "[route]") {
+  const auto of = [](const char* ball, const Velocities& start) {
+    Experiment experiment = find_ball(ball)->experiment;
+    experiment.start = start;
+    return experiment;
+  };
+  const Experiment along = of("steel", {{0.5, 0}, {0, 0, 20}}), across = of("steel", {{0.5, 0}, {5, 0, 20}}),
+                   heavy = of("bowling", {{1, 0}, {2, 0, 2.5}});
+  CHECK(ResistedMotion(along, exact(), 0.01, true).rest_time() ==
+        Approx(ResistedMotion(along, exact(), 0.01).rest_time()).epsilon(1e-6));
+  for (const Experiment& experiment : {along, across, heavy}) {
+    const ResistedMotion motion(experiment, exact(), 0.01, true);
+    const auto speed = [&](double part) { return motion.at_time(part * motion.rest_time()).velocity.norm(); };
+    CHECK(motion.at_time(motion.rest_time() / 2).slip < 1e-4);
+    CHECK(speed(1) < 1.001e-4);
+    CHECK(speed(0.998) > 1e-4);
+  }
+}
+
 TEST_CASE("a ball that does not slide the way it rolls is integrated; without resistance it is the ball's motion",
           "[route][limit]") {
   for (const Eigen::Vector3d& w :

@@ -63,7 +63,7 @@ std::string names_given(const std::vector<const Argument*>& arguments) {
 }
 
 std::string with_name(const std::string& names, const std::string& more) {
-  return names.empty() ? more : names + ", " + more;
+  return names.empty() ? more : more.empty() ? names : names + ", " + more;
 }
 
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings) {

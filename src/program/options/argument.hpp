@@ -80,7 +80,7 @@ class ArgumentOf : public Argument {
 
 /// The names that were given, joined for a message; empty if none was.
 std::string names_given(const std::vector<const Argument*>& arguments);
-/// Such names and one more.
+/// Such names and more of them; either may be empty.
 std::string with_name(const std::string& names, const std::string& more);
 
 /// Whether a value is the path of a file: it has a / or one of these endings.

@@ -32,7 +32,10 @@ class InstantsOption {
   /// @param unit  of the list, as parse_quantity; without one the list has no unit, or is in seconds
   static Times read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
 
-  bool given() const { return at_.given() || samples_.given() || equidistant_; }
+  bool given() const { return !names().empty(); }
+
+  /// What was given of --at, --samples and --equidistant, with commas.
+  std::string names() const { return with_name(names_given({&at_, &samples_}), equidistant_ ? "--equidistant" : ""); }
 
   /// The instants of --at, in the order given; null without it.
   const Times* at() const { return at_.given() ? &*at_ : nullptr; }

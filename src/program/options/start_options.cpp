@@ -147,22 +147,19 @@ std::string StartOptions::start_names() const {
   return names_given(arguments);
 }
 
-std::string StartOptions::given_names() const {
-  const std::string others = names_of_one_start();
-  return body_.drive().given() ? with_name(others, body_.drive().name()) : others;
-}
+std::string StartOptions::given_names() const { return with_name(names_of_one_start(), names_given({&body_.drive()})); }
 
 std::string StartOptions::names_of_one_start() const {
-  const std::string first = names_given({&body_.mu(), &u0_, &v0_, &ball_});
-  const std::string others = override_names();
-  return first + (first.empty() || others.empty() ? "" : ", ") + others;
+  return with_name(names_given({&body_.mu(), &u0_, &v0_, &ball_}), override_names());
 }
 
 void StartOptions::require_one_kind() const {
   const std::string reduced = names_given({&body_.mu(), &body_.drive(), &u0_, &v0_});
   if (ball_.given() && !reduced.empty()) {
-    throw BadInput(fmt::format("{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip",
-                               ball_.typed(), reduced));
+    throw BadInput(
+        fmt::format("{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip, and for a "
+                    "drive --rolling-friction or --slope",
+                    ball_.typed(), reduced));
   }
   if (ball_.given() && body_argument().given()) {
     body_argument().reject(
@@ -181,14 +178,14 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     const si::Experiment experiment = read_ball(law);
     const double rolling_friction = experiment.contact.rolling_friction;
     try {
-      GivenStart start{si::reduced_system(experiment, law), si::reduced_start(experiment), experiment};
+      GivenStart start{si::undriven_system(experiment, law), si::reduced_start(experiment), experiment};
+      (void)si::drive_of(experiment);  // says which motion is not one of a reduced system
       if (start.at_rest() || (rolling_friction == 0 && experiment.environment.slope == 0)) return start;
       start.resisted.emplace(experiment, law, rolling_friction);
       if (!start.resisted->is_reduced()) {
         throw std::domain_error(
-            "the slope is steeper than friction holds what does not turn, and rolling resistance keeps it from turning "
-            "for "
-            "a while: the whole motion (roll) is integrated");
+            "slope and rolling resistance drive the slip as much as friction holds it, or more, for a while: the whole "
+            "motion (roll) is integrated");
       }
       start.system = start.resisted->pieces().front().system;
       return start;

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "answers/answer.hpp"
+#include "contensou/si/quantity.hpp"
 #include "output/ordered_work.hpp"
 
 namespace contensou::program {
@@ -44,6 +45,11 @@ class Batch {
                             fmt::format("the input already has a column '{}': rename or remove it", name));
     }
     header_ = csv_line(names);
+    for (const si::Quantity* quantity : si::quantities()) {
+      const std::string name(quantity->name);
+      if (table.has_column(name) && !std::ranges::count(request.inputs, name))
+        fmt::print(stderr, "note: the column {0} is handed on and not read: all rows have one {0}\n", name);
+    }
   }
 
   ExitStatus run() {

@@ -128,6 +128,13 @@ class FitCommand final : public Verb {
     const Output output = output_.read(plan_ ? 1 : 0);
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
     if (plan_ && laws.size() > 1) law_.argument().reject("--plan is of one law");
+    for (const reduction::Law& law : laws) {
+      if (output.format == "toml" && !find_law_or_formulas(law.name()))
+        law_.argument().reject(
+            fmt::format("a run file has a law by its name or its formulas, and {} is neither: leave one "
+                        "of the two out, or take --format text or json",
+                        law.name()));
+    }
     fit::FitRequest request{.ball = start_.read_ball(laws.front()), .law = laws.front(), .tracks = {}};
     if (const double slope = request.ball.environment.slope; slope != 0)
       throw BadInput(

@@ -149,6 +149,12 @@ class RollCommand final : public Verb {
     roll.uncertainty = read_uncertainty(roll);
     if (gradient_ && (roll.load || output.picture()))
       throw BadInput("--gradient is of numbers, under a constant load: leave it out");
+    if ((gradient_ || roll.uncertainty) && output.format == "text" && (instants_.given() || until_.given()))
+      throw BadInput(
+          fmt::format("{} is of the events, and with {} the text is a table of instants: leave one out, or take "
+                      "--format csv or json, which have both",
+                      gradient_ ? "--gradient" : "--uncertainty",
+                      with_name(instants_.names(), until_.given() ? until_.name() : "")));
     if (gradient_) roll.gradient = gradient_of(roll);
     if (output.picture()) {
       if (roll.uncertainty) throw BadInput("--uncertainty is of numbers: leave it out of a picture");
@@ -203,15 +209,12 @@ class RollCommand final : public Verb {
   }
 
   ExitStatus run_many() const {
-    const std::string others =
-        names_given({&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_, &uncertainty_}) +
-        (gradient_ ? "--gradient" : "");
-    if (!others.empty() || start_.overrides_start() || instants_.given()) {
-      throw BadInput(fmt::format("--batch has the starts in the file, and gives events alone: leave out {}",
-                                 !others.empty()     ? others
-                                 : instants_.given() ? "--at, --samples"
-                                                     : start_.start_names()));
-    }
+    std::string others = names_given({&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_, &uncertainty_});
+    for (const std::string& more :
+         {std::string(gradient_ ? "--gradient" : ""), instants_.names(), start_.start_names()})
+      others = with_name(others, more);
+    if (!others.empty())
+      throw BadInput("--batch has the starts in the file, and gives events alone: leave out " + others);
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment still = start_.read_ball(law, at_rest("--batch"));

@@ -78,9 +78,8 @@ class StopCommand final : public Verb {
 
   ExitStatus run_many() const {
     const bool has_ball = start_.ball_given();
-    if (has_ball ? start_.overrides_start() : !start_.names_of_one_start().empty()) {
-      throw BadInput("--batch and " + start_.names_of_one_start() + " exclude each other: the starts are in the file");
-    }
+    if (const std::string own = has_ball ? start_.start_names() : start_.names_of_one_start(); !own.empty())
+      throw BadInput("--batch and " + own + " exclude each other: the starts are in the file");
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     if (uncertainty_.given()) throw BadInput("--uncertainty is for one start: leave it or --batch out");
     if (gradient_) throw BadInput("--gradient is for one start: leave it or --batch out");
@@ -129,10 +128,10 @@ class StopCommand final : public Verb {
     if (!has_ball && !table.has_column("mu") && si_columns) {
       throw table.complaint(table.header_line(), "columns slip, spin are in SI units: add --ball NAME|FILE.toml");
     }
-    if (has_ball && !si_columns && table.has_column("vx")) {
+    if (has_ball && table.has_column("vx")) {
       throw table.complaint(
           table.header_line(),
-          "columns vx, vy, wx, wy, wz are a start of 'contensou roll --batch'; stop needs slip, spin");
+          "columns vx, vy, wx, wy, wz are a start of 'contensou roll --batch'; stop needs slip, spin alone");
     }
     if (has_ball && !si_columns && table.has_column("mu")) {
       throw table.complaint(table.header_line(), "columns mu, u0, v0 are starts without --ball: leave it out");

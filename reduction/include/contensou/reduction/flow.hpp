@@ -71,7 +71,7 @@ class Flow {
   StopTimeGradient stop_time_gradient(State start) const;
 
   /// The motion from this start.
-  /// @throws std::domain_error  if start is not a state, or if r > 1e250
+  /// @throws std::domain_error  if start is not a state, or unless 1e-300 <= r <= 1e250
   Orbit orbit(State start) const;
 
   /// ln |u| - ln w(k), the first integral of (2.6) and (2.7): constant along every orbit, different on different ones,

@@ -42,18 +42,12 @@ struct EnergyLoss {
 
 EnergyLoss energy_loss(const Experiment& experiment);
 
-/// How a ball moves once it neither slides nor spins: it rolls on.
-struct FinalMotion {
-  Eigen::Vector2d velocity;          ///< m/s, of the centre
-  Eigen::Vector3d angular_velocity;  ///< 1/s; z up
-};
-
 /// The rolling that an experiment ends in, or the rest of a body that lies flat, under any friction law, in the axes of the start (x along the initial slip
 /// for SlipAndSpin).
 ///
 /// With the axis x along the slip v, R omega_y + (1 - 1/chi) v is a first integral, of a homogeneous ball
 /// 7 R omega_y + 5 v (Zh98 after (2.5)): the velocity of the centre along the slip falls by v0/chi, 2 v0/7.
-FinalMotion final_motion(const Experiment& experiment);
+Velocities final_motion(const Experiment& experiment);
 
 /// The motion when the contact point slides at `slip`, having slid for `slip_length` since the start, and the ball
 /// spins at `spin` about the vertical: friction leaves nothing else free.
