@@ -4,9 +4,6 @@ import { shotOf } from "./portrait_request.js";
 
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
 
-/** A number without the digits that rounding has made, 30 for 29.999999999999996. */
-const written = (word) => (typeof word === "number" ? Number(word.toPrecision(15)) : word);
-
 /**
  * {portrait, roll}: the latter of a real ball that moves and can roll.
  *
@@ -48,7 +45,7 @@ export function commandLine(state, request, through, body, builtIn) {
   if (request.field !== "none") words.push("--field", request.field);
   if (request.screen) words.push("--style", "screen");
   words.push("-o", "portrait.svg");
-  const line = (all) => all.map((word) => quoted(String(written(word)))).join(" ");
+  const line = (all) => all.map((word) => quoted(String(word))).join(" ");
   return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", lawTitle(request.law)]) : null };
 }
 
@@ -57,5 +54,5 @@ function motionOf(ball, start) {
   const { velocity, angular_velocity: spin } = shotOf(ball, start);
   const rolling = ball.rollingFriction > 0 ? ["--rolling-friction", ball.rollingFriction] : [];
   if (velocity[0] === start.v && velocity[1] === 0) return ["--slip", start.v, "--spin", spin[2], ...rolling];
-  return ["--velocity", velocity.map(written).join(), "--angular-velocity", spin.map(written).join(), ...rolling];
+  return ["--velocity", velocity.join(), "--angular-velocity", spin.join(), ...rolling];
 }
