@@ -37,10 +37,10 @@ void require(const Track& track) {
   bool any = track.stop_time.has_value();
   for (Eigen::Index i = 0; i < track.t.size(); ++i) {
     const double t = track.t[i];
+    if (i > 0 && t <= track.t[i - 1]) reject(track, fmt::format("t must increase; {} follows {}", t, track.t[i - 1]));
     if (!std::isfinite(t) || t < track.start) {
       reject(track, fmt::format("t >= {}, where the motion begins, is required, in s; got {}", track.start, t));
     }
-    if (i > 0 && t <= track.t[i - 1]) reject(track, fmt::format("t must increase; {} follows {}", t, track.t[i - 1]));
   }
   if (track.stop_time && !(track.stop_time->value > 0 && std::isfinite(track.stop_time->value))) {
     reject(track, fmt::format("a stop time > 0 is required, in s; got {}", track.stop_time->value));
@@ -68,8 +68,9 @@ void require(const Track& track) {
     // Nothing is seen to more digits than a double has, and sums of squares must not overflow.
     constexpr double sharpest = 1e-15, least = 1e-100, most = 1e100;
     if (largest > most) reject(track, fmt::format("{} up to {:.3g} is required; got {:.3g}", name, most, largest));
-    for (double sd : series.sd) {
-      if (sd >= std::max(least, sharpest * largest) && sd <= most) continue;
+    for (Eigen::Index i = 0; i < series.sd.size(); ++i) {
+      const double sd = series.sd[i];
+      if (std::isnan(series.value[i]) || (sd >= std::max(least, sharpest * largest) && sd <= most)) continue;
       reject(track, fmt::format("a standard deviation of {} from {:.3g} to {:.3g} is required; got {:.3g}", name,
                                 std::max(least, sharpest * largest), most, sd));
     }

@@ -1,6 +1,40 @@
+#include <cctype>
+#include <string>
+#include <utility>
+
 #include "values.hpp"
 
+namespace {
+
+/// A message of the library without the names of its functions, and with the names of arguments for options.
+std::string in_words_of_python(std::string text) {
+  const std::size_t begin = text.starts_with("row ") ? text.find(": ") + 2 : 0, end = text.find(": ", begin);
+  if (end != std::string::npos && std::isupper(static_cast<unsigned char>(text[begin])) &&
+      text.find(' ', begin) > end) {  // as in "BallMotion::at_time: "
+    text.erase(begin, end + 2 - begin);
+  }
+  for (const auto& [words, instead] : {std::pair<std::string, const char*>{"slip_of_ratio: ", ""},
+                                       {"verify: ", ""},
+                                       {"fit: track t: ", ""},
+                                       {"with --param ", "as "},
+                                       {"--mu", "mu"},
+                                       {"--slope 0", "slope=0"},
+                                       {"--rolling-friction 0", "rolling_friction=0"}}) {
+    if (const std::size_t at = text.find(words); at != std::string::npos) text.replace(at, words.size(), instead);
+  }
+  return text;
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_core, module) {
+  pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const std::domain_error& error) {
+      PyErr_SetString(PyExc_ValueError, in_words_of_python(error.what()).c_str());
+    }
+  });
   module.attr("__version__") = CONTENSOU_VERSION;
   contensou::python::bind_reduction(module);
   contensou::python::bind_planar(module);

@@ -63,7 +63,7 @@ class FunctionLaw {
 };
 
 Law law_of_name(const std::string& name) {
-  if (auto law = reduction::find_law(name)) return *law;
+  if (auto law = answers::find_law_or_formulas(name)) return *law;
   std::vector<std::pair<std::string, Law>> laws;
   for (const Law& law : reduction::named_laws()) laws.emplace_back(law.name(), law);
   std::vector<std::string> families;

@@ -145,6 +145,16 @@ double number_in(const py::handle& value, const std::string& what) {
   }
 }
 
+/// As a run file has it.
+std::string line_in(const py::handle& value, const std::string& what) {
+  if (!py::isinstance<py::str>(value))
+    throw py::type_error(fmt::format("{}: text is needed; got {}", what, words_of(value)));
+  const auto text = value.cast<std::string>();
+  if (!std::ranges::any_of(text, [](unsigned char c) { return c < ' ' || c == 0x7f; })) return text;
+  throw std::domain_error(
+      fmt::format("{}: one line of text without control characters is needed; got {}", what, words_of(value)));
+}
+
 /// The field uncertainty of a Ball: as the table of a run file.
 void add_spreads(si::Description& described, const py::handle& field) {
   for_numbers(field, uncertainty_field, [&](const si::Component& of, const py::handle& value, const std::string& what) {
@@ -194,8 +204,8 @@ si::Description described_by(const py::dict& fields) {
     }
     described.set(**quantity, std::move(numbers), {"", name, ""});
   }
-  if (fields.contains("name")) described.set_name(fields["name"].cast<std::string>());
-  if (fields.contains("body")) described.set_body(fields["body"].cast<std::string>(), {"", "body", ""});
+  if (fields.contains("name")) described.set_name(line_in(fields["name"], "name"));
+  if (fields.contains("body")) described.set_body(line_in(fields["body"], "body"), {"", "body", ""});
   if (fields.contains(uncertainty_field) && !fields[uncertainty_field].is_none())
     add_spreads(described, fields[uncertainty_field]);
   return described;
@@ -385,6 +395,8 @@ void bind_si(py::module_& module) {
       [](const si::Experiment& experiment, const Law& law, const std::optional<std::string>& name) {
         std::vector<std::pair<std::string, const si::Engine*>> engines;
         for (const si::Engine& engine : si::engines()) engines.emplace_back(engine.name, &engine);
+        for (const si::EngineAlias& alias : si::engine_aliases())
+          engines.emplace_back(alias.name, si::find_engine(alias.name));
         si::require_undriven(experiment, "engine");
         const si::Engine* const only = name ? one_of("engine", "engines", engines, *name) : nullptr;
         return portraits::json_document(answers::engine_answer(experiment, law, only).members);

@@ -11,6 +11,9 @@ namespace contensou::si {
 Velocities struck(const Ball& ball, const CueStrike& strike) {
   const auto& [speed, right, above, elevation, cue_mass] = strike;
   const double offset = std::hypot(right, above);
+  if (ball.body.lies_flat())
+    throw std::domain_error(fmt::format(
+        "a {} lies flat and turns about the vertical only; a cue strikes balls: give slip and spin", ball.body.name));
   if (!(speed > 0 && std::isfinite(speed)))
     throw std::domain_error(fmt::format("a cue's speed must be positive, in m/s; got {}", speed));
   if (!(cue_mass > 0 && std::isfinite(cue_mass)))

@@ -61,7 +61,8 @@ MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, 
   MotionPoint point;
   point.t = t;
   const Velocities final = final_motion(experiment);
-  point.position = final.velocity * t + slip_length * (1 / chi) * along;
+  const auto way = [t](double speed) { return speed == 0 ? 0 : speed * t; };  // also for ever
+  point.position = final.velocity.unaryExpr(way) + slip_length * (1 / chi) * along;
   point.velocity = slip == 0 ? final.velocity : start.velocity - lost * (1 / chi) * along;
   point.angular_velocity = {start.angular_velocity.x() - rolling * along.y(),
                             start.angular_velocity.y() + rolling * along.x(), spin};

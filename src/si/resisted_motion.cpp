@@ -482,7 +482,7 @@ std::optional<double> ResistedMotion::creep_ratio() const { return course_->cree
 
 MotionPoint ResistedMotion::at_time(double t) const {
   if (!(t >= 0)) throw std::domain_error(fmt::format("ResistedMotion::at_time: t must be >= 0, in s; got {}", t));
-  const State now = course_->at(t);
+  const State now = course_->at(std::min(t, std::max(rest_time(), stop_time())));
   const double radius = course_->body().radius;
   const Vector2d velocity = now.velocity();
   MotionPoint point{

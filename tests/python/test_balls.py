@@ -284,7 +284,7 @@ def test_a_ball_changes():
     (lambda: ct.Ball.puck(slope=-1).roll(load=([0, 1], [2, 4])), "leave out slope|exclude each other"),
     (lambda: ct.Ball.puck().roll(load=([1, 2], [2, 4])), "t must begin with 0"),
     (lambda: ct.Ball.puck().roll(load=([0, 0.1], [2, 0])), "the load ends at 0 before the motion does"),
-    (lambda: ct.Ball.pool().roll(rolling_below=-1), "speed >= 0 is required"),
+    (lambda: ct.Ball.pool().roll(rolling_below=-1), "rolling_below: 0 or more is needed"),
     (lambda: ct.Ball.pool().roll(strike=1e300), "exceed the largest double"),
     (lambda: ct.Ball.pool().roll()(-1), "t must be >= 0, in s; got -1"),
 ])
@@ -312,6 +312,14 @@ def test_pickling_and_copying():
     assert pickle.loads(pickle.dumps(ct.Ball.pool().roll()))(1) == ct.Ball.pool().roll()(1)
 
 
+@pytest.mark.parametrize("ball, x", [(ct.Ball.pool(), math.inf), (ct.Ball.pool(rolling_friction=0.01), None), (ct.Ball.puck(), None)])
+def test_what_is_for_ever(ball, x):
+    roll = ball.roll(slip=1, spin=30)
+    last = roll(math.inf)
+    assert last["y"] == 0 and last["slip"] == 0 and last["wz"] == 0
+    assert last["x"] == (x or roll(1e3)["x"])
+
+
 def random_starts(count):
     generator = np.random.default_rng(3)
     velocity = generator.uniform(-2, 2, (count, 2))
@@ -334,6 +342,8 @@ def test_many_rolls_are_each_a_roll(rolling_friction):
         np.testing.assert_array_equal(states[i], one([0, 0.3, 9]))
     np.testing.assert_array_equal(rolls.path, rolls.events["path"])
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(rolls)).events, rolls.events)
+    assert pickle.loads(pickle.dumps(rolls)) == rolls == copy.copy(rolls) and len({rolls, copy.copy(rolls)}) == 1
+    assert rolls[1:3] == pool.roll(velocity=velocity[1:3], angular_velocity=angular_velocity[1:3]) != rolls[2:4] != 3
 
 
 def test_what_is_not_given_of_many_starts_is_the_balls():
@@ -381,7 +391,7 @@ def test_what_is_wrong_with_many_starts_is_told_by_its_row(given, told):
 
 
 @pytest.mark.parametrize("given", [{"strike": "hard"}, {"slip": "fast"}, {"strike": 1, "tip": "left"}, {"rolling_below": [1, 2]},
-                                   {"velocity": ("a", "b")}, {"cue_mass": None, "strike": 1}])
+                                   {"velocity": ("a", "b")}, {"cue_mass": "heavy", "strike": 1}])
 def test_no_words_of_the_binding_reach_the_caller(given):
     with pytest.raises((TypeError, ValueError)) as caught:
         ct.Ball.pool().roll(**given)
@@ -426,6 +436,10 @@ def test_a_cloth_of_ones_own_is_kept_whole(tmp_path):
     mine.write(tmp_path / "mine.toml")
     assert ct.Ball.read(tmp_path / "mine.toml") == mine
     assert ct.balls()["pool"] == ct.Ball.pool() and set(ct.balls()) > {"gel", "puck", "basketball"}
+    typed = mine.but(law=ct.law("phi = k/hypot(c, k); psi = c^2/hypot(c, k)", c=0.5))
+    typed.write(tmp_path / "typed.toml")
+    read = ct.Ball.read(tmp_path / "typed.toml")
+    assert read == typed and read.roll().stop_time == typed.roll().stop_time != mine.roll().stop_time
     with pytest.raises(ValueError, match="a run file has the name of a law"):
         ct.Ball.pool(law=lambda v, w: (v / math.hypot(v, 0.5 * w), 0.25 * w / math.hypot(v, 0.5 * w))).write(tmp_path / "no.toml")
 

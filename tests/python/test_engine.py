@@ -45,6 +45,10 @@ def test_a_law_of_ones_own():
     assert ct.engine("physx", ct.Ball.pool(patch_radius=2e-3), law=half)["parameters"]["minTorsionalPatchRadius"]["value"] == 1e-3
 
 
+def test_an_engine_under_a_name_of_what_stands_on_it():
+    assert ct.engine("isaac", ct.Ball.pool()) == ct.engine("unity", ct.Ball.pool()) == ct.engine("physx", ct.Ball.pool())
+
+
 def test_an_unknown_engine():
     with pytest.raises(ValueError, match="no such engine 'mujuco' \\(did you mean 'mujoco'\\?\\); engines: mujoco, newton"):
         ct.engine("mujuco", ct.Ball.pool())

@@ -1,5 +1,6 @@
 """Fits of films: against SciPy's least_squares on the equations of motion by solve_ivp, and against the program."""
 
+import copy
 import json
 import os
 import subprocess
@@ -193,6 +194,24 @@ def test_the_fitted_ball_carries_its_covariance(tmp_path):
         assert event["standard"] == pytest.approx(want, rel=0.01)
         low, high = event["quantiles"][0]["value"], event["quantiles"][-1]["value"]
         assert (high - low) / (2 * 1.96) == pytest.approx(want, rel=0.1)
+
+
+def test_a_fit_is_equal_to_its_copy():
+    seen, free = film(), ("friction", "slip", "spin")
+    found = ct.fit(T, **seen, ball=BALL, sd=SD, free=free)
+    assert found == found == copy.deepcopy(found) and found in [1, found] and found != 1
+    assert found != ct.fit(T, **film(2), ball=BALL, sd=SD, free=free)
+
+
+def test_no_deviation_where_there_is_no_value():
+    seen = film()
+    seen["slip"][3] = np.nan
+    given, free = np.full(T.size, SD["slip"]), ["friction", "slip", "spin"]
+    none = np.where(np.isnan(seen["slip"]), np.nan, given)
+    assert ct.fit(T, **seen, ball=BALL, sd={**SD, "slip": none}, free=free) == ct.fit(T, **seen, ball=BALL, sd={**SD, "slip": given}, free=free)
+    seen["slip"][4], none[5] = np.nan, np.nan
+    with pytest.raises(ValueError, match="^a standard deviation of slip must be finite and > 0; got nan"):
+        ct.fit(T, **seen, ball=BALL, sd={**SD, "slip": none}, free=free)
 
 
 def test_what_an_uncertainty_must_be():

@@ -1,6 +1,7 @@
 """What is given as numbers: masks, dates, text, threads, arrays to write into; and Ctrl-C."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -88,3 +89,82 @@ print('ready', flush=True)
         _, error = process.communicate()
         print(f"{call}: ended {time.monotonic() - sent:.2f} s after Ctrl-C")
         assert b"KeyboardInterrupt" in error
+
+
+POOL, PUCK, T = ct.Ball.pool(), ct.Ball.puck(), np.linspace(0, 0.5, 20)
+FILM = {"slip": np.exp(-T), "ball": POOL}
+
+
+def refused(ask, error, words):
+    """What is not meant for users is in no message: signatures and names of C++, options of the program."""
+    with pytest.raises(error, match=words) as told:
+        ask()
+    assert not re.search("incompatible|C\\+\\+|::|core|--|NoneType|attribute", str(told.value))
+
+
+@pytest.mark.parametrize("words, ask", [
+    ("^u: numbers up to 1.8e\\+308 are allowed", lambda: ct.stop_time(u=10**400, v=1, mu=0.1)),
+    ("^u: rows of one length are needed; got \\[\\[1\\], \\[2, 3\\]\\]", lambda: FLOW.stop_time(u=[[1], [2, 3]], v=1)),
+    ("^shapes that broadcast are needed; got u of \\(2,\\), v of \\(3,\\)", lambda: FLOW.stop_time(u=[1, 2], v=[1, 2, 3])),
+    ("^sd of slip: a number, or one for each time, shape \\(20,\\), is needed; got shape \\(2,\\)", lambda: ct.fit(T, **FILM, sd={"slip": [1, 2]})),
+    ("^t must increase; 0.47.* follows 0.5", lambda: ct.fit(T[::-1], **FILM)),
+    ("^rolling_below: 0 or more is needed, in m/s; got -1", lambda: POOL.roll(rolling_below=-1)),
+    ("^t must be >= 0, in s; got -1", lambda: POOL.roll(slip=1)(-1)),
+    ("^row 0: t must be >= 0, in s; got -1", lambda: POOL.roll(slip=[1])(-1)),
+    ("^tau must be >= 0", lambda: FLOW.orbit(u=1, v=1).at(-1)),
+    ("^u and v must be finite", lambda: FLOW.orbit(u=1, v=-1)),
+    ("^count: one instant or more", lambda: FLOW.orbit(u=1, v=1).sample(0)),
+    ("^the ratio k .* must be >= 0", lambda: ct.law("exact")(-1)),
+    ("^two or more rows are needed", lambda: ct.law(rho=[0], pressure=[1])),
+    ("^u = v = 0 is rest", lambda: ct.check(u=0, v=0, mu=0.1)),
+    ("'c' is no variable, parameter or function: give its value as c=VALUE, at character 7", lambda: ct.law("phi = c; psi = k")),
+    ("mu is 1: leave mu out", lambda: ct.Flow(mu=0.5, body="disc")),
+    ("rolling_friction=0 leaves it out", lambda: ct.aim(POOL.but(rolling_friction=0.01), rolls_at=0.1, rolling_speed=1)),
+    ("^tip, cue_mass of a stroke, which there is none: give strike", lambda: POOL.roll(tip=(0.1, 0.1), cue_mass=0.5)),
+    ("^elevation of a stroke", lambda: POOL.roll(elevation=[3, 4], slip=1)),
+    ("^strike is a start of its own: leave out slip", lambda: POOL.roll(strike=1, slip=1)),
+    ("a disc lies flat .* a cue strikes balls: give slip and spin", lambda: PUCK.roll(strike=2, tip=(0.3, 0))),
+    ("^row 0: a disc lies flat", lambda: PUCK.roll(strike=[2, 3])),
+    ("^rolling_below: a disc lies flat and never rolls: leave it out", lambda: PUCK.roll(rolling_below=0.1)),
+    ("^name: one line of text without control characters is needed; got 'a.nb'", lambda: POOL.but(name="a\nb")),
+    ("no such engine 'isac' \\(did you mean 'isaac'", lambda: ct.engine("isac", POOL))])
+def test_what_is_out_of_range_is_told_by_its_name(ask, words):
+    refused(ask, ValueError, words)
+
+
+@pytest.mark.parametrize("name, ask", [
+    ("u", lambda: ct.stop_time(u=None, v=1, mu=0.1)), ("u", lambda: FLOW.orbit(u=None, v=1)),
+    ("law", lambda: ct.law(3)), ("law", lambda: ct.stop_time(u=1, v=1, mu=0.1, law=["exact"])), ("law", lambda: POOL.but(law=3)),
+    ("law", lambda: POOL.roll(law=3)), ("law", lambda: ct.fit(T, **FILM, law=["exact", "pade"])),
+    ("c", lambda: ct.law("phi = k/(c + k); psi = 1/(c + k)", c="x")), ("kinks", lambda: ct.law(max, kinks="a")),
+    ("name", lambda: ct.law(max, name=3)), ("body", lambda: ct.Flow(mu=0.3, body=3)),
+    ("body", lambda: ct.stop_time(u=1, v=1, mu=0.3, body=(1, 2, 3))), ("body", lambda: POOL.but(body=3)),
+    ("name", lambda: POOL.but(name=3)), ("name", lambda: ct.Ball.named(3)), ("name", lambda: ct.engine(3, POOL)),
+    ("ball", lambda: ct.engine("mujoco", 3)), ("ball", lambda: ct.engines("pool")), ("ball", lambda: ct.aim("pool", distance=1, time=1)),
+    ("ball", lambda: ct.fit(T, slip=T, ball="pool")), ("ball", lambda: ct.fit_plan(T, ball="pool", sd={"slip": 1})),
+    ("ball", lambda: ct.portrait(ball=3)), ("system", lambda: ct.reduce(3, u=1, v=1)),
+    ("a", lambda: ct.reduce("u' = -a*u; v' = -v", u=1, v=1, a="x")), ("robust", lambda: ct.fit(T, **FILM, robust="yes")),
+    ("sd", lambda: ct.fit(T, **FILM, sd=0.1)), ("sd", lambda: ct.fit_plan(T, ball=POOL, sd=0.1)),
+    ("free", lambda: ct.fit(T, **FILM, free=3)), ("load", lambda: POOL.roll(load=3)), ("load", lambda: POOL.roll(load=([0], [1], 3))),
+    ("slip", lambda: POOL.roll(slip=1).uncertainty(slip=None)), ("uncertainty", lambda: POOL.roll(slip=1).uncertainty(3)),
+    ("count", lambda: FLOW.orbit(u=1, v=1).sample("a")), ("row", lambda: POOL.roll(slip=[1])["a"]),
+    ("view", lambda: ct.portrait(mu=0.3, view=3)), ("font", lambda: ct.portrait(mu=0.3, font=3)),
+    ("orbits", lambda: ct.portrait(mu=0.3, orbits=2.5)), ("axes", lambda: ct.portrait(mu=0.3, axes="no")),
+    ("through", lambda: ct.portrait(mu=0.3, through=3)), ("through", lambda: ct.portrait(mu=0.3, through=[(1, 2, 3)]))])
+def test_what_is_of_another_kind_is_told_by_its_name(name, ask):
+    refused(ask, TypeError, f"^{name}: .* (is|are) needed")
+
+
+def test_where_mu_is_masked_the_time_is_not_a_number():
+    mu = np.ma.array([0.1, 0.2, 0.3], mask=[0, 1, 0])
+    known, by = ct.stop_time(u=1, v=1, mu=mu, gradient=True)
+    assert np.isnan(known).tolist() == np.isnan(by["mu"]).tolist() == [False, True, False]
+    assert known[2] == ct.stop_time(u=1, v=1, mu=0.3)
+    many = ct.stop_time(u=1, v=1, mu=np.append(np.linspace(0.1, 0.3, 1001), np.nan))
+    assert np.isnan(many[-1]) and np.isfinite(many[:-1]).all()
+
+
+def test_one_body_by_two_names_or_as_a_list():
+    assert ct.Flow(body="puck") == ct.Flow(body="disc") and ct.Ball.puck(body="puck") == ct.Ball.puck()
+    assert ct.stop_time(u=1, v=1, mu=0.3, body=[3.5, 2.5]) == ct.stop_time(u=1, v=1, mu=0.3)
+    assert ct.Flow(mu=0.3, body=[3.5, 2.5]) == ct.Flow(mu=0.3, body=(3.5, 2.5))

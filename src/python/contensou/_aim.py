@@ -6,7 +6,7 @@ import json
 from typing import Any, Optional
 
 from . import _core
-from ._balls import Ball
+from ._balls import Ball, a_ball
 from ._numbers import number
 from ._flow import LawLike
 
@@ -40,8 +40,7 @@ def aim(
     with time of a ball with rolling friction, of which several starts may come there. Such a ball is asked where it rests, and
     when all motion ends. TypeError for what is no ball or no number.
     """
-    if not isinstance(ball, Ball):
-        raise TypeError(f"ball: a Ball is needed, as Ball.pool(); got {ball!r}")
+    ball = a_ball(ball)
 
     def asked(name: str, given: Optional[float]) -> Optional[float]:
         return None if given is None else number(name, given)

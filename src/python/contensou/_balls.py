@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import operator
 from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache
 from os import PathLike
@@ -14,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._numbers import number, numbers, target_of, thread_count
-from ._flow import Flow, Law, LawLike, law as law_of
+from ._numbers import needs, number, numbers, target_of, text, thread_count, whole
+from ._flow import Flow, Law, LawLike, body_of, law as law_of
 
 
 class Event(NamedTuple):
@@ -72,6 +71,7 @@ class Ball:
     def __post_init__(self) -> None:
         given = {name: getattr(self, name) for name in ("name", "body", "uncertainty", *_core.quantities)}
         known = _core.changed({}, given)
+        known["body"] = body_of(known["body"])
         core = _core.Experiment(known)
         if self.velocity is not None or self.angular_velocity is not None:
             known["velocity"], known["angular_velocity"] = core.start
@@ -126,7 +126,7 @@ class Ball:
     @classmethod
     def named(cls, name: str, /, **changes: Any) -> Ball:
         """The ball that `contensou balls` lists by that name."""
-        return cls._of(_core.ball(name), changes)
+        return cls._of(_core.ball(text("name", name)), changes)
 
     @classmethod
     def pool(cls, **changes: Any) -> Ball:
@@ -179,11 +179,11 @@ class Ball:
         slip: Optional[ArrayLike] = None,
         spin: Optional[ArrayLike] = None,
         strike: Optional[ArrayLike] = None,
-        tip: ArrayLike = (0, 0),
-        elevation: ArrayLike = 0,
-        cue_mass: ArrayLike = _core.standard_cue_mass,
+        tip: Optional[ArrayLike] = None,
+        elevation: Optional[ArrayLike] = None,
+        cue_mass: Optional[ArrayLike] = None,
         law: Optional[LawLike] = None,
-        rolling_below: float = _core.rolling_slip,
+        rolling_below: Optional[float] = None,
         rolling_friction: Optional[float] = None,
         load: Optional[tuple[ArrayLike, ArrayLike]] = None,
         threads: int = 1,
@@ -195,25 +195,33 @@ class Ball:
         velocity, angular_velocity:  of the centre, (x, y) or (x, y, 0) in m/s, and of the ball, (x, y, z) in rad/s, z up
         slip, spin:                  m/s along x, rad/s about the vertical
         strike:                      a cue of this speed in m/s strikes the ball at rest, along x; tip is where, to the
-                                     right of and above the centre in radii; elevation of its butt in degrees; cue_mass, kg
+                                     right of and above the centre in radii, (0, 0); elevation of its butt in degrees, 0;
+                                     cue_mass, 0.54 kg
 
         law:               that of the ball if left out
-        rolling_below:     the ball rolls once it slips slower, m/s
+        rolling_below:     the ball rolls once it slips slower, 0.001 m/s; not of a body that lies flat
         rolling_friction:  u_r: rolling without slip it slows down at u_r g; 0: it rolls on. That of the ball if left out
         load:              one that changes: instants in s from 0 on, and newtons at each, linear between them and the last
                            one from then on. The patch does not change with it; friction is all that acts
         threads, out:      of N starts; an array for their events, of shape (N,) and dtype Rolls.dtype
         Raises ValueError for what no ball can be or do, naming the row.
         """
-        start = {name: _rows(name, value, *_widths[name]) for name, value in
-                 {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin}.items() if value is not None}
-        if strike is not None and start:
-            raise ValueError(f"strike is a start of its own: leave out {', '.join(start)}")
-        below = number("rolling_below", rolling_below)
-        friction = self.rolling_friction if rolling_friction is None else number("rolling_friction", rolling_friction)
+        given = {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin,
+                 "strike": strike, "tip": tip, "elevation": elevation, "cue_mass": cue_mass}
+        start = {name: _rows(name, value, *_widths[name]) for name, value in given.items() if value is not None}
+        own, of_stroke = (", ".join(name for name in start if (name in _stroke) is so) for so in (False, True))
+        if strike is not None and own:
+            raise ValueError(f"strike is a start of its own: leave out {own}")
+        if strike is None and of_stroke:
+            raise ValueError(f"{of_stroke} of a stroke, which there is none: give strike, the speed of the cue in m/s")
         if strike is not None:
-            start = {name: _rows(name, value, *_widths[name]) for name, value in
-                     {"strike": strike, "tip": tip, "elevation": elevation, "cue_mass": cue_mass}.items()}
+            start = {name: start.get(name, usual) for name, usual in _stroke.items()}
+        if rolling_below is not None and self.body in _flat:
+            raise ValueError(f"rolling_below: a {self.body} lies flat and never rolls: leave it out")
+        below = _core.rolling_slip if rolling_below is None else number("rolling_below", rolling_below)
+        if not below >= 0:
+            raise ValueError(f"rolling_below: 0 or more is needed, in m/s; got {below}")
+        friction = self.rolling_friction if rolling_friction is None else number("rolling_friction", rolling_friction)
         count = _count(start)
         if count is None:
             if threads != 1 or out is not None:
@@ -258,6 +266,8 @@ class Ball:
 
     def _under(self, load: tuple[ArrayLike, ArrayLike], friction: float) -> tuple[Any, Ball]:
         """A load that changes, as two tuples, and this ball under its nominal one."""
+        if not isinstance(load, (tuple, list, np.ndarray)) or len(load) != 2:
+            raise needs("load", "(instants in s, newtons at each)", load)
         t, newtons = (tuple(np.atleast_1d(numbers("load", each)).tolist()) for each in load)
         ball = self.but(load=_core.LoadHistory(list(t), list(newtons)).nominal)
         if ball.youngs_modulus is not None:
@@ -273,7 +283,7 @@ class Ball:
         t: ArrayLike,
         *,
         law: Optional[LawLike] = None,
-        rolling_below: float = _core.rolling_slip,
+        rolling_below: Optional[float] = None,
         rolling_friction: Optional[float] = None,
     ) -> NDArray[np.float64]:
         """The state of a ball on the table t seconds later, in the convention of pooltool: rows r, v and w, the place of
@@ -292,16 +302,27 @@ class Ball:
         return result
 
 
+def a_ball(given: Any) -> Ball:
+    if not isinstance(given, Ball):
+        raise TypeError(f"ball: a Ball is needed, as Ball.pool(); got {given!r:.60}")
+    return given
+
+
 def balls() -> dict[str, Ball]:
     """The built-in balls by their names, as `contensou balls` lists them."""
     return {name: Ball.named(name) for name in _core.balls}
 
+
+_flat = ("disc", "ring")
 
 #: Of what a start is given by the shape of one, and how many numbers each may have.
 _widths: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
     "velocity": ((2,), (2, 3)), "angular_velocity": ((3,), (3,)), "slip": ((), ()), "spin": ((), ()),
     "strike": ((), ()), "tip": ((2,), (2,)), "elevation": ((), ()), "cue_mass": ((), ()),
 }
+
+#: Of a stroke what it is unless it is given, in the order of _core; strike always is.
+_stroke = {"strike": np.array(np.nan), "tip": np.zeros(2), "elevation": np.array(0.0), "cue_mass": np.array(_core.standard_cue_mass)}
 
 
 def _rows(name: str, given: ArrayLike, one: tuple[int, ...], widths: tuple[int, ...]) -> NDArray[np.float64]:
@@ -387,7 +408,7 @@ class Roll:
             event = roll.rolls_after
             if event.t <= end:
                 way.plot(event.x, event.y, "o", color="C0" if style == "-" else "C7", markerfacecolor="white",
-                         label="rests" if self.ball.body in ("disc", "ring") else "rolls")
+                         label="rests" if self.ball.body in _flat else "rolls")
             note = "" if style == "-" else ", textbook"
             speeds.plot(times, at["slip"], style, color="C3", label="slip" + note)
             speeds.plot(times, self.ball.radius * abs(at["wz"]), style, color="C2", label="$R|\\omega_z|$" + note)
@@ -450,7 +471,8 @@ class Roll:
         order, shares of it by name, quantiles of 10 000 samples, and first_order_holds, whether these agree.
         Raises ValueError for what has no spread or is no spread, a load that changes, and the textbook's ball.
         """
-        typed = ",".join([*own, *(f"{name}={spread if isinstance(spread, str) else repr(number(name, spread))}" for name, spread in spreads.items())])
+        typed = ",".join([*(text("uncertainty", each) for each in own),
+                          *(f"{name}={spread if isinstance(spread, str) else repr(number(name, spread))}" for name, spread in spreads.items())])
         found: dict[str, Any] = json.loads(_core.roll_uncertainty(*self._undisturbed("uncertainty"), typed))
         return found
 
@@ -474,7 +496,7 @@ _place = [("t", "f8"), ("x", "f8"), ("y", "f8")]
 
 class Rolls:
     """The motions of one ball from N starts; `Ball.roll` makes them of arrays. Called with times t >= 0 in s, of any shape
-    S, they give a structured array of shape (N, *S) with the fields of Roll; an index gives one Roll.
+    S, they give a structured array of shape (N, *S) with the fields of Roll; an index gives one Roll, a slice Rolls.
 
     events:  a structured array of shape (N,): rolls_after, spin_ends and rest, each with t, x, y (s, m), as Roll has them, rest
              infinite where that is None; slip_length, path (m), turns, stop_time (s). Each is an attribute, too.
@@ -506,8 +528,10 @@ class Rolls:
     def __len__(self) -> int:
         return len(self.starts)
 
-    def __getitem__(self, row: int) -> Roll:
-        vx, vy, wx, wy, wz = self.starts[operator.index(row)].tolist()
+    def __getitem__(self, row: Union[int, slice]) -> Any:
+        if isinstance(row, slice):
+            return Rolls(self.ball, self.starts[row], *self._again)
+        vx, vy, wx, wy, wz = self.starts[whole("row", row)].tolist()
         velocity, angular_velocity = (vx, vy), (wx, wy, wz)
         ball = self.ball.but(velocity=velocity, angular_velocity=angular_velocity)
         return Roll(ball, velocity, angular_velocity, self.law, self.rolling_below, self.rolling_friction)
@@ -517,7 +541,18 @@ class Rolls:
         return self._core.at(self.starts, times, self.threads).reshape(len(self), *times.shape)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Rolls, (self.ball, self.starts, self.law, self.rolling_below, self.rolling_friction, self.threads)
+        return Rolls, (self.ball, self.starts, *self._again)
+
+    @property
+    def _again(self) -> tuple[Law, float, float, int]:
+        return self.law, self.rolling_below, self.rolling_friction, self.threads
+
+    def __eq__(self, other: object) -> bool:
+        return (isinstance(other, Rolls) and self.ball == other.ball and self._again[:3] == other._again[:3]
+                and np.array_equal(self.starts, other.starts))
+
+    def __hash__(self) -> int:
+        return hash((self.ball, *self._again[:3], len(self)))
 
     def __repr__(self) -> str:
         return f"Rolls({len(self)} starts of {self.ball.name!r}, law {self.law.name!r})"

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, NamedTuple, Optional, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._balls import Ball
+from ._balls import Ball, a_ball
 from ._flow import Law, LawLike
-from ._numbers import numbers
+from ._numbers import flag, needs, numbers, text
 
 
 class Estimate(NamedTuple):
@@ -48,7 +48,7 @@ class Combination(NamedTuple):
     high: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fit:
     """What a film says of a ball; `fit` makes one.
 
@@ -120,6 +120,9 @@ class Fit:
         values = ", ".join(f"{name}={each.value:.6g} +- {each.standard_error:.2g}" for name, each in self.estimates.items())
         return f"Fit(law={self.law!r}, {values}, reduced_chi2={self.reduced_chi2:.4g})"
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Fit) and all(_same(getattr(self, each.name), getattr(other, each.name)) for each in fields(self))
+
     @property
     def fits(self) -> bool:
         return not self.misfits
@@ -144,6 +147,33 @@ class Fit:
     @property
     def spin(self) -> Estimate:
         return self.estimates["spin"]
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Equal, NaN with NaN, too."""
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(_same(each, other[name]) for name, each in one.items())
+    return np.array_equal(one, other, equal_nan=True) if isinstance(one, (float, np.ndarray)) else bool(one == other)
+
+
+def _spreads(given: Any, t: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """The argument sd, a value for each time."""
+    if not isinstance(given, dict):
+        raise needs("sd", 'a dict by observable, as {"slip": 0.01},', given)
+    spreads = {name: numbers(f"sd of {name}", each) for name, each in given.items()}
+    for name, each in spreads.items():
+        if each.shape not in ((), (1,), t.shape):
+            raise ValueError(f"sd of {name}: a number, or one for each time, shape {t.shape}, is needed; got shape {each.shape}")
+    return {name: np.broadcast_to(each, t.shape) for name, each in spreads.items()}
+
+
+def _names(free: Any) -> Optional[list[str]]:
+    """The argument free; the name of one parameter is a list of it."""
+    if free is None or isinstance(free, str):
+        return None if free is None else [free]
+    if not isinstance(free, (list, tuple, set, frozenset)):
+        raise needs("free", 'a list of names, as ["friction", "spin"],', free)
+    return [text("free", each) for each in free]
 
 
 def fit(
@@ -175,17 +205,16 @@ def fit(
     t = numbers("t", t)
     given = {"slip": slip, "spin": spin, "x": x, "y": y, "vx": vx, "vy": vy, "angle": angle}
     seen = {name: numbers(name, values) for name, values in given.items() if values is not None}
-    sd = sd or {}
-    if not sd.keys() <= seen.keys():
-        raise ValueError(f"sd: of {', '.join(sorted(sd.keys() - seen.keys()))} there are no values")
+    ball = a_ball(ball)
     for name, values in (("t", t), *seen.items()):
         if values.shape != t.shape or t.ndim != 1:
             raise ValueError(f"{name}: one value for each time is needed, shape {t.shape}; got {values.shape}")
-    none = np.empty(0)
-    series = [(name, values, np.broadcast_to(numbers(f"sd of {name}", sd[name]), t.shape) if name in sd else none)
-              for name, values in seen.items()]
+    spreads = {} if sd is None else _spreads(sd, t)
+    if not spreads.keys() <= seen.keys():
+        raise ValueError(f"sd: of {', '.join(sorted(spreads.keys() - seen.keys()))} there are no values")
+    series = [(name, values, spreads.get(name, np.empty(0))) for name, values in seen.items()]
     known_law = ball._law(law)
-    found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), robust, False)
+    found = _core.fit(ball._experiment, known_law._core, t, series, _names(free), flag("robust", robust), False)
     return _report(known_law, found, t, seen)
 
 
@@ -203,12 +232,13 @@ def fit_plan(
     t:   s, of its pictures, from the start of the motion on
     sd:  standard deviations of what is to be seen of slip, spin, x, y, vx, vy and angle, numbers or arrays
     """
-    t = numbers("t", t)
-    if t.ndim != 1 or not sd:
-        raise ValueError(f"t: times along one axis are needed, and in sd what is to be seen; got shape {t.shape}, {len(sd)} in sd")
+    t, ball = numbers("t", t), a_ball(ball)
+    spreads = _spreads(sd, t)
+    if t.ndim != 1 or not spreads:
+        raise ValueError(f"t: times along one axis are needed, and in sd what is to be seen; got shape {t.shape}, {len(spreads)} in sd")
     known_law = ball._law(law)
-    series = [(name, np.zeros_like(t), np.broadcast_to(numbers(f"sd of {name}", each), t.shape)) for name, each in sd.items()]
-    found = _core.fit(ball._experiment, known_law._core, t, series, free if free is None else list(free), False, True)
+    series = [(name, np.zeros_like(t), each) for name, each in spreads.items()]
+    found = _core.fit(ball._experiment, known_law._core, t, series, _names(free), False, True)
     return _report(known_law, found, t, dict.fromkeys(sd))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._numbers import number, numbers, target, thread_count
+from ._numbers import needs, number, numbers, target, text, thread_count, together, whole
 
 if TYPE_CHECKING:
     from ._reduce import FlowReduction, SingularPoint
@@ -24,12 +24,12 @@ class Law:
     """A friction law; `law` makes one. Called with k = v/(mu |u|), of any shape, it gives (force, moment): Phi, the
     force over f N, and Psi, the moment over f N times the patch radius, each of the shape of k.
 
-    name:             one of `contensou law`'s, such as exact, pade, uniform, pressure:1.5, or that of a law of one's own
+    name:             one of `contensou law`'s, such as exact, pade, uniform, pressure:1.5, formulas in k with their parameters,
+                      "phi = k/(a + k); psi = 1/(a + k); a = 2", or that of a law of one's own
     function:         (sliding, pivoting) -> (force, moment), two speeds >= 0 in one unit, v and mu |u|; it depends on
                       their ratio alone. Raises what it likes: that comes through unchanged
     rho, pressure:    instead, the pressure of the patch as a table: rho from 0 at the centre to 1 at the edge
     kinks:            of a function: each k where it is not smooth
-    parameters:       of a name that is formulas in k, "phi = k/(a + k); psi = 1/(a + k)"
     """
 
     name: str = "exact"
@@ -37,7 +37,6 @@ class Law:
     rho: Optional[tuple[float, ...]] = None
     pressure: Optional[tuple[float, ...]] = None
     kinks: tuple[float, ...] = (1.0,)
-    parameters: tuple[tuple[str, float], ...] = ()
     _core: _core.Law = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -45,14 +44,12 @@ class Law:
             core = _core.Law(self.function, self.name, list(self.kinks))
         elif self.rho is not None or self.pressure is not None:
             core = _core.Law(self.name, self.rho or (), self.pressure or ())
-        elif "=" in self.name:
-            core = _core.Law(self.name, dict(self.parameters))
         else:
-            core = _core.Law(self.name)
+            core = _core.Law(text("name", self.name))
         object.__setattr__(self, "_core", core)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Law, (self.name, self.function, self.rho, self.pressure, self.kinks, self.parameters)
+        return Law, (self.name, self.function, self.rho, self.pressure, self.kinks)
 
     def __repr__(self) -> str:
         return f"law({self.name!r})" if self.function is None and self.rho is None else f"<law {self.name}>"
@@ -91,16 +88,29 @@ def law(
     if rho is not None or pressure is not None:
         table = [tuple(np.ravel(numbers(each, () if column is None else column)).tolist())
                  for each, column in (("rho", rho), ("pressure", pressure))]
-        return Law(name or "pressure", None, table[0], table[1])
+        return Law("pressure" if name is None else text("name", name), None, table[0], table[1])
     if isinstance(of, Law):
         return of
     if isinstance(of, str):
-        return Law(of, parameters=tuple(sorted(parameters.items())))
+        return Law(_core.Law(of, {each: number(each, value) for each, value in parameters.items()}).name if parameters else of)
+    if not callable(of):
+        raise needs("law", "a name, formulas in k, a Law or a function (sliding, pivoting) -> (force, moment)", of)
     own = getattr(of, "__name__", "<lambda>")
-    return Law(name or ("user's law" if own == "<lambda>" else own), of, kinks=tuple(kinks))
+    own = "user's law" if own == "<lambda>" else own
+    return Law(own if name is None else text("name", name), of, kinks=tuple(np.atleast_1d(numbers("kinks", kinks)).tolist()))
 
 
 _law = law  # where an argument has that name
+
+
+def body_of(given: Body) -> Body:
+    """One name for one body, or its two numbers."""
+    if isinstance(given, str):
+        return "disc" if given == "puck" else given
+    pair = numbers("body", given)
+    if pair.shape != (2,):
+        raise needs("body", "a name, as disc, or (chi, gamma)", given)
+    return float(pair[0]), float(pair[1])
 
 
 class Ray(NamedTuple):
@@ -172,6 +182,8 @@ class Orbit:
 
     def sample(self, count: int = 201) -> NDArray[Any]:
         """The states at equal times from the start to the stop."""
+        if whole("count", count) < 1:
+            raise ValueError(f"count: one instant or more is needed, got {count}")
         return self._core.at(np.linspace(0, self.stop_time, count))
 
     def gradient(self, tau: ArrayLike) -> dict[str, dict[str, Any]]:
@@ -213,7 +225,7 @@ class Flow:
     def __init__(
         self, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0
     ) -> None:
-        of = None if law is None else _law(law)
+        of, body = None if law is None else _law(law), body_of(body)
         core = _core.Flow(None if of is None else of._core, None if mu is None else number("mu", mu), body, number("drive", drive))
         known = {"mu": core.mu, "law": of or Law(core.law.name), "body": body, "drive": core.drive, "_core": core}
         for name, value in known.items():
@@ -243,13 +255,13 @@ class Flow:
         if gradient:
             if out is not None or threads != 1:
                 raise TypeError("stop_time: gradient takes neither out nor threads: leave them out")
-            u, v = np.broadcast_arrays(numbers("u", u), numbers("v", v))
+            u, v = together(u=u, v=v)
             tau, *derivatives = self._core.stop_time_gradients(u, v).reshape(7, *u.shape)
             return tau[()], {by: each[()] for by, each in zip(_DERIVATIVES, derivatives)}
         if out is None and isinstance(u, (float, int)) and isinstance(v, (float, int)):
-            return self._core.stop_time(u, v)
+            return self._core.stop_time(number("u", u), number("v", v))
         threads = thread_count(threads)
-        u, v = np.broadcast_arrays(numbers("u", u), numbers("v", v))
+        u, v = together(u=u, v=v)
         if out is not None:
             target(out, u.shape)
         direct = out is not None and out.flags.c_contiguous and all(
@@ -284,8 +296,15 @@ class Flow:
         return tuple(SingularPoint(*point) for point in self._core.facts())
 
 
-@lru_cache(maxsize=64)
+_kept_flow = lru_cache(maxsize=64)(Flow)
+
+
 def _flow(mu: Optional[float], law: Optional[LawLike], body: Body, drive: float) -> Flow:
+    try:
+        return _kept_flow(mu, law, body, drive)
+    except TypeError as error:
+        if "unhashable" not in str(error):
+            raise
     return Flow(mu, law, body, drive)
 
 
@@ -302,10 +321,13 @@ def stop_time(
     gradient: bool = False,
 ) -> Any:
     """Flow(mu, law, body, drive).stop_time, with the flows of the last calls kept; mu, too, may be an array, at the cost of
-    a flow (0.4 ms) for each of its values, without a drive of 0.1 s for any number of them from 1000 on."""
+    a flow (0.4 ms) for each of its values, without a drive of 0.1 s for any number of them from 1000 on. Where it is NaN, or
+    masked, the time is NaN."""
     if mu is None or isinstance(mu, (float, int)):
         return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient)
-    u, v, mu = np.broadcast_arrays(numbers("u", u), numbers("v", v), numbers("mu", mu))
+    u, v, mu = together(u=u, v=v, mu=mu)
+    if (unknown := np.isnan(mu)).any():
+        u, mu = np.where(unknown, np.nan, u), np.where(unknown, 1, mu)
     taus = np.empty(u.shape) if out is None else target(out, u.shape)
     values, group = np.unique(mu, return_inverse=True)
     group = group.reshape(u.shape)

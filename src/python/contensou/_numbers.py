@@ -1,4 +1,4 @@
-"""What a caller gives as numbers."""
+"""What a caller gives, checked at the door of each function."""
 
 from __future__ import annotations
 
@@ -9,15 +9,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 
+def needs(name: str, what: str, given: Any) -> TypeError:
+    """Of an argument of another kind."""
+    return TypeError(f"{name}: {what} is needed; got {given!r:.60}")
+
+
 def numbers(name: str, given: Any) -> NDArray[np.float64]:
     """The numbers of an argument as one C array of doubles. What is masked in a masked array is NaN.
-    Raises TypeError for what are no real numbers: text, dates, complex."""
+    Raises TypeError for what are no real numbers: None, text, dates, complex; ValueError for rows of several lengths and what
+    no double holds."""
+    if given is None:
+        raise needs(name, "a number, or an array of them,", given)
     mask = given.mask if isinstance(given, np.ma.MaskedArray) else False
-    array = np.asarray(given)
+    try:
+        array = np.asarray(given)
+    except ValueError:
+        raise ValueError(f"{name}: rows of one length are needed; got {given!r:.60}") from None
     if array.dtype.kind not in "fiubO":
         raise TypeError(f"{name}: real numbers are needed, got {array.dtype}")
     try:
         result: NDArray[np.float64] = np.asarray(array, dtype=np.float64, order="C")
+    except OverflowError:
+        raise ValueError(f"{name}: numbers up to {np.finfo(float).max:.3g} are allowed; got {given!r:.60}") from None
     except (TypeError, ValueError) as error:
         raise TypeError(f"{name}: real numbers are needed; {error}") from None
     return np.where(mask, np.nan, result) if np.any(mask) else result
@@ -25,10 +38,42 @@ def numbers(name: str, given: Any) -> NDArray[np.float64]:
 
 def number(name: str, given: Any) -> float:
     """The same for one number."""
+    if isinstance(given, (float, int)) and abs(given) < 1e308:
+        return float(given)
     result = numbers(name, given)
     if result.ndim != 0:
         raise TypeError(f"{name}: one number is needed, got an array of shape {result.shape}")
     return float(result)
+
+
+def together(**given: Any) -> list[NDArray[np.float64]]:
+    """The numbers of several arguments, in arrays of one shape.
+    Raises ValueError for shapes that do not broadcast."""
+    arrays = {name: numbers(name, each) for name, each in given.items()}
+    try:
+        return list(np.broadcast_arrays(*arrays.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} of {array.shape}" for name, array in arrays.items())
+        raise ValueError(f"shapes that broadcast are needed; got {shapes}") from None
+
+
+def text(name: str, given: Any) -> str:
+    if not isinstance(given, str):
+        raise needs(name, "text", given)
+    return given
+
+
+def flag(name: str, given: Any) -> bool:
+    if not isinstance(given, (bool, np.bool_)):
+        raise needs(name, "True or False", given)
+    return bool(given)
+
+
+def whole(name: str, given: Any) -> int:
+    try:
+        return operator.index(given)
+    except TypeError:
+        raise TypeError(f"{name}: a whole number is needed, got {given!r:.60}") from None
 
 
 def target(out: Any, shape: tuple[int, ...]) -> NDArray[np.float64]:
@@ -50,10 +95,7 @@ def target_of(out: Any, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray
 def thread_count(threads: Any) -> int:
     """Raises TypeError or ValueError unless it is a number of threads."""
     most = 1024
-    try:
-        count = operator.index(threads)
-    except TypeError:
-        raise TypeError(f"threads: a whole number is needed, got {threads!r}") from None
+    count = whole("threads", threads)
     if not 1 <= count <= most:
         raise ValueError(f"threads: a thread or more is needed, at most {most}; got {count}")
     return count

@@ -10,10 +10,24 @@ from typing import Any, Callable, Iterable, Optional, Sequence, Union
 import numpy as np
 
 from . import _core
-from ._balls import Ball
+from ._balls import Ball, a_ball
 from ._flow import Body, Flow, LawLike, law as law_of
+from ._numbers import flag, needs, number, numbers, text, whole
 
 _widths = {"single": 85.0, "double": 170.0}
+
+
+_kinds: dict[str, Callable[[str, Any], Any]] = {
+    **dict.fromkeys(("view", "arrows", "field", "colour", "style", "scale", "title", "font"), text),
+    **dict.fromkeys(("axes", "estimate"), flag), **dict.fromkeys(("u", "v", "dpi"), number), "orbits": whole}
+
+
+def points_of(through: Any) -> list[tuple[float, float]]:
+    """The argument through."""
+    points = numbers("through", list(through) if isinstance(through, Iterable) and not isinstance(through, str) else through)
+    if points.size and (points.ndim != 2 or points.shape[1] != 2):
+        raise needs("through", "points, [(u, v), ...],", through)
+    return [(u, v) for u, v in points.tolist()]
 
 
 def _columns(value: Any) -> Any:
@@ -52,7 +66,10 @@ class Portrait:
         self._draw, self._asked = draw, asked
         if (asked["u"] is None) != (asked["v"] is None):
             raise ValueError("a start has both u and v")
-        for name in ("window", "isochrones", "orbits", "dpi", "through"):
+        for name, is_kind in _kinds.items():
+            if asked.get(name) is not None:
+                asked[name] = is_kind(name, asked[name])
+        for name in ("window", "isochrones"):
             if isinstance(asked.get(name), (str, bytes)):
                 raise TypeError(f"{name}: numbers are needed, got {asked[name]!r}")
         if (window := asked["window"]) is not None and (np.ndim(window) not in (1, 2) or len(window) != 2):
@@ -229,7 +246,7 @@ def start_of(asked: dict[str, Any]) -> Optional[tuple[float, float]]:
 
 def _of_system(asked: dict[str, Any]) -> _core.Portrait:
     ball, law, against = asked["ball"], asked["law"], asked["against"]
-    experiment = None if ball is None else ball._experiment
+    experiment = None if ball is None else a_ball(ball)._experiment
     laws = law if isinstance(law, (list, tuple)) else [law]
     many_mu = asked["mu"] if np.ndim(asked["mu"]) == 1 else [asked["mu"]]
     if not len(laws) or not len(many_mu):
@@ -292,5 +309,5 @@ def portrait(
     title:       "" for neither title nor subtitle
     font, dpi:   of files; the font of all but tex, dots per inch of a png
     """
-    asked = dict(locals(), through=[tuple(point) for point in through])
+    asked = dict(locals(), through=points_of(through))
     return Portrait(_of_system, asked)

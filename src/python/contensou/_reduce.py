@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._flow import Flow
-from ._numbers import number, numbers
-from ._portrait import Portrait, start_of
+from ._numbers import needs, number, numbers, together
+from ._portrait import Portrait, points_of, start_of
 
 
 class Generator(NamedTuple):
@@ -96,16 +96,16 @@ class Reduction:
 
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
         """q, the angle, and p, which alone the symmetry moves: ln of the distance over that of the start given to reduce."""
-        q, p = self._core.canonical(*_points(u, v))
+        q, p = self._core.canonical(*together(u=u, v=v))
         return q[()], p[()]
 
     def first_integral(self, u: ArrayLike, v: ArrayLike) -> Any:
         """The same number along an orbit; NaN on rays."""
-        return self._core.first_integral(*_points(u, v))[()]
+        return self._core.first_integral(*together(u=u, v=v))[()]
 
     def stop_time(self, *, u: ArrayLike, v: ArrayLike) -> Any:
         """The time to the centre, relative 1e-12; inf if it is not reached."""
-        return self._core.stop_time(*_points(u, v))[()]
+        return self._core.stop_time(*together(u=u, v=v))[()]
 
     def orbit(self, u: float, v: float) -> PlanarOrbit:
         """The motion from one start."""
@@ -139,7 +139,7 @@ class Reduction:
         isochrones:  about so many lines of equal time left; or their times
         field:       none or motion; axes: the rays; arrows, colour, style, size, title, font, dpi: as of contensou.portrait
         """
-        asked: dict[str, Any] = dict(locals(), through=[tuple(point) for point in through])
+        asked: dict[str, Any] = dict(locals(), through=points_of(through))
         asked["reduction"] = asked.pop("self")
         if u is None and v is None and self._start is not None:
             asked["u"], asked["v"] = self._start
@@ -194,17 +194,12 @@ class FlowReduction(Reduction):
         self._flow = flow
 
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
-        u, v = _points(u, v)
+        u, v = together(u=u, v=v)
         with np.errstate(divide="ignore", invalid="ignore"):
             return (v / u)[()], np.log(v)[()]
 
     def first_integral(self, u: ArrayLike, v: ArrayLike) -> Any:
-        return self._flow._core.first_integral(*_points(u, v))[()]
-
-
-def _points(u: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    us, vs = np.broadcast_arrays(numbers("u", u), numbers("v", v))
-    return us, vs
+        return self._flow._core.first_integral(*together(u=u, v=v))[()]
 
 
 def reduce(
@@ -217,7 +212,10 @@ def reduce(
     u, v:        a start, not 0: its size is the scale at which the field is sampled
     parameters:  of the formulas
     """
-    return _reduced(system, (number("u", u), number("v", v)), parameters)
+    if not (isinstance(system, str) or callable(system)):
+        raise needs("system", "a function (u, v) -> (u', v'), or its formulas \"u' = F; v' = G\",", system)
+    known = {name: number(name, value) for name, value in parameters.items()} if isinstance(system, str) else parameters
+    return _reduced(system, (number("u", u), number("v", v)), known)
 
 
 def _reduced(
