@@ -65,8 +65,15 @@ ReducedOrbits reduced_orbits(const reduction::PlanarField& field, const reductio
   /// From angle to angle, in the way of the motion.
   const auto line = [&](const std::vector<double>& angles, double constant) {
     Polyline points;
-    for (double angle : angles) points.push_back({angle, constant - level(angle)});
-    const Point &a = points[points.size() / 2], &b = points[points.size() / 2 + 1];
+    for (double angle : angles) {
+      try {
+        points.push_back({angle, constant - level(angle)});
+      } catch (const std::domain_error&) {
+        // in a narrow sector no double is so close to its ray
+      }
+    }
+    if (points.size() < 2) return Polyline();
+    const Point &a = points[points.size() / 2 - 1], &b = points[points.size() / 2];
     const Vector2d here = plane.point(a.x, a.y), next = plane.point(b.x, b.y);
     if (field(here).dot(next - here) < 0) std::ranges::reverse(points);
     return points;
@@ -98,7 +105,8 @@ ReducedOrbits reduced_orbits(const reduction::PlanarField& field, const reductio
     for (int j = -half; j <= half; ++j) angles.push_back(left + (right - left) / (1 + std::exp(-0.05 * j)));
     const bool of_start = left < start_q && start_q < right;
     if (of_start) from.start.x = start_q;
-    (of_start ? from.orbit : from.elsewhere).push_back(line(angles, of_start ? integral : p + level(middle)));
+    Polyline copy = line(angles, of_start ? integral : p + level(middle));
+    if (!copy.empty()) (of_start ? from.orbit : from.elsewhere).push_back(std::move(copy));
   }
   from.in_plane = [plane](Point point) {
     const Vector2d x = plane.point(point.x, point.y);

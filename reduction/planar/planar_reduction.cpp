@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -10,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/tools/minima.hpp>
 
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/root.hpp"
@@ -59,11 +61,16 @@ std::string_view name(PlanarEnd end) {
 struct PlanarReduction::Solved {
   Solved(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise)
       : scaling(generator), field(std::move(given), generator, around), noise(std::max(given_noise, eps)) {
-    scan();
+    std::vector<Vector2d> between;
+    constexpr std::size_t most = 16;
+    while (!scan(between)) {
+      if (between.size() > most) undecided(between.back());
+    }
   }
   Solved(const Solved&) = delete;
 
-  void scan();
+  bool scan(std::vector<Vector2d>& between);
+  [[noreturn]] void undecided(const Vector2d& n) const;
   void make_strips();
   std::string_view classify() const;
   StripPlace place(const Vector2d& n) const;
@@ -82,9 +89,26 @@ struct PlanarReduction::Solved {
   std::string_view kind;
 };
 
-/// Finds the zeros of T and the borders. Samples are evenly spaced, and closer and closer to u = 0, v = 0 and the
-/// directions between them, where a law may have all of its structure, and where a ray is known exactly.
-void PlanarReduction::Solved::scan() {
+void PlanarReduction::Solved::undecided(const Vector2d& n) const {
+  throw UndecidedRays(
+      fmt::format("at the angle {:.6g} the field points along the scaling but for rounding: whether rays are there, "
+                  "one or two, its "
+                  "values do not tell",
+                  angle_of(n)));
+}
+
+/// Finds the zeros of T and the borders, and solves what is between them. Samples are evenly spaced, and closer and
+/// closer to u = 0, v = 0 and the directions between them, where a law may have all of its structure, and where a ray is
+/// known exactly; between them where |T| is least.
+///
+/// @param between  more directions to sample in; where T is found to be of another sign than the samples say is added
+/// @return false   if one was added
+bool PlanarReduction::Solved::scan(std::vector<Vector2d>& between) {
+  ends.clear();
+  strips.clear();
+  rays.clear();
+  sectors.clear();
+  bordered = false;
   struct Probe {
     double offset;  ///< from its anchor
     Vector2d anchor;
@@ -108,17 +132,27 @@ void PlanarReduction::Solved::scan() {
     anchors.push_back(field.on_section(Vector2d(u[i], v[i])));
   }
   std::vector<Probe> probes;
+  const auto insert = [&](std::ptrdiff_t first, const Probe& probe) {
+    const auto order = [](const Probe& x) { return std::pair(x.offset < 0, x.offset); };
+    probes.insert(std::ranges::upper_bound(probes.begin() + first, probes.end(), order(probe), {}, order), probe);
+  };
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     const Vector2d &here = anchors[i], &next = anchors[(i + 1) % anchors.size()];
     const double gap = angle_between(here, next);
     std::vector<double> offsets;
     for (double offset = gap / 4; offset > nearest; offset /= 2) offsets.push_back(offset);
     std::ranges::reverse(offsets);
-    constexpr int between = 8;
-    for (int j = 1; j <= between; ++j) offsets.push_back(gap / 4 * (1 + static_cast<double>(j) / between));
+    constexpr int pieces = 8;
+    for (int j = 1; j <= pieces; ++j) offsets.push_back(gap / 4 * (1 + static_cast<double>(j) / pieces));
+    const auto first = std::ssize(probes);
     for (double offset : offsets) probes.push_back({offset, here, at(here, offset)});
     for (auto offset = offsets.rbegin() + 1; offset != offsets.rend(); ++offset) {
       probes.push_back({-*offset, next, at(next, -*offset)});
+    }
+    for (const Vector2d& n : between) {
+      const double offset = angle_between(here, n);
+      if (offset < gap)
+        insert(first, offset < gap / 2 ? Probe{offset, here, field(n)} : Probe{offset - gap, next, field(n)});
     }
   }
   const auto has_values = [](const Probe& probe) { return probe.rates.has_value(); };
@@ -128,11 +162,45 @@ void PlanarReduction::Solved::scan() {
   star = std::ranges::all_of(probes, [&](const Probe& probe) { return !probe.rates || is_zero(*probe.rates); });
   if (star) {
     kind = classify();
-    return;
+    return true;
   }
+  // Two rays between two samples: T is least there.
+  const std::size_t known = between.size();
+  for (std::size_t i = 1; i + 1 < probes.size(); ++i) {
+    const Probe &before = probes[i - 1], &here = probes[i], &after = probes[i + 1];
+    if (!before.rates || !here.rates || !after.rates) continue;
+    if ((before.offset < 0 && here.offset > 0) || (here.offset < 0 && after.offset > 0)) continue;
+    const double sign = std::copysign(1, here.rates->angular), least = sign * here.rates->angular;
+    const double left = sign * before.rates->angular, right = sign * after.rates->angular;
+    constexpr double flat = 1e-6;
+    if (!(least <= left && least <= right && std::max(left, right) > (1 + flat) * least)) continue;
+    const auto size = [&](double offset) {
+      const auto rates = at(here.anchor, offset);
+      return rates ? sign * rates->angular : infinity;
+    };
+    const auto angle = [](const Probe& a, const Probe& b) {
+      return angle_between(turned(a.anchor, a.offset), turned(b.anchor, b.offset));
+    };
+    constexpr int bits = 26;
+    std::uintmax_t steps = 60;
+    const auto [offset, value] = boost::math::tools::brent_find_minima(size, here.offset - angle(before, here),
+                                                                       here.offset + angle(here, after), bits, steps);
+    const Vector2d n = turned(here.anchor, offset);
+    if (value < 0) {
+      between.push_back(n);
+    } else if (const auto on = field(here.anchor); is_zero(*field(n)) && !(on && is_zero(*on))) {
+      undecided(n);
+    }
+  }
+  if (between.size() > known) return false;
+  double largest = 0;
+  for (const Probe& probe : probes) largest = std::max(largest, probe.rates ? probe.rates->size : 0);
   const auto add = [&](const Vector2d& n, bool ray) {
     const auto rates = field(n);
-    ends.push_back({n, ray && rates, rates ? rates->radial : 0});
+    // On an axis n is exact, and R; elsewhere rounded.
+    const bool exact = n[0] == 0 || n[1] == 0;
+    const bool rests = rates && !exact && std::abs(rates->radial) <= 16 * noise * largest;
+    ends.push_back({n, ray && rates, rates && !rests ? rates->radial : 0});
     bordered |= !ends.back().ray;
   };
   for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -163,7 +231,14 @@ void PlanarReduction::Solved::scan() {
       add(turned(here.anchor, last), false);
     }
   }
-  make_strips();
+  try {
+    make_strips();
+  } catch (const MissedRay& missed) {
+    if (!missed.crossed) undecided(missed.n);
+    between.push_back(missed.n);
+    return false;
+  }
+  return true;
 }
 
 void PlanarReduction::Solved::make_strips() {
@@ -222,7 +297,10 @@ std::string_view PlanarReduction::Solved::classify() const {
   const auto all = [&](auto test) { return std::ranges::all_of(strips, test); };
   const auto comes_in = [](const Strip& strip) { return strip.to().radial < 0; };
   const auto came_out = [](const Strip& strip) { return strip.from().radial > 0; };
-  if (all([&](const Strip& strip) { return !comes_in(strip) && !came_out(strip); })) return "saddle";
+  if (!std::ranges::all_of(ends, &SectorEnd::radial)) return "degenerate";
+  if (all([&](const Strip& strip) { return !comes_in(strip) && !came_out(strip); })) {
+    return strips.size() > 2 ? "saddle" : field.regular() ? "regular point" : "cusp";
+  }
   return of_sign(all([&](const Strip& strip) { return comes_in(strip) && !came_out(strip); }),
                  all([&](const Strip& strip) { return !comes_in(strip) && came_out(strip); }), "stable node",
                  "unstable node");

@@ -40,10 +40,17 @@ class Sampler {
  public:
   explicit Sampler(const PlanarField& field) : field_(field) {}
 
-  std::optional<Vector2d> operator()(const Vector2d& x) {
+  /// Its points and values from now on are in these units: powers of 2, which round nothing.
+  void set_units(double length, double value) {
+    length_ = length;
+    value_ = value;
+  }
+
+  std::optional<Vector2d> operator()(const Vector2d& in_units) {
+    const Vector2d x = length_ * in_units;
     try {
       const Vector2d value = field_(x);
-      if (value.allFinite()) return value;
+      if (value.allFinite()) return value / value_;
       remember(fmt::format("f({}, {}) = ({}, {})", x[0], x[1], value[0], value[1]));
     } catch (const std::exception& failure) {
       remember(failure.what());
@@ -59,6 +66,7 @@ class Sampler {
   }
 
   const PlanarField& field_;
+  double length_ = 1, value_ = 1;
   std::string first_failure_;
 };
 
@@ -95,6 +103,8 @@ std::optional<Slope> slope(Sampler& field, const Vector2d& x, int i, double firs
   return best;
 }
 
+constexpr int tried = 128;
+
 /// Where the field is sampled, in units of `around`: half of the points evenly, half closer and closer to the axes.
 Vector2d sample_point(int i, const Vector2d& around) {
   const auto fraction = [](double x) { return x - std::floor(x); };
@@ -118,7 +128,7 @@ struct Equations {
 };
 
 Equations determining_equations(Sampler& field, const Vector2d& around) {
-  constexpr int tried = 128, least = 12;
+  constexpr int least = 12;
   struct Sample {
     Vector2d x;
     Eigen::Matrix<double, 2, 7> rows, errors;
@@ -235,11 +245,12 @@ struct Finite {
   Eigen::VectorXd difference;
 };
 
-Finite finite_transformation(Sampler& field, const Generator& g, const std::vector<Vector2d>& points) {
+Finite finite_transformation(Sampler& field, const Generator& g, const std::vector<Vector2d>& points,
+                             Eigen::Index rows) {
   constexpr double s = std::numbers::ln2;
   const Transformation phi(g, s);
   const Matrix2d back = matrix_exponential(s * (g.time * Matrix2d::Identity() - g.matrix));
-  Finite finite{.difference = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * points.size()))};
+  Finite finite{.difference = Eigen::VectorXd::Zero(rows)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto here = field(points[i]), moved = field(phi(points[i]));
     if (!here || !moved) continue;  // it leaves where the field has values
@@ -250,10 +261,66 @@ Finite finite_transformation(Sampler& field, const Generator& g, const std::vect
   return finite;
 }
 
-bool scales(const Generator& g) {
+/// Of X and -X the one that moves points from the centre.
+Generator growing(const Generator& g) {
+  return g.matrix.trace() > 0 ? g : generator_of(Unknowns::Zero() - unknowns_of(g));
+}
+
+/// @param scale  of u and v
+bool scales(const Generator& g, const Vector2d& scale) {
   const double growth = g.growth();
   const double largest = std::max(g.matrix.trace() - growth, std::sqrt(std::max(g.matrix.determinant(), 0.0)));
-  return growth > 1e-6 * largest;
+  return growth > 1e-6 * std::max({largest, std::abs(g.time), g.shift.cwiseQuotient(scale).cwiseAbs().maxCoeff()});
+}
+
+/// Where the field jumps between two points: it differs most between the ends of one half of the way, again and again.
+std::optional<Vector2d> jump_between(Sampler& field, Vector2d left, Vector2d right) {
+  constexpr double least = 1e-3;  // of the field
+  auto at_left = field(left), at_right = field(right);
+  for (int halving = 0; halving < 60 && at_left && at_right; ++halving) {
+    const Vector2d middle = (left + right) / 2;
+    const auto here = field(middle);
+    if (!here) return std::nullopt;
+    const bool before = (*here - *at_left).norm() > (*at_right - *here).norm();
+    (before ? right : left) = middle;
+    (before ? at_right : at_left) = here;
+  }
+  if (!at_left || !at_right || (*at_right - *at_left).norm() <= least * (at_left->norm() + at_right->norm())) {
+    return std::nullopt;
+  }
+  return (left + right) / 2;
+}
+
+/// X is tangent to every line on which the field jumps, if it holds across them: (A x + b) x (the line's direction) = 0.
+void add_jumps(Equations& equations, Sampler& field, const Vector2d& scale) {
+  std::vector<Unknowns> rows;
+  for (std::size_t i = 1; i < equations.points.size(); ++i) {
+    const Vector2d way = equations.points[i] - equations.points[i - 1];
+    const auto jump = jump_between(field, equations.points[i - 1], equations.points[i]);
+    if (!jump) continue;
+    // Where it is on lines beside this one, in parts of the way.
+    const double part = 0.1 * scale.minCoeff() / way.norm();
+    const Vector2d along = part * way, across(-along[1], along[0]);
+    const PlanarField line = [&](const Vector2d& offset) {
+      const Vector2d beside = *jump + offset[0] * across;
+      const auto there = jump_between(field, beside - along, beside + along);
+      return there ? Vector2d((*there - beside).dot(along) / along.squaredNorm(), 0) : Vector2d(infinity, 0);
+    };
+    Sampler position(line);
+    const auto tangent = slope(position, Vector2d(0, 0), 0, 0.25);
+    constexpr double accurate = 1e-9;
+    if (!tangent || !(tangent->error < accurate)) continue;
+    const Vector2d t = (across + tangent->value[0] * along).normalized();
+    const Vector2d& x = *jump;
+    const Unknowns row =
+        (Unknowns() << x[0] * t[1], x[1] * t[1], -x[0] * t[0], -x[1] * t[0], t[1], -t[0], 0).finished();
+    rows.push_back(equations.column_scale.cwiseProduct(row).normalized());
+  }
+  const Eigen::Index known = equations.matrix.rows(), added = std::ssize(rows);
+  equations.matrix.conservativeResize(known + added, 7);
+  for (Eigen::Index i = 0; i < added; ++i) equations.matrix.row(known + i) = rows[static_cast<std::size_t>(i)];
+  equations.row_scale.conservativeResize(known + added);
+  equations.row_scale.tail(added).setZero();  // Newton's method is of the samples
 }
 
 /// The same times a number: the largest entry is 1. An entry that is a simple fraction but for an error becomes it.
@@ -293,6 +360,74 @@ std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::option
   return basis;
 }
 
+auto decomposed(const MatrixXd& matrix) {
+  return Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner>(matrix,
+                                                                        Eigen::ComputeThinU | Eigen::ComputeThinV);
+}
+
+/// Of the null space, the simplest scaling that holds throughout: within these subspaces in turn, what is nearest to
+/// A = 1.
+template <class Everywhere>
+std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equations, double level,
+                                          const Vector2d& scale, const Everywhere& everywhere) {
+  using Subspace = Eigen::Matrix<double, 7, Eigen::Dynamic>;
+  const auto spanned = [](std::initializer_list<Unknowns> vectors) {
+    Subspace subspace(7, vectors.size());
+    std::ranges::for_each(vectors, [&, i = Eigen::Index(0)](const Unknowns& x) mutable { subspace.col(i++) = x; });
+    return subspace;
+  };
+  const auto unit = [](int i) -> Unknowns { return Unknowns::Unit(i); };
+  const Unknowns identity = unit(0) + unit(3), b1 = unit(4), b2 = unit(5), c = unit(6);
+  const double largest = decomposed(equations.matrix).singularValues()[0];
+  const auto transformed = [&](const Unknowns& x) {
+    return finite_transformation(field, generator_of(x), equations.points, equations.matrix.rows());
+  };
+  for (const Subspace& subspace :
+       {spanned({identity, c}), spanned({identity, b1, b2, c}), spanned({unit(0), unit(3), c}),
+        spanned({unit(0), unit(3), b1, b2, c}), Subspace(Subspace::Identity(7, 7))}) {
+    // In the unknowns of the matrix, each of the subspace's of length 1.
+    Subspace inner = equations.column_scale.cwiseInverse().asDiagonal() * subspace;
+    const Eigen::VectorXd lengths = inner.colwise().norm();
+    inner = (inner * lengths.cwiseInverse().asDiagonal()).eval();
+    const auto part = decomposed(equations.matrix * inner);
+    const Eigen::VectorXd values = part.singularValues() / largest;
+    const auto kernel_size = (values.array() <= level).count();
+    if (kernel_size == 0) continue;
+    const MatrixXd kernel =
+        subspace * (lengths.cwiseInverse().asDiagonal() * part.matrixV().rightCols(kernel_size)).eval();
+    Unknowns x = kernel * kernel.colPivHouseholderQr().solve(identity);
+    if (!scales(generator_of(x), scale)) continue;
+
+    // The same from finite transformations, without a derivative: Newton's method with the matrix that is there.
+    Finite finite = transformed(x);
+    for (int step = 0; step < 4; ++step) {
+      const Eigen::VectorXd along = part.matrixU().transpose() * equations.row_scale.cwiseProduct(finite.difference);
+      Eigen::VectorXd correction = Eigen::VectorXd::Zero(inner.cols());
+      for (Eigen::Index i = 0; i < inner.cols() - kernel_size; ++i) {
+        correction += part.matrixV().col(i) * (along[i] / part.singularValues()[i]);
+      }
+      const Unknowns next = x + subspace * correction.cwiseQuotient(lengths);
+      const Finite closer = transformed(next);
+      if (!(closer.residual < finite.residual)) break;
+      x = next;
+      finite = closer;
+    }
+    x = normalised(x, 64 * eps);
+    const Generator found = growing(generator_of(x));
+    if (everywhere(found)) return found;
+  }
+  return std::nullopt;
+}
+
+/// Its shift in the field's own lengths rather than in units; the largest entry is 1 again.
+Generator in_lengths(Generator g, double unit) {
+  if (unit == 1 || g.shift.isZero(0)) return g;
+  g.shift *= unit;
+  Generator other = generator_of(normalised(unknowns_of(g), 0));
+  other.everywhere = g.everywhere;
+  return other;
+}
+
 }  // namespace
 
 double Generator::growth() const {
@@ -300,20 +435,29 @@ double Generator::growth() const {
   return matrix.trace() / 2 - std::sqrt(std::max(squared, 0.0));
 }
 
+Vector2d Generator::centre() const {
+  return Vector2d::Zero() - matrix.partialPivLu().solve(shift);  // no -0
+}
+
 PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& around) {
-  const double size = around.norm();
+  const double size = around.stableNorm();
   if (!std::isfinite(size) || size == 0) {
     throw std::domain_error(
-        fmt::format("reduce: a point other than 0 is needed, about which the field is sampled, got ({}, {})", around[0],
-                    around[1]));
+        fmt::format("reduce: a finite point other than 0 is needed, about which the field is sampled, got ({}, {})",
+                    around[0], around[1]));
   }
+  constexpr double large = 1e100;  // beyond, or below 1/large, squares may overflow
+  const double unit = size < large && size > 1 / large ? 1 : std::ldexp(1, std::ilogb(size));
+  const Vector2d scale = around.cwiseAbs().unaryExpr([&](double x) { return (x > 0 ? x : size) / unit; });
   Sampler sampler(field);
-  const Vector2d scale = around.cwiseAbs().unaryExpr([&](double x) { return x > 0 ? x : size; });
-  const Equations equations = determining_equations(sampler, scale);
-  const auto decomposed = [](const MatrixXd& matrix) {
-    return Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner>(matrix,
-                                                                          Eigen::ComputeThinU | Eigen::ComputeThinV);
-  };
+  sampler.set_units(unit, 1);
+  for (int i = 1; i <= tried; ++i) {
+    const auto value = sampler(sample_point(i, scale));
+    if (!value || value->isZero(0)) continue;
+    sampler.set_units(unit, std::ldexp(1, std::ilogb(value->stableNorm())));
+    break;
+  }
+  Equations equations = determining_equations(sampler, scale);
   const auto svd = decomposed(equations.matrix);
   const double largest = svd.singularValues()[0];
   PlanarSymmetries result;
@@ -331,58 +475,29 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   if (nullity == 0 || result.verdict == PlanarSymmetries::Verdict::undecided) return result;
   result.verdict = PlanarSymmetries::Verdict::found;
 
-  // Of the null space, the simplest scaling: within these subspaces in turn, what is nearest to A = 1.
-  using Subspace = Eigen::Matrix<double, 7, Eigen::Dynamic>;
-  const auto spanned = [](std::initializer_list<Unknowns> vectors) {
-    Subspace subspace(7, vectors.size());
-    std::ranges::for_each(vectors, [&, i = Eigen::Index(0)](const Unknowns& x) mutable { subspace.col(i++) = x; });
-    return subspace;
-  };
-  const auto unit = [](int i) -> Unknowns { return Unknowns::Unit(i); };
-  const Unknowns identity = unit(0) + unit(3), b1 = unit(4), b2 = unit(5), c = unit(6);
-  for (const Subspace& subspace :
-       {spanned({identity, c}), spanned({identity, b1, b2, c}), spanned({unit(0), unit(3), c}),
-        spanned({unit(0), unit(3), b1, b2, c}), Subspace(Subspace::Identity(7, 7))}) {
-    // In the unknowns of the matrix, each of the subspace's of length 1.
-    Subspace inner = equations.column_scale.cwiseInverse().asDiagonal() * subspace;
-    const Eigen::VectorXd lengths = inner.colwise().norm();
-    inner = (inner * lengths.cwiseInverse().asDiagonal()).eval();
-    const auto part = decomposed(equations.matrix * inner);
-    const Eigen::VectorXd values = part.singularValues() / largest;
-    const auto kernel_size = (values.array() <= result.level).count();
-    if (kernel_size == 0) continue;
-    const MatrixXd kernel =
-        subspace * (lengths.cwiseInverse().asDiagonal() * part.matrixV().rightCols(kernel_size)).eval();
-    const Unknowns nearest = kernel * kernel.colPivHouseholderQr().solve(identity);
-    Generator found = generator_of(nearest);
-    if (!scales(found)) continue;
-
-    // The same from finite transformations, without a derivative: Newton's method with the matrix that is there.
-    Unknowns x = unknowns_of(found);
-    Finite finite = finite_transformation(sampler, found, equations.points);
-    for (int step = 0; step < 4; ++step) {
-      const Eigen::VectorXd along = part.matrixU().transpose() * equations.row_scale.cwiseProduct(finite.difference);
-      Eigen::VectorXd correction = Eigen::VectorXd::Zero(inner.cols());
-      for (Eigen::Index i = 0; i < inner.cols() - kernel_size; ++i) {
-        correction += part.matrixV().col(i) * (along[i] / part.singularValues()[i]);
-      }
-      const Unknowns next = x + subspace * correction.cwiseQuotient(lengths);
-      const Finite closer = finite_transformation(sampler, generator_of(next), equations.points);
-      if (!(closer.residual < finite.residual)) break;
-      x = next;
-      finite = closer;
-    }
-    x = normalised(x, 64 * eps);
-    result.scaling = generator_of(x[0] + x[3] > 0 ? x : Unknowns(-x));
-    result.residual = finite_transformation(sampler, *result.scaling, equations.points).residual;
-    break;
-  }
-  const MatrixXd kernel = equations.column_scale.asDiagonal() * svd.matrixV().rightCols(nullity);
-  result.generators = basis_of(kernel, result.level, result.scaling);
   constexpr double finest = 1e-6, amplified = 100;
-  for (Generator& g : result.generators) {
-    g.everywhere = holds_everywhere(sampler, g, equations.points, scale, std::max(finest, amplified * result.level));
+  const auto everywhere = [&](const Generator& g) {
+    return holds_everywhere(sampler, g, equations.points, scale, std::max(finest, amplified * result.level));
+  };
+  result.scaling = simplest_scaling(sampler, equations, result.level, scale, everywhere);
+  const MatrixXd kernel = equations.column_scale.asDiagonal() * svd.matrixV().rightCols(nullity);
+  const auto find_generators = [&] {
+    result.generators = basis_of(kernel, result.level, result.scaling);
+    for (Generator& g : result.generators) g.everywhere = everywhere(g);
+  };
+  find_generators();
+  if (!result.scaling && !std::ranges::all_of(result.generators, &Generator::everywhere)) {
+    // Of several that hold within sectors one may hold throughout: the one that leaves the jumps where they are.
+    add_jumps(equations, sampler, scale);
+    result.scaling = simplest_scaling(sampler, equations, result.level, scale, everywhere);
+    if (result.scaling) find_generators();
   }
+  if (result.scaling) {
+    result.residual =
+        finite_transformation(sampler, *result.scaling, equations.points, equations.matrix.rows()).residual;
+  }
+  for (Generator& g : result.generators) g = in_lengths(g, unit);
+  if (result.scaling) result.scaling = result.generators.front() = growing(result.generators.front());
   return result;
 }
 

@@ -48,13 +48,14 @@ Matrix2d frame_of(const Matrix2d& a) {
 
 SectionField::SectionField(PlanarField field, const Generator& scaling, const Vector2d& around)
     : field_(std::move(field)), time_(scaling.time), frame_(frame_of(scaling.matrix)) {
-  centre_ = scaling.shift.isZero(0) ? Vector2d(0, 0) : Vector2d(scaling.matrix.partialPivLu().solve(-scaling.shift));
-  const double size = (frame_.inverse() * (around - centre_)).norm();
+  centre_ = scaling.centre();
+  frame_inverse_ = frame_.inverse();
+  const double size = Vector2d(frame_inverse_ * (around - centre_)).stableNorm();
   if (!(size > 0) || !std::isfinite(size)) {
     throw std::domain_error("PlanarReduction: a finite point other than the centre of the scaling is needed");
   }
   frame_ *= size;
-  frame_inverse_ = frame_.inverse();
+  frame_inverse_ /= size;
   matrix_ = frame_inverse_ * scaling.matrix * frame_;
   if (scaling.matrix.isDiagonal(0)) matrix_ = scaling.matrix;
 }
@@ -69,7 +70,16 @@ std::optional<SectionField::Rates> SectionField::operator()(const Vector2d& n) c
   if (!f.allFinite()) return std::nullopt;
   const Vector2d g = frame_inverse_ * f, along = matrix_ * n;
   const double outward = n.dot(along);
-  return Rates{g.dot(n) / outward, cross(along, g) / outward, g.norm()};
+  return Rates{g.dot(n) / outward, cross(along, g) / outward, g.stableNorm()};
+}
+
+bool SectionField::regular() const {
+  try {
+    const Vector2d f = field_(centre_);
+    return f.allFinite() && !f.isZero(0);
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 std::pair<Vector2d, double> SectionField::canonical(const Vector2d& x) const {
@@ -88,7 +98,9 @@ std::pair<Vector2d, double> SectionField::canonical(const Vector2d& x) const {
   return {moved(p).stableNormalized(), p};
 }
 
-Vector2d SectionField::on_section(const Vector2d& direction) const { return (frame_inverse_ * direction).normalized(); }
+Vector2d SectionField::on_section(const Vector2d& direction) const {
+  return Vector2d(frame_inverse_ * direction).stableNormalized();
+}
 
 Vector2d SectionField::point(const Vector2d& n, double p) const {
   return centre_ + frame_ * (matrix_exponential(p * matrix_) * n);
@@ -175,6 +187,7 @@ Vector2d Strip::direction(double xi) const {
 
 Strip::Terms Strip::terms(double xi) const {
   double factor = 1;
+  bool inside = true;
   if (!closed()) {
     const double z = sector_angle(xi, false), y = sector_angle(xi, true);
     for (const auto& [series, distance] : {std::pair(&to_series_, z), std::pair(&from_series_, y)}) {
@@ -184,11 +197,15 @@ Strip::Terms Strip::terms(double xi) const {
       }
     }
     factor = length_ / (z * y);
+    constexpr double located = 1e-9;  // to which an end is, at the worst
+    inside = std::min(z, y) > located;
   }
-  const auto rates = (*field_)(direction(xi));
+  const Vector2d n = direction(xi);
+  const auto rates = (*field_)(n);
   if (!rates) return {infinity, 0, 1};
   const double rate = -sense_ * rates->angular * factor;
-  const double rounding = rates->size * factor * eps;
+  const double rounding = rates->size * factor * eps, zero = 2 * tolerance_ * rates->size * factor;
+  if (inside && rate < (closed() ? zero : -zero)) throw MissedRay{n, rate < -zero};
   return {std::max(rate, rounding), rates->radial, rounding / std::max(rate, rounding)};
 }
 

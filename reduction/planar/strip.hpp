@@ -27,6 +27,9 @@ class SectionField {
   /// At a unit vector n; none where the field has no value.
   std::optional<Rates> operator()(const Eigen::Vector2d& n) const;
 
+  /// Whether the field has a value at the centre that is not 0.
+  bool regular() const;
+
   double time_degree() const { return time_; }  ///< c: dt = exp(c p) d sigma
   const Eigen::Vector2d& centre() const { return centre_; }
   const Eigen::Matrix2d& frame() const { return frame_; }  ///< S
@@ -54,6 +57,12 @@ struct SectorEnd {
   double radial = 0;  ///< R on the ray
 };
 
+/// T has the other sign within a sector, or cannot be told from 0 on a turn: here.
+struct MissedRay {
+  Eigen::Vector2d n;
+  bool crossed;  ///< the first of both
+};
+
 /// The orbits of one sector between two ends, or of the whole plane where there are none: copies of one curve p = L(xi).
 ///
 /// xi falls along every orbit. In a sector exp(xi) = z/(1 - z/length), z the angle from the end that it comes to; else
@@ -62,7 +71,7 @@ class Strip {
  public:
   Strip(const SectionField& field, const SectorEnd& to, const SectorEnd& from, double sense, double length,
         double tolerance);
-  /// Without ends.
+  /// Without ends. Both throw MissedRay.
   Strip(const SectionField& field, double sense, double tolerance);
 
   bool closed() const { return !to_; }

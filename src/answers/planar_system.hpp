@@ -1,9 +1,10 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
-#include "contensou/reduction/planar_symmetry.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::answers {
 
@@ -12,5 +13,18 @@ namespace contensou::answers {
 ///
 /// @throws BadInput  as Formulas
 reduction::PlanarField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
+
+/// Whether a start is the centre of the scaling, but for rounding.
+bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
+
+/// A system solved by its scaling; or why it is not.
+struct SolvedPlane {
+  std::optional<reduction::PlanarReduction> plane;
+  std::string why_not;
+};
+
+/// @param found  of the same start
+SolvedPlane solve_planar(const reduction::PlanarField& field, const reduction::PlanarSymmetries& found,
+                         const Eigen::Vector2d& start);
 
 }  // namespace contensou::answers

@@ -1,5 +1,6 @@
 #include "answers/reduce_answer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/planar_system.hpp"
 #include "contensou/portraits/reduced_orbits.hpp"
 #include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/infinity.hpp"
@@ -20,6 +22,7 @@ namespace contensou::answers {
 using Eigen::Vector2d;
 using reduction::Generator;
 using reduction::PlanarEnd;
+using reduction::PlanarField;
 using reduction::PlanarReduction;
 using reduction::PlanarSymmetries;
 using std::numbers::pi;
@@ -87,14 +90,16 @@ std::string text_of(const PlanarSymmetries& found, std::string_view time, const 
   if (found.verdict == PlanarSymmetries::Verdict::none) {
     text = "generator   none of the form X = c t d/dt + (A x + b) d/dx: no singular value is small\n";
   } else if (found.verdict == PlanarSymmetries::Verdict::undecided) {
-    text = "generator   not decided: the field's noise, or its kinks, hide what one would leave\n";
+    text =
+        "generator   not decided: the field's noise, or its kinks, hide what one would leave; a start where both "
+        "terms of each sum matter may tell\n";
   }
   text += "values      ";
   for (double value : found.singular_values) text += fmt::format("{:.2g} ", value);
-  return text + fmt::format(
-                    "\n            singular ones of the determining equations at {} points; 0 is below {:.1g}, "
-                    "gap {:.1g}\n",
-                    found.points, found.level, found.gap);
+  text += fmt::format("\n            singular ones of the determining equations at {} points; ", found.points);
+  // They are relative to the largest.
+  return text + (found.level < 1 ? fmt::format("0 is below {:.1g}, gap {:.1g}\n", found.level, found.gap)
+                                 : "the errors of differences exceed all of them\n");
 }
 
 /// A row of CSV: the members that are one number or text, and the first generator.
@@ -156,19 +161,21 @@ std::string difference(double one, double other) {
 
 }  // namespace
 
-ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::string& text, const Vector2d& start) {
+ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, const Vector2d& start) {
   if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
   const PlanarSymmetries found = reduction::find_symmetries(field, start);
   Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}};
   answer.members.update(symmetry_members(found));
   std::function<std::string(const Digits&)> solution;
-  if (found.scaling) {
-    const PlanarReduction plane(field, *found.scaling, start, found.residual);
-    const auto orbit = plane.orbit(start);
+  const auto [solved, unsolved] = solve_planar(field, found, start);
+  if (solved) {
+    const PlanarReduction& plane = *solved;
+    const bool at_centre = is_centre(*found.scaling, start);
+    const auto orbit = plane.orbit(at_centre ? plane.centre() : start);
     const auto canonical = plane.canonical(start);
     std::optional<double> integral;
     try {
-      integral = plane.first_integral(start);
+      if (!at_centre) integral = plane.first_integral(start);
     } catch (const std::domain_error&) {
       // on a ray it has no value
     }
@@ -180,7 +187,7 @@ ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::strin
                       {"radial", ray.radial},
                       {"angular", ray.angular}});
     }
-    if (start != plane.centre()) {
+    if (!at_centre) {
       answer.members["canonical"] = {{"q", canonical.q}, {"p", canonical.p}, {"dp_dq", or_infinity(canonical.dp_dq)}};
     }
     if (integral) answer.members["first_integral"] = *integral;
@@ -192,37 +199,45 @@ ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::strin
       }));
     }
     if (plane.turn()) answer.members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
-    answer.members.update(
-        {{"end", name(orbit.end())}, {"tau_stop", orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity}});
-    solution = [=](const Digits& digits) {
+    const auto end = orbit.end();
+    answer.members.update({{"end", name(end)},
+                           {"tau_stop", end == PlanarEnd::centre   ? Json(orbit.end_time())
+                                        : end == PlanarEnd::border ? Json()
+                                                                   : Json(infinity)}});
+    solution = [=, plane = plane](const Digits& digits) {
       std::string lines =
           fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]), plane.kind());
       for (const auto& ray : plane.rays()) {
         lines += fmt::format("ray         at the angle {}: {}, the motion on it goes {}\n", digits(ray.q),
-                             ray.attracts ? "attracts" : "repels", ray.to_centre ? "to the centre" : "away");
+                             ray.attracts ? "attracts" : "repels",
+                             ray.radial == 0 ? "nowhere: its points are at rest"
+                             : ray.to_centre ? "to the centre"
+                                             : "away");
       }
       if (plane.turn()) {
         lines += fmt::format("a turn      multiplies exp(p) by {} in {} of sigma, d sigma = exp(-c p) dt\n",
                              digits(plane.turn()->factor), digits(plane.turn()->sigma));
       }
+      if (at_centre) return lines + "tau_stop    0: the start is the centre\n";
       lines += fmt::format("canonical   q = {} (angle), p = {}, dp/dq = {}\n", digits(canonical.q), digits(canonical.p),
                            digits(canonical.dp_dq));
       lines += integral
                    ? fmt::format("integral    p - L(q) = {}\n", digits(*integral))
                    : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
-      const auto end = orbit.end();
-      lines += fmt::format(
-          "tau_stop    {}{}\n", digits(end == PlanarEnd::centre ? orbit.end_time() : infinity),
-          end == PlanarEnd::centre
-              ? (std::isfinite(orbit.end_time()) ? ", by quadrature" : ": it nears the centre for ever")
-          : end == PlanarEnd::infinity ? fmt::format(": it goes to infinity, in {}", digits(orbit.end_time()))
-          : end == PlanarEnd::periodic ? ": it returns"
-          : end == PlanarEnd::rest     ? ": it comes to rest elsewhere"
-                                       : ": it comes to a border of the field, or to a jump");
-      return lines;
+      if (end == PlanarEnd::border) {
+        return lines + "tau_stop    not known: it comes to a border of the field, or to a jump\n";
+      }
+      const bool finite = std::isfinite(orbit.end_time());
+      return lines + fmt::format("tau_stop    {}{}\n", digits(end == PlanarEnd::centre ? orbit.end_time() : infinity),
+                                 end == PlanarEnd::centre
+                                     ? (finite ? ", by quadrature" : ": it nears the centre for ever")
+                                 : end == PlanarEnd::periodic ? ": it returns"
+                                 : end == PlanarEnd::rest     ? ": it comes to rest elsewhere"
+                                 : finite ? fmt::format(": it is at infinity after {}", digits(orbit.end_time()))
+                                          : ": it goes to infinity, for ever");
     };
   } else if (!found.generators.empty()) {
-    solution = [](const Digits&) { return std::string("solution    none by quadrature: no generator is a scaling\n"); };
+    solution = [why = unsolved](const Digits&) { return fmt::format("solution    none by quadrature: {}\n", why); };
   }
   answer.text = [=](const Digits& digits) {
     return fmt::format("system      {}\nstart       u = {}, v = {}\n{}{}", text, digits(start[0]), digits(start[1]),

@@ -46,7 +46,10 @@ py::array_t<double> like(const Numbers& given) {
   return py::array_t<double>(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
 }
 
-double stop_time_of(const PlanarOrbit& orbit) { return orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity; }
+double stop_time_of(const PlanarOrbit& orbit) {
+  if (orbit.end() == PlanarEnd::border) return nothing;
+  return orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity;
+}
 
 /// A number at each of the points; NaN where there is none.
 template <class Function>

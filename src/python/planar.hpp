@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "answers/planar_system.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "values.hpp"
 
@@ -32,18 +33,21 @@ class Planar {
   Planar(reduction::PlanarField given, const Eigen::Vector2d& around) : field(std::move(given)) {
     interruptible([&] {
       symmetries = reduction::find_symmetries(field, around);
-      if (symmetries.scaling) solution.emplace(field, *symmetries.scaling, around, symmetries.residual);
+      auto [plane, why] = answers::solve_planar(field, symmetries, around);
+      solution = std::move(plane);
+      why_not = std::move(why);
     });
   }
 
   const reduction::PlanarReduction& solved() const {
     if (solution) return *solution;
-    throw std::domain_error("reduce: no scaling of this field was found, so it is not solved");
+    throw std::domain_error("reduce: this field is not solved: " + why_not);
   }
 
   reduction::PlanarField field;
   reduction::PlanarSymmetries symmetries;
   std::optional<reduction::PlanarReduction> solution;
+  std::string why_not;  ///< there is a solution
 };
 
 }  // namespace contensou::python

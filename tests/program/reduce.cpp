@@ -270,3 +270,70 @@ TEST_CASE("reduce finds the generator whatever the start, and says what has no v
   CHECK_THAT(run_program("reduce --mu 0.3 --u0 0 --v0 1").out, Contains("integral    none: the start is on the ray"));
   CHECK_THAT(reduce("u' = -u; v' = -3*v", {"--u0", "1", "--v0", "0"}).out, Contains("integral    none"));
 }
+
+TEST_CASE("reduce --system solves nothing by a scaling that holds within sectors only", "[cli]") {
+  for (const std::string system :
+       {"u' = -u/hypot(u,v); v' = -v/hypot(u,v) - 0.5*sign(u-3)", "u' = v; v' = -sign(u) - 0.3*sign(v-1)"}) {
+    INFO(system);
+    const std::vector<std::string> start{"--u0", "5", "--v0", "5"};
+    const Run text = reduce(system, start);
+    CHECK(text.status == 0);
+    CHECK_THAT(text.out, Contains("solution    none by quadrature: no scaling holds throughout"));
+    CHECK_THAT(text.out, !Contains("tau_stop"));
+    CHECK_FALSE(json_of_system(system, start).contains("tau_stop"));
+    const Run portrait = run_program({"portrait", "--system", system, "--u0", "5", "--v0", "5", "--format", "svg"});
+    CHECK(portrait.status == 1);
+    CHECK(portrait.out.empty());
+    CHECK_THAT(portrait.err, Contains("no scaling holds throughout") && Contains("nothing to draw orbits by"));
+  }
+  // A relay about u = 1
+  const Json relay = json_of_system("u' = v; v' = -sign(u-1) - 0.3*sign(v)", {"--u0", "1.5", "--v0", "2"});
+  CHECK(relay["kind"] == "stable focus");
+  const double a = 0.7, b = 1.3, out = 2 / b, in = std::sqrt((1 + 4 * out - b * out * out) / a);
+  const double half_turn = a * in / b + in * std::sqrt(a / b);
+  CHECK(relay["tau_stop"].get<double>() == Approx(out + in + half_turn / (1 - std::sqrt(a / b))).epsilon(1e-12));
+}
+
+TEST_CASE("reduce --system says what it cannot tell, and what is at rest", "[cli]") {
+  CHECK_THAT(reduce("u' = exp(u); v' = exp(v)", {"--u0", "2", "--v0", "1"}).out, Contains("no generator is a scaling"));
+  const std::string touching =
+      "u' = -u/hypot(u,v) - (v*cos(0.96)-u*sin(0.96))^2*v/hypot(u,v)^3; "
+      "v' = -v/hypot(u,v) + (v*cos(0.96)-u*sin(0.96))^2*u/hypot(u,v)^3";
+  CHECK_THAT(reduce(touching).out, Contains("none by quadrature: at the angle ") && Contains("do not tell"));
+  const Run far = reduce("u' = v - sqrt(|u|)*sign(u); v' = -sign(u)", {"--u0", "1e50", "--v0", "1"});
+  CHECK_THAT(far.out, Contains("the errors of differences exceed all of them"));
+  const Run centre = reduce("u' = 1-u; v' = 2-v", {"--u0", "1", "--v0", "2"});
+  CHECK(centre.status == 0);
+  CHECK_THAT(centre.out, Contains("centre      (1, 2): stable star\ntau_stop    0: the start is the centre\n"));
+  CHECK(json_of_system("u' = 1-u; v' = 2-v", {"--u0", "1", "--v0", "2"})["tau_stop"] == 0);
+  const Run rest = reduce("u' = 0; v' = -v/hypot(u,v)", {"--u0", "2", "--v0", "1"});
+  CHECK_THAT(rest.out, Contains("degenerate") && Contains("the motion on it goes nowhere: its points are at rest"));
+  CHECK_THAT(reduce("u' = -1; v' = -1").out, Contains("(0, 0): regular point"));
+  const std::vector<std::string> start{"--u0", "2", "--v0", "1"};
+  CHECK_THAT(reduce("u' = u; v' = v", start).out, Contains("tau_stop    inf: it goes to infinity, for ever\n"));
+  CHECK_THAT(reduce("u' = u^2; v' = v^2", start).out, Contains("tau_stop    inf: it is at infinity after 0.5\n"));
+  CHECK_THAT(reduce("u' = 1; v' = -sign(v)", start).out, Contains("tau_stop    not known: it comes to a border"));
+  CHECK(json_of_system("u' = 1; v' = -sign(v)", start)["tau_stop"].is_null());
+}
+
+TEST_CASE("reduce far from 1", "[cli]") {
+  const std::string friction = "u' = -u/hypot(u,v); v' = -v/hypot(u,v)";
+  for (const std::string size : {"1e-155", "1e160"}) {
+    const double unit = std::stod(size);
+    CHECK(json_of_system(friction, {"--u0", size, "--v0", size})["tau_stop"].get<double>() ==
+          Approx(std::sqrt(2) * unit).epsilon(1e-13));
+    const std::string start = "--mu 0.3 --u0 " + size + " --v0 " + size + " --format json";
+    const Json reduced = json_of("reduce " + start);
+    CHECK(reduced["routes"].back()["tau_stop"].get<double>() ==
+          Approx(reduced["tau_stop"].get<double>()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("reduce --system draws sectors too narrow for a double's steps", "[cli]") {
+  const Json reduced = json_of_system(
+      "u' = -1.6205530169776787*|u|^0.75*sign(u) + 2.2514064359057695*|v|^0.25*sign(v); "
+      "v' = -1.4636216884412168*|v|^(11/12)*sign(v)",
+      {"--u0", "0.2625076190219131", "--v0", "1.6067465764203765"});
+  CHECK(reduced["end"] == "centre");
+  CHECK(reduced["strip"].size() == 1);
+}

@@ -271,3 +271,82 @@ TEST_CASE("a matrix that is no scaling is refused", "[planar][domain]") {
   }
   CHECK_THROWS_AS(PlanarReduction(field, {0, Matrix2d::Identity(), {0, 0}}, {0, 0}), std::domain_error);
 }
+
+namespace {
+
+/// r' = R(angle), angle' = T(angle)/r
+template <class Radial, class Angular>
+PlanarField polar(const Radial& radial, const Angular& angular) {
+  return [=](const Vector2d& x) -> Vector2d {
+    const Vector2d n = x.normalized();
+    const double angle = std::atan2(x[1], x[0]);
+    return radial(angle) * n + angular(angle) * Vector2d(-n[1], n[0]);
+  };
+}
+
+}  // namespace
+
+TEST_CASE("a relay about another point stops when the one about the origin does", "[planar][exact]") {
+  const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
+  const auto relay = [=](double at) {
+    return [=](const Vector2d& x) { return Vector2d(x[1], -sign(x[0] - at) - 0.3 * sign(x[1])); };
+  };
+  const PlanarReduction here = reduced(relay(0), {0.5, 2}), there = reduced(relay(1), {1.5, 2});
+  CHECK(there.kind() == "stable focus");
+  CHECK(there.end_time({1.5, 2}) == Approx(here.end_time({0.5, 2})).epsilon(1e-12));
+  // By hand: with u = 0 next at v = -w, v^2 (1 + ...) falls by the same factor in each half turn.
+  const double a = 0.7, b = 1.3;  // |v'| on the way out and in
+  const double out = 2 / b, top = 0.5 + 2 * out - b * out * out / 2, in = std::sqrt(2 * top / a), w = a * in;
+  const double ratio = std::sqrt(a / b), half_turn = w / b + w * ratio / a;
+  CHECK(there.end_time({1.5, 2}) == Approx(out + in + half_turn / (1 - ratio)).epsilon(1e-12));
+}
+
+TEST_CASE("rays that are close to one another are found", "[planar][exact]") {
+  const auto node = [](double q, double distance) {
+    return polar([](double angle) { return -1 - 0.8 * std::sin(angle); },
+                 [=](double angle) { return std::pow(std::sin(angle - q), 2) - distance * distance; });
+  };
+  for (double q : {0.99, 1.0, 1.01, 1.02, -2.5}) {
+    for (double distance : {0.004, 1e-4, 0.03}) {
+      CAPTURE(q, distance);
+      const PlanarReduction plane = reduced(node(q, distance));
+      CHECK(plane.kind() == "stable node");
+      REQUIRE(plane.rays().size() == 4);
+      for (const PlanarRay& ray : plane.rays()) {
+        const double from = std::abs(std::remainder(ray.q - q, pi));
+        CHECK(from == Approx(std::asin(distance)).epsilon(1e-9).margin(2e-12));
+        CHECK(ray.attracts == (std::remainder(ray.q - q, pi) < 0));
+      }
+      CHECK(plane.end({1, 0.2}) == PlanarEnd::centre);
+      CHECK(plane.end_time({1, 0.2}) > 0.5);
+    }
+  }
+  // SciPy's DOP853 in ln r and the angle, to 1e-11
+  CHECK(reduced(node(1, 0.004)).end_time({1, 0.2}) == Approx(0.7710816980055679).epsilon(1e-8));
+  CHECK(reduced(node(1, 0.03)).end_time({1, 0.2}) == Approx(0.7712289685393047).epsilon(1e-8));
+  // T touches 0 where no formula makes it exact: one ray, two, or none.
+  CHECK_THROWS_AS(reduced(node(0.96, 0)), UndecidedRays);
+}
+
+TEST_CASE("points at rest on a ray, and a point that orbits pass", "[planar][exact]") {
+  const PlanarReduction resting = reduced([](const Vector2d& x) { return Vector2d(0, -x[1] / x.norm()); });
+  CHECK(resting.kind() == "degenerate");
+  CHECK(resting.end({2, 1}) == PlanarEnd::rest);
+  // The same, turned: the ray is no axis.
+  const Vector2d n(std::cos(0.3), std::sin(0.3));
+  const PlanarReduction turned =
+      reduced([&](const Vector2d& x) -> Vector2d { return (-x.dot(n) / x.norm()) * n; }, {2, 1});
+  CHECK(turned.kind() == "degenerate");
+  CHECK(turned.end({2, 1}) == PlanarEnd::rest);
+  CHECK(reduced([](const Vector2d&) { return Vector2d(-1, -1); }).kind() == "regular point");
+  // u' = v, v' = u^2: v^2/2 = u^3/3 + const
+  CHECK(reduced([](const Vector2d& x) { return Vector2d(x[1], x[0] * x[0]); }).kind() == "cusp");
+}
+
+TEST_CASE("far from 1, too", "[planar][domain]") {
+  for (double unit : {1e-155, 1e160}) {
+    const PlanarReduction plane =
+        reduced([](const Vector2d& x) { return Vector2d(-x.stableNormalized()); }, {3 * unit, 4 * unit});
+    CHECK(plane.end_time({3 * unit, 4 * unit}) == Approx(5 * unit).epsilon(1e-13));
+  }
+}

@@ -218,3 +218,67 @@ TEST_CASE("a generator that does not hold across a kink says so", "[planar][symm
     }
   }
 }
+
+TEST_CASE("a scaling that does not hold across jumps is no scaling of the field", "[planar][symmetry]") {
+  const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
+  // Friction with a jump along a line, on a circle and beside the origin; a relay about (0, 0) and (0, 1) at once.
+  const PlanarField fields[] = {
+      [=](const Vector2d& x) -> Vector2d { return -x / x.norm() - Vector2d(0, 0.5 * sign(x[0] - 0.6)); },
+      [=](const Vector2d& x) -> Vector2d { return -x / x.norm() * (2 + sign(x.norm() - 1)); },
+      [=](const Vector2d& x) -> Vector2d { return -x / x.norm() - Vector2d(0, x[0] > 0.5 ? 0.2 : 0); },
+      [=](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - 0.3 * sign(x[1] - 1)); },
+  };
+  for (const PlanarField& field : fields) {
+    const PlanarSymmetries found = symmetries(field);
+    CAPTURE(&field - fields, found.singular_values, found.level);
+    CHECK_FALSE(found.scaling);
+    CHECK(std::ranges::any_of(found.generators, [](const Generator& x) { return !x.everywhere; }));
+  }
+}
+
+TEST_CASE("of several scalings within sectors the one that leaves the jumps where they are", "[planar][symmetry]") {
+  const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
+  const auto relay = [=](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - 0.3 * sign(x[1])); };
+  for (const Vector2d& centre : {Vector2d(1, 0), Vector2d(-0.3, 0.7)}) {
+    const PlanarSymmetries found = symmetries([&](const Vector2d& x) { return relay(x - centre); });
+    CAPTURE(centre, found.singular_values, found.level);
+    REQUIRE(found.scaling);
+    const Generator& x = *found.scaling;
+    CHECK(x.everywhere);
+    CHECK((x.centre() - centre).norm() < 1e-12);
+    CHECK((x.matrix - 2 * x.time * diagonal(1, 0.5)).norm() < 1e-12);
+  }
+  // Uniform on both sides of a line: any point of it will do.
+  const PlanarSymmetries slanted = symmetries([=](const Vector2d& x) {
+    const double side = sign(x[0] - 2 * x[1] + 0.4);
+    return Vector2d(2 + side, 1 - 0.5 * side);
+  });
+  REQUIRE(slanted.scaling);
+  const Vector2d centre = slanted.scaling->centre();
+  CHECK(centre[0] - 2 * centre[1] == Approx(-0.4).epsilon(1e-12));
+}
+
+TEST_CASE("a translation with a rate is no scaling", "[planar][symmetry]") {
+  // u' = exp(u): u -> u + s, t -> exp(-s) t
+  const PlanarSymmetries found =
+      find_symmetries([](const Vector2d& x) { return Vector2d(std::exp(x[0]), std::exp(x[1])); }, {2, 1});
+  REQUIRE(found.generators.size() == 1);
+  CHECK(found.generators[0].time == Approx(-1).epsilon(1e-9));
+  CHECK_FALSE(found.scaling);
+}
+
+TEST_CASE("symmetries are the same in all units", "[planar][symmetry]") {
+  const Vector2d centre(3, -1);
+  for (double unit : {1e-155, 1.0, 1e160}) {
+    CAPTURE(unit);
+    check_one(find_symmetries(planar_field({PadeLaw{}, 0.3}), {unit, unit}), 1, Matrix2d::Identity());
+    const PlanarSymmetries found = find_symmetries(
+        [&](const Vector2d& x) {
+          const Vector2d y = x / unit - centre;
+          return Vector2d(-y / std::sqrt(y.norm()));
+        },
+        {unit, 2 * unit});
+    REQUIRE(found.scaling);
+    CHECK((found.scaling->centre() / unit - centre).norm() < 1e-12);
+  }
+}

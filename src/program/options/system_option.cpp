@@ -25,17 +25,14 @@ reduction::PlanarField SystemOption::read(const ParameterOptions& parameters) co
 
 std::optional<reduction::PlanarReduction> SystemOption::solve(const reduction::PlanarField& field,
                                                               const Eigen::Vector2d& around) const {
-  using Verdict = reduction::PlanarSymmetries::Verdict;
   const reduction::PlanarSymmetries found = reduction::find_symmetries(field, around);
-  if (found.scaling) return reduction::PlanarReduction(field, *found.scaling, around, found.residual);
+  SolvedPlane solved = solve_planar(field, found, around);
+  if (solved.plane) return std::move(solved.plane);
   fmt::print(
       stderr,
       "contensou: --system: {}: nothing to draw orbits by. The least singular value of the determining equations is "
       "{:.1e} of the largest, and below {:.1e} it counts as 0. Without a picture, 'contensou reduce' tells more\n",
-      found.verdict == Verdict::found       ? "there are symmetries, but no scaling among them"
-      : found.verdict == Verdict::undecided ? "the field's noise, or its kinks, hide whether it has a scaling"
-                                            : "no scaling was found",
-      found.singular_values[0], found.level);
+      solved.why_not, found.singular_values[0], found.level);
   return std::nullopt;
 }
 

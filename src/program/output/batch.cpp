@@ -48,7 +48,8 @@ class Batch {
     for (const si::Quantity* quantity : si::quantities()) {
       const std::string name(quantity->name);
       if (table.has_column(name) && !std::ranges::count(request.inputs, name))
-        fmt::print(stderr, "note: the column {0} is handed on and not read: all rows have one {0}\n", name);
+        std::fputs(fmt::format("note: the column {0} is handed on and not read: all rows have one {0}\n", name).c_str(),
+                   stderr);
     }
   }
 

@@ -52,7 +52,7 @@ class Reduction:
     singular_values:  of the determining equations, ascending, relative to the largest; below level they count as 0
     gap:              how far those that count as 0 are from the others
     verdict:          found, none, or undecided: the field's noise hides what a generator would leave
-    solved:           whether a generator is a scaling; else what follows raises ValueError
+    solved:           whether a generator is a scaling that holds everywhere; else what follows raises ValueError
 
     It keeps the system: orbit and portrait are its motions.
     Points are numbers, or arrays of shapes that broadcast; NaN where there is no answer.
@@ -104,7 +104,7 @@ class Reduction:
         return self._core.first_integral(*together(u=u, v=v))[()]
 
     def stop_time(self, *, u: ArrayLike, v: ArrayLike) -> Any:
-        """The time to the centre, relative 1e-12; inf if it is not reached."""
+        """The time to the centre, relative 1e-12; inf if it is not reached; NaN beyond a border of the field, or a jump."""
         return self._core.stop_time(*together(u=u, v=v))[()]
 
     def orbit(self, u: float, v: float) -> PlanarOrbit:
@@ -160,7 +160,7 @@ class PlanarOrbit:
 
     end:        centre, infinity, rest (a point that is none of both), border (of the field, or a jump), or periodic
     end_time:   when it is there, by quadrature, relative 1e-12; inf if that takes for ever, or is not known
-    stop_time:  when it is at the centre; inf if it never is
+    stop_time:  when it is at the centre; inf if it never is; NaN if it comes to a border
     """
 
     def __init__(self, reduction: Reduction, u: float, v: float) -> None:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -52,6 +53,12 @@ struct PlanarTurn {
   double sigma;   ///< in d sigma = exp(-c p) dt; the period, where c = 0
 };
 
+/// Where T, of README (R42), comes so near to 0 that its values do not tell whether rays are there.
+class UndecidedRays : public std::domain_error {
+ public:
+  using std::domain_error::domain_error;
+};
+
 class PlanarOrbit;
 
 /// x' = f(x) solved by its scaling X = c t d/dt + A (x - x_0) . d/dx: f on one closed curve about x_0 is all of f.
@@ -64,13 +71,15 @@ class PlanarOrbit;
 /// README (R42) to (R45). A value; copies share what is solved.
 ///
 /// Accuracy  of times relative 1e-12, where the field is smooth but for kinks and good to its last bits; where it is not,
-///           that of the field. A ray that T only touches is found where it lies on u = 0, v = 0 or half way between.
+///           that of the field, and digits are lost next to a ray on which it is like |x|^a, a < 1, unless that is an
+///           axis. A ray that T only touches is found where it lies on u = 0, v = 0 or half way between.
 class PlanarReduction {
  public:
   /// @param scaling  of the field
   /// @param around   a point other than the centre, where the field may be called and is not tiny
   /// @param noise    of its values, relative: what PlanarSymmetries::residual says
   /// @throws std::domain_error  unless all eigenvalues of A have positive real parts; and for a field without values
+  /// @throws UndecidedRays      where T is 0 but for rounding and does not change its sign, other than on those lines
   PlanarReduction(PlanarField field, const Generator& scaling, const Eigen::Vector2d& around, double noise = 0);
 
   const Generator& scaling() const;
@@ -90,7 +99,9 @@ class PlanarReduction {
   const PlanarTurn* turn() const;
 
   /// "stable node", "unstable node", "saddle", "stable focus", "unstable focus", "center", "stable star", "unstable
-  /// star"; "mixed" with sectors of several kinds; "bordered" if the field has values in a part of the plane or jumps
+  /// star"; "regular point", which orbits pass, and "cusp", which they pass as well, where the field is 0 or has no value;
+  /// "mixed" with sectors of several kinds; "degenerate" if all points of a ray are at rest; "bordered" if the field has
+  /// values in a part of the plane or jumps
   std::string_view kind() const;
 
   /// Where the motion from this point ends.

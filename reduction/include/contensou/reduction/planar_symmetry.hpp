@@ -22,11 +22,14 @@ struct Generator {
   Eigen::Vector2d shift;   ///< b
 
   /// Whether it maps the field onto itself throughout; else it does so within each sector between the lines where the
-  /// field is not smooth, and not across them. (Of several such a combination may; that is not looked for.)
+  /// field is not smooth, and not across them. (Of several such a combination may; it is looked for as `scaling`.)
   bool everywhere = true;
 
   /// How fast, at least, points leave the centre: the smaller real part of the eigenvalues of A.
   double growth() const;
+
+  /// Where A x + b vanishes; A has an inverse.
+  Eigen::Vector2d centre() const;
 };
 
 /// What was found of the generators of that form. Beside them every x' = f(x) admits d/dt.
@@ -52,7 +55,8 @@ struct PlanarSymmetries {
   /// How far those that are 0 are from the others: the least of these over the larger of level and the most of those.
   double gap = 0;
 
-  /// A generator to reduce by: all eigenvalues of A have positive real parts, and A x + b vanishes at one point. Of
+  /// A generator to reduce by, which holds everywhere, across jumps of the field, too: all eigenvalues of A have positive
+  /// real parts, and A x + b vanishes at one point. Of
   /// several the simplest: about the origin and A = 1 if that is one; else about another point; else A diagonal. Its
   /// largest entry is 1 or -1, the trace of A positive.
   std::optional<Generator> scaling = {};
