@@ -220,4 +220,8 @@ TEST_CASE("formulas that are no law of friction are refused with what was measur
   rejected("phi = k/(1+k); psi = 1/(1+k) - 0.3", "friction resists: phi and psi must be positive and finite");
   rejected("pade", "--param is for formulas", {"--param", "a=1"});
   check_rejected("stop --mu 0.3 --u0 1 --v0 1 --param a=1", "--param is for formulas");
+  check_rejected(
+      "law --law pressure:t\x1e"
+      "er",
+      "--law pressure:t\\x1eer: 't\\x1eer' is not a number");
 }
