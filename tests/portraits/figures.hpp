@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +14,7 @@
 namespace contensou::portraits {
 
 /// Of the panel's lines, those with a legend that begins so.
-inline const Lines& layer(const Panel& panel, const std::string& legend) {
+inline const Lines& layer(const Panel& panel, std::string_view legend) {
   const auto found =
       std::ranges::find_if(panel.lines, [&](const Lines& lines) { return lines.legend.words().starts_with(legend); });
   REQUIRE(found != panel.lines.end());
