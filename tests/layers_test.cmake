@@ -14,7 +14,7 @@ set(fit_uses reduction si)
 set(answers_uses reduction portraits text platform si fit)
 set(program_uses reduction portraits text platform si fit answers page)
 set(python_uses reduction portraits text si fit answers)
-set(page_uses reduction portraits text si fit answers)
+set(page_uses reduction portraits text platform si fit answers)
 
 set(faults "")
 set(odeint_allowed reduction/check/direct_motion.cpp reduction/check/regularised_motion.cpp src/si/integrated_motion.cpp

@@ -1,7 +1,6 @@
 #include "contensou/reduction/similarity_solution.hpp"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -13,8 +12,6 @@
 #include "contensou/reduction/terminal_ratio.hpp"
 
 namespace contensou::reduction {
-
-double rounding_of_stop_time(double r) { return std::numeric_limits<double>::epsilon() * (4 + std::log1p(r) / 2); }
 
 const SimilaritySolution::Curve& SimilaritySolution::through(double ln_k) const {
   for (const Curve& curve : curves_) {

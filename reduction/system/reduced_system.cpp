@@ -93,10 +93,15 @@ Bounds ReducedSystem::stop_time_bounds(State start) const {
   const auto [min, max] = *law_.sliding_bounds();
   const double min_sliding = min == 0 ? 0 : min * sliding;  // sliding may be infinite
   // Outwards by the rounding of these sums and of the stop time itself, so that it is never outside.
-  const double rounding = (8 + std::log1p(r_)) * std::numeric_limits<double>::epsilon() / (1 - drive_);
+  const double rounding = 2 * rounding_of_stop_time(r_) / (1 - drive_);
   const double lower = std::max({pivoting, (pivoting + min_sliding) / (1 - min * drive_), sliding / (1 - drive_)});
   const double upper = max * drive_ < 1 ? (pivoting + max * sliding) / (1 - max * drive_) : infinity;
   return {lower * (1 - rounding), upper * (1 + rounding)};
+}
+
+double rounding_of_stop_time(double r) {
+  const double logarithm = std::log1p(r);
+  return std::numeric_limits<double>::epsilon() * (4 + logarithm / 2 + 2 * std::max(0.0, logarithm - std::log(1e12)));
 }
 
 }  // namespace contensou::reduction

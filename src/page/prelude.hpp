@@ -11,16 +11,13 @@
 #define BOOST_EXCEPTION_DISABLE
 #define BOOST_MATH_PROMOTE_DOUBLE_POLICY false
 
-#include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include <fmt/format.h>
 #include <boost/math/policies/error_handling.hpp>
 #include <range/v3/algorithm.hpp>
+
+#include "platform/charconv/from_chars.hpp"
 
 /// A number in a message of Boost's, which would write it to a stream.
 template <>
@@ -38,17 +35,6 @@ template <class To, class From>
 constexpr To bit_cast(const From& from) noexcept {
   static_assert(sizeof(To) == sizeof(From));
   return __builtin_bit_cast(To, from);
-}
-
-/// The locale is that of C.
-inline from_chars_result from_chars(const char* first, const char* last, double& value) {
-  const string text(first, find_if(first, last, [](char letter) { return letter == 'x' || letter == 'X'; }));
-  char* end = nullptr;
-  const double number = strtod(text.c_str(), &end);
-  if (end == text.c_str() || text[0] == '+' || isspace(text[0])) return {first, errc::invalid_argument};
-  const bool too_large = isinf(number) && isdigit(*(end - 1));
-  if (!too_large) value = number;
-  return {first + (end - text.c_str()), too_large ? errc::result_out_of_range : errc()};
 }
 
 /// The algorithms of std::ranges are modelled on those of range-v3.

@@ -61,7 +61,6 @@ def differences(ours, theirs):
 
 
 wrong = []
-run(other, ["--version"], ".")  # wine's first start has much to say
 with tempfile.TemporaryDirectory() as folder:
     written = pathlib.Path(folder)
     for line in COMMANDS.strip().splitlines():
@@ -75,6 +74,7 @@ with tempfile.TemporaryDirectory() as folder:
             answers.append((answer, files))
         (ours, our_files), (theirs, their_files) = answers
         found = differences(" ".join(map(str, ours)), " ".join(map(str, theirs)))
+        found += [f"status {ours[0]} and {theirs[0]}"] * (ours[0] != theirs[0])
         found += [name for name in our_files.keys() ^ their_files.keys()]
         for name in our_files.keys() & their_files.keys():
             found += differences(our_files[name], their_files[name])

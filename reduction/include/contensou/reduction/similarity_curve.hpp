@@ -61,9 +61,4 @@ class SimilarityCurve {
   TerminalChart chart_;
 };
 
-/// What rounding takes of a stop time P + m S at most, relative: eps (4 + ln(1 + r)/2), r = gamma mu^2/chi.
-///
-/// Measured for m in closed form up to mu = 1e6 (tests/certify), and by quadrature (tests/reference/rays.csv).
-double rounding_of_stop_time(double r);
-
 }  // namespace contensou::reduction

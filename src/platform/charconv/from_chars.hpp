@@ -1,0 +1,34 @@
+// std::from_chars of a double, which libc++ has from LLVM 20 on: forced into every file where it is missing, on macOS and in
+// the page.
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <clocale>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
+
+namespace std {
+
+/// As the standard's, by strtod in the locale of C. Numbers of base 16 end at their x.
+inline from_chars_result from_chars(const char* first, const char* last, double& value) {
+  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  const string text(first, find_if(first, last, [](char letter) { return letter == 'x' || letter == 'X'; }));
+  char* end = nullptr;
+  const double number = ::strtod_l(text.c_str(), &end, plain);
+  if (end == text.c_str() || text[0] == '+' || isspace(static_cast<unsigned char>(text[0]))) {
+    return {first, errc::invalid_argument};
+  }
+  const bool too_large = isinf(number) && isdigit(static_cast<unsigned char>(*(end - 1)));
+  if (!too_large) value = number;
+  return {first + (end - text.c_str()), too_large ? errc::result_out_of_range : errc()};
+}
+
+}  // namespace std
