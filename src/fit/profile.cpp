@@ -72,10 +72,14 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
     if (point.excess < 4 * rise_) offer(point.parameters);
   }
   if (const VectorXd* guess = nearest_guess(number, at)) offer(*guess);
-  std::vector<std::pair<double, VectorXd>> found{{search_.cost(number.moved(foretold, at)), foretold}};
-  for (const auto& [part, nearest] : parts) {
-    found.emplace_back(search_.cost(number.moved(*nearest.parameters, at)), *nearest.parameters);
-  }
+  std::vector<std::pair<double, VectorXd>> found;
+  const auto judge = [&](const VectorXd& parameters) {
+    VectorXd start = search_.carried(number.moved(parameters, at));
+    const double cost = search_.cost(start);
+    found.emplace_back(cost, std::move(start));
+  };
+  judge(foretold);
+  for (const auto& [part, nearest] : parts) judge(*nearest.parameters);
   std::ranges::sort(found, {}, [](const auto& each) { return each.first; });
   // The best, and the best of another part.
   std::vector<VectorXd> starts;
@@ -105,7 +109,7 @@ const VectorXd* Profile::nearest_guess(const Coordinate& number, double at) cons
 const Profile::Point& Profile::lowest(const Coordinate& number, double at, const VectorXd& foretold, std::size_t most) {
   Point found{{}, endless};
   for (const VectorXd& start : starts_at(number, at, foretold, most)) {
-    const VectorXd parameters = search_.improved(number.moved(start, at), &number, tolerance);
+    const VectorXd parameters = search_.improved(start, &number, tolerance);
     const double excess = search_.cost(parameters) - least_;
     if (excess < found.excess || found.parameters.size() == 0) found = {parameters, excess};
     if (excess < rise_) break;

@@ -346,6 +346,20 @@ std::vector<Index> Search::pushed_out(const VectorXd& parameters) const {
   return pushed;
 }
 
+VectorXd Search::carried(VectorXd parameters) const {
+  std::vector<Index> places;
+  for (Index place : free) {
+    using enum Parameter;
+    const Parameter parameter = TrackModel::parameter_at(place);
+    if (parameter == vx || parameter == vy || parameter == x || parameter == y || parameter == angle)
+      places.push_back(place);
+  }
+  if (places.empty()) return parameters;
+  const Eigen::MatrixXd jacobian = weight.asDiagonal() * model.derivatives(parameters, places);
+  parameters(places) -= jacobian.colPivHouseholderQr().solve(residuals(parameters));
+  return model.limited(std::move(parameters));
+}
+
 VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double tolerance) const {
   // A parameter that the sum of squares pushes beyond its limit is kept there while the others are improved, until it is
   // pushed back: a step that is cut off at a limit is refused, and shorter and shorter ones would end the search too early.

@@ -80,6 +80,9 @@ class Search {
   /// The free parameters at a limit beyond which the sum of squares would be lower.
   std::vector<Eigen::Index> pushed_out(const Eigen::VectorXd& parameters) const;
 
+  /// The same with the velocity and the place of the body, in which what a film shows is linear, where they fit best.
+  Eigen::VectorXd carried(Eigen::VectorXd parameters) const;
+
   /// Improves the free parameters by Levenberg and Marquardt's method, between their limits.
   /// @param held       what stays as it is
   /// @param tolerance  of the sum of squares, relative

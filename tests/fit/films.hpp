@@ -4,8 +4,6 @@
 #include <random>
 #include <vector>
 
-#include <boost/random/normal_distribution.hpp>
-
 #include "contensou/fit/fit.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/ball_motion.hpp"
@@ -88,10 +86,10 @@ inline contensou::fit::Track track_of(const Film& film, const Eigen::ArrayXd& t,
   return track;
 }
 
-/// The same track with normal errors, which are the same with every library of C++.
+/// The same track with normal errors.
 inline contensou::fit::Track noisy(contensou::fit::Track track, const std::vector<Seen>& seen,
                                    std::mt19937_64& random) {
-  boost::random::normal_distribution<double> normal;
+  std::normal_distribution<double> normal;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     for (double& value : track.series[i].value) value += seen[i].sd * normal(random);
   }
