@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "contensou/reduction/reduced_system.hpp"
 #include "numerics/later.hpp"
 #include "numerics/legendre_series.hpp"
 #include "similarity/regular_solution.hpp"

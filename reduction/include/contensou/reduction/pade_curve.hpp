@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "contensou/reduction/reduced_system.hpp"
 #include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
