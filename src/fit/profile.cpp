@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
+
+#include <boost/math/tools/toms748_solve.hpp>
 
 namespace contensou::fit {
 
@@ -125,20 +128,21 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     double distance, height;  ///< from the estimate; the root of the sum's rise, less that of the allowed one
   };
   Reach inside{0, -std::sqrt(rise_)}, outside{endless, endless};
+  VectorXd last = best_;  // inside
   const auto look = [&](double distance, const VectorXd& foretold, std::size_t starts = few_starts) {
     const double excess = lowest(number, from + sign * distance, foretold, starts).excess;
     const Reach found{distance, std::sqrt(std::max(0.0, excess)) - std::sqrt(rise_)};
     if (found.height < 0) {
       inside = found;
+      last = points_.back().parameters;
       if (outside.distance < distance) outside = {endless, endless};
     } else if (distance < outside.distance) {
       outside = found;
     }
-    return found.height < 0;
+    return found.height;
   };
 
   // Along the valley, from the farthest point that is known, to where the last two lead.
-  VectorXd last = best_;
   for (const Point& point : points_) {
     const double distance = sign * (number.of(point.parameters) - from);
     if (point.excess >= rise_ || distance <= inside.distance) continue;
@@ -154,28 +158,22 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     const VectorXd foretold =
         ahead > 0 ? VectorXd(last + (distance - inside.distance) / ahead * (last - before)) : last;
     ahead = distance - inside.distance;
-    if (!look(distance, foretold, most_starts)) break;
-    before = std::exchange(last, points_.back().parameters);
+    before = last;
+    if (look(distance, foretold, most_starts) >= 0) break;
   }
   // Beyond its end another one may begin.
   double stride = number.of_contact() ? widest : room / 64;
   for (double distance = outside.distance; wide_ && distance < room && !better_; stride *= growth) {
     distance = std::min(room, distance + stride);
-    if (look(distance, points_.back().parameters)) last = points_.back().parameters;
+    look(distance, points_.back().parameters);
   }
   if (inside.distance >= room) return sign * endless;
-  // False position; an end that stays twice counts half (Illinois).
-  for (int i = 0, side = 0; i < most_refinements && outside.distance - inside.distance > sharp * outside.distance;
-       ++i) {
-    const double length = outside.distance - inside.distance;
-    const double share = -inside.height / (outside.height - inside.height);
-    if (look(inside.distance + std::clamp(share, 0.02, 0.98) * length, last)) {
-      last = points_.back().parameters;
-      if (std::exchange(side, -1) == -1) outside.height /= 2;
-    } else if (std::exchange(side, 1) == 1) {
-      inside.height /= 2;
-    }
-    if (better_) break;
+  if (!better_) {
+    const auto height_at = [&](double distance) { return better_ ? 0 : look(distance, last); };
+    const auto is_sharp = [](double left, double right) { return right - left <= sharp * right; };
+    std::uintmax_t looks = most_refinements;
+    boost::math::tools::toms748_solve(height_at, inside.distance, outside.distance, inside.height, outside.height,
+                                      is_sharp, looks);
   }
   if (is_held_by_limit(number, last)) return sign * endless;
   return from + sign * (inside.distance + outside.distance) / 2;

@@ -27,6 +27,7 @@
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/ball_motion.hpp"
@@ -93,12 +94,8 @@ State inside(const Flow& flow, State start, const portraits::Window& window) {
   const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= window.u && state.v <= window.v; };
   if (is_inside(start)) return start;
   const Orbit orbit = flow.orbit(start);
-  double outside = 0, within = orbit.stop_time();
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (outside + within) / 2;
-    (is_inside(orbit.at_time(middle)) ? within : outside) = middle;
-  }
-  const auto point = orbit.at_time(within);
+  const auto comes_in = [&](double time) { return is_inside(orbit.at_time(time)); };
+  const auto point = orbit.at_time(reduction::last_where(comes_in, orbit.stop_time(), 0));
   // Next to an axis a speed may underflow; the orbit is not the axis.
   constexpr double least = std::numeric_limits<double>::min();
   return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};

@@ -139,16 +139,16 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Law& la
   if (other == 0) return settled(in_place);
   const double mu = patch_ratio(experiment, law);
   const SlipAndSpin found = settled([&](double speed) {
-    SlipAndSpin start{};
-    double low = -30, high = 30;  // of ln k; beyond, a start spins or slides alone, to rounding
-    constexpr int halvings = 60;
-    for (int i = 0; i < halvings; ++i) {
-      const double middle = (low + high) / 2, slip = mu * std::exp(middle), size = std::hypot(slip, 1);
-      start = {speed * slip / size, speed / size / R};
-      const Reached at = reached(start);
-      (at.other * turns < other * at.turns ? low : high) = middle;
-    }
-    return start;
+    const auto start_of = [&](double ln_k) -> SlipAndSpin {
+      const double slip = mu * std::exp(ln_k), size = std::hypot(slip, 1);
+      return {speed * slip / size, speed / size / R};
+    };
+    const auto falls_short = [&](double ln_k) {
+      const Reached at = reached(start_of(ln_k));
+      return at.other * turns < other * at.turns;
+    };
+    constexpr double far = 30;  // beyond, a start spins or slides alone, to rounding
+    return start_of(reduction::last_where(falls_short, -far, far, 60));
   });
   if (!std::isfinite(other)) too_far_apart(goal);
   if (const double there = reached(found).other; !comes_to(there, other)) {
