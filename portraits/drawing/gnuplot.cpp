@@ -202,7 +202,7 @@ class Data {
     }
     text_ << "e\n";
   }
-  std::string_view text() const { return text_.view(); }
+  std::string text() const { return text_.str(); }
 
  private:
   std::ostringstream text_;
