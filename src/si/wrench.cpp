@@ -14,10 +14,10 @@ namespace contensou::si {
 
 namespace {
 
-/// sqrt(x^2 + y^2 + z^2), as std::hypot, which takes longer.
+/// sqrt(x^2 + y^2 + z^2), as std::hypot, which takes longer (and that of three numbers overflows in libc++ 16).
 double length(double x, double y, double z) {
   const double square = x * x + y * y + z * z;
-  return square > 1e-200 && square < 1e300 ? std::sqrt(square) : std::hypot(x, y, z);
+  return square > 1e-200 && square < 1e300 ? std::sqrt(square) : std::hypot(std::hypot(x, y), z);
 }
 
 /// What is wrong with what the slip is made of; null if nothing is.
