@@ -91,9 +91,8 @@ struct PlanarReduction::Solved {
 
 void PlanarReduction::Solved::undecided(const Vector2d& n) const {
   throw UndecidedRays(
-      fmt::format("at the angle {:.6g} the field points along the scaling but for rounding: whether rays are there, "
-                  "one or two, its "
-                  "values do not tell",
+      fmt::format("at the angle {:.6g} the field points along the scaling but for rounding: "
+                  "whether rays are there, one or two, its values do not tell",
                   angle_of(n)));
 }
 

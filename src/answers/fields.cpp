@@ -100,9 +100,8 @@ std::vector<VerbFields> field_table() {
             "starts to which the symmetry moves this one: their orbits are the same strip, ln of the factor higher in "
             "p"},
            {"`tau_stop`; `end`; `routes` [{`name`, `tau_stop`}]", "speed",
-            "inf where the centre is not reached, null if a border comes first; section: by the general way; `failure` "
-            "of "
-            "a route instead"},
+            "inf where the centre is not reached, null if a border comes first; section: by the general way; "
+            "`failure` of a route instead"},
        }},
       {"fit", fit_fields()},
       {"balls",
