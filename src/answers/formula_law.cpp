@@ -11,6 +11,7 @@
 
 #include "answers/errors.hpp"
 #include "answers/formulas.hpp"
+#include "answers/parse.hpp"
 #include "contensou/reduction/laws.hpp"
 
 namespace contensou::answers {
@@ -127,7 +128,12 @@ reduction::Law parse_formula_law(const std::string& text, const std::map<std::st
 }
 
 std::optional<reduction::Law> find_law_or_formulas(const std::string& text) {
-  return is_formula_law(text) ? parse_formula_law(text) : reduction::find_law(text);
+  if (is_formula_law(text)) return parse_formula_law(text);
+  try {
+    return reduction::find_law(text);
+  } catch (const std::domain_error& error) {
+    throw BadInput(escaped(error.what()));  // its letters may be unprintable
+  }
 }
 
 }  // namespace contensou::answers

@@ -61,24 +61,11 @@ void LawOption::require_no_parameters() const {
   }
 }
 
-namespace {
-
-/// As reduction::find_law, which says what was typed as it is: its letters may be unprintable.
-std::optional<reduction::Law> find_law_typed(const std::string& typed) {
-  try {
-    return reduction::find_law(typed);
-  } catch (const std::domain_error& error) {
-    throw std::domain_error(escaped(error.what()));
-  }
-}
-
-}  // namespace
-
 reduction::Law LawOption::read_one(const std::string& typed) const {
   try {
     if (is_formula_law(typed)) return parse_formula_law(typed, parameters_.read());
     require_no_parameters();
-    if (auto law = find_law_typed(typed == "hertz" ? "exact" : typed)) return *law;
+    if (auto law = find_law_or_formulas(typed == "hertz" ? "exact" : typed)) return *law;
   } catch (const std::domain_error& error) {
     law_.reject(error.what());
   }
