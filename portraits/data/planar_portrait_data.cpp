@@ -29,7 +29,7 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
   const auto& [low, high] = portrait.window;
   const Eigen::Vector2d& centre = portrait.plane.centre();
   Json json{{"system", portrait.name},
-            {"kind", portrait.plane.kind()},
+            {"kind", portrait.plane.kind().empty() ? Json() : Json(portrait.plane.kind())},
             {"centre", {centre[0], centre[1]}},
             {"window", {{low[0], high[0]}, {low[1], high[1]}}},
             {"rays", rays}};

@@ -151,9 +151,10 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
 
   Figure figure;
   figure.title = shortened(portrait.name);
+  const std::string kind(portrait.plane.kind().empty() ? "kind not decided" : portrait.plane.kind());
   figure.subtitle = portrait.plane.star()
-                        ? std::string(portrait.plane.kind())
-                        : fmt::format("{}: {} are one curve, moved by the symmetry", portrait.plane.kind(),
+                        ? kind
+                        : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
                                       portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
   figure.size = size;
   figure.theme = look.palette.theme;

@@ -84,6 +84,23 @@ LegendreSeries LegendreSeries::derivative() const {
   return slope;
 }
 
+LegendreSeries LegendreSeries::divided_by_x() const {
+  // From t P_j = ((j + 1) P_{j+1} + j P_{j-1})/(2j + 1), the highest coefficient of the quotient first.
+  LegendreSeries quotient;
+  auto& q = quotient.coefficients_;
+  for (int j = order; j >= 1; --j) {
+    const double above = j < order ? q[j + 1] * (j + 1) / (2 * j + 3) : 0;
+    q[j - 1] = (2 * coefficients_[j] - q[j] - above) * (2 * j - 1) / j;
+  }
+  return quotient;
+}
+
+LegendreSeries LegendreSeries::without_noise(double bound) const {
+  LegendreSeries series = *this;
+  for (int j = order; j >= 1 && std::abs(series.coefficients_[j]) <= bound; --j) series.coefficients_[j] = 0;
+  return series;
+}
+
 double LegendreSeries::operator()(double t) const {
   // Clenshaw: (j + 1) P_{j+1} = (2j + 1) t P_j - j P_{j-1}.
   constexpr auto here = of_each([](int j) { return (2 * j + 1) / (j + 1.0); });

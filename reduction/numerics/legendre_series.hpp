@@ -22,6 +22,12 @@ class LegendreSeries {
 
   LegendreSeries derivative() const;
 
+  /// The series divided by x = (1 + t)/2; its value at x = 0 is left out.
+  LegendreSeries divided_by_x() const;
+
+  /// The series without its highest coefficients, as long as they are not above a bound.
+  LegendreSeries without_noise(double bound) const;
+
   double operator()(double t) const;
 
   /// The value at 1.

@@ -100,6 +100,7 @@ std::optional<Slope> slope(Sampler& field, const Vector2d& x, int i, double firs
       if (error < best.error) best = {table[row][column], error};
     }
   }
+  if (!std::isfinite(best.error)) return std::nullopt;  // squares overflow
   return best;
 }
 
@@ -125,6 +126,7 @@ struct Equations {
   Unknowns column_scale;
   std::vector<Vector2d> points = {};
   double error = 0;  ///< Frobenius' norm of what the errors of the derivatives make of the matrix
+  double range = 1;  ///< largest |f| at the samples divided by the least
 };
 
 Equations determining_equations(Sampler& field, const Vector2d& around) {
@@ -136,11 +138,16 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   };
   std::vector<Sample> samples;
   bool all_zero = true;
+  double smallest = infinity, largest = 0;
   for (int i = 1; i <= tried; ++i) {
     const Vector2d x = sample_point(i, around);
     const auto f = field(x);
     if (!f) continue;
     all_zero &= f->isZero(0);
+    if (!f->isZero(0)) {
+      smallest = std::min(smallest, f->stableNorm());
+      largest = std::max(largest, f->stableNorm());
+    }
     const auto by_u = slope(field, x, 0, std::abs(x[0]) / 8), by_v = slope(field, x, 1, std::abs(x[1]) / 8);
     if (!by_u || !by_v) continue;
     const auto of_derivatives = [&](const Vector2d& du, const Vector2d& dv) {
@@ -198,7 +205,9 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   std::vector<Sample> kept;
   for (const auto& [error, i] : order) kept.push_back(samples[i]);
   samples = std::move(kept);
-  return scaled().first;
+  Equations equations = scaled().first;
+  equations.range = largest / smallest;
+  return equations;
 }
 
 /// phi = exp(s X): x -> L x + d.
@@ -469,7 +478,9 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
     nullity += result.singular_values[i] <= result.level;
   }
   constexpr double hidden = 1e-2;
-  if (result.level > hidden) result.verdict = PlanarSymmetries::Verdict::undecided;
+  // Where sizes differ so much, a few samples decide alone what the rows of all should.
+  constexpr double widest = 1e140;
+  if (result.level > hidden || !(equations.range < widest)) result.verdict = PlanarSymmetries::Verdict::undecided;
   const double zero = std::max(result.level, nullity > 0 ? result.singular_values[nullity - 1] : 0);
   result.gap = nullity < 7 ? result.singular_values[nullity] / zero : infinity;
   if (nullity == 0 || result.verdict == PlanarSymmetries::Verdict::undecided) return result;

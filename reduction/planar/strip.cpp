@@ -8,19 +8,15 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/linear_ode.hpp"
-#include "planar/matrix_exponential.hpp"
 
 namespace contensou::reduction {
 
-using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
@@ -29,113 +25,43 @@ namespace {
 
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// The frame S in which |n| grows along the scaling everywhere: with Q of A^T Q + Q A = 1, Q = S^-T S^-1.
-Matrix2d frame_of(const Matrix2d& a) {
-  Eigen::Matrix3d equations;                 // for Q11, Q12, Q22
-  equations << 2 * a(0, 0), 2 * a(1, 0), 0,  //
-      a(0, 1), a(0, 0) + a(1, 1), a(1, 0),   //
-      0, 2 * a(0, 1), 2 * a(1, 1);
-  const Eigen::Vector3d q = equations.partialPivLu().solve(Eigen::Vector3d(1, 0, 1));
-  if (!(q[0] > 0 && q[0] * q[2] > q[1] * q[1])) {
-    throw std::domain_error("PlanarReduction: all eigenvalues of the scaling's matrix must have positive real parts");
-  }
-  // S = L^-T of Q = L L^T: upper triangular.
-  const double l11 = std::sqrt(q[0]), l21 = q[1] / l11, l22 = std::sqrt(q[2] - l21 * l21);
-  return (Matrix2d() << 1 / l11, -l21 / (l11 * l22), 0, 1 / l22).finished();
+constexpr double same_order = 1e-9;
+
+/// p at an end, where `sign` is 1 if time goes on towards it and -1 if time came from it.
+Limit limit_at(const Approach& end, double sign) {
+  if (!end.decided()) return Limit::undecided;
+  const double radial = sign * end.radial().factor;
+  const bool along = end.ray() && end.radial().order == 0;  // at the latest on the ray, p has no bound
+  if (radial == 0 || (end.growth() > same_order && !along)) return Limit::point;
+  return radial < 0 ? Limit::centre : Limit::infinity;
 }
 
 }  // namespace
 
-SectionField::SectionField(PlanarField field, const Generator& scaling, const Vector2d& around)
-    : field_(std::move(field)), time_(scaling.time), frame_(frame_of(scaling.matrix)) {
-  centre_ = scaling.centre();
-  frame_inverse_ = frame_.inverse();
-  const double size = Vector2d(frame_inverse_ * (around - centre_)).stableNorm();
-  if (!(size > 0) || !std::isfinite(size)) {
-    throw std::domain_error("PlanarReduction: a finite point other than the centre of the scaling is needed");
-  }
-  frame_ *= size;
-  frame_inverse_ /= size;
-  matrix_ = frame_inverse_ * scaling.matrix * frame_;
-  if (scaling.matrix.isDiagonal(0)) matrix_ = scaling.matrix;
-}
-
-std::optional<SectionField::Rates> SectionField::operator()(const Vector2d& n) const {
-  Vector2d f;
-  try {
-    f = field_(centre_ + frame_ * n);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  if (!f.allFinite()) return std::nullopt;
-  const Vector2d g = frame_inverse_ * f, along = matrix_ * n;
-  const double outward = n.dot(along);
-  return Rates{g.dot(n) / outward, cross(along, g) / outward, g.stableNorm()};
-}
-
-bool SectionField::regular() const {
-  try {
-    const Vector2d f = field_(centre_);
-    return f.allFinite() && !f.isZero(0);
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
-std::pair<Vector2d, double> SectionField::canonical(const Vector2d& x) const {
-  const Vector2d z = frame_inverse_ * (x - centre_);
-  const double length = z.stableNorm();
-  const Matrix2d symmetric = (matrix_ + matrix_.transpose()) / 2;
-  const Vector2d speeds = Eigen::SelfAdjointEigenSolver<Matrix2d>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
-  const double ends[] = {std::log(length) / speeds[0], std::log(length) / speeds[1]};
-  auto [low, high] = std::minmax(ends[0], ends[1]);
-  const auto moved = [&](double p) -> Vector2d { return matrix_exponential(-p * matrix_) * z; };
-  double p = low;
-  if (high - low > 4 * eps * std::abs(low)) {
-    const double wider = 1e-12 * (1 + std::abs(low) + std::abs(high));
-    p = root_between([&](double at) { return std::log(moved(at).stableNorm()); }, low - wider, high + wider);
-  }
-  return {moved(p).stableNormalized(), p};
-}
-
-Vector2d SectionField::on_section(const Vector2d& direction) const {
-  return Vector2d(frame_inverse_ * direction).stableNormalized();
-}
-
-Vector2d SectionField::point(const Vector2d& n, double p) const {
-  return centre_ + frame_ * (matrix_exponential(p * matrix_) * n);
-}
-
-Vector2d turned(const Vector2d& n, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {n[0] * c - n[1] * s, n[1] * c + n[0] * s};
-}
-
-Strip::Strip(const SectionField& field, const SectorEnd& to, const SectorEnd& from, double sense, double length,
-             double tolerance)
+Strip::Strip(const SectionField& field, const Approach& to, const Approach& from, const std::vector<Vector2d>& breaks,
+             double sense, double length, double tolerance)
     : field_(&field), to_(to), from_(from), sense_(sense), length_(length), tolerance_(tolerance) {
-  to_series_ = series_at(false);
-  from_series_ = series_at(true);
-  const double c = field.time_degree();
-  timed_ = to.ray && c * to.radial < 0;
-  // Beyond these, one term of each expansion is exact to the last bit.
-  constexpr double last = 44, width = 2;
+  constexpr double last = -first, width = 2;
+  const double start = first_time();
   std::vector<double> edges;
   for (double edge = first; edge <= last; edge += width) edges.push_back(edge);
-  for (const Vector2d& axis : {Vector2d(1, 0), Vector2d(0, 1), Vector2d(-1, 0), Vector2d(0, -1)}) {
-    const double edge = locate(field.on_section(axis)).value_or(infinity);
+  for (const Vector2d& n : breaks) {
+    const double edge = locate(n).value_or(infinity);
     if (edge > first && edge < last) edges.push_back(edge);
   }
   std::ranges::sort(edges);
   edges.erase(std::unique(edges.begin(), edges.end(), [](double a, double b) { return b - a < 1e-14; }), edges.end());
-  solve(edges, timed_ ? -1 / (c * to.radial) : 0);
+  solve(edges, start);
 }
 
-Strip::Strip(const SectionField& field, double sense, double tolerance)
+Strip::Strip(const SectionField& field, const std::vector<Vector2d>& breaks, double sense, double tolerance)
     : field_(&field), sense_(sense), length_(2 * pi), tolerance_(tolerance) {
   constexpr int parts = 16;
   std::vector<double> edges;
   for (int i = 0; i <= parts; ++i) edges.push_back(2 * pi * i / parts);
+  for (const Vector2d& n : breaks) edges.push_back(*locate(n));
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end(), [](double a, double b) { return b - a < 1e-14; }), edges.end());
   solve(edges, 0);
   turn_ = -panels_.back().ln_rho.at_end();
   const double change = field.time_degree() * turn_;
@@ -145,6 +71,31 @@ Strip::Strip(const SectionField& field, double sense, double tolerance)
   // M is the solution that returns to its start, M(2 pi) = M_0(2 pi) + exp(change) M(0).
   const double first_time = last_time_ / -std::expm1(change);
   solve(edges, first_time);
+}
+
+Limit Strip::limit() const { return limit_at(*to_, 1); }
+Limit Strip::origin() const { return limit_at(*from_, -1); }
+
+bool Strip::joins_ray() const {
+  return !closed() && to_->ray() && to_->radial().order == 0 && to_->angular().order < 1;
+}
+
+/// M at the first edge, by README (R47), and how it goes on beyond.
+double Strip::first_time() {
+  if (!to_->decided()) return 0;
+  const double c = field_->time_degree(), a = to_->angular().order, b = to_->radial().order;
+  const double angular = std::abs(to_->angular().factor), radial = to_->radial().factor;
+  const double gamma = to_->growth();
+  double factor;
+  if (joins_ray() || (gamma < -same_order && c != 0)) {
+    time_order_ = -b;
+    factor = -1 / (c * radial);
+  } else {
+    time_order_ = 1 - a;
+    factor = 1 / (angular * (1 - a) - (gamma < same_order ? c * radial : 0));
+  }
+  timed_ = factor > 0 && std::isfinite(factor);
+  return timed_ ? factor * std::exp(time_order_ * first) : 0;
 }
 
 double Strip::turn_sigma() const {
@@ -163,15 +114,15 @@ std::optional<double> Strip::locate(const Vector2d& n) const {
   };
   if (closed()) return angle(sense_, Vector2d(1, 0), n);
   // On a ray that is no axis, n is rounded.
-  const auto on = [&](const SectorEnd& end) {
-    const double distance = std::abs(cross(end.n, n));
-    return end.n.dot(n) > 0 && distance <= (end.n[0] == 0 || end.n[1] == 0 ? 0 : 4 * eps);
+  const auto on = [&](const Vector2d& end) {
+    const double distance = std::abs(cross(end, n));
+    return end.dot(n) > 0 && distance <= (end[0] == 0 || end[1] == 0 ? 0 : 4 * eps);
   };
-  if (on(*to_)) return -infinity;
-  if (on(*from_)) return infinity;
-  const double z = angle(sense_, to_->n, n);
+  if (on(to_->n())) return -infinity;
+  if (on(from_->n())) return infinity;
+  const double z = angle(sense_, to_->n(), n);
   if (z > length_) return std::nullopt;
-  return std::log(z) - std::log(angle(-sense_, from_->n, n) / length_);
+  return std::log(z) - std::log(angle(-sense_, from_->n(), n) / length_);
 }
 
 double Strip::sector_angle(double xi, bool from_far) const {
@@ -182,7 +133,7 @@ double Strip::sector_angle(double xi, bool from_far) const {
 Vector2d Strip::direction(double xi) const {
   if (closed()) return turned({1, 0}, sense_ * xi);
   const double z = sector_angle(xi, false);
-  return z < length_ / 2 ? turned(to_->n, sense_ * z) : turned(from_->n, -sense_ * sector_angle(xi, true));
+  return z < length_ / 2 ? turned(to_->n(), sense_ * z) : turned(from_->n(), -sense_ * sector_angle(xi, true));
 }
 
 Strip::Terms Strip::terms(double xi) const {
@@ -190,11 +141,10 @@ Strip::Terms Strip::terms(double xi) const {
   bool inside = true;
   if (!closed()) {
     const double z = sector_angle(xi, false), y = sector_angle(xi, true);
-    for (const auto& [series, distance] : {std::pair(&to_series_, z), std::pair(&from_series_, y)}) {
-      if (distance < series->width) {
-        const double t = 2 * (distance / series->width) - 1;
-        return {series->rate(t), series->radial(t), eps};
-      }
+    for (const auto& [end, distance] : {std::pair(&*to_, z), std::pair(&*from_, y)}) {
+      if (!(distance < end->width())) continue;
+      const auto rates = end->series(distance);
+      return {std::abs(rates.angular) * (length_ / (z * y)), rates.radial, eps};
     }
     factor = length_ / (z * y);
     constexpr double located = 1e-9;  // to which an end is, at the worst
@@ -207,36 +157,6 @@ Strip::Terms Strip::terms(double xi) const {
   const double rounding = rates->size * factor * eps, zero = 2 * tolerance_ * rates->size * factor;
   if (inside && rate < (closed() ? zero : -zero)) throw MissedRay{n, rate < -zero};
   return {std::max(rate, rounding), rates->radial, rounding / std::max(rate, rounding)};
-}
-
-Strip::EndSeries Strip::series_at(bool far) const {
-  const SectorEnd& end = far ? *from_ : *to_;
-  EndSeries series;
-  if (!end.ray) return series;
-  constexpr double narrowest = 1e-13;
-  for (double width = length_ / 2; width > narrowest * length_; width /= 2) {
-    Samples rate, radial;
-    bool complete = true;
-    for (int i = 0; i < LegendreSeries::order && complete; ++i) {
-      const double z = width / 2 * (1 + LegendreSeries::points()[i]);
-      const auto rates = (*field_)(turned(end.n, (far ? -sense_ : sense_) * z));
-      complete = rates.has_value();
-      if (!complete) break;
-      rate[i] = -sense_ * rates->angular * (length_ / (z * (length_ - z)));
-      radial[i] = rates->radial;
-    }
-    if (!complete) continue;
-    const double accuracy = std::max(5 * tolerance_, 64 * eps / width);
-    if (LegendreSeries::tail(rate) > accuracy * rate.abs().maxCoeff() ||
-        LegendreSeries::tail(radial) > accuracy * radial.abs().maxCoeff() || !(rate > 0).all()) {
-      continue;
-    }
-    series = {width, 0, LegendreSeries::through(rate), LegendreSeries::through(radial)};
-    series.at_end = series.rate(-1);
-    if (!(series.at_end > accuracy * rate.abs().maxCoeff())) series.width = series.at_end = 0;  // T only touches 0
-    return series;
-  }
-  return series;
 }
 
 void Strip::solve(std::vector<double> edges, double first_time) {
@@ -279,13 +199,46 @@ void Strip::march(double left, double right, int depth) {
                          time.tail() / std::max(std::abs(time.at_end()), 1 / largest)});
   }
   left_out *= std::min(right - left, 1.0);
+  // A jump beyond the outermost samples shows at the ends alone.
+  const auto jumps_at = [&](double t) {
+    constexpr double inside = 1 - 1e-12;
+    const Terms there = terms(left + half * (1 + inside * t));
+    const auto differs = [&](double value, const Samples& samples) {
+      const double largest = samples.abs().maxCoeff();
+      return std::abs(LegendreSeries::through(samples)(t) - value) > (1e-10 + 100 * rounding) * largest;
+    };
+    return differs(there.rate, rate) || differs(there.radial, radial);
+  };
+  if (left_out <= tolerance_ + 4 * rounding && (jumps_at(-1) || jumps_at(1))) left_out = infinity;
   if (left_out > tolerance_ + 4 * rounding && depth < max_depth && panels_.size() < max_panels) {
-    march(left, left + half, depth + 1);
-    march(left + half, right, depth + 1);
+    constexpr int narrow = 6;
+    const double middle = depth % narrow == narrow - 1 ? jump(left, right).value_or(left + half) : left + half;
+    march(left, middle, depth + 1);
+    march(middle, right, depth + 1);
     return;
   }
   last_time_ = time.at_end();
   panels_.push_back({left, right, ln_rho, time});
+}
+
+/// Where R or s jumps between two places: they differ most between the ends of one half of the way, again and again.
+std::optional<double> Strip::jump(double left, double right) const {
+  Terms at_left = terms(left), at_right = terms(right);
+  const double largest_rate = std::max(at_left.rate, at_right.rate);
+  const double largest_radial = std::max(std::abs(at_left.radial), std::abs(at_right.radial));
+  const auto change = [=](const Terms& a, const Terms& b) {
+    return std::abs(a.rate - b.rate) / largest_rate + std::abs(a.radial - b.radial) / largest_radial;
+  };
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = left + (right - left) / 2;
+    const Terms here = terms(middle);
+    const bool before = change(at_left, here) > change(here, at_right);
+    (before ? right : left) = middle;
+    (before ? at_right : at_left) = here;
+  }
+  constexpr double least = 1e-6;
+  if (!(change(at_left, at_right) > least)) return std::nullopt;
+  return left;
 }
 
 const Strip::Panel& Strip::find(double xi) const {
@@ -303,9 +256,17 @@ double Strip::ln_rho(double xi) const {
   const Panel& panel = find(xi);
   const double inside = std::clamp(xi, panel.left, panel.right);
   if (xi != inside) {
-    const SectorEnd& end = xi < inside ? *to_ : *from_;
-    const double rate = xi < inside ? to_series_.at_end : from_series_.at_end;
-    if (rate > 0) beyond = -end.radial / rate * (xi - inside);
+    // dL/dz = -+R/T by their leading powers.
+    const Approach& end = xi < inside ? *to_ : *from_;
+    const double slope = end.radial().factor / std::abs(end.angular().factor), gamma = end.growth();
+    const auto distance = [&](double at) { return xi < inside ? std::exp(at) : length_ * length_ * std::exp(-at); };
+    if (!end.decided() || slope == 0) return panel.ln_rho(xi < inside ? -1 : 1);
+    if (std::abs(gamma) < same_order) {
+      beyond = -slope * (xi - inside);
+    } else {
+      const double change = (std::pow(distance(xi), gamma) - std::pow(distance(inside), gamma)) / gamma;
+      beyond = xi < inside ? -slope * change : slope * change;
+    }
   }
   return beyond + panel.ln_rho(2 * ((inside - panel.left) / (panel.right - panel.left)) - 1);
 }
@@ -314,7 +275,8 @@ double Strip::time_left(double xi) const {
   if (closed()) xi -= std::floor(xi / length_) * length_;
   const Panel& panel = find(xi);
   const double inside = std::clamp(xi, panel.left, panel.right);
-  return panel.time(2 * ((inside - panel.left) / (panel.right - panel.left)) - 1);
+  const double beyond = xi < inside && !closed() ? std::exp(time_order_ * (xi - inside)) : 1;
+  return beyond * panel.time(2 * ((inside - panel.left) / (panel.right - panel.left)) - 1);
 }
 
 }  // namespace contensou::reduction

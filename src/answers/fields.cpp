@@ -91,17 +91,19 @@ std::vector<VerbFields> field_table() {
             "v/u and ln v; of a system the angle of a direction and ln of the distance, over those of the start; p "
             "less its value on one orbit"},
            {"`rays` [{`k` or `angle`, `attracts`}]", "",
-            "also `to_centre`, `radial`, `angular`: the motion on it, eigenvalues along it and across"},
-           {"`kind`; `turn` {`factor`, `sigma`}", "",
-            "node, saddle, focus, ... of the blown-up centre; of a focus a turn"},
+            "also `to_centre`, `radial`, `angular`, `order`: the motion on it, eigenvalues along it and across, 2 for "
+            "a "
+            "double ray"},
+           {"`kind`; `turn` {`factor`, `sigma`}; `undecided`", "",
+            "node, saddle, focus, ... of the blown-up centre, null if not decided; a turn of a focus; the reason"},
            {"JSON `strip` [{`ln_k` or `q`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",
             "the orbit of the start, before and after it; of a focus turn by turn"},
            {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "1, speed, speed, speed",
             "starts to which the symmetry moves this one: their orbits are the same strip, ln of the factor higher in "
             "p"},
-           {"`tau_stop`; `end`; `routes` [{`name`, `tau_stop`}]", "speed",
-            "inf where the centre is not reached, null if a border comes first; section: by the general way; "
-            "`failure` of a route instead"},
+           {"`tau_stop`; `accuracy`; `end`; `routes` [{`name`, `tau_stop`}]", "speed",
+            "inf where the centre is not reached, null before a border or if not decided; its relative error; null if "
+            "not decided; section: by the general way; `failure` of a route instead"},
        }},
       {"fit", fit_fields()},
       {"balls",

@@ -185,13 +185,16 @@ ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, co
                       {"attracts", ray.attracts},
                       {"to_centre", ray.to_centre},
                       {"radial", ray.radial},
-                      {"angular", ray.angular}});
+                      {"angular", or_infinity(ray.angular)},
+                      {"order", ray.order}});
     }
     if (!at_centre) {
       answer.members["canonical"] = {{"q", canonical.q}, {"p", canonical.p}, {"dp_dq", or_infinity(canonical.dp_dq)}};
     }
     if (integral) answer.members["first_integral"] = *integral;
-    answer.members.update({{"rays", rays}, {"kind", plane.kind()}});
+    const std::string_view kind = plane.kind();
+    answer.members.update({{"rays", rays}, {"kind", kind.empty() ? Json() : Json(kind)}});
+    if (!plane.undecided().empty()) answer.members["undecided"] = plane.undecided();
     if (integral && plane.kind() != "bordered") {
       answer.members.update(strip_members(portraits::reduced_orbits(field, plane, start), "q", [&](const Vector2d& x) {
         const auto there = plane.orbit(x);
@@ -200,15 +203,21 @@ ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, co
     }
     if (plane.turn()) answer.members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
     const auto end = orbit.end();
-    answer.members.update({{"end", name(end)},
-                           {"tau_stop", end == PlanarEnd::centre   ? Json(orbit.end_time())
-                                        : end == PlanarEnd::border ? Json()
-                                                                   : Json(infinity)}});
+    const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided;
+    const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
+    answer.members.update({{"end", end == PlanarEnd::undecided ? Json() : Json(name(end))},
+                           {"tau_stop", unknown ? Json() : Json(tau_stop)}});
+    const double error = !at_centre && std::isfinite(tau_stop) ? plane.end_time_error(start) : 0;
+    if (error > 0) answer.members["accuracy"] = error;
     solution = [=, plane = plane](const Digits& digits) {
       std::string lines =
-          fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]), plane.kind());
+          fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]),
+                      plane.kind().empty() ? "not decided, as " + plane.undecided() : std::string(plane.kind()));
       for (const auto& ray : plane.rays()) {
-        lines += fmt::format("ray         at the angle {}: {}, the motion on it goes {}\n", digits(ray.q),
+        lines += fmt::format("ray         at the angle {}{}: {}, the motion on it goes {}\n", digits(ray.q),
+                             ray.order == 2   ? ", double"
+                             : ray.order == 3 ? ", triple"
+                                              : "",
                              ray.attracts ? "attracts" : "repels",
                              ray.radial == 0 ? "nowhere: its points are at rest"
                              : ray.to_centre ? "to the centre"
@@ -225,12 +234,16 @@ ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, co
                    ? fmt::format("integral    p - L(q) = {}\n", digits(*integral))
                    : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
       if (end == PlanarEnd::border) {
-        return lines + "tau_stop    not known: it comes to a border of the field, or to a jump\n";
+        return lines + "tau_stop    not known: the orbit comes to a border of the field, a pole or a jump\n";
+      }
+      if (end == PlanarEnd::undecided) {
+        return lines + fmt::format("tau_stop    not decided: {}\n", plane.undecided());
       }
       const bool finite = std::isfinite(orbit.end_time());
       return lines + fmt::format("tau_stop    {}{}\n", digits(end == PlanarEnd::centre ? orbit.end_time() : infinity),
                                  end == PlanarEnd::centre
-                                     ? (finite ? ", by quadrature" : ": it nears the centre for ever")
+                                     ? (finite ? fmt::format(", by quadrature; relative error below {:.0e}", error)
+                                               : ": it nears the centre for ever")
                                  : end == PlanarEnd::periodic ? ": it returns"
                                  : end == PlanarEnd::rest     ? ": it comes to rest elsewhere"
                                  : finite ? fmt::format(": it is at infinity after {}", digits(orbit.end_time()))

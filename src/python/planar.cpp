@@ -47,7 +47,7 @@ py::array_t<double> like(const Numbers& given) {
 }
 
 double stop_time_of(const PlanarOrbit& orbit) {
-  if (orbit.end() == PlanarEnd::border) return nothing;
+  if (orbit.end() == PlanarEnd::border || orbit.end() == PlanarEnd::undecided) return nothing;
   return orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity;
 }
 
@@ -98,7 +98,12 @@ void bind_planar(py::module_& module) {
       .def_property_readonly("level", [](const Planar& planar) { return planar.symmetries.level; })
       .def_property_readonly("gap", [](const Planar& planar) { return planar.symmetries.gap; })
       .def_property_readonly("solved", [](const Planar& planar) { return planar.solution.has_value(); })
-      .def_property_readonly("kind", [](const Planar& planar) { return std::string(planar.solved().kind()); })
+      .def_property_readonly("kind",
+                             [](const Planar& planar) -> std::optional<std::string> {
+                               const std::string_view kind = planar.solved().kind();
+                               if (kind.empty()) return std::nullopt;
+                               return std::string(kind);
+                             })
       .def_property_readonly(
           "rays",
           [](const Planar& planar) {
@@ -135,7 +140,11 @@ void bind_planar(py::module_& module) {
       });
 
   py::class_<PlanarOrbit>(module, "PlanarOrbit")
-      .def_property_readonly("end", [](const PlanarOrbit& orbit) { return std::string(name(orbit.end())); })
+      .def_property_readonly("end",
+                             [](const PlanarOrbit& orbit) -> std::optional<std::string> {
+                               if (orbit.end() == PlanarEnd::undecided) return std::nullopt;
+                               return std::string(name(orbit.end()));
+                             })
       .def_property_readonly("end_time", &PlanarOrbit::end_time)
       .def_property_readonly("stop_time", &stop_time_of)
       .def("at", [](const PlanarOrbit& orbit, const Numbers& times) {

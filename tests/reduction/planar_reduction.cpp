@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
@@ -324,8 +325,143 @@ TEST_CASE("rays that are close to one another are found", "[planar][exact]") {
   // SciPy's DOP853 in ln r and the angle, to 1e-11
   CHECK(reduced(node(1, 0.004)).end_time({1, 0.2}) == Approx(0.7710816980055679).epsilon(1e-8));
   CHECK(reduced(node(1, 0.03)).end_time({1, 0.2}) == Approx(0.7712289685393047).epsilon(1e-8));
-  // T touches 0 where no formula makes it exact: one ray, two, or none.
-  CHECK_THROWS_AS(reduced(node(0.96, 0)), UndecidedRays);
+  // T touches 0 where no formula makes it exact: one double ray, as far as its values tell.
+  const PlanarReduction touching = reduced(node(0.96, 0));
+  CHECK(touching.kind() == "stable node");
+  REQUIRE(touching.rays().size() == 2);
+  for (const PlanarRay& ray : touching.rays()) {
+    CHECK(std::abs(std::remainder(ray.q - 0.96, pi)) < 1e-11);
+    CHECK(ray.order == 2);
+    CHECK_FALSE(ray.attracts);
+  }
+}
+
+TEST_CASE("nodes with a double ray", "[planar][exact]") {
+  // exp(t m) = exp(l t) (1 + t (m - l))
+  struct Case {
+    Matrix2d m;
+    double eigenvalue;
+    std::string_view kind;
+    PlanarEnd end;
+  };
+  std::vector<Case> cases{{Matrix2d{{3, 1}, {-1, 1}}, 2, "unstable node", PlanarEnd::infinity},
+                          {Matrix2d{{0, 1}, {0, 0}}, 0, "degenerate", PlanarEnd::infinity},
+                          {Matrix2d{{-1, -1}, {1, 1}}, 0, "degenerate", PlanarEnd::infinity}};
+  for (double w = 0.25; w < 3; w += 0.0625 * std::numbers::sqrt2) {  // u'' + 2 w u' + w^2 u = 0
+    cases.push_back({Matrix2d{{0, 1}, {-w * w, -2 * w}}, -w, "stable node", PlanarEnd::centre});
+  }
+  for (const auto& [m, eigenvalue, kind, end] : cases) {
+    CAPTURE(m);
+    // The scaling of a linear field, whatever others it has.
+    const PlanarReduction plane(linear(m), {0, Matrix2d::Identity(), Vector2d::Zero(), true}, {1, 0.5}, 1e-15);
+    CHECK(plane.kind() == kind);
+    CHECK(plane.rays().size() == 2);
+    for (const Vector2d& start : {Vector2d(1, 0.3), Vector2d(-1, -2.2), Vector2d(0.2, 2)}) {
+      const PlanarOrbit orbit = plane.orbit(start);
+      CHECK(name(orbit.end()) == name(end));
+      CHECK(orbit.end_time() == infinity);
+      for (double t : {0.0, 0.4, 2.0, 20.0, 100.0}) {
+        const Vector2d exact = std::exp(eigenvalue * t) * (start + t * (m * start - eigenvalue * start));
+        CAPTURE(start, t);
+        // p ~ 1/z ~ t next to a double ray, whose angle is known to 1e-12.
+        CHECK((orbit.at(t) - exact).norm() < 1e-12 * (1 + t * t) * exact.norm());
+      }
+    }
+  }
+}
+
+TEST_CASE("resonant nodes", "[planar][exact]") {
+  // u' = -u, v' = -k v + c u^k: v exp(k t) = v0 + c u0^k t
+  for (int k : {2, 3}) {
+    for (double c : {-2.0, -0.3, 0.7, 2.0}) {
+      CAPTURE(k, c);
+      const PlanarReduction plane =
+          reduced([=](const Vector2d& x) { return Vector2d(-x[0], -k * x[1] + c * std::pow(x[0], k)); }, {1, 0.3});
+      CHECK(plane.kind() == "stable node");
+      for (const Vector2d& start : {Vector2d(1, 0.3), Vector2d(0, 1), Vector2d(-1, 0.3)}) {
+        CHECK(plane.end(start) == PlanarEnd::centre);
+        for (double t : {0.3, 3.0, 30.0}) {
+          const Vector2d exact(start[0] * std::exp(-t), std::exp(-k * t) * (start[1] + c * std::pow(start[0], k) * t));
+          CAPTURE(start, t);
+          CHECK((plane.orbit(start).at(t) - exact).norm() < 1e-10 * exact.norm());
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("poles are borders", "[planar][exact]") {
+  // u' = u^2/(2 v), v' = u - v/2: u/v = x grows by x' = x - x^2/2, and v reaches 0 at t = 2 ln 2 from (-1, 1)
+  const PlanarReduction pole =
+      reduced([](const Vector2d& x) { return Vector2d(0.5 * x[0] * x[0] / x[1], x[0] - 0.5 * x[1]); }, {-1, 1});
+  CHECK(pole.kind() == "bordered");
+  CHECK(pole.end({-1, 1}) == PlanarEnd::centre);
+  CHECK(pole.end_time({-1, 1}) == Approx(2 * std::numbers::ln2).epsilon(1e-12));
+  CHECK(pole.end_time_error({-1, 1}) < 1e-12);
+  // u' = 1, v' = 3 v/u - u: v = (v0/u0^3 - 1/u0) u^3 + u^2
+  const PlanarReduction linear_equation =
+      reduced([](const Vector2d& x) { return Vector2d(1, 3 * x[1] / x[0] - x[0]); }, {1.3, 0.7});
+  const PlanarOrbit orbit = linear_equation.orbit({1.3, 0.7});
+  CHECK(orbit.end() == PlanarEnd::infinity);
+  CHECK(orbit.end_time() == infinity);
+  for (double t : {0.5, 5.0, 1e4}) {
+    const double u = 1.3 + t, v = (0.7 / std::pow(1.3, 3) - 1 / 1.3) * std::pow(u, 3) + u * u;
+    CHECK((orbit.at(t) - Vector2d(u, v)).norm() < 1e-11 * std::hypot(u, v));
+  }
+  CHECK(linear_equation.end({-1, 0.5}) == PlanarEnd::centre);
+  CHECK(linear_equation.end_time({-1, 0.5}) == Approx(1).epsilon(1e-12));
+  // u' = 1, v' = -u/v: a circle, as far as v = 0
+  const PlanarReduction circle = reduced([](const Vector2d& x) { return Vector2d(1, -x[0] / x[1]); }, {0.6, 0.8});
+  CHECK(circle.end({0.6, 0.8}) == PlanarEnd::border);
+  CHECK(circle.end_time({0.6, 0.8}) == infinity);
+  CHECK((circle.orbit({0.6, 0.8}).at(0.3) - Vector2d(0.9, std::sqrt(0.19))).norm() < 1e-12);
+  CHECK_THROWS_WITH(circle.orbit({0.6, 0.8}).at(0.5), Contains("border"));
+  // u' = 1, v' = v/u + u on a ray of it: v = u^2
+  const PlanarReduction on_ray = reduced([](const Vector2d& x) { return Vector2d(1, x[1] / x[0] + x[0]); }, {1, 1});
+  CHECK((on_ray.orbit({1, 1}).at(2) - Vector2d(3, 9)).norm() < 1e-11);
+}
+
+TEST_CASE("an end that is no power of the angle is not decided", "[planar][domain]") {
+  const PlanarField field = [](const Vector2d& x) { return Vector2d(-x[0], x[1] * std::log(std::abs(x[1] / x[0]))); };
+  const PlanarReduction plane(field, {0, Matrix2d::Identity(), Vector2d::Zero(), true}, {1, 1}, 1e-15);
+  CHECK(plane.kind().empty());
+  CHECK_THAT(plane.undecided(), Contains("no power of the angle"));
+}
+
+TEST_CASE("a steep field has no points at rest off the centre", "[planar][exact]") {
+  const PlanarReduction plane =
+      reduced([](const Vector2d& x) { return Vector2d(-std::pow(x[0], 99), -std::pow(x[1], 99)); }, {1, 1.5});
+  CHECK(plane.kind() == "stable node");
+  CHECK(plane.end({1, 1.5}) == PlanarEnd::centre);
+  CHECK(
+      find_symmetries([](const Vector2d& x) { return Vector2d(-std::pow(x[0], 1000), -std::pow(x[1], 1000)); }, {1, 2})
+          .verdict == PlanarSymmetries::Verdict::undecided);
+}
+
+TEST_CASE("relays whose jumps lie on no axis", "[planar][exact]") {
+  // The same relay in sheared coordinates stops at the same time.
+  const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
+  std::mt19937 random(7);
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  int sharp = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double friction = uniform(0.1, 0.95);
+    const PlanarField relay = [=](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - friction * sign(x[1])); };
+    Matrix2d map;
+    map << uniform(0.5, 2), uniform(-1, 1), uniform(-0.9, 0.9), uniform(0.5, 2);
+    if (std::abs(map.determinant()) < 0.2) continue;
+    const Vector2d start(uniform(0.2, 1.5), uniform(-1, 1));
+    const double exact = reduced(relay, start).end_time(start);
+    CAPTURE(friction, map, start);
+    const Matrix2d back = map.inverse();
+    const PlanarReduction sheared =
+        reduced([=](const Vector2d& x) -> Vector2d { return map * relay(back * x); }, map* start);
+    const double stated = sheared.end_time_error(map * start);
+    CHECK(stated < 1e-9);
+    CHECK(sheared.end_time(map * start) == Approx(exact).epsilon(stated));
+    sharp += stated <= 1e-12;
+  }
+  CHECK(sharp >= 35);
 }
 
 TEST_CASE("points at rest on a ray, and a point that orbits pass", "[planar][exact]") {

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <limits>
+
+#include <Eigen/Core>
+
+#include "numerics/epsilon.hpp"
+#include "numerics/legendre_series.hpp"
+#include "planar/section_field.hpp"
+
+namespace contensou::reduction {
+
+/// A function that begins with a power: factor z^order (1 + ...) for small z > 0.
+struct LeadingPower {
+  double order = 0;
+  double factor = 0;  ///< 0 for a function that vanishes
+};
+
+/// A direction with the error of its angle; 0 for an axis.
+struct Place {
+  Place(const Eigen::Vector2d& at) : Place(at, at[0] == 0 || at[1] == 0 ? 0 : 2 * eps) {}
+  Place(const Eigen::Vector2d& at, double known_to) : n(at), error(known_to) {}
+
+  Eigen::Vector2d n;
+  double error;
+};
+
+/// R and T next to a direction, on one side of it, as functions of the angle z > 0 from it (README (R46)).
+///
+/// The orders are those of a series through samples (powers of z, of its square root or of its cube root, poles
+/// included). Where no series converges they are slopes of logarithms, which must agree at several distances.
+class Approach {
+ public:
+  using Rates = SectionField::Rates;
+
+  /// A side on which the field has no values.
+  Approach() = default;
+
+  /// @param side    1: counter-clockwise of it; -1: clockwise
+  /// @param length  angle to the next direction where R or T may not be smooth
+  /// @param noise   relative error of the field's values
+  Approach(const SectionField& field, const Place& place, double side, double length, double noise);
+
+  const Eigen::Vector2d& n() const { return n_; }
+
+  /// Whether the field has values next to the direction.
+  bool exists() const { return exists_; }
+
+  /// Whether both orders are known.
+  bool decided() const { return decided_; }
+
+  /// T times side: positive where the motion leads away from the direction.
+  const LeadingPower& angular() const { return angular_; }
+  const LeadingPower& radial() const { return radial_; }
+
+  /// Whether the field points along the scaling in the limit z -> 0, and has a limit.
+  bool ray() const { return decided_ && angular_.order > 0 && radial_.order >= 0; }
+  /// Whether R and T have limits, and that of T is not 0.
+  bool regular() const { return decided_ && angular_.order == 0 && radial_.order >= 0; }
+
+  /// gamma: dp/dz is as z^(gamma - 1), so that p stays bounded where gamma > 0.
+  double growth() const { return radial_.order - angular_.order + 1; }
+
+  /// How far from the direction T and R are known as series, without the digits that T loses there; 0 if nowhere.
+  double width() const { return width_; }
+  /// T times side and R at a distance up to width().
+  Rates series(double z) const;
+
+ private:
+  bool find_series(const SectionField& field, double width, int root, double noise, bool componentwise);
+  void find_slopes(const SectionField& field, double length, double noise);
+
+  Eigen::Vector2d n_ = Eigen::Vector2d::Zero();
+  double side_ = 1;
+  double error_ = 0;
+  bool exists_ = false, decided_ = false;
+  LeadingPower angular_, radial_;
+  double width_ = 0;
+  double root_ = 1;
+  LegendreSeries angular_rest_, radial_rest_;  ///< of T/z^order and R/z^order, in z^(1/root)
+};
+
+/// Moves a direction onto a zero of T of a higher order beside it, where values lose half of their digits and more:
+/// onto the zero of the derivative that has a simple one. Returns the direction itself where there is none.
+Place sharpened_zero(const SectionField& field, const Eigen::Vector2d& n, double noise);
+
+/// Moves a direction onto a pole of an even order beside it.
+Place sharpened_pole(const SectionField& field, const Eigen::Vector2d& n, double noise);
+
+}  // namespace contensou::reduction

@@ -1,0 +1,292 @@
+#include "planar/directions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include <boost/math/tools/minima.hpp>
+
+#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/root.hpp"
+#include "numerics/epsilon.hpp"
+
+namespace contensou::reduction {
+
+using Eigen::Vector2d;
+using std::numbers::pi;
+
+double angle_between(const Vector2d& a, const Vector2d& b) {
+  const double angle = std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+  return angle > 0 ? angle : angle + 2 * pi;
+}
+
+namespace {
+
+using Rates = SectionField::Rates;
+
+class Scan {
+ public:
+  Scan(const SectionField& field, double noise, std::vector<Vector2d> between)
+      : field_(field), noise_(noise), between_(std::move(between)) {}
+
+  Directions directions() {
+    constexpr std::size_t most = 16;
+    const std::size_t given = between_.size();
+    do {
+      sample();
+      if (between_.size() > given + most) throw UndecidedDirection{between_.back()};
+    } while (add_pairs_of_zeros());
+    Directions found;
+    found.star = star_;
+    if (found.star) return found;
+    find_candidates();
+    for (std::size_t i = 0; i < candidates_.size(); ++i) divide(i, found);
+    return found;
+  }
+
+ private:
+  /// A sample at an angle from an anchor: the direction is known to more digits than the sum of both.
+  struct Probe {
+    double offset;
+    Vector2d anchor;
+    std::optional<Rates> rates;
+
+    Vector2d n() const { return turned(anchor, offset); }
+  };
+
+  std::optional<Rates> at(const Vector2d& anchor, double offset) const { return field_(turned(anchor, offset)); }
+  bool is_zero(const Rates& rates) const { return std::abs(rates.angular) <= 16 * noise_ * rates.size; }
+  static bool across_anchor(const Probe& a, const Probe& b) { return a.offset < 0 && b.offset > 0; }
+  static double gap(const Probe& a, const Probe& b) { return angle_between(a.n(), b.n()); }
+
+  void sample();
+  bool add_pairs_of_zeros();
+  void find_candidates();
+  void add_zero_or_pole(const Probe& here, const Probe& next);
+  void add_pole(const Probe& before, const Probe& here, const Probe& after);
+  Vector2d least(const Probe& before, const Probe& here, const Probe& after,
+                 const std::function<double(const Rates&)>& size) const;
+  void divide(std::size_t i, Directions& found) const;
+
+  const SectionField& field_;
+  double noise_;
+  std::vector<Vector2d> between_, anchors_;
+  std::vector<Place> candidates_;
+  std::vector<Probe> probes_;
+  bool star_ = false;
+};
+
+void Scan::sample() {
+  anchors_.clear();
+  probes_.clear();
+  for (int i = 0; i < 8; ++i) {
+    constexpr int u[] = {1, 1, 0, -1, -1, -1, 0, 1}, v[] = {0, 1, 1, 1, 0, -1, -1, -1};
+    anchors_.push_back(field_.on_section(Vector2d(u[i], v[i])));
+  }
+  const auto insert = [&](std::ptrdiff_t first, const Probe& probe) {
+    const auto order = [](const Probe& x) { return std::pair(x.offset < 0, x.offset); };
+    probes_.insert(std::ranges::upper_bound(probes_.begin() + first, probes_.end(), order(probe), {}, order), probe);
+  };
+  const double nearest = std::max(4e-13, 1e3 * noise_);
+  for (std::size_t i = 0; i < anchors_.size(); ++i) {
+    const Vector2d &here = anchors_[i], &next = anchors_[(i + 1) % anchors_.size()];
+    const double way = angle_between(here, next);
+    std::vector<double> offsets;
+    for (double offset = way / 4; offset > nearest; offset /= 2) offsets.push_back(offset);
+    std::ranges::reverse(offsets);
+    constexpr int pieces = 8;
+    for (int j = 1; j <= pieces; ++j) offsets.push_back(way / 4 * (1 + static_cast<double>(j) / pieces));
+    const auto first = std::ssize(probes_);
+    for (double offset : offsets) probes_.push_back({offset, here, at(here, offset)});
+    for (auto offset = offsets.rbegin() + 1; offset != offsets.rend(); ++offset) {
+      probes_.push_back({-*offset, next, at(next, -*offset)});
+    }
+    for (const Vector2d& n : between_) {
+      const double offset = angle_between(here, n);
+      if (offset < way)
+        insert(first, offset < way / 2 ? Probe{offset, here, field_(n)} : Probe{offset - way, next, field_(n)});
+    }
+  }
+  if (std::ranges::none_of(probes_, [](const Probe& probe) { return probe.rates.has_value(); })) {
+    throw std::domain_error("PlanarReduction: the field has no values on the curve about the centre");
+  }
+  star_ = std::ranges::all_of(probes_, [&](const Probe& probe) { return !probe.rates || is_zero(*probe.rates); });
+  // Next to a multiple zero that lies on no axis T is rounding, and so is its sign.
+  std::erase_if(probes_, [&](const Probe& probe) {
+    const bool on_axis = probe.anchor[0] == 0 || probe.anchor[1] == 0;
+    return !on_axis && probe.rates && is_zero(*probe.rates);
+  });
+}
+
+/// The direction between three samples where a function of the rates is least; infinite where there are none.
+Vector2d Scan::least(const Probe& before, const Probe& here, const Probe& after,
+                     const std::function<double(const Rates&)>& size) const {
+  const auto function = [&](double offset) {
+    const auto rates = at(here.anchor, offset);
+    return rates ? size(*rates) : infinity;
+  };
+  constexpr int bits = 26;
+  std::uintmax_t steps = 60;
+  const double offset = boost::math::tools::brent_find_minima(function, here.offset - gap(before, here),
+                                                              here.offset + gap(here, after), bits, steps)
+                            .first;
+  return turned(here.anchor, offset);
+}
+
+/// Adds a sample where T, of one sign at three samples, has another one between them.
+bool Scan::add_pairs_of_zeros() {
+  const std::size_t known = between_.size();
+  for (std::size_t i = 1; i + 1 < probes_.size(); ++i) {
+    const Probe &before = probes_[i - 1], &here = probes_[i], &after = probes_[i + 1];
+    if (!before.rates || !here.rates || !after.rates) continue;
+    if (across_anchor(before, here) || across_anchor(here, after)) continue;
+    const double sign = std::copysign(1, here.rates->angular), lowest = sign * here.rates->angular;
+    const double left = sign * before.rates->angular, right = sign * after.rates->angular;
+    constexpr double flat = 1e-6;
+    if (!(lowest <= left && lowest <= right && std::max(left, right) > (1 + flat) * lowest)) continue;
+    const Vector2d n = least(before, here, after, [&](const Rates& rates) { return sign * rates.angular; });
+    const auto rates = field_(n);
+    if (!rates) continue;
+    const double size = std::max(before.rates->size, after.rates->size), value = std::abs(rates->angular);
+    // Where |T| is least is known to half of the digits.
+    constexpr double nearly = 1e-12;
+    const Place place = value <= nearly * size ? sharpened_zero(field_, n, noise_) : Place(n);
+    if (place.n != n || value <= 16 * noise_ * size) {
+      candidates_.push_back(place);
+    } else if (sign * rates->angular < 0) {
+      between_.push_back(n);
+    }
+  }
+  if (between_.size() == known) return false;
+  candidates_.clear();
+  return true;
+}
+
+void Scan::add_zero_or_pole(const Probe& here, const Probe& next) {
+  const double left = here.offset, right = left + gap(here, next);
+  if (!here.rates || !next.rates) {
+    const auto has_value = [&](double offset) { return at(here.anchor, offset).has_value(); };
+    candidates_.emplace_back(
+        turned(here.anchor, last_where(has_value, here.rates ? left : right, here.rates ? right : left)));
+    return;
+  }
+  const auto angular = [&](double offset) {
+    const auto rates = at(here.anchor, offset);
+    return rates ? rates->angular : 0;
+  };
+  const double root = root_between(angular, left, right, here.rates->angular, next.rates->angular);
+  candidates_.push_back(sharpened_zero(field_, turned(here.anchor, root), noise_));
+}
+
+/// Adds a pole that does not change the sign of T: the field is largest there.
+void Scan::add_pole(const Probe& before, const Probe& here, const Probe& after) {
+  constexpr double large = 1e3;
+  const Vector2d n = least(before, here, after, [](const Rates& rates) { return 1 / rates.size; });
+  const auto rates = field_(n);
+  const double size = rates ? rates->size : infinity;
+  if (!(size > large * here.rates->size)) return;
+  candidates_.push_back(sharpened_pole(field_, n, noise_));
+  if (std::signbit(before.rates->radial) == std::signbit(after.rates->radial)) return;
+  const auto radial = [&](double offset) {
+    const auto there = at(here.anchor, offset);
+    return there ? there->radial : 0;
+  };
+  const double left = here.offset - gap(before, here), right = here.offset + gap(here, after);
+  const Vector2d root =
+      turned(here.anchor, root_between(radial, left, right, before.rates->radial, after.rates->radial));
+  const auto there = field_(root);
+  if (!there || there->size > size) candidates_.back() = Place(root);
+}
+
+void Scan::find_candidates() {
+  for (std::size_t i = 0; i < probes_.size(); ++i) {
+    const Probe &here = probes_[i], &next = probes_[(i + 1) % probes_.size()];
+    if (across_anchor(here, next)) {
+      // A zero beside the anchor, nearer than the samples are.
+      const auto on = field_(next.anchor);
+      if (!here.rates || !next.rates || !on || is_zero(*on)) continue;
+      if (std::signbit(here.rates->angular) == std::signbit(next.rates->angular)) continue;
+      add_zero_or_pole({here.offset, next.anchor, here.rates}, next);
+      if (angle_between(next.anchor, candidates_.back().n) <= 4 * eps) candidates_.pop_back();
+      continue;
+    }
+    if (here.rates.has_value() != next.rates.has_value() ||
+        (here.rates && std::signbit(here.rates->angular) != std::signbit(next.rates->angular))) {
+      add_zero_or_pole(here, next);
+      continue;
+    }
+    const Probe& before = probes_[(i + probes_.size() - 1) % probes_.size()];
+    if (!before.rates || !here.rates || !next.rates || across_anchor(before, here)) continue;
+    if (here.rates->size > before.rates->size && here.rates->size > next.rates->size) add_pole(before, here, next);
+  }
+  const auto angle = [&](const Vector2d& n) { return n == anchors_[0] ? 0 : angle_between(anchors_[0], n); };
+  const std::size_t inner = candidates_.size();
+  candidates_.insert(candidates_.end(), anchors_.begin(), anchors_.end());
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) order.emplace_back(angle(candidates_[i].n), i);
+  std::ranges::sort(order);
+  // Of directions that rounding has made several the anchor is kept.
+  constexpr double same = 1e-11;
+  std::vector<Place> kept;
+  bool last_is_anchor = false;
+  for (const auto& [position, i] : order) {
+    const bool anchor = i >= inner;
+    if (!kept.empty() && angle_between(kept.back().n, candidates_[i].n) < same) {
+      if (anchor && !last_is_anchor) kept.back() = candidates_[i];
+      last_is_anchor |= anchor;
+      continue;
+    }
+    kept.push_back(candidates_[i]);
+    last_is_anchor = anchor;
+  }
+  if (kept.size() > 1 && angle_between(kept.back().n, kept.front().n) < same) kept.pop_back();
+  candidates_ = std::move(kept);
+}
+
+/// Decides whether a candidate divides the section.
+void Scan::divide(std::size_t i, Directions& found) const {
+  const Place& place = candidates_[i];
+  const Vector2d& n = place.n;
+  const double after = angle_between(n, candidates_[(i + 1) % candidates_.size()].n);
+  const double before = angle_between(candidates_[(i + candidates_.size() - 1) % candidates_.size()].n, n);
+  Direction direction{n, Approach(field_, place, -1, before, noise_), Approach(field_, place, 1, after, noise_),
+                      field_(n)};
+  const Approach &left = direction.before, &right = direction.after;
+  if (!left.exists() && !right.exists()) return;
+  const auto crossed = [&] {
+    if (!left.exists() || !right.exists()) return false;
+    if (left.decided() && right.decided()) {
+      return left.regular() && right.regular() && (left.angular().factor < 0) == (right.angular().factor > 0);
+    }
+    // Logarithms and the like: nothing but a finite change is crossed.
+    constexpr double far = 1e-3, nearer = 1e-6;
+    const auto step = std::min({far, before / 4, after / 4});
+    std::array<std::optional<Rates>, 4> steps;
+    for (std::size_t j = 0; j < 4; ++j)
+      steps[j] = field_(turned(n, (j < 2 ? -1 : 1) * (j % 2 == 0 ? step : step * nearer)));
+    if (!std::ranges::all_of(steps, [](const auto& there) { return there.has_value(); })) return false;
+    const auto like = [](double a, double b) {
+      return std::abs(a) <= 1.5 * std::abs(b) && std::abs(b) <= 1.5 * std::abs(a);
+    };
+    return like(steps[0]->angular, steps[1]->angular) && like(steps[2]->angular, steps[3]->angular) &&
+           steps[1]->angular * steps[3]->angular > 0 && like(steps[0]->size, steps[1]->size) &&
+           like(steps[2]->size, steps[3]->size);
+  };
+  if (crossed()) {
+    found.smooth.push_back(n);
+  } else {
+    found.dividing.push_back(std::move(direction));
+  }
+}
+
+}  // namespace
+
+Directions find_directions(const SectionField& field, double noise, std::vector<Vector2d> between) {
+  return Scan(field, noise, std::move(between)).directions();
+}
+
+}  // namespace contensou::reduction

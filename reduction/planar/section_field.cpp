@@ -1,0 +1,116 @@
+#include "planar/section_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/LU>
+
+#include "contensou/reduction/root.hpp"
+#include "numerics/epsilon.hpp"
+#include "planar/matrix_exponential.hpp"
+
+namespace contensou::reduction {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+namespace {
+
+double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// The frame S in which |n| grows along the scaling everywhere: with Q of A^T Q + Q A = 1, Q = S^-T S^-1.
+Matrix2d frame_of(const Matrix2d& a) {
+  Eigen::Matrix3d equations;                 // for Q11, Q12, Q22
+  equations << 2 * a(0, 0), 2 * a(1, 0), 0,  //
+      a(0, 1), a(0, 0) + a(1, 1), a(1, 0),   //
+      0, 2 * a(0, 1), 2 * a(1, 1);
+  const Eigen::Vector3d q = equations.partialPivLu().solve(Eigen::Vector3d(1, 0, 1));
+  if (!(q[0] > 0 && q[0] * q[2] > q[1] * q[1])) {
+    throw std::domain_error("PlanarReduction: all eigenvalues of the scaling's matrix must have positive real parts");
+  }
+  // S = L^-T of Q = L L^T: upper triangular.
+  const double l11 = std::sqrt(q[0]), l21 = q[1] / l11, l22 = std::sqrt(q[2] - l21 * l21);
+  return (Matrix2d() << 1 / l11, -l21 / (l11 * l22), 0, 1 / l22).finished();
+}
+
+}  // namespace
+
+SectionField::SectionField(PlanarField field, const Generator& scaling, const Vector2d& around)
+    : field_(std::move(field)), time_(scaling.time), frame_(frame_of(scaling.matrix)) {
+  centre_ = scaling.centre();
+  frame_inverse_ = frame_.inverse();
+  const double size = Vector2d(frame_inverse_ * (around - centre_)).stableNorm();
+  if (!(size > 0) || !std::isfinite(size)) {
+    throw std::domain_error("PlanarReduction: a finite point other than the centre of the scaling is needed");
+  }
+  frame_ *= size;
+  frame_inverse_ /= size;
+  matrix_ = frame_inverse_ * scaling.matrix * frame_;
+  if (scaling.matrix.isDiagonal(0)) matrix_ = scaling.matrix;
+}
+
+std::optional<SectionField::Rates> SectionField::operator()(const Vector2d& n) const {
+  Vector2d f;
+  try {
+    f = field_(centre_ + frame_ * n);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  if (!f.allFinite()) return std::nullopt;
+  const Vector2d g = frame_inverse_ * f, along = matrix_ * n;
+  const double outward = n.dot(along);
+  return Rates{g.dot(n) / outward, cross(along, g) / outward, g.stableNorm(),
+               (std::abs(g[0] * n[0]) + std::abs(g[1] * n[1])) / outward,
+               (std::abs(along[0] * g[1]) + std::abs(along[1] * g[0])) / outward};
+}
+
+bool SectionField::regular() const {
+  try {
+    const Vector2d f = field_(centre_);
+    return f.allFinite() && !f.isZero(0);
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+std::pair<Vector2d, double> SectionField::canonical(const Vector2d& x) const {
+  const Vector2d z = frame_inverse_ * (x - centre_);
+  const double length = z.stableNorm();
+  // Eigenvalues of the symmetric part of A': the least and the largest speed at which ln |z| grows along the scaling.
+  const double mean = matrix_.trace() / 2;
+  const double spread = std::hypot((matrix_(0, 0) - matrix_(1, 1)) / 2, (matrix_(0, 1) + matrix_(1, 0)) / 2);
+  const double ends[] = {std::log(length) / (mean - spread), std::log(length) / (mean + spread)};
+  auto [low, high] = std::minmax(ends[0], ends[1]);
+  // In steps, none of which overflows.
+  constexpr double longest = 300;
+  const double largest = matrix_.cwiseAbs().rowwise().sum().maxCoeff();
+  const auto moved = [&](double p) -> Vector2d {
+    const int steps = 1 + static_cast<int>(std::abs(p) * largest / longest);
+    const Matrix2d step = matrix_exponential(-p / steps * matrix_);
+    Vector2d place = z;
+    for (int i = 0; i < steps; ++i) place = step * place;
+    return place;
+  };
+  double p = low;
+  if (high - low > 4 * eps * std::abs(low)) {
+    const double wider = 1e-12 * (1 + std::abs(low) + std::abs(high));
+    p = root_between([&](double at) { return std::log(moved(at).stableNorm()); }, low - wider, high + wider);
+  }
+  return {moved(p).stableNormalized(), p};
+}
+
+Vector2d SectionField::on_section(const Vector2d& direction) const {
+  return Vector2d(frame_inverse_ * direction).stableNormalized();
+}
+
+Vector2d SectionField::point(const Vector2d& n, double p) const {
+  return centre_ + frame_ * (matrix_exponential(p * matrix_) * n);
+}
+
+Vector2d turned(const Vector2d& n, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {n[0] * c - n[1] * s, n[1] * c + n[0] * s};
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "contensou/reduction/planar_symmetry.hpp"
+
+namespace contensou::reduction {
+
+/// f on the closed curve x_0 + S n(q) that the scaling moves over the plane (README (R42)).
+class SectionField {
+ public:
+  /// p' = R and q' = T in the time sigma.
+  struct Rates {
+    double radial, angular;
+    double size;                         ///< |S^-1 f|
+    double radial_terms, angular_terms;  ///< sums of the sizes of the terms of R and T, which may cancel
+  };
+
+  /// @throws std::domain_error  unless all eigenvalues of the scaling's matrix have positive real parts
+  SectionField(PlanarField field, const Generator& scaling, const Eigen::Vector2d& around);
+
+  /// At a unit vector n; none where the field has no value.
+  std::optional<Rates> operator()(const Eigen::Vector2d& n) const;
+
+  /// Whether the field has a value at the centre that is not 0.
+  bool regular() const;
+
+  const PlanarField& field() const { return field_; }
+  double time_degree() const { return time_; }  ///< c: dt = exp(c p) d sigma
+  const Eigen::Vector2d& centre() const { return centre_; }
+  const Eigen::Matrix2d& frame() const { return frame_; }  ///< S
+
+  /// n and p of a point other than the centre.
+  std::pair<Eigen::Vector2d, double> canonical(const Eigen::Vector2d& x) const;
+  /// n of a direction seen from the centre, on the curve.
+  Eigen::Vector2d on_section(const Eigen::Vector2d& direction) const;
+  Eigen::Vector2d point(const Eigen::Vector2d& n, double p) const;
+
+ private:
+  PlanarField field_;
+  double time_;
+  Eigen::Vector2d centre_;
+  Eigen::Matrix2d frame_, frame_inverse_, matrix_;  ///< S, S^-1, A' = S^-1 A S
+};
+
+/// n turned counter-clockwise, to the last bits of each component for small angles.
+Eigen::Vector2d turned(const Eigen::Vector2d& n, double angle);
+
+}  // namespace contensou::reduction
