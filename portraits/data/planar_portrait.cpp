@@ -172,7 +172,10 @@ class PlanarTracer {
   }
   double time_left(const Vector2d& x) const {
     try {
-      return plane_.end_time(x);
+      // One picture has one kind of times: to the centre, or to infinity where motions grow slower with their size.
+      const reduction::PlanarOrbit orbit = plane_.orbit(x);
+      const PlanarEnd timed = plane_.scaling().time < 0 ? PlanarEnd::infinity : PlanarEnd::centre;
+      return orbit.end() == timed ? orbit.end_time() : infinity;
     } catch (const std::domain_error&) {
       return infinity;  // a chord has left the part of the plane that has values
     }

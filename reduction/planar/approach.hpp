@@ -25,7 +25,7 @@ struct Place {
   double error;
 };
 
-/// R and T next to a direction, on one side of it, as functions of the angle z > 0 from it (README (R46)).
+/// R and T next to a direction, on one side of it, as functions of the angle z > 0 from it (README (R62)).
 ///
 /// The orders are those of a series through samples (powers of z, of its square root or of its cube root, poles
 /// included). Where no series converges they are slopes of logarithms, which must agree at several distances.

@@ -223,11 +223,11 @@ void Scan::find_candidates() {
     if (!before.rates || !here.rates || !next.rates || across_anchor(before, here)) continue;
     if (here.rates->size > before.rates->size && here.rates->size > next.rates->size) add_pole(before, here, next);
   }
-  const auto angle = [&](const Vector2d& n) { return n == anchors_[0] ? 0 : angle_between(anchors_[0], n); };
   const std::size_t inner = candidates_.size();
   candidates_.insert(candidates_.end(), anchors_.begin(), anchors_.end());
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < candidates_.size(); ++i) order.emplace_back(angle(candidates_[i].n), i);
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    order.emplace_back(angle_between(anchors_[0], candidates_[i].n), i);
   std::ranges::sort(order);
   // Of directions that rounding has made several the anchor is kept.
   constexpr double same = 1e-11;

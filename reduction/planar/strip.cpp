@@ -80,7 +80,7 @@ bool Strip::joins_ray() const {
   return !closed() && to_->ray() && to_->radial().order == 0 && to_->angular().order < 1;
 }
 
-/// M at the first edge, by README (R47), and how it goes on beyond.
+/// M at the first edge, by README (R63), and how it goes on beyond.
 double Strip::first_time() {
   if (!to_->decided()) return 0;
   const double c = field_->time_degree(), a = to_->angular().order, b = to_->radial().order;
