@@ -13,11 +13,9 @@ from_debian(fmt::fmt FMT_HEADER_ONLY)
 from_debian(nlohmann_json::nlohmann_json)
 from_debian(tomlplusplus::tomlplusplus TOML_HEADER_ONLY=1)
 from_debian(Catch2::Catch2)
-from_debian(muparser::muparser)  # no headers alone: as much of it as the page has
-target_include_directories(muparser::muparser INTERFACE ${CMAKE_SOURCE_DIR}/src/platform/formulas)
 
 macro(provide method package)
-  if("${package}" MATCHES "^(Boost|CLI11|Eigen3|fmt|nlohmann_json|muparser|tomlplusplus|Catch2)$")
+  if("${package}" MATCHES "^(Boost|CLI11|Eigen3|fmt|nlohmann_json|tomlplusplus|Catch2)$")
     set(${package}_FOUND TRUE)
   endif()
 endmacro()

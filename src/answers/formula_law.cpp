@@ -2,10 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
-#include <mutex>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,68 +14,34 @@ namespace contensou::answers {
 
 namespace {
 
-/// As many copies of two formulas as threads call them at once.
-class SharedFormulas {
- public:
-  SharedFormulas(std::string text, std::map<std::string, double> parameters)
-      : text_(std::move(text)), parameters_(std::move(parameters)) {
-    idle_.push_back(made());
-  }
-
-  std::array<double, 2> operator()(double k) {
-    std::unique_ptr<Formulas> mine;
-    {
-      const std::lock_guard<std::mutex> locked(mutex_);
-      if (!idle_.empty()) {
-        mine = std::move(idle_.back());
-        idle_.pop_back();
-      }
-    }
-    if (!mine) mine = made();
-    const std::array<double, 2> values = (*mine)({k});
-    const std::lock_guard<std::mutex> locked(mutex_);
-    idle_.push_back(std::move(mine));
-    return values;
-  }
-
- private:
-  std::unique_ptr<Formulas> made() const {
-    constexpr const char* no_speed =
-        "dry friction depends on the ratio k = v/(mu |u|) alone, not on the size of speeds";
-    const FormulaShape shape{{"phi", "psi"},
-                             {"k"},
-                             "a law is \"phi = F; psi = G\", formulas in k = v/(mu |u|)",
-                             {{"u", no_speed}, {"v", no_speed}}};
-    return std::make_unique<Formulas>(shape, text_, parameters_);
-  }
-
-  std::string text_;
-  std::map<std::string, double> parameters_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Formulas>> idle_;
-};
+constexpr const char* no_speed = "dry friction depends on the ratio k = v/(mu |u|) alone, not on the size of speeds";
 
 class FormulaLaw {
  public:
   FormulaLaw(const std::string& text, const std::map<std::string, double>& parameters)
-      : name_(text), formulas_(std::make_shared<SharedFormulas>(text, parameters)) {
+      : name_(text),
+        formulas_({{"phi", "psi"},
+                   {"k"},
+                   "a law is \"phi = F; psi = G\", formulas in k = v/(mu |u|)",
+                   {{"u", no_speed}, {"v", no_speed}}},
+                  text, parameters) {
     for (const auto& [name, value] : parameters) name_ += fmt::format("; {} = {}", name, value);
   }
 
   const std::string& name() const { return name_; }
 
   reduction::Resistance operator()(reduction::Slip slip) const {
-    if (slip.pivoting == 0) return {(*formulas_)(most)[0], 0};
+    if (slip.pivoting == 0) return {formulas_({most})[0], 0};
     const double k = slip.sliding / slip.pivoting;
     if (k < least) {
-      const auto [phi, psi] = (*formulas_)(least);
+      const auto [phi, psi] = formulas_({least});
       return {phi * (k / least), psi};
     }
     if (k > most) {
-      const auto [phi, psi] = (*formulas_)(most);
+      const auto [phi, psi] = formulas_({most});
       return {1 - (1 - phi) * (most / k), psi * (most / k)};
     }
-    const auto [phi, psi] = (*formulas_)(k);
+    const auto [phi, psi] = formulas_({k});
     return {phi, psi};
   }
 
@@ -89,7 +51,7 @@ class FormulaLaw {
     constexpr int steps = 3600;
     for (int i = 0; i <= steps; ++i) {
       const double k = from * std::pow(to / from, static_cast<double>(i) / steps);
-      const auto [phi, psi] = (*formulas_)(k);
+      const auto [phi, psi] = formulas_({k});
       if (phi > 0 && psi > 0 && std::isfinite(phi) && std::isfinite(psi)) continue;
       throw BadInput(
           fmt::format("friction resists: phi and psi must be positive and finite for every k > 0, but phi = {} and psi "
@@ -103,7 +65,7 @@ class FormulaLaw {
   static constexpr double least = 0x1p-90, most = 0x1p90;
 
   std::string name_;
-  std::shared_ptr<SharedFormulas> formulas_;
+  Formulas formulas_;
 };
 
 }  // namespace

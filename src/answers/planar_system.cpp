@@ -1,19 +1,17 @@
 #include "answers/planar_system.hpp"
 
 #include <algorithm>
-#include <memory>
-
-#include "answers/formulas.hpp"
+#include <array>
 
 namespace contensou::answers {
 
-reduction::PlanarField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters) {
-  const FormulaShape shape{{"u'", "v'"}, {"u", "v"}, "a system is \"u' = F; v' = G\""};
-  const auto formulas = std::make_shared<Formulas>(shape, text, parameters);
-  return [formulas](const Eigen::Vector2d& x) {
-    const auto [u, v] = (*formulas)({x[0], x[1]});
-    return Eigen::Vector2d(u, v);
-  };
+FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters) {
+  return {{{{"u'", "v'"}, {"u", "v"}, "a system is \"u' = F; v' = G\""}, text, parameters}};
+}
+
+Eigen::Matrix2d FormulaField::jacobian(const Eigen::Vector2d& x) const {
+  const auto [u, v] = formulas.with_slopes(std::array{x[0], x[1]});
+  return Eigen::Matrix2d{{u[1], u[2]}, {v[1], v[2]}};
 }
 
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start) {

@@ -4,15 +4,27 @@
 #include <optional>
 #include <string>
 
+#include <Eigen/Core>
+
+#include "answers/formulas.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::answers {
 
-/// The field of "u' = F; v' = G", formulas in u, v and parameters as answers/formulas.hpp has them. Its copies share their
-/// variables: one thread.
+/// A reduction::PlanarField of two formulas in u and v.
+struct FormulaField {
+  Formulas formulas;
+
+  Eigen::Vector2d operator()(const Eigen::Vector2d& x) const { return Eigen::Vector2d(formulas({x[0], x[1]}).data()); }
+
+  /// Returns the derivatives of (u', v') with respect to u and v, as Formula::with_slopes: row 0 is that of u'.
+  Eigen::Matrix2d jacobian(const Eigen::Vector2d& x) const;
+};
+
+/// Returns the field of "u' = F; v' = G", formulas in u, v and parameters as answers/formulas.hpp has them.
 ///
 /// @throws BadInput  as Formulas
-reduction::PlanarField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
+FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
 
 /// Whether a start is the centre of the scaling, but for rounding.
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);

@@ -1,5 +1,4 @@
-# fmt and toml++ by their headers, and as much of muParser as formulas need, so that a wheel needs no library of theirs where
-# it is installed.
+# fmt and toml++ by their headers, so that a wheel needs no library of theirs where it is installed.
 macro(contensou_by_headers target header definition)
   if(NOT TARGET ${target})
     find_path(contensou_${header} ${header} REQUIRED NO_CACHE)
@@ -16,10 +15,6 @@ macro(contensou_provide method package)
   elseif("${package}" STREQUAL tomlplusplus)
     contensou_by_headers(tomlplusplus::tomlplusplus toml++/toml.h TOML_HEADER_ONLY=1)
     set(tomlplusplus_FOUND TRUE)
-  elseif("${package}" STREQUAL muparser)
-    add_library(muparser::muparser INTERFACE IMPORTED GLOBAL)
-    target_include_directories(muparser::muparser INTERFACE ${CMAKE_SOURCE_DIR}/src/platform/formulas)
-    set(muparser_FOUND TRUE)
   endif()
 endmacro()
 cmake_language(SET_DEPENDENCY_PROVIDER contensou_provide SUPPORTED_METHODS FIND_PACKAGE)

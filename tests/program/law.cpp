@@ -208,7 +208,7 @@ TEST_CASE("formulas that are no law of friction are refused with what was measur
     CHECK_THAT(run.err, Contains("--law") && Contains(words));
   };
   rejected("phi = k/(1+k)", "psi = is missing: a law is \"phi = F; psi = G\"");
-  rejected("phi = k/(1+k; psi = 1/(1+k)", "missing parenthesis, at character 13 of");
+  rejected("phi = k/(1+k; psi = 1/(1+k)", "'(' is not closed, at character 9 of");
   rejected("phi = k/(1+k); psi = 1/(1+v)", "'v': dry friction depends on the ratio k = v/(mu |u|) alone");
   rejected("phi = k/(a+k); psi = 1/(1+k)", "'a' is no variable");
   rejected("phi = k/(1+k); psi = 1/(1+k)", "no formula of", {"--param", "b=1"});

@@ -185,6 +185,13 @@ TEST_CASE("reduce --system: no symmetry, status 1", "[cli]") {
   CHECK_THAT(shift.out, Contains("X = 1 d/du") && Contains("no generator is a scaling"));
 }
 
+TEST_CASE("a formula's rint and && are those of every other build", "[cli]") {
+  for (const std::string twice : {"(1+rint(0.5)+(0.5 && 0.5))", "rint(2.5)", "--2"}) {
+    const std::string system = fmt::format("u' = -u/hypot(u,v)*{0}; v' = -v/hypot(u,v)*{0}", twice);
+    CHECK(json_of_system(system, {"--u0", "1", "--v0", "0"})["tau_stop"].get<double>() == Approx(0.5).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("formulas: bars, functions, constants and parameters", "[cli]") {
   const auto time_of = [](const std::string& speed) {
     // along v = 0 at u = 2 the motion is u' = -speed, a number
@@ -209,13 +216,16 @@ TEST_CASE("mistakes in formulas: what, where, and a way out", "[cli]") {
   check_rejected_system("u' = |u|; v' = |v|*b", "at character 20");
   check_rejected_system("u' = |u; v' = 1", "'|' is not closed, at character 6");
   check_rejected_system("u' = u|; v' = 1", "'|' closes nothing");
-  check_rejected_system("u' = (u; v' = 1", "parenthesis, at character 8");
+  check_rejected_system("u' = (u; v' = 1", "'(' is not closed, at character 6");
   check_rejected_system("u' = u*; v' = 1", "at character 8");
   check_rejected_system("u' = 1,5; v' = 1", "a decimal point is a point");
   check_rejected_system("u' = u", "v' = is missing: a system is \"u' = F; v' = G\"");
   check_rejected_system("w' = u; v' = 1", "u' = or v' = is missing");
   check_rejected_system("u' = u; u' = 1", "u' stands there twice: ");
   check_rejected_system("", "u' = or v' = is missing");
+  check_rejected_system("u' = sqrt|u|; v' = 1", "sqrt needs brackets: type sqrt(|u|), at character 6");
+  check_rejected_system("u\u2032 = u; v' = 1", "the letter '\u2032' (U+2032) has no meaning here; type '");
+  check_rejected_system("u' = -u; v' = -_pi*v", "'_pi' is no variable, parameter or function (did you mean 'pi'?)");
   CHECK_THAT(reduce("u' = 0/0; v' = 1").err, Contains("the field has values and differences at 0 of 128 points"));
 }
 
