@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -210,17 +211,21 @@ class OrbitTracer {
       result.push_back(on_border(std::lerp(before->place, after->place, fraction)));
     }
     for (const auto& curve : flow_.solution().curves()) {
-      // A sector between two rays that is too narrow for any of these has one in its middle.
       const auto inside = [&](const Seed& at) { return flow_.solution().through(ln_k(at)) == curve; };
-      if (std::ranges::any_of(result, inside)) continue;
-      std::vector<Seed> sector;
-      for (int i = 0; i < all_steps; ++i) {
-        const Seed at = on_border((i + 0.5) / steps);
-        if (inside(at)) sector.push_back(at);
-      }
-      result.push_back(sector.at(sector.size() / 2));
+      if (std::ranges::none_of(result, inside)) result.push_back(amid(curve->chart()));
     }
     return result;
+  }
+
+  /// On the border, amid a sector between two invariant half-lines that may be too narrow for the steps of seeds: halfway
+  /// to the axis, or between two rays.
+  Seed amid(const reduction::TerminalChart& sector) const {
+    const auto [low, high] = std::minmax({sector.log_terminal_ratio(), sector.log_far_ratio()});
+    const double half = std::log(2);
+    const double ln_k = std::isinf(high) ? low + half : std::isinf(low) ? high - half : std::midpoint(low, high);
+    const double ln_right = std::log(system_.mu() * window_.u) + ln_k, ln_top = std::log(window_.v);
+    if (ln_right < ln_top) return {window_.u, ln_right};
+    return {std::min(std::exp(ln_top - ln_k) / system_.mu(), window_.u), ln_top};
   }
 
   /// The orbit from a start, by rows of another of the same curve.

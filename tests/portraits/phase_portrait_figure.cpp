@@ -127,6 +127,44 @@ TEST_CASE("Every view at every patch ratio: drawn, finite within its axes, with 
   }
 }
 
+TEST_CASE("Every body is drawn in windows from 1:1e-6 to 1:1e6 in every view, with an orbit in every sector",
+          "[extremes]") {
+  struct Body {
+    const char* law;
+    reduction::Inertia inertia;
+    double mu;
+  };
+  const std::vector<Body> bodies{{"exact", {3.5, 2.5}, 1}, {"exact", {3.5, 2.5}, 0.05}, {"exact", {2.5, 1.5}, 0.3},
+                                 {"uniform", {1, 2}, 1},   {"ring", {1, 1}, 1},         {"uniform", {1, 2}, 0.01},
+                                 {"exact", {1, 8}, 1}};
+  for (const auto& [law, inertia, mu] : bodies) {
+    const reduction::Flow flow({*reduction::find_law(law), mu, inertia});
+    for (double v : {1e-6, 3e-5, 6e-4, 0.01, 0.7, 30.0, 1.8e3, 1e6}) {
+      for (View view : portraits::views()) {
+        CAPTURE(law, inertia.gamma, mu, v, portraits::name(view));
+        const auto portrait = portraits::phase_portrait(
+            flow, {.view = view, .window = portraits::Window{1, v}, .highlight = State{1, v}});
+        const Figure figure = draw(portrait);
+        for (const Panel& panel : figure.panels) {
+          std::size_t points = 0;
+          for (const auto& layer : panel.lines) {
+            for (const auto& line : layer.lines) {
+              for (const auto& part : portraits::clipped(panel, line)) points += part.size();
+            }
+          }
+          CHECK(points > 100);
+        }
+        if (!portraits::shows_window(view)) continue;
+        for (const auto& curve : flow.solution().curves()) {
+          CHECK(std::ranges::any_of(portrait.orbits, [&](const portraits::PortraitOrbit& orbit) {
+            return flow.solution().through(orbit.ln_k[0]) == curve;
+          }));
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("Seen lines are smooth: no two pieces of an orbit meet at a sharp angle on paper", "[invariant]") {
   for (double mu : patch_ratios) {
     for (View view : {View::log, View::similarity, View::blowup, View::disc, View::patch}) {
