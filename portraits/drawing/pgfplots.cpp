@@ -59,10 +59,7 @@ class Writer {
   explicit Writer(const Figure& figure) : figure_(figure), layout_(lay_out(figure)) {}
 
   std::string document() {
-    const double letter = layout_.letter * points_per_mm;
-    put("\\begin{{document}}%\n"
-        "\\begin{{tikzpicture}}[x=1mm,y=1mm,text={},font=\\fontsize{{{:.3g}}}{{{:.3g}}}\\selectfont]\n",
-        name(figure_.theme.ink), letter, 1.2 * letter);
+    put("\\tikzset{{text={}}}\n", name(figure_.theme.ink));
     put("\\fill[{}] (0,0) rectangle ({:.6g},{:.6g});\n", name(figure_.theme.ground), figure_.size.width_mm,
         figure_.size.height_mm);
     for (const PlacedText& text : layout_.texts) {
@@ -89,14 +86,20 @@ class Writer {
     put("\\end{{tikzpicture}}%\n\\end{{document}}\n");
 
     const std::string body = std::exchange(tex_, "");
-    put("% Drawn by contensou; pdflatex. The tikzpicture can be moved into a paper that loads the same packages.\n"
+    const double letter = layout_.letter * points_per_mm;
+    put("% Drawn by contensou; pdflatex compiles it. The tikzpicture can be moved into a paper that loads amsmath and\n"
+        "% pgfplots: whatever else it needs is inside it.\n"
         "\\documentclass{{article}}\n\\usepackage[utf8]{{inputenc}}\n\\usepackage{{amsmath}}\n"
-        "\\usepackage{{pgfplots}}\n\\usetikzlibrary{{arrows.meta}}\n\\pgfplotsset{{compat=1.16}}\n"
+        "\\usepackage{{pgfplots}}\n"
         "\\IfFileExists{{lmodern.sty}}{{\\usepackage{{lmodern}}}}{{}}\n"
         "\\usepackage[paperwidth={:.6g}mm,paperheight={:.6g}mm,margin=0mm]{{geometry}}\n"
         "\\pagestyle{{empty}}\n\\setlength{{\\parindent}}{{0pt}}\\setlength{{\\topskip}}{{0pt}}\n"
         "\\pdfinfoomitdate=1 \\pdftrailerid{{}}\n",
         figure_.size.width_mm, figure_.size.height_mm + 0.1);
+    put("\\begin{{document}}%\n"
+        "\\begin{{tikzpicture}}[x=1mm,y=1mm,font=\\fontsize{{{:.3g}}}{{{:.3g}}}\\selectfont]\n"
+        "\\pgfplotsset{{compat=1.16}}\n",
+        letter, 1.2 * letter);
     for (unsigned rgb : used_) put("\\definecolor{{c{0:06X}}}{{HTML}}{{{0:06X}}}\n", rgb);
     return tex_ + body;
   }
@@ -107,7 +110,7 @@ class Writer {
     fmt::format_to(std::back_inserter(tex_), format, std::forward<Values>(values)...);
   }
 
-  /// The name of a colour, which the preamble then defines.
+  /// The name of a colour, which the picture defines before all else.
   std::string name(Colour colour) {
     used_.insert(colour.rgb);
     return fmt::format("c{:06X}", colour.rgb);
@@ -212,10 +215,17 @@ class Writer {
         const std::optional<Arrow> head = short_arrow(panel, box, arrow);
         if (!head) continue;
         const Point tail = on_paper(panel, head->at), tip = on_paper(panel, arrow.at);
-        put("\\draw[-{{Stealth[length={1:.3g}mm,width={2:.3g}mm]}},draw={0},fill={0},line width=0.3pt] "
-            "{3} ++({4:.4f}mm,{5:.4f}mm)--{3};\n",
-            name(layer.colour), layer.size * head_length * layout_.letter, layer.size * 0.48 * layout_.letter,
-            at(arrow.at), (tail.x - tip.x) * box.width, (tail.y - tip.y) * box.height);
+        const double back_x = (tail.x - tip.x) * box.width, back_y = (tail.y - tip.y) * box.height;
+        // mm on paper, so far back from the tip and so far to the left of it
+        const double length = layer.size * head_length * layout_.letter / std::hypot(back_x, back_y);
+        const auto corner = [&](double back, double left) {
+          return fmt::format("({:.4f}mm,{:.4f}mm)", length * (back * back_x + left * back_y),
+                             length * (back * back_y - left * back_x));
+        };
+        // A head that needs none of TikZ's libraries.
+        const double half = 0.325, notch = 0.7;
+        put("\\fill[{}] {}--+{}--+{}--+{}--cycle;\n", name(layer.colour), at(arrow.at), corner(1, half),
+            corner(notch, 0), corner(1, -half));
       }
     }
     for (const Marks& layer : panel.marks) {

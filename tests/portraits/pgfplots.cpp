@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -22,6 +25,13 @@ namespace {
 
 std::string document(portraits::View view) {
   return portraits::pgfplots(portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.3}}, {.view = view})));
+}
+
+std::string picture_of(const std::string& tex) {
+  const std::string end = "\\end{tikzpicture}";
+  const std::size_t from = tex.find("\\begin{tikzpicture}"), to = tex.find(end);
+  REQUIRE(to != tex.npos);
+  return tex.substr(from, to + end.size() - from) + "\n";
 }
 
 }  // namespace
@@ -106,7 +116,25 @@ TEST_CASE("TeX draws no field of colours", "[domain]") {
   CHECK_THROWS_AS(portraits::pgfplots(map), std::domain_error);
 }
 
-TEST_CASE("pdflatex compiles every view", "[route]") {
+TEST_CASE("The tikzpicture defines its colours and needs no library of TikZ", "[table]") {
+  const std::string tex = picture_of(document(portraits::View::uv));
+  const std::regex colour("c[0-9A-F]{6}"), definition(R"(\\definecolor\{(c[0-9A-F]{6})\})");
+  std::set<std::string> defined;
+  std::istringstream lines(tex);
+  for (std::string line; std::getline(lines, line);) {
+    if (std::smatch made; std::regex_search(line, made, definition)) {
+      defined.insert(made[1]);
+      continue;
+    }
+    for (std::sregex_iterator used(line.begin(), line.end(), colour), end; used != end; ++used) {
+      CHECK(defined.contains(used->str()));
+    }
+  }
+  CHECK(defined.size() > 3);
+  CHECK(tex.find("Stealth") == tex.npos);
+}
+
+TEST_CASE("pdflatex compiles every view, and its picture in another paper", "[route]") {
   if (std::system("command -v pdflatex >/dev/null && kpsewhich pgfplots.sty >/dev/null") != 0) {
     WARN("skipped: pdflatex with pgfplots is not installed (Debian: texlive-pictures, texlive-latex-recommended)");
     return;
@@ -114,12 +142,17 @@ TEST_CASE("pdflatex compiles every view", "[route]") {
   const portraits::TemporaryFolder folder;
   for (portraits::View view : portraits::views()) {
     CAPTURE(portraits::name(view));
-    std::ofstream(folder.path() / "figure.tex") << document(view);
-    const std::string run =
-        "cd " + folder.path().string() + " && pdflatex -interaction=nonstopmode -halt-on-error figure.tex >out 2>&1";
-    CHECK(std::system(run.c_str()) == 0);
-    std::ifstream log(folder.path() / "out");
-    const std::string words{std::istreambuf_iterator<char>(log), {}};
-    CHECK(words.find("(1 page") != std::string::npos);
+    const std::string whole = document(view);
+    const std::string paper = "\\documentclass{article}\n\\usepackage{amsmath,pgfplots}\n\\begin{document}\n" +
+                              picture_of(whole) + "\\end{document}\n";
+    for (const std::string& tex : {whole, paper}) {
+      std::ofstream(folder.path() / "figure.tex") << tex;
+      const std::string run =
+          "cd " + folder.path().string() + " && pdflatex -interaction=nonstopmode -halt-on-error figure.tex >out 2>&1";
+      CHECK(std::system(run.c_str()) == 0);
+      std::ifstream log(folder.path() / "out");
+      const std::string words{std::istreambuf_iterator<char>(log), {}};
+      CHECK(words.find("(1 page") != std::string::npos);
+    }
   }
 }
