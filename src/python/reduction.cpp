@@ -11,6 +11,7 @@
 #include "contensou/reduction/instant_gradient.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/phase_plane.hpp"
+#include "contensou/reduction/regularised_time.hpp"
 #include "contensou/reduction/stop_times_of_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/verification.hpp"
@@ -225,6 +226,10 @@ void bind_reduction(py::module_& module) {
                }
              }
              return result;
+           })
+      .def("at_beta",
+           [](const Flow& flow, double u, double v, const Numbers& betas) {
+             return mapped<OrbitPoint>(betas, [&](double beta) { return reduction::at_beta(flow, {u, v}, beta); });
            })
       .def("terminal", &terminal)
       .def("facts", &facts)

@@ -192,6 +192,37 @@ TEST_CASE("instants of a ball in seconds", "[cli]") {
   CHECK_THAT(run_program({"orbit", "--ball", "pool", "--at", "2 Hz"}).err, Contains("none of s, ms or min"));
 }
 
+TEST_CASE("instants by the regularised time", "[cli]") {
+  const std::string start = "orbit --mu 0.3 --law pade --u0 -1 --v0 1 ";
+  const auto rows = rows_of(run_program(start + "--at 0.3,2,7,11").out);
+  std::string betas;
+  for (std::size_t i = rows.size() - 1; i > 0; --i) betas += (betas.empty() ? "" : ",") + rows[i][5];
+  const auto found = rows_of(run_program(start + "--beta " + betas).out);
+  REQUIRE(found.size() == rows.size());
+  CHECK(found[0] == rows[0]);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto &wanted = rows[rows.size() - i], &row = found[i];
+    CHECK(row[5] == wanted[5]);  // as it was typed
+    for (std::size_t column : {0, 1, 2, 3, 4})
+      CHECK(std::stod(row[column]) == Approx(std::stod(wanted[column])).epsilon(1e-9));
+  }
+  // Of a ball in its seconds, on an axis, at rest, and of a file.
+  const auto pool = rows_of(run_program("orbit --ball pool --beta 0,0.1").out);
+  CHECK((pool[0].back() == "t" && pool[1].back() == "0" && std::stod(pool[2].back()) > 0));
+  const auto axis = rows_of(run_program("orbit --mu 0.3 --law pade --u0 0 --v0 1 --beta 1").out);
+  CHECK(std::stod(axis[1][2]) == Approx(1 / (1 + 105 * std::numbers::pi)));
+  CHECK(rows_of(run_program("orbit --mu 0.3 --u0 0 --v0 0 --beta 1").out)[1][2] == "0");
+  const TemporaryDirectory scratch;
+  write_file(scratch.file("beta.csv"), "beta\n0\n1\n");
+  CHECK(rows_of(run_program(start + "--beta " + scratch.file("beta.csv")).out).size() == 3);
+  check_rejected(start + "--beta -1", "--beta -1: -1 is not allowed: beta >= 0 is required");
+  check_rejected(start + "--beta 1s", "--beta 1s: beta has no unit: plain numbers are needed");
+  check_rejected(start + "--beta 1 --at 1", "exclude each other");
+  check_rejected(start + "--beta 1 --samples 3", "--beta and --samples, --equidistant exclude each other");
+  check_rejected(start + "--beta 1 --time-left 1", "--time-left and --beta exclude each other");
+  check_rejected(start + "--beta 1 --route direct", "--beta is of the routes closed and quadrature");
+}
+
 TEST_CASE("at rest k is what it tends to", "[cli]") {
   const auto last = [](const std::string& start) {
     return rows_of(run_program("orbit --samples 3 " + start).out).back();

@@ -102,8 +102,11 @@ def test_orbit_as_arrays():
     assert orbit.at(tau=1)["u"] == states[0, 1]["u"]
     assert orbit.at(tau_left=orbit.stop_time - 1)["u"] == pytest.approx(states[0, 1]["u"], rel=1e-14)
     assert len(orbit.sample(11)) == 11
-    with pytest.raises(TypeError, match="one of tau and tau_left"):
-        orbit.at(1, tau_left=1)
+    by_beta = orbit.at(beta=states["beta"])
+    assert by_beta["tau"] == pytest.approx(states["tau"], rel=1e-9) and (by_beta["beta"] == states["beta"]).all()
+    for two in ({"tau_left": 1}, {"beta": 1}):
+        with pytest.raises(TypeError, match="one of tau, tau_left and beta"):
+            orbit.at(1, **two)
 
 
 def test_law_of_ones_own():

@@ -13,6 +13,8 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/regularised_time.hpp"
 #include "reference_table.hpp"
 #include "worst_case.hpp"
 
@@ -462,6 +464,50 @@ TEST_CASE("columns keep their points", "[orbit]") {
   }
 }
 
+TEST_CASE("at a regularised time the state is that of steps of (2.7) in beta", "[orbit][route]") {
+  struct System {
+    const char* law;
+    Inertia body;
+    double mu, drive;
+  };
+  for (const auto& [law, body, mu, drive] :
+       {System{"exact", {3.5, 2.5}, 1, 0}, System{"pade", {3.5, 2.5}, 0.3, 0}, System{"exact", {3.5, 2.5}, 0.01, 0},
+        System{"uniform", {1, 2}, 1, 0}, System{"exact", {1, 8}, 1, 0}, System{"exact", {3.5, 2.5}, 0.3, 0.2}}) {
+    const ReducedSystem system(*find_law(law), mu, body, drive);
+    const Flow flow(system);
+    for (const State start : {State{1, 1}, State{-3, 0.01}, State{1e-5, 2}, State{0, 2}, State{1, 0}}) {
+      INFO(law << " mu " << mu << " gamma " << body.gamma << " drive " << drive << " u0 " << start.u << " v0 "
+               << start.v);
+      const Orbit orbit = flow.orbit(start);
+      const Motion stepped = integrate_regularised(system, start);
+      REQUIRE(stepped.outcome.ok());
+      const double unit = beta_unit(mu, start);
+      for (Eigen::Index row = 0; row < stepped.points.rows(); ++row) {
+        const OrbitPoint wanted = stepped.points.row(row), found = at_beta(flow, start, wanted.beta);
+        CHECK(found.beta == wanted.beta);
+        CHECK(found.u == Approx(wanted.u).epsilon(1e-7));
+        CHECK(found.tau == Approx(wanted.tau).epsilon(1e-7).margin(1e-9 * unit * unit * orbit.stop_time()));
+        // With a drive v begins at 0 and has, at first, the digits of tau.
+        const bool begins = start.v == 0 && wanted.beta < 1e-6 * unit;
+        if (std::isfinite(wanted.ln_v) && !begins)
+          CHECK(std::abs(found.ln_v - wanted.ln_v) < 1e-6 * (1 + std::abs(wanted.ln_v)));
+      }
+      // There and back, to the end.
+      for (double share : {1e-3, 0.1, 0.5, 0.9, 1 - 1e-6}) {
+        const OrbitPoint wanted = orbit.at_time_left((1 - share) * orbit.stop_time()),
+                         found = at_beta(flow, start, wanted.beta);
+        CHECK(found.tau == Approx(wanted.tau).epsilon(1e-10));
+        CHECK(found.u == Approx(wanted.u).epsilon(1e-8));
+      }
+      CHECK((at_beta(flow, start, infinity).u == 0 && at_beta(flow, start, infinity).tau == orbit.stop_time()));
+      CHECK((at_beta(flow, start, 0).u == start.u && at_beta(flow, start, 0).tau == 0));
+      const OrbitPoint far = at_beta(flow, start, 1e200 * unit);
+      CHECK((far.beta == 1e200 * unit && far.u * start.u >= 0 && far.tau <= orbit.stop_time()));
+    }
+    CHECK(at_beta(flow, {0, 0}, 3).u == 0);
+  }
+}
+
 TEST_CASE("an orbit is asked within its motion", "[orbit][domain]") {
   using Catch::Matchers::Contains;
   const ReducedSystem system(PadeLaw{}, 0.1);
@@ -470,6 +516,7 @@ TEST_CASE("an orbit is asked within its motion", "[orbit][domain]") {
     CAPTURE(bad);
     CHECK_THROWS_AS(orbit.at_time(bad), std::domain_error);
     CHECK_THROWS_AS(orbit.at_time_left(bad), std::domain_error);
+    CHECK_THROWS_AS(at_beta(system, {1, 1}, bad), std::domain_error);
   }
   CHECK_THROWS_WITH(orbit.at_time(-2), Contains("Orbit::at_time") && Contains("-2"));
   CHECK_THROWS_WITH(orbit.at_time(not_a_number), Contains("Orbit::at_time") && Contains("nan"));

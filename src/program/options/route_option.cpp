@@ -11,6 +11,7 @@
 
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/regularised_time.hpp"
 #include "options/instants_option.hpp"
 
 namespace contensou::program {
@@ -109,6 +110,12 @@ OrbitColumns motion_at_time_left(const ReducedSystem& system, State start, Route
     columns.set(i, orbit.at_time_left(lefts[i]));
   }
   return columns;
+}
+
+OrbitColumns motion_at_beta(const ReducedSystem& system, State start, Route route, const Eigen::ArrayXd& betas) {
+  const auto flow = flow_of(system, route);
+  if (!flow) throw BadInput("--beta is of the routes closed and quadrature: a stepper is asked by tau, as in --at");
+  return reduction::at_betas(*flow, start, betas);
 }
 
 OrbitColumns motion_samples(const ReducedSystem& system, State start, Route route, Eigen::Index count,

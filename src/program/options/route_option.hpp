@@ -43,6 +43,13 @@ reduction::OrbitColumns motion_at(const reduction::ReducedSystem& system, reduct
 reduction::OrbitColumns motion_at_time_left(const reduction::ReducedSystem& system, reduction::State start,
                                             reduction::Route route, const Eigen::ArrayXd& lefts);
 
+/// States at regularised times.
+///
+/// @param betas  >= 0
+/// @throws BadInput  for a stepper, which is asked by tau
+reduction::OrbitColumns motion_at_beta(const reduction::ReducedSystem& system, reduction::State start,
+                                       reduction::Route route, const Eigen::ArrayXd& betas);
+
 /// @param count        instants from the start to the stop, both included; 2 or more
 /// @param equidistant  or half of them until the first of the speeds has fallen to 1e-3 of its start
 /// @throws std::runtime_error  as above, or if the stop time exceeds the largest double

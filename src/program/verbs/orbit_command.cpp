@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <vector>
 
 #include <fmt/format.h>
@@ -54,6 +55,15 @@ class OrbitCommand final : public Verb {
              "FILE has that column",
              [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
         ->excludes(at);
+    beta_
+        .add(app, "--beta", "B1,B2,...|FILE",
+             "instead: these regularised times >= 0 of (2.8), in any order; FILE has a column beta",
+             [](const std::string& typed) {
+               auto betas = InstantsOption::read_times(typed, "beta");
+               if (betas.in_seconds) throw NotAllowed("beta has no unit: plain numbers are needed");
+               return betas.values;
+             })
+        ->excludes(at);
     app.add_flag("--estimate", estimate_,
                  "beside it the asymptotic solution for small mu: u_estimate, with a relative error of the order mu^4, "
                  "v_estimate and ln_v_estimate, of the order mu^2");
@@ -68,9 +78,13 @@ class OrbitCommand final : public Verb {
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     const reduction::ReducedSystem& system = start.system;
     const reduction::Route route = route_.read(system);
-    if (time_left_.given() && instants_.given()) {
-      throw BadInput("--time-left and --samples, --equidistant exclude each other: give one of them");
+    for (const Argument* other : std::initializer_list<const Argument*>{&time_left_, &beta_}) {
+      if (!other->given() || !instants_.given()) continue;
+      throw BadInput(
+          fmt::format("{} and --samples, --equidistant exclude each other: give one of them", other->name()));
     }
+    if (time_left_.given() && beta_.given())
+      throw BadInput("--time-left and --beta exclude each other: give one of them");
     const auto* at = instants_.at();
     const auto load = start_.load_history();
     if (load) {
@@ -85,6 +99,7 @@ class OrbitCommand final : public Verb {
     reduction::OrbitColumns motion =
         pieces.size() > 1 ? motion_of_pieces(pieces, at != nullptr ? taus(*at, start, load) : Eigen::ArrayXd(), lefts)
         : time_left_.given() ? motion_at_time_left(system, start.state, route, lefts)
+        : beta_.given()      ? motion_at_beta(system, start.state, route, *beta_)
         : at != nullptr      ? motion_at(system, start.state, route, taus(*at, start, load))
                              : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
     // At rest k is what it tends to.
@@ -130,6 +145,7 @@ class OrbitCommand final : public Verb {
     const char* const why = " is of one orbit, and rolling friction lets this ball turn for a part of its motion only";
     if (route != reduction::Route::quadrature)
       throw BadInput(fmt::format("--route {}{}: leave it out", name(route), why));
+    if (beta_.given()) throw BadInput(fmt::format("--beta{}: leave it out, or give --at", why));
     if (estimate_) throw BadInput(fmt::format("--estimate{}: leave it out", why));
     if (reduction_) throw BadInput(fmt::format("--reduction{}: leave it out", why));
   }
@@ -172,6 +188,7 @@ class OrbitCommand final : public Verb {
   RouteOption route_;
   InstantsOption instants_;
   ArgumentOf<InstantsOption::Times> time_left_;
+  ArgumentOf<Eigen::ArrayXd> beta_;
   bool estimate_ = false;
   bool reduction_ = false;
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};

@@ -170,15 +170,17 @@ class Orbit:
         """Relative error of stop_time."""
         return self._core.accuracy
 
-    def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None) -> Any:
-        """The states at times tau >= 0 after the start, or tau_left before the stop: a structured array of their shape
-        with fields tau, u, v, ln_v, k, beta. v underflows near the stop, ln_v does not; beta is the paper's regularised
-        time (2.8)."""
-        if tau is not None and tau_left is None:
+    def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None,
+           beta: Optional[ArrayLike] = None) -> Any:
+        """The states at times tau >= 0 after the start, tau_left before the stop, or at regularised times beta >= 0 (2.8):
+        a structured array of their shape with fields tau, u, v, ln_v, k, beta. v underflows near the stop, ln_v does not."""
+        if sum(given is not None for given in (tau, tau_left, beta)) != 1:
+            raise TypeError("at: one of tau, tau_left and beta is needed")
+        if tau is not None:
             return self._core.at(numbers("tau", tau))[()]
-        if tau is None and tau_left is not None:
+        if tau_left is not None:
             return self._core.at_left(numbers("tau_left", tau_left))[()]
-        raise TypeError("at: one of tau and tau_left is needed")
+        return self.flow._core.at_beta(number("u", self.u), number("v", self.v), numbers("beta", beta))[()]
 
     def sample(self, count: int = 201) -> NDArray[Any]:
         """The states at equal times from the start to the stop."""
