@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/regularised_time.hpp"
+#include "data/regularised_time.hpp"
 #include "views/portrait_views.hpp"
 
 namespace contensou::portraits {
@@ -45,18 +47,28 @@ double spin_left(const Instant& at, const Instant& start) { return at.u / start.
 double log_slip_left(const Instant& at, const Instant& start) { return at.ln_v - start.ln_v; }
 double time_passed(const Instant& at, const Instant& start) { return 1 - at.tau_left / start.tau_left; }
 
-/// The line up to one point beyond a border.
-Polyline up_to(double border, Polyline line) {
-  const auto beyond = std::ranges::find_if(line, [&](const Point& point) { return !(point.x < border); });
-  if (beyond != line.end()) line.erase(std::isfinite(beyond->x) ? beyond + 1 : beyond, line.end());
-  return line;
-}
+/// A motion at equal ratios of 1 + beta/beta_1, from 1 to a border. Rows of an orbit lie where the plane needs them: those
+/// of a small patch leave out decades of beta.
+struct Course {
+  std::vector<double> places;
+  std::vector<Instant> instants;
+};
 
-/// y at a border, by the last two points.
-double at_border(double border, const Polyline& line, bool logarithmic) {
-  const Point &a = line[line.size() - 2], &b = line.back();
-  const double share = std::log(border / a.x) / std::log(b.x / a.x);
-  return logarithmic ? a.y * std::pow(b.y / a.y, share) : a.y + share * (b.y - a.y);
+Course course_of(const reduction::Flow& flow, reduction::State start, double border) {
+  constexpr int of_decade = 24, fewest = 240;
+  const double rate = rate_at(flow.system(), flow.system().mu() * std::abs(start.u), start.v);
+  const int count = std::max(fewest, static_cast<int>(of_decade * std::log10(border)));
+  Course course;
+  Eigen::ArrayXd betas(count + 1);
+  for (int i = 0; i <= count; ++i) {
+    course.places.push_back(i == count ? border : std::pow(border, static_cast<double>(i) / count));
+    betas[i] = (course.places.back() - 1) / rate;
+  }
+  const reduction::OrbitColumns at = reduction::at_betas(flow, start, betas);
+  const double stop = flow.orbit(start).stop_time();
+  for (Eigen::Index i = 0; i <= count; ++i)
+    course.instants.push_back({at.u[i], at.v[i], at.ln_v[i], std::log(at.k[i]), stop - at.tau[i]});
+  return course;
 }
 
 }  // namespace
@@ -87,13 +99,16 @@ std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
   add_courses(drawing, [&](const PhasePortrait& of, const PortraitOrbit& orbit, Stroke stroke, const Text& legend) {
     const auto& terminal = of.plane.terminal;
     const double end = terminal.end_of(std::exp(orbit.ln_k[0])).k, r = of.system().r();
-    std::vector<Polyline> lines;
+    if (!is_one_orbit(of.flow, orbit)) return;
+    const Course course = course_of(of.flow, {orbit.u[0], orbit.v[0]}, border);
+    const Instant &first = course.instants.front(), &last = course.instants.back();
     for (std::size_t i = 0; i < panels.size(); ++i) {
-      lines.push_back(up_to(border, map_of(of.flow, quantities[i]).line(orbit)));
-      panels[i].panel.lines.push_back({{lines.back()}, stroke, legend});
+      Polyline line;
+      for (std::size_t j = 0; j < course.places.size(); ++j)
+        line.push_back({course.places[j], quantities[i](course.instants[j], first)});
+      panels[i].panel.lines.push_back({{std::move(line)}, stroke, legend});
     }
-    if (lines[0].size() < 2 || lines[0].back().x < border) return;
-    const double u = at_border(border, lines[0], true), v = at_border(border, lines[1], false);
+    const double u = spin_left(last, first), v = log_slip_left(last, first);
     const double power_of_u = std::isinf(end) ? r / terminal.high : 1, power_of_v = end == 0 ? terminal.low / r : 1;
     powers_of_u.lines.push_back({{1, u * std::pow(border, power_of_u)}, {border, u}});
     powers_of_v.lines.push_back({{1, v + power_of_v * std::log(border)}, {border, v}});

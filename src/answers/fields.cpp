@@ -60,6 +60,7 @@ std::vector<VerbFields> field_table() {
            {"CSV `kind`, `index`; `u`, `v`, `ln_v`; `k`", "; speed; 1",
             "orbit, highlight, through, isochrone; number of the line; states on it"},
            {"`tau` (JSON `tau_left`, `tau_stop`); `t`", "speed; s", "time left; of a ball"},
+           {"`beta`", "1/speed", "of --view regularised: regularised time (2.8) of an orbit from its first state on"},
            {"JSON `portraits` [...]; CSV `mu`, `law`", "",
             "of several --mu or --law: a list of portraits; two columns before the others"},
            {"`view`, `window` [U, V] or [[U1, U2], [V1, V2]], `drive`, `version`, `ball`, `seconds_per_tau`", "",

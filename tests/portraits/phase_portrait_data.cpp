@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 
@@ -52,6 +53,41 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
         Approx(portrait.orbits[3].v[0] / (0.3 * std::abs(portrait.orbits[3].u[0]))));
   const auto of_ball = nlohmann::json::parse(portraits::to_json(portrait, {"1.2", "red ball", 0.5}));
   CHECK((of_ball["version"] == "1.2" && of_ball["ball"] == "red ball" && of_ball["seconds_per_tau"] == 0.5));
+}
+
+TEST_CASE("In the view of beta each state of an orbit has its beta, as its axis has it", "[route]") {
+  const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
+  const auto portrait =
+      portraits::phase_portrait(flow, {.view = portraits::View::regularised, .highlight = reduction::State{-1, 2}});
+  const portraits::PanelMap map = portraits::draw_mapped(portrait).maps.front();
+  const auto json = nlohmann::json::parse(portraits::to_json(portrait));
+  std::istringstream csv(portraits::to_csv(portrait));
+  std::string line;
+  while (std::getline(csv, line) && line.starts_with('#')) continue;
+  CHECK(line == "kind,index,u,v,tau,ln_v,k,beta");
+  const auto check = [&](const portraits::PortraitOrbit& orbit, const nlohmann::json& told, const std::string& kind) {
+    REQUIRE(told["beta"].size() == static_cast<std::size_t>(orbit.rows()));
+    CHECK(told["beta"][0] == 0);
+    CHECK(told["beta"].back() == "inf");
+    // The axis of the view: 40 mu^3 |u0| + 105 pi v0 times beta, from (R7).
+    const double rate = 40 * 0.027 * std::abs(orbit.u[0]) + 105 * 3.141592653589793 * orbit.v[0];
+    for (Eigen::Index i = 0; i + 1 < orbit.rows(); ++i) {
+      const double beta = told["beta"][static_cast<std::size_t>(i)];
+      CHECK(1 + rate * beta == Approx(map.place(orbit.at(i), orbit.at(0)).x).epsilon(1e-8));
+      if (!std::getline(csv, line)) FAIL("a row is missing");
+      CHECK_THAT(line, Catch::StartsWith(kind) && Catch::EndsWith(fmt::format(",{}", beta)));
+    }
+    std::getline(csv, line);
+    CHECK_THAT(line, Catch::EndsWith(",inf"));
+  };
+  for (std::size_t i = 0; i < portrait.orbits.size(); ++i) {
+    check(portrait.orbits[i], json["orbits"][i], fmt::format("orbit,{},", i));
+  }
+  check(*portrait.highlight, json["highlight"], "highlight,0,");
+  for (const char* view : {"uv", "time"}) {
+    const auto other = portraits::phase_portrait(flow, {.view = portraits::find_view(view)});
+    CHECK(portraits::to_json(other).find("beta") == std::string::npos);
+  }
 }
 
 TEST_CASE("CSV says where it comes from, and has one row for each point", "[table]") {

@@ -505,6 +505,17 @@ TEST_CASE("Where a panel's map puts an orbit the figure draws it", "[route]") {
       INFO(portraits::name(view) << ", panel " << i);
       const auto drawn = layer(figure.panels[i], "this one").lines.front();
       const auto line = maps[i].line(*portrait.highlight);
+      if (view == View::regularised) {
+        // At its own places: each row of the orbit lies on the line between two of them.
+        const auto on = [&](Point at) { return portraits::on_paper(figure.panels[i], at); };
+        for (const Point& row : line) {
+          const auto after = std::ranges::lower_bound(drawn, row.x, {}, &Point::x);
+          if (after == drawn.end() || after == drawn.begin()) continue;
+          const Point a = on(*(after - 1)), b = on(*after), at = on(row);
+          CHECK(std::abs(std::lerp(a.y, b.y, (at.x - a.x) / (b.x - a.x)) - at.y) < 1e-3);
+        }
+        continue;
+      }
       REQUIRE(line.size() >= drawn.size());
       for (std::size_t j = 0; j < drawn.size(); ++j) {
         CHECK((drawn[j].x == line[j].x && drawn[j].y == line[j].y));
@@ -731,6 +742,27 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
     for (Eigen::Index row = 1; row < stepped.rows() && stepped.v[row] > 1e-200; ++row) {
       const double x = maps[0].place(instant(stepped.row(row)), instant(stepped.row(0))).x;
       REQUIRE(x == Approx(1 + rate * stepped.beta[row]).epsilon(1e-8));
+    }
+  }
+}
+
+TEST_CASE("Against beta every motion is drawn to the border, without corners, however small mu is", "[extremes]") {
+  for (double mu : {1.0, 0.1, 0.01, 1e-3, 1e-4, 1e-6}) {
+    const Figure figure = figure_of(mu, {.view = View::regularised});
+    for (const Panel& panel : figure.panels) {
+      for (std::size_t i = 0; i < 5; ++i) {
+        const auto& line = panel.lines[i].lines.front();
+        CAPTURE(mu, panel.title.words(), i);
+        CHECK(line.front().x == 1);
+        CHECK(line.back().x == panel.x.high);
+        for (std::size_t j = 2; j < line.size(); ++j) {
+          const Point a = portraits::on_paper(panel, line[j - 2]), b = portraits::on_paper(panel, line[j - 1]),
+                      c = portraits::on_paper(panel, line[j]);
+          const double turn = std::abs(std::remainder(
+              std::atan2(c.y - b.y, c.x - b.x) - std::atan2(b.y - a.y, b.x - a.x), 2 * std::numbers::pi));
+          if (turn >= 0.2) FAIL_CHECK("turns by " << turn << " at " << b.x << ", " << b.y);
+        }
+      }
     }
   }
 }

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "contensou/portraits/phase_portrait.hpp"
+
+namespace contensou::portraits {
+
+/// Returns whether a motion is one orbit of a flow, and so has a regularised time: one that rolling friction turns for a
+/// part of it only is not.
+bool is_one_orbit(const reduction::Flow& flow, const PortraitOrbit& motion);
+
+/// Returns the regularised time beta of (2.8) of each state of an orbit, from the first one on, in the inverse of the unit
+/// of speed: infinity at the stop. Empty for a motion that is not one orbit.
+Eigen::ArrayXd regularised_times(const reduction::Flow& flow, const PortraitOrbit& motion);
+
+}  // namespace contensou::portraits
