@@ -109,7 +109,11 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   const PhasePortrait& first = portraits.front();
   const ViewLayout& layout = layout_of(first.view);
   const int panels = layout.panels_across * static_cast<int>(portraits.size());
-  const PaperSize size = fitted(usual_size(layout, portraits.size()), panels, style.size);
+  PaperSize usual = usual_size(layout, portraits.size());
+  // Curves that stand one above another, over the same axis, need less height than planes.
+  const bool stacked = style.size.width_mm && panel_columns(*style.size.width_mm, panels) < panels;
+  if (shows_moments(first.view) && stacked) usual.height_mm *= 0.6;
+  const PaperSize size = fitted(usual, panels, style.size);
   const double time_unit = captions.front().time_unit;
   LayerLook look{palette(style.screen), {}, panel_size(size, panels), 0};
   look.letter = letter_mm(size.width_mm) * look.palette.theme.letters;

@@ -107,6 +107,10 @@ TEST_CASE("portrait shows what its switches say", "[cli]") {
   CHECK_THAT(script("--size 100x80"), Contains("size 500,400"));
   CHECK_THAT(script("--size single"), Contains("size 425,"));
   CHECK_THAT(script("--size double"), Contains("size 850,"));
+  // Three panels of curves, one above the other: one and a half times as high as wide. A size that is given is kept.
+  CHECK_THAT(script("--view regularised --size single"), Contains("size 425,647"));
+  CHECK_THAT(script("--view regularised --size 85x180"), Contains("size 425,900"));
+  CHECK_THAT(script("--view regularised --size double"), Contains("size 850,"));
   CHECK_THAT(script("--title none"), !Contains("Sliding and spinning"));
   CHECK_THAT(script("--title a_b"), Contains("{/*1.2 a\\_b}") && !Contains("slip dies first"));
   CHECK_THAT(script(""), Contains("slip dies first"));
