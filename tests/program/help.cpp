@@ -150,6 +150,31 @@ TEST_CASE("help theory has every equation of reduction/README.md's chapter, in w
   check_rejected("help theory --format html", "no such format");
 }
 
+TEST_CASE("a section of the theory alone, by a word of its heading or of its text", "[cli]") {
+  const std::string whole = run_program("help theory").out;
+  const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  for (const auto& [word, heading] :
+       std::vector<std::pair<std::string, std::string>>{{"equations", "The paper's equations:"},
+                                                        {"symmetry", "Symmetry and reduction:"},
+                                                        {"Reduction", "Symmetry and reduction:"},
+                                                        {"theorem", "The theorem:"},
+                                                        {"canonical", "Symmetry and reduction:"},
+                                                        {"hypotheses", "Any law, any body:"}}) {
+    INFO(word);
+    const Run run = run_program("help theory " + word);
+    CHECK(run.status == 0);
+    CHECK(first_line(run.out) == heading);
+    CHECK_THAT(whole, Contains("\n" + run.out) || StartsWith(run.out));
+    CHECK(run.out.size() < whole.size() / 2);
+    CHECK(run_program("help " + word).out == run.out);
+  }
+  CHECK(first_line(run_program("help theory check").out) == "What check measures:");
+  CHECK(first_line(run_program({"help", "theory", "small mu"}).out) == "Small mu:");
+  check_rejected("help theory nonsense", "SECTION nonsense: no such section");
+  check_rejected("help nonsense", "no such topic; topics: laws");
+  check_rejected("help theory symmetry --format tex", "--format tex: is for the theory");
+}
+
 TEST_CASE("values in other units", "[cli]") {
   using std::numbers::pi;
   struct Typed {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <span>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -170,12 +172,10 @@ std::string plain_table(const std::string& text) {
   return result;
 }
 
-}  // namespace
-
-std::string theory_as_text() {
+std::string text_of(std::span<const Block> blocks) {
   std::string text;
   Block::Kind before = Block::Kind::heading;
-  for (const auto& [kind, content] : blocks()) {
+  for (const auto& [kind, content] : blocks) {
     if (!text.empty() && !(kind == Block::Kind::item && before == kind)) text += "\n";
     before = kind;
     switch (kind) {
@@ -204,6 +204,63 @@ std::string theory_as_text() {
   }
   return text;
 }
+
+/// Each with its heading.
+std::vector<std::vector<Block>> sections() {
+  std::vector<std::vector<Block>> all;
+  for (Block& block : blocks()) {
+    if (block.kind == Block::Kind::heading) all.emplace_back();
+    all.back().push_back(std::move(block));
+  }
+  return all;
+}
+
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& letter : small) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return small;
+}
+
+/// How often a text has a word, not as a part of another.
+std::ptrdiff_t count_word(const std::string& text, const std::string& word) {
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  std::ptrdiff_t count = 0;
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    count += (at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end])) ? 1 : 0;
+  }
+  return count;
+}
+
+/// Which of some texts has a word most often.
+std::optional<std::size_t> most_often(const std::string& word, const std::vector<std::string>& texts) {
+  std::vector<std::ptrdiff_t> counts;
+  for (const std::string& text : texts) counts.push_back(count_word(in_small_letters(text), in_small_letters(word)));
+  const auto largest = std::ranges::max_element(counts);
+  if (word.empty() || *largest == 0) return std::nullopt;
+  return static_cast<std::size_t>(largest - counts.begin());
+}
+
+}  // namespace
+
+std::string theory_as_text() { return text_of(blocks()); }
+
+std::vector<std::string> theory_sections() {
+  std::vector<std::string> headings;
+  for (const auto& section : sections()) headings.push_back(plain(section.front().text));
+  return headings;
+}
+
+std::optional<std::size_t> section_named(const std::string& word) { return most_often(word, theory_sections()); }
+
+std::optional<std::size_t> section_about(const std::string& word) {
+  if (const auto named = section_named(word)) return named;
+  std::vector<std::string> texts;
+  for (const auto& section : sections()) texts.push_back(text_of(section));
+  return most_often(word, texts);
+}
+
+std::string theory_as_text(std::size_t section) { return text_of(sections().at(section)); }
 
 std::string theory_as_tex() {
   std::string text = "\\documentclass{article}\n\\usepackage{amsmath}\n\\begin{document}\n";

@@ -12,6 +12,7 @@
 #include "output/help.hpp"
 #include "output/theory.hpp"
 #include "platform/output_file.hpp"
+#include "text/nearest_name.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -106,22 +107,30 @@ class HelpCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     root_ = app.get_parent();
-    topic_.add(app, "TOPIC", "", "laws, views, units, files, theory, or a verb (default: all verbs)",
+    topic_.add(app, "TOPIC", "",
+               "laws, views, units, files, theory, a word of the theory, or a verb (default: all verbs)",
                [this](const std::string& typed) { return text_on(typed); });
+    section_.add(app, "SECTION", "", "of theory: a word of the section's heading or text (default: all sections)",
+                 [](const std::string& typed) { return section_on(typed); });
     format_.add(app, "--format", "FORMAT", "text (default), or tex, a document of LaTeX; of theory only",
                 one_of<bool>({{"text", false}, {"tex", true}}, "format"));
   }
 
   ExitStatus run() override {
     const bool tex = format_.value_or(false);
-    if (tex && !(topic_.given() && topic_.text() == "theory")) {
+    const bool on_theory = topic_.given() && topic_.text() == "theory";
+    if (section_.given() && !on_theory)
+      throw BadInput(fmt::format("unexpected argument {}", quotation(section_.text())));
+    if (tex && (!on_theory || section_.given())) {
       format_.reject("is for the theory: contensou help theory --format tex");
     }
     if (tex) {
       write_output("-", theory_as_tex());
       return ExitStatus::done;
     }
-    write_output("-", topic_.given() ? *topic_ : root_->get_formatter()->make_help(root_, "contensou", {}));
+    write_output("-", section_.given() ? *section_
+                      : topic_.given() ? *topic_
+                                       : root_->get_formatter()->make_help(root_, "contensou", {}));
     return ExitStatus::done;
   }
 
@@ -136,11 +145,19 @@ class HelpCommand final : public Verb {
       if (verb->get_name() == topic) return verb->help("contensou");
       names.push_back(verb->get_name());
     }
+    // A word of the theory's text only where no topic was mistyped.
+    const bool mistyped = !suggestion(topic, names).empty();
+    if (const auto section = mistyped ? section_named(topic) : section_about(topic)) return theory_as_text(*section);
     throw no_such("topic", topic, names);
   }
 
+  static std::string section_on(const std::string& word) {
+    if (const auto section = section_about(word)) return theory_as_text(*section);
+    throw no_such("section", word, theory_sections());
+  }
+
   const CLI::App* root_ = nullptr;
-  ArgumentOf<std::string> topic_;
+  ArgumentOf<std::string> topic_, section_;
   ArgumentOf<bool> format_;
 };
 
