@@ -12,6 +12,7 @@
 #include <emscripten/val.h>
 #include <Eigen/Core>
 
+#include "answers/message.hpp"
 #include "contensou/portraits/figure.hpp"
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/si/experiment.hpp"
@@ -21,15 +22,20 @@ namespace contensou::page {
 using emscripten::val;
 
 /// What a call answers; what it throws, as an Error with its message, without which an exception of C++ would reach JavaScript.
+/// Of a fault of ours the name is Fault, and the message ends where the page says what was asked.
 template <class Call>
 auto answer(Call call) {
   std::string problem;
+  bool is_fault = false;
   try {
     return call();
   } catch (const std::exception& error) {
-    problem = error.what();
+    problem = answers::message_of(error, "");
+    is_fault = answers::is_fault(error);
   }
-  val::global("Error").new_(problem).throw_();
+  val error = val::global("Error").new_(problem);
+  if (is_fault) error.set("name", "Fault");
+  error.throw_();
 }
 
 /// A function, or a method, that answers so.

@@ -4,6 +4,7 @@
 #include <new>
 #include <ranges>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <tuple>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/message.hpp"
 #include "answers/parse.hpp"
 #include "contensou/si/run_file.hpp"
 #include "output/help.hpp"
@@ -199,6 +201,16 @@ ExitStatus complain(ExitStatus status, const std::string& message) {
   return status;
 }
 
+std::string as_typed(const std::vector<std::string>& arguments) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-_=.,:/@%";
+  std::string line = "contensou";
+  for (const std::string& argument : arguments) {
+    const bool is_plain = !argument.empty() && argument.find_first_not_of(plain) == argument.npos;
+    line += is_plain ? ' ' + argument : " '" + argument + '\'';
+  }
+  return line;
+}
+
 ExitStatus guarded(const std::vector<std::string>& arguments) {
   std::string verb;
   try {
@@ -219,7 +231,8 @@ ExitStatus guarded(const std::vector<std::string>& arguments) {
         ExitStatus::file_failure,
         "contensou: out of memory: ask for less at once, or allow more (ulimit -v, or the container's limit)");
   } catch (const std::exception& error) {
-    return complain(ExitStatus::numerical_failure, fmt::format("contensou: {}", error.what()));
+    return complain(ExitStatus::numerical_failure,
+                    fmt::format("contensou: {}", message_of(error, as_typed(arguments))));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "answers/message.hpp"
 #include "values.hpp"
 
 namespace {
@@ -33,6 +34,14 @@ PYBIND11_MODULE(_core, module) {
       std::rethrow_exception(std::move(thrown));
     } catch (const std::domain_error& error) {
       PyErr_SetString(PyExc_ValueError, in_words_of_python(error.what()).c_str());
+    } catch (const pybind11::builtin_exception&) {
+      throw;
+    } catch (const pybind11::error_already_set&) {
+      throw;
+    } catch (const std::exception& error) {
+      if (!contensou::answers::is_fault(error)) throw;
+      // Without this pybind11 makes an IndexError, a ValueError or an OverflowError of it, as if the input were wrong.
+      PyErr_SetString(PyExc_RuntimeError, contensou::answers::message_of(error, "the call above").c_str());
     }
   });
   module.attr("__version__") = CONTENSOU_VERSION;

@@ -359,6 +359,20 @@ TEST_CASE("Ctrl-C in a long sweep leaves the old file and says so", "[cli]") {
   }
 }
 
+TEST_CASE(
+    "what no code of ours throws is said to be our fault, with what was asked, in no words of the standard library",
+    "[cli]") {
+  const TemporaryDirectory folder;
+  const Run ended = run_in(folder.path(), {"portrait --mu 0.3 --law phi=k/(1+k);psi=0.4/(1+k)", {"plane.csv"}}, [] {
+    preload_fault(2, {'x', 0});
+  });
+  CHECK(ended.status == 3);
+  CHECK(ended.err ==
+        "contensou: a fault of contensou, not of the input; please report it with what was asked: "
+        "contensou portrait --mu 0.3 --law 'phi=k/(1+k);psi=0.4/(1+k)' -o plane.csv\n");
+  CHECK(folder.names().empty());
+}
+
 TEST_CASE("an ignored signal stays ignored", "[cli]") {
   const TemporaryDirectory folder;
   write_file(folder.file("table"), "mu,u0,v0\n0.1,1,1\n");

@@ -168,3 +168,10 @@ def test_one_body_by_two_names_or_as_a_list():
     assert ct.Flow(body="puck") == ct.Flow(body="disc") and ct.Ball.puck(body="puck") == ct.Ball.puck()
     assert ct.stop_time(u=1, v=1, mu=0.3, body=[3.5, 2.5]) == ct.stop_time(u=1, v=1, mu=0.3)
     assert ct.Flow(mu=0.3, body=[3.5, 2.5]) == ct.Flow(mu=0.3, body=(3.5, 2.5))
+
+
+def test_a_fault_of_ours_is_said_to_be_one():
+    nothing = dict(view=None, window=None, orbits=None, through=[], isochrones=None, against=None, arrows="time", field="none",
+                   axes=True, colour="time", style="print", scale="bent", estimate=False, size=(None, None), title=None)
+    with pytest.raises(RuntimeError, match="^a fault of contensou, not of the input; please report it with what was asked: the call above$"):
+        ct._core.Portrait([], None, None, **nothing)  # no flow: the package never asks so

@@ -3,6 +3,7 @@
 //                            e  the call fails, VALUE is its errno
 //                            s  a write writes half of what it should
 //                            b  the signal VALUE comes before the call; a: after it
+//                            x  the call throws what no code of ours throws; VALUE is unused
 //                            t  the signals VALUE and SIGINT come before the call, both at once; u: after it
 //   CONTENSOU_FAULT_COUNT  a file that gets the number of calls when the program ends by itself
 #include <atomic>
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <string_view>
 
 #include <dlfcn.h>
@@ -67,6 +69,7 @@ auto faulty(Call call) {
     errno = fault.value;
     return static_cast<decltype(call(false))>(-1);
   }
+  if (now && is("x")) throw std::out_of_range("vector::_M_range_check");
   if (now && is("bt")) send_signals();
   const auto result = call(now && is("s"));
   const int error = errno;
