@@ -17,13 +17,16 @@ const help = execFileSync(program, ["help", "views"], { encoding: "utf8" });
 // The view of beta is the program's alone: a click in it is no moment.
 export const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name).filter((name) => name !== "regularised");
 
+/** ms; what a test waits for comes, on a slow machine later: only a failure takes so long. */
+export const patience = 300_000;
+
 let browser;
 export let page;
 let complaints;
 
 before(async () => {
   execFileSync(program, ["explore", "-o", file]);
-  browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"] });
+  browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"], timeout: patience });
 });
 
 after(async () => {
@@ -32,12 +35,20 @@ after(async () => {
 });
 
 /**
- * @param ready   what the page is ready with: true, an orbit; false, a state; null, nothing
- * @param before  runs in the page before its own scripts
+ * @param options  of the browser's context; with `stopped` the page's clock stands, and `pass` lets time pass
+ * @param ready    what the page is ready with: true, an orbit; false, a state; null, nothing
+ * @param before   runs in the page before its own scripts
  */
-export async function open(fragment = "", options = {}, ready = true, before = null) {
+export async function open(fragment = "", { stopped = false, ...options } = {}, ready = true, before = null) {
   // Without motion, unless a test asks for it.
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, reducedMotion: "reduce", ...options });
+  context.setDefaultTimeout(patience);
+  // The browser's own pictures, for `drawn`, also where the page's clock stands.
+  await context.addInitScript(() => (globalThis.nextPicture = requestAnimationFrame.bind(globalThis)));
+  if (stopped) {
+    await context.clock.install({ time: 0 });
+    await context.clock.pauseAt(1000);
+  }
   page = await context.newPage();
   complaints = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
@@ -71,8 +82,11 @@ export function assertClose(measured, wanted, tolerance, what) {
   assert.ok(error <= tolerance, `${what}: got ${measured}, wanted ${wanted}, relative error ${error}`);
 }
 
-/** Until the page is laid out and drawn as it is now. */
-export const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done))));
+/** Until the page is laid out and drawn as it is now, and has heard of what came into sight. */
+export const drawn = () => page.evaluate(() => new Promise((done) => globalThis.nextPicture(() => globalThis.nextPicture(done))));
+
+/** Lets so many milliseconds pass on a clock that stands. */
+export const pass = (time) => page.clock.runFor(time);
 
 /** The pixel of a state in a panel of the plane. */
 export const pixelOf = (u, v, panel = 0) => page.evaluate(([u, v, panel]) => {

@@ -5,9 +5,10 @@ import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assertClose, close, drawn, folder, json, open, page, program, saved, state, stopTimes } from "./browser.mjs";
+import { assertClose, close, drawn, folder, json, open, page, pass, program, saved, state, stopTimes } from "./browser.mjs";
 
 const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+const linkWith = (words) => page.waitForFunction((words) => decodeURIComponent(location.hash).includes(words) && location.hash, words).then((link) => link.jsonValue());
 const inLab = ["#columns", "#views", "#mu-control", "#friction-control"];
 
 test("the first floor has the bodies, two sliders, the plane and the story; one word opens the rest, and is in the link", async () => {
@@ -33,10 +34,11 @@ test("the first floor has the bodies, two sliders, the plane and the story; one 
 });
 
 test("Back leaves the Lab, and a link of what it alone shows opens it", async () => {
-  await open("#lab=0");
-  await page.waitForTimeout(400);
+  await open("#lab=0", { stopped: true });
+  await pass(400);
   await page.click("#lab");
-  await page.waitForFunction(() => location.hash.includes("lab=1"));
+  await pass(400);
+  assert.match(page.url(), /lab=1/);
   await page.goBack();
   await page.waitForFunction(() => !globalThis.page.state.lab);
   assert.ok(!(await page.isVisible("#columns")));
@@ -147,7 +149,8 @@ test("a pressure of the reader's own is the program's, in the plane, in the link
   assertClose((await stopTimes())[0], json("stop", "--mu", "0.3", "--u0", "0.8", "--v0", "3.5", "--law", file).tau_stop, 1e-11, "stops");
   assert.match(await page.textContent("#command"), /--law pressure\.csv --against uniform/);
   assert.match(await page.inputValue("#law"), /^table:/);
-  const [{ law }, link] = [await state(), await page.evaluate(() => new Promise((done) => setTimeout(() => done(location.hash), 400)))];
+  const { law } = await state();
+  const link = await linkWith("law=table");
   await close();
   await open(link);
   assert.equal((await state()).law, law);
@@ -193,7 +196,7 @@ test("a law's formulas of the reader's own are the program's, in the plane, in t
     assert.equal((await state()).law, law);
     await page.click("#fit");
   }
-  const link = await page.evaluate(() => new Promise((done) => setTimeout(() => done(location.hash), 400)));
+  const link = await linkWith("a+=+0.5");
   await close();
   await open(link);
   assert.equal((await state()).law, law);

@@ -8,7 +8,7 @@ import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
 import { unpacked } from "../../src/page/packing.js";
-import { assertClose, close, file, folder, json, open, page, pixelOf, program, programStop, saved, slides, state, stopTimes } from "./browser.mjs";
+import { assertClose, close, drawn, file, folder, json, open, page, pass, pixelOf, program, programStop, saved, slides, state, stopTimes } from "./browser.mjs";
 
 test("opens from disk and asks the network for nothing; at most 650 kB", async () => {
   assert.ok(statSync(file).size <= 650_000, `${statSync(file).size} bytes`);
@@ -78,7 +78,7 @@ test("what is told is what a ruler shows: the band's end, by the bar of the scal
 
 test("who opens it is asked, then told; the dot of the plane moves with the balls; who asks for less motion finds the end", async () => {
   const pictures = () => page.evaluate(() => ["lanes", "patch", "plane", "panes"].map((id) => document.getElementById(id).toDataURL()));
-  await open("", { reducedMotion: "no-preference" });
+  await open("", { stopped: true, reducedMotion: "no-preference" });
   // Nothing tells before the answer: neither words nor paths.
   const paths = () => page.evaluate(() => {
     const { canvas } = globalThis.page.hero.lanes;
@@ -87,22 +87,25 @@ test("who opens it is asked, then told; the dot of the plane moves with the ball
     const { data } = copy.getImageData(canvas.width / 2, 0, 2, canvas.height);
     return data.filter((value, i) => i % 4 === 0 && data[i + 1] < 200 && value > data[i + 1] + 30).length;
   });
-  await page.waitForTimeout(300);
+  await pass(300);
   assert.equal((await state()).fraction, 0);
   assert.match(await page.textContent("#headline"), /Which slides farther\?/);
   assert.doesNotMatch(await page.locator("#hero").innerText(), /0\.515|0\.127|4 times/);
   assert.equal(await paths(), 0);
   await page.click("#answers button:nth-child(3)");
-  await page.waitForSelector("#answers", { state: "hidden" });
-  await page.waitForFunction(() => globalThis.page.state.fraction > 0.05);
+  await pass(500);
+  assert.ok(!(await page.isVisible("#answers")));
+  assert.ok((await state()).fraction > 0.05);
   assert.match(await page.textContent("#headline"), /4 times as far/);
-  while (await paths() === 0) await page.waitForTimeout(20);  // drawn with the next picture
+  await drawn();
+  assert.notEqual(await paths(), 0);
   const before = await pictures();
-  await page.waitForFunction(() => globalThis.page.state.fraction > 0.1);
+  await pass(500);
   await page.click("#play");
   // What is out of sight is drawn when it comes into sight.
   await page.locator("#panes").scrollIntoViewIfNeeded();
-  await page.waitForTimeout(400);
+  await drawn();
+  await pass(100);
   (await pictures()).forEach((picture, i) => assert.notEqual(picture, before[i]));
   assert.match(await page.textContent("#pace"), /slowed 3\.8 times/);
   assert.match(await page.textContent("#clock"), /0\.\d{3} s/);
@@ -111,12 +114,13 @@ test("who opens it is asked, then told; the dot of the plane moves with the ball
   assert.match(await page.textContent("#told"), /^You said: equally far\. Both ended at one instant, after 1\.86 s/);
   await close();
   // A link is not asked of.
-  await open("#ball=gel", { reducedMotion: "no-preference" });
-  await page.waitForFunction(() => globalThis.page.state.fraction > 0);
+  await open("#ball=gel", { stopped: true, reducedMotion: "no-preference" });
+  await pass(100);
+  assert.ok((await state()).fraction > 0);
   assert.ok(!(await page.isVisible("#answers")));
   await close();
-  await open();
-  await page.waitForTimeout(300);
+  await open("", { stopped: true });
+  await pass(300);
   assert.equal((await state()).fraction, 1);
   assert.match(await page.textContent("#headline"), /4 times as far/);
   assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
@@ -187,10 +191,11 @@ test("presets and the tour show what they speak of", async () => {
 });
 
 test("Back takes a change back", async () => {
-  await open("#law=exact&mu=0.3&window=1,4&orbits=0.8,3.5;-0.5,1");
-  await page.waitForTimeout(400);
+  await open("#law=exact&mu=0.3&window=1,4&orbits=0.8,3.5;-0.5,1", { stopped: true });
+  await pass(400);
   await page.click("#orbits li:nth-child(2) .remove");
-  await page.waitForFunction(() => !location.hash.includes("-0.5,1"));
+  await pass(400);
+  assert.doesNotMatch(page.url(), /-0.5,1/);
   await page.goBack();
   await page.waitForFunction(() => globalThis.page.state.orbits.length === 2);
   await page.goForward();
@@ -404,11 +409,12 @@ test("a dark page is printed light, in one piece", async () => {
 });
 
 test("for a page around it only the balls are shown", async () => {
-  await open("#embed", {}, false);
+  await open("#embed", { stopped: true }, false);
   assert.ok(await page.isVisible("#lanes"));
   for (const id of ["plane", "columns", "tour", "presets"]) assert.ok(!(await page.isVisible(`#${id}`)), id);
   await page.click("#play");
-  await page.waitForFunction(() => globalThis.page.state.fraction > 0.05);
+  await pass(500);
+  assert.ok((await state()).fraction > 0.05);
   // Its name, below the balls, leads to all of it.
   await page.click("h1 a");
   await page.locator("#plane").waitFor();
@@ -563,19 +569,19 @@ test("figures and numbers are handed out", async () => {
 });
 
 test("orbits are chosen and removed, and time is played", async () => {
-  await open("#law=pade&mu=0.3&orbits=0.8,3.5;-0.5,1;0.2,0.1");
+  await open("#law=pade&mu=0.3&orbits=0.8,3.5;-0.5,1;0.2,0.1", { stopped: true });
   const times = await stopTimes();
   await page.click("#orbits li:nth-child(2) .remove");
   assert.deepEqual(await stopTimes(), [times[0], times[2]]);
   await page.click("#orbits li:nth-child(2) button");
   assert.equal((await state()).chosen, 1);
   await page.click("#play");
-  await page.waitForFunction(() => globalThis.page.state.fraction > 0.02);
+  await pass(300);
   await page.click("#play");
   const { fraction } = await state();
   const [, tau] = (await page.textContent("#instant")).match(/^τ = ([\d.]+) /);
   assertClose(Number(tau), fraction * times[2], 1e-4, "the time of the moving point");
-  await page.waitForTimeout(100);
+  await pass(100);
   assert.equal((await state()).fraction, fraction);
   for (let i = 0; i < 2; ++i) await page.click("#orbits li:nth-child(1) .remove");
   assert.deepEqual(await stopTimes(), []);

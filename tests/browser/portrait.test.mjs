@@ -122,18 +122,17 @@ test("a clicked orbit stops when the program says", async () => {
   }
 });
 
-test("mu is dragged, and everything follows", async (t) => {
+test("mu is dragged, and everything follows", async () => {
   for (const law of ["pade", "exact"]) {
     await open(`#law=${law}&mu=0.9&orbits=0.8,3.5;-0.4,2`);
     const before = await stopTimes();
     await page.evaluate(() => {
       const { store } = globalThis.page;
       const change = store.change.bind(store);
-      globalThis.redraws = [];
+      globalThis.redraws = 0;
       store.change = (edit) => {
-        const started = performance.now();
         change(edit);
-        globalThis.redraws.push(performance.now() - started);
+        globalThis.redraws += 1;
       };
     });
     await dragSlider("mu-slider", 0.98, 0.4, 60);
@@ -144,9 +143,8 @@ test("mu is dragged, and everything follows", async (t) => {
     orbits.forEach(({ u, v }, i) => {
       assertClose(times[i], programStop("--mu", mu, "--u0", u, "--v0", v, "--law", law), 1e-12, `mu = ${mu}`);
     });
-    const redraws = await page.evaluate(() => [...globalThis.redraws].sort((a, b) => a - b));
-    assert.ok(redraws.length >= 30, `${redraws.length} redraws`);
-    t.diagnostic(`law ${law}: median redraw ${redraws[redraws.length >> 1].toFixed(1)} ms, worst ${redraws.at(-1).toFixed(1)} ms, of ${redraws.length}`);
+    const redraws = await page.evaluate(() => globalThis.redraws);
+    assert.ok(redraws >= 30, `${redraws} redraws`);
     await close();
   }
 });

@@ -4,7 +4,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { clickPlane, close, drawn, file, folder, open, page, pixelOf, saved, state } from "./browser.mjs";
+import { clickPlane, close, drawn, file, folder, open, page, pass, pixelOf, saved, state } from "./browser.mjs";
 
 const said = async () => `${await page.textContent("#headline")} ${await page.textContent("#story")}`;
 
@@ -93,11 +93,13 @@ test("the ball without spin is grey, whichever orbit is chosen", async () => {
 });
 
 test("the text of the tour is that of what is shown, and in the link", async () => {
-  await open();
+  await open("", { stopped: true });
   const shown = () => page.evaluate(() => Math.round(document.getElementById("steps").scrollLeft / document.getElementById("steps").clientWidth));
   for (let step = 1; step <= 2; ++step) {
     await page.click("#step-on");
-    await page.waitForFunction((step) => location.hash.includes(`step=${step}`), step);
+    await drawn();
+    await pass(500);
+    assert.match(page.url(), new RegExp(`step=${step}`));
   }
   const link = page.url();
   await page.goBack();
@@ -106,7 +108,8 @@ test("the text of the tour is that of what is shown, and in the link", async () 
   await page.locator("#presets a", { hasText: "Gel" }).click();
   assert.equal((await state()).step, 0);
   assert.equal(await shown(), 0);
-  await page.waitForTimeout(300);
+  await drawn();
+  await pass(500);
   assert.equal((await state()).ball.name, "gel", "the text that comes back changes nothing");
   await close();
   await open(link.slice(link.indexOf("#")));
@@ -148,7 +151,8 @@ test("what fails is said beside the buttons, and no promise is left unhandled", 
   await page.click("#copy-embed");
   await page.waitForFunction(() => /<iframe src="file:.*names the file on this computer/.test(document.getElementById("copied").textContent));
   await page.click("#copy-link");
-  await page.waitForTimeout(50);
+  await page.waitForFunction(() => !/iframe/.test(document.getElementById("copied").textContent));
+  await drawn();
   assert.deepEqual(await page.evaluate(() => globalThis.unhandled), []);
   await close();
 });
@@ -172,7 +176,7 @@ test("where a host forbids pictures from data, a PNG is made all the same; where
 });
 
 test("inside another page nothing is added to the history; a slow drag adds one change", async () => {
-  await open();
+  await open("", { stopped: true });
   const outer = join(folder, "article.html");
   writeFileSync(outer, `<iframe style="width:1200px;height:900px" src="${pathToFileURL(file).href}#embed"></iframe>`);
   await page.goto(pathToFileURL(outer).href);
@@ -181,12 +185,12 @@ test("inside another page nothing is added to the history; a slow drag adds one 
   const before = await page.evaluate(() => history.length);
   for (const key of ["ArrowRight", "ArrowRight"]) {
     await inner.locator("#spin-slider").press(key);
-    await page.waitForTimeout(350);
+    await pass(350);
   }
   assert.equal(await page.evaluate(() => history.length), before);
   await close();
-  await open();
-  await page.waitForTimeout(350);
+  await open("", { stopped: true });
+  await pass(350);
   const length = await page.evaluate(() => history.length);
   const box = await page.locator("#spin-slider").boundingBox();
   const at = (share) => page.mouse.move(box.x + share * box.width, box.y + box.height / 2);
@@ -194,10 +198,10 @@ test("inside another page nothing is added to the history; a slow drag adds one 
   await page.mouse.down();
   for (const share of [0.3, 0.4, 0.5]) {
     await at(share);
-    await page.waitForTimeout(350);
+    await pass(350);
   }
   await page.mouse.up();
-  await page.waitForTimeout(350);
+  await pass(350);
   assert.equal(await page.evaluate(() => history.length), length + 1);
   await close();
 });
@@ -233,7 +237,7 @@ test("numbers of any size are answered in the page's words", async () => {
 });
 
 test("what is not seen is not drawn, and after three rounds it rests", async () => {
-  await open("#ball=puck&orbits=2.286,0.5", { reducedMotion: "no-preference" });
+  await open("#ball=puck&orbits=2.286,0.5", { stopped: true, reducedMotion: "no-preference" });
   await page.evaluate(() => {
     globalThis.drawings = 0;
     for (const surface of [globalThis.page.hero.lanes, globalThis.page.plane.surface]) {
@@ -245,12 +249,18 @@ test("what is not seen is not drawn, and after three rounds it rests", async () 
     }
     scrollTo(0, 1e6);
   });
-  await page.waitForTimeout(400);
-  const before = await page.evaluate(() => [globalThis.drawings, globalThis.page.state.fraction]);
-  await page.waitForFunction((fraction) => globalThis.page.state.fraction > fraction + 0.03, before[1]);
-  assert.equal(await page.evaluate(() => globalThis.drawings), before[0]);
+  await drawn();
+  await pass(100);
+  const now = () => page.evaluate(() => ({ drawings: globalThis.drawings, fraction: globalThis.page.state.fraction }));
+  const before = await now();
+  await pass(500);
+  const unseen = await now();
+  assert.ok(unseen.fraction > before.fraction + 0.03);
+  assert.equal(unseen.drawings, before.drawings);
   await page.evaluate(() => scrollTo(0, 0));
-  await page.waitForFunction((drawings) => globalThis.drawings > drawings + 2, before[0]);
+  await drawn();
+  await pass(100);
+  assert.ok((await now()).drawings > before.drawings + 2);
   // Rounds, in a clock that goes quicker.
   await page.evaluate(() => {
     Object.defineProperty(globalThis.page.player, "seconds", { get: () => 0.05 });
@@ -265,7 +275,8 @@ test("what is not seen is not drawn, and after three rounds it rests", async () 
     };
     globalThis.page.player.toggle(true);
   });
-  await page.waitForFunction(() => !globalThis.page.player.playing, null, { timeout: 20000 });
+  await pass(5000);
+  assert.equal(await page.evaluate(() => globalThis.page.player.playing), false);
   assert.equal(await page.evaluate(() => globalThis.starts), 2);
   await close();
 });

@@ -18,8 +18,9 @@ if (!existsSync(join(site, "index.html"))) {
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const check = (folder) => spawnSync(process.execPath, [fileURLToPath(new URL("../../src/site/check.mjs", import.meta.url)), folder], { encoding: "utf8" });
 
+const patience = 300_000;  // ms: only a failure takes so long
 let browser;
-before(async () => (browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"] })));
+before(async () => (browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"], timeout: patience })));
 after(() => browser?.close());
 
 for (const path of ["index.html", "start.html", "film.html", "mathematics.html", "gallery.html", "README.html", "reduction/README.html", "src/README.html", "reference/classcontensou_1_1reduction_1_1Flow.html",
@@ -28,6 +29,7 @@ for (const path of ["index.html", "start.html", "film.html", "mathematics.html",
     for (const viewport of [{ width: 1440, height: 900 }, { width: 390, height: 844 }]) {
       for (const colorScheme of ["light", "dark"]) {
         const page = await browser.newPage({ viewport, colorScheme });
+        page.setDefaultTimeout(patience);
         const complaints = [];
         page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
         page.on("pageerror", (error) => complaints.push(error.message));
