@@ -118,6 +118,80 @@ test("the text of the tour is that of what is shown, and in the link", async () 
   await close();
 });
 
+test("at each step of the tour the text says what the headline and the numbers say", async () => {
+  const seen = () => page.evaluate(() => {
+    const { store: { ride: { own, plain }, motions, state: { step, orbits } }, library: { plane } } = globalThis.page;
+    const { textContent: text } = document.querySelectorAll("#steps li p")[step];
+    const motion = plane.motion(orbits[0].u, orbits[0].v);
+    const lost = motion.lnV.findIndex((lnV) => lnV < -300 * Math.LN10);
+    return { text, headline: document.getElementById("headline").textContent, story: document.getElementById("story").textContent, times: own.path / plain.path,
+      stop: own.stop, end: own.end, orbits, stops: motions.map(({ stop }) => stop), spinWhereLost: motion.u[lost] / orbits[0].u };
+  });
+  const wanted = [
+    [/little is left of the friction to stop what slides/, /^Spin a puck, and it slides 4 times as far$/, ({ times }) => times > 3],
+    [/Each motion is one curve/, /^Spin a ball, and it slides 19 times as far$/, ({ orbits }) => orbits.length === 4],
+    [/twice as long until the stop/, /^Spin makes this puck slide 36 % farther$/, ({ stops }) => Math.abs(stops[0] / stops[1] - 2) < 1e-12],
+    [/to the left or to the right: the ball slides equally far/, /^Spin makes this ball slide 11 % farther$/, ({ stops }) => stops[0] === stops[1]],
+    [/a little spin hardly matters: this pool ball slides (.*) farther than the textbook says\. It still spins long after it has begun to roll/, /^This ball soon rolls, and spins on$/,
+      ({ times, stop, end, story, text }) => times < 1.05 && stop > 5 * end && story.includes(`${/slides (.*) farther/.exec(text)[1]} farther`)],
+    [/below 10⁻³⁰⁰, long before the spin is gone/, /^This ball soon rolls, and spins on$/, ({ spinWhereLost }) => spinWhereLost > 0.3],
+  ];
+  await open();
+  for (const [step, [text, headline, holds]] of wanted.entries()) {
+    if (step > 0) await page.click("#step-on");
+    await page.waitForFunction((step) => globalThis.page.state.step === step, step);
+    const there = await seen();
+    assert.match(there.text, text);
+    assert.match(there.headline, headline);
+    assert.ok(holds(there), JSON.stringify(there));
+  }
+  await close();
+});
+
+test("a link to rest says so, and what it rejects of the plane leaves the motion", async () => {
+  for (const [fragment, thing] of [["#ball=puck&orbits=0,0", "puck"], ["#ball=pool&orbits=0,0&part=whole", "ball"], ["#mu=0.3&orbits=0,0", "ball"], ["#ball=gel&view=time&orbits=0,0;9,0.5&at=1", "ball"],
+    ["#body=disc&law=uniform&orbits=0,0", "puck"], ["#ball=pool&orbits=0,0&slope=1", null], ["#ball=pool&orbits=0,0&rollingFriction=0.01", null]]) {
+    await open(fragment);
+    if (thing) assert.equal(await page.textContent("#headline"), `A ${thing} at rest`, fragment);
+    assert.notEqual(await page.textContent("#headline"), "", fragment);
+    assert.doesNotMatch(await page.locator("#app").innerText(), /NaN|undefined|Infinity/, fragment);
+    await page.click("#play");
+    await page.click("#step-on");
+    await close();
+  }
+  await open("#ball=puck&orbits=2.286,0.5&window=1e200,1&view=pair");
+  assert.match(await page.textContent("#problem"), /window must be between/);
+  const { ball, orbits: [{ u, v }], window } = await state();
+  assert.deepEqual([ball.name, u, v, window], ["puck", 2.286, 0.5, null]);
+  await close();
+});
+
+test("what no code of ours throws is said to be our fault, with the link that was asked for", async () => {
+  await open("#ball=gel");
+  const fault = await page.evaluate(() => {
+    try {
+      globalThis.page.library.plane.at(99, 0, 0);  // no such panel
+      return null;
+    } catch ({ name, message }) {
+      return { name, message };
+    }
+  });
+  assert.deepEqual(fault, { name: "Fault", message: "a fault of contensou, not of the input; please report it with what was asked: " });
+  await page.evaluate(({ name, message }) => {
+    const { plane } = globalThis.page.library;
+    plane.portrait = () => {
+      delete plane.portrait;
+      throw Object.assign(new Error(message), { name });
+    };
+  }, fault);
+  const before = await page.textContent("#headline");
+  await page.fill("#ball-fields [name=friction]", "0.123");
+  const words = await page.locator("body").innerText();
+  assert.match(words, /a fault of contensou, not of the input; please report it with what was asked: #.*friction=0\.123/);
+  assert.equal(await page.textContent("#headline"), before);
+  await close();
+});
+
 test("every preset says what is to be seen", async () => {
   await open();
   const wanted = { "Puck": /4 times/, "No spin": /Without spin/, "Gel ball": /19 times/, "Pool ball": /1\.9 times/, "Massé": /curves by 60°/, "Bowling hook": /curves by 6/,

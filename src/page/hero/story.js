@@ -114,7 +114,8 @@ export const dare = {
 export function outcome(/** @type {Facts} */ facts, last, share) {
   const { real, rolls, slip, spin, own, stop } = facts;
   const time = (t) => `${real ? "" : "τ = "}${duration(t, real ? "s" : "")}`;
-  if (slip === 0 || spin === 0) return slip === 0 ? "It only spins: throw it." : "It did not spin: twist it, too.";
+  if (slip === 0) return spin === 0 ? "It is at rest: throw it." : "It only spins: throw it.";
+  if (spin === 0) return "It did not spin: twist it, too.";
   if (rolls) return `It slid for ${time(own.end)}; its spin ends after ${time(stop)}.`;
   const speeds = real ? `${length(last.slip, "m")}/s and spun at ${shown(Math.abs(last.spin), 2)} rad/s` : `v = ${length(last.slip, "")} and spun with u = ${length(Math.abs(last.spin), "")}`;
   return `Both ended at one instant, after ${time(stop)}; at ${shown(100 * share)} % of that it still slid at ${speeds}.`;

@@ -16,6 +16,6 @@ export const tour = [
   ["The plane", "Each motion is one curve here: up is sliding, sideways is spinning. Every curve ends in the same point, rest, and the dot goes with the ball.", "ball=gel&orbits=9,0.5;4,0.5;1,0.5;-3,0.4"],
   ["One curve for all", "Leave twice as fast and spin twice as fast: the same curve, twice as large, and twice as long until the stop. Pull a start along its ray, or its size c from 0 to ∞: it runs through its copies, and below all of them are one line.", "body=disc&law=uniform&window=2,2&orbits=1.6,1.4;0.8,0.7;0.4,0.35"],
   ["The symmetry", "Spin to the left or to the right: the ball slides equally far. The plane is its own mirror image.", "mu=0.3&window=1,4&orbits=0.8,3.5;-0.8,3.5"],
-  ["Small patches", "On a small patch spin does little at first: a pool ball slides almost as the textbook says. It still spins long after it has begun to roll.", "ball=pool&orbits=2.8575,1&part=whole"],
+  ["Small patches", "On a small patch a little spin hardly matters: this pool ball slides 3.6 % farther than the textbook says. It still spins long after it has begun to roll.", "ball=pool&orbits=0.2286,1&part=whole"],
   ["Why steppers fail", "Near rest the slip falls faster than any power of the spin: below 10⁻³⁰⁰, long before the spin is gone. A step-by-step program loses it; here its logarithm is exact.", "mu=0.05&view=pair&orbits=0.8,3.5;0.3,1"],
 ].map(([title, text, fragment]) => ({ title, text, fragment }));

@@ -1,5 +1,5 @@
 // The state of the page, and all that follows from it: each value is computed once for what it depends on.
-import { bodyOf, initialState, startOf } from "./page_state.js";
+import { bodyOf, initialState, startOf, toFragment } from "./page_state.js";
 import { portraitRequest, shotOf } from "../plane/portrait_request.js";
 import { shown } from "../numbers.js";
 import { isDark, themeOf } from "../drawing/theme.js";
@@ -78,16 +78,31 @@ export class Store {
     try {
       this.compute(next);
     } catch (error) {
+      // What the library did not foresee: the link of what was asked is what we need of the reader.
+      if (error.name === "Fault") error.message += `#${toFragment(next)}`;
       if (this.settled) this.compute(before);
-      else {
-        this.state = { ...initialState(), lab: next.lab };
-        this.change(() => {});
-      }
+      else this.openWithout(next);
       throw error;
     }
     this.state = next;
     this.settled = true;
     this.changed(false);
+  }
+
+  /** Opens what a link asked for and the library rejects: the motion alone, in a plain plane; or nothing of it. */
+  openWithout(/** @type {State} */ asked) {
+    const first = initialState();
+    const { view, window, field, against } = first;
+    for (const state of [{ ...asked, view, window, field, against }, { ...first, lab: asked.lab }]) {
+      try {
+        this.compute(state);
+      } catch {
+        continue;
+      }
+      this.state = state;
+      this.settled = true;
+      return this.changed(false);
+    }
   }
 
   /** The reader has let go: what lies behind his orbits makes room for them. */
@@ -182,7 +197,8 @@ export class Store {
     const speed = state.ball && rolls ? Math.hypot(orbit.along - v / chi, orbit.across) : 0;
     const rolling = speed > 0 ? Math.min(longest, (6 * radius) / speed) / timeFactor : 0;
     const whole = state.part === "whole" || v <= least;
-    const end = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor));
+    // At rest time passes all the same.
+    const end = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor)) || 1;
     return { own, plain, least, end, rolls, rest, radius, courses: [ride("plain", end), ride("own", end)] };
   }
 
