@@ -293,9 +293,12 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   rays.push_back({{"k", infinity}, {"attracts", ends_at(infinity)}});
 
   Json routes = Json::array();
-  for (reduction::Route route : reduction::routes(system)) {
+  const std::vector<reduction::Route> ways = reduction::routes(system);
+  for (reduction::Route route : ways) {
     try {
-      routes.push_back({{"name", name(route)}, {"tau_stop", reduction::stop_time(system, state, route).tau}});
+      // The first is the way of `flow`, which is solved.
+      const double tau = route == ways.front() ? stop.tau : reduction::stop_time(system, state, route).tau;
+      routes.push_back({{"name", name(route)}, {"tau_stop", tau}});
     } catch (const std::runtime_error& failure) {  // a stepper did not come to the stop
       routes.push_back({{"name", name(route)}, {"failure", failure.what()}});
     }
