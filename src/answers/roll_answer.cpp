@@ -216,7 +216,7 @@ std::string resistance_text(const Roll& roll, const Digits& digits) {
         fmt::format("creeps while it spins: its slip tends to {} m times its spin, k = {}\n", digits(rim), digits(*k));
   }
   const auto pieces = roll.whole.resisted->pieces();
-  text += !roll.reduced()  ? "route  integrated: the slip turns, which is no reduced motion\n"
+  text += !roll.reduced()  ? "route  integrated: the slip turns, or is driven by more than friction holds\n"
           : pieces.empty() ? "route  reduced: it does not slide\n"
                            : fmt::format("route  reduced: it slides the way it rolls, with a drive of {}\n",
                                          digits(pieces.front().system.drive()));

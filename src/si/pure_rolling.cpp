@@ -54,6 +54,21 @@ double PureRolling::rest_time() const {
   return p > 1 ? scale_ / pull_ * (1 / (p - 1) + z_ * z_ / (p + 1)) : never;
 }
 
+double PureRolling::slides_after(double most, double share) const {
+  const auto exceeds = [&](double cosine) {
+    return std::hypot(share + resisting_ * cosine, resisting_ * std::sqrt(1 - cosine * cosine)) > most;
+  };
+  const bool held = pull_ <= resisting_;
+  if (straight_) {
+    if (first_.speed > 0 && exceeds(along_.dot(down_) < 0 ? -1 : 1)) return 0;
+    return held || !exceeds(1) ? never : first_.speed > 0 ? first_.lasts() : 0;
+  }
+  if (exceeds(along_.dot(down_))) return 0;
+  if (!exceeds(1)) return never;
+  const double cosine = (most * most - share * share - resisting_ * resisting_) / (2 * share * resisting_);
+  return turned_time(std::max(0.0, std::log(z_ / std::tan(std::acos(std::clamp(cosine, -1.0, 1.0)) / 2))));
+}
+
 double PureRolling::turned_time(double fall) const {
   const double p = resisting_ / pull_;
   return scale_ / pull_ * (power_integral(p - 2, fall) + z_ * z_ * power_integral(p, fall));

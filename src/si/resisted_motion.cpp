@@ -98,6 +98,22 @@ struct Given {
     return {from.rolling, rolls, experiment.ball.body.lies_flat() ? 0 : resisting};
   }
 
+  /// s for which friction keeps it from sliding then.
+  double rolls_for(const PureRolling& rolling) const {
+    return rolling.slides_after(sliding, down.norm() / inertia.chi);
+  }
+
+  /// The direction of a slip v that is slow beside rolling. From c' = chi (N - f g e), N = d/chi + a W/|W|, it follows that
+  /// of N = |N| n, late by v n'/(chi |N|).
+  Vector2d following(double v, const Vector2d& rolling) const {
+    const Vector2d heading = rolling.normalized(), needed = down / inertia.chi + resisting * heading;
+    const Vector2d n = needed.normalized();
+    const Vector2d change = (inertia.chi - 1) * sliding * n - inertia.chi * resisting * heading;
+    const auto across = [](const Vector2d& of, const Vector2d& unit) { return Vector2d(of - of.dot(unit) * unit); };
+    const Vector2d turns = resisting * across(across(change, heading) / rolling.norm(), n) / needed.norm();
+    return (n - v / (inertia.chi * needed.norm()) * turns).normalized();
+  }
+
   double tau_per_second() const { return 1 / seconds(experiment, 1); }
 
   Experiment experiment;
@@ -223,6 +239,7 @@ class Straight final : public ResistedMotion::Course {
     if (held) here.rolling.setZero();
     last_ = here;
     rolls_.emplace(body_.rolling_on(here));
+    if (std::isfinite(body_.rolls_for(*rolls_))) throw DrivenOut();
     rest_ = stop_ + rolls_->rest_time();
     if (held && rest_ == stop_ && start.spin != 0)
       rest_ = pieces_.back().t + seconds(body_.experiment, pieces_.back().orbit.time_of_v(resting_slip));
@@ -345,32 +362,36 @@ class Integrated final : public ResistedMotion::Course {
   std::optional<double> creep_ratio() const override { return std::nullopt; }
 
   State at(double t) const override {
-    if (t >= stop_) return after_stop(t);
     const auto after = std::ranges::upper_bound(steps_, t, {}, &Step::t);
     const Step& step = *std::prev(after);
-    Progress x = step.x;
-    const bool held = step.held;
+    if (step.rolls) return rolled_on(state_of(step), t - step.t, body_.rolling_on(state_of(step)));
+    Step there = step;
     odeint::runge_kutta_cash_karp54<Progress>().do_step(
-        [&](const Progress& at_x, Progress& rate, double) { equations(at_x, rate, held); }, x, step.t, t - step.t);
-    return state_of(x);
+        [&](const Progress& x, Progress& rate, double) { equations(x, rate, step); }, there.x, step.t, t - step.t);
+    return state_of(there);
   }
 
  private:
   struct Step {
     double t;
     Progress x;
-    bool held;
+    bool held = false, rolls = false;
+    bool follows = false;  ///< c is (v, 0), its direction Given::following
   };
 
-  void equations(const Progress& x, Progress& rate, bool held) const {
-    const Vector2d slip(x[0], x[1]), rolling(x[2], x[3]);
+  Vector2d slip_of(const Progress& x, const Step& step) const {
+    return step.follows ? Vector2d(x[0] * body_.following(x[0], {x[2], x[3]})) : Vector2d(x[0], x[1]);
+  }
+
+  void equations(const Progress& x, Progress& rate, const Step& step) const {
+    const Vector2d slip = slip_of(x, step), rolling(x[2], x[3]);
     const double v = slip.norm(), rim = std::max(x[4], 0.0), turning = rolling.norm();
-    const auto [phi, psi] = v > 0 || rim > 0 ? body_.law({v, rim}) : reduction::Resistance{0, 0};
-    const Vector2d e = v > 0 ? Vector2d(slip / v) : Vector2d(0, 0);
+    const auto [phi, psi] = v > 0 || rim > 0 ? body_.law({v, rim}) : reduction::Resistance{1, 0};
+    const Vector2d e = v > 0 ? Vector2d(slip / v) : step.follows ? body_.following(0, rolling) : Vector2d(0, 0);
     const Vector2d heading = turning > 0 ? Vector2d(rolling / turning) : e;
     const double chi = body_.inertia.chi;
     const Vector2d friction = -body_.sliding * phi * e;
-    const Vector2d roll = held ? Vector2d(0, 0) : Vector2d((1 - chi) * friction - chi * body_.resisting * heading);
+    const Vector2d roll = step.held ? Vector2d(0, 0) : Vector2d((1 - chi) * friction - chi * body_.resisting * heading);
     const Vector2d contact = friction + body_.down - roll;
     const double mu = body_.patch / body_.radius;
     const Vector2d velocity = slip + rolling;
@@ -378,59 +399,106 @@ class Integrated final : public ResistedMotion::Course {
         contact.x(),  contact.y(),  roll.x(), roll.y(),          -body_.inertia.gamma * mu * mu * body_.sliding * psi,
         velocity.x(), velocity.y(), v,        rim / body_.patch, velocity.norm(),
         turning};
+    if (step.follows) rate[0] = contact.dot(e), rate[1] = 0;
   }
 
-  State state_of(const Progress& x) const {
-    return {{x[0], x[1]}, {x[2], x[3]}, turn_ * std::max(x[4], 0.0) / body_.patch, {x[5], x[6]}, x[7], turn_ * x[8],
-            x[9],         x[10]};
+  State state_of(const Step& step) const {
+    const Progress& x = step.x;
+    return {slip_of(x, step),
+            {x[2], x[3]},
+            turn_ * std::max(x[4], 0.0) / body_.patch,
+            {x[5], x[6]},
+            x[7],
+            turn_ * x[8],
+            x[9],
+            x[10]};
   }
 
-  State after_stop(double t) const { return rolled_on(state_of(steps_.back().x), t - stop_, *rolls_); }
+  void add(const Step& step) {
+    steps_.push_back(step);
+    knots_.push_back(step.t);
+  }
+
+  /// s after which v + w is 0 at the rate at which they fall now; infinity where they grow.
+  double time_to_stop(const Step& step) const {
+    Progress rate;
+    equations(step.x, rate, step);
+    const Vector2d slip(step.x[0], step.x[1]), change(rate[0], rate[1]);
+    const double v = slip.norm(), rim = std::max(step.x[4], 0.0);
+    const double falls = -rate[4] - (v > 0 ? slip.dot(change) / v : change.norm());
+    return falls > 0 && v + rim > 0 ? (v + rim) / falls : std::numeric_limits<double>::infinity();
+  }
+
+  Progress progress_of(const State& state) const {
+    return {state.slip.x(),
+            state.slip.y(),
+            state.rolling.x(),
+            state.rolling.y(),
+            body_.patch * std::abs(state.spin),
+            state.position.x(),
+            state.position.y(),
+            state.slip_length,
+            turn_ * state.turned,
+            state.path,
+            state.rolled};
+  }
 
   void run(const State& start) {
     constexpr double tolerance = 1e-12;
     constexpr double nothing = 1e-9;  // of the speeds at the start
+    constexpr double slow = 3e-4;     // of the speed of rolling
     constexpr long step_limit = 2'000'000;
-    const double rim0 = body_.patch * std::abs(start.spin);
-    const double size = start.slip.norm() + start.rolling.norm() + rim0;
-    Progress x{start.slip.x(), start.slip.y(), start.rolling.x(), start.rolling.y(), rim0, 0, 0, 0, 0, 0, 0};
-    bool held = false;
-    double t = 0;
+    Step now{0, progress_of(start)};
+    Progress& x = now.x;
+    const double size = start.slip.norm() + start.rolling.norm() + x[4];
     double step = 1e-4 * size / body_.sliding;
     auto stepper = odeint::make_controlled(tolerance * size, tolerance, odeint::runge_kutta_cash_karp54<Progress>());
     for (long steps = 0;; ++steps) {
       const double v = std::hypot(x[0], x[1]), turning = std::hypot(x[2], x[3]);
+      if (now.follows && v > std::max(slow * turning, nothing * size)) {
+        x = progress_of(state_of(now));
+        now.follows = false;
+      }
       // The torque of friction turns a ball that stands, or resistance holds it.
       const bool moved = body_.turns(v, x[4] / body_.patch);
-      if (turning <= nothing * size && !moved) held = true;
-      if (held && moved) held = false;
-      if (held) x[2] = x[3] = 0;
-      steps_.push_back({t, x, held});
-      knots_.push_back(t);
-      if (v + std::max(x[4], 0.0) <= nothing * size) break;
+      if (turning <= nothing * size && !moved) now.held = true;
+      if (now.held && moved) now.held = false;
+      if (now.held) x[2] = x[3] = 0;
+      if (v + std::max(x[4], 0.0) <= nothing * size) {
+        State here = state_of(now);
+        here.slip.setZero();
+        here.spin = 0;
+        const PureRolling rolling = body_.rolling_on(here);
+        const double rolls = body_.rolls_for(rolling);
+        if (rolls > 0) add({.t = now.t, .x = progress_of(here), .held = now.held, .rolls = true});
+        if (std::isinf(rolls)) {
+          stop_ = now.t;
+          rest_ = stop_ + rolling.rest_time();
+          break;
+        }
+        // Then it slides, first so slowly that the slip's own equation is stiff.
+        if (rolls > 0 || !now.follows)
+          now = {.t = now.t + rolls, .x = progress_of(rolled_on(here, rolls, rolling)), .follows = true};
+      }
+      add(now);
       if (steps == step_limit)
         throw std::runtime_error(fmt::format("ResistedMotion: {} steps were not enough to reach the stop", steps));
-      const double before = t;
-      const Progress x_before = x;
-      double trial = std::min(step, (v + x[4]) / body_.sliding);
-      while (stepper.try_step([&](const Progress& at_x, Progress& rate, double) { equations(at_x, rate, held); }, x, t,
-                              trial) == odeint::fail) {
+      const Step before = now;
+      double trial = std::min(step, time_to_stop(now));
+      while (stepper.try_step([&](const Progress& at_x, Progress& rate, double) { equations(at_x, rate, before); }, x,
+                              now.t, trial) == odeint::fail) {
         if (!(trial > std::numeric_limits<double>::min()) || std::isnan(trial))
           throw std::runtime_error("ResistedMotion: the step size fell to nothing: the friction law is not a number");
       }
-      step = std::max(trial, t - before);
+      step = std::max(trial, now.t - before.t);
       // Where friction begins to turn it a step ends.
       constexpr double short_enough = 1e-7;
-      const bool turns_now = held && body_.turns(std::hypot(x[0], x[1]), x[4] / body_.patch);
-      if (turns_now && t - before > short_enough * size / body_.sliding) {
-        step = (t - before) / 4;
-        t = before;
-        x = x_before;
+      const bool turns_now = now.held && body_.turns(std::hypot(x[0], x[1]), x[4] / body_.patch);
+      if (turns_now && now.t - before.t > short_enough * size / body_.sliding) {
+        step = (now.t - before.t) / 4;
+        now = before;
       }
     }
-    stop_ = t;
-    rolls_.emplace(body_.rolling_on(state_of(x)));
-    rest_ = stop_ + rolls_->rest_time();
     if (rest_ == stop_ && start.spin != 0) {
       auto held_from = steps_.rbegin();
       while (held_from->held && std::next(held_from) != steps_.rend() && std::next(held_from)->held) ++held_from;
@@ -440,7 +508,6 @@ class Integrated final : public ResistedMotion::Course {
 
   double turn_;
   std::vector<Step> steps_;
-  std::optional<PureRolling> rolls_;
 };
 
 std::shared_ptr<const ResistedMotion::Course> course_of(Experiment experiment, const Law& law, double rolling_friction,

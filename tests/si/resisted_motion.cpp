@@ -10,6 +10,7 @@
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/course.hpp"
+#include "contensou/si/uncoupled_motion.hpp"
 
 using namespace contensou;
 using namespace contensou::si;
@@ -126,6 +127,44 @@ TEST_CASE("a ball that does not slide the way it rolls is integrated; without re
       CHECK((almost_free.at_time(t).velocity - free.at_time(t).velocity).norm() < 1e-6);
     }
   }
+}
+
+// Friction slows the ball down at f g, resistance its turning at chi u_r g - (chi - 1) f g, and it slides by the difference.
+TEST_CASE("rolling friction above f: a ball that rolls slides at once, the whole motion and the uncoupled one",
+          "[formula]") {
+  const double R = pool(SlipAndSpin{0, 0}).ball.radius, chi = 3.5;
+  const auto check = [&](const auto& motion, double g, double u_r) {
+    const double f = 0.2, turning = (chi * u_r - (chi - 1) * f) * g;
+    CHECK(motion.rest()->t == Approx(1 / (f * g)).epsilon(1e-6));
+    CHECK(motion.rest()->place.x() == Approx(1 / (2 * f * g)).epsilon(1e-6));
+    CHECK(motion.slip_length() == Approx((1 / f / g - 1 / turning) / 2).epsilon(1e-6));
+    CHECK(motion.rolls == Approx(motion.rest()->t - 1e-3 / (f * g)).epsilon(1e-6));
+    CHECK(motion.path_length(motion.rolls) == Approx(motion.event(motion.rolls).place.x()).epsilon(1e-6));
+    for (double t : {0.1, 0.3, 0.5}) {
+      const MotionPoint point = motion.at_time(t);
+      CHECK(point.velocity.x() == Approx(1 - f * g * t).epsilon(1e-6));
+      CHECK(R * point.angular_velocity.y() == Approx(std::max(0.0, 1 - turning * t)).margin(1e-7));
+      CHECK(point.slip == Approx(point.velocity.x() - R * point.angular_velocity.y()).margin(1e-12));
+    }
+  };
+  for (double u_r : {0.21, 0.3, 2.0}) {
+    const Experiment rolls = pool(Velocities{{1, 0}, {0, 1 / R, 0}});
+    const double g = rolls.environment.gravity;
+    INFO("u_r " << u_r);
+    check(Course<BallMotion>(rolls, {rolls, exact()}, 1e-3, u_r), g, u_r);
+    check(Course<UncoupledMotion>(rolls, {rolls, exact()}, 1e-3, u_r), g, u_r);
+    // Starts beside it move alike.
+    const ResistedMotion there(rolls, exact(), u_r);
+    for (double beside : {-1e-7, 1e-7}) {
+      const ResistedMotion near(pool(Velocities{{1, 0}, {0, (1 + beside) / R, 0}}), exact(), u_r);
+      CHECK(near.rest_time() == Approx(there.rest_time()).epsilon(1e-6));
+      CHECK(near.slip_length() == Approx(there.slip_length()).epsilon(1e-5));
+    }
+  }
+  // As much as friction holds: it rolls.
+  const Experiment experiment = pool(Velocities{{1, 0}, {0, 1 / R, 0}});
+  CHECK(ResistedMotion(experiment, exact(), 0.2).is_reduced());
+  CHECK(ResistedMotion(experiment, exact(), 0.2).slip_length() == 0);
 }
 
 TEST_CASE("what rolling resistance cannot be", "[errors]") {

@@ -17,7 +17,7 @@ TEST_CASE("from where it rolls, a ball slows down evenly and rests V/a later, V^
   const BallMotion free(experiment, reduction::HertzLaw{});
   const MotionPoint rolls = free.at_time(free.slip_time(1e-3));
   const double a = 0.1, speed = rolls.velocity.norm();
-  const RollingFriction friction(experiment.ball, rolls, a);
+  const RollingFriction friction(experiment.ball, rolls, a, 2);
   CHECK(friction.rest_time() == Approx(rolls.t + speed / a).epsilon(1e-15));
   CHECK((friction.rest_position() - rolls.position).norm() == Approx(speed * speed / (2 * a)).epsilon(1e-14));
 
@@ -36,8 +36,8 @@ TEST_CASE("from where it rolls, a ball slows down evenly and rests V/a later, V^
   // Without a speed it rests where it is.
   const MotionPoint still{
       .t = 1, .position = {2, 3}, .velocity = {0, 0}, .angular_velocity = {0, 0, 5}, .slip = 0, .energy = 0};
-  CHECK(RollingFriction(experiment.ball, still, a).rest_time() == 1);
-  CHECK(RollingFriction(experiment.ball, still, a).rest_position() == still.position);
+  CHECK(RollingFriction(experiment.ball, still, a, 2).rest_time() == 1);
+  CHECK(RollingFriction(experiment.ball, still, a, 2).rest_position() == still.position);
   for (double wrong : {0.0, -1.0, std::nan("")})
-    CHECK_THROWS_AS(RollingFriction(experiment.ball, still, wrong), std::domain_error);
+    CHECK_THROWS_AS(RollingFriction(experiment.ball, still, wrong, 2), std::domain_error);
 }

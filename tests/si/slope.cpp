@@ -206,6 +206,43 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
   CHECK(held_first > shots / 80);
 }
 
+// Newton's and Euler's equations by SciPy's Radau, friction and resistance regularised below 1e-7 m/s. The ball rolls across
+// the slope and turns downhill; from the angle on at which it needs more friction than f N it slides.
+TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[reference][slope]") {
+  const double R = find_ball("pool")->experiment.ball.radius;
+  const Experiment experiment = ball_on(-6, Velocities{{0, 0.5}, {-0.5 / R, 0, 0}}, 0.19);
+  const ResistedMotion motion = motion_of(experiment);
+  CHECK_FALSE(motion.is_reduced());
+  // It needs |tan(angle)/chi + u_r V/|V|| = f.
+  const double share = std::tan(radians(6)) / 3.5, rolls = motion.slip_time(0) / 10;
+  for (double t : {0.05, 0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2}) {
+    const MotionPoint point = motion.at_time(t);
+    const Vector2d needed = Vector2d(share, 0) + 0.19 * point.velocity.normalized();
+    INFO("t " << t << ", needs " << needed.norm());
+    if (point.slip == 0) CHECK(needed.norm() <= 0.2 * (1 + 1e-12));
+    if (needed.norm() < 0.1999) CHECK(point.slip == 0);
+  }
+  CHECK(motion.at_time(rolls).slip == 0);
+  CHECK(motion.at_time(0.3).slip > 0.03);
+  CHECK(motion.rest_time() == Approx(0.3378015).margin(3e-6));
+  CHECK(motion.rest_position().x() == Approx(0.0167889).margin(1e-6));
+  CHECK(motion.rest_position().y() == Approx(0.0706613).margin(1e-6));
+  CHECK(motion.slip_length() == Approx(0.0029546).margin(2e-6));
+  // One that needs too much from the start, and as much friction as is enough everywhere.
+  const ResistedMotion at_once = motion_of(ball_on(-6, Velocities{{0.3, 0.5}, {-0.5 / R, 0.3 / R, 0}}, 0.19));
+  CHECK(at_once.rest_time() == Approx(0.5130047).margin(2e-6));
+  CHECK((at_once.rest_position() - Vector2d(0.0951515, 0.0948541)).norm() < 1e-6);
+  CHECK(at_once.slip_length() == Approx(0.0337911).margin(1e-6));
+  Experiment held = experiment;
+  held.contact.friction = 0.19 + std::tan(radians(6)) / 3.5 + 1e-9;
+  CHECK(motion_of(held).slip_length() == 0);
+  held.contact.friction -= 2e-6;
+  CHECK(motion_of(held).slip_length() > 0);
+  // Straight down it slides from the start.
+  const Experiment down = ball_on(-6, Velocities{{0.5, 0}, {0, 0.5 / R, 0}}, 0.19);
+  CHECK(motion_of(down).at_time(0.01).slip > 0);
+}
+
 TEST_CASE("energy on a slope: what gravity gives is in the balance", "[formula][slope]") {
   for (double slope : {-3.0, 3.0}) {
     for (const Start& start : {Start(SlipAndSpin{1, 100}), Start(Velocities{{1, 0.5}, {0, 3, 80}})}) {

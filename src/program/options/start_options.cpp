@@ -180,14 +180,16 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     try {
       GivenStart start{si::undriven_system(experiment, law), si::reduced_start(experiment), experiment};
       (void)si::drive_of(experiment);  // says which motion is not one of a reduced system
-      if (start.at_rest() || (rolling_friction == 0 && experiment.environment.slope == 0)) return start;
-      start.resisted.emplace(experiment, law, rolling_friction);
-      if (!start.resisted->is_reduced()) {
+      if (rolling_friction == 0 && experiment.environment.slope == 0) return start;
+      const si::ResistedMotion resisted(experiment, law, rolling_friction);
+      if (!resisted.is_reduced()) {
         throw std::domain_error(
             "slope and rolling resistance drive the slip as much as friction holds it, or more, for a while: the whole "
             "motion (roll) is integrated");
       }
-      start.system = start.resisted->pieces().front().system;
+      if (start.at_rest()) return start;
+      start.system = resisted.pieces().front().system;
+      start.resisted = resisted;
       return start;
     } catch (const std::domain_error& error) {
       reject_ball(error.what());

@@ -28,7 +28,7 @@ inline std::optional<Event> rest_of(const ResistedMotion& motion) {
 }
 
 /// A motion with the instant when it rolls, with rolling friction if there is any and down or up a slope: of a BallMotion
-/// both act all the time (ResistedMotion). The textbook's rolling friction begins when it rolls; on a slope the textbook's
+/// both act all the time (ResistedMotion). The textbook's rolling friction begins when it rolls (RollingFriction); on a slope the textbook's
 /// ball moves as one without spin, and spins by itself. A body that lies flat does not roll: it comes to rest then.
 /// @tparam Motion  BallMotion or UncoupledMotion
 template <class Motion>
@@ -57,7 +57,10 @@ struct Course {
     } else if (slopes) {
       resisted.emplace(without_spin(experiment), reduction::Law(reduction::HertzLaw{}), u_r);
     } else {
-      friction.emplace(experiment.ball, motion.at_time(rolls), u_r * experiment.environment.gravity);
+      const double g = experiment.environment.gravity;
+      free_until_ = rolls;
+      friction.emplace(experiment.ball, motion.at_time(rolls), u_r * g, experiment.contact.friction * g);
+      rolls = friction->slip_time(rolling_below);
     }
     if (resisted) rolls = resisted->slip_time(flat ? 0 : rolling_below);
     const auto rests = rest();
@@ -76,9 +79,16 @@ struct Course {
   }
 
   double spin_end() const { return coupled() ? resisted->spin_end() : motion.spin_end(); }
-  double slip_length() const { return resisted ? resisted->slip_length() : motion.slip_length(); }
+  double slip_length() const {
+    if (resisted) return resisted->slip_length();
+    return motion.slip_length() + (friction ? friction->slip_length() : 0);
+  }
   double turns() const { return (coupled() ? resisted->spin_angle() : motion.spin_angle()) / (2 * std::numbers::pi); }
-  double path_length(double t) const { return resisted ? resisted->path_length(t) : motion.path_length(t); }
+  double path_length(double t) const {
+    if (resisted) return resisted->path_length(t);
+    if (!friction || t <= free_until_) return motion.path_length(t);
+    return motion.path_length(free_until_) + (at_time(t).position - at_time(free_until_).position).norm();
+  }
 
   /// With rolling friction or on a slope; none where it rolls on for ever.
   std::optional<Event> rest() const {
@@ -93,6 +103,7 @@ struct Course {
   static constexpr bool always_resisted = requires(const Motion& of) { of.law(); };
 
   Ball ball_;
+  double free_until_ = 0;  ///< s, when the uncoupled model's rolling friction begins
 
   bool coupled() const { return always_resisted && resisted; }
 
