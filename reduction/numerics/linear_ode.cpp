@@ -1,5 +1,7 @@
 #include "numerics/linear_ode.hpp"
 
+#include <limits>
+
 #include <Eigen/LU>
 
 namespace contensou::reduction {
@@ -10,11 +12,13 @@ constexpr int order = LegendreSeries::order;
 using Samples = LegendreSeries::Samples;
 using Matrix = Eigen::Matrix<double, order, order>;
 
-/// Whether exp of the integral of h/d is a polynomial of that order to the last bit.
+/// Whether exp of the integral of h/d is a polynomial of that order to the last bit. Near a zero of d it is not, however
+/// small h: it is a small power of the distance from there.
 bool factor_is_polynomial(const Samples& advection, const Samples& rate) {
   if (!(rate <= 1.5 * advection).all() || !(advection.minCoeff() > 0)) return false;
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   const Samples ratio = rate / advection;
-  return ratio.maxCoeff() - ratio.minCoeff() <= 1;
+  return ratio.maxCoeff() - ratio.minCoeff() <= 1 && LegendreSeries::tail(ratio) <= rounding;
 }
 
 /// Whether d y' is small beside h y for every polynomial y of that order.

@@ -7,14 +7,19 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
 #include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "motion/stop_time_table.hpp"
@@ -198,6 +203,62 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
   CHECK(asked == systems * starts);
 }
 
+/// The scaled stop time over w, T(k), of a driven body with a ray: dT/dk = (1 - r Psi T)/D from (R2) and (R48), in steps of
+/// ln |k - k*| from the ray's tangent, in more digits than a double has. It shares no code with the library, nor its laws.
+class ByTheRay {
+ public:
+  using Wide = std::conditional_t<(std::numeric_limits<long double>::digits > 60), long double,
+                                  boost::multiprecision::cpp_bin_float_quad>;
+
+  /// @param ellipse  C of the elliptic law; 0: Pade
+  ByTheRay(double ellipse, const ReducedSystem& system, double ray)
+      : c_(ellipse), r_(system.r()), drive_(system.drive()), ray_(ray) {
+    const auto slope = [&](auto function) {
+      return (function(ray_ * (1 + near)) - function(ray_ * (1 - near))) / (2 * ray_ * near);
+    };
+    for (int i = 0; i < 4; ++i) ray_ -= difference(ray_) / slope([&](Wide k) { return difference(k); });
+    at_ray_ = 1 / (r_ * moment(ray_));
+    tangent_ = -r_ * slope([&](Wide k) { return moment(k); }) * at_ray_ /
+               (slope([&](Wide k) { return difference(k); }) + r_ * moment(ray_));
+  }
+
+  Wide ray() const { return ray_; }
+
+  Wide operator()(Wide k) const {
+    using std::abs, std::ceil, std::exp, std::log;
+    using Values = std::array<Wide, 1>;
+    const int side = k < ray_ ? -1 : 1;
+    const Wide from = log(near * ray_), to = log(abs(k - ray_));
+    Values value{at_ray_ + side * tangent_ * near * ray_};
+    if (!(to > from)) return at_ray_ + tangent_ * (k - ray_);
+    const int steps = static_cast<int>(static_cast<double>(to - from) / 0.02) + 1;
+    const Wide step = (to - from) / steps;
+    boost::numeric::odeint::runge_kutta_fehlberg78<Values, Wide, Values, Wide> stepper;
+    const auto rate = [&](const Values& x, Values& slope, Wide ln_distance) {
+      const Wide distance = exp(ln_distance), at = ray_ + side * distance;
+      slope[0] = side * distance * (1 - r_ * moment(at) * x[0]) / difference(at);
+    };
+    for (int i = 0; i < steps; ++i) stepper.do_step(rate, value, Wide(from + step * i), step);
+    return value[0];
+  }
+
+ private:
+  static constexpr double near = 1e-7;  // its square is what is left out
+
+  Wide force(Wide k) const {
+    using std::sqrt;
+    return c_ > 0 ? Wide(k / sqrt(c_ * c_ + k * k)) : Wide(3 * pi * k / (8 + 3 * pi * k));
+  }
+  Wide moment(Wide k) const {
+    using std::sqrt;
+    return c_ > 0 ? Wide(c_ * c_ / sqrt(c_ * c_ + k * k)) : Wide(3 * pi / (16 + 15 * pi * k));
+  }
+  Wide difference(Wide k) const { return force(k) - drive_ - r_ * k * moment(k); }
+
+  inline static const Wide pi = boost::math::constants::pi<Wide>();
+  Wide c_, r_, drive_, ray_, at_ray_, tangent_;
+};
+
 }  // namespace
 
 TEST_CASE("every door has one answer, within the accuracy that it states", "[differential][route]") {
@@ -208,4 +269,35 @@ TEST_CASE("every door has one answer, within the accuracy that it states", "[dif
 TEST_CASE("with a drive, too", "[differential][route][drive]") {
   Questions questions(28'261'123);
   ask(questions, &Questions::driven_system, CONTENSOU_FULL_TESTS ? 300 : 60);
+}
+
+TEST_CASE("random drives by quadrature and by steps from the ray", "[differential][route][drive]") {
+  std::mt19937_64 random(29'261'124);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+  const bool fast = std::is_same_v<ByTheRay::Wide, long double>;
+  int asked = 0;
+  for (const int drives = CONTENSOU_FULL_TESTS ? 1000 : fast ? 200 : 20; asked < drives;) {
+    const double ellipse = asked % 3 == 0 ? 0 : uniform(0.1, 1);
+    const Law law = ellipse > 0 ? Law(EllipticLaw(ellipse)) : Law(PadeLaw{});
+    const double drive = asked % 2 == 0 ? uniform(1e-3, 0.99) : std::pow(10, uniform(-8, 0));
+    const ReducedSystem system(law, std::pow(10, uniform(-2.5, 0)), {uniform(1, 4), uniform(0.5, 3)}, drive);
+    const Flow flow = Flow::by_quadrature(system);
+    if (flow.terminal().rays.size() != 1) continue;
+    ++asked;
+    const ByTheRay by_the_ray(ellipse, system, flow.terminal().rays[0].k);
+    const double side = uniform(-0.7, 0.3) < 0 ? -1 : 1;
+    const State start{1,
+                      system.mu() * static_cast<double>(by_the_ray.ray()) * std::exp(side * std::exp(uniform(-6, 2)))};
+    const StopTime stop = flow.stop_time(start);
+    const ByTheRay::Wide mu = system.mu(), reference = by_the_ray(start.v / mu) * mu / system.scaled_time_rate();
+    const double error = std::abs(static_cast<double>(stop.tau / reference - 1));
+    if (!(error <= stop.accuracy)) {
+      FAIL_CHECK(
+          fmt::format("{} instead of {}, {:.3g} times what is stated: law {}, mu = {}, chi = {}, gamma = {}, "
+                      "drive = {}, v0 = {}",
+                      stop.tau, static_cast<double>(reference), error / stop.accuracy, law.name(), system.mu(),
+                      system.inertia().chi, system.inertia().gamma, drive, start.v));
+    }
+  }
+  CHECK(asked >= 20);
 }

@@ -263,3 +263,53 @@ TEST_CASE("every statement holds with a drive", "[drive][verification]") {
     }
   }
 }
+
+// By 128-bit arithmetic (Runge-Kutta-Fehlberg 7(8) from the ray's tangent): r is small, k runs to the ray and rides it.
+TEST_CASE("stop times of motions that ride the ray have the accuracy that they state", "[drive][reference]") {
+  struct Row {
+    double moment;  ///< of the ellipse; 0: Pade
+    double mu;
+    Inertia inertia;
+    double drive, v, tau;
+  };
+  const std::vector<Row> rows{
+      {0.9, 0.07662523492755605, {2.5, 1.5}, 0.44720678712703743, 5.310780907806737e-05, 50.94132786441093193775},
+      {0.21236988759051478,
+       0.26948796382739509,
+       {3.5682597992964609, 2.6774788145486976},
+       0.47166116601674679,
+       0.03080119213408369,
+       34.9003875432191337497112},
+      {0.8117907773821883,
+       0.041054602867559686,
+       {1.8992063237994787, 1.9699274377411933},
+       0.48929677143458833,
+       0.018466815375915879,
+       82.3314283570658519763937},
+      {0,
+       0.053519743104989637,
+       {2.445768914677509, 2.634322262738634},
+       0.73585291919365092,
+       0.12066225414868283,
+       452.965207938579587041681},
+      {0,
+       0.082403310998366591,
+       {1.5238745007511452, 1.400841623466611},
+       0.023212470289815545,
+       0.0016786797019523085,
+       73.4338641541609382668193},
+      {0.86244734845527404,
+       0.021389287923030985,
+       {2.4539094018023295, 2.4513117869489007},
+       0.92968747784383154,
+       0.054054039643749975,
+       283.629553873995595452992},
+  };
+  for (const Row& row : rows) {
+    const Law law = row.moment > 0 ? Law(EllipticLaw(row.moment)) : Law(PadeLaw{});
+    INFO(law.name() << ", mu " << row.mu << ", drive " << row.drive);
+    const auto stop = Flow::by_quadrature({law, row.mu, row.inertia, row.drive}).stop_time({1, row.v});
+    CHECK(stop.accuracy < 3e-14);
+    CHECK(std::abs(stop.tau / row.tau - 1) <= stop.accuracy);
+  }
+}
