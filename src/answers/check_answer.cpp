@@ -20,6 +20,10 @@ namespace {
 
 constexpr std::array built_in_patch_ratios{1e-4, 0.0035, 0.099, 0.3, 1.0};
 
+/// With a drive; for a smaller patch creeping is stiff, and the routes in steps take long.
+constexpr std::array driven_patch_ratios{0.099, 1.0};
+constexpr std::array built_in_drives{0.05, 0.5, 0.95};
+
 /// Starts whose k0 = v0/(mu u0) runs from almost pure pivoting to almost pure sliding.
 std::vector<State> built_in_starts(double mu) {
   std::vector<State> starts;
@@ -101,9 +105,13 @@ std::string label(const std::string& law) {
 }
 
 std::string heading() {
-  return fmt::format("The worst of {} starts: mu from {} to {}, v0/(mu u0) from 1e-4 to 1e6.\n\n",
-                     built_in_patch_ratios.size() * built_in_starts(1).size(), built_in_patch_ratios.front(),
-                     built_in_patch_ratios.back());
+  const std::size_t starts = built_in_starts(1).size();
+  return fmt::format(
+      "The worst of {} starts: mu from {} to {}, v0/(mu u0) from 1e-4 to 1e6.\n"
+      "With a drive: the worst of {}, with drives from {} to {} of f N and mu from {}.\n\n",
+      built_in_patch_ratios.size() * starts, built_in_patch_ratios.front(), built_in_patch_ratios.back(),
+      driven_patch_ratios.size() * built_in_drives.size() * starts, built_in_drives.front(), built_in_drives.back(),
+      driven_patch_ratios.front());
 }
 
 std::string as_text(const std::vector<CheckedLaw>& rows, const Digits& digits) {
@@ -149,6 +157,14 @@ void take_worse(std::vector<Check>& worst, const std::vector<Check>& others) {
 std::vector<Check> built_in_checks(const reduction::Law& law) {
   std::vector<Check> worst;
   for (double mu : built_in_patch_ratios) take_worse(worst, verify({{law, mu}}, built_in_starts(mu)));
+  for (double mu : driven_patch_ratios) {
+    for (double drive : built_in_drives) {
+      std::vector<Check> driven = verify({{law, mu, reduction::homogeneous_ball, drive}}, built_in_starts(mu));
+      std::erase_if(driven, [](const Check& check) { return !check.name.starts_with("stop time"); });
+      for (Check& check : driven) check.name += ", with a drive";
+      take_worse(worst, driven);
+    }
+  }
   return worst;
 }
 

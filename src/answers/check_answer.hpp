@@ -17,7 +17,8 @@ struct CheckedLaw {
   std::optional<Deviation> deviation = {};  ///< of a table, what was measured of it
 };
 
-/// The checks of a law over a set of starts whose k0 runs from almost pure pivoting to almost pure sliding: the worst of each.
+/// Returns the checks of a law over a set of starts whose k0 runs from almost pure pivoting to almost pure sliding, and of
+/// the same with drives the routes to the stop time: the worst of each.
 std::vector<reduction::Check> built_in_checks(const reduction::Law& law);
 
 /// Takes the worse of two results of the same check; not a number is the worst.

@@ -58,6 +58,10 @@ TEST_CASE("check without a start", "[cli]") {
   INFO(run.out);
   CHECK(run.status == 0);
   CHECK(count_rows(run.out, "ok") >= 16);
+  for (const std::string law : {"exact", "pade "}) {
+    for (const std::string route : {"(2.7) and (2.8) in beta", "(2.6) in tau"})
+      CHECK_THAT(run.out, Contains(law + "  stop time: " + route + ", with a drive "));
+  }
 }
 
 TEST_CASE("a law's name cannot break the table of check", "[cli]") {
