@@ -54,7 +54,9 @@ const char* PatchFriction::evaluate(const Eigen::Vector3d& motion, double load, 
   wrench.jacobian.topRightCorner<2, 1>() = limit * arm * force_slope * by_pivoting * along;
   wrench.jacobian.bottomLeftCorner<1, 2>() = limit * arm * moment_slope * by_sliding * along.transpose();
   wrench.jacobian(2, 2) = -limit * arm * arm * moment_slope * by_pivoting;
-  return nullptr;
+  if (wrench.value.allFinite() && wrench.jacobian.allFinite()) return nullptr;
+  wrench = {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+  return "force, moment and their slopes must be finite";
 }
 
 Wrench PatchFriction::operator()(const Eigen::Vector3d& motion, double load, const Patch& patch) const {

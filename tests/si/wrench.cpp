@@ -274,6 +274,7 @@ TEST_CASE("the C interface gives numbers or zeros, and throws nothing", "[limit]
   refused({1.7e308, 1.7e308, 0}, normal_force, good);
   refused({0, 0, 1e308}, normal_force, {0.2, 100, 1e-4});
   refused({1, 0, 0}, 1e300, {0.2, 3e-3, 1e-20});
+  refused({1, 1, 1}, 1, {0.3, 1e160, 1e160});  // the square of the radius
   CHECK(contensou_patch_wrench(nullptr, Vector3d(1, 0, 0).data(), normal_force, &good, &wrench) == 1);
   CHECK(contensou_patch_wrench(law.get(), nullptr, normal_force, &good, &wrench) == 1);
   CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), normal_force, nullptr, &wrench) == 1);

@@ -36,8 +36,8 @@ void contensou_law_free(contensou_law* law);
  *  @param motion  vx, vy of the patch centre over the other body in m/s, omega about the normal in rad/s
  *  @param load    N in N; 0 or less is no contact: zeros
  *  @param wrench  zeros if something is wrong
- *  @return        0; or 1 if a pointer is null, a number is not finite, a speed or a stiffness overflows, or a member of
- *                 the patch is out of its range */
+ *  @return        0; or 1 if a pointer is null, a number is not finite, a speed, a stiffness or a result overflows, or a
+ *                 member of the patch is out of its range */
 int contensou_patch_wrench(const contensou_law* law, const double motion[3], double load, const contensou_patch* patch,
                            contensou_wrench* wrench);
 
