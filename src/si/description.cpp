@@ -148,6 +148,18 @@ const Description::Values* Description::find(const Quantity& quantity) const {
   return found == values_.end() ? nullptr : &found->second;
 }
 
+void Description::start_along_x(const Values* other_radius) {
+  const Values &centre = values_.at(&velocity), &body = values_.at(&angular_velocity);
+  const Values* const own_radius = other_radius ? other_radius : find(radius);
+  Experiment moving{.ball = {.name = "", .mass = 1, .radius = own_radius ? own_radius->numbers[0] : 0},
+                    .contact = {.friction = 0, .patch = WholeFace{}},
+                    .start = Velocities{Eigen::Vector2d(centre.numbers.data()), Eigen::Vector3d(body.numbers.data())}};
+  values_[&slip] = {{slip_at_start(moving)}, centre.source};
+  values_[&spin] = {{spin_at_start(moving)}, body.source};
+  values_.erase(&velocity);
+  values_.erase(&angular_velocity);
+}
+
 Description Description::under(const Description& above) const {
   Description result = *this;
   if (above.find(velocity) || above.find(angular_velocity)) {
@@ -158,6 +170,8 @@ Description Description::under(const Description& above) const {
     move(slip, velocity, [](double along_x) { return std::vector{along_x, 0.0}; });
     move(spin, angular_velocity, [](double upright) { return std::vector{0.0, 0.0, upright}; });
   }
+  const bool slides_anew = above.find(slip) || above.find(spin);
+  if (slides_anew && find(velocity) && find(angular_velocity)) result.start_along_x(above.find(radius));
   for (const Ways& ways : alternatives()) {
     for (const Way& way : ways) {
       if (!has_all(above, way)) continue;

@@ -1,3 +1,4 @@
+#include <fstream>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -220,4 +221,17 @@ TEST_CASE("rolling friction and a slope are taken or refused by name, by every v
       }
     }
   }
+}
+
+TEST_CASE("a slip or a spin on the command line replaces the velocities of a run file", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string file = scratch.file("moves.toml");
+  std::ofstream(file) << "[ball]\nmass = 0.1701\nradius = 0.028575\n[contact]\nfriction = 0.2\n"
+                         "patch_radius = 2.83e-3\n[start]\nvelocity = [1, 2]\nangular_velocity = [3, 4, 70]\n"
+                         "[uncertainty]\nfriction = 0.01\n";
+  const auto anew = json_of("stop --format json --ball " + file + " --slip 2 --uncertainty fit");
+  const auto same = json_of("stop --format json --ball " + file + " --slip 2 --spin 70");
+  CHECK(anew.at("t_stop") == same.at("t_stop"));
+  CHECK(anew.contains("uncertainty"));
+  CHECK_THAT(run_program("roll --format text --ball " + file + " --spin 5").out, Contains("spin 5 rad/s"));
 }

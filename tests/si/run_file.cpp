@@ -143,13 +143,16 @@ TEST_CASE("velocities take the place of a start, one or both", "[table]") {
   CHECK_THROWS_WITH(
       read(without, "x.toml", {{&velocity, {2, 3}}}),
       "x.toml:1:1: 'angular_velocity' in [start] is missing: angular velocity, x, y and z (up), in rad/s");
-  // And a slip with a spin takes the place of both; not one of them alone, which leaves open what the other is.
+  // And a slip or a spin takes the place of both; the other one is what these velocities have of it.
   const std::string general =
-      with(with(good, "slip = 1.0", "velocity = [1, 2]"), "spin = 100", "angular_velocity = [0, 0, 1]");
+      with(with(good, "slip = 1.0", "velocity = [1, 2]"), "spin = 100", "angular_velocity = [10, 0, 7]");
   CHECK(std::get<SlipAndSpin>(read(general, "x.toml", {{&slip, {3}}, {&spin, {4}}}).start).spin == 4);
-  CHECK_THROWS_WITH(read(general, "x.toml", {{&spin, {3}}}),
-                    "x.toml:9:1: --spin and 'velocity' in [start] exclude each other: give 'slip' and 'spin' in "
-                    "[start], or 'velocity' and 'angular_velocity' in [start]");
+  const auto slides = std::get<SlipAndSpin>(read(general, "x.toml", {{&slip, {3}}}).start);
+  CHECK(slides.slip == 3);
+  CHECK(slides.spin == 7);
+  const auto spins = std::get<SlipAndSpin>(read(general, "x.toml", {{&spin, {3}}}).start);
+  CHECK(spins.spin == 3);
+  CHECK(spins.slip == Approx(std::hypot(1, 2 + 10 * 0.028575)).epsilon(1e-15));
 }
 
 TEST_CASE("values in quotes may have another unit", "[table]") {

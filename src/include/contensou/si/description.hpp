@@ -84,7 +84,8 @@ class Description {
 
   /// This one with what is said above it in place of its own. What is given in another way (alternatives) goes: a patch
   /// radius replaces moduli, a load gravity, slip with spin velocities. A velocity replaces its part of a slip with a spin,
-  /// and the other part stays. What a number was known to goes with it, and the correlations of the rest stay.
+  /// and the other part stays. A slip or a spin replaces velocities: a slip along x and a spin, of which the one that is not
+  /// said above is that of these velocities. What a number was known to goes with it, and the correlations of the rest stay.
   Description under(const Description& above) const;
 
   /// Rejects two ways to give one thing, and correlations that no numbers have.
@@ -101,6 +102,9 @@ class Description {
   bool in_one_file() const;
 
  private:
+  /// Turns velocities into a slip along x and a spin.
+  void start_along_x(const Values* other_radius);
+
   std::string name_, law_;  ///< empty if not given
   std::optional<Body> body_;
   std::map<const Quantity*, Values> values_;
