@@ -3,7 +3,7 @@ export interface State { u: number; v: number }
 
 /** What decides the plane of a body. */
 export interface System {
-  /** Radius of the contact patch over that of the body; known of disc, puck and ring. */
+  /** Radius of the contact patch over that of the body, at most 1 for a ball; known of disc, puck and ring. */
   mu?: number;
   /** One of `laws`, with its number behind a colon where it has one, or formulas, as `phi = k/(1 + k); psi = 0.5/(1 + k)`. */
   law?: string;

@@ -24,6 +24,9 @@ export class Flow {
     const known = bodyCalled(body);
     const patch = mu ?? known.mu;
     if (patch === undefined) throw new Error("mu is missing: the radius of the contact patch over that of the body");
+    const another = chi !== undefined || gamma !== undefined;
+    const complaint = another ? "" : library.complaint(body, patch);
+    if (complaint) throw new Error(`mu = ${patch}: ${complaint}`);
     const of = this.#plane.choose(law ?? lawOfBody[body] ?? "exact", patch, chi ?? known.chi, gamma ?? known.gamma, drive);
     this.terminalRatio = of.terminalRatio;
     this.meaning = of.meaning;

@@ -403,6 +403,11 @@ val bodies() {
   });
 }
 
+/// What is wrong with a mu for the body of that name; empty if nothing is.
+std::string complaint(const std::string& body, double mu) {
+  return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
+}
+
 /// {name, layered: whether isochrones and a field are drawn in it, moments: whether its points are moments and not
 /// states}. Not of the view of beta: there a click is no moment.
 val views() {
@@ -485,6 +490,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
   function("laws", &laws);
   function("lawName", answering<law_name>);
   function("bodies", &bodies);
+  function("complaint", answering<complaint>);
   function("views", &views);
   function("catalogue", &catalogue);
   function("contact", answering<contact>);

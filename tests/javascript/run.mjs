@@ -24,7 +24,8 @@ console.log(JSON.stringify({
   disc: stopTime({ body: "disc", u: 1, v: 2 }), k: new Flow({ body: "disc" }).terminalRatio,
   balls: Object.keys(balls).map((name) => [name, new Ball(name).roll().stopTime, new Ball(name).patchRadius]),
   rest: masse.motion().rest, slides: masse.slidesUntil,
-  wrong: [tried(() => new Flow({ mu: 0.1, law: "nope" })), tried(() => new Ball("poool")), tried(() => new Flow({}))],
+  wrong: [tried(() => new Flow({ mu: 0.1, law: "nope" })), tried(() => new Ball("poool")), tried(() => new Flow({})),
+    tried(() => stopTime({ mu: 2, u: 1, v: 1 })), tried(() => stopTime({ mu: 2, chi: 3.5, gamma: 2.5, u: 1, v: 1 }))],
 }));
 `;
 
@@ -54,6 +55,8 @@ try {
   assert.match(wrong[0], /no such law: nope/);
   assert.match(wrong[1], /no such ball: poool; there are pool/);
   assert.match(wrong[2], /mu is missing/);
+  assert.match(wrong[3], /mu = 2: 0 < mu <= 1 is required/);
+  assert.ok(wrong[4] > 0);
 
   const compiler = join(here, "../page/node_modules/typescript/bin/tsc");
   if (existsSync(compiler)) {
