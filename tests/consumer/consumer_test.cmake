@@ -94,6 +94,8 @@ if(MODE STREQUAL "find" AND pkg_config)
   if(NOT printed STREQUAL "${shown_readme_0}")
     message(FATAL_ERROR "by pkg-config readme_0 printed\n${printed}")
   endif()
+  run(cc ${WORK}/source/wrench.c -o ${WORK}/wrench_by_pkg_config ${flags})
+  run(${WORK}/wrench_by_pkg_config)
 endif()
 if(NOT MODE STREQUAL "add")  # which asks for contensou::reduction alone
   run(${WORK}/build/wrench_from_c)
