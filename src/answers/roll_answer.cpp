@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "answers/ball_answer.hpp"
 #include "answers/law_forms.hpp"
+#include "answers/plain_words.hpp"
 #include "answers/text_table.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/integrated_motion.hpp"
@@ -165,6 +167,48 @@ std::string heading(const si::Experiment& experiment, const reduction::Law& law,
                      digits(si::slip_at_start(experiment)), digits(si::spin_at_start(experiment)));
 }
 
+/// What happens, in one sentence of plain words.
+std::string opening(const Roll& roll) {
+  const si::Events ours = events_of(roll.whole), theirs = events_of(roll.textbook);
+  const Eigen::Vector2d velocity = si::velocities_of(roll.experiment.start).velocity;
+  const bool flat = roll.lies_flat(), slips = si::slip_at_start(roll.experiment) > 0;
+  const bool spins = si::spin_at_start(roll.experiment) != 0, slopes = roll.experiment.environment.slope != 0;
+  const auto when = [&](const si::Event& event) {
+    const double way = event.place.norm();
+    return time_in_words(event.t) +
+           (way == 0 ? ""
+                     : fmt::format(", {} {}", length_in_words(way), event.place.dot(velocity) < 0 ? "back" : "on"));
+  };
+  std::vector<std::string> happens, times, times_of_theirs;
+  const auto add = [&](const std::string& what, const si::Event& our, const si::Event& their) {
+    happens.push_back(what + " after " + when(our));
+    times.push_back(time_in_words(our.t));
+    times_of_theirs.push_back(time_in_words(their.t));
+  };
+  const bool moves = slips || velocity.norm() > 0 || ours.rolls.t > 0;
+  if (flat) {
+    if (moves) add("rests", ours.rolls, theirs.rolls);
+  } else if (ours.rolls.t > 0) {
+    add("rolls", ours.rolls, theirs.rolls);
+  } else if (moves || (slopes && !ours.rest)) {
+    happens.push_back(roll.tip && !slips
+                          ? fmt::format("rolls at once, for a stroke {:.3g} radii above the centre gives "
+                                        "it the spin of rolling",
+                                        *roll.tip)
+                          : "rolls at once");
+  }
+  if (!flat && moves && ours.rest && theirs.rest && ours.rest->t > ours.rolls.t) add("rests", *ours.rest, *theirs.rest);
+  if (!flat && slopes && !ours.rest) happens.emplace_back("rolls down the slope for ever");
+  if (happens.empty() && spins) add("spins in place and stops", ours.spin_ends, theirs.spin_ends);
+  if (happens.empty()) return "It is at rest and stays there.\n";
+  std::string sentence = fmt::format("It {}", fmt::join(happens, " and "));
+  if (!times.empty())
+    sentence += times == times_of_theirs
+                    ? "; the uncoupled model says the same to two digits"
+                    : fmt::format("; the uncoupled model says {}", fmt::join(times_of_theirs, " and "));
+  return sentence + ".\n";
+}
+
 std::string events_text(const Roll& roll, const Digits& digits) {
   const si::Events ours = events_of(roll.whole);
   const si::Events theirs = events_of(roll.textbook);
@@ -273,7 +317,7 @@ Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times) {
 }
 
 std::string roll_text(const Roll& roll, const Digits& digits) {
-  const std::string text = heading(roll.experiment, roll.law, digits) +
+  const std::string text = opening(roll) + heading(roll.experiment, roll.law, digits) +
                            (roll.load ? fmt::format("the load changes: {} N is its first, {} N its last\n",
                                                     digits(roll.load->nominal()), digits(roll.load->loads().back()))
                                       : "") +

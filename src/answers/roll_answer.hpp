@@ -34,6 +34,7 @@ struct Roll {
                                    : std::nullopt;
   std::optional<RollUncertainty> uncertainty = {};
   std::optional<si::EventGradient> gradient = {};
+  std::optional<double> tip = {};  ///< of a stroke of a cue: radii above the centre
 
   /// How the events are found.
   bool reduced() const { return !whole.resisted || whole.resisted->is_reduced(); }
@@ -50,7 +51,7 @@ struct Roll {
 /// @param times  s
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times);
 
-/// The motion on one screen: where and when the ball ceases to slip, how it rolls on, what friction took, and the
+/// The motion on one screen, first in one sentence: where and when the ball ceases to slip, how it rolls on, what friction took, and the
 /// textbook's answer beside it. For the route integrated, how close its stop is.
 std::string roll_text(const Roll& roll, const Digits& digits);
 

@@ -10,6 +10,7 @@
 #include "answers/ball_answer.hpp"
 #include "answers/errors.hpp"
 #include "answers/law_forms.hpp"
+#include "answers/plain_words.hpp"
 #include "answers/text_table.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/infinity.hpp"
@@ -280,12 +281,34 @@ class Text {
 
   std::string all() const {
     if (report_.start.at_rest()) {
-      return heading() + "\nstop time 0: the ball neither slides nor spins; it rolls already, or rests\n";
+      return "It neither slides nor spins: its stop time is 0.\n" + heading() +
+             "\nstop time 0: the ball neither slides nor spins; it rolls already, or rests\n";
     }
-    return heading() + "\n" + times() + "\n" + estimates() + gradient() + uncertainty() + methods() + ending();
+    return opening() + heading() + "\n" + times() + "\n" + estimates() + gradient() + uncertainty() + methods() +
+           ending();
   }
 
  private:
+  /// What happens, in one sentence of plain words.
+  std::string opening() const {
+    const auto& [system, state, experiment, resisted] = report_.start;
+    const double tau = report_.stop.tau, uncoupled = std::max(report_.sliding_only, system.pivoting_limit(state.u));
+    if (std::isinf(tau)) return "";
+    const auto time = [&](double of) {
+      return experiment ? time_in_words(report_.seconds(of)) : "tau = " + to_two_digits(of);
+    };
+    const auto rest = rest_of(report_.start);
+    const bool flat = experiment && experiment->ball.body.lies_flat();
+    std::string text = flat           ? "It rests"
+                       : state.u == 0 ? "Its slip ends"
+                       : state.v == 0 ? "Its spin ends"
+                                      : "Slip and spin end";
+    text += " after " + time(tau);
+    if (rest && !flat) text += fmt::format(", and its centre rests after {}", time_in_words(rest->t));
+    const std::string says = time(uncoupled);
+    return text + "; the uncoupled model says " + (says == time(tau) ? "the same to two digits" : says) + ".\n";
+  }
+
   std::string heading() const {
     const auto& [system, state, experiment, resisted] = report_.start;
     if (!experiment) {

@@ -377,7 +377,7 @@ TEST_CASE("mistakes in a motion are bad input", "[cli]") {
   CHECK(mixed.status == 2);
   CHECK_THAT(mixed.err, StartsWith(file + ":11:1: ") && Contains("exclude each other"));
   write_file(file, general_file);
-  CHECK(run_program("roll --spin 3 --ball " + file).status == 2);
+  CHECK(run_program("roll --spin 3 --ball " + file).status == 0);
   CHECK(run_program("roll --ball nosuch.toml").status == 4);
 }
 
@@ -407,5 +407,47 @@ TEST_CASE("what is 0 by symmetry is 0, and nothing is -0", "[cli]") {
         }
       }
     }
+  }
+}
+
+TEST_CASE("the text of roll opens with one sentence of plain words, for every kind of motion", "[cli]") {
+  const std::string rolling = " --velocity 1,0 --angular-velocity 0,34.99562554680665,0";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"--ball pool --slip 1 --spin 0",
+       "It rolls after 0.15 s, 12 cm on; the uncoupled model says the same to two digits.\n"},
+      {"--ball pool --slip 1 --spin 100", "It rolls after 0.31 s, 24 cm on; the uncoupled model says 0.15 s.\n"},
+      {"--ball pool --slip 0 --spin 100",
+       "It spins in place and stops after 10 s; the uncoupled model says the same to two digits.\n"},
+      {"--ball pool --slip 0 --spin 0", "It is at rest and stays there.\n"},
+      {"--ball pool" + rolling, "It rolls at once.\n"},
+      {"--ball pool --strike 2 --tip 0,0.4",
+       "It rolls at once, for a stroke 0.4 radii above the centre gives it the spin of rolling.\n"},
+      {"--ball pool --velocity 0.1,0 --angular-velocity 0,-50,0",
+       " back; the uncoupled model says the same to two digits.\n"},
+      {"--ball pool --slip 1 --spin 0 --rolling-friction 0.01", " and rests after "},
+      {"--ball pool --rolling-friction 0.3" + rolling,
+       "It rolls after 0.51 s, 25 cm on and rests after 0.51 s, 25 cm on; the uncoupled model says the same to two "
+       "digits.\n"},
+      {"--ball pool --slip 0 --spin 0 --slope -2", "It rolls at once and rolls down the slope for ever.\n"},
+      {"--ball pool --slip 1 --spin 0 --slope -2", " and rolls down the slope for ever; the uncoupled model says"},
+      {"--ball puck --slip 0.5 --spin 60", "It rests after "},
+      {"--ball puck --slip 0 --spin 60", "It spins in place and stops after "},
+      {"--ball puck --slip 0.5 --spin 60 --slope -1", "It rests after "},
+  };
+  for (const auto& [arguments, opening] : cases) {
+    const Run run = run_program("roll --format text " + arguments);
+    const std::string first = run.out.substr(0, run.out.find('\n') + 1);
+    INFO(arguments << "\n" << first << run.err);
+    CHECK(run.status == 0);
+    CHECK(first.starts_with("It "));
+    CHECK(first.ends_with(".\n"));
+    CHECK_THAT(first, Contains(opening));
+  }
+}
+
+TEST_CASE("roll and aim say that the built-in curling stone does not curl", "[cli]") {
+  for (const std::string verb : {"roll", "aim --distance 20m --turns 3"}) {
+    CHECK_THAT(run_program(verb + " --ball curling-stone").err, Contains("the curling stone does not curl here"));
+    CHECK(run_program(verb + " --ball puck").err.empty());
   }
 }

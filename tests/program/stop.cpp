@@ -335,3 +335,25 @@ TEST_CASE("the accuracy next to a border counts what was taken for the border", 
   CHECK(error < stop.at("accuracy").get<double>());
   CHECK(stop.at("accuracy").get<double>() < 1e-13);
 }
+
+TEST_CASE("the text of stop opens with one sentence of plain words", "[cli]") {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"--ball pool --slip 1 --spin 100",
+       "Slip and spin end after 10 s; the uncoupled model says the same to two digits.\n"},
+      {"--ball pool --slip 1 --spin 0",
+       "Its slip ends after 0.15 s; the uncoupled model says the same to two digits.\n"},
+      {"--ball pool --slip 0 --spin 100",
+       "Its spin ends after 10 s; the uncoupled model says the same to two digits.\n"},
+      {"--ball pool --slip 0 --spin 0", "It neither slides nor spins: its stop time is 0.\n"},
+      {"--ball puck --slip 0.5 --spin 60", "It rests after "},
+      {"--ball pool --slip 1 --spin 100 --rolling-friction 0.01", ", and its centre rests after "},
+      {"--mu 0.1 --u0 1 --v0 1", "Slip and spin end after tau = "},
+      {"--mu 0.1 --u0 1 --v0 1 --drive 0.05", "Slip and spin end after tau = "},
+  };
+  for (const auto& [arguments, opening] : cases) {
+    const Run run = run_program("stop " + arguments);
+    INFO(arguments << "\n" << run.out << run.err);
+    CHECK(run.status == 0);
+    CHECK_THAT(run.out.substr(0, run.out.find('\n') + 1), Contains(opening));
+  }
+}

@@ -374,6 +374,11 @@ void StartOptions::tell_spreads_left_out(const si::Experiment& experiment) const
              fmt::join(left_out, ", "));
 }
 
+void StartOptions::tell_left_out() const {
+  const si::CatalogueEntry* entry = ball_.given() ? si::find_ball(ball_.text()) : nullptr;
+  if (entry && !entry->left_out.empty()) fmt::print(stderr, "note: {}\n", entry->left_out);
+}
+
 si::Description at_rest(const std::string& source) {
   si::Description still;
   for (const si::Quantity* quantity : {&si::slip, &si::spin}) still.set(*quantity, {0}, {"", source, ""});

@@ -131,6 +131,9 @@ class StartOptions {
   /// Says which spreads of the ball's run file do not hold for this experiment, whose numbers are others.
   void tell_spreads_left_out(const si::Experiment& experiment) const;
 
+  /// Says on standard error what a built-in ball does in the world and its motion here leaves out.
+  void tell_left_out() const;
+
   /// The ball of --ball where it has to roll. Throws as read_ball, and BadInput for a body that lies flat.
   /// @param way_out  what may be asked of such a body
   si::Experiment read_rolling_ball(const reduction::Law& law, const std::string& way_out,

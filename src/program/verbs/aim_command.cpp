@@ -48,6 +48,7 @@ class AimCommand final : public Verb {
   ExitStatus run() override {
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment ball = start_.read_ball(law, at_rest("aim"));
+    start_.tell_left_out();
     const Output output = output_.read();
     figure_.require_picture(output);
     if (const std::string names = names_given({&rolls_at_, &rolling_speed_, &spin_}); !names.empty()) {

@@ -145,6 +145,8 @@ class RollCommand final : public Verb {
     const auto* at = instants_.at();
     const double last = at != nullptr && at->values.size() > 0 ? at->values.maxCoeff() : until_.value_or(0);
     si::require_finite_motion(roll.experiment, roll.stop_time(), last);
+    if (strike_.given()) roll.tip = tip_.value_or(Eigen::Vector2d::Zero()).y();
+    start_.tell_left_out();
     const double end = until_.value_or(roll.standard_end());
     roll.uncertainty = read_uncertainty(roll);
     if (gradient_ && (roll.load || output.picture()))

@@ -12,7 +12,8 @@ namespace contensou::si {
 struct CatalogueEntry {
   std::string name;  ///< one lower-case word
   Experiment experiment;
-  std::string sources;  ///< where the values come from and which of them are assumed
+  std::string sources;        ///< where the values come from and which of them are assumed
+  std::string left_out = {};  ///< what it does in the world and not in this model; empty for nothing of note
 };
 
 /// The built-in balls.
