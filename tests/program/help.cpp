@@ -144,7 +144,11 @@ TEST_CASE("help theory has every equation of reduction/README.md's chapter, in w
   // What `check` measures: a row each, of every law and start.
   const auto checks = nlohmann::json::parse(run_program("check --format json").out)["checks"];
   REQUIRE(checks.size() > 20);
-  for (const auto& check : checks) CHECK_THAT(text, Contains("\n  " + check["check"].get<std::string>()));
+  for (const auto& check : checks) {
+    const std::string name = check["check"];
+    CHECK_THAT(text, Contains("\n  " + name.substr(0, name.find(", with a drive"))));
+  }
+  CHECK_THAT(text, Contains("with a drive"));
 
   check_rejected("help laws --format tex", "--format tex: is for the theory: contensou help theory --format tex");
   check_rejected("help theory --format html", "no such format");
