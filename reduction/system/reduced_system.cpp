@@ -33,6 +33,12 @@ double allowed_drive(double drive) {
                                       ReducedSystem::least_drive, drive, why));
 }
 
+double of_ball(double patch_ratio) {
+  if (patch_ratio > 0 && patch_ratio <= 1) return patch_ratio;
+  throw std::domain_error(fmt::format(
+      "ReducedSystem: mu = {}: of a ball 0 < mu <= 1 is required; for another body give its Inertia", patch_ratio));
+}
+
 }  // namespace
 
 bool is_state(State state) { return std::isfinite(state.u) && std::isfinite(state.v) && state.v >= 0; }
@@ -52,6 +58,9 @@ ReducedSystem::ReducedSystem(const Law& law, double patch_ratio, Inertia inertia
       // Below this r nothing but time depends on it, and time is had from mu itself (pivoting_limit).
       r_(std::max(inertia.gamma * patch_ratio * patch_ratio / inertia.chi, std::numeric_limits<double>::min())),
       scaled_time_rate_(2 * inertia.chi / (3 * pi)) {}
+
+ReducedSystem::ReducedSystem(const Law& law, double patch_ratio)
+    : ReducedSystem(law, of_ball(patch_ratio), homogeneous_ball) {}
 
 Rate ReducedSystem::field(State state) const {
   require_state("ReducedSystem::field", state);

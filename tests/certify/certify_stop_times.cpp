@@ -83,7 +83,7 @@ TEST_CASE("random stop times of the Pade ball against their enclosures", "[certi
       critical("mu^2 within 1e-3 of 14/5 and 7, k0 in [1e-3, 1e3]");
   const auto add = [&](Sample& sample, double mu, double k0) {
     const double u0 = random.uniform(-2, 2);
-    sample.add(ReducedSystem(PadeLaw{}, mu), {u0, mu * std::abs(u0) * k0});
+    sample.add(ReducedSystem(PadeLaw{}, mu, homogeneous_ball), {u0, mu * std::abs(u0) * k0});
   };
   for (int i = 0; i < points; ++i) add(ordinary, random.log_uniform(1e-10, 1), random.log_uniform(1e-8, 1e8));
   for (int i = 0; i < points / 4; ++i) add(wide, random.uniform(1, 3), random.log_uniform(1e-4, 1e4));
@@ -124,7 +124,7 @@ TEST_CASE("stop times keep the accuracy they state up to mu = 1e6", "[certify]")
     const double mu = random.log_uniform(i % 2 == 0 ? 1e-10 : 1, 1e6);
     // m counts where k is of the size of 1/r at least.
     const double k0 = random.log_uniform(1e-3, 1e3) / (i % 3 == 0 ? 1 : std::max(1.0, mu * mu));
-    const ReducedSystem system(PadeLaw{}, mu);
+    const ReducedSystem system(PadeLaw{}, mu, homogeneous_ball);
     const State start{1, mu * k0};
     const StopTime stop = Flow(system).stop_time(start);
     const double ulp = std::nextafter(stop.tau, infinity) - stop.tau;
@@ -143,7 +143,7 @@ TEST_CASE("random stop times of tables against their enclosures", "[certify]") {
   Sample tables("tables, mu in [1e-10, 1], k0 in [1e-8, 1e8]"), wide("tables, mu in [1, 3], k0 in [1e-4, 1e4]");
   constexpr int starts = 500;
   const auto add = [&](Sample& sample, double mu, double largest_k0) {
-    const ReducedSystem system(PadeLaw{}, mu);
+    const ReducedSystem system(PadeLaw{}, mu, homogeneous_ball);
     std::vector<double> u0, v0;
     for (int i = 0; i < starts; ++i) {
       u0.push_back(random.uniform(-2, 2));
@@ -166,14 +166,14 @@ TEST_CASE("stop times at the ends of the double range against their enclosures",
     const auto speed = [&] {
       return std::ldexp(random.uniform(0.5, 1), static_cast<int>(random.uniform(-1074, 1023)));
     };
-    ends.add(ReducedSystem(PadeLaw{}, random.log_uniform(1e-10, 3)), {speed(), speed()});
+    ends.add(ReducedSystem(PadeLaw{}, random.log_uniform(1e-10, 3), homogeneous_ball), {speed(), speed()});
   }
   for (double mu : {1e-10, 0.1, 1.0, 1.7, 2.5, 2.8}) {
     for (double fraction = 0.999999; fraction < 1.000001; fraction += 1e-7) {
       // P alone next to the largest double, from both sides.
       const double u = std::min(largest / 3.2 * mu * fraction, largest);
-      ends.add(ReducedSystem(PadeLaw{}, mu), {u, u * (mu * 1e-9)});
-      ends.add(ReducedSystem(PadeLaw{}, mu), {std::ldexp(random.uniform(0.5, 1), -1060), 5e-324});
+      ends.add(ReducedSystem(PadeLaw{}, mu, homogeneous_ball), {u, u * (mu * 1e-9)});
+      ends.add(ReducedSystem(PadeLaw{}, mu, homogeneous_ball), {std::ldexp(random.uniform(0.5, 1), -1060), 5e-324});
     }
   }
   ends.judge(promised_beyond);

@@ -123,7 +123,7 @@ TEST_CASE("the printed formulas of the patch hold at every ratio", "[route]") {
 TEST_CASE("the printed equations of the plane are the reduced system of the Pade ball", "[route]") {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   for (double mu : {1e-6, 1e-3, 0.1, 0.7, 1.0, 3.0}) {
-    const ReducedSystem system(PadeLaw{}, mu);
+    const ReducedSystem system(PadeLaw{}, mu, contensou::reduction::homogeneous_ball);
     for (double u : {-1e8, -2.0, -1e-6, 1e-6, 0.3, 5.0}) {
       for (double v : {1e-12, 1e-3, 0.5, 7.0, 1e9}) {
         const State state{u, v};

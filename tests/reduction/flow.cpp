@@ -19,7 +19,7 @@ using Catch::Matchers::Contains;
 TEST_CASE("one flow answers for all motions of a system", "[flow][route]") {
   for (const Law& law : paper_laws()) {
     for (double mu : {0.01, 0.5, 3.0}) {
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       const Flow flow(system), by_quadrature = Flow::by_quadrature(system);
       CHECK(flow.terminal().low == terminal_ratios(law, system.r()).low);
       const std::vector<double> u0{1, -2, 0, 3}, v0{1, 0.1, 2, 0};
@@ -74,7 +74,7 @@ TEST_CASE("a solution of another system is refused", "[flow][domain]") {
 TEST_CASE("the first integral is constant along the steps of (2.6)", "[flow][invariant]") {
   for (const Law& law : paper_laws()) {
     for (double mu : {1e-3, 0.3, 1.0}) {
-      const Flow flow({law, mu});
+      const Flow flow({law, mu, homogeneous_ball});
       const State start{-2, 3};
       const double wanted = flow.log_first_integral(start.u, std::log(start.v));
       const Motion motion = integrate_directly(flow.system(), start);

@@ -49,7 +49,7 @@ Eigen::Vector2d chart_field(const ReducedSystem& system, const SingularPoint& po
 TEST_CASE("Eigenvalues of the paper's system are those of the blow-up by hand", "[phase_plane][table]") {
   for (double mu : {1e-4, 0.1, 0.3, 1.0, 1.6, 1.7, 2.2, 2.6, 2.7, 5.0}) {
     CAPTURE(mu);
-    const PhasePlane plane = phase_plane(ReducedSystem(PadeLaw{}, mu));
+    const PhasePlane plane = phase_plane(ReducedSystem(PadeLaw{}, mu, homogeneous_ball));
     const double A = 8 * (14 - 5 * mu * mu);
     const double B = 15 * pi * (7 - mu * mu);
     CHECK(plane.mu_low == Approx(std::sqrt(14.0 / 5)).epsilon(1e-14));
@@ -178,7 +178,7 @@ TEST_CASE("A ray at the kink k = 1 has the slope of the law there", "[phase_plan
 TEST_CASE("Orbits touch their tangent to the order of contact", "[phase_plane][route]") {
   for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{})}) {
     for (double mu : {0.05, 0.3, 1.0}) {
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       const Orbit orbit = Flow(system).orbit({1, 1});
       const OrbitPoint a = orbit.at_time_left(1e-4 * orbit.stop_time());
       const OrbitPoint b = orbit.at_time_left(1e-7 * orbit.stop_time());

@@ -114,3 +114,11 @@ TEST_CASE("a state is finite with v >= 0; at rest (2.6) has no value", "[reduced
   CHECK_THROWS_WITH(system.slope({0, 1}), Contains("u = 0"));
   CHECK_THROWS_AS(system.slope({0, 0}), std::domain_error);
 }
+
+TEST_CASE("mu of a ball is at most 1; a body of other numbers may have any", "[errors]") {
+  for (double mu : {1.7, std::nextafter(1.0, 2.0), 0.0, -1.0, std::nan("")}) {
+    CHECK_THROWS_WITH(ReducedSystem(HertzLaw{}, mu), Catch::Matchers::Contains("of a ball 0 < mu <= 1 is required"));
+  }
+  CHECK_NOTHROW(ReducedSystem(HertzLaw{}, 1));
+  CHECK_NOTHROW(ReducedSystem(HertzLaw{}, 1.7, {.chi = 1, .gamma = 2}));
+}

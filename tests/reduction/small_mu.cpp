@@ -196,7 +196,7 @@ TEST_CASE("the motion for small mu is of the orders 4 in u and 2 in ln v at any 
     for (double k0 : {0.1, 1.0, 10.0}) {
       CAPTURE(law.name(), k0);
       const double mu = 0.025;
-      const ReducedSystem system(law, mu), half(law, mu / 2);
+      const ReducedSystem system(law, mu, homogeneous_ball), half(law, mu / 2, homogeneous_ball);
       const State start{1, mu * k0}, half_start{1, mu / 2 * k0};
       const MotionErrors whole = motion_errors(system, start), whole_of_half = motion_errors(half, half_start);
       CHECK(std::log2(whole.u / whole_of_half.u) == Approx(4).margin(0.05));
@@ -252,7 +252,7 @@ TEST_CASE("the layer of the Pade ball is Lambert's W", "[small_mu][route]") {
 TEST_CASE("the motion for small mu begins at the start, slows down, and stops at E1", "[small_mu][limit]") {
   for (const Law& law : named_laws()) {
     for (double mu : {1e-8, 0.01, 0.3, 1.0, 1.6, 2.0, 3.0}) {
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       for (const State start : {State{1, 1}, State{-1, 1e-9}, State{1, 1e-300}, State{1e-300, 1}, State{-1e-300, 1e300},
                                 State{1e290, 1e-300}, State{5e-324, 1}, State{0, 3}, State{-3, 0}}) {
         const SmallMuMotion motion(system, start);

@@ -106,7 +106,7 @@ TEST_CASE("stop times on the axes, at rest and at the ends of the double range",
   }
   for (const Law& law : paper_laws()) {
     for (const auto& [mu, start, tau] : cases) {
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       const State mirrored{-start.u, start.v};
       CAPTURE(law.name(), mu, start.u, start.v);
       for (Route route : routes(system)) {
@@ -125,7 +125,7 @@ TEST_CASE("stop times on the axes, at rest and at the ends of the double range",
 TEST_CASE("the stop time grows with both speeds", "[stop_time][invariant]") {
   for (const Law& law : paper_laws()) {
     for (double mu : {1e-3, 0.1, 1.0}) {
-      const Flow flow({law, mu});
+      const Flow flow({law, mu, homogeneous_ball});
       double before = 0;
       for (double v = 1e-6; v < 1e6; v *= 3) {
         const double here = flow.stop_time({1, v}).tau;
@@ -141,7 +141,7 @@ TEST_CASE("routes have names and say what they do", "[stop_time]") {
   const ReducedSystem pade(PadeLaw{}, 0.1);
   const std::vector<Route> all{Route::closed, Route::quadrature, Route::regularised, Route::direct};
   CHECK(routes(pade) == all);
-  CHECK(routes(ReducedSystem(HertzLaw{}, 2)) == std::vector<Route>(all.begin() + 1, all.end()));
+  CHECK(routes(ReducedSystem(HertzLaw{}, 2, homogeneous_ball)) == std::vector<Route>(all.begin() + 1, all.end()));
   for (Route route : all) {
     CHECK(description(route).size() > 20);
     CHECK(description(route).find('\n') == std::string_view::npos);
@@ -164,7 +164,7 @@ TEST_CASE("a route that the system does not have is refused, and what is no stat
 TEST_CASE("a stop time scales bit for bit, also below and above the ordinary", "[stop_time][symmetry]") {
   for (const Law& law : paper_laws()) {
     for (double mu : {1e-3, 0.83, 1.7, 2.9}) {
-      const Flow flow({law, mu});
+      const Flow flow({law, mu, homogeneous_ball});
       for (const State start : {State{1, 0.1}, State{-0.3, 5}, State{2, 1e-7}}) {
         const double tau = flow.stop_time(start).tau;
         for (int power : {-900, -301, -299, 1, 299, 301, 900}) {
@@ -175,7 +175,7 @@ TEST_CASE("a stop time scales bit for bit, also below and above the ordinary", "
     }
   }
   CHECK(Flow({PadeLaw{}, 1}).stop_time({5e-324, 0}).tau == 1.5e-323);  // 3.2 units of the smallest double
-  CHECK(std::isfinite(Flow({PadeLaw{}, 1e150}).stop_time({1, 1}).tau));
+  CHECK(std::isfinite(Flow({PadeLaw{}, 1e150, homogeneous_ball}).stop_time({1, 1}).tau));
 }
 
 TEST_CASE("beyond every ball the Pade law is solved by quadrature, without a seam", "[stop_time][limit]") {

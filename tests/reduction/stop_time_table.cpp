@@ -106,7 +106,7 @@ TEST_CASE("tables of balls are stop_time, and proved", "[stop_time_table][route]
   for (const Law& law : named_laws()) {
     WorstCase worst(law.name());
     for (double mu : {1e-9, 1e-3, 0.1, 0.7, 1.0}) {
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       const StopTimeTable table(system);
       CAPTURE(law.name(), mu, table.worst_error());
       CHECK(table.refused() == 0);
@@ -167,7 +167,7 @@ TEST_CASE("panels that fail their proof are not used, and the table says so", "[
 TEST_CASE("one start and many, cut and shared in any way, have the same bits", "[stop_time_table][invariant]") {
   for (const Law& law : paper_laws()) {
     const double mu = 0.3;
-    const StopTimeTable table(ReducedSystem(law, mu));
+    const StopTimeTable table(ReducedSystem(law, mu, homogeneous_ball));
     Starts starts = random_starts(mu, 20'077);
     // Some that the table leaves to the curve, alone and in company.
     for (std::size_t i : {3U, 4U, 11'000U, 20'076U}) starts.v0[i] = i % 2 == 0 ? -1 : 1e-300;
@@ -217,7 +217,7 @@ TEST_CASE("the loop for one start at a time and the fastest have the same bits",
 TEST_CASE("bodies and speeds at the ends of the double range", "[stop_time_table][limit]") {
   for (const Law& law : paper_laws()) {
     for (double mu : {1e-8, 0.1, 2.0}) {
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       const StopTimeTable table(system);
       const Starts starts = random_starts(mu, 500);
       const auto tau = evaluated(table, starts);
@@ -233,7 +233,7 @@ TEST_CASE("bodies and speeds at the ends of the double range", "[stop_time_table
     }
     for (double mu : {1e-300, 1e-10, 0.1, 1.0}) {
       CAPTURE(law.name(), mu);
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       const StopTimeTable table(system);
       // Alike but for a power of two, in the middle of the double range and near its ends.
       for (int power : {-1030, -950, -850, 850, 950, 1000}) {
@@ -257,7 +257,7 @@ TEST_CASE("what is no start is refused alone and is not a number among others", 
 
   for (const Law& law : paper_laws()) {
     for (double mu : {1e-300, 0.1}) {
-      const StopTimeTable many(ReducedSystem(law, mu));
+      const StopTimeTable many(ReducedSystem(law, mu, homogeneous_ball));
       for (double x : {infinity, -infinity, not_a_number, -1.0, -1e-300}) {
         for (std::size_t place = 0; place < 39; ++place) {
           Starts starts{std::vector<double>(39, 2.0), std::vector<double>(39, 1.0)};

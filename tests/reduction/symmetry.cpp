@@ -21,7 +21,7 @@ template <class Visit>
 void over_systems_and_states(Visit visit) {
   for (const Law& law : paper_laws()) {
     for (double mu : {1e-3, 0.1, 1.0, 2.5}) {
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       for (double k : {1e-5, 0.3, 0.9999, 1.0, 1.0001, 1.25, 8.0, 1e5}) {
         for (double u : {-2.0, 3e-6, 7e5}) {
           CAPTURE(law.name(), mu, k, u);
@@ -96,7 +96,7 @@ TEST_CASE("the separated equation is dv/du in other coordinates", "[similarity][
   WorstCase slope("dp/dq");
   for (const Law& law : paper_laws()) {
     for (double mu : {0.05, 0.9}) {
-      const ReducedSystem system(law, mu);
+      const ReducedSystem system(law, mu, homogeneous_ball);
       for (const State state : {State{1, 0.01}, State{-2, 0.1}, State{0.5, 0.5}, State{-1, 30}}) {
         const double q = state.v / state.u;
         slope.add(1 / (q * (1 - q / system.slope(state))), separated_slope(system, q),

@@ -193,7 +193,7 @@ TEST_CASE("every law passes every check, in every regime", "[verification][route
     // Found with mu = 0.907, k0 = 6e16, Pade: a tail shorter than rounding was reported as if it were the limit; and
     // with mu = 0.5, k0 = 1.1e15: the step to k = 1 was measured by differences of the time, all rounding by then.
     for (double mu : {1e-3, 0.174, 0.502, 0.907, 1.0, 1.4}) {
-      all_pass({law, mu}, at_ratios(1, mu, {1e-4, 1.3, 1e6, 1e10, 1.1e15, 6e16, 7e18, 1e25}));
+      all_pass({law, mu, homogeneous_ball}, at_ratios(1, mu, {1e-4, 1.3, 1e6, 1e10, 1.1e15, 6e16, 7e18, 1e25}));
     }
   }
   for (const char* name : {"pade", "exact", "uniform"}) {

@@ -31,10 +31,15 @@ struct Bounds {
 /// Time is the paper's tau = (3 pi/2) f g t, a speed. A value: cheap to copy, never changes.
 class ReducedSystem {
  public:
-  /// @param patch_ratio  mu = patch radius/R, > 0
+  /// @param patch_ratio  mu = patch radius/R, > 0: a body that has only these numbers may be wider than R
   /// @param drive        rho: 0, or from least_drive to below 1; from 1 on the body would not stop
   /// @throws std::domain_error  if mu, chi or gamma is not a positive finite number, or drive is not one that is allowed
-  ReducedSystem(const Law& law, double patch_ratio, Inertia inertia = homogeneous_ball, double drive = 0);
+  ReducedSystem(const Law& law, double patch_ratio, Inertia inertia, double drive = 0);
+
+  /// The homogeneous ball on a level plane.
+  /// @param patch_ratio  mu, above 0 and at most 1: no patch is wider than the ball
+  /// @throws std::domain_error  for another mu
+  ReducedSystem(const Law& law, double patch_ratio);
 
   const Law& law() const { return law_; }
   double mu() const { return mu_; }
