@@ -53,9 +53,9 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
   for (const fit::Noise& noise : fit.noise) {
     if (noise.outliers.empty() || planned) continue;
     remarks.push_back(fmt::format(
-        "{}: {} of {} values are off by more than 6 standard deviations of the others, at {}; Huber's "
-        "loss (--robust) lets them count for less",
-        fit::kind_of(noise.observable).name, noise.outliers.size(), noise.values, places_of(noise.outliers, tracks)));
+        "{}: {} of {} values are off by more than 6 standard deviations of the others, at {}; {}",
+        fit::kind_of(noise.observable).name, noise.outliers.size(), noise.values, places_of(noise.outliers, tracks),
+        fit.robust ? "Huber's loss lets them count for less" : "with Huber's loss (--robust) they count for less"));
   }
   for (std::size_t i = 0; i < fit.turns.size(); ++i) {
     const auto& [limit, others] = fit.turns[i];
@@ -81,16 +81,18 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
           of, others.front()));
     }
   }
+  for (const fit::OtherMotion& other : fit.other_motions) {
+    const std::string of = tracks.size() > 1 ? escaped(tracks[other.track].name) + ": " : "";
+    remarks.push_back(fmt::format(
+        "{}another motion fits as well: friction {:.4g}, slip {:.4g} m/s, spin {:.4g} rad/s, chi^2 more by {:.2g}; "
+        "intervals contain both, and a column of what is not seen, spin, angle or slip, tells which",
+        of, other.friction, other.slip, other.spin, other.chi2_more));
+  }
   if (const auto& seen = fit.rolling_friction_seen) {
     remarks.push_back(fmt::format(
         "chi^2 would be less by {:.0f} with a rolling friction of about {:.2g} +- {:.1g}, friction then about "
         "{:.3g}: --rolling-friction {:.2g} lets the fit search it",
         seen->chi2_less, seen->value, seen->standard_error, seen->friction, seen->value));
-  }
-  if (fit.at_limit) {
-    remarks.emplace_back(
-        "a value ran into what it may be: friction 1e-4 to 10, a patch not larger than the ball nor so large "
-        "that the law has an invariant ray, slip and R spin up to 100 m/s; are the units right?");
   }
   return remarks;
 }
@@ -222,8 +224,9 @@ constexpr Field<FitReport> answer_fields[]{
      nullptr, 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
     {"tracks", "rad/s",
      "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start; with rolling friction `rolling` in place of `vx`, "
-     "`vy`; of a track with an angle `half_turn_spin`, from where on its turns are found by trial, and `other_spins` "
-     "that fit as well by other turns",
+     "`vy`; of a track with an angle `half_turn_spin`, from where on its turns are found by trial; `other_spins` that "
+     "fit "
+     "as well, by other turns or by another motion",
      [](const FitReport& r) {
        Json list = Json::array();
        for (std::size_t i = 0; i < r.tracks.size(); ++i) {
@@ -232,8 +235,10 @@ constexpr Field<FitReport> answer_fields[]{
            if (is_of_start(estimate) && estimate.track == i)
              track[std::string(name_of(estimate))] = members_of(estimate);
          }
-         if (const fit::Turns& turns = r.best.turns[i]; std::isfinite(turns.half_turn_spin))
-           track.update({{"half_turn_spin", turns.half_turn_spin}, {"other_spins", turns.other_spins}});
+         const double half_turn_spin = r.best.turns[i].half_turn_spin;
+         if (std::isfinite(half_turn_spin)) track["half_turn_spin"] = half_turn_spin;
+         const std::vector<double> other_spins = r.best.other_spins(i);
+         if (std::isfinite(half_turn_spin) || !other_spins.empty()) track["other_spins"] = other_spins;
          list.push_back(std::move(track));
        }
        return list;

@@ -131,6 +131,14 @@ bool Fit::rolls_with_friction() const { return estimates[2].parameter == Paramet
 
 double Fit::correlation_of_contact() const { return estimates[0].free && estimates[1].free ? correlation(0, 1) : 0; }
 
+std::vector<double> Fit::other_spins(std::size_t track) const {
+  std::vector<double> spins = turns[track].other_spins;
+  for (const OtherMotion& each : other_motions) {
+    if (each.track == track) spins.push_back(each.spin);
+  }
+  return spins;
+}
+
 Fit fit(const FitRequest& asked) {
   require(asked);
   FitRequest request = asked;

@@ -206,6 +206,40 @@ Interval Profile::of(const Coordinate& number, double error, double low, double 
   return {end(number, -1, error, low), end(number, 1, error, high)};
 }
 
+std::vector<Profile::Point> Profile::other_minima(const Coordinate& number, const std::vector<double>& values) {
+  std::vector<Point> along(values.size());
+  const auto middle = static_cast<std::size_t>(std::ranges::lower_bound(values, number.of(best_)) - values.begin());
+  const auto follow = [&](std::size_t i, const VectorXd& last) -> const VectorXd& {
+    along[i] = lowest(number, values[i], last, few_starts);
+    return along[i].parameters;
+  };
+  VectorXd last = best_;
+  for (std::size_t i = middle; i < values.size(); ++i) last = follow(i, last);
+  last = best_;
+  for (std::size_t i = middle; i-- > 0;) last = follow(i, last);
+
+  std::vector<Point> minima{{best_, 0}};
+  const auto is_apart = [&](const Point& one, const Point& other) {
+    const auto [low, high] = std::minmax({number.of(one.parameters), number.of(other.parameters)});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (low < values[i] && values[i] < high && along[i].excess > rise_) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < values.size() && !better_; ++i) {
+    const double before = i > 0 ? along[i - 1].excess : endless;
+    const double after = i + 1 < values.size() ? along[i + 1].excess : endless;
+    if (along[i].excess > std::min(before, after)) continue;
+    const VectorXd parameters = search_.improved(along[i].parameters, nullptr, tolerance);
+    const Point found{parameters, search_.cost(parameters) - least_};
+    if (found.excess < -better_by) better_ = parameters;
+    if (!(found.excess < rise_)) continue;
+    points_.push_back(found);
+    if (std::ranges::all_of(minima, [&](const Point& each) { return is_apart(each, found); })) minima.push_back(found);
+  }
+  return {minima.begin() + 1, minima.end()};
+}
+
 bool Profile::reaches_beyond(const Coordinate& number, const Interval& interval) const {
   const double value = number.of(best_);
   const double low = value - (1 + 4 * sharp) * (value - interval.low);

@@ -32,6 +32,17 @@ class Profile {
   /// @param low, high  its least and largest values that can be
   Interval of(const Coordinate& number, double error, double low, double high);
 
+  /// Parameters, and by how much more their sum of squares is than that of the estimate.
+  struct Point {
+    Eigen::VectorXd parameters;
+    double excess;
+  };
+
+  /// Finds the minima apart from the estimate that an interval allows: between it and each of them is a value of the number
+  /// that no interval allows, all else fitted anew. An interval that is asked for later spans them.
+  /// @param values  of the number, increasing, so close that no two minima lie between neighbours
+  std::vector<Point> other_minima(const Coordinate& number, const std::vector<double>& values);
+
   /// Whether the valley was met beyond an interval of a number, when another one was followed.
   bool reaches_beyond(const Coordinate& number, const Interval& interval) const;
 
@@ -39,11 +50,6 @@ class Profile {
   const std::optional<Eigen::VectorXd>& better() const { return better_; }
 
  private:
-  struct Point {
-    Eigen::VectorXd parameters;
-    double excess;
-  };
-
   /// Improves the best guess of each friction and of each patch radius, which lie about the valley.
   void spread();
 

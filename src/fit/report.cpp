@@ -14,6 +14,7 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
+#include "fit/dependence.hpp"
 #include "fit/profile.hpp"
 #include "fit/student.hpp"
 
@@ -33,11 +34,20 @@ constexpr double unknown = 0.5;
 /// good model of the sum of squares; nor where a number is known worse than the last.
 constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01, nonlinear = 0.1;
 
+/// Rarer by chance than in one of ten thousand films: so many standard deviations of a normal distribution.
+constexpr double too_rare = 3.7;
+/// Errors below this share of the range of the values are no noise of a film, but those of computed or rounded numbers.
+constexpr double sharpest_film = 1e-4;
+
+/// The rise of a sum of squares that is the least of several minima, over that of one.
+constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
+
 bool is_of_contact(Parameter parameter) { return static_cast<int>(parameter) < contact_parameters; }
 
 /// The inverse of a matrix of information, and which parameters it does not decide.
 struct Inverse {
   MatrixXd covariance;
+  MatrixXd root;  ///< times its transpose: the covariance
   std::vector<bool> undecided;
 };
 
@@ -49,8 +59,8 @@ Inverse inverse_of(const MatrixXd& information) {
   const VectorXd values = solver.eigenvalues().cwiseMax(undecided);
   const MatrixXd& vectors = solver.eigenvectors();
   Inverse result;
-  result.covariance = inverse_scale.asDiagonal() * vectors * values.cwiseInverse().asDiagonal() * vectors.transpose() *
-                      inverse_scale.asDiagonal();
+  result.root = inverse_scale.asDiagonal() * vectors * values.cwiseInverse().cwiseSqrt().asDiagonal();
+  result.covariance = result.root * result.root.transpose();
   for (Index i = 0; i < information.rows(); ++i) {
     double share = 0;
     for (Index k = 0; k < values.size(); ++k) {
@@ -81,20 +91,14 @@ class Reporter {
         request_(search.request),
         planned_(planned),
         parameters_(search.model.limited(solution)),
-        values_(search.model.values(parameters_)) {
-    fit_.at_limit = std::ranges::any_of(search.free, [&](Index place) {
-      const auto [low, high] = search.model.range(place);
-      // Nothing is wrong with a 0.
-      return (parameters_[place] <= low && low != 0) || parameters_[place] >= high;
-    });
-  }
+        values_(search.model.values(parameters_)) {}
 
   Report report() {
     set_size();
     set_errors();
     set_estimates();
     set_only_by_curvature();
-    if (!planned_ && needs_profile()) set_profiles();
+    if (!planned_) set_profiles();
     set_noise();
     set_predicted();
     set_ball();
@@ -110,6 +114,11 @@ class Reporter {
   void set_size();
   /// Covariance and correlations, by curvature.
   void set_errors();
+  void set_covariance(const MatrixXd& covariance);
+  /// How errors of unknown size depend on each other, and what that adds to the covariance.
+  void set_dependence();
+  /// By what the variance of a number is larger than of independent errors.
+  double growth_of(const Coordinate& number) const;
   void set_estimates();
   void add_estimate(Parameter parameter, std::size_t track);
   /// Of a plan: the combination that is known where friction and patch radius are not.
@@ -128,6 +137,7 @@ class Reporter {
   };
   std::optional<Number> number_of(std::size_t estimate) const;
   Number combined(const Eigen::Vector2d& powers) const;
+  void set_other_motions(Profile& profile);
   void set_profile(const Number& number);
   void set_only(const std::vector<Number>& numbers);
   Outlier place_of(Eigen::Index row) const;
@@ -136,6 +146,7 @@ class Reporter {
   void set_ball();
   /// What the ball's numbers are known to; nothing where the data leave one of them open.
   void set_spreads();
+  double held_back(std::size_t free) const;
   void set_misfits();
   void set_rolling_friction_seen();
   void require_numbers() const;
@@ -144,6 +155,12 @@ class Reporter {
   bool both_free() const { return request_.free.friction && request_.free.patch_radius; }
   /// Whether a number of the start is in the data as such.
   bool is_seen(Parameter parameter, std::size_t track) const;
+  /// Whether x, y, vx or vy is in the data.
+  bool moves(std::size_t track) const;
+  /// A residual, or what Huber's loss lets it count for.
+  double bounded(double residual) const {
+    return request_.robust ? std::clamp(residual, -huber_bend, huber_bend) : residual;
+  }
 
   const Search& search_;
   const FitRequest& request_;
@@ -152,8 +169,10 @@ class Reporter {
   MatrixXd derivatives_;  ///< of the residuals, by what is free
   MatrixXd information_;
   Inverse inverse_;
-  VectorXd deviation_;   ///< standard errors of the free parameters
-  double variance_ = 1;  ///< by which the robust loss needs more data for the same error
+  MatrixXd covariance_;       ///< of the free parameters
+  VectorXd deviation_;        ///< their standard errors
+  Dependence dependence_[7];  ///< of the errors of each observable, where their size is not given
+  double variance_ = 1;       ///< by which the robust loss needs more data for the same error
   double quantile_ = normal_quantile;
   Fit fit_;
   std::optional<VectorXd> better_;
@@ -162,6 +181,7 @@ class Reporter {
 void Reporter::set_size() {
   const auto count = static_cast<Index>(search_.free.size());
   fit_.law = request_.law.name();
+  fit_.robust = request_.robust;
   fit_.ball = request_.ball;
   fit_.values = search_.values;
   fit_.degrees_of_freedom = static_cast<double>(search_.values - count);
@@ -183,7 +203,7 @@ void Reporter::set_errors() {
   if (request_.robust && !planned_) {
     double squares = 0, slopes = 0;
     for (double residual : residuals_) {
-      const double size = std::min(std::abs(residual), huber_bend);
+      const double size = std::abs(bounded(residual));
       squares += size * size;
       if (std::abs(residual) <= huber_bend) slopes += 1;
     }
@@ -192,9 +212,65 @@ void Reporter::set_errors() {
     variance_ = squares / std::max(fit_.degrees_of_freedom, 1.0) / (share * share);
   }
   inverse_ = inverse_of(information_);
-  deviation_ = (variance_ * inverse_.covariance.diagonal()).cwiseSqrt();
-  fit_.correlation =
-      variance_ * deviation_.cwiseInverse().asDiagonal() * inverse_.covariance * deviation_.cwiseInverse().asDiagonal();
+  set_covariance(variance_ * inverse_.covariance);
+  if (!planned_ && search_.any_estimated()) set_dependence();
+}
+
+void Reporter::set_covariance(const MatrixXd& covariance) {
+  covariance_ = covariance;
+  deviation_ = covariance_.diagonal().cwiseSqrt();
+  const VectorXd inverse_deviation = deviation_.cwiseInverse();
+  fit_.correlation = inverse_deviation.asDiagonal() * covariance_ * inverse_deviation.asDiagonal();
+}
+
+/// The covariance of the estimate is C J^T E[e e^T] J C. As the derivatives J change little from value to value, J^T E[e e^T] J of
+/// a column is g J^T J, with g the growth of the variance of its means: n values are worth n/g.
+void Reporter::set_dependence() {
+  const MatrixXd rows_of_A = derivatives_ * inverse_.root;
+  VectorXd more = VectorXd::Zero(residuals_.size());  // g - 1, row by row
+  double worth = static_cast<double>(search_.values);
+  for (std::size_t place = 0; place < std::size(dependence_); ++place) {
+    const std::vector<Index>& rows = search_.rows_of[place];
+    if (!search_.estimated[place]) continue;
+    const auto n = static_cast<double>(rows.size());
+    double squares = 0, fitted = 0;
+    for (Index row : rows) {
+      squares += std::pow(bounded(residuals_[row]), 2);
+      fitted += rows_of_A.row(row).squaredNorm();
+    }
+    const double variance = squares / std::max(1.0, n - fitted);
+    const auto [least, most] = std::ranges::minmax(VectorXd(search_.data(rows)));
+    if (std::sqrt(variance) < sharpest_film * (most - least) * search_.weight[rows.front()]) continue;
+    std::vector<MatrixXd> runs(request_.tracks.size());
+    std::vector<std::vector<Index>> rows_of(runs.size());
+    for (Index row : rows) rows_of[place_of(row).track].push_back(row);
+    for (std::size_t track = 0; track < runs.size(); ++track) {
+      const std::vector<Index>& of = rows_of[track];
+      runs[track].resize(static_cast<Index>(of.size()), rows_of_A.cols() + 1);
+      runs[track] << residuals_(of).unaryExpr([this](double each) { return bounded(each); }),
+          std::sqrt(variance) * rows_of_A(of, Eigen::all);
+    }
+    dependence_[place] = dependence_of(runs);
+    // Less than 1 is chance.
+    const double growth = std::max(1.0, dependence_[place].growth);
+    for (Index row : rows) more[row] = growth - 1;
+    worth -= n * (1 - 1 / growth);
+  }
+  if (more.isZero()) return;
+  set_covariance(covariance_ + variance_ * inverse_.covariance *
+                                   (derivatives_.transpose() * more.asDiagonal() * derivatives_) * inverse_.covariance);
+  const auto found = static_cast<double>(search_.free.size());
+  quantile_ = student_quantile(std::max(1.0, std::floor(worth - found)));
+}
+
+double Reporter::growth_of(const Coordinate& number) const {
+  VectorXd along = VectorXd::Zero(covariance_.rows());
+  for (Index i = 0; i < along.size(); ++i) {
+    const Index place = search_.free[static_cast<std::size_t>(i)];
+    if (number.of_contact() ? place < contact_parameters : place == number.place)
+      along[i] = number.of_contact() ? number.powers[place] : 1;
+  }
+  return along.dot(covariance_ * along) / (variance_ * along.dot(inverse_.covariance * along));
 }
 
 void Reporter::add_estimate(Parameter parameter, std::size_t track) {
@@ -265,6 +341,13 @@ bool Reporter::is_seen(Parameter parameter, std::size_t track) const {
   return parameter == Parameter::slip ? has(Observable::slip) : has(Observable::spin) || has(Observable::angle);
 }
 
+bool Reporter::moves(std::size_t track) const {
+  return std::ranges::any_of(request_.tracks[track].series, [](const Series& series) {
+    using enum Observable;
+    return series.observable == x || series.observable == y || series.observable == vx || series.observable == vy;
+  });
+}
+
 bool Reporter::is_vague() const {
   if (std::ranges::any_of(inverse_.undecided, std::identity())) return true;
   for (std::size_t i = 0; i < search_.free.size(); ++i) {
@@ -288,19 +371,61 @@ bool Reporter::needs_profile() const {
          std::max(deviation_[0], deviation_[1]) > hardly_nonlinear;
 }
 
+/// A motion depends on k = v/(patch radius |spin|) at the start. Where nothing shows the spin, two k can give a slip that
+/// slows down alike, with another friction each; so it is for a slip that nothing shows.
+void Reporter::set_other_motions(Profile& profile) {
+  // A patch that is free makes up for any spin: then profiles are wide.
+  if (request_.free.patch_radius) return;
+  const double patch = std::exp(parameters_[1]);
+  for (std::size_t track = 0; track < request_.tracks.size() && !profile.better(); ++track) {
+    const auto place_of_hidden = [&]() -> Index {
+      for (const Parameter each : {Parameter::spin, Parameter::slip}) {
+        const bool by_velocity = each == Parameter::slip && request_.ball.ball.body.lies_flat() && moves(track);
+        if (is_free(TrackModel::place(each, track)) && !is_seen(each, track) && !by_velocity)
+          return TrackModel::place(each, track);
+      }
+      return -1;
+    }();
+    if (place_of_hidden < 0) continue;
+    const Coordinate hidden{.place = place_of_hidden};
+    const double slip = std::abs(parameters_[TrackModel::place(Parameter::slip, track)]);
+    const double spin = std::abs(parameters_[TrackModel::place(Parameter::spin, track)]);
+    const bool is_spin = TrackModel::parameter_at(place_of_hidden) == Parameter::spin;
+    // Beyond these k one of the speeds hardly changes the other.
+    constexpr double farthest = 3.2, step = 0.4;
+    std::vector<double> values;
+    for (double ln_k = -farthest; ln_k <= farthest + step / 2; ln_k += step) {
+      const double size = is_spin ? slip / (patch * std::exp(ln_k)) : spin * patch * std::exp(ln_k);
+      if (size > 0 && size < search_.model.range(place_of_hidden).high)
+        values.push_back(std::copysign(size, hidden.of(parameters_)));
+    }
+    std::ranges::sort(values);
+    profile.set_rise(of_two_numbers * quantile_ * quantile_ * variance_ * growth_of(hidden));
+    for (const auto& [parameters, excess] : profile.other_minima(hidden, values)) {
+      fit_.other_motions.push_back({track, std::exp(parameters[0]),
+                                    parameters[TrackModel::place(Parameter::slip, track)],
+                                    parameters[TrackModel::place(Parameter::spin, track)], excess});
+    }
+  }
+}
+
 void Reporter::set_profiles() {
-  fit_.profiled = true;
   // Orbits as sharp as a film is.
   Search quick(request_, accuracy_of_guess);
   quick.weight = search_.weight;
   quick.guesses = search_.guesses;
-  const double rise = quantile_ * quantile_ * variance_;
+  const double least_rise = quantile_ * quantile_ * variance_;
   const bool wide = is_vague();
-  Profile profile(quick, parameters_, rise, wide);
+  Profile profile(quick, parameters_, least_rise, wide);
+  set_other_motions(profile);
+  better_ = profile.better();
+  fit_.profiled = !fit_.other_motions.empty() || needs_profile();
+  if (better_ || !fit_.profiled) return;
   std::vector<Number> numbers;
   for (std::size_t i = 0; i < fit_.estimates.size(); ++i) {
     const std::optional<Number> number = number_of(i);
-    if (number && (wide || number->coordinate.of_contact())) numbers.push_back(*number);
+    const bool all = wide || !fit_.other_motions.empty();
+    if (number && (all || number->coordinate.of_contact())) numbers.push_back(*number);
   }
   if (both_free() && wide) {
     for (const Eigen::Vector2d& powers : {Eigen::Vector2d(1, 1), Eigen::Vector2d(1, -1)})
@@ -309,9 +434,11 @@ void Reporter::set_profiles() {
   // The patch first: it is the number that most films tell least of, so that its valley is the longest.
   std::ranges::stable_sort(numbers, {},
                            [](const Number& number) { return number.coordinate.powers != Eigen::Vector2d(0, 1); });
-  // Of a slip or spin that nothing shows, with a friction that nothing ends, the best motion may be one of many.
-  constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
+  // The best motion may be one of many: where there are other ones, and of a slip or spin that nothing shows, with a
+  // friction that nothing ends.
   const auto rise_of = [&](const Number& number) {
+    const double rise = least_rise * growth_of(number.coordinate);
+    if (!fit_.other_motions.empty()) return of_two_numbers * rise;
     if (!number.estimate || number.coordinate.of_contact()) return rise;
     const Estimate& estimate = fit_.estimates[*number.estimate];
     const auto is_open = [](const Number& each) {
@@ -353,7 +480,7 @@ std::optional<Reporter::Number> Reporter::number_of(std::size_t estimate) const 
 Reporter::Number Reporter::combined(const Eigen::Vector2d& powers) const {
   const TrackModel::Range friction = search_.model.range(0), patch = search_.model.range(1);
   const auto [low, high] = powers[1] > 0 ? patch : TrackModel::Range{-patch.high, -patch.low};
-  const double variance = variance_ * powers.dot(inverse_.covariance.topLeftCorner<2, 2>() * powers);
+  const double variance = powers.dot(covariance_.topLeftCorner<2, 2>() * powers);
   return {{.powers = powers}, {}, std::sqrt(variance), friction.low + low, friction.high + high, {}};
 }
 
@@ -516,13 +643,27 @@ void Reporter::set_spreads() {
   fit_.ball.spreads = si::spreads_of(slopes * fit_.correlation * slopes.transpose(), named);
 }
 
+/// By how many standard errors a parameter would go beyond its limit.
+double Reporter::held_back(std::size_t free) const {
+  const Index place = search_.free[free];
+  const auto [low, high] = search_.model.range(place);
+  const bool below = parameters_[place] <= low, above = parameters_[place] >= high;
+  if (!below && !above) return 0;
+  const double outward = search_.slope(parameters_, VectorXd::Unit(parameters_.size(), place)) * (below ? -1 : 1);
+  const auto at = static_cast<Index>(free);
+  return -outward / 2 * inverse_.covariance(at, at) / deviation_[at];
+}
+
 void Reporter::set_misfits() {
   for (std::size_t i = 0; i < search_.free.size(); ++i) {
-    const Index place = search_.free[i], column = static_cast<Index>(i);
-    if (TrackModel::parameter_at(place) != Parameter::rolling || parameters_[place] > 0) continue;
-    // By how many standard errors it would go below 0.
-    constexpr double far = 4;
-    if (derivatives_.col(column).dot(residuals_) * deviation_[column] > far) {
+    if (held_back(i) < too_rare) continue;
+    const Parameter parameter = TrackModel::parameter_at(search_.free[i]);
+    if (parameter != Parameter::rolling) {
+      fit_.misfits.push_back(fmt::format(
+          "the film asks for a {} beyond what it may be: friction 1e-4 to 10, a patch not larger than the ball "
+          "nor so large that the law has an invariant ray, slip and R spin up to 100 m/s; are the units right?",
+          kind_of(parameter).name));
+    } else {
       fit_.misfits.emplace_back(
           "the ball turns against its sliding at first, as after a draw, which a fit with rolling friction does not "
           "know: "
@@ -539,19 +680,26 @@ void Reporter::set_misfits() {
   }
   for (const Noise& noise : fit_.noise) {
     const auto& [observable, name, unit, meaning] = kind_of(noise.observable);
-    const double scatter = search_.scatter[static_cast<std::size_t>(observable)];
-    constexpr double some_times = 5, blurred = 0.5;
+    const auto place = static_cast<std::size_t>(observable);
+    // Rounded values are off as their neighbours are.
+    const double correlation = noise.sd > search_.rounding[place] ? dependence_[place].neighbours : 0;
+    // Of few values chance allows any; 0.9 is that of values that are off the motion by four times of what their
+    // neighbours are.
+    constexpr double surely = 0.9, blurred = 0.5;
+    const double by_chance = std::min(surely, too_rare / std::sqrt(static_cast<double>(noise.values)));
     if (observable == Observable::angle && noise.estimated && noise.sd > blurred) {
       fit_.misfits.push_back(fmt::format(
           "the angle is off by {:.2g} rad on the average, so that its whole turns are not known", noise.sd));
-    } else if (noise.estimated && scatter > 0 && noise.sd > some_times * scatter) {
-      fit_.misfits.push_back(fmt::format("{} is off by {:.2g} {} on the average, and off its neighbours by {:.2g} only",
-                                         name, noise.sd, unit, scatter));
+    } else if (noise.estimated && correlation > by_chance) {
+      fit_.misfits.push_back(fmt::format(
+          "{} is off by {:.2g} {} on the average, and neighbours are off alike: their correlation is {:.2f}, "
+          "by chance up to {:.2f}",
+          name, noise.sd, unit, correlation, by_chance));
     }
   }
   if (std::ranges::all_of(fit_.noise, &Noise::estimated) && !fit_.noise.empty()) return;
   // By Wilson and Hilferty's approximation the cube root of chi^2 is normal.
-  constexpr double too_much = 2, too_rare = 3.7;
+  constexpr double too_much = 2;
   const double n = fit_.degrees_of_freedom, share = 2 / (9 * n);
   double reduced = fit_.reduced_chi2();
   if (request_.robust) {  // which lets some values be far off
@@ -592,9 +740,8 @@ void Reporter::set_rolling_friction_seen() {
   const double alone = by_it.squaredNorm() - (derivatives_.transpose() * by_it).dot(others);
   constexpr double hardly_any = 1e-6, far_better = 12;
   if (!(alone > hardly_any * by_it.squaredNorm())) return;
-  const VectorXd bounded =
-      request_.robust ? VectorXd(residuals_.cwiseMax(-huber_bend).cwiseMin(huber_bend)) : residuals_;
-  const double value = -bounded.dot(by_it - derivatives_ * others) / alone;
+  const VectorXd sizes = residuals_.unaryExpr([this](double each) { return bounded(each); });
+  const double value = -sizes.dot(by_it - derivatives_ * others) / alone;
   const double chi2_less = value * value * alone / variance_;
   if (!(value > 0 && chi2_less > far_better)) return;
   const double friction = std::exp(parameters_[0] - (request_.free.friction ? others[0] * value : 0));

@@ -32,22 +32,20 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  for (double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(values.size()));
-}
-
-/// The least difference of two values that differ; 0 where none do.
+/// The step that all differences of values are multiples of, by Euclid's algorithm; 0 where no values differ.
 double resolution(const VectorXd& data, const std::vector<Index>& rows) {
-  std::vector<double> values;
-  for (Index row : rows) values.push_back(data[row]);
-  std::ranges::sort(values);
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    if (values[i] > values[i - 1]) least = std::min(least, values[i] - values[i - 1]);
+  const VectorXd values = data(rows);
+  constexpr double sharp = 1e-9;
+  const double none = sharp * (values.maxCoeff() - values.minCoeff());
+  double step = 0;
+  for (double value : values) {
+    for (double other = std::abs(value - values[0]); other > none;) {
+      const double rest = std::abs(std::remainder(step, other));
+      step = other;
+      other = rest;
+    }
   }
-  return std::isfinite(least) ? least : 0;
+  return step;
 }
 
 /// Of x it is y and so on; of others they themselves.
@@ -263,8 +261,7 @@ Search::Search(const FitRequest& asked, double accuracy)
           count, min_of_unknown_noise));
     }
     rounding[place] = resolution(data, rows_of[place]);
-    scatter[place] = std::max(root_mean_square(errors[place]), rounding[place]);
-    if (scatter[place] == 0) {
+    if (rounding[place] == 0) {
       // The same value everywhere: as sharp as what the same camera says across.
       const std::size_t other = other_axis(place);
       const bool varies = other != place && !rows_of[other].empty() && resolution(data, rows_of[other]) > 0;

@@ -63,8 +63,7 @@ class Search {
   Eigen::Index values = 0;               ///< measured ones
   std::vector<Eigen::VectorXd> guesses;  ///< what solve() has begun from, the best first
 
-  double rounding[7] = {};  ///< the least difference of values whose sd is not known
-  double scatter[7] = {};   ///< of these about their neighbours, at least that difference
+  double rounding[7] = {};  ///< the step that values whose sd is not known are rounded to; tiny where they are not
 
   bool any_estimated() const;
 

@@ -61,7 +61,7 @@ py::dict found_of(const fit::Fit& found) {
   result["profiled"] = found.profiled;
   result["predicted"] = predicted;
   result["misfits"] = found.misfits;
-  result["other_spins"] = found.turns.front().other_spins;
+  result["other_spins"] = found.other_spins(0);
   if (const auto& seen = found.rolling_friction_seen) {
     result["rolling_friction_seen"] =
         py::make_tuple(seen->value, seen->standard_error, seen->friction, seen->chi2_less);

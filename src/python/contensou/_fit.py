@@ -62,7 +62,7 @@ class Fit:
     reduced_chi2: nan or inf where there are no more values than numbers to be found
     profiled:     whether the intervals are by profile likelihood
     misfits:      why this is not the motion of the film, in words; empty where it may be
-    other_spins:  at the start, which explain the film as well, by other whole turns between two pictures
+    other_spins:  at the start, which explain the film as well, by other whole turns between two pictures or by another motion
     only:         the one combination of friction and patch_radius that the film determines, where it does no more
     rolling_friction_seen:  where the film shows rolling friction that the ball has not
     aic:          Akaike's criterion, to compare laws on the same film: the smaller the better

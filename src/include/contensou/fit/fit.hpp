@@ -116,6 +116,13 @@ struct Turns {
   std::vector<double> other_spins = {};  ///< at the start, which explain the data as well
 };
 
+/// Another motion that explains the data as well: of a puck seen by x and y, say, one with less spin and less friction.
+struct OtherMotion {
+  std::size_t track;            ///< its start is what differs
+  double friction, slip, spin;  ///< SI; the last two at the start of the track
+  double chi2_more;             ///< difference of the sums of squares
+};
+
 /// Rolling friction that was not searched, and by which the data would be explained better by far: by one step from a fit
 /// without it.
 struct RollingFrictionSeen {
@@ -138,19 +145,22 @@ struct Fit {
   double degrees_of_freedom = 0;
   double aic = 0;                                      ///< Akaike's criterion: the smaller, the better the law
   std::optional<Combination> only = {};                ///< where the data do not decide friction and patch radius each
+  bool robust = false;                                 ///< whether by Huber's loss
   bool profiled = false;                               ///< whether the intervals are by profile likelihood
-  bool at_limit = false;                               ///< whether a value ran into what it may be
   std::vector<std::vector<Eigen::ArrayXd>> predicted;  ///< of each track, each series: what the fitted motion gives
 
   /// Why this is not the motion of the data, in words; empty where it may be.
   std::vector<std::string> misfits = {};
-  std::vector<Turns> turns = {};  ///< of each track
+  std::vector<Turns> turns = {};                ///< of each track
+  std::vector<OtherMotion> other_motions = {};  ///< minima apart from the estimate; the intervals contain them
   std::optional<RollingFrictionSeen> rolling_friction_seen = {};
 
   const Estimate& estimate(Parameter parameter, std::size_t track = 0) const;
   bool rolls_with_friction() const;  ///< whether rolling friction is among the estimates
   std::vector<const Estimate*> free_estimates() const;
   double correlation_of_contact() const;  ///< of friction and patch radius; 0 unless both are free
+  /// Returns the spins at the start that explain the data as well, by other turns of an angle or by another motion.
+  std::vector<double> other_spins(std::size_t track) const;
   bool fits() const { return misfits.empty(); }
   double reduced_chi2() const { return chi2 / degrees_of_freedom; }  ///< NaN or infinite without degrees of freedom
 };
