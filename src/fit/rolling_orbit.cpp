@@ -9,28 +9,18 @@
 
 namespace contensou::fit {
 
-namespace {
-
-constexpr double to_either_side = 1e-4;  // of the numbers
-constexpr double least_drive = 0.01;     // that counts as large beside a step
-
-}  // namespace
-
 RollingOrbit::RollingOrbit(const reduction::Law& law, double mu, reduction::State start, double rolling_at_start,
                            double by_drive, reduction::Inertia inertia, double accuracy)
-    : RollingOrbit(law,
-                   {std::log(mu), start.v, start.u, rolling_at_start,
-                    std::min(by_drive, ScaledOrbit::greatest_drive(law, mu, inertia))},
-                   inertia, accuracy) {}
-
-RollingOrbit::RollingOrbit(reduction::Law law, const Numbers& at, reduction::Inertia inertia, double accuracy)
-    : law_(std::move(law)), at_(at), inertia_(inertia), accuracy_(accuracy) {
-  const double share = 1 - 1 / inertia.chi, mu = std::exp(at_[ln_mu]), v = at_[slip], w = mu * std::abs(at_[spin]);
+    : law_(law),
+      at_{std::log(mu), start.v, start.u, rolling_at_start,
+          std::min(by_drive, ScaledOrbit::greatest_drive(law, mu, inertia))},
+      inertia_(inertia),
+      accuracy_(accuracy) {
+  const double share = 1 - 1 / inertia.chi, v = at_[slip], w = mu * std::abs(at_[spin]);
   rests_ = at_[drive] > 0 ? (at_[rolling] + share * v) / at_[drive] : infinity;
   const double force = v > 0 || w > 0 ? law_({v, w}).force : 0;
-  const Speeds start{v, at_[spin], 0, 0, v, 0};
   if (at_[rolling] == 0 && share * force <= at_[drive]) {
-    hold(0, start);
+    hold(0, {v, at_[spin], 0, 0, v, 0});
   } else {
     turns_.emplace(law_, mu, reduction::State{.u = at_[spin], .v = v}, accuracy_, inertia_, at_[drive]);
   }
@@ -48,7 +38,6 @@ void RollingOrbit::hold(double T, const Speeds& then) {
 }
 
 void RollingOrbit::reach(double T) {
-  reached_ = std::max(reached_, T);
   if (!held_) {
     turns_->reach(std::min(T, rests_));
     const double last = std::min(T, rests_);
@@ -65,11 +54,6 @@ void RollingOrbit::reach(double T) {
     }
   }
   if (held_) held_->reach(T - held_from_);
-  if (!differences_) return;
-  for (Difference& each : *differences_) {
-    each.first->reach(reached_);
-    each.second->reach(reached_);
-  }
 }
 
 Speeds RollingOrbit::speeds_at(double T) const {
@@ -90,78 +74,81 @@ Speeds RollingOrbit::speeds_at(double T) const {
 
 Speeds RollingOrbit::speeds_at(double T, std::size_t& /*cell*/) const { return speeds_at(T); }
 
-const std::array<RollingOrbit::Difference, RollingOrbit::numbers>& RollingOrbit::differences() const {
-  if (differences_) return *differences_;
-  const double speed = at_[slip] + std::exp(at_[ln_mu]) * std::abs(at_[spin]);
-  Numbers steps{to_either_side, to_either_side * speed, to_either_side * std::abs(at_[spin]),
-                to_either_side * (at_[rolling] + at_[slip]), to_either_side * std::max(at_[drive], least_drive)};
-  if (at_[spin] == 0) steps[spin] = to_either_side * speed;
-  for (double& each : steps) {
-    if (each == 0) each = to_either_side;
-  }
-  const double greatest = ScaledOrbit::greatest_drive(law_, std::exp(at_[ln_mu] + to_either_side), inertia_);
-  differences_.emplace();
-  for (std::size_t number = 0; number < numbers; ++number) {
-    const double h = steps[number];
-    // To both sides; from the least value that can be, to one.
-    const bool bounded = number == slip || number == rolling || number == drive;
-    const bool low = bounded && at_[number] < h, high = number == drive && at_[number] + h > greatest;
-    const double first = low ? h : -h, second = low ? 2 * h : high ? -2 * h : h;
-    const auto orbit = [&](double by) {
-      Numbers beside = at_;
-      beside[number] += by;
-      std::unique_ptr<RollingOrbit> result(new RollingOrbit(law_, beside, inertia_, accuracy_));
-      result->reach(reached_);
-      return result;
-    };
-    Difference& each = (*differences_)[number];
-    each.first = orbit(first);
-    each.second = orbit(second);
-    // Of the parabola through the three.
-    each.of_here = -(first + second) / (first * second);
-    each.of_first = second / (first * (second - first));
-    each.of_second = -first / (second * (second - first));
-  }
-  return *differences_;
+std::array<Speeds FilmOrbit::Moment::*, RollingOrbit::numbers> RollingOrbit::derivatives() {
+  return {&Moment::by_ln_mu, &Moment::by_v, &Moment::by_u, &Moment::by_rolling, &Moment::by_drive};
 }
 
-FilmOrbit::Moment RollingOrbit::at(double T, std::size_t& /*cell*/) const {
-  Moment result{};
+void RollingOrbit::set_rates(Moment& moment, bool is_held) const {
+  const double mu = std::exp(at_[ln_mu]), w = mu * std::abs(moment.now.u);
+  if (!(moment.now.v > 0 || w > 0)) return;
+  const auto [force, torque] = law_({moment.now.v, w});
+  moment.dv = is_held ? -force : -inertia_.chi * (force - at_[drive]);
+  moment.du = -inertia_.gamma * mu * torque * (moment.now.u > 0 ? 1 : moment.now.u < 0 ? -1 : 0);
+  moment.dcentre = -force;
+}
+
+FilmOrbit::Moment RollingOrbit::turning_moment(double T) const {
+  Moment result = turns_->at(T, turns_cell_);
   result.now = speeds_at(T);
-  const bool is_held = held_ && T >= held_from_;
-  const double mu = std::exp(at_[ln_mu]), w = mu * std::abs(result.now.u);
-  if (result.now.v > 0 || w > 0) {
-    const auto [force, moment] = law_({result.now.v, w});
-    result.dv = is_held ? -force : -inertia_.chi * (force - at_[drive]);
-    result.du = -inertia_.gamma * mu * moment * (result.now.u > 0 ? 1 : result.now.u < 0 ? -1 : 0);
-    result.dcentre = -force;
-  } else if (!is_held && T < rests_) {
-    result.dcentre = -at_[drive];
+  set_rates(result, false);
+  if (result.now.v == 0 && result.now.u == 0) result.dcentre = T < rests_ ? -at_[drive] : 0;
+  const double rolls = std::min(T, rests_), share = 1 - 1 / inertia_.chi;
+  for (std::size_t number = 0; number < numbers; ++number) {
+    Speeds& by = result.*derivatives()[number];
+    const double by_v0 = number == slip, by_W0 = number == rolling, by_rho = number == drive;
+    by.centre = T < rests_ ? by.v + by_W0 + share * (by_v0 - by.v) - by_rho * T : 0;
+    by.way = (by_v0 + by_W0) * rolls - (by_v0 * rolls - by.slid) / inertia_.chi - by_rho * rolls * rolls / 2;
   }
-  const auto& all = differences();
-  const auto by = [&](std::size_t number) {
-    const Difference& each = all[number];
-    return each.of_here * result.now + each.of_first * each.first->speeds_at(T) +
-           each.of_second * each.second->speeds_at(T);
-  };
-  result.by_ln_mu = by(ln_mu);
-  result.by_v = by(slip);
-  result.by_u = by(spin);
-  result.by_rolling = by(rolling);
-  result.by_drive = by(drive);
   return result;
 }
 
-double RollingOrbit::stop_T() const { return held_ ? held_from_ + held_->stop().T : turns_->stop().T; }
+const std::array<RollingOrbit::Held, RollingOrbit::numbers>& RollingOrbit::held_by() const {
+  if (held_by_) return *held_by_;
+  Moment then{};
+  then.now = then_;
+  if (turns_) {
+    then = turning_moment(held_from_);
+  } else {  // held from the start: rolling alone would let it turn for a while
+    set_rates(then, false);
+    then.by_v.v = then.by_v.centre = then.by_u.u = then.by_rolling.centre = 1;
+  }
+  const double turning_rate = -(1 - 1 / inertia_.chi) * then.dv - at_[drive];
+  held_by_.emplace();
+  for (std::size_t number = 0; number < numbers; ++number) {
+    const Speeds& by = then.*derivatives()[number];
+    const double dT = -(by.centre - by.v) / turning_rate;
+    (*held_by_)[number] = {dT, by + dT * Speeds{then.dv, then.du, then_.v, then_.u, 0, then_.centre}};
+  }
+  return *held_by_;
+}
+
+FilmOrbit::Moment RollingOrbit::at(double T, std::size_t& /*cell*/) const {
+  if (!held_ || T < held_from_) return turning_moment(T);
+  const Moment held = held_->at(T - held_from_, held_cell_);
+  Moment result{};
+  result.now = speeds_at(T);
+  set_rates(result, true);
+  for (std::size_t number = 0; number < numbers; ++number) {
+    const auto& [dT, state] = held_by()[number];
+    Speeds& by = result.*derivatives()[number];
+    by = state.v * held.by_v + state.u * held.by_u + -dT * Speeds{result.dv, result.du, result.now.v, result.now.u};
+    if (number == ln_mu) by = by + held.by_ln_mu;
+    by.way = state.way + by.slid;
+    by.slid += state.slid;
+    by.turned += state.turned;
+    by.centre = by.v;
+  }
+  return result;
+}
 
 FilmOrbit::Stop RollingOrbit::stop() const {
-  const auto& all = differences();
-  const double here = stop_T();
+  if (!held_) return turns_->stop();
+  const Stop held = held_->stop();
   const auto by = [&](std::size_t number) {
-    const Difference& each = all[number];
-    return each.of_here * here + each.of_first * each.first->stop_T() + each.of_second * each.second->stop_T();
+    const auto& [dT, state] = held_by()[number];
+    return dT + held.by_v * state.v + held.by_u * state.u + (number == ln_mu ? held.by_ln_mu : 0);
   };
-  return {here, by(ln_mu), by(slip), by(spin), by(rolling), by(drive)};
+  return {held_from_ + held.T, by(ln_mu), by(slip), by(spin), by(rolling), by(drive)};
 }
 
 }  // namespace contensou::fit

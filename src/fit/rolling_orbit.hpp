@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <optional>
 
 #include "contensou/reduction/friction_law.hpp"
@@ -15,17 +14,17 @@ namespace contensou::fit {
 /// While it turns about a horizontal axis it has the drive rho = u_r/f (reduction/README.md, (R53)), and the rolling
 ///   W = W0 + (1 - 1/chi) (v0 - v) - rho T.
 /// Where W has come to 0 rolling resistance holds it: it slides like a puck, chi = 1, without a drive. Where slip and spin
-/// have ended it rolls on, slower and slower, and rests. Its derivatives are central differences, to 1e-7.
+/// have ended it rolls on, slower and slower, and rests. Its derivatives are those of the orbits. Where W(T) = 0 holds it, T
+/// changes by dT = -dW/W', the state then by its own derivatives and dT times its rates, and what follows by those of an orbit
+/// from that state, less dT times its rates.
 class RollingOrbit final : public FilmOrbit {
  public:
   /// @param start    v >= 0
   /// @param rolling  W0 >= 0, m/s
   /// @param drive    rho >= 0
-  /// @param accuracy  as of ScaledOrbit; derivatives need the standard one
+  /// @param accuracy  as of ScaledOrbit
   RollingOrbit(const reduction::Law& law, double mu, reduction::State start, double rolling, double drive,
-               reduction::Inertia inertia, double accuracy = standard_accuracy);
-
-  static constexpr double standard_accuracy = 1e-12;  ///< so that differences are smooth
+               reduction::Inertia inertia, double accuracy = ScaledOrbit::standard_accuracy);
 
   void reach(double T) override;
   Moment at(double T, std::size_t& cell) const override;
@@ -33,33 +32,34 @@ class RollingOrbit final : public FilmOrbit {
   Stop stop() const override;
 
  private:
-  /// What it depends on, and how far to either side a difference goes.
+  /// What it depends on.
   enum : std::size_t { ln_mu, slip, spin, rolling, drive, numbers };
   using Numbers = std::array<double, numbers>;
-  struct Difference {
-    std::unique_ptr<RollingOrbit> first, second;
-    double of_here, of_first, of_second;  ///< weights
-  };
 
-  RollingOrbit(reduction::Law law, const Numbers& at, reduction::Inertia inertia, double accuracy);
+  /// How the time and the state in which resistance begins to hold it change with a number.
+  struct Held {
+    double T = 0;
+    Speeds state{};
+  };
+  const std::array<Held, numbers>& held_by() const;
+  static std::array<Speeds Moment::*, numbers> derivatives();
+  void set_rates(Moment& moment, bool is_held) const;
+  Moment turning_moment(double T) const;
 
   double turning(double T, double v) const;
   void hold(double T, const Speeds& then);
   Speeds speeds_at(double T) const;
-  const std::array<Difference, numbers>& differences() const;
-  double stop_T() const;
 
   reduction::Law law_;
   Numbers at_;
   reduction::Inertia inertia_;
   double accuracy_;
-  double reached_ = 0;
   double rests_;  ///< T, if slip and spin have ended before
   std::optional<ScaledOrbit> turns_, held_;
   double held_from_ = 0;
   Speeds then_{};  ///< when resistance began to hold it
   mutable std::size_t turns_cell_ = 0, held_cell_ = 0;
-  mutable std::optional<std::array<Difference, numbers>> differences_;
+  mutable std::optional<std::array<Held, numbers>> held_by_;
 };
 
 }  // namespace contensou::fit

@@ -16,8 +16,9 @@ namespace {
 constexpr double near_axis = 1e-12;  ///< of k or 1/k: from there on the smaller speed goes in proportion to its start
 constexpr double at_rest = 1e-12;    ///< of w at the start
 constexpr double first_width = 0.5, min_width = 1e-4;
-constexpr double ray_step = 1e-3;  ///< of k*: nearer to the ray A - B is a line
-constexpr double on_ray = 1e-14;
+constexpr double ray_step = 1e-3;                    ///< of k*: nearer to the ray A - B is a line
+constexpr double on_ray = 1e-14, beside_ray = 1e-4;  ///< of k*
+constexpr double step_of_ln_mu = 1e-4, step_of_drive = 1e-3;
 
 }  // namespace
 
@@ -79,41 +80,47 @@ ScaledOrbit::Integrals ScaledOrbit::Cell::at(double z) const {
 }
 
 ScaledOrbit::ScaledOrbit(const reduction::Law& law, double mu, reduction::State start, double accuracy,
-                         reduction::Inertia inertia, double drive)
+                         reduction::Inertia inertia, std::optional<double> drive)
     : law_(law),
-      mu_(mu),
       accuracy_(accuracy),
       inertia_(inertia),
-      drive_(drive),
+      here_{.mu = mu, .drive = drive.value_or(0)},
       width_(first_width),
       v0_(start.v),
       u0_(start.u) {
   double v = std::abs(v0_), w = mu * std::abs(u0_);
   if (v == 0 && w == 0) return;
-  if (drive_ > 0) find_ray();
+  here_ = ray_of(here_.mu, here_.drive);
+  if (drive) {
+    beside_.push_back(beside(-step_of_ln_mu, step_of_ln_mu, false));
+    const double h = step_of_drive;
+    const bool low = here_.drive<h, high = here_.drive + h> greatest_drive(law, mu, inertia);
+    beside_.push_back(beside(low ? h : -h, low ? 2 * h : high ? -2 * h : h, true));
+  }
   by_[0] = {.x = -1, .ln_w = 1, .ln_mu = 1};
   by_[1] = {.x = 1, .ln_w = 0, .ln_mu = 0};
   by_[2] = {.x = -1, .ln_w = 1, .ln_mu = 0};
   if (w < near_axis * v) {  // w follows v
     w = near_axis * v;
+    w_follows_ = true;
     by_[0] = {.x = 0, .ln_w = 0, .ln_mu = 1};
     by_[1] = {.x = 0, .ln_w = 1, .ln_mu = 0};
     by_[2] = {};
-  } else if (v < near_axis * w && ray_ == 0) {  // v follows w
+  } else if (v < near_axis * w && here_.k == 0) {  // v follows w
     v = near_axis * w;
     by_[0].x = by_[1].x = by_[2].x = 0;
   }
   orbit_v0_ = v;
   orbit_w0_ = w;
   const double k0 = v / w;
-  side_ = k0 < ray_ ? -1 : 1;
-  x_ = x0_ = std::log(std::max(std::abs(k0 - ray_), on_ray * ray_));
+  side_ = k0 < here_.k ? -1 : 1;
+  x_ = x0_ = std::log(std::max(std::abs(k0 - here_.k), on_ray * here_.k));
   now_[ln_w] = ln_w0_ = std::log(w);
   const auto [fall, B] = rates(x0_);
   q0_ = B / fall;
   dT0_ = -w / fall;
   for (double k : law.kinks()) {
-    if (side_ * (k - ray_) > 0) kinks_.push_back(std::log(std::abs(k - ray_)));
+    if (side_ * (k - here_.k) > 0) kinks_.push_back(std::log(std::abs(k - here_.k)));
   }
   std::ranges::sort(kinks_);
   reach(0);
@@ -125,37 +132,53 @@ double ScaledOrbit::greatest_drive(const reduction::Law& law, double mu, reducti
   return some * (1 - inertia.gamma * mu * mu / inertia.chi * far * moment);
 }
 
-double ScaledOrbit::fall_towards_ray(double distance) const {
-  const double k = ray_ + distance;
-  const auto [force, moment] = law_(reduction::slip_of_ratio(k));
-  return (inertia_.chi * (force - drive_) - inertia_.gamma * mu_ * mu_ * moment * k) / distance;
+double ScaledOrbit::fall_towards(const Ray& ray, double distance) const {
+  // Of a start without slip a ray beside is nearer than k = 0: beyond it the force is the opposite.
+  const double k = ray.k + distance;
+  const auto [size, moment] = law_(reduction::slip_of_ratio(std::abs(k)));
+  const double force = std::copysign(size, k);
+  return (inertia_.chi * (force - ray.drive) - inertia_.gamma * ray.mu * ray.mu * moment * k) / distance;
 }
 
-void ScaledOrbit::find_ray() {
-  const auto rises = [&](double ln_k) {
-    const double k = std::exp(ln_k);
-    const auto [force, moment] = law_(reduction::slip_of_ratio(k));
-    return inertia_.chi * (force - drive_) - inertia_.gamma * mu_ * mu_ * moment * k;
-  };
-  const double low = std::log(drive_) - 5, high = 20;
+ScaledOrbit::Ray ScaledOrbit::ray_of(double mu, double drive) const {
+  Ray ray{.mu = mu, .drive = drive};
+  if (drive == 0) return ray;
+  const auto rises = [&](double ln_k) { return fall_towards(ray, std::exp(ln_k)); };
+  const double low = std::log(drive) - 5, high = 20;
   if (!(rises(low) < 0 && rises(high) > 0))
     throw std::domain_error("fit: under that rolling friction sliding does not end: a smaller one is required");
-  ray_ = std::exp(reduction::root_between(rises, low, high));
-  near_ray_ = {fall_towards_ray(-ray_step * ray_), fall_towards_ray(ray_step * ray_)};
+  ray.k = std::exp(reduction::root_between(rises, low, high));
+  ray.fall_near = {fall_towards(ray, -ray_step * ray.k), fall_towards(ray, ray_step * ray.k)};
+  return ray;
 }
 
-ScaledOrbit::Rates ScaledOrbit::rates(double x) const {
-  if (ray_ > 0) {
-    const double distance = side_ * std::exp(x), z = distance / (ray_step * ray_);
-    const double B = inertia_.gamma * mu_ * mu_ * law_(reduction::slip_of_ratio(ray_ + distance)).moment;
-    if (std::abs(z) >= 1) return {fall_towards_ray(distance), B};
-    const auto [below, above] = near_ray_;
+/// Of the parabola through the values here and at two steps.
+ScaledOrbit::Beside ScaledOrbit::beside(double first, double second, bool by_drive) const {
+  const auto ray = [&](double step) {
+    return by_drive ? ray_of(here_.mu, here_.drive + step) : ray_of(here_.mu * std::exp(step), here_.drive);
+  };
+  Beside result{.first = ray(first),
+                .second = ray(second),
+                .of_here = -(first + second) / (first * second),
+                .of_first = second / (first * (second - first)),
+                .of_second = -first / (second * (second - first))};
+  result.k = result.of(here_.k, result.first.k, result.second.k);
+  return result;
+}
+
+ScaledOrbit::Rates ScaledOrbit::rates(const Ray& ray, double x) const {
+  const double per_moment = inertia_.gamma * ray.mu * ray.mu;
+  if (ray.k > 0) {
+    const double distance = side_ * std::exp(x), z = distance / (ray_step * ray.k);
+    const double B = per_moment * law_(reduction::slip_of_ratio(std::abs(ray.k + distance))).moment;
+    if (std::abs(z) >= 1) return {fall_towards(ray, distance), B};
+    const auto [below, above] = ray.fall_near;
     return {(below + above + z * (above - below)) / 2, B};
   }
   constexpr double smallest = 1e-12;  // below it Phi/k and Psi do not change
   const double k = std::max(std::exp(x), smallest);
   const auto [force, moment] = law_(reduction::slip_of_ratio(k));
-  const double A = inertia_.chi * force / k, B = inertia_.gamma * mu_ * mu_ * moment;
+  const double A = inertia_.chi * force / k, B = per_moment * moment;
   if (!(A > B)) throw std::domain_error("fit: the law has an invariant ray there: a smaller patch is required");
   return {A - B, B};
 }
@@ -188,14 +211,43 @@ void ScaledOrbit::reach(double T) {
       width_ = factor * whole;
       continue;
     }
-    const Basis::Values by = add(E, -cell.half_width * 2 * q * (1 + q));
-    const Basis::Values v = w * (ray_ + side_ * (x_ - cell.half_width * (1 + basis.z)).exp());
+    const Basis::Values k = here_.k + side_ * (x_ - cell.half_width * (1 + basis.z)).exp(), v = k * w;
     add(T_, dT);
-    add(G, dT * (by + 2 * q));
     add(slid, dT * v);
-    add(slid_by, dT * v * 2 * (by + q));
     add(turned, dT * w);
-    add(turned_by, dT * w * 2 * (by + q));
+    // By a number: q, ln F and k*.
+    const auto add_by = [&](const auto& add_to, const Basis::Values& q_by, const Basis::Values& ln_F_by, double k_by) {
+      const Basis::Values by = add_to(0, -cell.half_width * q_by);
+      add_to(1, dT * (by - ln_F_by));
+      add_to(2, dT * v * (2 * by - ln_F_by + k_by / k));
+      add_to(3, dT * w * (2 * by - ln_F_by));
+    };
+    const auto add_by_ln_mu = [&](int which, const Basis::Values& slope) {
+      constexpr int places[]{E, G, slid_by, turned_by};
+      return add(places[which], slope);
+    };
+    if (beside_.empty()) add_by(add_by_ln_mu, 2 * q * (1 + q), -2 * q, 0);
+    for (const Beside& each : beside_) {
+      Basis::Values q_by, ln_F_by;
+      for (int j = 0; j < nodes; ++j) {
+        const double x = x_ - cell.half_width * (1 + basis.z[j]);
+        const Rates first = rates(each.first, x), second = rates(each.second, x);
+        q_by[j] = each.of(q[j], first.B / first.fall, second.B / second.fall);
+        ln_F_by[j] = each.of(-std::log(step[j]), std::log(first.fall), std::log(second.fall));
+      }
+      if (&each == &beside_.front()) {
+        add_by(add_by_ln_mu, q_by, ln_F_by, each.k);
+        continue;
+      }
+      auto& powers_by = by_drive_.emplace_back();
+      const auto add_by_drive = [&](int which, const Basis::Values& slope) -> Basis::Values {
+        const Basis::Powers powers = basis.integral(slope, now_by_drive_[which]);
+        powers_by.row(which) = powers.transpose();
+        return basis.at_nodes(powers);
+      };
+      add_by(add_by_drive, q_by, ln_F_by, each.k);
+      now_by_drive_ = powers_by.rowwise().sum();
+    }
     cell.T_left = now_[T_];
     now_ = cell.at(1);
     cell.T_end = now_[T_];
@@ -212,12 +264,83 @@ void ScaledOrbit::reach(double T) {
 }
 
 ScaledOrbit::Stop ScaledOrbit::stop() const {
-  if (u0_ == 0)
-    return {std::abs(v0_) / (inertia_.chi * (1 - drive_)), 0, (v0_ < 0 ? -1 : 1) / inertia_.chi,
-            0};  // what is left of w is not its own
+  if (u0_ == 0) {  // what is left of w is not its own
+    const double T = std::abs(v0_) / (inertia_.chi * (1 - here_.drive));
+    return {.T = T,
+            .by_ln_mu = 0,
+            .by_v = (v0_ < 0 ? -1 : 1) / (inertia_.chi * (1 - here_.drive)),
+            .by_u = 0,
+            .by_drive = beside_.empty() ? 0 : T / (1 - here_.drive)};
+  }
+  const double T = now_[T_] + std::exp(now_[ln_w]) / rates(x_).B;
+  if (!beside_.empty()) {
+    const auto by = [&](std::size_t which) { return moved(shift_by(which, now_, now_by_drive_), now_).T; };
+    return {.T = T, .by_ln_mu = by(by_ln_mu), .by_v = by(by_v), .by_u = by(by_u), .by_drive = by(by_rho)};
+  }
   const auto change = [&](const Direction& by) { return change_of_T(by, now_); };
-  return {now_[T_] + std::exp(now_[ln_w]) / rates(x_).B, change(by_[0]), v0_ == 0 ? 0 : change(by_[1]) / v0_,
-          change(by_[2]) / u0_};
+  return {T, change(by_[0]), v0_ == 0 ? 0 : change(by_[1]) / v0_, change(by_[2]) / u0_};
+}
+
+ScaledOrbit::Shift ScaledOrbit::shift_by(std::size_t which, const Integrals& here,
+                                         const Eigen::Array4d& by_drive) const {
+  const double k0 = orbit_v0_ / orbit_w0_;
+  switch (which) {
+    case by_ln_mu:
+      return {.k = w_follows_ ? 0 : -k0,
+              .ln_w = w_follows_ ? 0.0 : 1.0,
+              .ray = beside_[0].k,
+              .E = here[E],
+              .T = here[G],
+              .slid = here[slid_by],
+              .turned = here[turned_by]};
+    case by_v:
+      return {.k = w_follows_ ? 0 : 1 / orbit_w0_, .ln_w = w_follows_ ? 1 / orbit_v0_ : 0};
+    case by_u:
+      return {.k = w_follows_ ? 0 : -k0 / u0_, .ln_w = w_follows_ ? 0 : 1 / u0_};
+    default:
+      return {.k = 0,
+              .ln_w = 0,
+              .ray = beside_[1].k,
+              .E = by_drive[0],
+              .T = by_drive[1],
+              .slid = by_drive[2],
+              .turned = by_drive[3]};
+  }
+}
+
+ScaledOrbit::Moved ScaledOrbit::moved(const Shift& by, const Integrals& here) const {
+  const double distance = std::exp(x0_);
+  const double x = (by.k - by.ray) / (side_ * std::max(distance, beside_ray * here_.k));
+  const double scale = by.ln_w - q0_ * x;
+  return {x, scale, -dT0_ * x + scale * here[T_] + by.T};
+}
+
+FilmOrbit::Moment ScaledOrbit::driven(const Place& place, std::size_t cell) const {
+  Moment result{};
+  result.now = now(place);
+  const Integrals& here = place.here;
+  const double x = place.cell->x - place.cell->half_width * (1 + place.z), k = ratio(x);
+  const double w = place.moves ? std::exp(here[ln_w]) : 0, v = k * w;
+  const auto [fall, B] = rates(x);
+  Eigen::Array4d by_drive = Eigen::Array4d::Zero();
+  for (int n = nodes; n >= 0; --n) by_drive = by_drive * place.z + by_drive_[cell].col(n);
+  const auto change = [&](std::size_t which) -> Speeds {
+    const Shift by = shift_by(which, here, by_drive);
+    const Moved start = moved(by, here);
+    const double of_x = place.moves ? start.T * fall / w : 0;  // at one T: dT/dx is -w/F
+    const double of_ln_w = start.scale + by.E + B / fall * of_x;
+    const auto integral = [&](double first, double last, double whole, double own) {
+      return -first * dT0_ * start.x + 2 * start.scale * whole + own - last * start.T;
+    };
+    return {v * of_ln_w + w * ((k - here_.k) * of_x + by.ray), result.now.u * (of_ln_w - by.ln_w),
+            integral(orbit_v0_, v, here[slid], by.slid),
+            u0_ / orbit_w0_ * (integral(orbit_w0_, w, here[turned], by.turned) - by.ln_w * here[turned])};
+  };
+  result.by_ln_mu = change(by_ln_mu);
+  result.by_v = change(by_v);
+  result.by_u = change(by_u) + Speeds{0, place.unit.u, 0, place.unit.turned};
+  result.by_drive = change(by_rho);
+  return result;
 }
 
 double ScaledOrbit::change_of_T(const Direction& by, const Integrals& here) const {
@@ -253,7 +376,7 @@ ScaledOrbit::Place ScaledOrbit::place_of(double T, std::size_t& cell) const {
 
 Speeds ScaledOrbit::now(const Place& place) const {
   const Speeds& unit = place.unit;
-  if (ray_ > 0) {
+  if (here_.k > 0) {
     const double x = place.cell->x - place.cell->half_width * (1 + place.z);
     const double v = place.moves ? std::exp(place.here[ln_w]) * ratio(x) : 0;
     return {v, u0_ * unit.u, place.here[slid], u0_ * unit.turned};
@@ -272,6 +395,7 @@ ScaledOrbit::Moment ScaledOrbit::at(double T, std::size_t& cell) const {
     return result;
   }
   const Place place = place_of(T, cell);
+  if (!beside_.empty()) return driven(place, cell);
   const Integrals& here = place.here;
   const Speeds& unit = place.unit;
   const Cell& in = *place.cell;

@@ -11,7 +11,6 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "contensou/si/scaling.hpp"
-#include "fit/rolling_orbit.hpp"
 
 namespace contensou::fit {
 
@@ -217,8 +216,7 @@ std::vector<Track> thinned(const std::vector<Track>& tracks, Index most) {
 Search::Search(const FitRequest& asked, double accuracy)
     : request(asked),
       resisted(asked.free.rolling_friction || asked.ball.contact.rolling_friction > 0),
-      model(asked.ball, asked.law, asked.tracks,
-            resisted ? std::min(accuracy, RollingOrbit::standard_accuracy) : accuracy, resisted),
+      model(asked.ball, asked.law, asked.tracks, accuracy, resisted),
       data(model.rows()),
       weight(model.rows()) {
   const auto set_sd = [&](std::size_t place, double sd) {
