@@ -239,8 +239,12 @@ void Reporter::set_dependence() {
       fitted += rows_of_A.row(row).squaredNorm();
     }
     const double variance = squares / std::max(1.0, n - fitted);
-    const auto [least, most] = std::ranges::minmax(VectorXd(search_.data(rows)));
-    if (std::sqrt(variance) < sharpest_film * (most - least) * search_.weight[rows.front()]) continue;
+    double range = 0;
+    for (const std::size_t axis : {place, other_axis(place)}) {
+      const VectorXd values = search_.data(search_.rows_of[axis]);
+      if (values.size() > 0) range = std::max(range, values.maxCoeff() - values.minCoeff());
+    }
+    if (std::sqrt(variance) < sharpest_film * range * search_.weight[rows.front()]) continue;
     std::vector<MatrixXd> runs(request_.tracks.size());
     std::vector<std::vector<Index>> rows_of(runs.size());
     for (Index row : rows) rows_of[place_of(row).track].push_back(row);

@@ -41,15 +41,15 @@ void RollingOrbit::reach(double T) {
   if (!held_) {
     turns_->reach(std::min(T, rests_));
     const double last = std::min(T, rests_);
-    const auto turning_at = [&](double at) {
+    const auto rolling_at = [&](double at) {
       std::size_t cell = 0;
       return turning(at, turns_->speeds_at(at, cell).v);
     };
     // Rolling grows, then falls, and at rests_ it is what the slip is, negative.
     constexpr double first = 1e-9;
-    if (std::isfinite(last) && turning_at(last) < -1e-13 * (at_[slip] + at_[rolling])) {
+    if (std::isfinite(last) && rolling_at(last) < -1e-13 * (at_[slip] + at_[rolling])) {
       const double from = at_[rolling] > 0 ? 0 : first * last;
-      const double ends = turning_at(from) > 0 ? reduction::root_between(turning_at, from, last) : from;
+      const double ends = rolling_at(from) > 0 ? reduction::root_between(rolling_at, from, last) : from;
       hold(ends, speeds_at(ends));
     }
   }
@@ -65,7 +65,11 @@ Speeds RollingOrbit::speeds_at(double T) const {
     now.way = then_.way + now.slid - then_.slid;
     return now;
   }
-  Speeds now = turns_->speeds_at(T, turns_cell_);
+  return turning_at(T, turns_->speeds_at(T, turns_cell_));
+}
+
+/// With what the centre does.
+Speeds RollingOrbit::turning_at(double T, Speeds now) const {
   const double rolls = std::min(T, rests_), v0 = at_[slip], W0 = at_[rolling], rho = at_[drive];
   now.centre = T < rests_ ? now.v + turning(T, now.v) : 0;
   now.way = (v0 + W0) * rolls - (v0 * rolls - now.slid) / inertia_.chi - rho * rolls * rolls / 2;
@@ -89,7 +93,7 @@ void RollingOrbit::set_rates(Moment& moment, bool is_held) const {
 
 FilmOrbit::Moment RollingOrbit::turning_moment(double T) const {
   Moment result = turns_->at(T, turns_cell_);
-  result.now = speeds_at(T);
+  result.now = turning_at(T, result.now);
   set_rates(result, false);
   if (result.now.v == 0 && result.now.u == 0) result.dcentre = T < rests_ ? -at_[drive] : 0;
   const double rolls = std::min(T, rests_), share = 1 - 1 / inertia_.chi;

@@ -47,6 +47,7 @@ class RollingOrbit final : public FilmOrbit {
   Moment turning_moment(double T) const;
 
   double turning(double T, double v) const;
+  Speeds turning_at(double T, Speeds now) const;
   void hold(double T, const Speeds& then);
   Speeds speeds_at(double T) const;
 

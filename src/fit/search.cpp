@@ -47,15 +47,6 @@ double resolution(const VectorXd& data, const std::vector<Index>& rows) {
   return step;
 }
 
-/// Of x it is y and so on; of others they themselves.
-std::size_t other_axis(std::size_t place) {
-  using enum Observable;
-  constexpr std::pair<Observable, Observable> axes[]{{x, y}, {y, x}, {vx, vy}, {vy, vx}};
-  const auto* found =
-      std::ranges::find(axes, static_cast<Observable>(place), &std::pair<Observable, Observable>::first);
-  return found == std::end(axes) ? place : static_cast<std::size_t>(found->second);
-}
-
 /// What Huber's loss makes of a residual, so that half the square of the result is the loss; and its derivative.
 double softened(double residual) {
   const double size = std::abs(residual);
@@ -190,6 +181,14 @@ struct Functor {
 };
 
 }  // namespace
+
+std::size_t other_axis(std::size_t place) {
+  using enum Observable;
+  constexpr std::pair<Observable, Observable> axes[]{{x, y}, {y, x}, {vx, vy}, {vy, vx}};
+  const auto* found =
+      std::ranges::find(axes, static_cast<Observable>(place), &std::pair<Observable, Observable>::first);
+  return found == std::end(axes) ? place : static_cast<std::size_t>(found->second);
+}
 
 double sd_by_median(std::vector<double> sizes) { return median(std::move(sizes)) / 0.6744897501960817; }
 
@@ -356,6 +355,7 @@ VectorXd Search::carried(VectorXd parameters) const {
 }
 
 VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double tolerance) const {
+  if (request.each_search) request.each_search();
   // A parameter that the sum of squares pushes beyond its limit is kept there while the others are improved, until it is
   // pushed back: a step that is cut off at a limit is refused, and shorter and shorter ones would end the search too early.
   constexpr int most_rounds = 5;

@@ -42,6 +42,9 @@ struct Coordinate {
 /// Orbits as sharp as any film.
 inline constexpr double accuracy_of_guess = 1e-6;
 
+/// The place of an observable's other axis: y for x and so on; of others it is their own.
+std::size_t other_axis(std::size_t place);
+
 /// The standard deviation that normal errors of this median of their sizes have.
 double sd_by_median(std::vector<double> sizes);
 

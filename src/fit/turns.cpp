@@ -119,7 +119,8 @@ Turns set_turns(const FitRequest& request, Track& track) {
       track = std::move(tried);
       return {half_turn_spin(track)};
     }
-    FitRequest alone{request.ball, request.law, thinned({tried}, max_of_first_solution), request.free, request.robust};
+    FitRequest alone{request.ball, request.law,    thinned({tried}, max_of_first_solution),
+                     request.free, request.robust, request.each_search};
     Search search(alone);
     try {
       const Eigen::VectorXd found = search.solve();

