@@ -25,7 +25,10 @@ class MotionColumns {
  public:
   /// @throws BadLine  if one is missing
   MotionColumns(const CsvReader& table, const si::Ball& ball)
-      : table_(table), radius_(ball.radius), time_(needed(time_name(), "s")) {
+      : table_(table), radius_(ball.radius), time_(needed("t", "s")) {
+    const auto time = find_column(table, "time", "s");
+    if (time && time->column.place != time_.column.place)
+      fail("columns t and time are both there: leave one of them out");
     slip_ = find_column(table, "slip", "m/s");
     rigid_ = !slip_ && find_column(table, "vx", "m/s");
     if (!rigid_ && !slip_) {
@@ -70,12 +73,6 @@ class MotionColumns {
 
  private:
   [[noreturn]] void fail(const std::string& message) const { throw table_.complaint(table_.header_line(), message); }
-
-  const char* time_name() const {
-    const bool t = find_column(table_, "t", "s").has_value(), time = find_column(table_, "time", "s").has_value();
-    if (t && time) fail("columns t and time are both there: leave one of them out");
-    return time ? "time" : "t";
-  }
 
   SiColumn needed(std::string_view name, std::string_view unit) const {
     if (const auto column = find_column(table_, name, unit)) return *column;
@@ -140,7 +137,7 @@ const ModelBeside& MotionsBeside::nearest() const {
 
 MotionsBeside compare_with_motions(const std::string& path, const si::Experiment& ball, const si::Description& values,
                                    const reduction::Law& law, double tolerance) {
-  CsvReader table(path);
+  CsvReader table(path, CsvReader::Separator::comma_or_tab);
   const std::vector<Instant> instants = read_instants(table, ball.ball);
   const si::SlipAndSpin first = instants.front().speeds;
   si::Description first_row;

@@ -40,7 +40,9 @@ std::string_view without_spaces(std::string_view text) {
 }
 
 void CsvParser::add(std::string_view piece, CsvBlock& block) {
-  const auto is_plain = [](char letter) { return letter != ',' && letter != '"' && letter != '\n' && letter != '\r'; };
+  const auto is_plain = [this](char letter) {
+    return letter != separator_ && letter != '"' && letter != '\n' && letter != '\r';
+  };
   for (std::size_t i = 0; i < piece.size(); ++i) {
     if (place_ == Place::field) {
       const std::size_t begin = i;
@@ -71,7 +73,7 @@ void CsvParser::add(char letter, CsvBlock& block) {
   if (place_ != Place::quoted && ends_line) return end_record(block);
 
   text_ += letter;
-  if (letter == ',' && place_ != Place::quoted) {
+  if (letter == separator_ && place_ != Place::quoted) {
     ends_.push_back(values_.size());
     place_ = Place::field_start;
   } else if (letter == '"' && place_ != Place::field) {
@@ -106,19 +108,19 @@ BadLine CsvParser::complaint(long line, std::string_view message) const {
   return BadLine(fmt::format("{}:{}: {}", source_, line, message));
 }
 
-CsvReader::CsvReader(const std::string& path) : parser_(path == "-" ? "<stdin>" : escaped(path)) {
+CsvReader::CsvReader(const std::string& path, Separator separator) : parser_(path == "-" ? "<stdin>" : escaped(path)) {
   file_.emplace(path, parser_.source());
   bytes_ = file_->size();
-  read_header();
+  read_header(separator);
 }
 
 CsvReader::CsvReader(std::string text, const std::string& source) : parser_(escaped(source)) {
   buffer_ = std::move(text);
   at_end_ = true;
-  read_header();
+  read_header(Separator::comma);
 }
 
-void CsvReader::read_header() {
+void CsvReader::read_header(Separator separator) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   constexpr std::size_t telling = 4;
   while (!at_end_ && buffer_.size() < telling) read_some();
@@ -127,12 +129,33 @@ void CsvReader::read_header() {
                     fmt::format("the text is in UTF-16, UTF-8 is needed: iconv -f {} -t UTF-8 converts it", encoding));
   }
   if (buffer_.starts_with(byte_order_mark)) buffer_.erase(0, byte_order_mark.size());
+  if (separator == Separator::comma_or_tab) find_tabs();
   CsvBlock first;
   if (!next(first)) throw complaint(1, "empty input: a header line with the names of the columns is needed");
   for (std::size_t i = 0; i < first[0].size(); ++i) names_.emplace_back(first[0][i]);
   header_line_ = first[0].line();
   first.records_.erase(first.records_.begin());
   first_ = std::move(first);
+}
+
+/// A tracker writes the name of the body in a line of its own above the names of the columns.
+void CsvReader::find_tabs() {
+  constexpr std::size_t most = 4;  // lines
+  std::size_t begin = 0;
+  for (std::size_t line = 0; line < most; ++line) {
+    while (buffer_.find_first_of("\r\n", begin) == std::string::npos && !at_end_) read_some();
+    const std::size_t end = buffer_.find_first_of("\r\n", begin);
+    const std::string_view text = std::string_view(buffer_).substr(begin, end - begin);
+    if (text.find(',') != std::string_view::npos) return;
+    const std::size_t tab = without_spaces(text).find('\t');
+    if (tab != std::string_view::npos) {
+      parser_.separate_by('\t');
+      if (begin > 0) buffer_.insert(0, "#");
+      return;
+    }
+    if (end == std::string::npos) return;
+    begin = end + 1;
+  }
 }
 
 void CsvReader::read_some() {

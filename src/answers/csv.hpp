@@ -85,6 +85,9 @@ class CsvParser {
   /// @throws BadLine  if the text ends inside quotes
   void finish(CsvBlock& block);
 
+  /// Lets that letter separate fields; before add.
+  void separate_by(char letter) { separator_ = letter; }
+
   const std::string& source() const { return source_; }
   BadLine complaint(long line, std::string_view message) const;
 
@@ -95,6 +98,7 @@ class CsvParser {
   void end_record(CsvBlock& block);
 
   std::string source_;
+  char separator_ = ',';
   Place place_ = Place::between_records;
   long line_ = 0;
   bool at_line_start_ = true;
@@ -114,11 +118,15 @@ struct CsvColumn {
 /// Reads a CSV file with a header, of any length, in the memory of a block of it.
 class CsvReader {
  public:
+  /// What separates fields.
+  enum class Separator { comma, comma_or_tab };
+
   /// Reads as far as the header.
-  /// @param path  a file, or "-" for standard input
+  /// @param path       a file, or "-" for standard input
+  /// @param separator  comma_or_tab: tabs separate if the header has some and no comma; a title may stand above it
   /// @throws std::system_error  if it cannot be read
   /// @throws BadLine            if there is no header, or it is not CSV; with a way out for UTF-16
-  explicit CsvReader(const std::string& path);
+  explicit CsvReader(const std::string& path, Separator separator = Separator::comma);
 
   /// Reads text that is there already.
   /// @param source  what messages call it
@@ -160,7 +168,10 @@ class CsvReader {
   double fraction_read() const { return bytes_read_ / bytes_; }
 
  private:
-  void read_header();
+  void read_header(Separator separator);
+
+  /// Lets tabs separate fields if they do so in the first line that has some, and makes a comment of a title above it.
+  void find_tabs();
 
   /// Appends to the buffer what one read gives.
   void read_some();

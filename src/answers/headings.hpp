@@ -15,6 +15,9 @@ struct Heading {
 
 Heading heading_of(std::string_view text);
 
+/// The name under which a column is read: in small letters, "t" for time, "angle" for theta, "vx" for v_x; NAME_sd likewise.
+std::string usual_name(std::string_view name);
+
 /// How many SI units one of that unit is; an angle's is the radian. 1 for none.
 /// @throws BadInput  for a unit of something else
 double factor_of(const std::string& unit, std::string_view si_unit);
@@ -26,7 +29,7 @@ struct SiColumn {
   double factor = 1;
 };
 
-/// The column of that name, in whatever unit its heading has; nothing if there is none.
+/// The column of that name, or else of that usual_name, in whatever unit its heading has; nothing if there is none.
 /// @param pixel  m, of a length or speed in px or px/s
 /// @throws BadLine  for two of that name, a unit of something else, or pixels of no size
 std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit,

@@ -54,20 +54,13 @@ std::vector<std::string> observable_names() {
   return names;
 }
 
+std::string observable_name(std::string_view column) {
+  const std::string name = usual_name(column);
+  return name == spin_of_motion ? std::string(fit::kind_of(fit::Observable::spin).name) : name;
+}
+
 fit::Track read_track(CsvReader& table, const std::string& track_name, const TrackRequest& request,
-                      const std::function<void(const std::string&)>& note, NoiseByName* unused) {
-  std::vector<std::string> known{"t", frame, spin_of_motion};
-  for (const std::string& name : observable_names()) known.push_back(name);
-  std::set<std::string> unread;
-  std::vector<Heading> headings;
-  for (const std::string& name : table.names()) {
-    headings.push_back(heading_of(name));
-    std::string base = headings.back().name;
-    if (base.ends_with(deviation)) base.resize(base.size() - deviation.size());
-    const bool is_time = base == "t" || base == frame;
-    const bool is_read = is_time ? base == headings.back().name : std::ranges::find(known, base) != known.end();
-    if (!is_read) unread.insert(headings.back().name);
-  }
+                      const std::function<void(const std::string&)>& note, Unused* unused) {
   const auto fail = [&](const std::string& message) { throw table.complaint(table.header_line(), message); };
   const auto column = [&](const std::string& name, std::string_view si_unit) {
     return find_column(table, name, si_unit, request.pixel);
@@ -79,18 +72,14 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     if (!request.fps) fail("frames are numbered here: --fps N says how many are in a second");
     time = frames;
     time->factor = 1 / *request.fps;
-  } else if (request.fps && time) {
-    fail("--fps is of a column frame; here is t");
+    if (unused != nullptr) unused->fps = false;
   }
   std::vector<SeriesColumns> columns;
   for (const auto& [observable, name, unit, meaning] : fit::observable_kinds()) {
     std::string called(name);
     auto value = column(called, unit);
     if (observable == fit::Observable::spin) {
-      if (const auto other = column(spin_of_motion, unit)) {
-        if (value) unread.insert(spin_of_motion);
-        if (!value) value = other, called = spin_of_motion;
-      }
+      if (const auto other = column(spin_of_motion, unit); other && !value) value = other, called = spin_of_motion;
     }
     auto sd = column(called + std::string(deviation), unit);
     if (value && sd && sd->unit.empty()) sd->factor = value->factor;
@@ -98,26 +87,31 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     if (!value && sd)
       fail(fmt::format("column {0}{1} is the standard deviation of {0}, which is not there", called, deviation));
   }
+  std::set<std::string> unread;
+  for (std::size_t i = 0; i < table.names().size(); ++i) {
+    const auto is_it = [&](const std::optional<SiColumn>& each) { return each && each->column.place == i; };
+    const bool is_read = is_it(time) || std::ranges::any_of(columns, [&](const SeriesColumns& each) {
+                           return is_it(each.value) || is_it(each.sd);
+                         });
+    if (!is_read) unread.insert(heading_of(table.names()[i]).name);
+  }
   if (!time || columns.empty()) {
+    std::vector<std::string> known{"t", frame, spin_of_motion};
+    for (const std::string& name : observable_names()) known.push_back(name);
     std::string hints;
     for (const std::string& name : unread) {
       if (const std::string nearest = nearest_name(name, known); !nearest.empty())
         hints += fmt::format("; {} is not read: did you mean '{}'?", quotation(name), nearest);
     }
-    const bool separator = table.names().size() == 1 && table.names().front().find_first_of(";\t") != std::string::npos;
+    const bool separator = table.names().size() == 1 && table.names().front().find(';') != std::string::npos;
     fail(
         fmt::format("a track has a column t and one or more of {}, each with NAME{} where its errors are known; no {} "
                     "here{}{}",
                     fmt::join(observable_names(), ", "), deviation, time ? "other column of these is" : "t is", hints,
-                    separator ? "; a comma must separate columns" : ""));
+                    separator ? "; a comma or a tab must separate columns" : ""));
   }
-  if (request.pixel && std::ranges::none_of(columns, [](const auto& each) { return is_in_pixels(each.value); }))
-    fail("--pixel is of columns in px or px/s, as 'x [px]'; here is none");
-  if (time->column.name != frame) {
-    for (const Heading& heading : headings) {
-      if (heading.name == frame) unread.insert(frame);
-    }
-  }
+  const bool in_pixels = std::ranges::any_of(columns, [](const auto& each) { return is_in_pixels(each.value); });
+  if (unused != nullptr && in_pixels) unused->pixel = false;
   for (const std::string& name : unread)
     note(fmt::format("{}: column {} is not read", escaped(track_name), quotation(name)));
 
@@ -164,7 +158,7 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     const auto noise = request.noise.find(std::string(fit::kind_of(series.observable).name));
     if (series.sd.size() == 0 && noise != request.noise.end()) {
       series.sd = Eigen::ArrayXd::Constant(track.t.size(), noise->second);
-      if (unused != nullptr) unused->erase(noise->first);
+      if (unused != nullptr) unused->noise.erase(noise->first);
     }
     if (const std::string doubt = unit_doubt(columns[i], series); !doubt.empty())
       note(fmt::format("{}: {}", escaped(track_name), doubt));

@@ -35,8 +35,12 @@ int BulkOptions::threads() const {
 }
 
 ShowProgress BulkOptions::progress(const std::string& output) const {
+  return progress_.value_or(std::nullopt).value_or(progress_if_watched(output));
+}
+
+ShowProgress progress_if_watched(const std::string& output) {
   const bool watched = is_terminal(Stream::error) && (output != "-" || !is_terminal(Stream::output));
-  return progress_.value_or(std::nullopt).value_or(watched ? ShowProgress::of_long_work : ShowProgress::never);
+  return watched ? ShowProgress::of_long_work : ShowProgress::never;
 }
 
 }  // namespace contensou::program

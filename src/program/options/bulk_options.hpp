@@ -8,6 +8,10 @@
 
 namespace contensou::program {
 
+/// When progress is to be shown that nobody asked for: of long work, if standard error is a terminal to which no output goes.
+/// @param output  the file of -o; "-" is standard output
+ShowProgress progress_if_watched(const std::string& output);
+
 /// --threads and --progress, for a verb that computes much.
 class BulkOptions {
  public:
@@ -20,8 +24,7 @@ class BulkOptions {
   /// The threads to compute with: as many as the machine runs at once if no number was given.
   int threads() const;
 
-  /// When progress is to be shown: of long work, if standard error is a terminal to which no output goes, unless always
-  /// or never was asked for.
+  /// When progress is to be shown: progress_if_watched, unless always or never was asked for.
   /// @param output  the file of -o; "-" is standard output
   ShowProgress progress(const std::string& output) const;
 

@@ -16,6 +16,7 @@
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/run_file.hpp"
+#include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
@@ -29,6 +30,7 @@ namespace {
 using fit::Fit;
 
 constexpr const char* stop = "stop";
+constexpr const si::Quantity* of_patch[]{&si::patch_radius, &si::spin_deceleration, &si::youngs_modulus};
 
 /// NAME=SD, ... with units.
 NoiseByName parse_noise(const std::string& typed) {
@@ -38,7 +40,9 @@ NoiseByName parse_noise(const std::string& typed) {
   for (const std::string& each : split(typed, ',')) {
     const std::size_t sign = each.find('=');
     if (sign == std::string::npos) throw NotAllowed("NAME=SD,... is needed, as in slip=0.01,spin=1");
-    const std::string name = each.substr(0, sign);
+    const std::string typed_name = each.substr(0, sign);
+    const std::string known = observable_name(typed_name);
+    const std::string& name = std::ranges::count(names, known) > 0 ? known : typed_name;
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) throw no_such("observable", name, names);
     const auto place = static_cast<std::size_t>(found - names.begin());
@@ -86,12 +90,11 @@ class FitCommand final : public Verb {
     files_
         .add(
             app, "FILE", "",
-            "CSV with t, or frame and --fps, and any of slip, spin (or wz), x, y, vx, vy, angle, in SI units (rad) or "
-            "with a "
-            "unit, "
-            "as in 'spin [rpm]'; NAME_sd is the standard deviation of NAME, empty, nan or NA: not measured; - is "
-            "standard "
-            "input. Several files: one ball",
+            "CSV, or text with tabs, with t (or time), or frame and --fps, and any of slip, spin (or wz), x, y, vx, "
+            "vy, "
+            "angle (or theta), in SI units (rad) or with a unit, as in 'spin [rpm]'; NAME_sd is the standard deviation "
+            "of "
+            "NAME, empty, nan or NA: not measured; - is standard input. Several files: one ball",
             [](const std::string& typed) { return typed; }, true)
         ->expected(1, -1)
         ->allow_extra_args();
@@ -147,12 +150,15 @@ class FitCommand final : public Verb {
     fit::Free usual = fit::usually_free(request.ball);
     if (only_stop) usual.slip = usual.spin = false;
     request.free = free_.value_or(usual);
+    Progress progress("searches", progress_if_watched(output.path));
+    request.each_search = [&progress, searches = 0.0]() mutable { progress.show(++searches, NAN); };
     std::vector<Fit> fits;
     try {
       fits = plan_ ? std::vector{fit::plan(request)} : fit::fit_laws(request, laws);
     } catch (const std::domain_error& error) {
       throw BadInput(fmt::format("{}; a way out may be --noise NAME=SD, --free or a longer film", error.what()));
     }
+    progress.erase();
     if (output.picture() && !plan_) {
       if (only_stop) throw BadInput("one stop time is no curve to draw: leave out the picture");
       output.write({figure_.apply(fit_figure(fits.front(), laws, request.tracks, figure_.size()), output.format)});
@@ -202,23 +208,23 @@ class FitCommand final : public Verb {
       throw BadInput(
           "FILE missing: give a CSV with t and slip, spin, x, y, vx, vy or angle; or --stop-time, or --plan");
     std::vector<fit::Track> tracks;
-    NoiseByName unused = noise();
-    if (stop_time_.given()) unused.erase(stop);
+    Unused unused{noise(), fps_.given(), pixel_.given()};
+    if (stop_time_.given()) unused.noise.erase(stop);
     if (files_.given()) {
       const auto note = [](const std::string& text) { fmt::print(stderr, "contensou: {}\n", text); };
       for (const std::string& file : files_.all()) {
-        CsvReader table(file);
+        CsvReader table(file, CsvReader::Separator::comma_or_tab);
         tracks.push_back(read_track(table, file,
                                     {noise(), from_.optional(), until_.optional(), fps_.optional(), pixel_.optional()},
                                     note, &unused));
       }
     } else {
       tracks.push_back({.name = "--stop-time"});
-      if (fps_.given()) fps_.reject("it is of a film: give a FILE with a column frame, or add --plan");
-      if (pixel_.given()) pixel_.reject("it is of a film: give a FILE with columns in px");
     }
-    if (!unused.empty()) {
-      const std::string& name = unused.begin()->first;
+    if (unused.fps) fps_.reject("no file has a column frame and no t: leave it out, or give one; --plan takes it, too");
+    if (unused.pixel) pixel_.reject("no file has columns in px or px/s, as 'x [px]': leave it out, or name them so");
+    if (!unused.noise.empty()) {
+      const std::string& name = unused.noise.begin()->first;
       noise_.reject(name == stop
                         ? "stop is of --stop-time, which is not given"
                         : fmt::format("no file has a column {0} without standard deviations of its own", name));
@@ -238,6 +244,12 @@ class FitCommand final : public Verb {
     std::vector<std::string> missing;
     if (!fps_.given()) missing.emplace_back("--fps N");
     if (!noise_.given()) missing.emplace_back("--noise NAME=SD,... of what is seen");
+    const si::Description values = start_.given_values();
+    if (!start_.ball_given() && values.find(si::friction) == nullptr) missing.emplace_back("--friction F");
+    const auto is_given = [&](const si::Quantity* quantity) { return values.find(*quantity) != nullptr; };
+    if (!start_.ball_given() && std::ranges::none_of(of_patch, is_given)) missing.emplace_back("--patch-radius LENGTH");
+    if (si::slip_at_start(request.ball) == 0 && si::spin_at_start(request.ball) == 0)
+      missing.emplace_back("a start, --slip V, --spin W or both");
     if (!missing.empty()) throw BadInput(fmt::format("--plan needs {}", fmt::join(missing, " and ")));
     const double u_r = request.ball.contact.rolling_friction;
     const double end = until_.given() ? *until_
