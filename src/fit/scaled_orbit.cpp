@@ -321,14 +321,14 @@ FilmOrbit::Moment ScaledOrbit::driven(const Place& place, std::size_t cell) cons
   const Integrals& here = place.here;
   const double x = place.cell->x - place.cell->half_width * (1 + place.z), k = ratio(x);
   const double w = place.moves ? std::exp(here[ln_w]) : 0, v = k * w;
-  const auto [fall, B] = rates(x);
+  const auto [dT, q] = slopes(place);
   Eigen::Array4d by_drive = Eigen::Array4d::Zero();
   for (int n = nodes; n >= 0; --n) by_drive = by_drive * place.z + by_drive_[cell].col(n);
   const auto change = [&](std::size_t which) -> Speeds {
     const Shift by = shift_by(which, here, by_drive);
     const Moved start = moved(by, here);
-    const double of_x = place.moves ? start.T * fall / w : 0;  // at one T: dT/dx is -w/F
-    const double of_ln_w = start.scale + by.E + B / fall * of_x;
+    const double of_x = place.moves ? -start.T / dT : 0;  // at one T
+    const double of_ln_w = start.scale + by.E + q * of_x;
     const auto integral = [&](double first, double last, double whole, double own) {
       return -first * dT0_ * start.x + 2 * start.scale * whole + own - last * start.T;
     };
@@ -374,6 +374,12 @@ ScaledOrbit::Place ScaledOrbit::place_of(double T, std::size_t& cell) const {
   return {&found, z, moves, here, {w * std::exp(x - x0_), w, here[slid] / orbit_v0_, here[turned] / orbit_w0_}};
 }
 
+ScaledOrbit::Slopes ScaledOrbit::slopes(const Place& place) {
+  Eigen::Array2d by_z = Eigen::Array2d::Zero();
+  for (int n = nodes; n > 0; --n) by_z = by_z * place.z + n * place.cell->powers.col(n).head<2>();
+  return {-by_z[T_] / place.cell->half_width, -by_z[ln_w] / place.cell->half_width};
+}
+
 Speeds ScaledOrbit::now(const Place& place) const {
   const Speeds& unit = place.unit;
   if (here_.k > 0) {
@@ -398,11 +404,7 @@ ScaledOrbit::Moment ScaledOrbit::at(double T, std::size_t& cell) const {
   if (!beside_.empty()) return driven(place, cell);
   const Integrals& here = place.here;
   const Speeds& unit = place.unit;
-  const Cell& in = *place.cell;
-  const double z = place.z;
-  Eigen::Array2d slopes = Eigen::Array2d::Zero();
-  for (int n = nodes; n > 0; --n) slopes = slopes * z + n * in.powers.col(n).head<2>();
-  const double dT = -slopes[T_] / in.half_width, q = -slopes[ln_w] / in.half_width;
+  const auto [dT, q] = slopes(place);
   result.now = now(place);
   if (place.moves) {
     result.dv = result.now.v * (1 + q) / dT;

@@ -81,6 +81,11 @@ class ScaledOrbit final : public FilmOrbit {
   };
   Place place_of(double T, std::size_t& cell) const;
   Speeds now(const Place& place) const;
+  /// Of T and ln w, by x.
+  struct Slopes {
+    double T, ln_w;
+  };
+  static Slopes slopes(const Place& place);
 
   /// What x and ln w change by.
   struct Rates {
