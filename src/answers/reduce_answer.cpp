@@ -195,7 +195,7 @@ ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, co
     const std::string_view kind = plane.kind();
     answer.members.update({{"rays", rays}, {"kind", kind.empty() ? Json() : Json(kind)}});
     if (!plane.undecided().empty()) answer.members["undecided"] = plane.undecided();
-    if (integral && plane.kind() != "bordered") {
+    if (integral && !kind.empty() && kind != "bordered") {
       answer.members.update(strip_members(portraits::reduced_orbits(field, plane, start), "q", [&](const Vector2d& x) {
         const auto there = plane.orbit(x);
         return there.end() == PlanarEnd::centre ? there.end_time() : infinity;

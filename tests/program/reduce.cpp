@@ -304,12 +304,58 @@ TEST_CASE("reduce --system solves nothing by a scaling that holds within sectors
   CHECK(relay["tau_stop"].get<double>() == Approx(out + in + half_turn / (1 - std::sqrt(a / b))).epsilon(1e-12));
 }
 
+TEST_CASE("reduce --system is right about multiple rays and poles, or says that it does not know", "[cli]") {
+  struct Case {
+    std::string system;
+    std::vector<std::string> start;
+    Json kind, end, tau_stop;
+  };
+  const std::vector<Case> cases{
+      {"u' = v; v' = 0", {"--u0", "1", "--v0", "1"}, "degenerate", "infinity", "inf"},
+      {"u' = -u-v; v' = u+v", {"--u0", "1", "--v0", "1"}, "degenerate", "infinity", "inf"},
+      {"u' = v; v' = -u-2*v", {"--u0", "1", "--v0", "0.5"}, "stable node", "centre", "inf"},
+      {"u' = v; v' = -u-2*v", {"--u0", "1.3", "--v0", "0.7"}, "stable node", "centre", "inf"},
+      {"u' = 3*u+v; v' = -u+v", {"--u0", "1", "--v0", "0.5"}, "unstable node", "infinity", "inf"},
+      {"u' = u; v' = 2*v+u^2", {"--u0", "1", "--v0", "0.5"}, "unstable node", "infinity", "inf"},
+      {"u' = u; v' = 2*v+u^2", {"--u0", "1.3", "--v0", "0.7"}, "unstable node", "infinity", "inf"},
+      {"u' = 1; v' = 3*u+2*v^2/u^3", {"--u0", "1.3", "--v0", "0.7"}, "bordered", "infinity", "inf"},
+      {"u' = 1; v' = 3*v/u-u", {"--u0", "1.3", "--v0", "0.7"}, "bordered", "infinity", "inf"},
+      {"u' = 0.5*u^2/v; v' = u-0.5*v", {"--u0=-1", "--v0", "1"}, "bordered", "centre", 2 * std::log(2)},
+      {"u' = 1; v' = v/u+u", {"--u0", "1", "--v0", "1"}, "bordered", "infinity", "inf"},
+      {"u' = -u^3; v' = -v^3/2-u^2*v", {"--u0", "1", "--v0", "1"}, "stable node", "centre", "inf"},
+      {"u' = -u^99; v' = -v^99", {"--u0", "1", "--v0", "1.5"}, "stable node", "centre", "inf"},
+      {"u' = -u; v' = v*ln(abs(v/u))", {"--u0", "1", "--v0", "0.5"}, Json(), Json(), Json()},
+  };
+  for (const auto& [system, start, kind, end, tau_stop] : cases) {
+    CAPTURE(system, start);
+    const Json json = json_of_system(system, start);
+    CHECK(json["kind"] == kind);
+    CHECK(json["end"] == end);
+    if (tau_stop.is_number()) {
+      CHECK(json["tau_stop"].get<double>() == Approx(tau_stop.get<double>()).epsilon(json["accuracy"].get<double>()));
+    } else {
+      CHECK(json["tau_stop"] == tau_stop);
+    }
+    CHECK(json.contains("undecided") == kind.is_null());
+  }
+  for (const std::vector<std::string>& start :
+       {std::vector<std::string>{"--u0", "1", "--v0", "1"}, {"--u0", "1.3", "--v0", "0.7"}}) {
+    const Run essential = reduce("u' = v; v' = u*exp(u/v)", start);
+    CHECK(essential.status == 1);
+    CHECK_THAT(essential.out, Contains("generator   not decided"));
+  }
+  CHECK_THAT(reduce("u' = -u^1000; v' = -v^1000", {"--u0", "1", "--v0", "2"}).out, Contains("generator   not decided"));
+}
+
 TEST_CASE("reduce --system says what it cannot tell, and what is at rest", "[cli]") {
   CHECK_THAT(reduce("u' = exp(u); v' = exp(v)", {"--u0", "2", "--v0", "1"}).out, Contains("no generator is a scaling"));
+  const std::string turning = "((v*cos(0.96)-u*sin(0.96))^2/hypot(u,v)^2 + d)";
   const std::string touching =
-      "u' = -u/hypot(u,v) - (v*cos(0.96)-u*sin(0.96))^2*v/hypot(u,v)^3; "
-      "v' = -v/hypot(u,v) + (v*cos(0.96)-u*sin(0.96))^2*u/hypot(u,v)^3";
-  CHECK_THAT(reduce(touching).out, Contains("none by quadrature: at the angle ") && Contains("do not tell"));
+      "u' = -u/hypot(u,v) - " + turning + "*v/hypot(u,v); v' = -v/hypot(u,v) + " + turning + "*u/hypot(u,v)";
+  CHECK_THAT(reduce(touching, {"--param", "d=0", "--u0", "1", "--v0", "1"}).out,
+             Contains("at the angle 0.96, double:"));
+  CHECK_THAT(reduce(touching, {"--param", "d=2e-14", "--u0", "1", "--v0", "1"}).out,
+             Contains("none by quadrature: at the angle ") && Contains("do not tell"));
   const Run far = reduce("u' = v - sqrt(|u|)*sign(u); v' = -sign(u)", {"--u0", "1e50", "--v0", "1"});
   CHECK_THAT(far.out, Contains("the errors of differences exceed all of them"));
   const Run centre = reduce("u' = 1-u; v' = 2-v", {"--u0", "1", "--v0", "2"});
@@ -322,7 +368,8 @@ TEST_CASE("reduce --system says what it cannot tell, and what is at rest", "[cli
   const std::vector<std::string> start{"--u0", "2", "--v0", "1"};
   CHECK_THAT(reduce("u' = u; v' = v", start).out, Contains("tau_stop    inf: it goes to infinity, for ever\n"));
   CHECK_THAT(reduce("u' = u^2; v' = v^2", start).out, Contains("tau_stop    inf: it is at infinity after 0.5\n"));
-  CHECK_THAT(reduce("u' = 1; v' = -sign(v)", start).out, Contains("tau_stop    not known: it comes to a border"));
+  CHECK_THAT(reduce("u' = 1; v' = -sign(v)", start).out,
+             Contains("tau_stop    not known: the orbit comes to a border"));
   CHECK(json_of_system("u' = 1; v' = -sign(v)", start)["tau_stop"].is_null());
 }
 
