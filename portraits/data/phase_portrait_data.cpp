@@ -23,7 +23,7 @@ std::vector<double> ratios(const PortraitOrbit& orbit) {
   return list(orbit.ln_k.unaryExpr([](double ln_k) { return std::exp(ln_k); }));
 }
 
-/// Whether beta is an axis of the view, and so is told of each state of an orbit.
+/// True if beta is an axis of the view; the data then have it for each state of an orbit.
 bool has_beta(const PhasePortrait& portrait) { return portrait.view == View::regularised; }
 
 Json json_of(const PhasePortrait& of, const PortraitOrbit& orbit) {

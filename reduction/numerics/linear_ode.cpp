@@ -12,7 +12,7 @@ constexpr int order = LegendreSeries::order;
 using Samples = LegendreSeries::Samples;
 using Matrix = Eigen::Matrix<double, order, order>;
 
-/// Whether exp of the integral of h/d is a polynomial of that order to the last bit. Near a zero of d it is not, however
+/// True if exp of the integral of h/d is a polynomial of that order to the last bit. Near a zero of d it is not, however
 /// small h: it is a small power of the distance from there.
 bool factor_is_polynomial(const Samples& advection, const Samples& rate) {
   if (!(rate <= 1.5 * advection).all() || !(advection.minCoeff() > 0)) return false;

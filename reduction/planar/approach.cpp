@@ -121,7 +121,7 @@ bool Approach::find_series(const SectionField& field, double width, int root, do
   radial_rest_ = r->rest;
   angular_ = {t->order / root, t->rest(-1) / std::pow(width, t->order / root)};
   radial_ = {r->order / root, r->order == infinity ? 0 : r->rest(-1) / std::pow(width, r->order / root)};
-  // What lies between the direction and the nearest sample may be another function.
+  // The field may be another function between the direction and the nearest sample.
   decided_ = true;
   for (double z = width / 10; z > 1e-15 && decided_; z /= 10) {
     const auto rates = field(turned(n_, side_ * z));

@@ -43,25 +43,25 @@ class Approach {
 
   const Eigen::Vector2d& n() const { return n_; }
 
-  /// Whether the field has values next to the direction.
+  /// True if the field has values next to the direction.
   bool exists() const { return exists_; }
 
-  /// Whether both orders are known.
+  /// True if both orders are known.
   bool decided() const { return decided_; }
 
   /// T times side: positive where the motion leads away from the direction.
   const LeadingPower& angular() const { return angular_; }
   const LeadingPower& radial() const { return radial_; }
 
-  /// Whether the field points along the scaling in the limit z -> 0, and has a limit.
+  /// True if the field has a limit for z -> 0 and points along the scaling there.
   bool ray() const { return decided_ && angular_.order > 0 && radial_.order >= 0; }
-  /// Whether R and T have limits, and that of T is not 0.
+  /// True if R and T have limits, and that of T is not 0.
   bool regular() const { return decided_ && angular_.order == 0 && radial_.order >= 0; }
 
   /// gamma: dp/dz is as z^(gamma - 1), so that p stays bounded where gamma > 0.
   double growth() const { return radial_.order - angular_.order + 1; }
 
-  /// How far from the direction T and R are known as series, without the digits that T loses there; 0 if nowhere.
+  /// Largest distance at which series give T and R with all digits; 0 if there are none.
   double width() const { return width_; }
   /// T times side and R at a distance up to width().
   Rates series(double z) const;

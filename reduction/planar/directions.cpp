@@ -152,7 +152,7 @@ bool Scan::add_pairs_of_zeros() {
     const auto rates = field_(n);
     if (!rates) continue;
     const double size = std::max(before.rates->size, after.rates->size), value = std::abs(rates->angular);
-    // Where |T| is least is known to half of the digits.
+    // The place of the least |T| is known to half of the digits.
     constexpr double nearly = 1e-12;
     const Place place = value <= nearly * size ? sharpened_zero(field_, n, noise_) : Place(n);
     if (place.n != n || value <= 16 * noise_ * size) {
@@ -229,7 +229,7 @@ void Scan::find_candidates() {
   for (std::size_t i = 0; i < candidates_.size(); ++i)
     order.emplace_back(angle_between(anchors_[0], candidates_[i].n), i);
   std::ranges::sort(order);
-  // Of directions that rounding has made several the anchor is kept.
+  // Rounding makes one direction several; the anchor is exact, so it is kept.
   constexpr double same = 1e-11;
   std::vector<Place> kept;
   bool last_is_anchor = false;

@@ -25,7 +25,7 @@ class SectionField {
   /// At a unit vector n; none where the field has no value.
   std::optional<Rates> operator()(const Eigen::Vector2d& n) const;
 
-  /// Whether the field has a value at the centre that is not 0.
+  /// True if the field has a value at the centre that is not 0.
   bool regular() const;
 
   const PlanarField& field() const { return field_; }

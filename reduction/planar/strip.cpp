@@ -223,7 +223,7 @@ void Strip::march(double left, double right, int depth) {
   panels_.push_back({left, right, ln_rho, time});
 }
 
-/// Where R or s jumps between two places: they differ most between the ends of one half of the way, again and again.
+/// Finds a jump of R or s between two places: bisection follows the half whose ends differ most.
 std::optional<double> Strip::jump(double left, double right) const {
   Terms at_left = terms(left), at_right = terms(right);
   const double largest_rate = std::max(at_left.rate, at_right.rate);

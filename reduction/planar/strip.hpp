@@ -46,7 +46,7 @@ class Strip {
   /// p when the orbit comes to its end, and p when it left the other.
   Limit limit() const;
   Limit origin() const;
-  /// What p grows by in a turn.
+  /// Growth of p in one turn.
   double turn() const { return turn_; }
   double turn_sigma() const;
 
@@ -64,7 +64,7 @@ class Strip {
   bool timed() const { return timed_; }
   double time_left(double xi) const;
 
-  /// Whether orbits come to a ray in finite time and go on along it.
+  /// True if orbits come to a ray in finite time and go on along it.
   bool joins_ray() const;
 
   /// d sigma = -d xi/s(xi).

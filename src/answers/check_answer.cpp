@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array built_in_patch_ratios{1e-4, 0.0035, 0.099, 0.3, 1.0};
 
-/// With a drive; for a smaller patch creeping is stiff, and the routes in steps take long.
+/// The least mu of driven starts: for a smaller patch creeping is stiff, and the routes in steps take long.
 constexpr std::array driven_patch_ratios{0.099, 1.0};
 constexpr std::array built_in_drives{0.05, 0.5, 0.95};
 

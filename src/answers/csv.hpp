@@ -118,7 +118,7 @@ struct CsvColumn {
 /// Reads a CSV file with a header, of any length, in the memory of a block of it.
 class CsvReader {
  public:
-  /// What separates fields.
+  /// The letter that separates fields.
   enum class Separator { comma, comma_or_tab };
 
   /// Reads as far as the header.

@@ -167,7 +167,7 @@ std::string heading(const si::Experiment& experiment, const reduction::Law& law,
                      digits(si::slip_at_start(experiment)), digits(si::spin_at_start(experiment)));
 }
 
-/// What happens, in one sentence of plain words.
+/// Tells the motion in one sentence of plain words.
 std::string opening(const Roll& roll) {
   const si::Events ours = events_of(roll.whole), theirs = events_of(roll.textbook);
   const Eigen::Vector2d velocity = si::velocities_of(roll.experiment.start).velocity;

@@ -289,7 +289,7 @@ class Text {
   }
 
  private:
-  /// What happens, in one sentence of plain words.
+  /// Tells the motion in one sentence of plain words.
   std::string opening() const {
     const auto& [system, state, experiment, resisted] = report_.start;
     const double tau = report_.stop.tau, uncoupled = std::max(report_.sliding_only, system.pivoting_limit(state.u));

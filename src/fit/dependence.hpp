@@ -6,7 +6,7 @@
 
 namespace contensou::fit {
 
-/// How the errors of a column depend on each other.
+/// Dependence of the errors of one column on each other.
 struct Dependence {
   double neighbours = 0;  ///< correlation of an error with the next one
   double growth = 1;      ///< of the variance of a mean; n values are worth n/growth independent ones
@@ -23,7 +23,7 @@ struct Dependence {
 /// are j apart (the kernel of M. S. Bartlett, 1950, doi:10.1093/biomet/37.1-2.1). Of their residuals the fit takes a part as
 /// large as s^2 |a_i + ... + a_(i+m-1)|^2 times g, whose derivatives change as slowly. So
 ///   sum (r_i + ... + r_(i+m-1))^2 / sum (m s^2 - s^2 |a_i + ... + a_(i+m-1)|^2)  over all windows of m values estimates g.
-/// With m = sqrt(n) longer dependence is seen in longer films, and the relative error of g, sqrt(4 m/(3 n)), falls.
+/// For m = sqrt(n) longer dependence is seen in longer films, and the relative error of g, sqrt(4 m/(3 n)), falls.
 /// @param runs  z_i as rows, of each track
 Dependence dependence_of(const std::vector<Eigen::MatrixXd>& runs);
 

@@ -115,7 +115,7 @@ class Reporter {
   /// Covariance and correlations, by curvature.
   void set_errors();
   void set_covariance(const MatrixXd& covariance);
-  /// How errors of unknown size depend on each other, and what that adds to the covariance.
+  /// Finds the dependence of errors of unknown size on each other, and adds it to the covariance.
   void set_dependence();
   /// By what the variance of a number is larger than of independent errors.
   double growth_of(const Coordinate& number) const;
@@ -155,7 +155,7 @@ class Reporter {
   bool both_free() const { return request_.free.friction && request_.free.patch_radius; }
   /// Whether a number of the start is in the data as such.
   bool is_seen(Parameter parameter, std::size_t track) const;
-  /// Whether x, y, vx or vy is in the data.
+  /// True if x, y, vx or vy is in the data.
   bool moves(std::size_t track) const;
   /// A residual, or what Huber's loss lets it count for.
   double bounded(double residual) const {
@@ -687,7 +687,7 @@ void Reporter::set_misfits() {
     const auto place = static_cast<std::size_t>(observable);
     // Rounded values are off as their neighbours are.
     const double correlation = noise.sd > search_.rounding[place] ? dependence_[place].neighbours : 0;
-    // Of few values chance allows any; 0.9 is that of values that are off the motion by four times of what their
+    // Chance allows any correlation of few values; 0.9 is that of values that are off the motion by four times of what their
     // neighbours are.
     constexpr double surely = 0.9, blurred = 0.5;
     const double by_chance = std::min(surely, too_rare / std::sqrt(static_cast<double>(noise.values)));

@@ -68,7 +68,7 @@ Speeds RollingOrbit::speeds_at(double T) const {
   return turning_at(T, turns_->speeds_at(T, turns_cell_));
 }
 
-/// With what the centre does.
+/// The state with that of the centre.
 Speeds RollingOrbit::turning_at(double T, Speeds now) const {
   const double rolls = std::min(T, rests_), v0 = at_[slip], W0 = at_[rolling], rho = at_[drive];
   now.centre = T < rests_ ? now.v + turning(T, now.v) : 0;

@@ -32,11 +32,11 @@ class RollingOrbit final : public FilmOrbit {
   Stop stop() const override;
 
  private:
-  /// What it depends on.
+  /// The numbers that the orbit depends on.
   enum : std::size_t { ln_mu, slip, spin, rolling, drive, numbers };
   using Numbers = std::array<double, numbers>;
 
-  /// How the time and the state in which resistance begins to hold it change with a number.
+  /// Derivatives, by one number, of the time and the state at which resistance begins to hold the ball.
   struct Held {
     double T = 0;
     Speeds state{};

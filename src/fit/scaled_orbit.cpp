@@ -133,7 +133,7 @@ double ScaledOrbit::greatest_drive(const reduction::Law& law, double mu, reducti
 }
 
 double ScaledOrbit::fall_towards(const Ray& ray, double distance) const {
-  // Of a start without slip a ray beside is nearer than k = 0: beyond it the force is the opposite.
+  // A start without slip may lie beside a ray that is nearer than k = 0: beyond it the force is the opposite.
   const double k = ray.k + distance;
   const auto [size, moment] = law_(reduction::slip_of_ratio(std::abs(k)));
   const double force = std::copysign(size, k);
@@ -152,7 +152,7 @@ ScaledOrbit::Ray ScaledOrbit::ray_of(double mu, double drive) const {
   return ray;
 }
 
-/// Of the parabola through the values here and at two steps.
+/// Derivative of the parabola through the values here and at two steps.
 ScaledOrbit::Beside ScaledOrbit::beside(double first, double second, bool by_drive) const {
   const auto ray = [&](double step) {
     return by_drive ? ray_of(here_.mu, here_.drive + step) : ray_of(here_.mu * std::exp(step), here_.drive);

@@ -81,7 +81,7 @@ class ScaledOrbit final : public FilmOrbit {
   };
   Place place_of(double T, std::size_t& cell) const;
   Speeds now(const Place& place) const;
-  /// Of T and ln w, by x.
+  /// Derivatives of T and ln w by x.
   struct Slopes {
     double T, ln_w;
   };
@@ -115,7 +115,7 @@ class ScaledOrbit final : public FilmOrbit {
   };
   Beside beside(double first, double second, bool by_drive) const;
 
-  /// How a start changes with a number, and what the number itself changes of the integrals.
+  /// Derivatives of a start by one number, and of the integrals by that number alone.
   struct Shift {
     double k, ln_w;  ///< at the start
     double ray = 0;  ///< k*
@@ -123,7 +123,7 @@ class ScaledOrbit final : public FilmOrbit {
   };
   Shift shift_by(std::size_t which, const Integrals& here, const Eigen::Array4d& by_drive) const;
   enum : std::size_t { by_ln_mu, by_v, by_u, by_rho };
-  /// Of x at the start, of the scale, and of T at one x.
+  /// Derivatives of x at the start, of the scale, and of T at one x.
   struct Moved {
     double x, scale, T;
   };

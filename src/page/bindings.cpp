@@ -403,7 +403,7 @@ val bodies() {
   });
 }
 
-/// What is wrong with a mu for the body of that name; empty if nothing is.
+/// Tells why a mu is refused for the body of that name; empty if it is allowed.
 std::string complaint(const std::string& body, double mu) {
   return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
 }

@@ -22,7 +22,7 @@ namespace contensou::page {
 using emscripten::val;
 
 /// What a call answers; what it throws, as an Error with its message, without which an exception of C++ would reach JavaScript.
-/// Of a fault of ours the name is Fault, and the message ends where the page says what was asked.
+/// A fault of ours has the name Fault; the page completes its message with what was asked.
 template <class Call>
 auto answer(Call call) {
   std::string problem;

@@ -487,7 +487,7 @@ TEST_CASE("at a regularised time the state is that of steps of (2.7) in beta", "
         CHECK(found.beta == wanted.beta);
         CHECK(found.u == Approx(wanted.u).epsilon(1e-7));
         CHECK(found.tau == Approx(wanted.tau).epsilon(1e-7).margin(1e-9 * unit * unit * orbit.stop_time()));
-        // With a drive v begins at 0 and has, at first, the digits of tau.
+        // Under a drive v begins at 0 and has, at first, the digits of tau.
         const bool begins = start.v == 0 && wanted.beta < 1e-6 * unit;
         if (std::isfinite(wanted.ln_v) && !begins)
           CHECK(std::abs(found.ln_v - wanted.ln_v) < 1e-6 * (1 + std::abs(wanted.ln_v)));

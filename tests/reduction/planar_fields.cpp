@@ -69,7 +69,7 @@ struct RandomField {
 
 Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// What the orders say of the orbits that come to a line; `sign` of R there.
+/// The end, by the orders alone, of orbits that come to a line with R of this sign.
 PlanarEnd expected_end(const Line& line, double sign) {
   const int a = line.angular, b = line.radial, gamma = b - a + 1;
   if (gamma > 0 && !(a > 0 && b == 0)) return a > 0 && b > 0 ? PlanarEnd::rest : PlanarEnd::border;

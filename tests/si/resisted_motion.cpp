@@ -161,7 +161,7 @@ TEST_CASE("rolling friction above f: a ball that rolls slides at once, the whole
       CHECK(near.slip_length() == Approx(there.slip_length()).epsilon(1e-5));
     }
   }
-  // As much as friction holds: it rolls.
+  // Friction just holds the ball: it rolls.
   const Experiment experiment = pool(Velocities{{1, 0}, {0, 1 / R, 0}});
   CHECK(ResistedMotion(experiment, exact(), 0.2).is_reduced());
   CHECK(ResistedMotion(experiment, exact(), 0.2).slip_length() == 0);

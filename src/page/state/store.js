@@ -78,7 +78,7 @@ export class Store {
     try {
       this.compute(next);
     } catch (error) {
-      // What the library did not foresee: the link of what was asked is what we need of the reader.
+      // The library did not foresee this fault; its report needs the link of what was asked.
       if (error.name === "Fault") error.message += `#${toFragment(next)}`;
       if (this.settled) this.compute(before);
       else this.openWithout(next);

@@ -221,7 +221,7 @@ std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-/// How often a text has a word, not as a part of another.
+/// Counts a word in a text, except as a part of another word.
 std::ptrdiff_t count_word(const std::string& text, const std::string& word) {
   const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   std::ptrdiff_t count = 0;
@@ -232,7 +232,7 @@ std::ptrdiff_t count_word(const std::string& text, const std::string& word) {
   return count;
 }
 
-/// Which of some texts has a word most often.
+/// Index of the text that has a word most often.
 std::optional<std::size_t> most_often(const std::string& word, const std::vector<std::string>& texts) {
   std::vector<std::ptrdiff_t> counts;
   for (const std::string& text : texts) counts.push_back(count_word(in_small_letters(text), in_small_letters(word)));

@@ -93,7 +93,7 @@ class ReducedSystem {
   double scaled_time_rate_;
 };
 
-/// What rounding takes of a stop time at most, relative: eps (4 + ln(1 + r)/2), r = gamma mu^2/chi; beyond r = 1e12, which
+/// Largest relative error of a stop time by rounding: eps (4 + ln(1 + r)/2), r = gamma mu^2/chi; beyond r = 1e12, which
 /// no real body has, 2 eps ln(r/1e12) more.
 ///
 /// Measured in closed form up to mu = 1e6 (tests/certify), by quadrature (tests/reference/rays.csv), and, by how far a
