@@ -49,6 +49,9 @@ class Approach {
   /// True if both orders are known.
   bool decided() const { return decided_; }
 
+  /// Declares the orders unknown.
+  void leave_open() { decided_ = false; }
+
   /// T times side: positive where the motion leads away from the direction.
   const LeadingPower& angular() const { return angular_; }
   const LeadingPower& radial() const { return radial_; }

@@ -54,6 +54,7 @@ struct PlanarReduction::Solved {
   Solved(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise);
   Solved(const Solved&) = delete;
 
+  void leave_branching_open();
   void make_strips();
   std::string_view classify() const;
   StripPlace place(const Vector2d& n) const;
@@ -99,6 +100,31 @@ PlanarReduction::Solved::Solved(PlanarField given, const Generator& generator, c
   kind = classify();
 }
 
+/// Makes the end of orbits undecided that join a ray in finite time where the field says no single way on: orbits leave
+/// it to the other side as well, or the field on the ray is not the limit of its values.
+void PlanarReduction::Solved::leave_branching_open() {
+  constexpr double close = 1e-6;
+  for (Direction& end : directions.dividing) {
+    const auto joins = [](const Approach& side) {
+      return side.ray() && side.angular().order < 1 && side.angular().factor < 0 && side.radial().order == 0;
+    };
+    const auto leaves = [](const Approach& side) { return side.angular().order < 1 && side.angular().factor > 0; };
+    const auto branches = [&](const Approach& side, const Approach& other) {
+      const double along = side.radial().factor;
+      const bool continues = end.rates && std::abs(end.rates->radial - along) <= close * std::abs(along);
+      return joins(side) && (!other.exists() || leaves(other) || !continues);
+    };
+    const bool before = branches(end.before, end.after), after = branches(end.after, end.before);
+    if (before) end.before.leave_open();
+    if (after) end.after.leave_open();
+    if (before || after) {
+      undecided = fmt::format(
+          "orbits come to the angle {:.6g} in finite time, and the field determines no single motion from there on",
+          angle_of(end.n));
+    }
+  }
+}
+
 void PlanarReduction::Solved::make_strips() {
   const double tolerance = std::max(2e-14, 10 * noise);
   strips.clear();
@@ -106,6 +132,7 @@ void PlanarReduction::Solved::make_strips() {
   rays.clear();
   undecided.clear();
   if (directions.star) return;
+  leave_branching_open();
   const std::vector<Direction>& ends = directions.dividing;
   if (ends.empty()) {
     const auto rates = field(turned({1, 0}, 0.5));
@@ -348,7 +375,7 @@ Vector2d PlanarOrbit::Motion::at(double time) const {
       constexpr double longest = 1, change = 4;
       const double growth = std::abs(c * (strip.ln_rho(xi) - strip.ln_rho(xi - 1e-3)) / 1e-3);
       const double step = growth * longest > change ? change / growth : longest;
-      const double left = std::max(xi - step, last), part = elapsed(left, xi);
+      const double left = std::max({xi - step, last, strip.smooth_from(xi)}), part = elapsed(left, xi);
       if (!(passed + part < wanted)) {
         const auto missing = [&](double at) { return passed + elapsed(at, xi) - wanted; };
         xi = root_between(missing, left, xi);

@@ -42,7 +42,8 @@ SectionField::SectionField(PlanarField field, const Generator& scaling, const Ve
   frame_inverse_ = frame_.inverse();
   const double size = Vector2d(frame_inverse_ * (around - centre_)).stableNorm();
   if (!(size > 0) || !std::isfinite(size)) {
-    throw std::domain_error("PlanarReduction: a finite point other than the centre of the scaling is needed");
+    throw std::domain_error(
+        "PlanarReduction: a point is needed that is not the centre of the scaling, at a finite distance from it");
   }
   frame_ *= size;
   frame_inverse_ /= size;

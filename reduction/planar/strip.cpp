@@ -248,6 +248,13 @@ const Strip::Panel& Strip::find(double xi) const {
   return after == panels_.begin() ? panels_.front() : *std::prev(after);
 }
 
+double Strip::smooth_from(double xi) const {
+  const double turns = closed() ? std::ceil(xi / length_) - 1 : 0;  // an end of a turn belongs to the turn before it
+  const auto after = std::ranges::lower_bound(panels_, xi - turns * length_, {}, &Panel::left);
+  if (after != panels_.begin()) return std::prev(after)->left + turns * length_;
+  return closed() ? panels_.back().left + (turns - 1) * length_ : -infinity;
+}
+
 double Strip::ln_rho(double xi) const {
   double beyond = 0;
   if (closed()) {

@@ -67,6 +67,9 @@ class Strip {
   /// True if orbits come to a ray in finite time and go on along it.
   bool joins_ray() const;
 
+  /// The largest end of a panel below xi: s and R are smooth between both. -infinity below all panels.
+  double smooth_from(double xi) const;
+
   /// d sigma = -d xi/s(xi).
   double rate(double xi) const { return terms(xi).rate; }
 

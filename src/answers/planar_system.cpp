@@ -27,8 +27,8 @@ SolvedPlane solve_planar(const reduction::PlanarField& field, const reduction::P
     const Eigen::Vector2d around = at_centre ? Eigen::Vector2d(2 * start) : start;
     try {
       return {reduction::PlanarReduction(field, *found.scaling, around, found.residual), ""};
-    } catch (const reduction::UndecidedRays& undecided) {
-      return {std::nullopt, undecided.what()};
+    } catch (const std::domain_error& refused) {
+      return {std::nullopt, refused.what()};
     }
   }
   if (found.verdict == Verdict::none) return {std::nullopt, "no scaling was found"};

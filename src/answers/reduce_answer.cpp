@@ -163,7 +163,18 @@ std::string difference(double one, double other) {
 
 ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, const Vector2d& start) {
   if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
+  const auto has_value = [&] {
+    try {
+      return field(start).allFinite();
+    } catch (const std::exception&) {
+      return false;
+    }
+  };
   const PlanarSymmetries found = reduction::find_symmetries(field, start);
+  if (!has_value()) {
+    throw BadInput(fmt::format("the field has no value at the start u = {}, v = {}: give a start where it has one",
+                               start[0], start[1]));
+  }
   Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}};
   answer.members.update(symmetry_members(found));
   std::function<std::string(const Digits&)> solution;

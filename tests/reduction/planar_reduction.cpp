@@ -438,6 +438,41 @@ TEST_CASE("a steep field has no points at rest off the centre", "[planar][exact]
           .verdict == PlanarSymmetries::Verdict::undecided);
 }
 
+TEST_CASE("states beyond a jump that the orbit crosses", "[planar][exact]") {
+  const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
+  const PlanarReduction passed = reduced([=](const Vector2d& x) { return Vector2d(1, 2 + sign(x[1])); }, {-3, -1});
+  for (const double v : {-1.0, -0.5, -2.0, -0.1}) {
+    for (const double t : {0.05, 1.5, 2.0, 4.0}) {
+      CAPTURE(v, t);
+      const double height = v + t < 0 ? v + t : 3 * (v + t);
+      CHECK((passed.orbit({-3, v}).at(t) - Vector2d(t - 3, height)).norm() < 1e-12);
+    }
+  }
+  // A circle at two speeds, 3 and 1: the period is pi/3 + pi.
+  const PlanarReduction circle = reduced(
+      [=](const Vector2d& x) -> Vector2d { return (2 + sign(x[0] - 2 * x[1])) * Vector2d(x[1], -x[0]); }, {1, 0.3});
+  CHECK(circle.end({1, 0.3}) == PlanarEnd::periodic);
+  for (const int turns : {1, 5, 40}) {
+    CHECK((circle.orbit({1, 0.3}).at(turns * 4 * pi / 3) - Vector2d(1, 0.3)).norm() < 1e-11);
+  }
+}
+
+TEST_CASE("a ray that orbits join, and may leave, is not decided", "[planar][domain]") {
+  // u' = -u, v' = sqrt|u v|: v = 0 is reached from below; there it may stay, or go on
+  const PlanarReduction branching =
+      reduced([](const Vector2d& x) { return Vector2d(-x[0], std::sqrt(std::abs(x[0] * x[1]))); }, {1, -0.1});
+  CHECK(branching.kind().empty());
+  CHECK(branching.end({1, -0.1}) == PlanarEnd::undecided);
+  CHECK_THAT(branching.undecided(), Contains("no single motion"));
+  // u' = -u, v' = -sqrt|u v| sign(v): v = 0 is reached from both sides
+  const PlanarReduction joining =
+      reduced([](const Vector2d& x) { return Vector2d(-x[0], -std::copysign(std::sqrt(std::abs(x[0] * x[1])), x[1])); },
+              {1, -0.1});
+  CHECK(joining.end({1, -0.1}) == PlanarEnd::centre);
+  // sqrt|v| falls by (1 - exp(-t/2)) sqrt u0: v = 0 at exp(-t/2) = 1 - sqrt 0.1
+  CHECK((joining.orbit({1, -0.1}).at(2) - Vector2d(std::exp(-2), 0)).norm() < 1e-12);
+}
+
 TEST_CASE("relays whose jumps lie on no axis", "[planar][exact]") {
   // The same relay in sheared coordinates stops at the same time.
   const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
