@@ -366,7 +366,8 @@ Vector2d PlanarOrbit::Motion::at(double time) const {
   using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
   const auto elapsed = [&](double left, double right) {
     const auto rate = [&](double xi) { return std::exp(c * (integral + strip.ln_rho(xi))) / strip.rate(xi); };
-    return Rule::integrate(rate, left, right, 10, 1e-13);
+    constexpr unsigned halvings = 3;  // both are smooth between ends of panels
+    return Rule::integrate(rate, left, right, halvings, 1e-13);
   };
   // Steps against xi until the time has passed, on each of which the integrand changes moderately.
   double passed = 0, xi = place.xi;
@@ -402,7 +403,11 @@ Vector2d PlanarOrbit::Motion::at(double time) const {
   const bool decided = strip.to().decided(), joins = strip.joins_ray();
   const bool linear = decided && !joins && strip.to().angular().order == 1;
   constexpr double farthest = -1e4;  // z is 0 there
-  if (go(time, linear || joins || !decided ? std::min(place.xi, Strip::first) : farthest)) return at_coordinate(xi);
+  // What is left beyond is as z^(1 - a) on a ray that orbits join.
+  const double last = joins                ? Strip::first / (1 - strip.to().angular().order)
+                      : linear || !decided ? Strip::first
+                                           : farthest;
+  if (go(time, std::min(place.xi, last))) return at_coordinate(xi);
   if (!decided) {
     throw std::domain_error(
         fmt::format("PlanarOrbit: the point at the time {} is not known: {}", time, solved->undecided));

@@ -249,10 +249,13 @@ const Strip::Panel& Strip::find(double xi) const {
 }
 
 double Strip::smooth_from(double xi) const {
-  const double turns = closed() ? std::ceil(xi / length_) - 1 : 0;  // an end of a turn belongs to the turn before it
-  const auto after = std::ranges::lower_bound(panels_, xi - turns * length_, {}, &Panel::left);
-  if (after != panels_.begin()) return std::prev(after)->left + turns * length_;
-  return closed() ? panels_.back().left + (turns - 1) * length_ : -infinity;
+  const double turns = closed() ? std::floor(xi / length_) : 0, nearest = xi - 1e-12 * (1 + std::abs(xi));
+  for (const double turn : {turns, turns - 1}) {
+    const auto after = std::ranges::lower_bound(panels_, nearest - turn * length_, {}, &Panel::left);
+    if (after != panels_.begin()) return std::prev(after)->left + turn * length_;
+    if (!closed()) break;
+  }
+  return -infinity;
 }
 
 double Strip::ln_rho(double xi) const {
