@@ -507,17 +507,13 @@ class Text {
   }
 
   std::string driven_ending() const {
+    const auto ratios = reduction::terminal_ratios(system_.law(), system_.r(), system_.drive());
     std::string text;
-    try {
-      const auto ratios = reduction::terminal_ratios(system_.law(), system_.r(), system_.drive());
-      if (report_.start.state.u != 0 && ratios.ends.size() == 1) {
-        const auto& [regime, k, from, to] = ratios.ends.front();
-        text = regime == reduction::TerminalRegime::ray
-                   ? fmt::format("creeps while it spins: v/(mu |u|) tends to {}, and v = 0 is no motion\n", number_(k))
-                   : "it slides faster and faster beside its spin: v/(mu |u|) tends to infinity\n";
-      }
-    } catch (const std::runtime_error&) {
-      text = "the limit of v/(mu |u|) is not decided: the drive is within rounding of the birth of a ray\n";
+    if (report_.start.state.u != 0 && ratios.ends.size() == 1) {
+      const auto& [regime, k, from, to] = ratios.ends.front();
+      text = regime == reduction::TerminalRegime::ray
+                 ? fmt::format("creeps while it spins: v/(mu |u|) tends to {}, and v = 0 is no motion\n", number_(k))
+                 : "it slides faster and faster beside its spin: v/(mu |u|) tends to infinity\n";
     }
     return text + "then   slip and spin are over; what the drive does to a body that rolls depends on what it is\n";
   }
