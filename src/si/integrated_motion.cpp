@@ -43,10 +43,11 @@ constexpr long step_limit = 1'000'000;
 /// The equations with the values of one experiment.
 struct Ballistics {
   const reduction::Law& law;
-  double R, m;
-  double tilting;  ///< R^2/J in 1/kg
+  double R;
+  // Per unit of mass, which cancels and need not be known.
+  double tilting;  ///< m R^2/J
   double J_z;
-  double normal_friction;  ///< f N
+  double normal_friction;  ///< f N/m
   double eps;
   double turn;     ///< sign of omega_z
   Vector2d along;  ///< e at the start, from which alpha counts
@@ -55,7 +56,7 @@ struct Ballistics {
   double slip_scale;
 
   /// 1/kg, of the contact point: its acceleration over the force.
-  double mobility() const { return 1 / m + tilting; }
+  double mobility() const { return 1 + tilting; }
   double slip(const Values& x) const { return speed_scale * std::exp(x[0]); }
   double spin(const Values& x) const { return speed_scale * std::exp(x[2]) / R; }  // |omega_z|
   Vector2d direction(const Values& x) const {
@@ -80,9 +81,8 @@ struct Ballistics {
     }
     const auto [phi, psi] = law(reduction::Slip{v, eps * omega});
     const Vector2d e = direction(x);
-    const Vector2d force = -normal_friction * phi * e;
-    const Vector2d acceleration = force / m;
-    const Vector2d turning = tilting / R * Vector2d(force.y(), -force.x());
+    const Vector2d acceleration = -normal_friction * phi * e;
+    const Vector2d turning = tilting / R * Vector2d(acceleration.y(), -acceleration.x());
     const Vector2d contact = acceleration + R * Vector2d(-turning.y(), turning.x());
     const Vector2d centre = velocity(x);
     rate[0] = contact.dot(e) / v;
@@ -220,19 +220,17 @@ IntegratedMotion integrate_motion(const Experiment& experiment, const reduction:
 
   const double R = experiment.ball.radius;
   const auto [chi, gamma] = experiment.ball.body.inertia;
-  Ballistics ball{
-      .law = law,
-      .R = R,
-      .m = experiment.ball.mass,
-      .tilting = (chi - 1) / experiment.ball.mass,
-      .J_z = experiment.ball.mass * R * R / gamma,
-      .normal_friction = experiment.contact.friction * experiment.ball.mass * pressing(experiment.environment),
-      .eps = patch_radius_of(experiment, law),
-      .turn = std::copysign(1.0, spin),
-      .along = v0 > 0 ? Vector2d(contact / v0) : Vector2d(1, 0),
-      .speed_scale = std::max({start.velocity.norm(), R * start.angular_velocity.norm()}),
-      .time_scale = 1,
-      .slip_scale = 1};
+  Ballistics ball{.law = law,
+                  .R = R,
+                  .tilting = chi - 1,
+                  .J_z = R * R / gamma,
+                  .normal_friction = experiment.contact.friction * pressing(experiment.environment),
+                  .eps = patch_radius_of(experiment, law),
+                  .turn = std::copysign(1.0, spin),
+                  .along = v0 > 0 ? Vector2d(contact / v0) : Vector2d(1, 0),
+                  .speed_scale = std::max({start.velocity.norm(), R * start.angular_velocity.norm()}),
+                  .time_scale = 1,
+                  .slip_scale = 1};
   ball.time_scale = ball.slip_time_left(v0) + ball.spin_time_left(std::abs(spin));
   if (v0 > 0) ball.slip_scale = v0 * ball.slip_time_left(v0);
   const double speed = ball.speed_scale;
