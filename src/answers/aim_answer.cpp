@@ -91,6 +91,8 @@ std::string text_of(const AimReport& r, const Digits& number) {
         above == 0 ? "" : fmt::format(" and {} {} it", number(std::abs(above)), above < 0 ? "below" : "above"));
   } else if (r.is_ball() && r.start.velocity.isZero(0) && r.start.angular_velocity.isZero(0)) {
     text += "       it is at rest\n";
+  } else if (r.is_ball() && !si::mass_is_known(r.experiment.ball)) {
+    text += "       the level stroke that starts it needs its mass (--mass)\n";
   } else if (r.is_ball()) {
     text +=
         fmt::format("       no level stroke gives it: its tip would meet the ball more than {} radii off the centre\n",

@@ -14,7 +14,7 @@ Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law
   Json members{{"name", ball.name},
                {"body", ball.body.name},
                {"radius", ball.radius},
-               {"mass", ball.mass},
+               {"mass", si::mass_is_known(ball) ? Json(ball.mass) : Json()},
                {"friction", contact.friction},
                {"gravity", environment.gravity},
                {"patch_radius", si::patch_radius_of(experiment, law)}};
@@ -32,12 +32,13 @@ Json members_of(const si::LoadHistory& load) { return {{"t", load.instants()}, {
 std::string ball_heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
   const auto& [ball, contact, start, environment, spreads] = experiment;
   return fmt::format(
-      "{}: {}radius {} m, mass {} kg, friction {}, {}\n"
+      "{}: {}radius {} m, mass {}, friction {}, {}\n"
       "patch radius {} m, {}: mu = {}\n",
       ball.name,
       fmt::format("{}{}", ball.body.name != si::Body{}.name ? fmt::format("{}, ", ball.body.name) : "",
                   ball.body.factor ? fmt::format("inertia {} m R^2, ", digits(*ball.body.factor)) : ""),
-      digits(ball.radius), digits(ball.mass), digits(contact.friction),
+      digits(ball.radius), si::mass_is_known(ball) ? fmt::format("{} kg", digits(ball.mass)) : "not known",
+      digits(contact.friction),
       environment.load ? fmt::format("load {} N", digits(*environment.load))
                        : fmt::format("gravity {} m/s^2", digits(environment.gravity)),
       digits(si::patch_radius_of(experiment, law)), si::origin_of(contact.patch),

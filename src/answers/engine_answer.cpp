@@ -260,6 +260,7 @@ std::string text_of(const EngineWithBall& of, const Report& report, const Digits
 }  // namespace
 
 Answer engine_answer(const si::Experiment& experiment, const reduction::Law& law, const Engine* only) {
+  si::mass_for("engine", experiment.ball);
   const si::EngineContact contact = si::contact_of(experiment, law);
   Report report{
       experiment, law, contact, {"law " + law.name(), "", contact.moment_arm(), si::fade_times(experiment, law)}, {}};

@@ -52,7 +52,8 @@ constexpr ColumnField<Motion> columns[]{
     {"wy", "1/s", "", [](const Motion& rows) { return &rows.wy; }},
     {"wz", "1/s", "angular velocity, z up", [](const Motion& rows) { return &rows.wz; }},
     {"slip", "m/s", "speed of the contact point", [](const Motion& rows) { return &rows.slip; }},
-    {"energy", "J", "kinetic energy", [](const Motion& rows) { return &rows.energy; }},
+    {"energy", "J", "kinetic energy, if the mass is known",
+     [](const Motion& rows) { return rows.energy.hasNaN() ? nullptr : &rows.energy; }},
 };
 
 constexpr Field<Roll> start_fields[]{
@@ -134,9 +135,11 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      },
      nullptr, 0, " {`t_stop`, `slip_length`, `turns`, `steps`}"},
     {"energy_balance", "J",
-     "kept: for rolling; `lost_rolling` with --rolling-friction; `gained_on_slope` with --slope; where it rolls down "
+     "if the mass is known; kept: for rolling; `lost_rolling` with --rolling-friction; `gained_on_slope` with --slope; "
+     "where it rolls down "
      "for ever, until slip and spin end",
-     [](const Roll& roll) {
+     [](const Roll& roll) -> Json {
+       if (!si::mass_is_known(roll.experiment.ball)) return {};
        const auto& [start, loss, kept, rolling, gained] = energy_balance(roll);
        Json members{{"start", start}, {"lost_sliding", loss.sliding}, {"lost_spinning", loss.pivoting}, {"kept", kept}};
        if (roll.whole.resisted) members["lost_rolling"] = rolling;
@@ -276,10 +279,12 @@ std::string ending(const Roll& roll, const Digits& digits) {
   const auto [start, loss, kept, rolling, gained] = energy_balance(roll);
   const bool slopes = experiment.environment.slope != 0;
   const std::string energy =
-      fmt::format("energy {} J{}: {} lost by sliding, {} by spinning, {}{} kept{}\n", digits(start),
-                  slopes ? fmt::format(" and {} J of the slope", digits(gained)) : "", digits(loss.sliding),
-                  digits(loss.pivoting), rolling > 0 ? fmt::format("{} by rolling, ", digits(rolling)) : "",
-                  digits(kept), slopes && !roll.whole.rest() ? " when slip and spin end" : "");
+      !si::mass_is_known(experiment.ball)
+          ? ""
+          : fmt::format("energy {} J{}: {} lost by sliding, {} by spinning, {}{} kept{}\n", digits(start),
+                        slopes ? fmt::format(" and {} J of the slope", digits(gained)) : "", digits(loss.sliding),
+                        digits(loss.pivoting), rolling > 0 ? fmt::format("{} by rolling, ", digits(rolling)) : "",
+                        digits(kept), slopes && !roll.whole.rest() ? " when slip and spin end" : "");
   const std::string resistance = roll.whole.resisted ? resistance_text(roll, digits) : "";
   if (roll.lies_flat()) return resistance + "then   it lies still\n" + energy;
   if (roll.whole.resisted) return resistance + energy;

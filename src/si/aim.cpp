@@ -236,7 +236,7 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
 
 std::optional<CueStrike> level_strike(const Ball& ball, const Velocities& start) {
   const double speed = start.velocity.x();
-  if (ball.body.lies_flat() || !(speed > 0)) return std::nullopt;
+  if (ball.body.lies_flat() || !mass_is_known(ball) || !(speed > 0)) return std::nullopt;
   const double gamma = ball.body.inertia.gamma;
   const auto offset = [&](double turning) { return turning * ball.radius / (gamma * speed); };
   const double right = offset(start.angular_velocity.z()), above = offset(start.angular_velocity.y());

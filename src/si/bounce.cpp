@@ -41,9 +41,9 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
         fmt::format("restitution is 0 to 1, the part of the normal speed that it goes up with; got {}", restitution));
   Experiment pressed = experiment;
   const auto* moduli = std::get_if<HertzModuli>(&experiment.contact.patch);
-  pressed.contact.patch = PatchRadius{
-      moduli ? hertz_impact_patch_radius(experiment.ball.mass, normal_speed, experiment.ball.radius, *moduli)
-             : patch_radius_of(experiment, law)};
+  pressed.contact.patch = PatchRadius{moduli ? hertz_impact_patch_radius(mass_for("Hertz's formula", experiment.ball),
+                                                                         normal_speed, experiment.ball.radius, *moduli)
+                                             : patch_radius_of(experiment, law)};
   pressed.environment = {.gravity = 1};
   if (const double patch = std::get<PatchRadius>(pressed.contact.patch).value;
       moduli && !(patch > 0 && patch <= pressed.ball.radius))

@@ -151,7 +151,7 @@ const Description::Values* Description::find(const Quantity& quantity) const {
 void Description::start_along_x(const Values* other_radius) {
   const Values &centre = values_.at(&velocity), &body = values_.at(&angular_velocity);
   const Values* const own_radius = other_radius ? other_radius : find(radius);
-  Experiment moving{.ball = {.name = "", .mass = 1, .radius = own_radius ? own_radius->numbers[0] : 0},
+  Experiment moving{.ball = {.name = "", .radius = own_radius ? own_radius->numbers[0] : 0},
                     .contact = {.friction = 0, .patch = WholeFace{}},
                     .start = Velocities{Eigen::Vector2d(centre.numbers.data()), Eigen::Vector3d(body.numbers.data())}};
   values_[&slip] = {{slip_at_start(moving)}, centre.source};
@@ -246,24 +246,25 @@ Experiment experiment_of(const Description& described) {
   for (const auto& [of, standard] : described.spreads().numbers) described.require_given(of, {"", of.name(), ""});
   const Body body = body_of(described);
   Experiment experiment{
-      .ball = {.name = described.name().empty() ? "ball" : described.name(), .mass = 0, .radius = 0, .body = body},
+      .ball = {.name = described.name().empty() ? "ball" : described.name(), .radius = 0, .body = body},
       .contact = {.friction = 0, .patch = WholeFace{}, .law = described.law()},
       .start = SlipAndSpin{},
       .spreads = described.spreads()};
   for (const Quantity* quantity : quantities()) {
+    if (quantity == &mass && !described.find(mass)) continue;
     if (double* const member = member_of(experiment, *quantity))
       *member =
           described.find(*quantity) || !quantity->standard ? numbers_of(described, *quantity)[0] : *quantity->standard;
   }
   experiment.contact.patch = patch_of(described, body);
   experiment.start = start_of(described);
-  if (const Description::Values* newtons = described.find(load)) {
-    experiment.environment.load = newtons->numbers[0];
-    experiment.environment.gravity = newtons->numbers[0] / experiment.ball.mass;
-  } else if (const Description::Values* given = described.find(gravity)) {
-    experiment.environment.gravity = given->numbers[0];
-  }
   try {
+    if (const Description::Values* newtons = described.find(load)) {
+      experiment.environment.load = newtons->numbers[0];
+      experiment.environment.gravity = newtons->numbers[0] / mass_for("a load", experiment.ball);
+    } else if (const Description::Values* given = described.find(gravity)) {
+      experiment.environment.gravity = given->numbers[0];
+    }
     require_experiment(experiment);
   } catch (const std::domain_error& error) {  // of the values together
     if (!described.in_one_file()) throw;

@@ -27,6 +27,14 @@ Eigen::Vector2d pull(const Environment& environment) {
   return {degrees == 0 ? 0 : -environment.gravity * std::sin(degrees * (std::numbers::pi / 180)), 0};
 }
 
+bool mass_is_known(const Ball& ball) { return !std::isnan(ball.mass); }
+
+double mass_for(std::string_view user, const Ball& ball) {
+  if (mass_is_known(ball)) return ball.mass;
+  throw std::domain_error(
+      fmt::format("the mass is not known; {} needs it; give mass (--mass, or 'mass' in [ball])", user));
+}
+
 double* member_of(Experiment& experiment, const Quantity& quantity) {
   const std::pair<const Quantity*, double*> members[]{{&mass, &experiment.ball.mass},
                                                       {&radius, &experiment.ball.radius},
@@ -42,6 +50,7 @@ std::vector<GivenQuantity> given_by(Experiment experiment) {
   for (const Quantity* quantity : quantities()) {
     if (const auto& factor = experiment.ball.body.factor; quantity == &inertia_factor && factor)
       given.push_back({quantity, {*factor}});
+    if (quantity == &mass && !mass_is_known(experiment.ball)) continue;
     const double* const member = member_of(experiment, *quantity);
     if (member && quantity != &slope && quantity->standard != *member) given.push_back({quantity, {*member}});
   }
@@ -98,7 +107,8 @@ double patch_radius_of(const Experiment& experiment, const reduction::Law& law) 
     patch = patch_radius_of_deceleration(ball.radius, measured->value, contact.friction, environment.gravity,
                                          law.pivoting_moment(), ball.body.inertia.gamma);
   } else {
-    patch = hertz_patch_radius(ball.mass * pressing(environment), ball.radius, std::get<HertzModuli>(contact.patch));
+    patch = hertz_patch_radius(mass_for("Hertz's formula", ball) * pressing(environment), ball.radius,
+                               std::get<HertzModuli>(contact.patch));
   }
   if (patch > 0 && patch <= ball.radius) return patch;
   throw std::domain_error(

@@ -440,11 +440,13 @@ std::string run_file(const Experiment& experiment, std::string_view remark) {
   };
   std::string_view section;
   for (const auto& [quantity, values] : given_by(experiment)) {
-    if (section != quantity->section) text += fmt::format("{}[{}]\n", section.empty() ? "" : "\n", quantity->section);
-    if (quantity == &mass) text += word(name_key, experiment.ball.name);
-    if (quantity == &mass && experiment.ball.body.name != Body{}.name)
-      text += word(body_key, experiment.ball.body.name);
+    const bool begins = section != quantity->section;
+    if (begins) text += fmt::format("{}[{}]\n", section.empty() ? "" : "\n", quantity->section);
     section = quantity->section;
+    if (begins && section == name_key.section) {
+      text += word(name_key, experiment.ball.name);
+      if (experiment.ball.body.name != Body{}.name) text += word(body_key, experiment.ball.body.name);
+    }
     text += line(*quantity, values);
     if (quantity == &friction && !experiment.contact.law.empty()) text += word(law_key, experiment.contact.law);
   }

@@ -189,6 +189,50 @@ TEST_CASE("the fitted ball is a run file, ready for roll", "[cli]") {
   CHECK(json_of("stop --format json --ball " + scratch.file("own.toml"))["law"] == formulas + "; c = 0.6");
 }
 
+TEST_CASE("a mass that nobody gave is neither written nor used", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string track = scratch.file("track.csv"), ball = scratch.file("ball.toml");
+  write_file(track, film(0.01, 1));
+  REQUIRE(run_program("fit " + track + " --radius 28.575mm -o " + ball).status == 0);
+  CHECK_THAT(read_file(ball), Contains("radius = ") && !Contains("mass ="));
+  const std::string roll = "roll --ball " + ball;
+  const auto motion = json_of(roll + " --format json"), by_steps = json_of(roll + " --route integrated --format json");
+  const auto weighed = json_of(roll + " --mass 0.17 --format json");
+  for (const auto& each : {motion, by_steps}) {
+    CHECK_FALSE(each.contains("energy"));
+    CHECK_FALSE(each.contains("energy_balance"));
+    CHECK(each["ball"]["mass"].is_null());
+    CHECK(each["t_stop"] == weighed["t_stop"]);
+  }
+  CHECK(motion["x"] == weighed["x"]);
+  CHECK(weighed.contains("energy"));
+  CHECK(weighed["energy_balance"]["start"] > 0);
+  CHECK_THAT(run_program(roll).out, Contains(",wz,slip\n") && !Contains("energy"));
+  CHECK_THAT(run_program(roll + " --format text").out, Contains("mass not known") && !Contains("energy"));
+  CHECK_THAT(run_program(roll + " --format text --samples 3").out, !Contains("energy"));
+  CHECK(run_program(roll + " --rolling-friction 0.01 --slope 1 --format json").status == 0);
+  CHECK_THAT(run_program(roll + " --rolling-friction 0.01 --slope 1 --format text").out, !Contains("energy"));
+  CHECK_THAT(run_program("stop --ball " + ball).out, Contains("mass not known"));
+  CHECK(json_of("stop --format json --ball " + ball)["ball"]["mass"].is_null());
+  CHECK(run_program("check --ball " + ball).status == 0);
+  CHECK_FALSE(json_of("aim --distance 1 --turns 1 --format json --ball " + ball).contains("strike"));
+  CHECK_THAT(run_program("aim --distance 1 --turns 1 --ball " + ball).out, Contains("needs its mass"));
+  const std::string way_out = "give mass (--mass, or 'mass' in [ball])";
+  for (const auto& [command, user] :
+       {std::pair{"roll --strike 1 --ball " + ball, "a cue's stroke"},
+        {"roll --load 3 --ball " + ball, "a load"},
+        {"stop --youngs-modulus 1e6,2e6 --poisson-ratio 0.4,0.3 --ball " + ball, "Hertz's formula"},
+        {"bounce --drop 1 --restitution 0.5 --youngs-modulus 1e6,2e6 --poisson-ratio 0.4,0.3 --ball " + ball,
+         "Hertz's formula"},
+        {"engine --ball " + ball, "engine"},
+        {"engine mujoco --format json --ball " + ball, "engine"}}) {
+    INFO(command);
+    check_rejected(command, fmt::format("the mass is not known; {} needs it; {}", user, way_out));
+    CHECK(run_program(command + " --mass 0.17").status == 0);
+  }
+  check_rejected(roll + " --slip 0 --spin 0 -o " + scratch.file("rest.svg"), "the ball is at rest");
+}
+
 TEST_CASE("fit says when data determine one combination of friction and patch radius only", "[cli]") {
   const auto both = fit_of(film(0.01, 1));
   CHECK_FALSE(both.contains("only"));

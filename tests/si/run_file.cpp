@@ -131,6 +131,22 @@ TEST_CASE("a start may be given by its velocities", "[table]") {
   check_same(read(run_file(awkward), "written"), awkward);
 }
 
+TEST_CASE("a run file may leave out the mass, unless something needs it", "[table]") {
+  const std::string without = with(good, "mass = 0.1701\n", "");
+  const Experiment experiment = read(without, "x.toml");
+  CHECK_FALSE(mass_is_known(experiment.ball));
+  const std::string written = run_file(experiment);
+  CHECK_THAT(written, !Contains("mass") && StartsWith("[ball]\nname = "));
+  CHECK_FALSE(mass_is_known(read(written, "written").ball));
+  CHECK(read(without, "x.toml", {{&mass, {0.5}}}).ball.mass == 0.5);
+  CHECK_THROWS_WITH(read(without + "[environment]\nload = 3\n", "x.toml"),
+                    StartsWith("x.toml:") && Contains("the mass is not known; a load needs it; give mass"));
+  const std::string hertz = with(without, "spin_deceleration = 10",
+                                 "hertz = {youngs_modulus = [2.1e11, 7.0e10], poisson_ratio = [0.3, 0.22]}");
+  CHECK_THROWS_WITH(read(hertz, "x.toml"),
+                    StartsWith("x.toml:") && Contains("the mass is not known; Hertz's formula needs it; give mass"));
+}
+
 TEST_CASE("velocities take the place of a start, one or both", "[table]") {
   const Velocities kept = velocities_of(read(good, "x.toml", {{&velocity, {2, 3}}}).start);
   CHECK(kept.velocity == Eigen::Vector2d(2, 3));
@@ -172,7 +188,7 @@ TEST_CASE("mistakes are found with their place", "[table]") {
   };
   const std::vector<Mistake> mistakes{
       {"[ball\n", "x.toml:1:", {"not TOML"}},
-      {with(good, "mass = 0.1701\n", ""), "x.toml:1:1: ", {"'mass' in [ball] is missing", "kg"}},
+      {with(good, "radius = 0.028575\n", ""), "x.toml:1:1: ", {"'radius' in [ball] is missing", "m"}},
       {with(good, "mass", "mas"), "x.toml:3:1: ", {"unknown key 'mas' in [ball]", "did you mean 'mass'", "allowed: "}},
       {with(good, "[start]", "[strat]"), "x.toml:8:", {"unknown table 'strat'", "did you mean 'start'"}},
       {with(good, "0.1701", "\"0.1701\""), "x.toml:3:8: ", {"'mass' in [ball] must be a number, in kg"}},
@@ -215,7 +231,7 @@ TEST_CASE("mistakes are found with their place", "[table]") {
        "x.toml:8:1: ",
        {"'angular_velocity' in [start] is missing"}},
       {with(good, "[ball]", "ball = 3\n[bull]"), "x.toml:1:", {"'ball' must be a table"}},
-      {"", "x.toml:1:1: ", {"'mass' in [ball] is missing"}},
+      {"", "x.toml:1:1: ", {"'radius' in [ball] is missing"}},
       {with(good, "mass = 0.1701", "mass = 1\nmass = 2"), "x.toml:4:", {"not TOML"}},
       {with(good, "mass = 0.1701", "m\xC3\xA4ss = 1"), "x.toml:3:2: ", {"not TOML", "outside quotes"}},
       {"# \xC3\xA4 'b'\na = '\xC3\xA4' (", "x.toml:2:9: ", {"outside quotes"}},

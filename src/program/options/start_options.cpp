@@ -246,8 +246,8 @@ const si::Description& StartOptions::ball_of_its_own() const {
   if (own_) return *own_;
   if (!ball_.given() && radius_is_ball_) {
     if (const auto& given = value(si::radius); given.given()) {
-      // Friction and patch are first guesses, the mass counts for nothing.
-      own_ = si::describe(si::Experiment{.ball = {.name = "ball", .mass = 1, .radius = given->front()},
+      // Friction and patch are first guesses.
+      own_ = si::describe(si::Experiment{.ball = {.name = "ball", .radius = given->front()},
                                          .contact = {.friction = 0.2, .patch = si::PatchRadius{0.1 * given->front()}},
                                          .start = si::SlipAndSpin{.slip = 0, .spin = 0}});
       return *own_;

@@ -144,6 +144,10 @@ class StartOptions {
   /// @param between  values that take the place of the ball's own, and that options replace
   si::Experiment read_ball(const reduction::Law& law, const si::Description& between = {}) const;
 
+  /// Rejects --ball, with the options that replace its values.
+  /// @throws BadInput  always
+  [[noreturn]] void reject_ball(const std::string& message) const;
+
   /// Rejects a ball with rolling friction or on a slope, where there is no answer with them.
   /// @param what  that knows none, for the message
   void require_undriven(const si::Experiment& experiment, const std::string& what) const;
@@ -163,7 +167,6 @@ class StartOptions {
   void tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const;
 
   void require_one_kind() const;
-  [[noreturn]] void reject_ball(const std::string& message) const;
   std::string override_names() const;
 
   BodyOptions body_;

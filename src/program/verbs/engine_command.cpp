@@ -31,6 +31,11 @@ class EngineCommand final : public Verb {
     }
     const si::Experiment ball = start_.read_ball(law);
     start_.require_undriven(ball, "engine");
+    try {
+      si::mass_for("engine", ball.ball);
+    } catch (const std::domain_error& error) {
+      start_.reject_ball(error.what());
+    }
     output_.read().write(engine_answer(ball, law, only));
     return ExitStatus::done;
   }

@@ -87,6 +87,7 @@ std::string files() {
         fmt::format("Give {}{}.", fmt::join(names, ", or "),
                     ways.front().front() == &si::patch_radius ? "; a disc or ring has its whole face without" : ""));
   }
+  text += help_paragraph("mass may be left out. Energies, a load, moduli, a cue's stroke and engine need it.");
   return text + "\n" +
          help_paragraph(
              "Tables (--batch, --at, --against, --law FILE.csv): CSV with one header line; # begins a comment; - is "

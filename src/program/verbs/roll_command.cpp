@@ -167,7 +167,7 @@ class RollCommand final : public Verb {
       if (instants_.asked() > max_frames) {
         throw BadInput(fmt::format("a film has at most {} frames, got --samples {}", max_frames, *instants_.asked()));
       }
-      if (si::kinetic_energy(roll.experiment.ball, si::velocities_of(roll.experiment.start)) == 0) {
+      if (const auto [centre, body] = si::velocities_of(roll.experiment.start); centre.isZero(0) && body.isZero(0)) {
         throw BadInput("the ball is at rest, there is nothing to draw: give it a --slip, a --spin or a --velocity");
       }
       const double rolls = std::max(roll.whole.rolls, roll.textbook.rolls);

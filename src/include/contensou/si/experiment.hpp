@@ -1,7 +1,9 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -14,13 +16,24 @@
 
 namespace contensou::si {
 
+/// The mass of a ball that nobody gave. It is NaN, so that no energy computed from it is a number. The motion needs no mass.
+inline constexpr double unknown_mass = std::numeric_limits<double>::quiet_NaN();
+
 /// A ball, or a body that lies flat.
 struct Ball {
   std::string name;
-  double mass;     ///< kg
-  double radius;   ///< m
-  Body body = {};  ///< of bodies(), with its own factor where one was given
+  double mass = unknown_mass;  ///< kg
+  double radius;               ///< m
+  Body body = {};              ///< of bodies(), with its own factor where one was given
 };
+
+/// Returns whether the mass is given, that is other than unknown_mass.
+bool mass_is_known(const Ball& ball);
+
+/// Returns the mass of a ball in kg.
+/// @param user  names in the message whatever needs the mass
+/// @throws std::domain_error  if the mass is not known
+double mass_for(std::string_view user, const Ball& ball);
 
 /// The patch as it was measured.
 struct PatchRadius {
