@@ -155,6 +155,19 @@ velocity = [1, 2]\nangular_velocity = [3, 4, 5]\n[environment]\nload = 5\n""")
         ball.but(mass="x")
 
 
+def test_a_ball_of_unknown_mass(tmp_path):
+    ball = ct.Ball(radius=0.03, friction=0.2, patch_radius=2e-3, slip=1, spin=50)
+    assert ball.mass is None
+    ball.write(tmp_path / "ball.toml")
+    assert "mass" not in (tmp_path / "ball.toml").read_text()
+    assert ct.Ball.read(tmp_path / "ball.toml") == ball == pickle.loads(pickle.dumps(ball))
+    motion, weighed = ball.roll()(0.1), ball.but(mass=0.2).roll()(0.1)
+    assert motion["x"] == weighed["x"] and np.isnan(motion["energy"]) and weighed["energy"] > 0
+    for refused in (lambda: ball.but(load=3), lambda: ball.roll(strike=1), lambda: ct.engines(ball)):
+        with pytest.raises(ValueError, match="the mass is not known; .* needs it; give mass"):
+            refused()
+
+
 def test_a_puck_lies_flat():
     puck = ct.Ball.puck()
     assert (puck.body, puck.law, puck.patch_radius, puck.mu()) == ("disc", ct.law("uniform"), None, 1)

@@ -29,6 +29,7 @@ class Event(NamedTuple):
 class Ball:
     """A ball on a plane, or a body that lies flat on it, in SI units, with a typical start.
 
+    mass may be None, that is not known. The energies of a motion are then nan. A load, moduli, a stroke and engines need it.
     Its patch is given by one of patch_radius (m), spin_deceleration (rad/s^2, measured without slip), or Young's moduli
     (Pa) and Poisson's ratios of ball and plane, with counter_radius (m) where it is no plane: of another ball above 0, of a
     dish below 0; it changes the patch alone. What presses it on the plane is gravity (m/s^2, 9.80665 if left out), or a
@@ -45,14 +46,14 @@ class Ball:
     `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
     """
 
-    mass: float
-    radius: float
-    friction: float
+    mass: Optional[float] = None
+    radius: float = None  # type: ignore[assignment]  # never after __init__
+    friction: float = None  # type: ignore[assignment]
     patch_radius: Optional[float] = None
     spin_deceleration: Optional[float] = None
     youngs_modulus: Optional[tuple[float, float]] = None
     poisson_ratio: Optional[tuple[float, float]] = None
-    gravity: float = None  # type: ignore[assignment]  # never after __init__
+    gravity: float = None  # type: ignore[assignment]
     slip: float = None  # type: ignore[assignment]
     spin: float = None  # type: ignore[assignment]
     name: str = "ball"
