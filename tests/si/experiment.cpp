@@ -33,7 +33,7 @@ TEST_CASE("an experiment is checked value by value", "[limit]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const std::vector<Fault> faults{
-      {[](Experiment& s, double x) { s.ball.mass = x; }, "mass", {0, -1, nan, inf}},
+      {[](Experiment& s, double x) { s.ball.mass = x; }, "mass", {0, -1, inf}},
       {[](Experiment& s, double x) { s.ball.radius = x; }, "radius", {0, -1, nan, inf}},
       {[](Experiment& s, double x) { s.contact.friction = x; }, "friction", {0, -1, nan, inf}},
       {[](Experiment& s, double x) { s.contact.patch = PatchRadius{x}; }, "patch_radius", {0, -1, nan, inf}},
@@ -52,6 +52,9 @@ TEST_CASE("an experiment is checked value by value", "[limit]") {
       {[](Experiment& s, double x) { std::get<SlipAndSpin>(s.start).spin = x; }, "spin", {nan, inf, -inf}},
       {[](Experiment& s, double x) { s.environment.gravity = x; }, "gravity", {0, -9.8, nan, inf}},
   };
+  Experiment weightless = good_shot();
+  weightless.ball.mass = unknown_mass;
+  CHECK_NOTHROW(require_experiment(weightless));
   for (const Fault& fault : faults) {
     for (double value : fault.values) {
       Experiment experiment = good_shot();
