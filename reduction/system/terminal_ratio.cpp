@@ -153,8 +153,7 @@ TerminalRatios terminal_ratios(const Law& law, double r, double drive) {
   if (drive > 0 && std::abs((1 - drive) - r * moment) <= 8 * eps) {
     throw std::runtime_error(fmt::format(
         "drive {} with r = {} is within rounding of the drive at which a ray leaves k = infinity, so that the ratio "
-        "v/(mu |u|) at the end is not decided; give a smaller or a larger drive, or a route in steps (regularised, "
-        "direct)",
+        "v/(mu |u|) at the end is not decided; give a smaller or a larger drive",
         drive, r));
   }
   Search found(law, r, drive);
