@@ -147,8 +147,8 @@ velocity = [1, 2]\nangular_velocity = [3, 4, 5]\n[environment]\nload = 5\n""")
     assert ball.slip == math.hypot(1 - 0.4, 2 + 0.3) and ball.spin == 5
     assert ball.roll().velocity == (1, 2) and ball.roll(velocity=(0, 1)).angular_velocity == (3, 4, 5)
     assert ball.roll(slip=1, spin=2).angular_velocity == (0, 0, 2)
-    with pytest.raises(ValueError, match="slip and velocity exclude each other"):
-        ball.roll(slip=1)
+    # A slip replaces the velocities; the spin that is not given is theirs.
+    assert ball.roll(slip=1).angular_velocity == (0, 0, 5)
     with pytest.raises(TypeError, match="a Ball has no mas; it has mass, radius"):
         ball.but(mas=1)
     with pytest.raises(TypeError, match="mass: a number is needed, mass of the ball, in kg; got 'x'"):
