@@ -49,16 +49,16 @@ double time_passed(const Instant& at, const Instant& start) { return 1 - at.tau_
 
 /// A motion at equal ratios of 1 + beta/beta_1, from 1 to a border. Rows of an orbit lie where the plane needs them: those
 /// of a small patch leave out decades of beta.
-struct Course {
+struct BetaCourse {
   std::vector<double> places;
   std::vector<Instant> instants;
 };
 
-Course course_of(const reduction::Flow& flow, reduction::State start, double border) {
+BetaCourse beta_course(const reduction::Flow& flow, reduction::State start, double border) {
   constexpr int of_decade = 24, fewest = 240;
   const double rate = rate_at(flow.system(), flow.system().mu() * std::abs(start.u), start.v);
   const int count = std::max(fewest, static_cast<int>(of_decade * std::log10(border)));
-  Course course;
+  BetaCourse course;
   Eigen::ArrayXd betas(count + 1);
   for (int i = 0; i <= count; ++i) {
     course.places.push_back(i == count ? border : std::pow(border, static_cast<double>(i) / count));
@@ -100,7 +100,7 @@ std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
     const auto& terminal = of.plane.terminal;
     const double end = terminal.end_of(std::exp(orbit.ln_k[0])).k, r = of.system().r();
     if (!is_one_orbit(of.flow, orbit)) return;
-    const Course course = course_of(of.flow, {orbit.u[0], orbit.v[0]}, border);
+    const BetaCourse course = beta_course(of.flow, {orbit.u[0], orbit.v[0]}, border);
     const Instant &first = course.instants.front(), &last = course.instants.back();
     for (std::size_t i = 0; i < panels.size(); ++i) {
       Polyline line;
