@@ -15,9 +15,9 @@ namespace contensou::reduction {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-namespace {
-
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+namespace {
 
 /// The frame S in which |n| grows along the scaling everywhere: with Q of A^T Q + Q A = 1, Q = S^-T S^-1.
 Matrix2d frame_of(const Matrix2d& a) {

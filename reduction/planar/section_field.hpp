@@ -46,6 +46,8 @@ class SectionField {
   Eigen::Matrix2d frame_, frame_inverse_, matrix_;  ///< S, S^-1, A' = S^-1 A S
 };
 
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
 /// n turned counter-clockwise, to the last bits of each component for small angles.
 Eigen::Vector2d turned(const Eigen::Vector2d& n, double angle);
 

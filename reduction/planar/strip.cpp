@@ -23,8 +23,6 @@ using Samples = LegendreSeries::Samples;
 
 namespace {
 
-double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
-
 constexpr double same_order = 1e-9;
 
 /// p at an end, where `sign` is 1 if time goes on towards it and -1 if time came from it.

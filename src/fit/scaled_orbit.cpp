@@ -321,7 +321,8 @@ FilmOrbit::Moment ScaledOrbit::driven(const Place& place, std::size_t cell) cons
   const Integrals& here = place.here;
   const double x = place.cell->x - place.cell->half_width * (1 + place.z), k = ratio(x);
   const double w = place.moves ? std::exp(here[ln_w]) : 0, v = k * w;
-  const auto [dT, q] = slopes(place);
+  const auto slope = slopes(place);
+  const double dT = slope.T, q = slope.ln_w;
   Eigen::Array4d by_drive = Eigen::Array4d::Zero();
   for (int n = nodes; n >= 0; --n) by_drive = by_drive * place.z + by_drive_[cell].col(n);
   const auto change = [&](std::size_t which) -> Speeds {
@@ -404,7 +405,8 @@ ScaledOrbit::Moment ScaledOrbit::at(double T, std::size_t& cell) const {
   if (!beside_.empty()) return driven(place, cell);
   const Integrals& here = place.here;
   const Speeds& unit = place.unit;
-  const auto [dT, q] = slopes(place);
+  const auto slope = slopes(place);
+  const double dT = slope.T, q = slope.ln_w;
   result.now = now(place);
   if (place.moves) {
     result.dv = result.now.v * (1 + q) / dT;
