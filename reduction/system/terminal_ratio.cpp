@@ -147,15 +147,7 @@ TerminalRatios terminal_ratios(const Law& law, double r, double drive) {
   }
   constexpr double fast = 0x1p100;
   const double low = law.force_slope() / law.pivoting_moment();
-  const double moment = fast * law({fast, 1}).moment, high = (1 - drive) / moment;
-  // The ray at infinity is born at 1 - rho = r K, K the limit of k Psi. Beside it k* depends on 1 - Phi(k*), which is
-  // below the rounding of Phi.
-  if (drive > 0 && std::abs((1 - drive) - r * moment) <= 8 * eps) {
-    throw std::runtime_error(fmt::format(
-        "drive {} with r = {} is within rounding of the drive at which a ray leaves k = infinity, so that the ratio "
-        "v/(mu |u|) at the end is not decided; give a smaller or a larger drive",
-        drive, r));
-  }
+  const double high = (1 - drive) / (fast * law({fast, 1}).moment);
   Search found(law, r, drive);
   auto ends = ends_of(found.rays, found.signs);
   return {low, high, std::move(found.rays), std::move(ends)};

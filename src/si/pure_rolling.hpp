@@ -23,7 +23,7 @@ class PureRolling {
   /// s until it rests for good; infinity where it never does.
   double rest_time() const;
 
-  /// Returns the s until it needs more friction than there is, |share + a V/|V|| > most (R67); infinity where it never does.
+  /// Returns the s until it needs more friction than there is, |share + a V/|V|| > most (R56); infinity where it never does.
   /// @param most   m/s^2, f N/m
   /// @param share  m/s^2, along the pull: what friction bears of it, A/(chi - 1)
   double slides_after(double most, double share) const;

