@@ -87,8 +87,9 @@ std::optional<LeadingPower> power_through(const std::array<Sample, 3>& samples, 
 
 Approach::Approach(const SectionField& field, const Place& place, double side, double length, double noise)
     : n_(place.n), side_(side), error_(place.error) {
-  constexpr double widest = 0.4, narrowest = 1e-6;
-  exists_ = field(turned(n_, side * std::min(narrowest, length / 8))).has_value();
+  constexpr double widest = 0.4, near = 1e-6;
+  const double narrowest = error_ > 0 ? 1e-9 : near;  // next to an axis slopes reach nearer
+  exists_ = field(turned(n_, side * std::min(near, length / 8))).has_value();
   if (!exists_) return;
   for (int root = 1; root <= 3; ++root) {
     for (const bool componentwise : {true, false}) {
@@ -149,8 +150,11 @@ Approach::Rates Approach::series(double z) const {
 void Approach::find_slopes(const SectionField& field, double length, double noise) {
   // On an axis the angle has all its digits however small it is, unless the centre takes them.
   const bool on_axis = n_[0] == 0 || n_[1] == 0;
-  const std::array<std::pair<double, std::array<double, 3>>, 2> tries{
-      {{1e-8, {1e-20, 1e-28, 1e-36}}, {1e-3, {1e-4, 1e-5, 1e-6}}}};
+  const std::array<std::pair<double, std::array<double, 3>>, 3> tries{{
+      {1e-8, {1e-20, 1e-28, 1e-36}},
+      {1e-8, {1e-180, 1e-210, 1e-240}},  // orders that differ little separate slowly
+      {1e-3, {1e-4, 1e-5, 1e-6}},
+  }};
   for (const auto& [allowed, distances] : tries) {
     if (distances[0] < 1e-6 && !on_axis) continue;
     std::array<Sample, 3> angular, radial;
