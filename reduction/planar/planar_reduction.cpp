@@ -403,7 +403,7 @@ Vector2d PlanarOrbit::Motion::at(double time) const {
   const bool decided = strip.to().decided(), joins = strip.joins_ray();
   const bool linear = decided && !joins && strip.to().angular().order == 1;
   constexpr double farthest = -1e4;  // z is 0 there
-  // What is left beyond is as z^(1 - a) on a ray that orbits join.
+  // The rest of the time is as z^(1 - a) on a ray that orbits join.
   const double last = joins                ? Strip::first / (1 - strip.to().angular().order)
                       : linear || !decided ? Strip::first
                                            : farthest;

@@ -478,7 +478,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
     nullity += result.singular_values[i] <= result.level;
   }
   constexpr double hidden = 1e-2;
-  // With sizes so different, a few samples decide alone; the rows of all samples should.
+  // A few samples decide alone if sizes differ so much; the rows of all samples should.
   constexpr double widest = 1e140;
   if (result.level > hidden || !(equations.range < widest)) result.verdict = PlanarSymmetries::Verdict::undecided;
   const double zero = std::max(result.level, nullity > 0 ? result.singular_values[nullity - 1] : 0);
