@@ -17,9 +17,9 @@
 
 #include <fmt/format.h>
 
-#include "answers/formula_law.hpp"
-#include "answers/portrait_spec.hpp"
-#include "answers/pressure_profile.hpp"
+#include "answers/asked/formula_law.hpp"
+#include "answers/asked/portrait_spec.hpp"
+#include "answers/input/pressure_profile.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/portraits/phase_portrait.hpp"

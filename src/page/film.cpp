@@ -5,10 +5,10 @@
 
 #include <emscripten/bind.h>
 
-#include "answers/csv.hpp"
-#include "answers/fit_answer.hpp"
-#include "answers/fit_figure.hpp"
-#include "answers/track_file.hpp"
+#include "answers/input/csv.hpp"
+#include "answers/input/track_file.hpp"
+#include "answers/verbs/fit_answer.hpp"
+#include "answers/verbs/fit_figure.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/experiment.hpp"
 #include "javascript.hpp"

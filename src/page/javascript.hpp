@@ -12,7 +12,7 @@
 #include <emscripten/val.h>
 #include <Eigen/Core>
 
-#include "answers/message.hpp"
+#include "answers/input/message.hpp"
 #include "contensou/portraits/figure.hpp"
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/si/experiment.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "answers/errors.hpp"
+#include "answers/input/errors.hpp"
 #include "platform/file_failure.hpp"
 
 /// Makes of words what answers hold, and writes them.

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/message.hpp"
-#include "answers/parse.hpp"
+#include "answers/input/message.hpp"
+#include "answers/input/parse.hpp"
 #include "contensou/si/run_file.hpp"
 #include "output/help.hpp"
 #include "platform/interruption.hpp"

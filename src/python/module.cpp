@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include "answers/message.hpp"
+#include "answers/input/message.hpp"
 #include "values.hpp"
 
 namespace {

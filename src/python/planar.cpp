@@ -8,7 +8,7 @@
 
 #include <pybind11/eigen.h>
 
-#include "answers/planar_system.hpp"
+#include "answers/asked/planar_system.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "planar.hpp"

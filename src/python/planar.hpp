@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "answers/planar_system.hpp"
+#include "answers/asked/planar_system.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "values.hpp"
 

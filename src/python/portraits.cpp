@@ -3,7 +3,7 @@
 #include <functional>
 #include <variant>
 
-#include "answers/portrait_spec.hpp"
+#include "answers/asked/portrait_spec.hpp"
 #include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/planar_portrait.hpp"

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <variant>
 
-#include "answers/formula_law.hpp"
+#include "answers/asked/formula_law.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/instant_gradient.hpp"
 #include "contensou/reduction/laws.hpp"

@@ -14,10 +14,10 @@
 
 #include <fmt/format.h>
 
-#include "answers/aim_answer.hpp"
-#include "answers/engine_answer.hpp"
-#include "answers/formula_law.hpp"
-#include "answers/roll_uncertainty.hpp"
+#include "answers/asked/formula_law.hpp"
+#include "answers/verbs/aim_answer.hpp"
+#include "answers/verbs/engine_answer.hpp"
+#include "answers/verbs/roll_uncertainty.hpp"
 #include "contensou/portraits/json.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/si/ball_motion.hpp"

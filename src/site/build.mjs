@@ -173,7 +173,7 @@ ${parts.map(partOfReadme).join("\n")}
 // The public headers, by doxygen; of its pages what lies between its own head and foot.
 function reference() {
   const folder = mkdtempSync(join(tmpdir(), "contensou-reference-"));
-  const roots = ["reduction", "portraits", "src"].map((part) => join(project, part, "include"));
+  const roots = ["reduction", "portraits", "src/si", "src/fit"].map((part) => join(project, part, "include"));
   const quoted = (...paths) => paths.map((path) => `"${path}"`).join(" ");
   const headers = roots.flatMap((root) => readdirSync(root, { recursive: true }).filter((path) => /\.hp*$/.test(path)).sort());
   // A page for each header, too.

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "answers/csv.hpp"
+#include "answers/input/csv.hpp"
 #include "finding.hpp"
 
 using namespace contensou;

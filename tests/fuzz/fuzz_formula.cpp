@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "answers/errors.hpp"
-#include "answers/formulas.hpp"
-#include "answers/parse.hpp"
+#include "answers/input/errors.hpp"
+#include "answers/input/formulas.hpp"
+#include "answers/input/parse.hpp"
 #include "finding.hpp"
 
 using namespace contensou;

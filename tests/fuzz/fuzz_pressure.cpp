@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <typeinfo>
 
-#include "answers/pressure_profile.hpp"
+#include "answers/input/pressure_profile.hpp"
 #include "finding.hpp"
 
 using namespace contensou;

@@ -1,4 +1,4 @@
-#include "answers/csv.hpp"
+#include "answers/input/csv.hpp"
 
 #include <algorithm>
 #include <string>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "answers/parse.hpp"
+#include "answers/input/parse.hpp"
 
 using namespace contensou::answers;
 using Catch::Matchers::Equals;

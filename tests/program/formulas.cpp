@@ -1,5 +1,5 @@
 // Formulas against trees that are evaluated without their text, and against differences of 33 digits.
-#include "answers/formulas.hpp"
+#include "answers/input/formulas.hpp"
 
 #include <array>
 #include <bit>
@@ -16,8 +16,8 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 
-#include "answers/errors.hpp"
-#include "answers/planar_system.hpp"
+#include "answers/asked/planar_system.hpp"
+#include "answers/input/errors.hpp"
 
 using namespace contensou::answers;
 using Catch::Matchers::Contains;

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "answers/fields.hpp"
+#include "answers/verbs/fields.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "output/formula.hpp"
 #include "run_program.hpp"

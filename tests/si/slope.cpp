@@ -17,7 +17,7 @@
 #include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "contensou/si/uncoupled_motion.hpp"
-#include "si/pure_rolling.hpp"
+#include "si/motion/pure_rolling.hpp"
 
 using namespace contensou;
 using namespace contensou::si;

@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "answers/parse.hpp"
+#include "answers/input/parse.hpp"
 #include "exit_status.hpp"
 
 namespace contensou::program {

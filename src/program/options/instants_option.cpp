@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/csv.hpp"
+#include "answers/input/csv.hpp"
 #include "contensou/si/quantity.hpp"
 
 namespace contensou::program {

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/formula_law.hpp"
-#include "answers/law_forms.hpp"
-#include "answers/pressure_profile.hpp"
+#include "answers/asked/formula_law.hpp"
+#include "answers/asked/law_forms.hpp"
+#include "answers/input/pressure_profile.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "text/nearest_name.hpp"
 

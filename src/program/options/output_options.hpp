@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "answers/answer.hpp"
+#include "answers/table/answer.hpp"
 #include "contensou/portraits/gnuplot.hpp"
 #include "options/argument.hpp"
 

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/formula_law.hpp"
-#include "answers/load_table.hpp"
+#include "answers/asked/formula_law.hpp"
+#include "answers/input/load_table.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::program {

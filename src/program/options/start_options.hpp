@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "answers/given_start.hpp"
+#include "answers/asked/given_start.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/body.hpp"
 #include "contensou/si/catalogue.hpp"

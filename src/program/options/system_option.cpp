@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/planar_system.hpp"
+#include "answers/asked/planar_system.hpp"
 
 namespace contensou::program {
 

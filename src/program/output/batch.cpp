@@ -11,7 +11,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "answers/answer.hpp"
+#include "answers/table/answer.hpp"
 #include "contensou/si/quantity.hpp"
 #include "output/ordered_work.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "answers/csv.hpp"
+#include "answers/input/csv.hpp"
 #include "exit_status.hpp"
 #include "output/progress.hpp"
 #include "platform/output_file.hpp"

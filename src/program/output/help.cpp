@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/fields.hpp"
+#include "answers/verbs/fields.hpp"
 
 namespace contensou::program {
 

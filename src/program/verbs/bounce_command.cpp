@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "answers/bounce_answer.hpp"
+#include "answers/verbs/bounce_answer.hpp"
 #include "contensou/si/quantity.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/fit_answer.hpp"
-#include "answers/fit_figure.hpp"
-#include "answers/formula_law.hpp"
-#include "answers/track_file.hpp"
+#include "answers/asked/formula_law.hpp"
+#include "answers/input/track_file.hpp"
+#include "answers/verbs/fit_answer.hpp"
+#include "answers/verbs/fit_figure.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/ball_motion.hpp"
 #include "contensou/si/resisted_motion.hpp"

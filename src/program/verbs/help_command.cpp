@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/answer.hpp"
-#include "answers/law_forms.hpp"
+#include "answers/asked/law_forms.hpp"
+#include "answers/table/answer.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/si/quantity.hpp"
 #include "options/law_option.hpp"

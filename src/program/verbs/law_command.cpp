@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/csv.hpp"
+#include "answers/input/csv.hpp"
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "options/figure_options.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/text_table.hpp"
+#include "answers/table/text_table.hpp"
 #include "options/output_options.hpp"
 #include "paper/literature.hpp"
 #include "verb.hpp"

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "answers/ball_answer.hpp"
-#include "answers/load_table.hpp"
+#include "answers/input/load_table.hpp"
+#include "answers/verbs/ball_answer.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/small_mu.hpp"

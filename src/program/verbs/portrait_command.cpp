@@ -11,8 +11,8 @@
 #include <fmt/ranges.h>
 #include <Eigen/Core>
 
-#include "answers/phase_plane_answer.hpp"
-#include "answers/portrait_spec.hpp"
+#include "answers/asked/portrait_spec.hpp"
+#include "answers/verbs/phase_plane_answer.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"

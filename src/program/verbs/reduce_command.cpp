@@ -1,4 +1,4 @@
-#include "answers/reduce_answer.hpp"
+#include "answers/verbs/reduce_answer.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"

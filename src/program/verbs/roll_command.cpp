@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "answers/load_table.hpp"
-#include "answers/roll_answer.hpp"
+#include "answers/input/load_table.hpp"
+#include "answers/verbs/roll_answer.hpp"
 #include "contensou/portraits/roll_figure.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/si/ball_motion.hpp"

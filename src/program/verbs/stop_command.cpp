@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "answers/load_table.hpp"
-#include "answers/stop_answer.hpp"
+#include "answers/input/load_table.hpp"
+#include "answers/verbs/stop_answer.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/bulk_options.hpp"
 #include "options/law_option.hpp"

@@ -1,6 +1,6 @@
 #include <optional>
 
-#include "answers/phase_plane_answer.hpp"
+#include "answers/verbs/phase_plane_answer.hpp"
 #include "contensou/portraits/rays_figure.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"

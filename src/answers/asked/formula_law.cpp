@@ -1,0 +1,101 @@
+#include "answers/asked/formula_law.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "answers/input/errors.hpp"
+#include "answers/input/formulas.hpp"
+#include "answers/input/parse.hpp"
+#include "contensou/reduction/laws.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+constexpr const char* no_speed = "dry friction depends on the ratio k = v/(mu |u|) alone, not on the size of speeds";
+
+class FormulaLaw {
+ public:
+  FormulaLaw(const std::string& text, const std::map<std::string, double>& parameters)
+      : name_(text),
+        formulas_({{"phi", "psi"},
+                   {"k"},
+                   "a law is \"phi = F; psi = G\", formulas in k = v/(mu |u|)",
+                   {{"u", no_speed}, {"v", no_speed}}},
+                  text, parameters) {
+    for (const auto& [name, value] : parameters) name_ += fmt::format("; {} = {}", name, value);
+  }
+
+  const std::string& name() const { return name_; }
+
+  reduction::Resistance operator()(reduction::Slip slip) const {
+    if (slip.pivoting == 0) return {formulas_({most})[0], 0};
+    const double k = slip.sliding / slip.pivoting;
+    if (k < least) {
+      const auto [phi, psi] = formulas_({least});
+      return {phi * (k / least), psi};
+    }
+    if (k > most) {
+      const auto [phi, psi] = formulas_({most});
+      return {1 - (1 - phi) * (most / k), psi * (most / k)};
+    }
+    const auto [phi, psi] = formulas_({k});
+    return {phi, psi};
+  }
+
+  /// That it resists wherever it slides and pivots, to a step of k that shows a pole or a gap.
+  void require_resistance() const {
+    constexpr double from = 1e-9, to = 1e9;
+    constexpr int steps = 3600;
+    for (int i = 0; i <= steps; ++i) {
+      const double k = from * std::pow(to / from, static_cast<double>(i) / steps);
+      const auto [phi, psi] = formulas_({k});
+      if (phi > 0 && psi > 0 && std::isfinite(phi) && std::isfinite(psi)) continue;
+      throw BadInput(
+          fmt::format("friction resists: phi and psi must be positive and finite for every k > 0, but phi = {} and psi "
+                      "= {} at k = {:.6g}",
+                      phi, psi, k));
+    }
+  }
+
+ private:
+  /// Beyond, formulas may overflow. The limits are measured within.
+  static constexpr double least = 0x1p-90, most = 0x1p90;
+
+  std::string name_;
+  Formulas formulas_;
+};
+
+}  // namespace
+
+bool is_formula_law(const std::string& text) { return text.find('=') != std::string::npos && !text.ends_with(".csv"); }
+
+reduction::Law parse_formula_law(const std::string& text, const std::map<std::string, double>& parameters) {
+  const FormulaLaw law(text, parameters);
+  law.require_resistance();
+  try {
+    return law;
+  } catch (const std::domain_error& error) {
+    // The name is in the message of whoever asked.
+    std::string message = error.what();
+    const std::string before = fmt::format("Law {}: ", law.name());
+    if (message.starts_with(before)) message.erase(0, before.size());
+    if (message.find("2^-60") != std::string::npos) {
+      message += "; where a formula loses its digits there, as 1 - 1/(1 + k) does, write it without the difference";
+    }
+    throw BadInput(message);
+  }
+}
+
+std::optional<reduction::Law> find_law_or_formulas(const std::string& text) {
+  if (is_formula_law(text)) return parse_formula_law(text);
+  try {
+    return reduction::find_law(text);
+  } catch (const std::domain_error& error) {
+    throw BadInput(escaped(error.what()));  // its letters may be unprintable
+  }
+}
+
+}  // namespace contensou::answers

@@ -1,0 +1,37 @@
+#include "answers/asked/law_forms.hpp"
+
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "contensou/reduction/laws.hpp"
+
+namespace contensou::answers {
+
+std::vector<std::pair<std::string, std::string>> law_forms() {
+  // What the program has to add.
+  const std::map<std::string_view, std::string_view> notes{
+      {"exact", "the default of a ball; also called hertz"},
+      {"pade", cost_of_pade},
+      {"uniform", "the default of --body disc"},
+      {"ring", "the default of --body ring"},
+  };
+  std::vector<std::pair<std::string, std::string>> forms;
+  for (const std::string_view name : reduction::names_of_laws()) {
+    std::string meaning(reduction::meaning_of_law(name));
+    if (const auto note = notes.find(name); note != notes.end()) meaning += fmt::format(", {}", note->second);
+    forms.emplace_back(name, meaning);
+  }
+  for (const auto& family : reduction::law_families()) {
+    forms.emplace_back(fmt::format("{}:{}", family.name, family.letter),
+                       fmt::format("{}, {}", family.meaning, family.allowed));
+  }
+  forms.emplace_back("\"phi = F; psi = G\"",
+                     "your own force and moment: formulas in k = v/(mu |u|), with --param NAME=VALUE, or \"; NAME = "
+                     "VALUE\" behind them");
+  forms.emplace_back("FILE.csv", "your own pressure: columns rho,pressure, rho from 0 to 1");
+  return forms;
+}
+
+}  // namespace contensou::answers

@@ -1,0 +1,44 @@
+#include "answers/asked/planar_system.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace contensou::answers {
+
+FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters) {
+  return {{{{"u'", "v'"}, {"u", "v"}, "a system is \"u' = F; v' = G\""}, text, parameters}};
+}
+
+Eigen::Matrix2d FormulaField::jacobian(const Eigen::Vector2d& x) const {
+  const auto [u, v] = formulas.with_slopes(std::array{x[0], x[1]});
+  return Eigen::Matrix2d{{u[1], u[2]}, {v[1], v[2]}};
+}
+
+bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start) {
+  constexpr double rounding = 1e-12;
+  return (start - scaling.centre()).stableNorm() <= rounding * start.stableNorm();
+}
+
+SolvedPlane solve_planar(const reduction::PlanarField& field, const reduction::PlanarSymmetries& found,
+                         const Eigen::Vector2d& start) {
+  using Verdict = reduction::PlanarSymmetries::Verdict;
+  if (found.scaling) {
+    const bool at_centre = is_centre(*found.scaling, start);
+    const Eigen::Vector2d around = at_centre ? Eigen::Vector2d(2 * start) : start;
+    try {
+      return {reduction::PlanarReduction(field, *found.scaling, around, found.residual), ""};
+    } catch (const std::domain_error& refused) {
+      return {std::nullopt, refused.what()};
+    }
+  }
+  if (found.verdict == Verdict::none) return {std::nullopt, "no scaling was found"};
+  if (found.verdict == Verdict::undecided) {
+    return {std::nullopt, "the field's noise, or its kinks, hide whether it has a scaling"};
+  }
+  const bool everywhere = std::ranges::all_of(found.generators, &reduction::Generator::everywhere);
+  return {std::nullopt, everywhere ? "no generator is a scaling"
+                                   : "no scaling holds throughout, only within sectors in which the field is smooth: "
+                                     "across their borders orbits are no copies of one another"};
+}
+
+}  // namespace contensou::answers

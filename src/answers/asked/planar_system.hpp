@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "answers/input/formulas.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
+
+namespace contensou::answers {
+
+/// A reduction::PlanarField of two formulas in u and v.
+struct FormulaField {
+  Formulas formulas;
+
+  Eigen::Vector2d operator()(const Eigen::Vector2d& x) const { return Eigen::Vector2d(formulas({x[0], x[1]}).data()); }
+
+  /// Returns the derivatives of (u', v') with respect to u and v, as Formula::with_slopes: row 0 is that of u'.
+  Eigen::Matrix2d jacobian(const Eigen::Vector2d& x) const;
+};
+
+/// Returns the field of "u' = F; v' = G", formulas in u, v and parameters as answers/input/formulas.hpp has them.
+///
+/// @throws BadInput  as Formulas
+FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
+
+/// Whether a start is the centre of the scaling, but for rounding.
+bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
+
+/// A system solved by its scaling; or why it is not.
+struct SolvedPlane {
+  std::optional<reduction::PlanarReduction> plane;
+  std::string why_not;
+};
+
+/// @param found  of the same start
+SolvedPlane solve_planar(const reduction::PlanarField& field, const reduction::PlanarSymmetries& found,
+                         const Eigen::Vector2d& start);
+
+}  // namespace contensou::answers

@@ -1,0 +1,196 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "answers/input/errors.hpp"
+#include "answers/input/parse.hpp"
+#include "platform/input_file.hpp"
+
+namespace contensou::answers {
+
+/// A field without the spaces and tabs around it.
+std::string_view without_spaces(std::string_view text);
+
+class CsvRow;
+
+/// Consecutive records of a table, kept in a few arrays.
+class CsvBlock {
+ public:
+  std::size_t size() const { return records_.size(); }
+  CsvRow operator[](std::size_t place) const;
+
+ private:
+  friend CsvRow;
+  friend class CsvParser;
+  friend class CsvReader;
+
+  struct Record {
+    long line;
+    std::size_t text_begin, text_size;
+    std::size_t field_begin, fields;
+  };
+
+  std::vector<Record> records_;
+  std::string text_;                  ///< of all records
+  std::string values_;                ///< of all fields
+  std::vector<std::size_t> ends_{0};  ///< a field i is values_ from ends_[i] to ends_[i + 1]
+};
+
+/// One record of a table: a view into its block.
+class CsvRow {
+ public:
+  CsvRow(const CsvBlock& block, const CsvBlock::Record& record) : block_(block), record_(record) {}
+
+  /// The line on which it begins, counted from 1. Lines end in LF, CR LF or CR, inside quotes, too.
+  long line() const { return record_.line; }
+
+  /// As it stands in the file, without its line end.
+  std::string_view text() const { return std::string_view(block_.text_).substr(record_.text_begin, record_.text_size); }
+
+  /// The number of its fields.
+  std::size_t size() const { return record_.fields; }
+
+  /// A field, without its quotes.
+  std::string_view operator[](std::size_t field) const {
+    const std::size_t* ends = &block_.ends_[record_.field_begin + field];
+    return std::string_view(block_.values_).substr(ends[0], ends[1] - ends[0]);
+  }
+
+ private:
+  const CsvBlock& block_;
+  const CsvBlock::Record& record_;
+};
+
+inline CsvRow CsvBlock::operator[](std::size_t place) const { return {*this, records_[place]}; }
+
+/// Finds the records in CSV text (RFC 4180) that comes in pieces, cut anywhere. Outside quotes, lines that begin with #
+/// are comments and empty lines are ignored.
+class CsvParser {
+ public:
+  /// @param source  what messages call the text
+  explicit CsvParser(std::string source) : source_(std::move(source)) {}
+
+  /// Appends the records to a block that end in the next piece of text.
+  /// @throws BadLine  after appending those before it, at a quote inside a field, or in a record longer than 64 MiB
+  void add(std::string_view piece, CsvBlock& block);
+
+  /// Appends the last record if it has no line end.
+  /// @throws BadLine  if the text ends inside quotes
+  void finish(CsvBlock& block);
+
+  /// Lets that letter separate fields; before add.
+  void separate_by(char letter) { separator_ = letter; }
+
+  const std::string& source() const { return source_; }
+  BadLine complaint(long line, std::string_view message) const;
+
+ private:
+  enum class Place { between_records, comment, field_start, field, quoted, after_quote };
+
+  void add(char letter, CsvBlock& block);
+  void end_record(CsvBlock& block);
+
+  std::string source_;
+  char separator_ = ',';
+  Place place_ = Place::between_records;
+  long line_ = 0;
+  bool at_line_start_ = true;
+  bool after_return_ = false;  ///< a line feed here belongs to the line end before
+  long record_line_ = 0;
+  std::string text_;    ///< of the record so far
+  std::string values_;  ///< its fields
+  std::vector<std::size_t> ends_;
+};
+
+/// A column of a table.
+struct CsvColumn {
+  std::string name;
+  std::size_t place;
+};
+
+/// Reads a CSV file with a header, of any length, in the memory of a block of it.
+class CsvReader {
+ public:
+  /// The letter that separates fields.
+  enum class Separator { comma, comma_or_tab };
+
+  /// Reads as far as the header.
+  /// @param path       a file, or "-" for standard input
+  /// @param separator  comma_or_tab: tabs separate if the header has some and no comma; a title may stand above it
+  /// @throws std::system_error  if it cannot be read
+  /// @throws BadLine            if there is no header, or it is not CSV; with a way out for UTF-16
+  explicit CsvReader(const std::string& path, Separator separator = Separator::comma);
+
+  /// Reads text that is there already.
+  /// @param source  what messages call it
+  /// @throws BadLine  as above
+  CsvReader(std::string text, const std::string& source);
+  CsvReader(const CsvReader&) = delete;
+  CsvReader& operator=(const CsvReader&) = delete;
+
+  const std::vector<std::string>& names() const { return names_; }
+  long header_line() const { return header_line_; }
+
+  /// The column of that name, spaces around it aside.
+  /// @throws BadLine  unless there is exactly one; with a way out for a table that semicolons or tabs separate
+  CsvColumn column(std::string_view name) const;
+  bool has_column(std::string_view name) const;
+
+  /// Whether next does not have to wait.
+  bool ready() const;
+
+  /// The next records: what is there when the input pauses, some 32 kB at most; false at the end.
+  /// @throws BadLine            as CsvParser, when all records before have been given
+  /// @throws std::system_error  if the file cannot be read
+  bool next(CsvBlock& block);
+
+  /// Calls a function with each record that is left.
+  /// @throws BadLine  as next and require_complete
+  void for_each_row(const std::function<void(const CsvRow&)>& take);
+
+  /// @throws BadLine  unless the record has as many fields as the header
+  void require_complete(const CsvRow& row) const;
+
+  /// The number in a field of a complete record.
+  /// @throws BadLine  naming the column, if it is none
+  double number(const CsvRow& row, const CsvColumn& column, Infinity infinity = Infinity::forbidden) const;
+
+  BadLine complaint(long line, std::string_view message) const { return parser_.complaint(line, message); }
+
+  /// How much of the file was read; NaN for a file of unknown length.
+  double fraction_read() const { return bytes_read_ / bytes_; }
+
+ private:
+  void read_header(Separator separator);
+
+  /// Lets tabs separate fields if they do so in the first line that has some, and makes a comment of a title above it.
+  void find_tabs();
+
+  /// Appends to the buffer what one read gives.
+  void read_some();
+
+  std::optional<platform::InputFile> file_;  ///< none: all is in the buffer
+  CsvParser parser_;
+  std::string buffer_;
+  double bytes_ = std::numeric_limits<double>::quiet_NaN();  ///< of the file, if known
+  double bytes_read_ = 0;
+  bool at_end_ = false;
+  std::optional<BadLine> fault_;  ///< is thrown after the records before it have been given
+  CsvBlock first_;                ///< what was read with the header
+  std::vector<std::string> names_;
+  long header_line_ = 1;
+};
+
+/// The numbers >= 0 in one column of a table, or in a file of one number a line without a header.
+/// @param path  a file, or "-" for standard input
+/// @throws  as CsvReader, and BadLine naming the line of another number
+std::vector<double> read_column(const std::string& path, std::string_view name, Infinity infinity);
+
+}  // namespace contensou::answers

@@ -1,0 +1,481 @@
+#include "answers/input/formulas.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "answers/input/errors.hpp"
+#include "answers/input/parse.hpp"
+#include "text/nearest_name.hpp"
+
+namespace contensou::answers {
+
+namespace formula_parts {
+
+using Pair = std::array<double, 2>;
+
+/// A function of one number, of two, or of any number, which takes two at a time. Null slopes stand for 0.
+struct Function {
+  std::string_view name;
+  double (*one)(double) = nullptr;
+  double (*slope)(double x, double value) = nullptr;
+  double (*two)(double, double) = nullptr;
+  Pair (*slopes)(double x, double y, double value) = nullptr;
+  bool of_any = false;
+};
+
+double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : x; }
+double plus(double x, double y) { return x + y; }
+Pair ones(double, double, double) { return {1, 1}; }
+Pair of_either(bool first) { return {first ? 1.0 : 0.0, first ? 0.0 : 1.0}; }
+Pair of_length(double x, double y, double length) { return {x / length, y / length}; }
+Pair of_angle(double y, double x, double) {
+  const double length = std::hypot(x, y);
+  return {x / length / length, -y / length / length};
+}
+
+constexpr Function functions[] = {
+    {"abs", std::fabs, [](double x, double) { return x < 0 ? -1.0 : 1.0; }},
+    {"sign", sign},
+    {"rint", std::rint},
+    {"sin", std::sin, [](double x, double) { return std::cos(x); }},
+    {"cos", std::cos, [](double x, double) { return -std::sin(x); }},
+    {"tan", std::tan, [](double, double tan) { return 1 + tan * tan; }},
+    {"asin", std::asin, [](double x, double) { return 1 / std::sqrt((1 - x) * (1 + x)); }},
+    {"acos", std::acos, [](double x, double) { return -1 / std::sqrt((1 - x) * (1 + x)); }},
+    {"atan", std::atan, [](double x, double) { return 1 / (1 + x * x); }},
+    {"sinh", std::sinh, [](double x, double) { return std::cosh(x); }},
+    {"cosh", std::cosh, [](double x, double) { return std::sinh(x); }},
+    {"tanh", std::tanh, [](double x, double) { return 1 / std::cosh(x) / std::cosh(x); }},
+    {"asinh", std::asinh, [](double x, double) { return 1 / std::hypot(1, x); }},
+    {"acosh", std::acosh, [](double x, double) { return 1 / std::sqrt(x - 1) / std::sqrt(x + 1); }},
+    {"atanh", std::atanh, [](double x, double) { return 1 / (1 - x) / (1 + x); }},
+    {"exp", std::exp, [](double, double exp) { return exp; }},
+    {"sqrt", std::sqrt, [](double, double root) { return 0.5 / root; }},
+    {"ln", std::log, [](double x, double) { return 1 / x; }},
+    {"log", std::log, [](double x, double) { return 1 / x; }},
+    {"log2", std::log2, [](double x, double) { return 1 / x / std::numbers::ln2; }},
+    {"log10", std::log10, [](double x, double) { return 1 / x / std::numbers::ln10; }},
+    {"hypot", nullptr, nullptr, std::hypot, of_length},
+    {"atan2", nullptr, nullptr, std::atan2, of_angle},
+    {"min", nullptr, nullptr, [](double x, double y) { return y < x ? y : x; },
+     [](double x, double y, double) { return of_either(!(y < x)); }, true},
+    {"max", nullptr, nullptr, [](double x, double y) { return x < y ? y : x; },
+     [](double x, double y, double) { return of_either(!(x < y)); }, true},
+    {"sum", nullptr, nullptr, plus, ones, true},
+    {"avg", nullptr, nullptr, plus, ones, true},
+};
+
+constexpr Function negative{"-", [](double x) { return -x; }, [](double, double) { return -1.0; }};
+constexpr Function opposite{"!", [](double x) { return x == 0 ? 1.0 : 0.0; }};
+
+/// The slope by y is 0 for 0^y, y > 0, and NaN for a negative x. The slope by x would be 0 times infinity for 0^0.
+Pair of_power(double x, double y, double value) {
+  return {y == 0 ? 0 : y * std::pow(x, y - 1), value == 0 && x >= 0 ? 0 : value * std::log(x)};
+}
+constexpr Function power{"^", nullptr, nullptr, [](double x, double y) { return y == 2 ? x * x : std::pow(x, y); },
+                         of_power};
+
+const Function* function_of(std::string_view name) {
+  const auto* const found = std::ranges::find(functions, name, &Function::name);
+  return found == std::end(functions) ? nullptr : found;
+}
+
+/// Puts a number or a variable on a stack, or replaces the last values there by a function of them.
+enum class Kind : unsigned char { number, variable, one, two, add, subtract, multiply, divide, choose };
+
+struct Step {
+  Kind kind;
+  unsigned char left = 0, right = 0;  ///< bit i + 1 is set where the first or the last operand depends on variable i
+  union {
+    double number;
+    std::size_t variable;
+    const Function* function;
+  };
+};
+
+/// The level rises with the binding. In the table a longer sign comes before the one that begins it.
+struct Operator {
+  Function function;
+  int level;
+  Kind kind = Kind::two;
+};
+constexpr Operator operators[] = {
+    {{"||", nullptr, nullptr, [](double x, double y) -> double { return x != 0 || y != 0; }}, 0},
+    {{"&&", nullptr, nullptr, [](double x, double y) -> double { return x != 0 && y != 0; }}, 1},
+    {{"<=", nullptr, nullptr, [](double x, double y) -> double { return x <= y; }}, 2},
+    {{">=", nullptr, nullptr, [](double x, double y) -> double { return x >= y; }}, 2},
+    {{"==", nullptr, nullptr, [](double x, double y) -> double { return x == y; }}, 2},
+    {{"!=", nullptr, nullptr, [](double x, double y) -> double { return x != y; }}, 2},
+    {{"<", nullptr, nullptr, [](double x, double y) -> double { return x < y; }}, 2},
+    {{">", nullptr, nullptr, [](double x, double y) -> double { return x > y; }}, 2},
+    {{"+"}, 3, Kind::add},
+    {{"-"}, 3, Kind::subtract},
+    {{"*"}, 4, Kind::multiply},
+    {{"/"}, 4, Kind::divide},
+};
+constexpr int tightest = 5;  ///< above the levels of operators
+constexpr int deepest = 250;
+constexpr std::size_t longest = 20000;
+/// Each level of nesting keeps two values at most while the next is computed; below them lie two of no meaning.
+constexpr std::size_t most_values = 2 * deepest + 2;
+
+/// N = 0 for the value alone.
+template <std::size_t N>
+Dual<N> run(const std::vector<Step>& steps, const double* values) {
+  std::array<Dual<N>, most_values> stack;
+  Dual<N>* end = stack.data() + 1;
+  Dual<N> last{};  // the top of the stack
+  for (const Step& step : steps) {
+    // Replaces the last two values, by the chain rule.
+    const auto join = [&](double value, double by_x, double by_y) {
+      --end;
+      last[0] = value;
+      for (std::size_t i = 1; i <= N; ++i) {
+        const double left = step.left >> i & 1 ? by_x * (*end)[i] : 0;
+        last[i] = left + (step.right >> i & 1 ? by_y * last[i] : 0);
+      }
+    };
+    const double x = end[-1][0], y = last[0];
+    switch (step.kind) {
+      case Kind::number:
+        *end++ = last;
+        last = {step.number};
+        break;
+      case Kind::variable:
+        *end++ = last;
+        last = {values[step.variable]};
+        if constexpr (N > 0) last[step.variable + 1] = 1;
+        break;
+      case Kind::one: {
+        last[0] = step.function->one(y);
+        const double by = N > 0 && step.function->slope ? step.function->slope(y, last[0]) : 0;
+        for (std::size_t i = 1; i <= N; ++i) last[i] = step.left >> i & 1 ? by * last[i] : 0;
+        break;
+      }
+      case Kind::two: {
+        const double value = step.function->two(x, y);
+        const auto by = N > 0 && step.function->slopes ? step.function->slopes(x, y, value) : Pair{};
+        join(value, by[0], by[1]);
+        break;
+      }
+      case Kind::add:
+        join(x + y, 1, 1);
+        break;
+      case Kind::subtract:
+        join(x - y, 1, -1);
+        break;
+      case Kind::multiply:
+        join(x * y, y, x);
+        break;
+      case Kind::divide:
+        join(x / y, 1 / y, -(x / y) / y);
+        break;
+      case Kind::choose:
+        end -= 2;
+        last = (*end)[0] != 0 ? end[1] : last;
+        break;
+    }
+  }
+  if (std::isnan(last[0])) last.fill(last[0]);
+  return last;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_of_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_'; }
+
+[[noreturn]] void reject_at(std::size_t place, const std::string& text, const std::string& message) {
+  throw BadInput(fmt::format("{}, at character {} of {}", message, place + 1, quotation(text)));
+}
+
+/// Letters that a paper or a word processor has in place of ASCII.
+constexpr std::pair<char32_t, std::string_view> pasted[] = {
+    {0x2032, "'"}, {0x2019, "'"}, {0xB4, "'"},   {0x2212, "-"},         {0x2013, "-"},
+    {0xD7, "*"},   {0xB7, "*"},   {0x22C5, "*"}, {0xF7, "/"},           {0x2215, "/"},
+    {0xB2, "^2"},  {0xB3, "^3"},  {0x3C0, "pi"}, {0x221A, "sqrt(...)"}, {0xA0, "a blank"}};
+
+/// Refuses letters beyond ASCII, so that the place of every later mistake is its byte.
+void require_ascii(const std::string& text) {
+  const auto at = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  if (at == text.end()) return;
+  const auto place = static_cast<std::size_t>(at - text.begin());
+  // UTF-8: as many ones as bytes open the first, the others begin with 10. A byte alone is a letter of Latin-1.
+  std::size_t size = 1;
+  while (size < 4 && place + size < text.size() && (text[place + size] & 0xC0) == 0x80) ++size;
+  const std::string letter = text.substr(place, size);
+  char32_t number = static_cast<unsigned char>(*at) & (size == 1 ? 0xFFU : 0xFFU >> (size + 1));
+  for (const char next : letter.substr(1)) number = number << 6U | (static_cast<unsigned char>(next) & 0x3FU);
+  const auto* const known = std::ranges::find(pasted, number, [](const auto& row) { return row.first; });
+  const auto instead = known == std::end(pasted) ? "letters from a to z, digits and signs of ASCII" : known->second;
+  reject_at(place, text,
+            fmt::format("the letter {} (U+{:04X}) has no meaning here; type {}", quotation(letter),
+                        static_cast<unsigned>(number), instead));
+}
+
+/// Compiles by recursive descent.
+class Parser {
+ public:
+  /// Reads text[begin, end).
+  /// @param unused  loses the parameters that the formula has
+  Parser(const FormulaShape& shape, const std::map<std::string, double>& parameters,
+         std::map<std::string, double>& unused, const std::string& text, std::size_t begin, std::size_t end)
+      : shape_(shape), parameters_(parameters), unused_(unused), whole_(text), text_(whole_.data(), end), at_(begin) {
+    if (end - begin > longest) reject(begin, fmt::format("a formula has at most {} characters", longest));
+    expression(0);
+    next();
+    if (at_ < text_.size()) reject_operator();
+  }
+
+  std::vector<Step> steps;
+
+ private:
+  [[noreturn]] void reject(std::size_t place, const std::string& message) const { reject_at(place, whole_, message); }
+
+  /// Returns the first character behind blanks; 0 at the end.
+  char next() {
+    at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+
+  bool takes(std::string_view sign) {
+    next();
+    if (!text_.substr(at_).starts_with(sign)) return false;
+    at_ += sign.size();
+    return true;
+  }
+
+  /// @param operands  of the step, the last values
+  void add(Step step, std::size_t operands) {
+    auto variables = static_cast<unsigned char>(step.kind == Kind::variable ? 2U << step.variable : 0);
+    if (operands > 0) step.right = variables_.back();
+    for (; operands > 0; --operands) {
+      step.left = variables_.back();
+      variables |= step.left;
+      variables_.pop_back();
+    }
+    variables_.push_back(variables);
+    steps.push_back(step);
+  }
+
+  /// Operators of that level, and those that bind more.
+  void expression(int level) {
+    if (++depth_ > deepest) reject(at_, fmt::format("a formula is nested at most {} deep", deepest));
+    if (takes("-") || takes("!")) {
+      const Function& sign = text_[at_ - 1] == '-' ? negative : opposite;
+      expression(tightest);
+      add({.kind = Kind::one, .function = &sign}, 1);
+    } else if (takes("+")) {
+      expression(tightest);
+    } else {
+      operand();
+      if (takes("**") || takes("^")) {
+        expression(tightest);
+        add({.kind = Kind::two, .function = &power}, 2);
+      }
+    }
+    const auto follows = [&](const Operator& each) {
+      return each.level >= level && !(in_bars_ && each.function.name == "||") && takes(each.function.name);
+    };
+    for (const Operator* found; (found = std::ranges::find_if(operators, follows)) != std::end(operators);) {
+      expression(found->level + 1);
+      add({.kind = found->kind, .function = &found->function}, 2);
+    }
+    if (level == 0 && takes("?")) {
+      within(":");
+      expression(0);
+      add({.kind = Kind::choose, .number = 0}, 3);
+    }
+    --depth_;
+  }
+
+  /// Reads a value and its closing sign; for a function, values between commas.
+  /// @return  their number
+  int within(std::string_view closing, const Function* function = nullptr) {
+    const std::size_t opening = at_ - 1;
+    const bool outside = std::exchange(in_bars_, closing == "|");
+    int count = 0;
+    do {
+      expression(0);
+      if (++count > 1 && function->two) add({.kind = Kind::two, .function = function}, 2);
+    } while (function && takes(","));
+    in_bars_ = outside;
+    if (takes(closing)) return count;
+    if (next() != '\0' && next() != ')') reject_operator();
+    reject(opening, fmt::format("'{}' is not closed", text_[opening]));
+  }
+
+  void operand() {
+    const char first = next();
+    const std::size_t begin = at_;
+    const char* const letters = text_.data() + at_;
+    double value = 0;
+    if (takes("(")) return within(")"), void();
+    if (takes("|")) return within("|"), add({.kind = Kind::one, .function = function_of("abs")}, 1);
+    if (first == '.' || is_digit(first)) {
+      const auto [end, error] = std::from_chars(letters, text_.data() + text_.size(), value);
+      at_ += static_cast<std::size_t>(end - letters);
+      if (error == std::errc()) return add({.kind = Kind::number, .number = value}, 0);
+      const std::string typed = quotation(text_.substr(begin, std::max<std::size_t>(at_ - begin, 1)));
+      reject(begin, fmt::format("{} is no number from 5e-324 to 1.8e308", typed));
+    }
+    while (at_ < text_.size() && is_of_word(text_[at_])) ++at_;
+    while (at_ > begin && at_ < text_.size() && text_[at_] == '\'') ++at_;  // as in x'
+    const std::string name(text_.substr(begin, at_ - begin));
+    const auto variable =
+        static_cast<std::size_t>(std::ranges::find(shape_.variables, name) - shape_.variables.begin());
+    if (variable < shape_.variables.size()) {
+      add({.kind = Kind::variable, .variable = variable}, 0);
+    } else if (const auto parameter = parameters_.find(name); parameter != parameters_.end()) {
+      unused_.erase(name);
+      add({.kind = Kind::number, .number = parameter->second}, 0);
+    } else if (name == "pi") {
+      add({.kind = Kind::number, .number = std::numbers::pi}, 0);
+    } else if (const Function* function = function_of(name)) {
+      call(*function, begin);
+    } else {
+      reject_operand(name, begin);
+    }
+  }
+
+  void call(const Function& function, std::size_t begin) {
+    if (!takes("(")) {
+      const std::size_t bar = at_;
+      const std::string value = takes("|") && within("|") ? escaped(text_.substr(bar, at_ - bar)) : "...";
+      reject(begin, fmt::format("{0} needs brackets: type {0}({1})", function.name, value));
+    }
+    const int count = within(")", &function), needed = function.one ? 1 : 2;
+    if (!function.of_any && count != needed) {
+      reject(begin, fmt::format("{} takes {} value{}, not {}", function.name, needed, needed == 1 ? "" : "s", count));
+    }
+    if (function.one) add({.kind = Kind::one, .function = &function}, 1);
+    if (function.name == "avg") {
+      add({.kind = Kind::number, .number = 1.0 * count}, 0);
+      add({.kind = Kind::divide, .number = 0}, 2);
+    }
+  }
+
+  [[noreturn]] void reject_operand(const std::string& name, std::size_t place) {
+    if (name.empty()) {
+      const std::string before = next() == '\0' ? "the end" : quotation(text_.substr(place, 1));
+      reject(place, fmt::format("a number, a name or a bracket is missing before {}", before));
+    }
+    if (const auto refused = shape_.refused.find(name); refused != shape_.refused.end()) {
+      reject(place, fmt::format("{}: {}", quotation(name), refused->second));
+    }
+    std::vector<std::string> known;
+    for (const Function& function : functions) known.emplace_back(function.name);
+    std::string way_out = fmt::format("; functions are {}", fmt::join(known, ", "));
+    if (next() != '(') {
+      known.emplace_back("pi");
+      known.insert(known.begin(), shape_.variables.begin(), shape_.variables.end());
+      for (const auto& [parameter, value] : parameters_) known.push_back(parameter);
+      way_out = name.back() == '\'' ? "" : fmt::format(": give its value with --param {}=VALUE", name);
+    }
+    reject(place, fmt::format("{} is no variable, parameter or function{}{}", quotation(name), suggestion(name, known),
+                              way_out));
+  }
+
+  [[noreturn]] void reject_operator() {
+    const char typed = next();
+    if (typed == '|') reject(at_, "'|' closes nothing: |x| needs an operator before it");
+    if (typed == ')') reject(at_, "')' closes nothing");
+    if (typed == ',') reject(at_, "a formula is one number: a decimal point is a point");
+    const std::string quoted = quotation({&typed, 1});
+    if (typed != '(' && typed != '.' && !is_of_word(typed)) reject(at_, fmt::format("{} is no operator", quoted));
+    reject(at_, fmt::format("an operator is missing before {}: a product is a*b", quoted));
+  }
+
+  const FormulaShape& shape_;
+  const std::map<std::string, double>& parameters_;
+  std::map<std::string, double>& unused_;
+  const std::string& whole_;
+  std::string_view text_;
+  std::size_t at_;
+  int depth_ = 0;
+  bool in_bars_ = false;                  ///< the innermost open bracket is a bar
+  std::vector<unsigned char> variables_;  ///< that each value on the stack depends on, as Step::left
+};
+
+}  // namespace formula_parts
+
+struct Formulas::Compiled {
+  std::array<std::vector<formula_parts::Step>, 2> formulas;
+};
+
+Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters) {
+  using formula_parts::reject_at;
+  const auto may_be_parameter = [&](const std::string& name) {
+    return !name.empty() && !formula_parts::is_digit(name[0]) && std::ranges::all_of(name, formula_parts::is_of_word) &&
+           name != "pi" && !formula_parts::function_of(name) && std::ranges::count(shape.variables, name) == 0 &&
+           !shape.refused.contains(name);
+  };
+  for (const auto& [name, value] : parameters) {
+    if (may_be_parameter(name)) continue;
+    throw BadInput(fmt::format("{} cannot name a parameter: letters, digits and _ that are not {}, pi or a function",
+                               quotation(name), fmt::join(shape.variables, ", ")));
+  }
+  formula_parts::require_ascii(text);
+  std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // their begin and end
+  std::map<std::string, double> own;                               // the last of a name counts
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);
+    if (first < end || (begin == 0 && end == text.size())) {
+      const std::size_t equals = text.find('=', first);
+      std::string left = equals < end ? text.substr(first, equals - first) : "";
+      std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
+      const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
+      if (which == shape.left.size()) {
+        const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
+        if (!may_be_parameter(left) || !is_number(value)) {
+          reject_at(first, text,
+                    fmt::format("{} = or {} = is missing: {}", shape.left[0], shape.left[1], shape.sentence));
+        }
+        own[left] = parse_number(value);
+      } else if (found[which]) {
+        reject_at(first, text, fmt::format("{} stands there twice: {}", left, shape.sentence));
+      } else {
+        found[which] = {{equals + 1, end}};
+      }
+    }
+    begin = end + 1;
+  }
+  parameters.merge(own);
+  std::map<std::string, double> unused = parameters;
+  Compiled compiled;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!found[i]) reject_at(text.size(), text, fmt::format("{} = is missing: {}", shape.left[i], shape.sentence));
+    const auto& [from, to] = *found[i];
+    compiled.formulas[i] = formula_parts::Parser(shape, parameters, unused, text, from, to).steps;
+  }
+  if (!unused.empty()) {
+    throw BadInput(
+        fmt::format("no formula of {} has the parameter {}", quotation(text), quotation(unused.begin()->first)));
+  }
+  compiled_ = std::make_shared<Compiled>(std::move(compiled));
+}
+
+std::array<double, 2> Formulas::operator()(std::initializer_list<double> values) const {
+  const auto& [first, second] = compiled_->formulas;
+  return {formula_parts::run<0>(first, values.begin())[0], formula_parts::run<0>(second, values.begin())[0]};
+}
+
+template <std::size_t N>
+std::array<Dual<N>, 2> Formulas::with_slopes(const std::array<double, N>& values) const {
+  const auto& [first, second] = compiled_->formulas;
+  return {formula_parts::run<N>(first, values.data()), formula_parts::run<N>(second, values.data())};
+}
+template std::array<Dual<1>, 2> Formulas::with_slopes(const std::array<double, 1>&) const;
+template std::array<Dual<2>, 2> Formulas::with_slopes(const std::array<double, 2>&) const;
+
+}  // namespace contensou::answers

@@ -1,0 +1,155 @@
+#include "answers/verbs/aim_answer.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "answers/verbs/ball_answer.hpp"
+#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/course.hpp"
+#include "contensou/si/scaling.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+struct AimReport {
+  si::Experiment experiment;  ///< with the start that was found
+  reduction::Law law;
+  si::Velocities start;
+  double slip;                   ///< at the start
+  double distance, turns, time;  ///< that it comes to
+  si::Velocities final;
+  std::optional<si::Event> rolls;  ///< of a ball
+  std::optional<si::CueStrike> strike;
+  std::optional<si::Event> rest;  ///< with rolling friction
+
+  bool is_ball() const { return !experiment.ball.body.lies_flat(); }
+};
+
+constexpr Field<AimReport> aim_row[]{
+    {"law", "", nullptr, [](const AimReport& r) -> Json { return r.law.name(); }},
+    {"ball", "", "as of stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
+    {"slip", "m/s", "the start: sliding speed, along x; of a ball that does not roll yet, that of its centre",
+     [](const AimReport& r) -> Json { return r.slip; }},
+    {"spin", "1/s", "the start: about the vertical",
+     [](const AimReport& r) -> Json { return r.start.angular_velocity.z(); }},
+    {"velocity", "m/s", "the start, of the centre",
+     [](const AimReport& r) -> Json {
+       return {r.start.velocity.x(), r.start.velocity.y()};
+     },
+     "vx,", 0, " [x, y]"},
+    {"angular_velocity", "1/s", "the start",
+     [](const AimReport& r) -> Json {
+       const Eigen::Vector3d& w = r.start.angular_velocity;
+       return {w.x(), w.y(), w.z()};
+     },
+     ",wy,", 0, " [x, y, z]"},
+    {"distance", "m", "of the centre, when slip and spin end, with rolling friction at rest",
+     [](const AimReport& r) -> Json { return r.distance; }},
+    {"turns", "", "about the vertical, until then", [](const AimReport& r) -> Json { return r.turns; }},
+    {"time", "s", "when slip and spin end, with rolling friction all motion",
+     [](const AimReport& r) -> Json { return r.time; }},
+    {"final_velocity", "m/s", "of a ball without rolling friction: how fast it rolls then",
+     [](const AimReport& r) { return r.is_ball() && !r.rest ? Json(r.final.velocity.x()) : Json(); }},
+    {"rolls_after", "s, m, m, m/s", "of a ball: when and where its slip is below the threshold",
+     [](const AimReport& r) -> Json {
+       if (!r.rolls) return {};
+       Json members = members_of(*r.rolls);
+       members["threshold"] = si::rolling_slip;
+       return members;
+     },
+     "", 0, " {`t`, `x`, `y`, `threshold`}"},
+    {"rest", "s, m, m", "of a ball with rolling friction: when and where its centre rests",
+     [](const AimReport& r) { return r.rest ? members_of(*r.rest) : Json(); }, "", 0, " {`t`, `x`, `y`}"},
+    {"strike", "m/s; 1; kg",
+     "of a ball: the level stroke that starts it, of a cue of this mass; right of the centre and above it in radii",
+     [](const AimReport& r) -> Json {
+       if (!r.strike) return {};
+       const auto& [speed, right, above, elevation, mass] = *r.strike;
+       return {{"speed", speed}, {"right", right}, {"above", above}, {"mass", mass}};
+     },
+     "", 0, " {`speed`, `right`, `above`, `mass`}"},
+};
+
+std::string text_of(const AimReport& r, const Digits& number) {
+  const std::string side = r.strike && r.strike->right < 0 ? "left" : "right";
+  const double turning = r.start.angular_velocity.y();
+  std::string text = ball_heading(r.experiment, r.law, number) +
+                     fmt::format("law {}\n\nstart  slip {} m/s, spin {} rad/s\n", r.law.name(), number(r.slip),
+                                 number(r.start.angular_velocity.z()));
+  if (turning != 0) {
+    text += fmt::format("       its centre at {} m/s, turning {} at {} rad/s\n", number(r.start.velocity.x()),
+                        turning < 0 ? "backwards" : "forwards", number(std::abs(turning)));
+  }
+  if (r.strike) {
+    const double above = r.strike->above;
+    text += fmt::format(
+        "       struck by a level cue of {} kg at {} m/s, {} radii {} of the centre{}\n", number(r.strike->mass),
+        number(r.strike->speed), number(std::abs(r.strike->right)), side,
+        above == 0 ? "" : fmt::format(" and {} {} it", number(std::abs(above)), above < 0 ? "below" : "above"));
+  } else if (r.is_ball() && r.start.velocity.isZero(0) && r.start.angular_velocity.isZero(0)) {
+    text += "       it is at rest\n";
+  } else if (r.is_ball() && !si::mass_is_known(r.experiment.ball)) {
+    text += "       the level stroke that starts it needs its mass (--mass)\n";
+  } else if (r.is_ball()) {
+    text +=
+        fmt::format("       no level stroke gives it: its tip would meet the ball more than {} radii off the centre\n",
+                    number(si::largest_tip_offset));
+  }
+  text += fmt::format("end    {} m from the start, after {} turns and {} s: {} end\n", number(r.distance),
+                      number(r.turns), number(r.time), r.rest ? "rolling and spin" : "slip and spin");
+  if (r.is_ball()) {
+    text += fmt::format("       it {}; its slip is below {} m/s from {} s and {} m on\n",
+                        r.rest                      ? fmt::format("rests after {} s", number(r.rest->t))
+                        : r.final.velocity.x() == 0 ? "stays there"
+                                                    : fmt::format("rolls on at {} m/s", number(r.final.velocity.x())),
+                        number(si::rolling_slip), number(r.rolls->t), number(r.rolls->place.x()));
+  }
+  return text;
+}
+
+}  // namespace
+
+Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const AimGoal& goal) {
+  const reduction::Flow flow(si::undriven_system(experiment, law));
+  const auto* const rolling = std::get_if<si::RollingGoal>(&goal);
+  if (rolling) {
+    experiment.start = si::aimed_to_roll(experiment, flow, *rolling);
+  } else {
+    experiment.start = si::aimed(experiment, flow, std::get<si::Goal>(goal));
+  }
+  const si::Velocities start = si::velocities_of(experiment.start);
+  const double u_r = experiment.contact.rolling_friction;
+  const si::Course<si::BallMotion> course(experiment, {experiment, flow}, si::rolling_slip, u_r);
+  const double time = course.resisted ? course.resisted->last_time() : course.motion.stop_time();
+  si::require_finite_motion(experiment, time);
+  const std::optional<si::Event> rest = course.rest();
+  std::optional<si::Event> rolls;
+  std::optional<si::CueStrike> strike;
+  si::Velocities final = si::final_motion(experiment);
+  if (rolling) final.velocity.x() = rolling->speed;
+  if (!experiment.ball.body.lies_flat()) {
+    rolls = course.event(course.rolls);
+    strike = si::level_strike(experiment.ball, start);
+  }
+  AimReport report{experiment,
+                   law,
+                   start,
+                   start.velocity.x() - experiment.ball.radius * start.angular_velocity.y(),
+                   rest ? rest->place.x() : course.at_time(time).position.x(),
+                   course.turns(),
+                   time,
+                   final,
+                   rolls,
+                   strike,
+                   rest};
+  Answer answer{.members = members_of(aim_row, report), .rows = {row_of(aim_row, report)}};
+  answer.text = [report = std::move(report)](const Digits& digits) { return text_of(report, digits); };
+  return answer;
+}
+
+std::vector<FieldText> aim_fields() { return texts_of(aim_row); }
+
+}  // namespace contensou::answers

@@ -1,0 +1,205 @@
+#include "answers/verbs/check_answer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "answers/input/parse.hpp"
+#include "answers/table/text_table.hpp"
+
+namespace contensou::answers {
+
+using reduction::Check;
+using reduction::State;
+
+namespace {
+
+constexpr std::array built_in_patch_ratios{1e-4, 0.0035, 0.099, 0.3, 1.0};
+
+/// The least mu of driven starts: for a smaller patch creeping is stiff, and the routes in steps take long.
+constexpr std::array driven_patch_ratios{0.099, 1.0};
+constexpr std::array built_in_drives{0.05, 0.5, 0.95};
+
+/// Starts whose k0 = v0/(mu u0) runs from almost pure pivoting to almost pure sliding.
+std::vector<State> built_in_starts(double mu) {
+  std::vector<State> starts;
+  for (int decade = -4; decade <= 6; ++decade) starts.push_back({.u = 1, .v = mu * std::pow(10, decade)});
+  return starts;
+}
+
+const char* verdict(const Check& check) { return check.passed() ? "ok" : "FAIL"; }
+
+/// A number of the deviation that only a table has.
+Json of_deviation(const CheckedLaw& row, double Deviation::*number) {
+  return row.deviation ? Json((*row.deviation).*number) : Json();
+}
+
+using Row = CheckedLaw;
+constexpr Field<Row> row_fields[]{
+    {"law", "", nullptr, [](const Row& row) -> Json { return row.law; }},
+    {"check", "", "what is checked", [](const Row& row) -> Json { return row.check.name; }},
+    {"measured", "", "the worst; it must not exceed allowed",
+     [](const Row& row) -> Json { return or_infinity(row.check.measured); }},
+    {"allowed", "", "what it may be", [](const Row& row) -> Json { return row.check.allowed; }},
+    {"", "", "ok or FAIL", [](const Row& row) -> Json { return verdict(row.check); }, "verdict"},
+    {"passed", "", "whether it holds", [](const Row& row) -> Json { return row.check.passed(); }, ""},
+};
+constexpr Field<Row> deviation_fields[]{
+    {"error", "m/s or rad/s", "the worst of the table",
+     [](const Row& row) { return of_deviation(row, &Deviation::error); }},
+    {"t", "s", "its row", [](const Row& row) { return of_deviation(row, &Deviation::t); }},
+    {"leaves", "s", "the first row off by more than allowed, or inf",
+     [](const Row& row) { return of_deviation(row, &Deviation::leaves); }},
+};
+
+constexpr Field<MotionsBeside> beside_fields[]{
+    {"start", "m/s, rad/s", "of all models",
+     [](const MotionsBeside& motions) -> Json {
+       return {{"slip", motions.start.slip}, {"spin", motions.start.spin}};
+     },
+     "", 0, " {`slip`, `spin`}"},
+    {"models", "",
+     "worst errors as shares of the start; the law's own first; an engine's elliptic cone is elliptic, its box is the "
+     "textbook",
+     [](const MotionsBeside& motions) {
+       Json models = Json::array();
+       for (const auto& [name, motion, slip, spin] : motions.models) {
+         models.push_back({{"model", name}, {"slip", slip.relative}, {"spin", spin.relative}});
+       }
+       return models;
+     },
+     "", 0, " [{`model`, `slip`, `spin`}]"},
+    {"nearest", "", "of the models", [](const MotionsBeside& motions) -> Json { return motions.nearest().name; }},
+};
+
+Answer answer_of(const std::vector<CheckedLaw>& rows) {
+  Answer answer;
+  Json& checks = answer.members["checks"] = Json::array();
+  for (const CheckedLaw& row : rows) {
+    checks.push_back(members_of(row_fields, row));
+    checks.back().update(members_of(deviation_fields, row));
+    answer.rows.push_back(row_of(row_fields, row));
+    answer.rows.back().update(row_of(deviation_fields, row));
+  }
+  return answer;
+}
+
+/// The name of a law, without the words that end a row: that of a file may have them.
+std::string label(const std::string& law) {
+  std::string text = quotation(law);
+  text = text.substr(1, text.size() - 2);
+  const auto is_letter = [&](std::size_t i) {
+    return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+  };
+  for (const std::string_view word : {"ok", "FAIL"}) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      const bool within_word = is_letter(at - 1) || is_letter(at + word.size());
+      if (word == "FAIL" || !within_word) text.replace(at, 1, fmt::format("\\x{:02x}", word.front()));
+    }
+  }
+  return text;
+}
+
+std::string heading() {
+  const std::size_t starts = built_in_starts(1).size();
+  return fmt::format(
+      "The worst of {} starts: mu from {} to {}, v0/(mu u0) from 1e-4 to 1e6.\n"
+      "With a drive: the worst of {}, with drives from {} to {} of f N and mu from {}.\n\n",
+      built_in_patch_ratios.size() * starts, built_in_patch_ratios.front(), built_in_patch_ratios.back(),
+      driven_patch_ratios.size() * built_in_drives.size() * starts, built_in_drives.front(), built_in_drives.back(),
+      driven_patch_ratios.front());
+}
+
+std::string as_text(const std::vector<CheckedLaw>& rows, const Digits& digits) {
+  TextTable table({TextTable::left(), TextTable::left(), TextTable::right(digits.width()), TextTable::right(10)});
+  table.add({"law  ", "check", "measured", "allowed"});
+  for (const auto& [law, check, deviation] : rows) {
+    table.add({label(law) + "  ", check.name, digits(check.measured), fmt::format("{:.2g}", check.allowed),
+               fmt::format("  {}", verdict(check))});
+  }
+  return table.text();
+}
+
+std::string deviation_text(const char* speed, const char* unit, const Deviation& off, const Digits& digits) {
+  return fmt::format("{} is off by up to {} {}, at t = {} s; {}\n", speed, digits(off.error), unit, digits(off.t),
+                     std::isinf(off.leaves) ? "never by more than allowed"
+                                            : fmt::format("by more than allowed from t = {} s", digits(off.leaves)));
+}
+
+std::string as_text(const MotionsBeside& motions, const Digits& digits) {
+  const ModelBeside& own = motions.models.front();
+  TextTable table({TextTable::left(), TextTable::right(digits.width()), TextTable::right(digits.width())});
+  table.add({"worst share of the start", "slip", "spin"});
+  for (const auto& [name, motion, slip, spin] : motions.models) {
+    table.add({label(name), digits(slip.relative), digits(spin.relative)});
+  }
+  return fmt::format("\n{}{}\n{}\nnearest: {}\n", deviation_text("slip", "m/s", own.slip, digits),
+                     deviation_text("spin", "rad/s", own.spin, digits), table.text(), label(motions.nearest().name));
+}
+
+}  // namespace
+
+void take_worse(std::vector<Check>& worst, const std::vector<Check>& others) {
+  for (const Check& other : others) {
+    const auto same = std::ranges::find(worst, other.name, &Check::name);
+    if (same == worst.end()) {
+      worst.push_back(other);
+    } else if (!(other.measured <= same->measured) && !std::isnan(same->measured)) {
+      same->measured = other.measured;
+    }
+  }
+}
+
+std::vector<Check> built_in_checks(const reduction::Law& law) {
+  std::vector<Check> worst;
+  for (double mu : built_in_patch_ratios) take_worse(worst, verify({{law, mu}}, built_in_starts(mu)));
+  for (double mu : driven_patch_ratios) {
+    for (double drive : built_in_drives) {
+      std::vector<Check> driven = verify({{law, mu, reduction::homogeneous_ball, drive}}, built_in_starts(mu));
+      std::erase_if(driven, [](const Check& check) { return !check.name.starts_with("stop time"); });
+      for (Check& check : driven) check.name += ", with a drive";
+      take_worse(worst, driven);
+    }
+  }
+  return worst;
+}
+
+Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in) {
+  Answer answer = answer_of(rows);
+  answer.text = [=](const Digits& digits) { return (built_in ? heading() : "") + as_text(rows, digits); };
+  return answer;
+}
+
+BesideAnswer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance) {
+  const auto row = [&](const char* name, const Deviation& off) {
+    return CheckedLaw{law, {name, off.relative, tolerance}, off};
+  };
+  const auto& [own, motion, slip, spin] = motions.models.front();
+  const std::vector<CheckedLaw> rows{
+      row(motions.start.slip > 0 ? "slip error / slip at start" : "slip error / R spin at start", slip),
+      row(motions.start.spin != 0 ? "spin error / spin at start" : "R spin error / slip at start", spin)};
+  Answer answer = answer_of(rows);
+  answer.members.update(members_of(beside_fields, motions));
+  for (Json& line : answer.rows) line.update(row_of(beside_fields, motions));
+  answer.text = [=](const Digits& digits) { return as_text(rows, digits) + as_text(motions, digits); };
+  return {std::move(answer), rows[0].check.passed() && rows[1].check.passed()};
+}
+
+std::vector<FieldText> check_fields() {
+  return joined({{{"JSON `checks` [...]", "", "one for each row of CSV, with its fields"}}, texts_of(row_fields)});
+}
+
+std::vector<FieldText> check_against_fields() {
+  return joined({{{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
+                   "rows in order of time, the first is the start; or in another unit, as in 'wz [rpm]'"},
+                  {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
+                   "of a rigid body, in place of slip and spin, z up; of one that lies flat without wx, wy"}},
+                 texts_of(deviation_fields),
+                 texts_of(beside_fields)});
+}
+
+}  // namespace contensou::answers

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "answers/table/answer.hpp"
+#include "answers/table/record.hpp"
+#include "answers/verbs/check_against.hpp"
+#include "contensou/reduction/verification.hpp"
+
+namespace contensou::answers {
+
+/// A check of a law.
+struct CheckedLaw {
+  std::string law;
+  reduction::Check check;
+  std::optional<Deviation> deviation = {};  ///< of a table, what was measured of it
+};
+
+/// Returns the checks of a law over a set of starts whose k0 runs from almost pure pivoting to almost pure sliding, and of
+/// the same with drives the routes to the stop time: the worst of each.
+std::vector<reduction::Check> built_in_checks(const reduction::Law& law);
+
+/// Takes the worse of two results of the same check; not a number is the worst.
+void take_worse(std::vector<reduction::Check>& worst, const std::vector<reduction::Check>& others);
+
+/// A row each.
+/// @param built_in  whether they are those of built_in_checks, of which the text says the starts
+Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in);
+
+/// A table beside the motions of a ball: two checks of the law's own motion, and how far the others are.
+struct BesideAnswer {
+  Answer answer;
+  bool passed;
+};
+
+/// @param law        the first of the models
+/// @param tolerance  a share of the start
+BesideAnswer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance);
+
+/// The fields of these answers.
+std::vector<FieldText> check_fields();
+std::vector<FieldText> check_against_fields();
+
+}  // namespace contensou::answers

@@ -1,0 +1,329 @@
+#include "answers/verbs/fit_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "answers/input/parse.hpp"
+#include "answers/table/text_table.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+using fit::Estimate;
+using fit::Parameter;
+
+Json members_of(const Estimate& estimate) {
+  return {{"value", estimate.value},
+          {"standard_error", estimate.standard_error},
+          {"low", estimate.interval.low},
+          {"high", estimate.interval.high},
+          {"determined", estimate.determined()}};
+}
+
+const std::string_view& name_of(const Estimate& estimate) { return fit::kind_of(estimate.parameter).name; }
+
+bool is_of_start(const Estimate& estimate) { return static_cast<int>(estimate.parameter) >= fit::shared_parameters; }
+
+/// Null without degrees of freedom.
+Json reduced_chi2(const fit::Fit& fit, bool planned) {
+  if (planned) return 1;
+  return fit.degrees_of_freedom > 0 ? Json(fit.reduced_chi2()) : Json();
+}
+
+/// "t = 0.1, 0.25 s", by track where there are several; the first ones.
+std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vector<fit::Track>& tracks) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(outliers.size(), most); ++i) {
+    const auto& [track, t] = outliers[i];
+    const bool first_of_track = i == 0 || outliers[i - 1].track != track;
+    if (first_of_track && i > 0) text += " s; ";
+    if (first_of_track && tracks.size() > 1) text += escaped(tracks[track].name) + ", ";
+    text += fmt::format("{}{:.6g}", first_of_track ? "t = " : ", ", t);
+  }
+  return text + (outliers.size() > most ? ", ... s" : " s");
+}
+
+/// What else is to be known, a sentence each.
+std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::Track>& tracks, bool planned) {
+  std::vector<std::string> remarks;
+  for (const fit::Noise& noise : fit.noise) {
+    if (noise.outliers.empty() || planned) continue;
+    remarks.push_back(fmt::format(
+        "{}: {} of {} values are off by more than 6 standard deviations of the others, at {}; {}",
+        fit::kind_of(noise.observable).name, noise.outliers.size(), noise.values, places_of(noise.outliers, tracks),
+        fit.robust ? "Huber's loss lets them count for less" : "with Huber's loss (--robust) they count for less"));
+  }
+  for (std::size_t i = 0; i < fit.turns.size(); ++i) {
+    const auto& [limit, others] = fit.turns[i];
+    if (!std::isfinite(limit)) continue;
+    const double spin = std::abs(fit.estimate(Parameter::spin, i).value);
+    constexpr double near = 0.8;
+    const std::string of = tracks.size() > 1 ? escaped(tracks[i].name) + ": " : "";
+    if (planned) {
+      remarks.push_back(
+          fmt::format("{}between two pictures a mark turns by less than half a turn up to a spin of {:.4g} rad/s; "
+                      "beyond it its turns have to be found by trial{}",
+                      of, limit, spin > near * limit ? ", as here" : ""));
+    } else if (spin > near * limit) {
+      remarks.push_back(
+          fmt::format("{}from {:.4g} rad/s on a mark turns by more than half a turn between two pictures: its "
+                      "turns were found by trial; more pictures a second would show them",
+                      of, limit));
+    }
+    if (!others.empty()) {
+      remarks.push_back(fmt::format(
+          "{}a spin of {:.4g} rad/s, by other whole turns between two pictures, fits as well: another rate of "
+          "pictures, or how far the mark is blurred in one, tells which",
+          of, others.front()));
+    }
+  }
+  for (const fit::OtherMotion& other : fit.other_motions) {
+    const std::string of = tracks.size() > 1 ? escaped(tracks[other.track].name) + ": " : "";
+    remarks.push_back(fmt::format(
+        "{}another motion fits as well: friction {:.4g}, slip {:.4g} m/s, spin {:.4g} rad/s, chi^2 more by {:.2g}; "
+        "intervals contain both, and a column of what is not seen, spin, angle or slip, tells which",
+        of, other.friction, other.slip, other.spin, other.chi2_more));
+  }
+  if (const auto& seen = fit.rolling_friction_seen) {
+    remarks.push_back(fmt::format(
+        "chi^2 would be less by {:.0f} with a rolling friction of about {:.2g} +- {:.1g}, friction then about "
+        "{:.3g}: --rolling-friction {:.2g} lets the fit search it",
+        seen->chi2_less, seen->value, seen->standard_error, seen->friction, seen->value));
+  }
+  return remarks;
+}
+
+/// "friction", "patch_radius, mm": in the units in which people read them.
+struct Shown {
+  std::string name;
+  double unit;
+};
+Shown shown(Parameter parameter) {
+  const auto& [name, unit, meaning] = fit::kind_of(parameter);
+  if (parameter == Parameter::patch_radius) return {fmt::format("{}, mm", name), 1e-3};
+  return {unit.empty() ? std::string(name) : fmt::format("{}, {}", name, unit), 1};
+}
+
+/// The line of an estimate in a table.
+std::vector<std::string> line_on(const Estimate& estimate, const Digits& digits) {
+  const auto [name, unit] = shown(estimate.parameter);
+  const auto number = [&, unit = unit](double value) { return digits(value / unit); };
+  if (!estimate.free) return {name, number(estimate.value) + "  given"};
+  const auto& [low, high] = estimate.interval;
+  const std::string interval = fmt::format("{} to {}", number(low), number(high));
+  if (!estimate.determined()) {
+    const bool from_below = std::isinf(low) || low == 0, from_above = std::isinf(high);
+    const std::string known = from_below && from_above ? ""
+                              : from_above             ? fmt::format(": {} or more", number(low))
+                              : from_below             ? fmt::format(": {} or less", number(high))
+                                                       : ": " + interval;
+    return {name, "?", "?", "", "   not determined" + known};
+  }
+  const bool with_error = !estimate.skewed();
+  const double percent = 100 * estimate.standard_error / std::abs(estimate.value);
+  return {name, number(estimate.value),
+          with_error ? Digits{std::min(digits.count, 3)}(estimate.standard_error / unit) : "",
+          with_error && std::isfinite(percent) ? fmt::format("{:.2g} %", percent) : "", "   " + interval};
+}
+
+std::string table_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const Digits& digits) {
+  const auto number = TextTable::right(digits.width());
+  TextTable table({TextTable::left(18), number, TextTable::right(12), TextTable::right(12)});
+  table.add({"", "value", "+-", "", "   95 % confidence"});
+  std::size_t track = tracks.size();
+  for (const Estimate& estimate : fit.estimates) {
+    if (is_of_start(estimate) && estimate.track != track) {
+      track = estimate.track;
+      if (tracks.size() > 1) table.add({escaped(tracks[track].name)});
+    }
+    table.add(line_on(estimate, digits));
+  }
+  return table.text();
+}
+
+std::string noise_of(const fit::Fit& fit, bool planned) {
+  std::string text;
+  const bool some_given = !std::ranges::all_of(fit.noise, &fit::Noise::estimated);
+  if (!planned && some_given && fit.degrees_of_freedom > 0)
+    text += fmt::format("reduced chi^2 {:.4g}, {} degrees of freedom\n", fit.reduced_chi2(), fit.degrees_of_freedom);
+  for (const fit::Noise& noise : fit.noise) {
+    const auto& kind = fit::kind_of(noise.observable);
+    text += fmt::format("{:<6}{} values, sd {:.3g} {}{}\n", kind.name, noise.values, noise.sd, kind.unit,
+                        planned           ? ""
+                        : noise.estimated ? " (estimated)"
+                                          : fmt::format(" (given), residuals {:.3g}", noise.rms));
+  }
+  return text;
+}
+
+std::string ranking_of(const std::vector<fit::Fit>& fits) {
+  const fit::Fit& best = fits.front();
+  TextTable table({TextTable::left(14), TextTable::right(12), TextTable::right(12), TextTable::right(16)});
+  table.add({"law", "friction", "patch, mm", "AIC less best"});
+  for (const fit::Fit& fit : fits) {
+    table.add({fit.law, fmt::format("{:.4g}", fit.estimates[0].value),
+               fmt::format("{:.4g}", 1e3 * fit.estimates[1].value), fmt::format("{:.1f}", fit.aic - best.aic)});
+  }
+  constexpr double hardly = 4;
+  return "\n" + table.text() +
+         (fits[1].aic - best.aic < hardly ? "these data do not tell the first two apart (by 4 they would)\n"
+                                          : fmt::format("{} fits better than all others\n", best.law));
+}
+
+/// The laws that were fitted, the best first, and to what.
+struct FitReport {
+  const std::vector<fit::Fit>& fits;
+  const std::vector<fit::Track>& tracks;
+  bool planned;
+  const fit::Fit& best = fits.front();
+};
+
+constexpr Field<FitReport> answer_fields[]{
+    {"law", "", nullptr, [](const FitReport& r) -> Json { return r.best.law; }},
+    {"friction", "1", "", [](const FitReport& r) { return members_of(r.best.estimates[0]); }},
+    {"patch_radius", "m", "", [](const FitReport& r) { return members_of(r.best.estimates[1]); }},
+    {"slip", "m/s", "", [](const FitReport& r) { return members_of(r.best.estimate(Parameter::slip)); }},
+    {"spin", "1, m, m/s, 1/s", "estimates; the last two of the first track, at its start",
+     [](const FitReport& r) { return members_of(r.best.estimate(Parameter::spin)); }},
+    {"correlation", "", "of friction and patch_radius",
+     [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }},
+    {"reduced_chi2", "", "1 where the noise is estimated",
+     [](const FitReport& r) {
+       const Json value = reduced_chi2(r.best, r.planned);
+       return value.is_null() ? said_null : value;
+     }},
+    {"degrees_of_freedom", "", "measured values less the numbers that were found",
+     [](const FitReport& r) -> Json { return r.best.degrees_of_freedom; }},
+    {"profiled", "", "whether the intervals are by profile likelihood",
+     [](const FitReport& r) -> Json { return r.best.profiled; }},
+    {"fits", "", "whether this may be the motion of the data",
+     [](const FitReport& r) -> Json { return r.best.fits(); }},
+    {"misfits", "", "and if not why (status 1)", [](const FitReport& r) -> Json { return r.best.misfits; }},
+    {"remarks", "", "what else is to be known",
+     [](const FitReport& r) -> Json { return remarks_on(r.best, r.tracks, r.planned); }},
+    {"rolling_friction", "1", "an estimate, of a ball that has it, or where it was searched",
+     [](const FitReport& r) {
+       return r.best.rolls_with_friction() ? members_of(r.best.estimate(Parameter::rolling_friction)) : Json();
+     }},
+    {"only", "", "the one combination of the two that the data determine, where they do no more",
+     [](const FitReport& r) -> Json {
+       if (!r.best.only) return {};
+       const auto& [friction_power, patch_power, value, error, interval] = *r.best.only;
+       return {{"name", r.best.only->name()},
+               {"friction_power", friction_power},
+               {"patch_power", patch_power},
+               {"value", value},
+               {"standard_error", value * error},
+               {"low", interval.low},
+               {"high", interval.high}};
+     },
+     nullptr, 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
+    {"tracks", "rad/s",
+     "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start; with rolling friction `rolling` in place of `vx`, "
+     "`vy`; of a track with an angle `half_turn_spin`, from where on its turns are found by trial; "
+     "`other_spins` that fit as well, by other turns or by another motion",
+     [](const FitReport& r) {
+       Json list = Json::array();
+       for (std::size_t i = 0; i < r.tracks.size(); ++i) {
+         Json track{{"file", r.tracks[i].name}, {"start", r.tracks[i].start}};
+         for (const Estimate& estimate : r.best.estimates) {
+           if (is_of_start(estimate) && estimate.track == i)
+             track[std::string(name_of(estimate))] = members_of(estimate);
+         }
+         const double half_turn_spin = r.best.turns[i].half_turn_spin;
+         if (std::isfinite(half_turn_spin)) track["half_turn_spin"] = half_turn_spin;
+         const std::vector<double> other_spins = r.best.other_spins(i);
+         if (std::isfinite(half_turn_spin) || !other_spins.empty()) track["other_spins"] = other_spins;
+         list.push_back(std::move(track));
+       }
+       return list;
+     },
+     nullptr, 0, " [{`file`, `start`, `slip`, ...}]"},
+    {"noise", "", "of each column; `outliers_at` [{`file`, `t`}] is where they are (s)",
+     [](const FitReport& r) {
+       Json noise = Json::object();
+       for (const auto& [observable, values, rms, sd, estimated, outliers] : r.best.noise) {
+         Json places = Json::array();
+         for (const auto& [track, t] : outliers) places.push_back({{"file", r.tracks[track].name}, {"t", t}});
+         noise[std::string(fit::kind_of(observable).name)] = {
+             {"values", values},     {"rms", rms}, {"sd", sd}, {"estimated", estimated}, {"outliers", outliers.size()},
+             {"outliers_at", places}};
+       }
+       return noise;
+     },
+     nullptr, 0, " {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`, `outliers_at`}}"},
+    {"laws", "", "the best first",
+     [](const FitReport& r) {
+       Json laws = Json::array();
+       for (const fit::Fit& fit : r.fits) {
+         laws.push_back({{"law", fit.law},
+                         {"aic", fit.aic},
+                         {"friction", fit.estimates[0].value},
+                         {"patch_radius", fit.estimates[1].value},
+                         {"reduced_chi2", reduced_chi2(fit, r.planned)}});
+       }
+       return laws;
+     },
+     nullptr, 0, " [{`law`, `aic`, `friction`, `patch_radius`, `reduced_chi2`}]"},
+};
+
+}  // namespace
+
+Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned) {
+  Answer answer{.members = members_of(answer_fields, {fits, tracks, planned})};
+  for (const fit::Fit& fit : fits) {
+    for (const Estimate& estimate : fit.estimates) {
+      const std::string track = is_of_start(estimate) ? tracks[estimate.track].name : "";
+      Json& row = answer.rows.emplace_back(Json{{"law", fit.law}, {"track", track}, {"parameter", name_of(estimate)}});
+      row.update(members_of(estimate));
+    }
+  }
+  return answer;
+}
+
+std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned,
+                      const Digits& digits) {
+  const fit::Fit& best = fits.front();
+  std::string text = planned
+                         ? fmt::format("{} as planned: {} values, law {}\n", best.ball.ball.name, best.values, best.law)
+                         : fmt::format("{}: {} measured value{}, law {}\n", best.ball.ball.name, best.values,
+                                       best.values == 1 ? "" : "s", best.law);
+  if (!best.fits()) {
+    text += "\nTHIS DOES NOT FIT: these errors and intervals do not count.\n";
+    for (const std::string& misfit : best.misfits) text += fmt::format("- {}\n", misfit);
+  }
+  if (best.only) {
+    const std::string unit = best.only->patch_power == 0 ? "" : best.only->patch_power > 0 ? " mm" : " 1/mm";
+    const double scale = std::pow(1e3, best.only->patch_power);
+    const auto number = [&](double value) { return digits(scale * value); };
+    text += fmt::format(
+        "\nOf friction and patch radius these data determine {} only: {} +- {}{} ({:.2g} %), 95 % confidence {} to "
+        "{}{}\n",
+        best.only->name(), number(best.only->value), number(best.only->value * best.only->relative_error), unit,
+        100 * best.only->relative_error, number(best.only->interval.low), number(best.only->interval.high), unit);
+  }
+  text += "\n" + table_of(best, tracks, digits) + "\n";
+  const bool both = best.estimates[0].free && best.estimates[1].free;
+  if (both) text += fmt::format("correlation of friction and patch_radius {:.3f}\n", best.correlation_of_contact());
+  if (best.profiled) text += "intervals by profile likelihood\n";
+  text += noise_of(best, planned);
+  for (const std::string& remark : remarks_on(best, tracks, planned)) text += remark + "\n";
+  if (fits.size() > 1) text += ranking_of(fits);
+  return text;
+}
+
+std::vector<FieldText> fit_fields() {
+  return joined(
+      {{{"in: `t`; `slip`, `x`, `y`, `vx`, `vy`", "s; m/s, m, m, m/s, m/s", "any of them; others are not read"},
+        {"in: `spin`, `angle`; NAME`_sd`", "rad/s, rad", "about the vertical; standard deviation of NAME"},
+        {"an estimate {`value`, `standard_error`, `low`, `high`, `determined`}", "",
+         "with its 95 % interval; where not determined, value is any of many and standard_error inf"},
+        {"CSV `law`, `track`, `parameter`, `value`, `standard_error`, `low`, `high`, `determined`", "", "a row each"}},
+       texts_of(answer_fields)});
+}
+
+}  // namespace contensou::answers

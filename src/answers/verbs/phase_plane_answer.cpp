@@ -1,0 +1,261 @@
+#include "answers/verbs/phase_plane_answer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "answers/table/text_table.hpp"
+#include "contensou/reduction/phase_plane.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
+
+namespace contensou::answers {
+
+using reduction::InvariantDirection;
+using reduction::InvariantRay;
+using reduction::PhasePlane;
+using reduction::ReducedSystem;
+using reduction::SingularPoint;
+using reduction::TerminalRatio;
+using reduction::TerminalRatios;
+
+namespace {
+
+/// Of something that has a place in an enumeration.
+template <class Enumeration>
+std::string_view text_of(const std::array<std::string_view, 3>& texts, Enumeration place) {
+  return texts[static_cast<std::size_t>(place)];
+}
+
+/// In the order of TerminalRegime.
+constexpr std::array<std::string_view, 3> limits{"zero", "ray", "infinity"};
+/// In the order of InvariantDirection: what tends to what along an orbit that enters the origin.
+constexpr std::array<std::string_view, 3> approaches{"along v = 0: k falls", "along the ray: k - k* falls",
+                                                     "along u = 0: 1/k falls"};
+
+std::string_view effect(const InvariantRay& ray) {
+  return ray.attracts()       ? "attracts"
+         : ray.attracts_above ? "attracts from above, repels below"
+         : ray.attracts_below ? "attracts from below, repels above"
+                              : "repels";
+}
+
+/// The end of the largest sector of starts, by the angle of (mu |u|, v).
+std::size_t usual_end(const TerminalRatios& ratios) {
+  const auto sector = [](const TerminalRatio& end) { return std::atan(end.to) - std::atan(end.from); };
+  return static_cast<std::size_t>(std::ranges::max_element(ratios.ends, {}, sector) - ratios.ends.begin());
+}
+
+/// An end, and the relative error of its k*.
+struct End {
+  TerminalRatio ratio;
+  double accuracy;
+};
+
+End end_of(const TerminalRatios& ratios, const TerminalRatio& end) {
+  const auto ray = std::ranges::find(ratios.rays, end.k, &InvariantRay::k);
+  return {end, ray == ratios.rays.end() ? 0 : ray->accuracy};
+}
+
+constexpr Field<ReducedSystem> system_fields[]{
+    {"law", "", nullptr, [](const ReducedSystem& system) -> Json { return system.law().name(); }},
+    {"r", "", "gamma mu^2/chi", [](const ReducedSystem& system) -> Json { return system.r(); }},
+    {"drive", "", "with --drive; then r_high is of (Phi - drive)/(k Psi)",
+     [](const ReducedSystem& system) -> Json { return system.drive() > 0 ? Json(system.drive()) : Json(); }},
+};
+constexpr Field<TerminalRatios> regime_fields[]{
+    {"r_low", "", "Phi/(k Psi) at k = 0, where the regime changes",
+     [](const TerminalRatios& ratios) -> Json { return ratios.low; }},
+    {"r_high", "", "Phi/(k Psi) at k = infinity, where it changes again",
+     [](const TerminalRatios& ratios) -> Json { return ratios.high; }},
+};
+constexpr Field<End> end_fields[]{
+    {"limit", "", "zero, ray or infinity: of k, for most starts; CSV has a row for each end",
+     [](const End& end) -> Json { return text_of(limits, end.ratio.regime); }},
+    {"k_star", "", "what k tends to", [](const End& end) -> Json { return end.ratio.k; }},
+    {"k_star_accuracy", "", "its relative error", [](const End& end) -> Json { return end.accuracy; }, nullptr, 1},
+    {"k_from", "", "the starts that end there: from this k", [](const End& end) -> Json { return end.ratio.from; }},
+    {"k_to", "", "to this", [](const End& end) -> Json { return end.ratio.to; }},
+};
+constexpr Field<TerminalRatios> list_fields[]{
+    {"rays", "", "all k at which a half-line is an orbit",
+     [](const TerminalRatios& ratios) {
+       Json rays = Json::array();
+       for (const InvariantRay& ray : ratios.rays) {
+         rays.push_back({{"k", ray.k}, {"attracts", ray.attracts()}, {"accuracy", ray.accuracy}});
+       }
+       return rays;
+     },
+     "", 0, " [{`k`, `attracts`, `accuracy`}]"},
+    {"ends", "", "all ends",
+     [](const TerminalRatios& ratios) {
+       Json ends = Json::array();
+       for (const TerminalRatio& end : ratios.ends) ends.push_back(members_of(end_fields, end_of(ratios, end)));
+       return ends;
+     },
+     "", 0, " [{`limit`, ...}]"},
+};
+
+/// What both answers say; of the ends the usual one stands before the others.
+Json ratio_members(const TerminalRatios& ratios) {
+  Json members = members_of(regime_fields, ratios);
+  members.update(members_of(end_fields, end_of(ratios, ratios.ends[usual_end(ratios)])));
+  members.update(members_of(list_fields, ratios));
+  return members;
+}
+
+/// Along what and how closely orbits enter the origin at an end.
+Json tangent_of(const PhasePlane& plane, std::size_t end) {
+  const auto& [direction, k, order] = plane.tangents[end];
+  return {{"half_line", name(direction)}, {"k", k}, {"contact_order", order}};
+}
+
+constexpr Field<SingularPoint> point_fields[]{
+    {"half_line", "", "u = 0, v = 0 or the ray",
+     [](const SingularPoint& point) -> Json { return name(point.direction); }},
+    {"place", "", "origin or infinity", [](const SingularPoint& point) -> Json { return name(point.place); }},
+    {"k", "", "of the half-line", [](const SingularPoint& point) -> Json { return point.k; }},
+    {"q", "", "v/abs(u)", [](const SingularPoint& point) -> Json { return point.q; }},
+    {"eigenvalues", "", "of (2.7), along the half-line and across",
+     [](const SingularPoint& point) -> Json {
+       return {{"radial", point.radial}, {"angular", point.angular}};
+     },
+     nullptr, 0, " {`radial`, `angular`}"},
+    {"kind", "", "stable node, saddle, ...", [](const SingularPoint& point) -> Json { return name(point.kind); }},
+    {"separatrix", "", "whether the half-line is one",
+     [](const SingularPoint& point) -> Json { return point.kind == reduction::SingularKind::saddle; }},
+};
+constexpr Field<PhasePlane> plane_fields[]{
+    {"mu_low", "", "r_low as a patch ratio of this body; not with --drive",
+     [](const PhasePlane& plane) -> Json { return plane.points.front().k == 0 ? Json(plane.mu_low) : Json(); }, ""},
+    {"mu_high", "", "r_high as one", [](const PhasePlane& plane) -> Json { return plane.mu_high; }, ""},
+    {"tangent", "", "the half-line along which most orbits enter the origin",
+     [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["half_line"]; }, ""},
+    {"contact_order", "", "the power of the speed by which they leave it",
+     [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["contact_order"]; }, ""},
+    {"tangents", "", "both, at each end",
+     [](const PhasePlane& plane) {
+       Json tangents = Json::array();
+       for (std::size_t i = 0; i < plane.tangents.size(); ++i) tangents.push_back(tangent_of(plane, i));
+       return tangents;
+     },
+     "", 0, " [{`half_line`, `k`, `contact_order`}]"},
+    {"singular_points", "", "of the regularised plane; a row of CSV each",
+     [](const PhasePlane& plane) {
+       Json points = Json::array();
+       for (const SingularPoint& point : plane.points) points.push_back(members_of(point_fields, point));
+       return points;
+     },
+     "", 0, " [...]"},
+};
+
+/// The law, what r is made of, and where there are rays.
+std::string heading(const ReducedSystem& system, const TerminalRatios& ratios, std::string_view rays,
+                    const Digits& digits) {
+  return fmt::format(
+      "law    {}\n"
+      "r      {} = gamma mu^2/chi, gamma = {}, mu = {}, chi = {}\n"
+      "{}",
+      system.law().name(), digits(system.r()), digits(system.inertia().gamma), digits(system.mu()),
+      digits(system.inertia().chi),
+      system.drive() > 0
+          ? fmt::format("drive  {} of f N, along the slip: v = 0 is no motion, from there a body creeps\n"
+                        "rays   where (Phi - drive)/(k Psi) = r; it is {} at k = infinity",
+                        digits(system.drive()), digits(ratios.high))
+          : fmt::format("rays   {}where Phi/(k Psi) = r; it is {} at k = 0 and {} at k = infinity", rays,
+                        digits(ratios.low), digits(ratios.high)));
+}
+
+std::string as_text(const ReducedSystem& system, const TerminalRatios& ratios, const Digits& digits) {
+  std::string text;
+  if (ratios.ends.size() == 1) {
+    const TerminalRatio& end = ratios.ends.front();
+    text = fmt::format("k = v/(mu |u|) tends to {}: {}\n", digits(end.k), meaning(end.regime));
+  } else {
+    text = "k = v/(mu |u|) tends to one of several ratios; the k of the start tells which\n";
+    for (const TerminalRatio& end : ratios.ends) {
+      text +=
+          fmt::format("{} < k < {}: to {}, {}\n", digits(end.from), digits(end.to), digits(end.k), meaning(end.regime));
+    }
+  }
+  text += "\n" + heading(system, ratios, "", digits) + "\n";
+  for (const InvariantRay& ray : ratios.rays) {
+    text +=
+        fmt::format("       k = {} {}, relative error of k below {:.0e}\n", digits(ray.k), effect(ray), ray.accuracy);
+  }
+  return text;
+}
+
+std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const Digits& digits) {
+  const bool driven = system.drive() > 0;
+  std::string text = heading(system, plane.terminal, "v = k mu |u| ", digits) +
+                     (driven ? fmt::format(", the r of mu = {}\n\n", digits(plane.mu_high))
+                             : fmt::format(", the r of {} < mu < {}\n\n", digits(plane.mu_low), digits(plane.mu_high)));
+  const TextTable::Column number = TextTable::right(digits.width());
+  TextTable table({TextTable::left(11), TextTable::left(9), number, number, number, number});
+  table.add({"half-line", "at", "k", "q = v/|u|", "radial", "angular", "  kind"});
+  for (const SingularPoint& point : plane.points) {
+    table.add({std::string(name(point.direction)), std::string(name(point.place)), digits(point.k), digits(point.q),
+               digits(point.radial), digits(point.angular), fmt::format("  {}", name(point.kind))});
+  }
+  text += table.text();
+  text +=
+      std::string(
+          "\n"
+          "radial, angular   eigenvalues of (2.7) in |u| and q = v/|u| (at u = 0 in v and |u|/v), divided by |u| (v);\n"
+          "                  at infinity 1/|u| (1/v) is the radial coordinate. (2.7) has no linear part at the origin\n"
+          "kind              a half-line is a separatrix of its saddle; u < 0 is the mirror image\n") +
+      fmt::format("every other orbit is born at infinity in an unstable node{} and enters the origin\n",
+                  driven ? ", or begins at v = 0," : "");
+  for (std::size_t i = 0; i < plane.tangents.size(); ++i) {
+    const auto& [direction, k, order] = plane.tangents[i];
+    const auto& end = plane.terminal.ends[i];
+    const std::string_view speed = direction == InvariantDirection::sliding ? "v" : "|u|";
+    text += fmt::format("from {} < k < {} {}{}\n", digits(end.from), digits(end.to), text_of(approaches, direction),
+                        order > 0 ? fmt::format(" like {}^{}", speed, digits(order))
+                                  : fmt::format(" slower than any power of {}", speed));
+  }
+  return text;
+}
+
+}  // namespace
+
+Answer terminal_answer(const ReducedSystem& system) {
+  const TerminalRatios ratios = reduction::terminal_ratios(system.law(), system.r(), system.drive());
+  Answer answer{.members = members_of(system_fields, system),
+                .text = [=](const Digits& digits) { return as_text(system, ratios, digits); }};
+  answer.members.update(ratio_members(ratios));
+  for (const TerminalRatio& end : ratios.ends) {
+    Json& row = answer.rows.emplace_back(row_of(system_fields, system));
+    row.update(row_of(regime_fields, ratios));
+    row.update(row_of(end_fields, end_of(ratios, end)));
+  }
+  return answer;
+}
+
+std::vector<FieldText> terminal_fields() {
+  return joined({texts_of(system_fields), texts_of(regime_fields), texts_of(end_fields), texts_of(list_fields)});
+}
+
+Answer phase_plane_answer(const ReducedSystem& system) {
+  const PhasePlane plane = reduction::phase_plane(system);
+  Answer answer{.members = {{"law", system.law().name()},
+                            {"mu", system.mu()},
+                            {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
+                            {"r", system.r()}},
+                .text = [=](const Digits& digits) { return as_text(system, plane, digits); }};
+  if (system.drive() > 0) answer.members["drive"] = system.drive();
+  answer.members.update(ratio_members(plane.terminal));
+  answer.members.update(members_of(plane_fields, plane));
+  for (const SingularPoint& point : plane.points) answer.rows.push_back(row_of(point_fields, point));
+  return answer;
+}
+
+std::vector<FieldText> phase_plane_fields() {
+  return joined(
+      {{{"JSON `r`, `r_low`, ..., `ends`", "", "as of terminal"}}, texts_of(plane_fields), texts_of(point_fields)});
+}
+
+}  // namespace contensou::answers

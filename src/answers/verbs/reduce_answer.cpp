@@ -1,0 +1,395 @@
+#include "answers/verbs/reduce_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "answers/asked/planar_system.hpp"
+#include "contensou/portraits/reduced_orbits.hpp"
+#include "contensou/reduction/canonical_coordinates.hpp"
+#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
+#include "contensou/reduction/stop_time.hpp"
+
+namespace contensou::answers {
+
+using Eigen::Vector2d;
+using reduction::Generator;
+using reduction::PlanarEnd;
+using reduction::PlanarField;
+using reduction::PlanarReduction;
+using reduction::PlanarSymmetries;
+using std::numbers::pi;
+
+namespace {
+
+Json json_of(const Generator& x) {
+  Json json{{"time", x.time},
+            {"matrix", {{x.matrix(0, 0), x.matrix(0, 1)}, {x.matrix(1, 0), x.matrix(1, 1)}}},
+            {"shift", {x.shift[0], x.shift[1]}}};
+  if (!x.everywhere) json["within"] = "each smooth sector";
+  return json;
+}
+
+/// A sum of such terms as one writes it: no zeros, no ones.
+std::string sum(std::initializer_list<std::pair<double, std::string_view>> terms, const Digits& digits) {
+  std::string text;
+  for (const auto& [factor, name] : terms) {
+    if (factor == 0) continue;
+    text += text.empty() ? (factor < 0 ? "-" : "") : factor < 0 ? " - " : " + ";
+    const double size = std::abs(factor);
+    if (name.empty()) {
+      text += digits(size);
+    } else {
+      text += size == 1 ? std::string(name) : fmt::format("{} {}", digits(size), name);
+    }
+  }
+  return text.empty() ? "0" : text;
+}
+
+/// c t d/dt + ... in the names of time and coordinates.
+std::string text_of(const Generator& x, std::string_view time, const Digits& digits) {
+  std::string text;
+  const auto add = [&](std::string factor, std::string_view name) {
+    if (factor == "0") return;
+    const bool several = factor.find(" + ") != std::string::npos || factor.find(" - ") != std::string::npos;
+    const bool negative = !several && factor.starts_with('-');
+    if (several) factor = "(" + factor + ")";
+    if (negative) factor.erase(0, 1);
+    text += text.empty() ? (negative ? "-" : "") : negative ? " - " : " + ";
+    text += fmt::format("{} d/d{}", factor, name);
+  };
+  add(sum({{x.time, time}}, digits), time);
+  add(sum({{x.matrix(0, 0), "u"}, {x.matrix(0, 1), "v"}, {x.shift[0], ""}}, digits), "u");
+  add(sum({{x.matrix(1, 0), "u"}, {x.matrix(1, 1), "v"}, {x.shift[1], ""}}, digits), "v");
+  return text;
+}
+
+Json symmetry_members(const PlanarSymmetries& found) {
+  Json generators = Json::array();
+  for (const Generator& x : found.generators) generators.push_back(json_of(x));
+  return {{"generators", generators},
+          {"singular_values", found.singular_values},
+          {"level", found.level},
+          {"gap", found.gap}};
+}
+
+std::string text_of(const PlanarSymmetries& found, std::string_view time, const Digits& digits) {
+  std::string text;
+  for (const Generator& x : found.generators) {
+    text +=
+        fmt::format("{:<12}X = {}{}\n", text.empty() ? "generator" : "", text_of(x, time, digits),
+                    x.everywhere ? "" : ", within each sector in which the field is smooth, not across their borders");
+  }
+  if (found.verdict == PlanarSymmetries::Verdict::none) {
+    text = "generator   none of the form X = c t d/dt + (A x + b) d/dx: no singular value is small\n";
+  } else if (found.verdict == PlanarSymmetries::Verdict::undecided) {
+    text =
+        "generator   not decided: the field's noise, or its kinks, hide what one would leave; a start where both "
+        "terms of each sum matter may tell\n";
+  }
+  text += "values      ";
+  for (double value : found.singular_values) text += fmt::format("{:.2g} ", value);
+  text += fmt::format("\n            singular ones of the determining equations at {} points; ", found.points);
+  // They are relative to the largest.
+  return text + (found.level < 1 ? fmt::format("0 is below {:.1g}, gap {:.1g}\n", found.level, found.gap)
+                                 : "the errors of differences exceed all of them\n");
+}
+
+/// A row of CSV: the members that are one number or text, and the first generator.
+Json row_of(const Json& members, const PlanarSymmetries& found) {
+  Json row;
+  for (const auto& [name, value] : members.items()) {
+    if (value.is_primitive() && !value.is_null()) row[name] = value;
+  }
+  if (members.contains("canonical")) row.update(members["canonical"]);
+  if (!found.generators.empty()) {
+    const Generator& x = found.generators.front();
+    row.update({{"time", x.time},
+                {"a11", x.matrix(0, 0)},
+                {"a12", x.matrix(0, 1)},
+                {"a21", x.matrix(1, 0)},
+                {"a22", x.matrix(1, 1)},
+                {"b1", x.shift[0]},
+                {"b2", x.shift[1]}});
+  }
+  return row;
+}
+
+/// The orbit of the start in the strip, and the starts of its copies: each is the same curve with another p.
+Json strip_members(const portraits::ReducedOrbits& from, const char* x,
+                   const std::function<double(const Vector2d&)>& time_left) {
+  constexpr std::size_t most = 100;
+  const auto place = [&](portraits::Point at) {
+    const auto [u, v] = from.in_plane(at);
+    return Vector2d(u, v);
+  };
+  Json strip = Json::array(), copies = Json::array();
+  for (const portraits::Polyline& line : from.orbit) {
+    Json columns{{x, Json::array()}, {"p", {}}, {"u", {}}, {"v", {}}, {"tau_left", {}}};
+    const std::size_t step = (line.size() + most - 1) / most;
+    for (std::size_t i = (line.size() - 1) % step; i < line.size(); i += step) {
+      const Vector2d at = place(line[i]);
+      if (!at.allFinite()) continue;  // so long before the start that no double holds it
+      columns[x].push_back(line[i].x);
+      columns["p"].push_back(line[i].y);
+      columns["u"].push_back(at[0]);
+      columns["v"].push_back(at[1]);
+      columns["tau_left"].push_back(or_infinity(time_left(at)));
+    }
+    strip.push_back(std::move(columns));
+  }
+  for (const double shift : portraits::copy_shifts) {
+    const Vector2d start = place({from.start.x, from.start.y + shift});
+    if (!start.allFinite()) continue;
+    copies.push_back(
+        {{"factor", std::exp(shift)}, {"u0", start[0]}, {"v0", start[1]}, {"tau_stop", or_infinity(time_left(start))}});
+  }
+  return {{"strip", strip}, {"copies", copies}};
+}
+
+std::string difference(double one, double other) {
+  if (one == other) return "the same";
+  return fmt::format("differs by {:.1e}", std::abs(one / other - 1));
+}
+
+}  // namespace
+
+ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, const Vector2d& start) {
+  if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
+  const auto has_value = [&] {
+    try {
+      return field(start).allFinite();
+    } catch (const std::exception&) {
+      return false;
+    }
+  };
+  const PlanarSymmetries found = reduction::find_symmetries(field, start);
+  if (!has_value()) {
+    throw BadInput(fmt::format("the field has no value at the start u = {}, v = {}: give a start where it has one",
+                               start[0], start[1]));
+  }
+  Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}};
+  answer.members.update(symmetry_members(found));
+  std::function<std::string(const Digits&)> solution;
+  const auto [solved, unsolved] = solve_planar(field, found, start);
+  if (solved) {
+    const PlanarReduction& plane = *solved;
+    const bool at_centre = is_centre(*found.scaling, start);
+    const auto orbit = plane.orbit(at_centre ? plane.centre() : start);
+    const auto canonical = plane.canonical(start);
+    std::optional<double> integral;
+    try {
+      if (!at_centre) integral = plane.first_integral(start);
+    } catch (const std::domain_error&) {
+      // on a ray it has no value
+    }
+    Json rays = Json::array();
+    for (const auto& ray : plane.rays()) {
+      rays.push_back({{"angle", ray.q},
+                      {"attracts", ray.attracts},
+                      {"to_centre", ray.to_centre},
+                      {"radial", ray.radial},
+                      {"angular", or_infinity(ray.angular)},
+                      {"order", ray.order}});
+    }
+    if (!at_centre) {
+      answer.members["canonical"] = {{"q", canonical.q}, {"p", canonical.p}, {"dp_dq", or_infinity(canonical.dp_dq)}};
+    }
+    if (integral) answer.members["first_integral"] = *integral;
+    const std::string_view kind = plane.kind();
+    answer.members.update({{"rays", rays}, {"kind", kind.empty() ? Json() : Json(kind)}});
+    if (!plane.undecided().empty()) answer.members["undecided"] = plane.undecided();
+    if (integral && !kind.empty() && kind != "bordered") {
+      answer.members.update(strip_members(portraits::reduced_orbits(field, plane, start), "q", [&](const Vector2d& x) {
+        const auto there = plane.orbit(x);
+        return there.end() == PlanarEnd::centre ? there.end_time() : infinity;
+      }));
+    }
+    if (plane.turn()) answer.members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
+    const auto end = orbit.end();
+    const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided;
+    const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
+    answer.members.update({{"end", end == PlanarEnd::undecided ? Json() : Json(name(end))},
+                           {"tau_stop", unknown ? Json() : Json(tau_stop)}});
+    const double error = !at_centre && std::isfinite(tau_stop) ? plane.end_time_error(start) : 0;
+    if (error > 0) answer.members["accuracy"] = error;
+    solution = [=, plane = plane](const Digits& digits) {
+      std::string lines =
+          fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]),
+                      plane.kind().empty() ? "not decided, as " + plane.undecided() : std::string(plane.kind()));
+      for (const auto& ray : plane.rays()) {
+        lines += fmt::format("ray         at the angle {}{}: {}, the motion on it goes {}\n", digits(ray.q),
+                             ray.order == 2   ? ", double"
+                             : ray.order == 3 ? ", triple"
+                                              : "",
+                             ray.attracts ? "attracts" : "repels",
+                             ray.radial == 0 ? "nowhere: its points are at rest"
+                             : ray.to_centre ? "to the centre"
+                                             : "away");
+      }
+      if (plane.turn()) {
+        lines += fmt::format("a turn      multiplies exp(p) by {} in {} of sigma, d sigma = exp(-c p) dt\n",
+                             digits(plane.turn()->factor), digits(plane.turn()->sigma));
+      }
+      if (at_centre) return lines + "tau_stop    0: the start is the centre\n";
+      lines += fmt::format("canonical   q = {} (angle), p = {}, dp/dq = {}\n", digits(canonical.q), digits(canonical.p),
+                           digits(canonical.dp_dq));
+      lines += integral
+                   ? fmt::format("integral    p - L(q) = {}\n", digits(*integral))
+                   : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
+      if (end == PlanarEnd::border) {
+        return lines + "tau_stop    not known: the orbit comes to a border of the field, a pole or a jump\n";
+      }
+      if (end == PlanarEnd::undecided) {
+        return lines + fmt::format("tau_stop    not decided: {}\n", plane.undecided());
+      }
+      const bool finite = std::isfinite(orbit.end_time());
+      return lines + fmt::format("tau_stop    {}{}\n", digits(end == PlanarEnd::centre ? orbit.end_time() : infinity),
+                                 end == PlanarEnd::centre
+                                     ? (finite ? fmt::format(", by quadrature; relative error below {:.0e}", error)
+                                               : ": it nears the centre for ever")
+                                 : end == PlanarEnd::periodic ? ": it returns"
+                                 : end == PlanarEnd::rest     ? ": it comes to rest elsewhere"
+                                 : finite ? fmt::format(": it is at infinity after {}", digits(orbit.end_time()))
+                                          : ": it goes to infinity, for ever");
+    };
+  } else if (!found.generators.empty()) {
+    solution = [why = unsolved](const Digits&) { return fmt::format("solution    none by quadrature: {}\n", why); };
+  }
+  answer.text = [=](const Digits& digits) {
+    return fmt::format("system      {}\nstart       u = {}, v = {}\n{}{}", text, digits(start[0]), digits(start[1]),
+                       text_of(found, "t", digits), solution ? solution(digits) : "");
+  };
+  answer.rows = {row_of(answer.members, found)};
+  return {std::move(answer), !found.generators.empty()};
+}
+
+ReduceAnswer reduce_answer(const GivenStart& given) {
+  const auto& [system, state, experiment, resisted] = given;
+  if (given.pieces().size() > 1) {
+    throw BadInput(
+        "reduce is of one orbit, and rolling friction lets this ball turn for a part of its motion only: leave it out "
+        "(--rolling-friction 0), or ask for --mu, --u0, --v0 with --drive");
+  }
+  if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
+  const Vector2d start(state.u, state.v);
+  // Sampled about k = 1, where both speeds change, whatever the start: by the scaling that is found all are alike.
+  const PlanarSymmetries found =
+      reduction::find_symmetries(reduction::planar_field(system), Vector2d(1 / system.mu(), 1));
+  if (!found.scaling) {
+    // A law has been found homogeneous when it was made: here only rounding can hide the scaling.
+    throw std::runtime_error(fmt::format(
+        "reduce: with mu = {} the scaling of (2.6) is lost in rounding, as u and v differ too much in how fast "
+        "they change; stop, orbit and portrait take such a mu",
+        system.mu()));
+  }
+  const PlanarReduction plane(reduction::planar_field(system), *found.scaling, start, found.residual);
+  const reduction::Flow flow(system);
+  const reduction::StopTime stop = flow.stop_time(state);
+
+  Json rays = Json::array();
+  const auto ends_at = [&](double k) {
+    return std::ranges::any_of(flow.terminal().ends, [k](const auto& end) { return end.k == k; });
+  };
+  const bool driven = system.drive() > 0;  // then v = 0 is no ray
+  if (!driven) rays.push_back({{"k", 0}, {"attracts", ends_at(0)}});
+  for (const auto& ray : flow.terminal().rays) rays.push_back({{"k", ray.k}, {"attracts", ray.attracts()}});
+  rays.push_back({{"k", infinity}, {"attracts", ends_at(infinity)}});
+
+  Json routes = Json::array();
+  const std::vector<reduction::Route> ways = reduction::routes(system);
+  for (reduction::Route route : ways) {
+    try {
+      // The first is the way of `flow`, which is solved.
+      const double tau = route == ways.front() ? stop.tau : reduction::stop_time(system, state, route).tau;
+      routes.push_back({{"name", name(route)}, {"tau_stop", tau}});
+    } catch (const std::runtime_error& failure) {  // a stepper did not come to the stop
+      routes.push_back({{"name", name(route)}, {"failure", failure.what()}});
+    }
+  }
+  routes.push_back({{"name", "section"}, {"tau_stop", plane.end_time(start)}});
+
+  Answer answer{.members = {{"law", system.law().name()},
+                            {"mu", system.mu()},
+                            {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
+                            {"u0", state.u},
+                            {"v0", state.v}}};
+  if (driven) answer.members["drive"] = system.drive();
+  answer.members.update(symmetry_members(found));
+  // The axes are rays themselves: there q and p are limits, and the first integral has no value.
+  std::optional<double> integral;
+  if (given.slides_and_spins()) {
+    const auto canonical = reduction::to_canonical(state);
+    answer.members["canonical"] = {
+        {"q", canonical.q}, {"p", canonical.p}, {"dp_dq", reduction::separated_slope(system, canonical.q)}};
+    try {
+      integral = flow.log_first_integral(state.u, std::log(state.v));
+      answer.members["first_integral"] = *integral;
+    } catch (const std::domain_error&) {
+      // on an invariant ray
+    }
+  } else {
+    answer.members["canonical"] = {{"q", state.u == 0 ? infinity : 0.0}, {"p", std::log(state.v)}, {"dp_dq", infinity}};
+  }
+  answer.members.update({{"rays", rays}, {"kind", plane.kind()}, {"tau_stop", stop.tau}, {"routes", routes}});
+  if (integral) {
+    answer.members.update(strip_members(portraits::reduced_orbits(flow, state), "ln_k", [&](const Vector2d& x) {
+      return flow.stop_time(reduction::State{x[0], x[1]}).tau;
+    }));
+  }
+
+  answer.text = [=, system = system, state = state, members = answer.members](const Digits& digits) {
+    const double mu = system.mu(), chi = system.inertia().chi, gamma = system.inertia().gamma;
+    const double sliding = 2 * chi / (3 * pi), pivoting = 2 * gamma * mu / (3 * pi), r = system.r();
+    std::string text = fmt::format("system      law {}, mu = {}, chi = {}, gamma = {}, r = {}; k = v/({} |u|)\n",
+                                   system.law().name(), digits(mu), digits(chi), digits(gamma), digits(r), digits(mu));
+    text += fmt::format("(2.6)       du/dtau = -{} Psi(k) sign(u),  dv/dtau = -{} {}\n", digits(pivoting),
+                        digits(sliding), driven ? fmt::format("(Phi(k) - {})", digits(system.drive())) : "Phi(k)");
+    text += fmt::format("(2.7)       du/dbeta = W du/dtau,  dv/dbeta = W dv/dtau,  smooth at u = v = 0\n");
+    text += fmt::format("(2.8)       dtau = W dbeta,  W = ({} |u| + {} v) ({} |u| + {} v)\n", digits(16 * mu),
+                        digits(15 * pi), digits(8 * mu), digits(3 * pi));
+    text += fmt::format("start       u = {}, v = {}, k = {}\n", digits(state.u), digits(state.v),
+                        digits(state.v / (mu * std::abs(state.u))));
+    text += text_of(found, "tau", digits);
+    const Json& canonical = members.at("canonical");
+    text +=
+        fmt::format("canonical   q = v/u = {}, p = ln v = {}, dp/dq = {}\n", digits(canonical.at("q").get<double>()),
+                    digits(canonical.at("p").get<double>()), digits(canonical.at("dp_dq").get<double>()));
+    text += integral
+                ? fmt::format("integral    ln |u| - ln w(k) = {}, the same along the orbit\n", digits(*integral))
+                : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
+    if (integral && !driven && system.law().as<reduction::PadeLaw>() != nullptr && r < 2) {
+      const double a = r / (2 - r), b = a - r / (5 - r), A = 8 * (2 - r), B = 3 * pi * (5 - r);
+      const double k = state.v / (mu * std::abs(state.u));
+      text += fmt::format("orbit       |u| k^-{} ({} + {} k)^{} = {}\n", digits(a), digits(A), digits(B), digits(b),
+                          digits(std::exp(std::log(std::abs(state.u)) - a * std::log(k) + b * std::log(A + B * k))));
+    }
+    for (const Json& ray : members.at("rays")) {
+      text += fmt::format("ray         k = {}: {}\n", digits(ray.at("k").get<double>()),
+                          ray.at("attracts").get<bool>() ? "attracts" : "repels");
+    }
+    text += fmt::format("origin      {}, not smooth\n", plane.kind());
+    text += fmt::format("tau_stop    {}\n", digits(stop.tau));
+    for (const Json& route : members.at("routes")) {
+      if (route.contains("failure")) {
+        text += fmt::format("  {:<12}none: {}\n", route.at("name").get<std::string>(),
+                            route.at("failure").get<std::string>());
+        continue;
+      }
+      text += fmt::format("  {:<12}{:.15g}, {}\n", route.at("name").get<std::string>(),
+                          route.at("tau_stop").get<double>(), difference(route.at("tau_stop").get<double>(), stop.tau));
+    }
+    return text;
+  };
+  answer.rows = {row_of(answer.members, found)};
+  return {std::move(answer), true};
+}
+
+}  // namespace contensou::answers

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "answers/asked/given_start.hpp"
+#include "answers/input/errors.hpp"
+#include "answers/table/answer.hpp"
+#include "contensou/reduction/planar_symmetry.hpp"
+
+namespace contensou::answers {
+
+/// Symmetries, canonical coordinates and solution of a system at a start.
+struct ReduceAnswer {
+  Answer answer;
+  bool found;  ///< a generator
+};
+
+/// Reduces (2.6); beside it stands what the other routes say.
+/// @throws BadInput  for a start at rest
+ReduceAnswer reduce_answer(const GivenStart& given);
+
+/// Reduces any field.
+/// @param text  of the field, for the answer
+ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::string& text, const Eigen::Vector2d& start);
+
+}  // namespace contensou::answers

@@ -1,0 +1,354 @@
+#include "answers/verbs/roll_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "answers/asked/law_forms.hpp"
+#include "answers/table/text_table.hpp"
+#include "answers/verbs/ball_answer.hpp"
+#include "answers/verbs/plain_words.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/si/integrated_motion.hpp"
+#include "contensou/si/scaling.hpp"
+
+namespace contensou::answers {
+
+namespace {
+
+/// What friction takes of the kinetic energy, in J.
+struct EnergyBalance {
+  double start;
+  si::EnergyLoss loss;
+  double kept;
+  double rolling = 0;  ///< lost to rolling resistance
+  double gained = 0;   ///< on a slope
+};
+
+EnergyBalance energy_balance(const Roll& roll) {
+  const si::Experiment& experiment = roll.experiment;
+  const double start = si::kinetic_energy(experiment.ball, si::velocities_of(experiment.start));
+  const si::EnergyLoss loss = si::energy_loss(experiment);
+  if (const auto& resisted = roll.whole.resisted) {  // spin has lost what it had
+    const double rolling = resisted->rolling_loss(), gained = resisted->gained_on_slope();
+    const double kept = resisted->at_time(resisted->last_time()).energy;
+    return {start, {start + gained - loss.pivoting - rolling - kept, loss.pivoting}, kept, rolling, gained};
+  }
+  const auto [velocity, angular_velocity] = si::final_motion(experiment);
+  return {start, loss, si::kinetic_energy(experiment.ball, {velocity, angular_velocity})};
+}
+
+using Motion = si::MotionColumns;
+constexpr ColumnField<Motion> columns[]{
+    {"t", "s", "time", [](const Motion& rows) { return &rows.t; }},
+    {"x", "m", "", [](const Motion& rows) { return &rows.x; }},
+    {"y", "m", "place of the centre, 0 at the start", [](const Motion& rows) { return &rows.y; }},
+    {"vx", "m/s", "", [](const Motion& rows) { return &rows.vx; }},
+    {"vy", "m/s", "velocity of the centre", [](const Motion& rows) { return &rows.vy; }},
+    {"wx", "1/s", "", [](const Motion& rows) { return &rows.wx; }},
+    {"wy", "1/s", "", [](const Motion& rows) { return &rows.wy; }},
+    {"wz", "1/s", "angular velocity, z up", [](const Motion& rows) { return &rows.wz; }},
+    {"slip", "m/s", "speed of the contact point", [](const Motion& rows) { return &rows.slip; }},
+    {"energy", "J", "kinetic energy, if the mass is known",
+     [](const Motion& rows) { return rows.energy.hasNaN() ? nullptr : &rows.energy; }},
+};
+
+constexpr Field<Roll> start_fields[]{
+    {"law", "", nullptr, [](const Roll& roll) -> Json { return roll.law.name(); }},
+    {"route", "", nullptr,
+     [](const Roll& roll) -> Json { return roll.integrated || !roll.reduced() ? "integrated" : "reduced"; }},
+    {"mu", "", nullptr, [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
+    {"ball", "", "as of stop", [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
+    {"velocity", "m/s", "at the start",
+     [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).velocity); }},
+    {"angular_velocity", "1/s", "at the start",
+     [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).angular_velocity); }},
+    {"t_stop", "s", "when slip and spin end", [](const Roll& roll) -> Json { return roll.stop_time(); }},
+    {"load", "s, N", "in: columns `t`, `load` of the table of --load, where it is one",
+     [](const Roll& roll) { return roll.load ? members_of(*roll.load) : Json(); }, nullptr, 0,
+     " {`t` [...], `load` [...]}"},
+};
+
+/// What happens, to a ball or to the textbook's.
+struct RollEvents {
+  si::Events of;
+  bool lies_flat;
+  std::optional<double> threshold = {};  ///< m/s, below which it rolls
+};
+
+constexpr Field<RollEvents> event_fields[]{
+    {"rolls_after", "s, m, m, m/s",
+     "when and where the slip is below the threshold: --rolling-below, 0.001 m/s unless it is given",
+     [](const RollEvents& events) -> Json {
+       if (events.lies_flat) return {};
+       Json members = members_of(events.of.rolls);
+       if (events.threshold) members["threshold"] = *events.threshold;
+       return members;
+     },
+     nullptr, 0, " {`t`, `x`, `y`, `threshold`}"},
+    {"spin_ends", "s, m, m", "0 without spin", [](const RollEvents& events) { return members_of(events.of.spin_ends); },
+     nullptr, 0, " {`t`, `x`, `y`}"},
+    {"rest", "s, m, m",
+     "of the centre, with --rolling-friction, or on a slope if it rests: it turns no more and slides below 0.0001 "
+     "m/s; of a puck, in place of rolls_after",
+     [](const RollEvents& events) {
+       if (events.lies_flat) return members_of(events.of.rolls);
+       return events.of.rest ? members_of(*events.of.rest) : Json();
+     },
+     nullptr, 0, " {`t`, `x`, `y`}"},
+    {"slip_length", "m", "slid by the contact point",
+     [](const RollEvents& events) -> Json { return events.of.slip_length; }},
+    {"turns", "", "about the vertical", [](const RollEvents& events) -> Json { return events.of.turns; }},
+    {"path", "m", "of the centre until it rolls or rests",
+     [](const RollEvents& events) -> Json { return events.of.path; }},
+};
+
+constexpr Field<Roll> rest_of_roll_fields[]{
+    {"creeps", "",
+     "with --rolling-friction or --slope: the ratio v/(patch radius abs(wz)) that it tends to while it spins",
+     [](const Roll& roll) -> Json {
+       const auto k = roll.whole.resisted ? roll.whole.resisted->creep_ratio() : std::nullopt;
+       return k ? Json{{"k", *k}} : Json();
+     },
+     nullptr, 0, " {`k`}"},
+    {"integrated", "s; m; 1; 1",
+     "with --route integrated, by it; its rows are, too, and all other events of the reduced route",
+     [](const Roll& roll) -> Json {
+       if (!roll.integrated) return {};
+       Json members;
+       const auto say = [&](double stop_time, double slip_length, double spin_angle) {
+         members = {
+             {"t_stop", stop_time}, {"slip_length", slip_length}, {"turns", spin_angle / (2 * std::numbers::pi)}};
+       };
+       if (const auto& steps = roll.in_steps) {
+         say(steps->stop_time(), steps->slip_length(), steps->spin_angle());
+         if (const auto rest = rest_of(*steps)) members["rest"] = members_of(*rest);
+       } else {
+         const si::IntegratedMotion by_steps = si::integrate_motion(roll.experiment, roll.law, {});
+         say(by_steps.stop_time, by_steps.slip_length, by_steps.spin_angle);
+         members["steps"] = by_steps.steps;
+       }
+       return members;
+     },
+     nullptr, 0, " {`t_stop`, `slip_length`, `turns`, `steps`}"},
+    {"energy_balance", "J",
+     "if the mass is known; kept: for rolling; `lost_rolling` with --rolling-friction; `gained_on_slope` with --slope; "
+     "where it rolls down "
+     "for ever, until slip and spin end",
+     [](const Roll& roll) -> Json {
+       if (!si::mass_is_known(roll.experiment.ball)) return {};
+       const auto& [start, loss, kept, rolling, gained] = energy_balance(roll);
+       Json members{{"start", start}, {"lost_sliding", loss.sliding}, {"lost_spinning", loss.pivoting}, {"kept", kept}};
+       if (roll.whole.resisted) members["lost_rolling"] = rolling;
+       if (roll.experiment.environment.slope != 0) members["gained_on_slope"] = gained;
+       return members;
+     },
+     nullptr, 0, " {`start`, `lost_sliding`, `lost_spinning`, `kept`}"},
+    {"textbook", "", "the same events, by the same threshold, where slip and spin do not know of each other",
+     [](const Roll& roll) {
+       return members_of(event_fields, RollEvents{events_of(roll.textbook), roll.lies_flat()});
+     }},
+    {"gradient", "SI",
+     "with --gradient: how each number of an event changes with each of the ball and its start, the others kept; "
+     "without those at which it has a corner",
+     [](const Roll& roll) { return roll.gradient ? members_of(*roll.gradient) : Json(); }, nullptr, 0,
+     " {`rolls_after` {`t` {NAME: derivative}, ...}, ...}"},
+    {"uncertainty", "as the event",
+     "with --uncertainty: of each number of an event as of stop; `t_stop`, `samples`, `outside`",
+     [](const Roll& roll) { return roll.uncertainty ? members_of(*roll.uncertainty) : Json(); }, nullptr, 0,
+     " {`rolls_after` {`t` {`standard`, `quantiles` [...], `shares`, ...}, ...}, ...}"},
+};
+
+std::string heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
+  const si::Velocities start = si::velocities_of(experiment.start);
+  return ball_heading(experiment, law, digits) +
+         fmt::format("velocity {} m/s, angular velocity {} 1/s: slip {} m/s, spin {} rad/s\n",
+                     digits.list(start.velocity), digits.list(start.angular_velocity),
+                     digits(si::slip_at_start(experiment)), digits(si::spin_at_start(experiment)));
+}
+
+/// Tells the motion in one sentence of plain words.
+std::string opening(const Roll& roll) {
+  const si::Events ours = events_of(roll.whole), theirs = events_of(roll.textbook);
+  const Eigen::Vector2d velocity = si::velocities_of(roll.experiment.start).velocity;
+  const bool flat = roll.lies_flat(), slips = si::slip_at_start(roll.experiment) > 0;
+  const bool spins = si::spin_at_start(roll.experiment) != 0, slopes = roll.experiment.environment.slope != 0;
+  const auto when = [&](const si::Event& event) {
+    const double way = event.place.norm();
+    return time_in_words(event.t) +
+           (way == 0 ? ""
+                     : fmt::format(", {} {}", length_in_words(way), event.place.dot(velocity) < 0 ? "back" : "on"));
+  };
+  std::vector<std::string> happens, times, times_of_theirs;
+  const auto add = [&](const std::string& what, const si::Event& our, const si::Event& their) {
+    happens.push_back(what + " after " + when(our));
+    times.push_back(time_in_words(our.t));
+    times_of_theirs.push_back(time_in_words(their.t));
+  };
+  const bool moves = slips || velocity.norm() > 0 || ours.rolls.t > 0;
+  if (flat) {
+    if (moves) add("rests", ours.rolls, theirs.rolls);
+  } else if (ours.rolls.t > 0) {
+    add("rolls", ours.rolls, theirs.rolls);
+  } else if (moves || (slopes && !ours.rest)) {
+    happens.push_back(roll.tip && !slips
+                          ? fmt::format("rolls at once, for a stroke {:.3g} radii above the centre gives "
+                                        "it the spin of rolling",
+                                        *roll.tip)
+                          : "rolls at once");
+  }
+  if (!flat && moves && ours.rest && theirs.rest && ours.rest->t > ours.rolls.t) add("rests", *ours.rest, *theirs.rest);
+  if (!flat && slopes && !ours.rest) happens.emplace_back("rolls down the slope for ever");
+  if (happens.empty() && spins) add("spins in place and stops", ours.spin_ends, theirs.spin_ends);
+  if (happens.empty()) return "It is at rest and stays there.\n";
+  std::string sentence = fmt::format("It {}", fmt::join(happens, " and "));
+  if (!times.empty())
+    sentence += times == times_of_theirs
+                    ? "; the uncoupled model says the same to two digits"
+                    : fmt::format("; the uncoupled model says {}", fmt::join(times_of_theirs, " and "));
+  return sentence + ".\n";
+}
+
+std::string events_text(const Roll& roll, const Digits& digits) {
+  const si::Events ours = events_of(roll.whole);
+  const si::Events theirs = events_of(roll.textbook);
+  const auto width = TextTable::right(std::max(26, 2 * digits.count + 16));
+  TextTable table({TextTable::left(24), width, width});
+  const auto number = [&](const std::string& label, double first, double second, const std::string& unit) {
+    table.add({label, digits(first), digits(second), "  " + unit});
+  };
+  const auto event = [&](const std::string& label, const si::Event& first, const si::Event& second) {
+    number(label, first.t, second.t, "s");
+    table.add({"  at", digits.list(first.place), digits.list(second.place), "  m"});
+  };
+  table.add({"", "law " + roll.law.name(), "textbook (uncoupled)", ""});
+  const bool flat = roll.lies_flat();
+  event(flat ? "its centre rests after" : "rolls after", ours.rolls, theirs.rolls);
+  if (ours.rest && theirs.rest && !flat) event("its centre rests after", *ours.rest, *theirs.rest);
+  if (si::spin_at_start(roll.experiment) != 0) {
+    event("spins no more after", ours.spin_ends, theirs.spin_ends);
+    number("turned about vertical", ours.turns, theirs.turns, "turns");
+  }
+  number("length of slip", ours.slip_length, theirs.slip_length, "m");
+  number(flat ? "path until it rests" : "path until it rolls", ours.path, theirs.path, "m");
+  std::string text = table.text();
+  const bool spins_too = si::spin_at_start(roll.experiment) != 0 && si::slip_at_start(roll.experiment) > 0;
+  if (!flat)
+    text += fmt::format("\nrolls  once its slip is below {} m/s{} (--rolling-below){}\n", digits(roll.rolling_below),
+                        roll.rolling_below == si::rolling_slip ? ", which no eye tells from rolling" : "",
+                        spins_too ? ";\n       the last of it ends with the spin" : "");
+  if (roll.law.as<reduction::PadeLaw>() != nullptr)
+    text += fmt::format("pade   the paper's approximation,\n       {}\n", cost_of_pade);
+  return text;
+}
+
+/// How rolling resistance and a slope act, and what found the motion.
+std::string resistance_text(const Roll& roll, const Digits& digits) {
+  const si::Environment& environment = roll.experiment.environment;
+  std::string text;
+  if (environment.slope != 0)
+    text += fmt::format("slope  {} degrees, {} along x: gravity pulls by {} m/s^2 and presses by {} m/s^2\n",
+                        digits(environment.slope), environment.slope > 0 ? "uphill" : "downhill",
+                        digits(si::pull(environment).norm()), digits(si::pressing(environment)));
+  if (roll.rolling_friction > 0)
+    text += fmt::format(
+        "rolling resistance slows it down by u_r g = {} m/s^2 when it rolls without slip; it acts all the time\n",
+        digits(roll.rolling_friction * si::pressing(environment)));
+  if (const auto k = roll.whole.resisted->creep_ratio()) {
+    const double rim = *k * si::patch_radius_of(roll.experiment, roll.law);
+    text +=
+        fmt::format("creeps while it spins: its slip tends to {} m times its spin, k = {}\n", digits(rim), digits(*k));
+  }
+  const auto pieces = roll.whole.resisted->pieces();
+  text += !roll.reduced()  ? "route  integrated: the slip turns, or is driven by more than friction holds\n"
+          : pieces.empty() ? "route  reduced: it does not slide\n"
+                           : fmt::format("route  reduced: it slides the way it rolls, with a drive of {}\n",
+                                         digits(pieces.front().system.drive()));
+  if (roll.lies_flat()) return text;
+  return text + (roll.whole.rest()
+                     ? fmt::format("rests  once it no longer turns and slides below {} m/s\n", digits(si::resting_slip))
+                     : "then   it rolls down the slope for ever\n");
+}
+
+std::string ending(const Roll& roll, const Digits& digits) {
+  const si::Experiment& experiment = roll.experiment;
+  const auto [velocity, angular_velocity] = si::final_motion(experiment);
+  const auto [start, loss, kept, rolling, gained] = energy_balance(roll);
+  const bool slopes = experiment.environment.slope != 0;
+  const std::string energy =
+      !si::mass_is_known(experiment.ball)
+          ? ""
+          : fmt::format("energy {} J{}: {} lost by sliding, {} by spinning, {}{} kept{}\n", digits(start),
+                        slopes ? fmt::format(" and {} J of the slope", digits(gained)) : "", digits(loss.sliding),
+                        digits(loss.pivoting), rolling > 0 ? fmt::format("{} by rolling, ", digits(rolling)) : "",
+                        digits(kept), slopes && !roll.whole.rest() ? " when slip and spin end" : "");
+  const std::string resistance = roll.whole.resisted ? resistance_text(roll, digits) : "";
+  if (roll.lies_flat()) return resistance + "then   it lies still\n" + energy;
+  if (roll.whole.resisted) return resistance + energy;
+  std::string text = fmt::format("then   it rolls straight on: velocity {} m/s, angular velocity {} 1/s\n",
+                                 digits.list(velocity), digits.list(angular_velocity));
+  if (velocity.norm() > 0) {
+    const double degrees = std::atan2(velocity.y(), velocity.x()) * (180 / std::numbers::pi);
+    text += fmt::format("       at {} m/s, {} degrees from the x axis\n", digits(velocity.norm()), digits(degrees));
+  }
+  return text + energy;
+}
+
+}  // namespace
+
+si::MotionColumns Roll::at_times(const Eigen::ArrayXd& times) const {
+  if (!integrated) return whole.at_times(times);
+  if (!in_steps) return si::integrate_motion(experiment, law, times).points;
+  si::MotionColumns moments(times.size());
+  for (Eigen::Index i = 0; i < times.size(); ++i) moments.set(i, in_steps->at_time(times[i]));
+  return moments;
+}
+
+double Roll::standard_end() const {
+  const auto rest = whole.rest();
+  const double end = std::max(stop_time(), rest ? rest->t : 0);
+  return end > 0 ? 1.1 * end : 1;
+}
+
+Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times) {
+  Answer answer{.members = members_of(start_fields, roll), .columns = columns_of(columns, roll.at_times(times))};
+  answer.members.update(members_of(event_fields, {events_of(roll.whole), roll.lies_flat(), roll.rolling_below}));
+  answer.members.update(members_of(rest_of_roll_fields, roll));
+  answer.remarks = answer.members;
+  return answer;
+}
+
+std::string roll_text(const Roll& roll, const Digits& digits) {
+  const std::string text = opening(roll) + heading(roll.experiment, roll.law, digits) +
+                           (roll.load ? fmt::format("the load changes: {} N is its first, {} N its last\n",
+                                                    digits(roll.load->nominal()), digits(roll.load->loads().back()))
+                                      : "") +
+                           "\n" + events_text(roll, digits) + "\n" +
+                           (roll.gradient ? text_of(*roll.gradient, digits) + "\n" : "") +
+                           (roll.uncertainty ? text_of(*roll.uncertainty, digits) + "\n" : "") + ending(roll, digits);
+  if (roll.in_steps) {
+    const auto rest = rest_of(*roll.in_steps);
+    return text + fmt::format("route integrated: {}slip and spin end after {} s\n",
+                              rest ? fmt::format("its centre rests after {} s at {} m, ", digits(rest->t),
+                                                 digits.list(rest->place))
+                                   : "",
+                              digits(roll.in_steps->stop_time()));
+  }
+  if (!roll.integrated) return text;
+  const si::IntegratedMotion motion = si::integrate_motion(roll.experiment, roll.law, {});
+  return text +
+         fmt::format(
+             "route integrated: slip and spin end after {} s, {:.1g} from the reduced route, whose events are those "
+             "above;\n       it slips {} m and turns {} times, in {} steps\n",
+             digits(motion.stop_time), std::abs(motion.stop_time - roll.stop_time()), digits(motion.slip_length),
+             digits(motion.spin_angle / (2 * std::numbers::pi)), motion.steps);
+}
+
+std::vector<FieldText> roll_fields() {
+  return joined({texts_of(columns), texts_of(start_fields), texts_of(event_fields), texts_of(rest_of_roll_fields)});
+}
+
+}  // namespace contensou::answers
