@@ -1,9 +1,11 @@
-"""The READMEs: what they show in Python is what happens, and mypy accepts it and the package."""
+"""The READMEs: what they show in Python is what happens, and mypy accepts it and the package, which imports in no circle."""
 
+import ast
 import doctest
 import os
 import subprocess
 import sys
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import contensou
@@ -36,3 +38,10 @@ disallow_untyped_calls = False
                          capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(package.parent)})
     told = [line for line in run.stdout.splitlines() if "error:" in line]
     assert len(told) == 1 and 'Argument "law" to "stop_time" has incompatible type "int"' in told[0], run.stdout + run.stderr
+
+
+def test_imports_have_no_circle():
+    files = Path(contensou.__file__).parent.glob("*.py")
+    imports = {file.stem: {node.module for node in ast.walk(ast.parse(file.read_text()))
+                           if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module} for file in files}
+    TopologicalSorter(imports).prepare()  # raises CycleError

@@ -18,9 +18,10 @@ from ._aim import aim
 from ._balls import Ball, Event, Roll, Rolls, balls
 from ._engine import engine, engines
 from ._fit import Estimate, Fit, fit, fit_plan
-from ._flow import Check, Checks, End, Flow, Law, Orbit, Ray, Terminal, check, law, stop_time
+from ._flow import Check, Checks, End, Flow, FlowReduction, Orbit, Ray, SingularPoint, Terminal, check, stop_time
+from ._law import Law, law
 from ._portrait import Portrait, portrait
-from ._reduce import FlowReduction, Generator, PlanarOrbit, PlanarRay, Reduction, SingularPoint, reduce
+from ._reduce import Generator, PlanarOrbit, PlanarRay, Reduction, reduce
 
 __all__ = [
     "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",

@@ -7,8 +7,8 @@ from typing import Any, Optional
 
 from . import _core
 from ._balls import Ball, a_ball
+from ._law import LawLike
 from ._numbers import number
-from ._flow import LawLike
 
 
 def aim(

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._law import Law, LawLike, body_of, law as law_of
 from ._numbers import needs, number, numbers, target_of, text, thread_count, whole
-from ._flow import Flow, Law, LawLike, body_of, law as law_of
 
 
 class Event(NamedTuple):

@@ -7,7 +7,7 @@ from typing import Any, Optional
 
 from . import _core
 from ._balls import Ball, a_ball
-from ._flow import LawLike
+from ._law import LawLike
 from ._numbers import text
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._balls import Ball, a_ball
-from ._flow import Law, LawLike
+from ._law import Law, LawLike
 from ._numbers import flag, needs, numbers, text
 
 

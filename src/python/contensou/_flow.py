@@ -5,112 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Union
+from typing import Any, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._numbers import needs, number, numbers, target, text, thread_count, together, whole
-
-if TYPE_CHECKING:
-    from ._reduce import FlowReduction, SingularPoint
-
-Body = Union[str, tuple[float, float]]
-
-
-@dataclass(frozen=True)
-class Law:
-    """A friction law; `law` makes one. Called with k = v/(mu |u|), of any shape, it gives (force, moment): Phi, the
-    force over f N, and Psi, the moment over f N times the patch radius, each of the shape of k.
-
-    name:             one of `contensou law`'s, such as exact, pade, uniform, pressure:1.5, formulas in k with their parameters,
-                      "phi = k/(a + k); psi = 1/(a + k); a = 2", or that of a law of one's own
-    function:         (sliding, pivoting) -> (force, moment), two speeds >= 0 in one unit, v and mu |u|; it depends on
-                      their ratio alone. Raises what it likes: that comes through unchanged
-    rho, pressure:    instead, the pressure of the patch as a table: rho from 0 at the centre to 1 at the edge
-    kinks:            of a function: each k where it is not smooth
-    """
-
-    name: str = "exact"
-    function: Optional[Callable[[float, float], tuple[float, float]]] = None
-    rho: Optional[tuple[float, ...]] = None
-    pressure: Optional[tuple[float, ...]] = None
-    kinks: tuple[float, ...] = (1.0,)
-    _core: _core.Law = field(init=False, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        if self.function is not None:
-            core = _core.Law(self.function, self.name, list(self.kinks))
-        elif self.rho is not None or self.pressure is not None:
-            core = _core.Law(self.name, self.rho or (), self.pressure or ())
-        else:
-            core = _core.Law(text("name", self.name))
-        object.__setattr__(self, "_core", core)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Law, (self.name, self.function, self.rho, self.pressure, self.kinks)
-
-    def __repr__(self) -> str:
-        return f"law({self.name!r})" if self.function is None and self.rho is None else f"<law {self.name}>"
-
-    def __call__(self, k: ArrayLike) -> tuple[Any, Any]:
-        k = numbers("k", k)
-        return self._core.force(k)[()], self._core.moment(k)[()]
-
-    @property
-    def pivoting_moment(self) -> float:
-        """Psi(0), the moment of pure pivoting."""
-        return self._core.pivoting_moment
-
-    @property
-    def force_slope(self) -> float:
-        """Phi'(0), the viscosity of slow sliding over a pivoting patch."""
-        return self._core.force_slope
-
-
-LawLike = Union[str, Law, Callable[[float, float], tuple[float, float]]]
-
-
-def law(
-    of: LawLike = "exact",
-    *,
-    name: Optional[str] = None,
-    kinks: Sequence[float] = (1.0,),
-    rho: Optional[ArrayLike] = None,
-    pressure: Optional[ArrayLike] = None,
-    **parameters: float,
-) -> Law:
-    """The law of a name, of a function, of formulas in k with their parameters, or of a pressure given as a table. See
-    Law."""
-    if parameters and not (isinstance(of, str) and "=" in of):
-        raise TypeError(f"law: only formulas have parameters, got {', '.join(parameters)}")
-    if rho is not None or pressure is not None:
-        table = [tuple(np.ravel(numbers(each, () if column is None else column)).tolist())
-                 for each, column in (("rho", rho), ("pressure", pressure))]
-        return Law("pressure" if name is None else text("name", name), None, table[0], table[1])
-    if isinstance(of, Law):
-        return of
-    if isinstance(of, str):
-        return Law(_core.Law(of, {each: number(each, value) for each, value in parameters.items()}).name if parameters else of)
-    if not callable(of):
-        raise needs("law", "a name, formulas in k, a Law or a function (sliding, pivoting) -> (force, moment)", of)
-    own = getattr(of, "__name__", "<lambda>")
-    own = "user's law" if own == "<lambda>" else own
-    return Law(own if name is None else text("name", name), of, kinks=tuple(np.atleast_1d(numbers("kinks", kinks)).tolist()))
-
-
-_law = law  # where an argument has that name
-
-
-def body_of(given: Body) -> Body:
-    """One name for one body, or its two numbers."""
-    if isinstance(given, str):
-        return "disc" if given == "puck" else given
-    pair = numbers("body", given)
-    if pair.shape != (2,):
-        raise needs("body", "a name, as disc, or (chi, gamma)", given)
-    return float(pair[0]), float(pair[1])
+from ._law import Body, Law, LawLike, body_of, core_flow, law as law_of
+from ._numbers import number, numbers, target, thread_count, together, whole
+from ._reduce import Reduction
 
 
 class Ray(NamedTuple):
@@ -119,6 +22,18 @@ class Ray(NamedTuple):
     k: float
     attracts: bool
     accuracy: float
+
+
+class SingularPoint(NamedTuple):
+    """A singular point of Zhuravlev's plane, at the origin or at infinity, and its eigenvalues."""
+
+    half_line: str
+    place: str
+    k: float
+    q: float
+    radial: float
+    angular: float
+    kind: str
 
 
 class End(NamedTuple):
@@ -227,9 +142,9 @@ class Flow:
     def __init__(
         self, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0
     ) -> None:
-        of, body = None if law is None else _law(law), body_of(body)
-        core = _core.Flow(None if of is None else of._core, None if mu is None else number("mu", mu), body, number("drive", drive))
-        known = {"mu": core.mu, "law": of or Law(core.law.name), "body": body, "drive": core.drive, "_core": core}
+        of = None if law is None else law_of(law)
+        core = core_flow(mu, of, body, drive)
+        known = {"mu": core.mu, "law": of or Law(core.law.name), "body": body_of(body), "drive": core.drive, "_core": core}
         for name, value in known.items():
             object.__setattr__(self, name, value)
 
@@ -287,15 +202,28 @@ class Flow:
 
     def reduction(self) -> FlowReduction:
         """The symmetry of (2.6), found, and what it makes of the plane."""
-        from ._reduce import FlowReduction
-
         return FlowReduction(self)
 
     def facts(self) -> tuple[SingularPoint, ...]:
         """The singular points of the plane, at the origin and at infinity, with their eigenvalues."""
-        from ._reduce import SingularPoint
-
         return tuple(SingularPoint(*point) for point in self._core.facts())
+
+
+class FlowReduction(Reduction):
+    """Of Zhuravlev's system, in the paper's coordinates: q = v/u and p = ln v; the first integral is ln |u| - ln w(k)."""
+
+    def __init__(self, flow: Flow) -> None:
+        system = f"(2.6), mu = {flow.mu:g}, law {flow.law.name}"
+        super().__init__(_core.Planar.of_flow(flow._core), system, None, (FlowReduction, (flow,)))
+        self._flow = flow
+
+    def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
+        u, v = together(u=u, v=v)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return (v / u)[()], np.log(v)[()]
+
+    def first_integral(self, u: ArrayLike, v: ArrayLike) -> Any:
+        return self._flow._core.first_integral(*together(u=u, v=v))[()]
 
 
 _kept_flow = lru_cache(maxsize=64)(Flow)

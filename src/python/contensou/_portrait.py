@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from ._balls import Ball, a_ball
-from ._flow import Body, Flow, LawLike, law as law_of
+from ._law import Body, LawLike, core_flow, law as law_of
 from ._numbers import flag, needs, number, numbers, text, whole
 
 _widths = {"single": 85.0, "double": 170.0}
@@ -252,7 +252,7 @@ def _of_system(asked: dict[str, Any]) -> _core.Portrait:
     if not len(laws) or not len(many_mu):
         raise ValueError("mu and law: one, or a list of one or more, is needed")
     if experiment is None:
-        flows = [Flow(mu, each, asked["body"], asked["drive"])._core for each in laws for mu in many_mu]
+        flows = [core_flow(mu, each, asked["body"], asked["drive"]) for each in laws for mu in many_mu]
     elif asked["mu"] is None and asked["u"] is None and asked["v"] is None and asked["body"] == "ball" and asked["drive"] == 0:
         flows = [experiment.flow(ball._law(each)._core) for each in laws]
     else:

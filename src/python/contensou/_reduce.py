@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._flow import Flow
 from ._numbers import needs, number, numbers, together
 from ._portrait import Portrait, points_of, start_of
 
@@ -31,18 +30,6 @@ class PlanarRay(NamedTuple):
     to_centre: bool
     radial: float
     angular: float
-
-
-class SingularPoint(NamedTuple):
-    """A singular point of Zhuravlev's plane, at the origin or at infinity, and its eigenvalues."""
-
-    half_line: str
-    place: str
-    k: float
-    q: float
-    radial: float
-    angular: float
-    kind: str
 
 
 class Reduction:
@@ -183,23 +170,6 @@ class PlanarOrbit:
         states["u"], states["v"] = self._core.at(times)
         states["q"], states["p"] = self.reduction.canonical(states["u"], states["v"])
         return states[()]
-
-
-class FlowReduction(Reduction):
-    """Of Zhuravlev's system, in the paper's coordinates: q = v/u and p = ln v; the first integral is ln |u| - ln w(k)."""
-
-    def __init__(self, flow: Flow) -> None:
-        system = f"(2.6), mu = {flow.mu:g}, law {flow.law.name}"
-        super().__init__(_core.Planar.of_flow(flow._core), system, None, (FlowReduction, (flow,)))
-        self._flow = flow
-
-    def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
-        u, v = together(u=u, v=v)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return (v / u)[()], np.log(v)[()]
-
-    def first_integral(self, u: ArrayLike, v: ArrayLike) -> Any:
-        return self._flow._core.first_integral(*together(u=u, v=v))[()]
 
 
 def reduce(

@@ -1,0 +1,110 @@
+"""Laws of friction, and the names of bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Callable, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._numbers import needs, number, numbers, text
+
+Body = Union[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Law:
+    """A friction law; `law` makes one. Called with k = v/(mu |u|), of any shape, it gives (force, moment): Phi, the
+    force over f N, and Psi, the moment over f N times the patch radius, each of the shape of k.
+
+    name:             one of `contensou law`'s, such as exact, pade, uniform, pressure:1.5, formulas in k with their parameters,
+                      "phi = k/(a + k); psi = 1/(a + k); a = 2", or that of a law of one's own
+    function:         (sliding, pivoting) -> (force, moment), two speeds >= 0 in one unit, v and mu |u|; it depends on
+                      their ratio alone. Raises what it likes: that comes through unchanged
+    rho, pressure:    instead, the pressure of the patch as a table: rho from 0 at the centre to 1 at the edge
+    kinks:            of a function: each k where it is not smooth
+    """
+
+    name: str = "exact"
+    function: Optional[Callable[[float, float], tuple[float, float]]] = None
+    rho: Optional[tuple[float, ...]] = None
+    pressure: Optional[tuple[float, ...]] = None
+    kinks: tuple[float, ...] = (1.0,)
+    _core: _core.Law = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.function is not None:
+            core = _core.Law(self.function, self.name, list(self.kinks))
+        elif self.rho is not None or self.pressure is not None:
+            core = _core.Law(self.name, self.rho or (), self.pressure or ())
+        else:
+            core = _core.Law(text("name", self.name))
+        object.__setattr__(self, "_core", core)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Law, (self.name, self.function, self.rho, self.pressure, self.kinks)
+
+    def __repr__(self) -> str:
+        return f"law({self.name!r})" if self.function is None and self.rho is None else f"<law {self.name}>"
+
+    def __call__(self, k: ArrayLike) -> tuple[Any, Any]:
+        k = numbers("k", k)
+        return self._core.force(k)[()], self._core.moment(k)[()]
+
+    @property
+    def pivoting_moment(self) -> float:
+        """Psi(0), the moment of pure pivoting."""
+        return self._core.pivoting_moment
+
+    @property
+    def force_slope(self) -> float:
+        """Phi'(0), the viscosity of slow sliding over a pivoting patch."""
+        return self._core.force_slope
+
+
+LawLike = Union[str, Law, Callable[[float, float], tuple[float, float]]]
+
+
+def law(
+    of: LawLike = "exact",
+    *,
+    name: Optional[str] = None,
+    kinks: Sequence[float] = (1.0,),
+    rho: Optional[ArrayLike] = None,
+    pressure: Optional[ArrayLike] = None,
+    **parameters: float,
+) -> Law:
+    """The law of a name, of a function, of formulas in k with their parameters, or of a pressure given as a table. See
+    Law."""
+    if parameters and not (isinstance(of, str) and "=" in of):
+        raise TypeError(f"law: only formulas have parameters, got {', '.join(parameters)}")
+    if rho is not None or pressure is not None:
+        table = [tuple(np.ravel(numbers(each, () if column is None else column)).tolist())
+                 for each, column in (("rho", rho), ("pressure", pressure))]
+        return Law("pressure" if name is None else text("name", name), None, table[0], table[1])
+    if isinstance(of, Law):
+        return of
+    if isinstance(of, str):
+        return Law(_core.Law(of, {each: number(each, value) for each, value in parameters.items()}).name if parameters else of)
+    if not callable(of):
+        raise needs("law", "a name, formulas in k, a Law or a function (sliding, pivoting) -> (force, moment)", of)
+    own = getattr(of, "__name__", "<lambda>")
+    own = "user's law" if own == "<lambda>" else own
+    return Law(own if name is None else text("name", name), of, kinks=tuple(np.atleast_1d(numbers("kinks", kinks)).tolist()))
+
+
+def body_of(given: Body) -> Body:
+    """One name for one body, or its two numbers."""
+    if isinstance(given, str):
+        return "disc" if given == "puck" else given
+    pair = numbers("body", given)
+    if pair.shape != (2,):
+        raise needs("body", "a name, as disc, or (chi, gamma)", given)
+    return float(pair[0]), float(pair[1])
+
+
+def core_flow(mu: Optional[float], of: Optional[LawLike], body: Body, drive: float) -> _core.Flow:
+    return _core.Flow(None if of is None else law(of)._core, None if mu is None else number("mu", mu), body_of(body),
+                      number("drive", drive))
