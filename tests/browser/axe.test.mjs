@@ -1,4 +1,4 @@
-// Whoever reads the page by a screen reader or by keys, in each of its states, by the rules of axe.
+// Accessibility of the page in each of its states, by the rules of axe.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";

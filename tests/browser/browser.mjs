@@ -1,4 +1,4 @@
-// What the tests of the page share: a browser, the page in it, what it shows.
+// Shared by the tests of the page: a browser, the page in it, and readings of both.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";

@@ -1,4 +1,4 @@
-// A film of a ball, given to the page, and what the page gives out.
+// A film of a ball, given to the page, and the files that the page writes.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
@@ -20,7 +20,6 @@ function filmOf(ball, rows, until, slip, spin) {
     return `${t},${speed + 0.01 * normal()},${wz + normal()},0.01,1`;
   }).join("\n")}\n`;
 }
-
 const file = (name, text) => ({ name, mimeType: "text/csv", buffer: Buffer.from(text) });
 const report = () => page.textContent("#film-report");
 const fitted = () => page.waitForFunction(() => /fitted:/.test(document.getElementById("film-status").textContent));
@@ -194,5 +193,20 @@ test("with rolling friction the ball comes to rest, when and where the program s
   await page.waitForFunction(() => location.hash.includes("rollingFriction=0.01"));
   await page.selectOption("#ball", "puck");
   assert.ok(!(await page.isVisible("#ball-fields [name=rollingFriction]")));
+  await close();
+});
+
+test("points and residuals of a film are handed out, with what was fitted", async () => {
+  await open("#ball=gel");
+  const rows = Array.from({ length: 30 }, (_, i) => `${i / 20},${300 - 2 * i + Math.sin(99 * i)}`);
+  await page.setInputFiles("#film", { name: "film.csv", mimeType: "text/csv", buffer: Buffer.from(`t,spin\n${rows.join("\n")}\n`) });
+  await page.locator("#film-report").filter({ visible: true }).waitFor();
+  const [header, ...lines] = String(await saved("#save-residuals")).trim().split("\n");
+  assert.equal(header, "t,spin,spin_fitted,spin_residual");
+  assert.equal(lines.length, 30);
+  for (const line of lines) {
+    const [, measured, fitted, residual] = line.split(",").map(Number);
+    assert.ok(Math.abs(measured - fitted - residual) < 1e-9 && Math.abs(residual) < 5, line);
+  }
   await close();
 });

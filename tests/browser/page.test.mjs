@@ -1,14 +1,18 @@
-// The page of `contensou explore` in a real browser: what its readers do, and what they then see.
-//   CONTENSOU_PROGRAM=.../contensou node page.test.mjs
+// The page of `contensou explore` from its opening to its printout: bodies, sliders, clicks, keys, touch, history and files.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, statSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
 import { unpacked } from "../../src/page/packing.js";
 import { assertClose, close, drawn, file, folder, json, open, page, pass, pixelOf, program, programStop, saved, slides, state, stopTimes } from "./browser.mjs";
+
+const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+const inLab = ["#columns", "#views", "#mu-control", "#friction-control"];
+const story = () => page.textContent("#story");
 
 test("opens from disk and asks the network for nothing; at most 650 kB", async () => {
   assert.ok(statSync(file).size <= 650_000, `${statSync(file).size} bytes`);
@@ -17,8 +21,6 @@ test("opens from disk and asks the network for nothing; at most 650 kB", async (
   assert.equal((await stopTimes()).length, 1);
   await close();
 });
-
-const story = () => page.textContent("#story");
 
 test("the page opens with two pucks, and what it says of them is what the program computes", async () => {
   await open();
@@ -276,14 +278,6 @@ test("a phone scrolls past the plane, and two fingers zoom it", async () => {
   await close();
 });
 
-test("an orbit that begins far outside the window has no more points than others", async () => {
-  for (const fragment of ["#window=0.00001,0.00005&orbits=0.8,3.5", "#window=1,5&orbits=1e20,1"]) {
-    await open(fragment);
-    assert.ok(await page.evaluate(() => globalThis.page.plane.planeScene.own.every(({ u, panels }) => u.length < 2000 && panels[0].line.length < 4000)));
-    await close();
-  }
-});
-
 test("one change changes one thing", async () => {
   await open("#ball=pool");
   await page.fill("#ball-fields [name=radius]", "0.05");
@@ -298,29 +292,6 @@ test("one change changes one thing", async () => {
   const { mu } = await state();
   await page.selectOption("#ball-fields select", "spin_deceleration");
   assertClose((await state()).mu, mu, 1e-11, "the same patch, known in another way");
-  await close();
-});
-
-test("what is wrong with a start is said beside it", async () => {
-  await open("#law=exact&mu=0.3&orbits=0.8,3.5;0.5,1");
-  const start = async (u, v) => {
-    await page.fill("#add-orbit [name=u]", u);
-    await page.fill("#add-orbit [name=v]", v);
-    await page.click("#add-orbit button");
-    return page.textContent("#add-orbit output");
-  };
-  assert.match(await start("0,5", "1"), /u₀: write 0\.5 with a point/);
-  assert.match(await start("1e200", "1"), /This start cannot be shown/);
-  assert.equal(await start("−0.5", "1"), "");
-  assert.equal((await state()).orbits.at(-1).u, -0.5);
-  // The focus stays in the list when the last of it is removed.
-  await page.focus("#orbits li:last-child .remove");
-  await page.keyboard.press("Enter");
-  assert.equal(await page.evaluate(() => document.activeElement.className), "remove");
-  // What cannot be used does not stay in its field.
-  await page.fill("#mu", "abc");
-  await page.focus("#add-orbit [name=u]");
-  assert.equal(await page.inputValue("#mu"), "0.3");
   await close();
 });
 
@@ -451,30 +422,6 @@ test("a drag shows the isochrone through the pointer", async () => {
   await close();
 });
 
-test("a link that nobody can read opens the page all the same", async () => {
-  await open("#law=nonsense&mu=-1&view=&window=1&orbits=x;1,-1;0.5,1&chosen=7&ball=golf&at=2");
-  const { law, mu, view, orbits, chosen } = await state();
-  assert.deepEqual({ law, mu, view, orbits, chosen }, { law: "exact", mu: 0.3, view: "uv", orbits: [{ u: 0.5, v: 1, along: 1, across: 0, heading: 0 }], chosen: 0 });
-  await close();
-});
-
-test("a link that the library rejects opens the page all the same, and says why", async () => {
-  for (const fragment of ["#law=exact&mu=0.3&window=1e200,1&orbits=0.8,3.5", "#mu=0.3&orbits=1e200,1"]) {
-    await open(fragment);
-    assert.equal((await state()).mu, 0.3);
-    assert.match(await page.textContent("#problem"), /window must be between/);
-    assert.equal((await stopTimes()).length, 1);
-    await page.fill("#mu", "0.5");
-    assert.equal((await state()).mu, 0.5);
-    // The same for a link that is opened in the page.
-    await page.waitForFunction(() => /mu=0.5/.test(location.hash));
-    await page.evaluate((fragment) => (location.hash = fragment), fragment);
-    await page.waitForFunction(() => document.getElementById("problem").textContent !== "");
-    assert.equal((await state()).mu, 0.5);
-    await close();
-  }
-});
-
 test("beside the plane a click starts nothing", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5");
   const { left, right, top, bottom } = await page.evaluate(() => {
@@ -486,50 +433,6 @@ test("beside the plane a click starts nothing", async () => {
     await page.mouse.click(x, y);
     assert.equal((await state()).orbits.length, 1);
   }
-  await close();
-});
-
-test("a wrong number is named beside its field, and the last good state stays", async () => {
-  await open("#law=exact&mu=0.25&orbits=0.8,3.5");
-  const times = await stopTimes();
-  for (const [text, complaint] of [["abc", /'abc' is not a finite number/], ["0", /positive/], ["-1", /positive/], ["1.5", /at most 1/], ["", /needed/], ["1e999", /finite/], ["0,3", /0\.3/]]) {
-    await page.fill("#mu", text);
-    assert.match(await page.textContent("#mu-error"), complaint);
-    assert.equal(await page.getAttribute("#mu", "aria-invalid"), "true");
-    assert.deepEqual(await stopTimes(), times);
-  }
-  await page.fill("#mu", "0.5");
-  assert.equal(await page.textContent("#mu-error"), "");
-  assert.notDeepEqual(await stopTimes(), times);
-
-  await page.fill("#add-orbit [name=u]", "1");
-  await page.fill("#add-orbit [name=v]", "-1");
-  await page.click("#add-orbit button");
-  assert.match(await page.textContent("#add-orbit output"), /≥ 0/);
-  assert.equal((await stopTimes()).length, 1);
-  await close();
-});
-
-test("the exponent of a pressure law has a field of its own", async () => {
-  await open("#law=exact&mu=0.3&orbits=0.8,3.5");
-  assert.ok(!(await page.isVisible("#law-exponent")));
-  await page.selectOption("#law", "pressure");
-  assert.ok(await page.isVisible("#law-exponent input"));
-  await page.fill("#law-exponent input", "2.5");
-  const times = await stopTimes();
-  assertClose(times[0], programStop("--mu", 0.3, "--u0", 0.8, "--v0", 3.5, "--law", "pressure:2.5"), 1e-12, "pressure:2.5");
-  for (const [text, complaint] of [["-1", /ring/], ["26", /<= 25/], ["-2", /-1 < P/], ["x", /'x' is not a finite number/], ["", /needed/]]) {
-    await page.fill("#law-exponent input", text);
-    assert.match(await page.textContent("#exponent-error"), complaint);
-    assert.equal(await page.getAttribute("#law-exponent input", "aria-invalid"), "true");
-    assert.deepEqual(await stopTimes(), times);
-    assert.equal((await state()).law, "pressure:2.5");
-  }
-  await page.fill("#law-exponent input", "1");
-  assert.equal(await page.textContent("#exponent-error"), "");
-  assert.equal((await state()).law, "pressure:1");
-  await page.selectOption("#law", "pade");
-  assert.ok(!(await page.isVisible("#law-exponent")));
   await close();
 });
 
@@ -611,25 +514,6 @@ test("touch, at the width of a phone, in the dark", async () => {
   await close();
 });
 
-test("a new size of the window is a new drawing, sharp", async () => {
-  await open();
-  for (const width of [1900, 700, 1280]) {
-    await page.setViewportSize({ width, height: 900 });
-    await page.waitForFunction(() => {
-      const canvas = document.getElementById("plane");
-      return canvas.width === Math.round(canvas.clientWidth * devicePixelRatio) && globalThis.page.plane.frames[0].width < canvas.clientWidth;
-    });
-    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
-  }
-  // Without any width, as browsers have it while they print or restore a window.
-  const frame = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  await page.evaluate(() => (document.body.style.width = "0"));
-  await frame();
-  await page.evaluate(() => (document.body.style.width = ""));
-  await frame();
-  await close();
-});
-
 test("every control has a name", async () => {
   await open("#ball=pool");
   const nameless = await page.$$eval("button, input, select, canvas", (controls) => controls
@@ -637,5 +521,187 @@ test("every control has a name", async () => {
     .filter((control) => !(control.getAttribute("aria-label") || control.labels?.length || control.textContent.trim()))
     .map((control) => control.outerHTML));
   assert.deepEqual(nameless, []);
+  await close();
+});
+
+test("the first floor has the bodies, two sliders, the plane and the story; one word opens the rest, and is in the link", async () => {
+  for (const options of [{}, phone]) {
+    await open("#lab=0", options);
+    for (const id of ["#headline", "#story", "#lanes", "#slip-slider", "#spin-slider", "#plane", "#presets", "#tour"]) assert.ok(await page.isVisible(id), id);
+    for (const id of inLab) assert.ok(!(await page.isVisible(id)), id);
+    assert.equal(await page.locator("input:visible, select:visible").count(), 3, "time, slip, spin");
+    assert.equal(await page.getAttribute("#lab", "aria-expanded"), "false");
+    await page.focus("#lab");
+    await page.keyboard.press("Enter");
+    for (const id of inLab) assert.ok(await page.isVisible(id), id);
+    assert.equal(await page.getAttribute("#lab", "aria-expanded"), "true");
+    // Without motion it is there at once.
+    assert.ok((await page.locator("#columns").boundingBox()).y < 20);
+    await page.waitForFunction(() => location.hash.includes("lab=1"));
+    await page.click("#presets a:nth-child(3)");
+    assert.ok(await page.isVisible("#columns"), "a preset leaves the floor");
+    await page.click("#lab");
+    assert.ok(!(await page.isVisible("#columns")));
+    await close();
+  }
+});
+
+test("Back leaves the Lab, and a link of what it alone shows opens it", async () => {
+  await open("#lab=0", { stopped: true });
+  await pass(400);
+  await page.click("#lab");
+  await pass(400);
+  assert.match(page.url(), /lab=1/);
+  await page.goBack();
+  await page.waitForFunction(() => !globalThis.page.state.lab);
+  assert.ok(!(await page.isVisible("#columns")));
+  await close();
+});
+
+test("the ruler is dragged by an end, moved as a whole, by touch and by keys; Escape puts it back", async () => {
+  for (const options of [{}, phone]) {
+    await open("#lab=0", options);
+    const ends = () => page.evaluate(() => {
+      const { left, top } = document.getElementById("lanes").getBoundingClientRect();
+      return globalThis.page.hero.rulerEnds.map(([x, y]) => [left + x, top + y]);
+    });
+    const words = () => page.evaluate(() => globalThis.page.hero.ruler.words);
+    const [from, to] = await ends();
+    const metres = 0.388 / (to[0] - from[0]);
+    const target = [(from[0] + to[0]) / 2, to[1]];
+    if (options.hasTouch) {
+      const devtools = await page.context().newCDPSession(page);
+      const touch = (type, ...points) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y]) => ({ x, y })) });
+      await touch("touchStart", to);
+      for (let i = 1; i <= 8; ++i) await touch("touchMove", to.map((side, axis) => side + (i / 8) * (target[axis] - side)));
+      await touch("touchEnd");
+    } else {
+      await page.mouse.move(...to);
+      await page.mouse.down();
+      await page.mouse.move(...target, { steps: 5 });
+      await page.mouse.up();
+    }
+    await drawn();
+    assertClose(parseFloat(await words()), 0.194, 3 * metres / 0.194 + 0.01, "half of it");
+    assert.equal((await state()).orbits.length, 1, "nothing was thrown");
+    const [start, end] = await ends();
+    assert.ok(Math.hypot(end[0] - target[0], end[1] - target[1]) < 8, `${end}, not ${target}`);
+    assert.ok(Math.hypot(start[0] - from[0], start[1] - from[1]) < 1);
+    // As a whole.
+    if (!options.hasTouch) {
+      const length = await words();
+      await page.mouse.move((start[0] + end[0]) / 2, start[1]);
+      await page.mouse.down();
+      await page.mouse.move((start[0] + end[0]) / 2 - 60, start[1] - 20, { steps: 5 });
+      await page.mouse.up();
+      await drawn();
+      assert.equal(await words(), length);
+      assert.ok(Math.abs((await ends())[0][0] - start[0] + 60) < 2);
+    }
+    await page.focus("#lanes");
+    await page.keyboard.press("r");
+    const before = (await ends())[1][0];
+    await page.keyboard.press("ArrowRight");
+    assertClose((await ends())[1][0], before + 4, 0.002, "pixels");
+    assert.match(await page.textContent("#told"), /^The ruler: 0\.\d+ m\. Arrows move its far end, r the next, Escape puts it back\.$/);
+    await page.keyboard.press("Escape");
+    await drawn();
+    assert.deepEqual((await ends()).flat().map(Math.round), [...from, ...to].map(Math.round));
+    await close();
+  }
+});
+
+test("a server is asked for the page, and for nothing else", async () => {
+  const asked = [];
+  const server = createServer(({ url }, answer) => {
+    asked.push(url);
+    answer.writeHead(200, { "Content-Type": "text/html" }).end(readFileSync(file));
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  server.unref(); // so that a failure ends
+  await open();
+  page.removeAllListeners("request");
+  await page.goto(`http://127.0.0.1:${server.address().port}/`);
+  await page.waitForSelector("#orbits li", { state: "attached" });
+  // What the page had asked for would have come before this.
+  await page.evaluate(() => fetch("/last"));
+  await close();
+  server.close();
+  assert.deepEqual(asked, ["/", "/last"]);
+});
+
+test("what is copied while a motion plays is what would be drawn", async () => {
+  const link = "#ball=gel&view=pair&orbits=9,0.5;-4,0.5";
+  const pictures = async () => {
+    const all = [];
+    for (const id of ["lanes", "patch", "plane", "panes"]) {
+      // Out of sight it is not drawn.
+      await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+      await drawn();
+      await drawn();
+      all.push(await page.evaluate((id) => document.getElementById(id).toDataURL(), id));
+    }
+    return all;
+  };
+  const to = (fraction) => page.evaluate((fraction) => globalThis.page.store.move({ fraction }), fraction);
+  await open(link);
+  const first = await pictures();
+  for (const fraction of [0.1, 0.2, 0.3, 0.4]) await to(fraction);
+  const copied = await pictures();
+  copied.forEach((picture, i) => assert.ok(picture !== first[i], `picture ${i} has moved`));
+  await close();
+  await open(`${link}&at=0.4`);
+  (await pictures()).forEach((picture, i) => assert.ok(picture === copied[i], `picture ${i}`));
+  await close();
+});
+
+test("inside another page nothing is added to the history; a slow drag adds one change", async () => {
+  await open("", { stopped: true });
+  const outer = join(folder, "article.html");
+  writeFileSync(outer, `<iframe style="width:1200px;height:900px" src="${pathToFileURL(file).href}#embed"></iframe>`);
+  await page.goto(pathToFileURL(outer).href);
+  const inner = page.frameLocator("iframe");
+  await inner.locator("#spin-slider").waitFor();
+  const before = await page.evaluate(() => history.length);
+  for (const key of ["ArrowRight", "ArrowRight"]) {
+    await inner.locator("#spin-slider").press(key);
+    await pass(350);
+  }
+  assert.equal(await page.evaluate(() => history.length), before);
+  await close();
+  await open("", { stopped: true });
+  await pass(350);
+  const length = await page.evaluate(() => history.length);
+  const box = await page.locator("#spin-slider").boundingBox();
+  const at = (share) => page.mouse.move(box.x + share * box.width, box.y + box.height / 2);
+  await at(0.2);
+  await page.mouse.down();
+  for (const share of [0.3, 0.4, 0.5]) {
+    await at(share);
+    await pass(350);
+  }
+  await page.mouse.up();
+  await pass(350);
+  assert.equal(await page.evaluate(() => history.length), length + 1);
+  await close();
+});
+
+test("a finger that scrolls past a slider does not move it", async () => {
+  await open("", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  await page.locator("#spin-slider").scrollIntoViewIfNeeded();
+  const box = await page.locator("#spin-slider").boundingBox();
+  const before = await state();
+  const devtools = await page.context().newCDPSession(page);
+  const [x, y] = [box.x + 0.7 * box.width, box.y + box.height / 2];
+  const touch = (type, ...points) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const top = await page.evaluate(() => scrollY);
+  await touch("touchStart", [x, y]);
+  for (let i = 1; i <= 10; ++i) {
+    await touch("touchMove", [x - i, y - 15 * i]);
+    await drawn();
+  }
+  await touch("touchEnd");
+  assert.ok((await page.evaluate(() => scrollY)) > top + 60);
+  assert.deepEqual((await state()).orbits, before.orbits);
   await close();
 });

@@ -1,4 +1,4 @@
-// The plane of the page is the program's portrait, in each view, and what is done to it is what the program computes.
+// Portraits of the page: in each view they and their answers are those of the program.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";

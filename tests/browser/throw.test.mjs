@@ -1,4 +1,4 @@
-// What a reader meets first: bodies that are thrown, the question, the dare, and presets that say what is to be seen.
+// Thrown bodies, the question, the dare and the presets, which a reader meets first.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
