@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -13,7 +14,6 @@
 
 #include "answers/verbs/fields.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "output/formula.hpp"
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;
@@ -91,92 +91,47 @@ TEST_CASE("the table of fields in src/README.md is that of the answers", "[table
   CHECK(readme.str().find("\n\n" + table + "\n") != std::string::npos);
 }
 
-TEST_CASE("formulas of TeX as plain text", "[table]") {
-  using contensou::program::plain_formula;
-  const std::vector<std::pair<std::string, std::string>> formulas{
-      {R"(\frac{d \ln w}{d \ln k} = \frac{r k \Psi}{D})", "d ln w/d ln k = r k Psi/D"},
-      {R"(-\frac{7 v}{8 \mu |u| + 3\pi v})", "-7 v/(8 mu |u| + 3 pi v)"},
-      {R"(J \dot{\omega}_z, \ddot{x})", "J domega_z/dt, d2x/dt2"},
-      {R"(\frac{\partial s_\ast}{\partial v} = \frac{w - r \Psi s_\ast}{w D})", "ds*/dv = (w - r Psi s*)/(w D)"},
-      {R"(\frac12 \int_{k_\ast}^k g\, d\tau)", "1/2 Int(k*, k) g dtau"},
-      {R"(c_\infty = \frac{K}{\Psi(0)}, \quad m_0 \le k^{1/a})", "c_inf = K/Psi(0),   m0 <= k^(1/a)"},
-      {R"(\sqrt{v_x^2 + v_y^2} \ge 0)", "sqrt(v_x^2 + v_y^2) >= 0"},
-      {R"(r_\text{low} \to 2\chi/(3\pi))", "r_low -> 2 chi/(3 pi)"},
+TEST_CASE("help theory is one screen, whose equations are those of the program", "[cli]") {
+  const std::string text = run_program("help theory").out;
+  CHECK(std::ranges::count(text, '\n') <= 70);
+  CHECK(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+  // The equations of one number, as `reduce --system` reads them: du/dtau = -5 mu^2 u/(...) becomes u' = -5*mu^2*u/(...).
+  const auto reduced = [&](const std::string& time) {
+    std::smatch lines;
+    REQUIRE(std::regex_search(text, lines, std::regex("du/d" + time + " = (.*)\n *dv/d" + time + " = (.*?) +\\(2")));
+    std::string system = fmt::format("u' = {}; v' = {}", lines.str(1), lines.str(2));
+    system = std::regex_replace(system, std::regex("\\|u\\|"), "abs(u)");
+    system = std::regex_replace(system, std::regex("([a-z0-9)]) (?=[a-z(])"), "$1*");
+    system = std::regex_replace(system, std::regex("pi\\*v"), "pi*abs(v)");  // it reads v < 0, too
+    const Run run =
+        run_program({"reduce", "--system", system, "--param", "mu=0.3", "--u0", "2", "--v0", "1", "--format", "json"});
+    INFO(system << run.err);
+    REQUIRE(run.status == 0);
+    return nlohmann::json::parse(run.out);
   };
-  for (const auto& [tex, text] : formulas) CHECK(plain_formula(tex) == text);
-  std::string number;
-  CHECK(plain_formula(R"(a = b \tag{R4})", &number) == "a = b ");
-  CHECK(number == "R4");
-  for (const char* wrong : {R"(\Omega)", "{a", "a}", R"(\frac{a})", "a_"}) {
-    CHECK_THROWS_AS(plain_formula(wrong), std::logic_error);
+  const auto in_tau = reduced("tau"), in_beta = reduced("beta");
+  const auto stop = json_of("stop --mu 0.3 --u0 2 --v0 1 --law pade --format json");
+  CHECK(in_tau["tau_stop"].get<double>() == Approx(stop["tau_stop"].get<double>()).epsilon(1e-9));
+  CHECK_THAT(text, Contains("X = tau d/dtau + u d/du + v d/dv\n    X = -beta d/dbeta + u d/du + v d/dv\n"));
+  CHECK(in_tau["generators"][0]["time"].get<double>() == Approx(1).epsilon(1e-9));
+  CHECK(in_beta["generators"][0]["time"].get<double>() == Approx(-1).epsilon(1e-9));
+
+  for (const char* word : {"symmetry", "equations", "generator", "reduction", "canonical", "integral", "theorem"}) {
+    CHECK(run_program(std::string("help ") + word).out == text);
   }
+  check_rejected("help nonsense", "no such topic; topics: laws");
+  check_rejected("help theory symmetry", "unexpected argument 'symmetry'");
 }
 
-TEST_CASE("help theory has every equation of reduction/README.md's chapter, in words and as TeX", "[cli]") {
-  std::ifstream file(CONTENSOU_THEORY);
-  std::string readme{std::istreambuf_iterator<char>(file), {}};
-  const auto begin = readme.find("\n## Theory\n"), end = readme.find("\n## Proofs\n");
-  REQUIRE(begin < end);
-  const std::string chapter = readme.substr(begin, end - begin);
-  const std::string text = run_program("help theory").out;
-  const std::string tex = run_program("help theory --format tex").out;
-  CHECK_THAT(tex, StartsWith("\\documentclass") && Catch::Matchers::EndsWith("\\end{document}\n"));
-
-  int equations = 0;
-  const std::string open = "```math\n", close = "```\n";
-  for (std::size_t at = chapter.find(open); at != std::string::npos; at = chapter.find(open, at + 1), ++equations) {
-    const std::size_t first = at + open.size();
-    const std::string formula = chapter.substr(first, chapter.find(close, first) - first);
-    CHECK_THAT(tex, Contains("\\begin{equation*}\n" + formula + "\\end{equation*}\n"));
-    std::string number;
-    std::istringstream parts(contensou::program::plain_formula(formula, &number));
-    std::string part;
-    std::getline(parts, part);
-    CHECK_THAT(text, Contains("\n    " + part.substr(0, part.find(" = "))));
-    if (!number.empty()) CHECK_THAT(text, Contains(fmt::format(" ({})\n", number)));
-  }
-  CHECK(equations == 28);
-  CHECK_THAT(text, Contains("\n    double stop_time(double k, double r) {\n"));
-  for (int i = 1; i <= 8; ++i) CHECK_THAT(text, Contains(fmt::format(" (2.{})\n", i)));
-  CHECK_THAT(text, Contains("dp/dq = Phi/(q D)") && Contains("X2 = tau d_tau + u d_u + v d_v"));
-  CHECK(text.find_first_of("\\$`") == std::string::npos);
-
-  // What `check` measures: a row each, of every law and start.
-  const auto checks = nlohmann::json::parse(run_program("check --format json").out)["checks"];
+TEST_CASE("reduction/README.md says what each row of check measures", "[cli]") {
+  const std::string chapter = read_file(CONTENSOU_THEORY);
+  const auto checks = json_of("check --format json")["checks"];
   REQUIRE(checks.size() > 20);
   for (const auto& check : checks) {
     const std::string name = check["check"];
-    CHECK_THAT(text, Contains("\n  " + name.substr(0, name.find(", with a drive"))));
+    CHECK_THAT(chapter, Contains("\n- `" + name.substr(0, name.find(", with a drive")) + "`: "));
   }
-  CHECK_THAT(text, Contains("with a drive"));
-
-  check_rejected("help laws --format tex", "--format tex: is for the theory: contensou help theory --format tex");
-  check_rejected("help theory --format html", "no such format");
-}
-
-TEST_CASE("a section of the theory alone, by a word of its heading or of its text", "[cli]") {
-  const std::string whole = run_program("help theory").out;
-  const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
-  for (const auto& [word, heading] :
-       std::vector<std::pair<std::string, std::string>>{{"equations", "The paper's equations:"},
-                                                        {"symmetry", "Symmetry and reduction:"},
-                                                        {"Reduction", "Symmetry and reduction:"},
-                                                        {"theorem", "The theorem:"},
-                                                        {"canonical", "Symmetry and reduction:"},
-                                                        {"hypotheses", "Any law, any body:"}}) {
-    INFO(word);
-    const Run run = run_program("help theory " + word);
-    CHECK(run.status == 0);
-    CHECK(first_line(run.out) == heading);
-    CHECK_THAT(whole, Contains("\n" + run.out) || StartsWith(run.out));
-    CHECK(run.out.size() < whole.size() / 2);
-    CHECK(run_program("help " + word).out == run.out);
-  }
-  CHECK(first_line(run_program("help theory check").out) == "What check measures:");
-  CHECK(first_line(run_program({"help", "theory", "small mu"}).out) == "Small mu:");
-  check_rejected("help theory nonsense", "SECTION nonsense: no such section");
-  check_rejected("help nonsense", "no such topic; topics: laws");
-  check_rejected("help theory symmetry --format tex", "--format tex: is for the theory");
+  CHECK_THAT(chapter, Contains("with a drive"));
 }
 
 TEST_CASE("values in other units", "[cli]") {

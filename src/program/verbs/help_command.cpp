@@ -1,5 +1,8 @@
-#include <functional>
+#include <algorithm>
+#include <iterator>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,9 +13,7 @@
 #include "contensou/si/quantity.hpp"
 #include "options/law_option.hpp"
 #include "output/help.hpp"
-#include "output/theory.hpp"
 #include "platform/output_file.hpp"
-#include "text/nearest_name.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -101,37 +102,79 @@ std::string files() {
              "--samples N frames).");
 }
 
+constexpr const char* theory_text =
+    R"(The equations of V. F. Zhuravlev (1998) and their symmetry. A ball of radius R
+slides and spins on a plane with coefficient of friction f; g is gravity.
+
+    v >= 0         speed of the contact point; its direction is constant
+    u = R omega_z  spin about the vertical times the radius
+    mu             patch radius divided by R, at most 1
+    k              ratio v/(mu |u|); it falls to 0
+    tau            time: tau = (3 pi/2) f g t, with t in seconds
+
+Equations of motion, with friction by the Pade law of the paper:
+
+    du/dtau = -5 mu^2 u/(16 mu |u| + 15 pi v)
+    dv/dtau = -7 v/(8 mu |u| + 3 pi v)                                     (2.6)
+
+The time beta removes the denominators. For u > 0,
+
+    du/dbeta = -5 mu^2 u (8 mu u + 3 pi v)
+    dv/dbeta = -7 v (16 mu u + 15 pi v)                                    (2.7)
+    tau = Int(0, beta) (16 mu u + 15 pi v) (8 mu u + 3 pi v) dbeta         (2.8)
+
+Symmetry and its generator:
+
+(2.6) does not change when u, v and tau are multiplied by one number. The
+generator of this group for (2.6), and that for (2.7), are
+
+    X = tau d/dtau + u d/du + v d/dv
+    X = -beta d/dbeta + u d/du + v d/dv
+
+Reduction to canonical coordinates q and p:
+
+    q = v/u        does not change
+    p = ln v       grows by the logarithm of that number
+
+In q and p the variables of the equation of the orbits separate:
+
+    dp/dq = (16 mu + 15 pi q)/(q (mu A + B q))
+    A = 8 (2 - r),  B = 3 pi (5 - r),  r = 5 mu^2/7
+
+First integral, constant along each motion:
+
+    I = ln |u| - a ln k + (a - e) ln(A + B k),  a = r/(2 - r),  e = r/(5 - r)
+
+Stop time, at which u and v vanish together:
+
+    tau* = 16 |u|/(5 mu) + m(k) 3 pi v/7,  1 <= m <= 5/2
+    m(k) = (5/k) Int(0, k) W(x)/W(k) (8 + 3 pi x)/(A + B x) dx
+    W(x) = x^a (A + B x)^(e - a)
+
+Theorem for any law of friction and any body, proofs and numerics: chapter
+"Theory" of share/doc/contensou/theory.md in the folder of the installation,
+reduction/README.md in the sources.
+)";
+
+/// The words of its headings, which are topics, too.
+constexpr std::string_view theory_words[]{"equations", "symmetry", "generator", "reduction",
+                                          "canonical", "integral", "theorem"};
+
+std::string theory() { return theory_text; }
+
 const Choices<std::string (*)()> topics{
-    {"laws", laws}, {"views", views}, {"units", units}, {"files", files}, {"theory", theory_as_text}};
+    {"laws", laws}, {"views", views}, {"units", units}, {"files", files}, {"theory", theory}};
 
 class HelpCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     root_ = app.get_parent();
-    topic_.add(app, "TOPIC", "",
-               "laws, views, units, files, theory, a word of the theory, or a verb (default: all verbs)",
+    topic_.add(app, "TOPIC", "", "laws, views, units, files, theory, or a verb (default: all verbs)",
                [this](const std::string& typed) { return text_on(typed); });
-    section_.add(app, "SECTION", "", "of theory: a word of the section's heading or text (default: all sections)",
-                 [](const std::string& typed) { return section_on(typed); });
-    format_.add(app, "--format", "FORMAT", "text (default), or tex, a document of LaTeX; of theory only",
-                one_of<bool>({{"text", false}, {"tex", true}}, "format"));
   }
 
   ExitStatus run() override {
-    const bool tex = format_.value_or(false);
-    const bool on_theory = topic_.given() && topic_.text() == "theory";
-    if (section_.given() && !on_theory)
-      throw BadInput(fmt::format("unexpected argument {}", quotation(section_.text())));
-    if (tex && (!on_theory || section_.given())) {
-      format_.reject("is for the theory: contensou help theory --format tex");
-    }
-    if (tex) {
-      write_output("-", theory_as_tex());
-      return ExitStatus::done;
-    }
-    write_output("-", section_.given() ? *section_
-                      : topic_.given() ? *topic_
-                                       : root_->get_formatter()->make_help(root_, "contensou", {}));
+    write_output("-", topic_.given() ? *topic_ : root_->get_formatter()->make_help(root_, "contensou", {}));
     return ExitStatus::done;
   }
 
@@ -146,20 +189,12 @@ class HelpCommand final : public Verb {
       if (verb->get_name() == topic) return verb->help("contensou");
       names.push_back(verb->get_name());
     }
-    // A word of the theory's text only where no topic was mistyped.
-    const bool mistyped = !suggestion(topic, names).empty();
-    if (const auto section = mistyped ? section_named(topic) : section_about(topic)) return theory_as_text(*section);
+    if (std::ranges::find(theory_words, topic) != std::end(theory_words)) return theory();
     throw no_such("topic", topic, names);
   }
 
-  static std::string section_on(const std::string& word) {
-    if (const auto section = section_about(word)) return theory_as_text(*section);
-    throw no_such("section", word, theory_sections());
-  }
-
   const CLI::App* root_ = nullptr;
-  ArgumentOf<std::string> topic_, section_;
-  ArgumentOf<bool> format_;
+  ArgumentOf<std::string> topic_;
 };
 
 const RegisteredVerb<HelpCommand> help_verb(Purpose::help, "help", "What an option takes, or the options of a verb",
