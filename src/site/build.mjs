@@ -131,7 +131,7 @@ const readers = [
   { path: "python.html", title: "Python", words: "The whole library with NumPy's arrays: here the plane of a puck, by matplotlib.", picture: "src/python/notebook/plane.png",
     command: 'import contensou as ct\nct.portrait(body="disc").plot()', language: "python", alt: "The plane of a puck", parts: ["In Python,"],
     links: [["src/python/README.md", "The tour"], ["src/python/notebook/README.md", "Why a spinning ball slides farther: a lesson as a notebook"]] },
-  { path: "engines.html", title: "Engines", words: "What to type in so that a ball's spin dies out as it does, for sixteen engines. Of these curves of force against moment an engine has the ellipse or the chord, or it bounds each for itself.",
+  { path: "engines.html", title: "Engines", words: "What to type in so that a ball's spin dies out as it does, for thirteen engines. Of these curves of force against moment an engine has the ellipse or the chord, or it bounds each for itself.",
     command: "contensou engine mujoco --ball pool\ncontensou law --surface -o surface.svg", picture: "portraits/gallery/surface.svg", alt: "Limit surfaces", parts: ["Physics engines"],
     links: [["src/site/cases/README.md", "Ten motions as data, for an engine's own tests"], ["src/README.md", "The wrench of a patch, in C and C++"]] },
   { path: "film.html", title: "Film", words: "Friction and patch radius from a film, with intervals that hold; here a real slide, beside the exact motion and the textbook's.",

@@ -35,14 +35,11 @@ const std::map<std::string_view, Limit> limits{
        return typed[2] * typed[1] + of_plane * typed[0];
      }},
     {"chrono", the_last},
-    {"ode", the_last},
-    {"gazebo", [](const auto& typed, double /*radius*/) { return 3 * std::numbers::pi * typed[2] * typed[1] / 16; }},
     {"edyn", the_last},
     // alpha = 5 u_sp g/(2 R) with u_sp = proportionality R, and alpha = (5/2) M/(m R^2)
     {"pooltool",
      [](const auto& typed, double radius) { return 5 * (typed[1] * radius) / (2 * radius) * 2 * radius * radius / 5; }},
     {"box3d", [](const auto& typed, double radius) { return typed[1] * radius; }},
-    {"tailuge", [](const auto& typed, double /*radius*/) { return 0.0055 * 2 / 3 * typed[1]; }},
 };
 
 std::vector<double> typed_into(const EngineUse& use, const EngineContact& contact) {

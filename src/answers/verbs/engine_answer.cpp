@@ -21,17 +21,11 @@ struct Contact {
   si::FadeTimes fade;
 };
 
-/// A number to type in.
-struct EngineParameter {
-  std::string_view name, unit, formula;
-  double value;
-};
-
 /// An engine with a ball, or a body that lies flat, in it.
 struct EngineWithBall {
   const Engine* engine;
   const si::EngineUse* use;
-  std::vector<EngineParameter> parameters;
+  si::EngineContact contact;
   std::vector<Contact> settings;
 };
 
@@ -45,10 +39,7 @@ struct Report {
 
 EngineWithBall with_ball(const Engine& engine, const si::Experiment& experiment, const si::EngineContact& contact) {
   const si::EngineUse& use = engine.use_of(experiment.ball.body);
-  EngineWithBall result{&engine, &use, {}, {}};
-  for (const auto& [name, unit, formula, value] : use.parameters) {
-    result.parameters.push_back({name, unit, formula, value(contact)});
-  }
+  EngineWithBall result{&engine, &use, contact, {}};
   for (const auto& [words, cone, moment_arm, friction_share] : use.settings) {
     const double arm = moment_arm(contact);
     si::Experiment there = experiment;
@@ -95,8 +86,8 @@ constexpr Field<EngineWithBall> name_fields[]{
 constexpr Field<EngineWithBall> moment_fields[]{
     {"", "", "the last of parameters",
      [](const EngineWithBall& of) {
-       return of.parameters.empty() ? Json::array({"", ""})
-                                    : Json::array({of.parameters.back().name, of.parameters.back().value});
+       const auto& all = of.use->parameters;
+       return all.empty() ? Json::array({"", ""}) : Json::array({all.back().name, all.back().value(of.contact)});
      },
      "parameter,value"},
 };
@@ -107,8 +98,8 @@ constexpr Field<EngineWithBall> text_fields[]{
     {"parameters", "", "what to type in, that of the moment last",
      [](const EngineWithBall& of) {
        Json parameters = Json::object();
-       for (const auto& [name, unit, formula, value] : of.parameters) {
-         parameters[std::string(name)] = {{"value", value}, {"unit", unit}, {"formula", formula}};
+       for (const auto& [name, unit, value] : of.use->parameters) {
+         parameters[std::string(name)] = {{"value", value(of.contact)}, {"unit", unit}, {"formula", value.formula()}};
        }
        return parameters;
      },
@@ -186,9 +177,9 @@ std::string heading(const Report& report, const Digits& digits) {
       digits(si::spin_at_start(experiment)), law.name(), digits(contact.pivoting_moment), digits(own.moment_arm));
 }
 
-std::string typed_in(const EngineParameter& parameter, const Digits& digits) {
-  const auto& [name, unit, formula, value] = parameter;
-  return fmt::format("{} = {}{}{}", name, digits(value), unit.empty() ? "" : " ", unit);
+std::string typed_in(const si::EngineParameter& parameter, const si::EngineContact& contact, const Digits& digits) {
+  const auto& [name, unit, value] = parameter;
+  return fmt::format("{} = {}{}{}", name, digits(value(contact)), unit.empty() ? "" : " ", unit);
 }
 
 std::string text_of_all(const Report& report, const Digits& digits) {
@@ -200,11 +191,12 @@ std::string text_of_all(const Report& report, const Digits& digits) {
   };
   table.add({"engine", "type in", "cone", "slip (s)", "spin (s)", "slid (m)", "turns"});
   add(fmt::format("the {}", report.experiment.ball.body.name), report.own.label, report.own);
-  for (const auto& [engine, use, parameters, settings] : report.engines) {
+  for (const auto& [engine, use, contact, settings] : report.engines) {
     if (settings.empty()) {
       table.add({std::string(engine->name), not_read});
     } else {
-      add(engine->name, parameters.empty() ? "-" : typed_in(parameters.back(), digits), settings.front());
+      const auto& all = use->parameters;
+      add(engine->name, all.empty() ? "-" : typed_in(all.back(), contact, digits), settings.front());
     }
   }
   return fmt::format(
@@ -230,8 +222,8 @@ std::string text_of(const EngineWithBall& of, const Report& report, const Digits
   const Contact& own = report.own;
   std::string text = fmt::format("\n{}: github.com/{}, {}\n\n", engine.title, engine.repository, engine.version);
   std::vector<std::string> lines;
-  for (const EngineParameter& parameter : of.parameters) {
-    lines.push_back(fmt::format("{}   ({})", typed_in(parameter, digits), parameter.formula));
+  for (const si::EngineParameter& parameter : of.use->parameters) {
+    lines.push_back(fmt::format("{}   ({})", typed_in(parameter, of.contact, digits), parameter.value.formula()));
   }
   if (lines.empty()) lines.emplace_back(of.settings.empty() ? not_read : "nothing: it has no such number");
   text += block("type in", lines);

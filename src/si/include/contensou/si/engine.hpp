@@ -22,19 +22,30 @@ struct EngineContact {
 /// @throws std::domain_error  as patch_radius_of
 EngineContact contact_of(const Experiment& experiment, const reduction::Law& law);
 
+/// A number of an engine, in SI units: the factor times f, a and Psi(0), as far as they count, and a power of R.
+struct EngineNumber {
+  double factor = 1;
+  bool f = false, a = false, psi = false;
+  int radius = 0;  ///< -2 to 2, the power of R
+
+  double operator()(const EngineContact& contact) const;
+
+  /// Returns it for people, as in f a Psi(0)/R^2.
+  std::string formula() const;
+};
+
 /// A number that is typed into an engine.
 struct EngineParameter {
-  std::string_view name;     ///< the engine's own
-  std::string_view unit;     ///< SI; empty for a pure number
-  std::string_view formula;  ///< of `value`, for people
-  double (*value)(const EngineContact& contact);
+  std::string_view name;  ///< the engine's own
+  std::string_view unit;  ///< SI; empty for a pure number
+  EngineNumber value;
 };
 
 /// A way to set an engine, and what it then does.
 struct EngineSetting {
   std::string_view words;
   Cone cone;
-  double (*moment_arm)(const EngineContact& contact);  ///< m, the greatest moment over the load; 0: it has no moment
+  EngineNumber moment_arm;    ///< m, the greatest moment over the load; 0: it has no moment
   double friction_share = 1;  ///< of the f that is meant, where the engine makes less of what is typed in
 };
 
