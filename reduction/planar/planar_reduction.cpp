@@ -14,6 +14,7 @@
 #include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/directions.hpp"
+#include "planar/solution.hpp"
 #include "planar/strip.hpp"
 
 namespace contensou::reduction {
@@ -43,16 +44,15 @@ struct StripPlace {
   double radial = 0;  ///< without a strip
 };
 
-}  // namespace
+/// By a scaling: README (R42) to (R45).
+struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_from_this<ScalingSolution> {
+  ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise);
 
-std::string_view name(PlanarEnd end) {
-  constexpr std::string_view names[]{"centre", "infinity", "rest", "border", "periodic", "undecided"};
-  return names[static_cast<std::size_t>(end)];
-}
-
-struct PlanarReduction::Solved {
-  Solved(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise);
-  Solved(const Solved&) = delete;
+  PlanarCanonical canonical(const Vector2d& x) const override;
+  Vector2d point(double q, double p) const override { return section.point(turned({1, 0}, q), p); }
+  std::shared_ptr<const PlanarOrbit::Motion> orbit(const Vector2d& start) const override;
+  double end_time_error(const Vector2d& x) const override;
+  std::optional<double> first_integral(const Vector2d& x) const override;
 
   void leave_branching_open();
   void make_strips();
@@ -62,21 +62,15 @@ struct PlanarReduction::Solved {
   double end_time(const StripPlace& place, double p) const;
   Vector2d along_ray(const Vector2d& n, double radial, double p, double time) const;
 
-  Generator scaling;
-  SectionField field;
+  SectionField section;
   double noise;  ///< of the field's values, relative
   Directions directions;
   std::vector<Strip> strips;
-  std::vector<PlanarRay> rays;
-  std::vector<PlanarSector> sectors;
-  std::optional<PlanarTurn> turn;
-  std::string undecided;
-  std::string_view kind;
 };
 
-PlanarReduction::Solved::Solved(PlanarField given, const Generator& generator, const Vector2d& around,
-                                double given_noise)
-    : scaling(generator), field(std::move(given), generator, around), noise(std::max(given_noise, eps)) {
+ScalingSolution::ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around,
+                                 double given_noise)
+    : Solution(std::move(given), generator), section(field, generator, around), noise(std::max(given_noise, eps)) {
   const auto refuse = [](const Vector2d& n) {
     throw UndecidedRays(
         fmt::format("at the angle {:.6g} the field points along the scaling within rounding: "
@@ -87,7 +81,7 @@ PlanarReduction::Solved::Solved(PlanarField given, const Generator& generator, c
   constexpr std::size_t most = 16;
   for (;;) {
     try {
-      directions = find_directions(field, noise, between);
+      directions = find_directions(section, noise, between);
       make_strips();
       break;
     } catch (const MissedRay& missed) {
@@ -97,12 +91,13 @@ PlanarReduction::Solved::Solved(PlanarField given, const Generator& generator, c
       refuse(missed.n);
     }
   }
+  star = directions.star;
   kind = classify();
 }
 
 /// Makes the end of orbits undecided that join a ray in finite time where the field says no single way on: orbits leave
 /// it to the other side as well, or the field on the ray is not the limit of its values.
-void PlanarReduction::Solved::leave_branching_open() {
+void ScalingSolution::leave_branching_open() {
   constexpr double close = 1e-6;
   for (Direction& end : directions.dividing) {
     const auto joins = [](const Approach& side) {
@@ -125,7 +120,7 @@ void PlanarReduction::Solved::leave_branching_open() {
   }
 }
 
-void PlanarReduction::Solved::make_strips() {
+void ScalingSolution::make_strips() {
   const double tolerance = std::max(2e-14, 10 * noise);
   strips.clear();
   sectors.clear();
@@ -135,8 +130,8 @@ void PlanarReduction::Solved::make_strips() {
   leave_branching_open();
   const std::vector<Direction>& ends = directions.dividing;
   if (ends.empty()) {
-    const auto rates = field(turned({1, 0}, 0.5));
-    strips.emplace_back(field, directions.smooth, rates->angular > 0 ? -1.0 : 1.0, tolerance);
+    const auto rates = section(turned({1, 0}, 0.5));
+    strips.emplace_back(section, directions.smooth, rates->angular > 0 ? -1.0 : 1.0, tolerance);
     const Strip& strip = strips.back();
     turn = {std::exp(strip.turn()), strip.turn_sigma()};
     return;
@@ -144,14 +139,14 @@ void PlanarReduction::Solved::make_strips() {
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const Direction &here = ends[i], &next = ends[(i + 1) % ends.size()];
     const double length = angle_between(here.n, next.n);
-    const auto middle = field(turned(here.n, length / 2));
+    const auto middle = section(turned(here.n, length / 2));
     if (!middle || !here.after.exists() || !next.before.exists()) continue;
     const bool forward = middle->angular > 0;
     const Approach &to = forward ? next.before : here.after, &from = forward ? here.after : next.before;
     if ((to.decided() && to.angular().factor > 0) || (from.decided() && from.angular().factor < 0)) {
       throw MissedRay{(to.decided() && to.angular().factor > 0 ? to : from).n(), false};
     }
-    strips.emplace_back(field, to, from, directions.smooth, forward ? -1.0 : 1.0, length, tolerance);
+    strips.emplace_back(section, to, from, directions.smooth, forward ? -1.0 : 1.0, length, tolerance);
     const double q = angle_of(here.n);
     sectors.push_back(forward ? PlanarSector{q, q + length, from.ray(), to.ray()}
                               : PlanarSector{q + length, q, from.ray(), to.ray()});
@@ -179,14 +174,14 @@ void PlanarReduction::Solved::make_strips() {
   std::ranges::sort(rays, {}, &PlanarRay::q);
 }
 
-std::string_view PlanarReduction::Solved::classify() const {
+std::string_view ScalingSolution::classify() const {
   const auto of_sign = [](bool all_in, bool all_out, std::string_view in, std::string_view out) {
     return all_in ? in : all_out ? out : std::string_view("mixed");
   };
   if (directions.star) {
     bool all_in = true, all_out = true;
     for (int i = 0; i < 64; ++i) {
-      const auto rates = field(turned({1, 0}, 2 * pi * i / 64));
+      const auto rates = section(turned({1, 0}, 2 * pi * i / 64));
       all_in &= !rates || rates->radial < 0;
       all_out &= !rates || rates->radial > 0;
     }
@@ -204,14 +199,14 @@ std::string_view PlanarReduction::Solved::classify() const {
   const auto came_out = [](const Strip& strip) { return strip.origin() == Limit::centre; };
   if (!std::ranges::all_of(rays, &PlanarRay::radial)) return "degenerate";
   if (all([&](const Strip& strip) { return !comes_in(strip) && !came_out(strip); })) {
-    return strips.size() > 2 ? "saddle" : field.regular() ? "regular point" : "cusp";
+    return strips.size() > 2 ? "saddle" : section.regular() ? "regular point" : "cusp";
   }
   return of_sign(all([&](const Strip& strip) { return comes_in(strip) && !came_out(strip); }),
                  all([&](const Strip& strip) { return !comes_in(strip) && came_out(strip); }), "stable node",
                  "unstable node");
 }
 
-StripPlace PlanarReduction::Solved::place(const Vector2d& n) const {
+StripPlace ScalingSolution::place(const Vector2d& n) const {
   for (const Strip& strip : strips) {
     const auto xi = strip.locate(n);
     if (!xi) continue;
@@ -220,12 +215,12 @@ StripPlace PlanarReduction::Solved::place(const Vector2d& n) const {
     const auto ray = std::ranges::find(rays, q, &PlanarRay::q);
     if (ray != rays.end()) return {.radial = ray->radial};
   }
-  const auto rates = field(n);
+  const auto rates = section(n);
   if (!directions.star || !rates) throw std::domain_error("PlanarReduction: the field has no value at this point");
   return {.radial = rates->radial};
 }
 
-PlanarEnd PlanarReduction::Solved::end(const StripPlace& place) const {
+PlanarEnd ScalingSolution::end(const StripPlace& place) const {
   const auto by_sign = [](double radial) {
     return radial < 0 ? PlanarEnd::centre : radial > 0 ? PlanarEnd::infinity : PlanarEnd::rest;
   };
@@ -246,109 +241,73 @@ PlanarEnd PlanarReduction::Solved::end(const StripPlace& place) const {
 }
 
 /// When the orbit comes to its end, a border included.
-double PlanarReduction::Solved::end_time(const StripPlace& place, double p) const {
-  const double c = field.time_degree();
+double ScalingSolution::end_time(const StripPlace& place, double p) const {
+  const double c = section.time_degree();
   if (place.strip != nullptr)
     return place.strip->timed() ? std::exp(c * p) * place.strip->time_left(place.xi) : infinity;
   return c * place.radial < 0 ? std::exp(c * p) / (-c * place.radial) : infinity;
 }
 
 /// A point of the ray n with p, moved along it for a time.
-Vector2d PlanarReduction::Solved::along_ray(const Vector2d& n, double radial, double p, double time) const {
-  const double c = field.time_degree(), way = time * std::exp(-c * p), growth = c * radial;
-  return field.point(n, p + (growth == 0 ? radial * way : std::log1p(growth * way) / c));
+Vector2d ScalingSolution::along_ray(const Vector2d& n, double radial, double p, double time) const {
+  const double c = section.time_degree(), way = time * std::exp(-c * p), growth = c * radial;
+  return section.point(n, p + (growth == 0 ? radial * way : std::log1p(growth * way) / c));
 }
 
-PlanarReduction::PlanarReduction(PlanarField field, const Generator& scaling, const Vector2d& around, double noise)
-    : solved_(std::make_shared<const Solved>(std::move(field), scaling, around, noise)) {}
-
-const Generator& PlanarReduction::scaling() const { return solved_->scaling; }
-const Vector2d& PlanarReduction::centre() const { return solved_->field.centre(); }
-bool PlanarReduction::star() const { return solved_->directions.star; }
-const std::vector<PlanarRay>& PlanarReduction::rays() const { return solved_->rays; }
-const std::vector<PlanarSector>& PlanarReduction::sectors() const { return solved_->sectors; }
-const PlanarTurn* PlanarReduction::turn() const { return solved_->turn ? &*solved_->turn : nullptr; }
-std::string_view PlanarReduction::kind() const { return solved_->kind; }
-const std::string& PlanarReduction::undecided() const { return solved_->undecided; }
-
-PlanarCanonical PlanarReduction::canonical(const Vector2d& x) const {
-  if (!x.allFinite()) throw std::domain_error(fmt::format("PlanarReduction: ({}, {}) is no point", x[0], x[1]));
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  if (x == centre()) return {nothing, -infinity, nothing};
-  const auto [n, p] = solved_->field.canonical(x);
-  const auto rates = solved_->field(n);
-  return {angle_of(n), p, rates ? rates->radial / rates->angular : nothing};
+PlanarCanonical ScalingSolution::canonical(const Vector2d& x) const {
+  const auto [n, p] = section.canonical(x);
+  const auto rates = section(n);
+  return {angle_of(n), p, rates ? rates->radial / rates->angular : std::numeric_limits<double>::quiet_NaN()};
 }
 
-Vector2d PlanarReduction::point(double q, double p) const { return solved_->field.point(turned({1, 0}, q), p); }
-
-PlanarEnd PlanarReduction::end(const Vector2d& x) const { return orbit(x).end(); }
-double PlanarReduction::end_time(const Vector2d& x) const { return orbit(x).end_time(); }
-
-double PlanarReduction::end_time_error(const Vector2d& x) const {
-  const double time = end_time(x);
-  if (!std::isfinite(time) || time == 0) return 0;
-  const Vector2d& centre = solved_->field.centre();
+double ScalingSolution::end_time_error(const Vector2d& x) const {
+  const double time = orbit(x)->end_time;
   constexpr double other = 1.37, margin = 8, least = 1e-13;
-  const PlanarReduction again(solved_->field.field(), scaling(), centre + other * (x - centre), solved_->noise);
-  return std::max(least, margin * std::abs(again.end_time(x) / time - 1));
+  const ScalingSolution again(field, scaling, centre + other * (x - centre), noise);
+  return std::max(least, margin * std::abs(again.orbit(x)->end_time / time - 1));
 }
 
-double PlanarReduction::first_integral(const Vector2d& x) const {
-  canonical(x);
-  if (x != centre()) {
-    const auto [n, p] = solved_->field.canonical(x);
-    const StripPlace place = solved_->place(n);
-    if (place.strip != nullptr) return p - place.strip->ln_rho(place.xi);
+std::optional<double> ScalingSolution::first_integral(const Vector2d& x) const {
+  const auto [n, p] = section.canonical(x);
+  const StripPlace at = place(n);
+  if (at.strip == nullptr) return std::nullopt;
+  return p - at.strip->ln_rho(at.xi);
+}
+
+struct ScalingMotion final : PlanarOrbit::Motion {
+  Vector2d at(double time) const override;
+  Vector2d at_end() const override {
+    if (end == PlanarEnd::centre) return solution->centre;
+    const Strip& strip = *place.strip;
+    return solution->section.point(strip.to().n(), p + (strip.ln_rho(-infinity) - strip.ln_rho(place.xi)));
   }
-  throw std::domain_error(fmt::format(
-      "PlanarReduction: the first integral has no value on a ray and at the centre, got ({}, {})", x[0], x[1]));
-}
 
-struct PlanarOrbit::Motion {
-  std::shared_ptr<const PlanarReduction::Solved> solved;
-  bool at_centre;
+  std::shared_ptr<const ScalingSolution> solution;
   Vector2d n;
-  double p;
+  double p = 0;
   StripPlace place;
-  PlanarEnd end;
-  double end_time;
-
-  /// The point at a time before the end.
-  Vector2d at(double time) const;
 };
 
-PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {
-  canonical(start);
-  PlanarOrbit orbit;
-  auto motion = std::make_shared<PlanarOrbit::Motion>();
-  motion->solved = solved_;
-  motion->at_centre = start == centre();
-  motion->end = PlanarEnd::centre;
-  motion->end_time = 0;
-  if (!motion->at_centre) {
-    std::tie(motion->n, motion->p) = solved_->field.canonical(start);
-    motion->place = solved_->place(motion->n);
-    motion->end = solved_->end(motion->place);
-    motion->end_time = solved_->end_time(motion->place, motion->p);
-  }
-  orbit.motion_ = std::move(motion);
-  return orbit;
+std::shared_ptr<const PlanarOrbit::Motion> ScalingSolution::orbit(const Vector2d& start) const {
+  auto motion = std::make_shared<ScalingMotion>();
+  motion->solution = shared_from_this();
+  std::tie(motion->n, motion->p) = section.canonical(start);
+  motion->place = place(motion->n);
+  motion->end = end(motion->place);
+  motion->end_time = end_time(motion->place, motion->p);
+  return motion;
 }
 
-PlanarEnd PlanarOrbit::end() const { return motion_->end; }
-double PlanarOrbit::end_time() const { return motion_->end == PlanarEnd::border ? infinity : motion_->end_time; }
-
-Vector2d PlanarOrbit::Motion::at(double time) const {
-  const SectionField& field = solved->field;
-  if (place.strip == nullptr) return solved->along_ray(n, place.radial, p, time);
+Vector2d ScalingMotion::at(double time) const {
+  const SectionField& section = solution->section;
+  if (place.strip == nullptr) return solution->along_ray(n, place.radial, p, time);
   const Strip& strip = *place.strip;
-  const double c = field.time_degree();
+  const double c = section.time_degree();
   const double integral = p - strip.ln_rho(place.xi);
-  const auto at_coordinate = [&](double xi) { return field.point(strip.direction(xi), integral + strip.ln_rho(xi)); };
+  const auto at_coordinate = [&](double xi) { return section.point(strip.direction(xi), integral + strip.ln_rho(xi)); };
   const auto on_ray = [&](double time_there) {
-    return solved->along_ray(strip.to().n(), strip.to().radial().factor, integral + strip.ln_rho(-infinity),
-                             time_there);
+    return solution->along_ray(strip.to().n(), strip.to().radial().factor, integral + strip.ln_rho(-infinity),
+                               time_there);
   };
   if (time == 0) return at_coordinate(place.xi);
   constexpr double early = 0.02;  // from then on the time left has all its digits
@@ -410,7 +369,7 @@ Vector2d PlanarOrbit::Motion::at(double time) const {
   if (go(time, std::min(place.xi, last))) return at_coordinate(xi);
   if (!decided) {
     throw std::domain_error(
-        fmt::format("PlanarOrbit: the point at the time {} is not known: {}", time, solved->undecided));
+        fmt::format("PlanarOrbit: the point at the time {} is not known: {}", time, solution->undecided));
   }
   if (joins) return on_ray(time - passed);
   if (!linear) return at_coordinate(xi);
@@ -421,22 +380,84 @@ Vector2d PlanarOrbit::Motion::at(double time) const {
   return at_coordinate(xi - rate * (growth == 0 ? sigma : std::log1p(growth * sigma) / growth));
 }
 
+/// The motion of the centre itself.
+struct Rest final : PlanarOrbit::Motion {
+  explicit Rest(const Vector2d& at) : x(at) {}
+  Vector2d at(double) const override { return x; }
+  Vector2d at_end() const override { return x; }
+  Vector2d x;
+};
+
+void require_point(const Vector2d& x) {
+  if (!x.allFinite()) throw std::domain_error(fmt::format("({}, {}) is no point of the plane", x[0], x[1]));
+}
+
+}  // namespace
+
+std::string_view name(PlanarEnd end) {
+  constexpr std::string_view names[]{"centre", "infinity", "rest", "border", "periodic", "undecided"};
+  return names[static_cast<std::size_t>(end)];
+}
+
+PlanarReduction::PlanarReduction(PlanarField field, const Generator& scaling, const Vector2d& around, double noise)
+    : solution_(std::make_shared<const ScalingSolution>(std::move(field), scaling, around, noise)) {}
+PlanarReduction::PlanarReduction(std::shared_ptr<const Solution> solution) : solution_(std::move(solution)) {}
+
+const PlanarField& PlanarReduction::field() const { return solution_->field; }
+const Generator& PlanarReduction::scaling() const { return solution_->scaling; }
+const Vector2d& PlanarReduction::centre() const { return solution_->centre; }
+bool PlanarReduction::star() const { return solution_->star; }
+const std::vector<PlanarRay>& PlanarReduction::rays() const { return solution_->rays; }
+const std::vector<PlanarSector>& PlanarReduction::sectors() const { return solution_->sectors; }
+const PlanarTurn* PlanarReduction::turn() const { return solution_->turn ? &*solution_->turn : nullptr; }
+std::string_view PlanarReduction::kind() const { return solution_->kind; }
+const std::string& PlanarReduction::undecided() const { return solution_->undecided; }
+
+PlanarCanonical PlanarReduction::canonical(const Vector2d& x) const {
+  require_point(x);
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  return x == centre() ? PlanarCanonical{nothing, -infinity, nothing} : solution_->canonical(x);
+}
+
+Vector2d PlanarReduction::point(double q, double p) const { return solution_->point(q, p); }
+PlanarEnd PlanarReduction::end(const Vector2d& x) const { return orbit(x).end(); }
+double PlanarReduction::end_time(const Vector2d& x) const { return orbit(x).end_time(); }
+
+double PlanarReduction::end_time_error(const Vector2d& x) const {
+  const double time = end_time(x);
+  return std::isfinite(time) && time != 0 ? solution_->end_time_error(x) : 0;
+}
+
+double PlanarReduction::first_integral(const Vector2d& x) const {
+  require_point(x);
+  if (x != centre()) {
+    if (const auto integral = solution_->first_integral(x)) return *integral;
+  }
+  throw std::domain_error(
+      fmt::format("the first integral has no value on a ray and at the centre, got ({}, {})", x[0], x[1]));
+}
+
+PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {
+  require_point(start);
+  if (start == centre()) return PlanarOrbit(std::make_shared<const Rest>(start));
+  return PlanarOrbit(solution_->orbit(start));
+}
+
+PlanarOrbit::PlanarOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
+PlanarEnd PlanarOrbit::end() const { return motion_->end; }
+double PlanarOrbit::end_time() const { return motion_->end == PlanarEnd::border ? infinity : motion_->end_time; }
+
 Vector2d PlanarOrbit::at(double time) const {
-  const Motion& motion = *motion_;
-  const SectionField& field = motion.solved->field;
   if (!(time >= 0)) throw std::domain_error(fmt::format("PlanarOrbit: times >= 0 are required, got {}", time));
-  if (time < motion.end_time) return motion.at(time);
-  switch (motion.end) {
+  if (time < motion_->end_time) return motion_->at(time);
+  switch (motion_->end) {
     case PlanarEnd::centre:
-      return field.centre();
-    case PlanarEnd::rest: {
-      const Strip& strip = *motion.place.strip;
-      return field.point(strip.to().n(), motion.p + (strip.ln_rho(-infinity) - strip.ln_rho(motion.place.xi)));
-    }
+    case PlanarEnd::rest:
+      return motion_->at_end();
     case PlanarEnd::border:
       throw std::domain_error(fmt::format("PlanarOrbit: at the time {} it is beyond a border", time));
     default:
-      throw std::domain_error(fmt::format("PlanarOrbit: the orbit is at infinity at the time {}", motion.end_time));
+      throw std::domain_error(fmt::format("PlanarOrbit: the orbit is at infinity at the time {}", motion_->end_time));
   }
 }
 

@@ -71,7 +71,8 @@ class PlanarOrbit;
 ///     reduction.end_time(start);   // when
 ///     reduction.orbit(start).at(0.5)
 ///
-/// README (R42) to (R45). A value; copies share what is solved.
+/// README (R42) to (R45). A value; copies share what is solved. The ways of solving a system are its Solutions: by a
+/// scaling alone, and by the similarity solution of (2.6) (flow_reduction.hpp).
 ///
 /// Accuracy  relative 1e-12 of times, for a field that is smooth except for kinks and jumps and good to its last bits.
 ///           Next to multiple rays and poles that lie on no axis digits are lost: end_time_error() estimates how many.
@@ -85,6 +86,10 @@ class PlanarReduction {
   /// @throws UndecidedRays      where T comes near to 0 and its values show no zero of any order
   PlanarReduction(PlanarField field, const Generator& scaling, const Eigen::Vector2d& around, double noise = 0);
 
+  struct Solution;  // planar/solution.hpp
+  explicit PlanarReduction(std::shared_ptr<const Solution> solution);
+
+  const PlanarField& field() const;
   const Generator& scaling() const;
   const Eigen::Vector2d& centre() const;
 
@@ -122,22 +127,24 @@ class PlanarReduction {
   /// @throws as end, and as the constructor
   double end_time_error(const Eigen::Vector2d& x) const;
 
-  /// ln of the factor that moves the curve of the sector onto the orbit of x: p - L(q). Constant along an orbit, and
-  /// different on any two of one sector; after a turn about a centre without rays it is less by ln factor.
+  /// Returns p - L(q), the logarithm of the factor that moves one curve of the sector onto the orbit of x. It is constant
+  /// along an orbit, different on any two of one sector, and grows by s under exp(s X); after a turn about a centre
+  /// without rays it is less by ln factor.
   /// @throws std::domain_error  as end; on a ray, where it has no value
   double first_integral(const Eigen::Vector2d& x) const;
 
   PlanarOrbit orbit(const Eigen::Vector2d& start) const;
 
  private:
-  friend class PlanarOrbit;
-  struct Solved;
-  std::shared_ptr<const Solved> solved_;
+  std::shared_ptr<const Solution> solution_;
 };
 
 /// One motion.
 class PlanarOrbit {
  public:
+  struct Motion;  // planar/solution.hpp
+  explicit PlanarOrbit(std::shared_ptr<const Motion> motion);
+
   PlanarEnd end() const;
   double end_time() const;
 
@@ -146,8 +153,6 @@ class PlanarOrbit {
   Eigen::Vector2d at(double time) const;
 
  private:
-  friend class PlanarReduction;
-  struct Motion;
   std::shared_ptr<const Motion> motion_;
 };
 

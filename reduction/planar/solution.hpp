@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/reduction/planar_reduction.hpp"
+
+namespace contensou::reduction {
+
+/// One way of solving a planar system: the answers of PlanarReduction, which checks its arguments.
+struct PlanarReduction::Solution {
+  Solution(PlanarField of, Generator by) : field(std::move(of)), scaling(std::move(by)), centre(scaling.centre()) {}
+  Solution(const Solution&) = delete;
+  Solution& operator=(const Solution&) = delete;
+  virtual ~Solution() = default;
+
+  /// @param x  finite, not the centre
+  virtual PlanarCanonical canonical(const Eigen::Vector2d& x) const = 0;
+  virtual Eigen::Vector2d point(double q, double p) const = 0;
+  virtual std::shared_ptr<const PlanarOrbit::Motion> orbit(const Eigen::Vector2d& start) const = 0;
+  virtual double end_time_error(const Eigen::Vector2d& x) const = 0;
+  virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
+
+  PlanarField field;
+  Generator scaling;
+  Eigen::Vector2d centre;
+  bool star = false;
+  std::vector<PlanarRay> rays;
+  std::vector<PlanarSector> sectors;
+  std::optional<PlanarTurn> turn;
+  std::string undecided;
+  std::string_view kind;
+};
+
+struct PlanarOrbit::Motion {
+  virtual ~Motion() = default;
+
+  /// @param time  0 <= time < end_time
+  virtual Eigen::Vector2d at(double time) const = 0;
+
+  /// The point where it stays from end_time on, if it stays anywhere.
+  virtual Eigen::Vector2d at_end() const = 0;
+
+  PlanarEnd end = PlanarEnd::centre;
+  double end_time = 0;  ///< that of coming to a border, too
+};
+
+}  // namespace contensou::reduction
