@@ -14,6 +14,7 @@
 #include "data/isochrones.hpp"
 #include "data/lists.hpp"
 #include "data/round_numbers.hpp"
+#include "data/widest_gaps.hpp"
 
 namespace contensou::portraits {
 
@@ -43,8 +44,7 @@ Course course_of(const PlanarSector& sector) {
 
 class PlanarTracer {
  public:
-  PlanarTracer(const reduction::PlanarField& field, const PlanarReduction& plane, const PlanarWindow& window)
-      : field_(field), plane_(plane), window_(window) {
+  PlanarTracer(const PlanarReduction& plane, const PlanarWindow& window) : plane_(plane), window_(window) {
     panel_.x = {"", window.low[0], window.high[0], false, {}};
     panel_.y = {"", window.low[1], window.high[1], false, {}};
     highest_ = -infinity;
@@ -187,7 +187,7 @@ class PlanarTracer {
     constexpr double margin = 1e-9;  // L jumps from 2 pi to 0 by a turn
     growth_ = level(2 * pi - margin) - level(margin);
     const Vector2d here = plane_.point(1, level(1)), next = plane_.point(1.001, level(1.001));
-    sense_ = field_(here).dot(next - here) > 0 ? 1 : -1;
+    sense_ = plane_.field()(here).dot(next - here) > 0 ? 1 : -1;
   }
 
   Polyline line(const Vector2d& x, bool from_here) const {
@@ -248,7 +248,6 @@ class PlanarTracer {
 
   Polyline spiral(double q, double p, double integral, bool from_here) const;
 
-  const reduction::PlanarField& field_;
   const PlanarReduction& plane_;
   PlanarWindow window_;
   Panel panel_;  ///< that clips
@@ -319,39 +318,25 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
 }
 
 std::vector<PlanarPortraitOrbit> PlanarTracer::filling(std::optional<int> count) const {
-  constexpr double gap = 0.055, first = 1e3;  // in sides of the window
+  constexpr double gap = 0.055;  // in sides of the window
   constexpr int most = 80, across = 41;
-  struct Seed {
-    Point place;
-    std::size_t sector;
-    double border = first;  ///< to another sector, twice
-    double gap = first;     ///< to the nearest orbit of its sector, or to the border
-  };
-  const auto distance = [](Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); };
-  std::vector<Seed> seeds;
+  using Gaps = WidestGaps<std::size_t, Vector2d>;
+  std::vector<Gaps::Seed> seeds;
   for (int i = 0; i < across; ++i) {
     for (int j = 0; j < across; ++j) {
       const Point there{(i + 0.5) / across, (j + 0.5) / across};
-      if (const auto its = sector(at(there))) seeds.push_back({there, *its});
+      if (const auto its = sector(at(there))) seeds.push_back({there, at(there), *its});
     }
   }
-  for (Seed& seed : seeds) {
-    for (const Seed& other : seeds) {
-      if (other.sector != seed.sector) seed.border = std::min(seed.border, 2 * distance(seed.place, other.place));
-    }
-    seed.gap += seed.border;
-  }
+  Gaps gaps(std::move(seeds), {1, 1});
   std::vector<PlanarPortraitOrbit> orbits;
   std::vector<Point> mirrored;  // places to look at first
   const Point centre = place(plane_.centre());
-  for (int traced = 0; traced < count.value_or(most) && !seeds.empty();) {
-    auto widest = std::ranges::max_element(seeds, {}, &Seed::gap);
-    const auto nearest = [&](Point there) {
-      return std::ranges::min_element(seeds, {}, [&](const Seed& seed) { return distance(seed.place, there); });
-    };
+  for (int traced = 0; traced < count.value_or(most) && !gaps.empty();) {
+    auto widest = &gaps.widest();
     bool from_mirror = false;
     while (!mirrored.empty() && !from_mirror) {
-      const auto its = nearest(mirrored.back());
+      const auto its = &gaps.nearest(mirrored.back());
       mirrored.pop_back();
       from_mirror = its->gap > 0.7 * widest->gap;
       if (from_mirror) widest = its;
@@ -359,6 +344,7 @@ std::vector<PlanarPortraitOrbit> PlanarTracer::filling(std::optional<int> count)
     if (!count && widest->gap < gap) break;
     const Point here = widest->place;
     const std::size_t its_sector = widest->sector;
+    const Vector2d through = widest->state;
     if (!from_mirror) {
       mirrored = {{here.x, 2 * centre.y - here.y},
                   {2 * centre.x - here.x, here.y},
@@ -366,16 +352,13 @@ std::vector<PlanarPortraitOrbit> PlanarTracer::filling(std::optional<int> count)
     }
     ++traced;
     widest->gap = 0;
-    for (PlanarPortraitOrbit& piece : orbit(at(here))) {
+    for (PlanarPortraitOrbit& piece : orbit(through)) {
       for (Eigen::Index row = 0; row < piece.u.size(); ++row) {
-        const Point there = place({piece.u[row], piece.v[row]});
-        for (Seed& seed : seeds) {
-          if (seed.sector == its_sector) seed.gap = std::min({seed.gap, seed.border, distance(seed.place, there)});
-        }
+        gaps.pass(its_sector, place({piece.u[row], piece.v[row]}));
       }
       orbits.push_back(std::move(piece));
     }
-    std::erase_if(seeds, [&](const Seed& seed) { return seed.gap < (count ? 1e-9 : gap); });
+    gaps.drop_below(count ? 1e-9 : gap);
   }
   return orbits;
 }
@@ -414,12 +397,10 @@ void require(const PlanarWindow& window, const PlanarPortraitRequest& request) {
 
 }  // namespace
 
-PlanarPortrait planar_portrait(reduction::PlanarField field, const PlanarReduction& plane, std::string name,
-                               const PlanarPortraitRequest& request) {
-  PlanarPortrait portrait{std::move(name), std::move(field), plane, window_of(plane, request), {}, {}, 0, {}, {},
-                          request.through};
+PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PlanarPortraitRequest& request) {
+  PlanarPortrait portrait{std::move(name), plane, window_of(plane, request), {}, {}, 0, {}, {}, request.through};
   require(portrait.window, request);
-  const PlanarTracer tracer(portrait.field, portrait.plane, portrait.window);
+  const PlanarTracer tracer(portrait.plane, portrait.window);
   portrait.orbits = tracer.filling(request.orbits);
   if (request.highlight) {
     plane.end(*request.highlight);  // is one with a value

@@ -49,8 +49,7 @@ ReducedOrbits reduced_orbits(const reduction::Flow& flow, reduction::State start
   return from;
 }
 
-ReducedOrbits reduced_orbits(const reduction::PlanarField& field, const reduction::PlanarReduction& plane,
-                             const Vector2d& start) {
+ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vector2d& start) {
   if (plane.kind() == "bordered") throw std::domain_error("the field has borders or jumps: its sectors are not drawn");
   if (start == plane.centre() || plane.star()) refuse_ray();
   const auto [q, p, slope] = plane.canonical(start);
@@ -75,7 +74,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarField& field, const reductio
     if (points.size() < 2) return Polyline();
     const Point &a = points[points.size() / 2 - 1], &b = points[points.size() / 2];
     const Vector2d here = plane.point(a.x, a.y), next = plane.point(b.x, b.y);
-    if (field(here).dot(next - here) < 0) std::ranges::reverse(points);
+    if (plane.field()(here).dot(next - here) < 0) std::ranges::reverse(points);
     return points;
   };
   ReducedOrbits from{.start = {q, p}, .orbit = {}};

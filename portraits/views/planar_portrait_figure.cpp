@@ -117,7 +117,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     const auto drift = [&](Point at) -> std::optional<Drift> {
       Vector2d rate;
       try {
-        rate = portrait.field({at.x, at.y});
+        rate = portrait.plane.field()({at.x, at.y});
       } catch (const std::exception&) {
         return std::nullopt;
       }

@@ -9,9 +9,9 @@ namespace contensou::portraits {
 using Eigen::Vector2d;
 using std::numbers::pi;
 
-Figure reduction_figure(const reduction::PlanarField& field, const reduction::PlanarReduction& plane,
-                        const Vector2d& start, const std::string& name, const AskedSize& size) {
-  const ReducedOrbits from = reduced_orbits(field, plane, start);
+Figure reduction_figure(const reduction::PlanarReduction& plane, const Vector2d& start, const std::string& name,
+                        const AskedSize& size) {
+  const ReducedOrbits from = reduced_orbits(plane, start);
   const double p = from.start.y;
   Panel in_plane, strip;
   const Vector2d centre = plane.centre();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contensou/portraits/layout.hpp"
+#include "data/widest_gaps.hpp"
 #include "views/portrait_panel.hpp"
 
 namespace contensou::portraits {
@@ -31,19 +32,10 @@ void PortraitPanel::add_copies(const std::function<std::vector<Copy>(const Portr
 }
 
 std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& flow, bool mirrored) {
-  constexpr double gap_mm = 4, first = 1e3;
+  constexpr double gap_mm = 4;
   constexpr std::size_t max_count = 60;
-  struct Seed {
-    Point at;  ///< on paper
-    Instant state;
-    const reduction::SimilarityCurve* sector;  ///< between two invariant half-lines, which no orbit crosses
-    double border = first;                     ///< mm to another sector, twice
-    double gap = first;                        ///< mm to the nearest line of its sector, or to the border
-  };
-  const auto distance = [mm = drawing_.panel_mm](Point a, Point b) {
-    return std::hypot((a.x - b.x) * mm.x, (a.y - b.y) * mm.y);
-  };
-  std::vector<Seed> seeds;
+  using Gaps = WidestGaps<const reduction::SimilarityCurve*, Instant>;
+  std::vector<Gaps::Seed> seeds;
   constexpr int columns = 48, rows = 32;
   for (int i = mirrored ? columns / 2 : 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
@@ -53,26 +45,17 @@ std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& f
       }
     }
   }
-  for (Seed& seed : seeds) {
-    for (const Seed& other : seeds) {
-      if (other.sector != seed.sector) seed.border = std::min(seed.border, 2 * distance(seed.at, other.at));
-    }
-    seed.gap += seed.border;  // a sector has one orbit at least, in its middle
-  }
+  Gaps gaps(std::move(seeds), {drawing_.panel_mm.x, drawing_.panel_mm.y});
   std::vector<Copy> copies;
-  while (!seeds.empty() && copies.size() < max_count) {
-    const Seed widest = *std::ranges::max_element(seeds, {}, &Seed::gap);
+  while (!gaps.empty() && copies.size() < max_count) {
+    const Gaps::Seed widest = gaps.widest();
     if (widest.gap < gap_mm) break;
     constexpr double upstream = 12;
     copies.push_back({traced_.emplace_back(orbit_through(flow, widest.state.ln_k, widest.state.ln_v, upstream))});
     for (const Polyline& part : clipped(panel_, line_of(copies.back()).line)) {
-      for (const Point& at : on_paper_along(part, 0.01)) {
-        for (Seed& seed : seeds) {
-          if (seed.sector == widest.sector) seed.gap = std::min({seed.gap, seed.border, distance(seed.at, at)});
-        }
-      }
+      for (const Point& at : on_paper_along(part, 0.01)) gaps.pass(widest.sector, at);
     }
-    std::erase_if(seeds, [&](const Seed& seed) { return seed.gap < gap_mm; });
+    gaps.drop_below(gap_mm);
     if (mirrored) copies.push_back({traced_.back(), 1, -1});
   }
   return copies;

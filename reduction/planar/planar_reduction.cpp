@@ -261,10 +261,13 @@ PlanarCanonical ScalingSolution::canonical(const Vector2d& x) const {
 }
 
 double ScalingSolution::end_time_error(const Vector2d& x) const {
-  const double time = orbit(x)->end_time;
+  const auto time_from = [&x](const ScalingSolution& solution) {
+    const auto [n, p] = solution.section.canonical(x);
+    return solution.end_time(solution.place(n), p);
+  };
   constexpr double other = 1.37, margin = 8, least = 1e-13;
   const ScalingSolution again(field, scaling, centre + other * (x - centre), noise);
-  return std::max(least, margin * std::abs(again.orbit(x)->end_time / time - 1));
+  return std::max(least, margin * std::abs(time_from(again) / time_from(*this) - 1));
 }
 
 std::optional<double> ScalingSolution::first_integral(const Vector2d& x) const {

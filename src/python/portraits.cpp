@@ -224,7 +224,7 @@ Portrait portrait_of_plane(const Planar& planar, const std::string& system, cons
   PortraitStyle looks = style_of(arrows, axes, colour, style, size);
   looks.field = one_of<Field>("field", "fields", {{"none", Field::none}, {"motion", Field::motion}}, field);
   return interruptible([&]() -> Portrait {
-    portraits::PlanarPortrait data = portraits::planar_portrait(planar.field, planar.solved(), system, asked);
+    portraits::PlanarPortrait data = portraits::planar_portrait(planar.solved(), system, asked);
     Figure figure = titled(portraits::draw(data, looks), title, size);
     return {std::move(figure),
             [data = std::move(data)] { return portraits::to_json(data, {.version = CONTENSOU_VERSION}); }};

@@ -24,7 +24,7 @@ PlanarPortrait portrait_of(const PlanarField& field, const PlanarPortraitRequest
   const Vector2d around(1, 1);
   const reduction::PlanarSymmetries found = reduction::find_symmetries(field, around);
   REQUIRE(found.scaling);
-  return planar_portrait(field, PlanarReduction(field, *found.scaling, around, found.residual), "a system", request);
+  return planar_portrait(PlanarReduction(field, *found.scaling, around, found.residual), "a system", request);
 }
 
 /// That every step of the orbits goes along the field, in the window and in the time that it says.

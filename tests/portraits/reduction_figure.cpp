@@ -50,7 +50,7 @@ void check_shifts(const Figure& figure) {
 Figure figure_of(const Eigen::Matrix2d& matrix, const Vector2d& start) {
   const reduction::PlanarField field = [matrix](const Vector2d& x) { return Vector2d(matrix * x); };
   const reduction::Generator scaling{0, Eigen::Matrix2d::Identity(), Vector2d::Zero()};
-  return reduction_figure(field, reduction::PlanarReduction(field, scaling, start), start, "linear");
+  return reduction_figure(reduction::PlanarReduction(field, scaling, start), start, "linear");
 }
 
 Eigen::Matrix2d matrix(double a, double b, double c, double d) { return (Eigen::Matrix2d() << a, b, c, d).finished(); }
@@ -171,7 +171,7 @@ TEST_CASE("a scaling with two weights moves along curves", "[exact]") {
   };
   const reduction::Generator scaling{0.5, matrix(1, 0, 0, 0.5), Vector2d::Zero()};
   const Vector2d start(1, 2);
-  const Figure figure = reduction_figure(field, reduction::PlanarReduction(field, scaling, start), start, "weights");
+  const Figure figure = reduction_figure(reduction::PlanarReduction(field, scaling, start), start, "weights");
   check_shifts(figure);
   const auto in_plane = by_size(figure.panels[0]);
   for (std::size_t i = 0; i < 7; ++i) {

@@ -207,7 +207,7 @@ ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, co
     answer.members.update({{"rays", rays}, {"kind", kind.empty() ? Json() : Json(kind)}});
     if (!plane.undecided().empty()) answer.members["undecided"] = plane.undecided();
     if (integral && !kind.empty() && kind != "bordered") {
-      answer.members.update(strip_members(portraits::reduced_orbits(field, plane, start), "q", [&](const Vector2d& x) {
+      answer.members.update(strip_members(portraits::reduced_orbits(plane, start), "q", [&](const Vector2d& x) {
         const auto there = plane.orbit(x);
         return there.end() == PlanarEnd::centre ? there.end_time() : infinity;
       }));

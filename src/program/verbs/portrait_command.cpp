@@ -213,7 +213,7 @@ class PortraitCommand final : public Verb {
     if (request.highlight && !request.highlight->isZero(0)) around = *request.highlight;
     const auto plane = system_.solve(field, around);
     if (!plane) return ExitStatus::check_failed;
-    const portraits::PlanarPortrait portrait = portraits::planar_portrait(field, *plane, system_.text(), request);
+    const portraits::PlanarPortrait portrait = portraits::planar_portrait(*plane, system_.text(), request);
     if (output.picture()) {
       style_.size = figure_.size();
       output.write({figure_.apply(portraits::draw(portrait, style_), output.format)});

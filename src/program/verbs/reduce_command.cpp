@@ -39,7 +39,7 @@ class ReduceCommand final : public Verb {
     if (!output.picture()) return write(reduce_answer(field, system_.text(), start), output);
     const auto plane = system_.solve(field, start);
     if (!plane) return ExitStatus::check_failed;
-    return draw(portraits::reduction_figure(field, *plane, start, system_.text(), figure_.size()), output);
+    return draw(portraits::reduction_figure(*plane, start, system_.text(), figure_.size()), output);
   }
 
   static ExitStatus write(const ReduceAnswer& reduced, const Output& output) {

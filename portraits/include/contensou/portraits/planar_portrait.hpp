@@ -27,7 +27,6 @@ struct PlanarPortraitOrbit {
 /// The plane of any system solved by its scaling, as data; nothing here is drawn.
 struct PlanarPortrait {
   std::string name;  ///< of the system
-  reduction::PlanarField field;
   reduction::PlanarReduction plane;
   PlanarWindow window;
   std::vector<PlanarPortraitOrbit> orbits;
@@ -53,11 +52,10 @@ struct PlanarPortraitRequest {
 /// Computes the portrait: each orbit is one curve of its sector, moved by the scaling, and goes through the middle of the
 /// widest gap that is left; so is each isochrone. No steps in time.
 ///
-/// @param field  of `plane`
-/// @param name   of the system, for titles
+/// @param name  of the system, for titles
 /// @throws std::domain_error  if the window is empty or not finite, for a point out of it or without a value of the
 ///                            field, and if a number is negative
-PlanarPortrait planar_portrait(reduction::PlanarField field, const reduction::PlanarReduction& plane, std::string name,
+PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::string name,
                                const PlanarPortraitRequest& request = {});
 
 /// The portrait as JSON: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}],

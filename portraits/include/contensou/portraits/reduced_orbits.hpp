@@ -35,9 +35,7 @@ inline constexpr std::array copy_shifts{-3 * std::numbers::ln2, -2 * std::number
 ReducedOrbits reduced_orbits(const reduction::Flow& flow, reduction::State start);
 
 /// Of any system solved by its scaling, with q and p of PlanarCanonical; q goes on beyond pi.
-/// @param plane  of the field
 /// @throws std::domain_error  for a start on a ray or at the centre, and for a field with borders
-ReducedOrbits reduced_orbits(const reduction::PlanarField& field, const reduction::PlanarReduction& plane,
-                             const Eigen::Vector2d& start);
+ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start);
 
 }  // namespace contensou::portraits

@@ -20,10 +20,9 @@ Figure reduction_figure(const reduction::Flow& flow, reduction::State start, con
 /// The same for any system solved by its scaling, in the plane about its centre and the strip of PlanarCanonical, beside
 /// one grey orbit in each of the other sectors.
 ///
-/// @param plane  of the field
 /// @param name   of the system
 /// @throws std::domain_error  for a start on a ray or at the centre, and for a field with borders
-Figure reduction_figure(const reduction::PlanarField& field, const reduction::PlanarReduction& plane,
-                        const Eigen::Vector2d& start, const std::string& name, const AskedSize& size = {});
+Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start, const std::string& name,
+                        const AskedSize& size = {});
 
 }  // namespace contensou::portraits
