@@ -83,7 +83,7 @@ TEST_CASE("isochrones of dry friction of degree -1/2 are circles", "[physics]") 
       CHECK(std::pow(r, 1.5) == Approx(1.5 * isochrone.tau_stop).epsilon(1e-11));
     }
   }
-  CHECK(portrait_of(portrait.field, {.isochrones = 0}).isochrones.empty());
+  CHECK(portrait_of(portrait.plane.field(), {.isochrones = 0}).isochrones.empty());
   // A linear system takes for ever.
   CHECK(portrait_of([](const Vector2d& x) -> Vector2d { return -x; }).isochrones.empty());
 }
