@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._law import Law, LawLike, body_of, law as law_of
-from ._numbers import needs, number, numbers, target_of, text, thread_count, whole
+from ._numbers import needs, number, numbers, target, text, thread_count, whole
 
 
 class Event(NamedTuple):
@@ -78,8 +78,7 @@ class Ball:
             known["velocity"], known["angular_velocity"] = core.start
         derived = {"gravity": core.gravity, "slip": core.slip, "spin": core.spin}
         law = law_of(core.law if self.law is None else self.law)
-        for key, value in {**derived, **known, "law": law, "_experiment": core}.items():
-            object.__setattr__(self, key, value)
+        vars(self).update({**derived, **known, "law": law, "_experiment": core})
 
     def _given(self) -> dict[str, Any]:
         """The fields that say all."""
@@ -512,7 +511,7 @@ class Rolls:
         self.ball, self.starts, self.law = ball, np.ascontiguousarray(starts), law
         self.rolling_below, self.rolling_friction, self.threads = rolling_below, rolling_friction, threads
         self._core = _core.Shots(ball._experiment, law._core, rolling_below, rolling_friction)
-        self.events = self._events(np.empty(len(self), self.dtype) if out is None else target_of(out, (len(self),), self.dtype))
+        self.events = self._events(np.empty(len(self), self.dtype) if out is None else target(out, (len(self),), self.dtype))
 
     def _events(self, out: NDArray[Any]) -> NDArray[Any]:
         into = out if out.flags.c_contiguous else np.empty(len(self), self.dtype)

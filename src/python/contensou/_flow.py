@@ -144,9 +144,7 @@ class Flow:
     ) -> None:
         of = None if law is None else law_of(law)
         core = core_flow(mu, of, body, drive)
-        known = {"mu": core.mu, "law": of or Law(core.law.name), "body": body_of(body), "drive": core.drive, "_core": core}
-        for name, value in known.items():
-            object.__setattr__(self, name, value)
+        vars(self).update(mu=core.mu, law=of or Law(core.law.name), body=body_of(body), drive=core.drive, _core=core)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Flow, (self.mu, self.law, self.body, self.drive)

@@ -76,14 +76,9 @@ def whole(name: str, given: Any) -> int:
         raise TypeError(f"{name}: a whole number is needed, got {given!r:.60}") from None
 
 
-def target(out: Any, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """An array to write results of that shape into.
+def target(out: Any, shape: tuple[int, ...], dtype: np.dtype[Any] = np.dtype(np.float64)) -> NDArray[Any]:
+    """Returns an array to write results of that shape into.
     Raises TypeError or ValueError for anything else."""
-    return target_of(out, shape, np.dtype(np.float64))
-
-
-def target_of(out: Any, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """The same for results of any dtype."""
     words = str(dtype) if dtype.fields is None else f"a row of {', '.join(dtype.names or ())}"
     if not isinstance(out, np.ndarray):
         raise TypeError(f"out: an array of NumPy is needed, {words} of shape {shape}, got {type(out).__name__}")

@@ -15,8 +15,6 @@ from ._law import Body, LawLike, core_flow, law as law_of
 from ._numbers import flag, needs, number, numbers, text, whole
 
 _widths = {"single": 85.0, "double": 170.0}
-
-
 _kinds: dict[str, Callable[[str, Any], Any]] = {
     **dict.fromkeys(("view", "arrows", "field", "colour", "style", "scale", "title", "font"), text),
     **dict.fromkeys(("axes", "estimate"), flag), **dict.fromkeys(("u", "v", "dpi"), number), "orbits": whole}
