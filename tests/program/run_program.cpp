@@ -61,6 +61,10 @@ Run run_program(const std::vector<std::string>& arguments, std::string_view inpu
                 const std::function<void()>& prepare) {
   std::vector<std::string> words{CONTENSOU_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_command(words, input, prepare);
+}
+
+Run run_command(std::vector<std::string> words, std::string_view input, const std::function<void()>& prepare) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -74,7 +78,7 @@ Run run_program(const std::vector<std::string>& arguments, std::string_view inpu
   if (child == 0) {
     const bool ready = ::dup2(::fileno(in.get()), 0) == 0 && ::dup2(out[1], 1) == 1 && ::dup2(err[1], 2) == 2;
     prepare();
-    if (ready) ::execv(CONTENSOU_PROGRAM, argv.data());
+    if (ready) ::execv(argv[0], argv.data());
     ::_exit(99);
   }
   ::close(out[1]);

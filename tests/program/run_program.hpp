@@ -21,6 +21,9 @@ Run run_program(
     const std::vector<std::string>& arguments, std::string_view input = {},
     const std::function<void()>& prepare = [] {});
 
+/// The same of any program, whose path is the first word.
+Run run_command(std::vector<std::string> words, std::string_view input, const std::function<void()>& prepare);
+
 /// The same for arguments without spaces, written as on a command line.
 Run run_program(const std::string& arguments, std::string_view input = {});
 
