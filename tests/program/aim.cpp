@@ -152,39 +152,6 @@ TEST_CASE("what the lines of aim's picture say is what its points need", "[figur
   check_rejected("aim --ball pool --distance 1 --turns 1 --size 80x60", "--size");
 }
 
-TEST_CASE("what aim cannot reach, and what it refuses", "[cli][errors]") {
-  // f g T^2/2 and its limits: a puck that does not spin, and one that does nothing else.
-  check_rejected(
-      "aim --ball puck --distance 20m --time 2s",
-      "no start comes to 20 m in 2 s: that takes 6.3866 s or more, and in 2 s it comes to 1.96133 m at most, "
-      "without spin");
-  check_rejected("aim --ball pool --turns 3 --time 0.2",
-                 "no start comes to 3 turns in 0.2 s: that takes 1.94163 s or more, and in 0.2 s it comes to 0.031831 "
-                 "turns at most, in place");
-  check_rejected("aim --ball pool --turns 3", "two of distance, turns and time decide a start, got 1: give one more");
-  check_rejected("aim --ball pool --turns 3 --time 1s --distance 1m", "got 3: leave one out");
-  check_rejected("aim --ball pool --distance -1 --time 1", "--distance -1: a value >= 0 is needed, in m");
-  check_rejected("aim --ball pool --distance 1kg --time 1", "'1kg'");
-  check_rejected("aim --distance 1 --time 1", "--ball");
-  check_rejected("aim --ball pool --rolls-at 1", "--rolls-at and --rolling-speed are needed together");
-  check_rejected("aim --ball pool --rolls-at 1 --rolling-speed 1 --turns 2",
-                 "--turns and --rolls-at, --rolling-speed exclude each other");
-  check_rejected("aim --ball pool --rolls-at 1 --rolling-speed 1 -o x.svg", "a picture is of --distance");
-  check_rejected("aim --ball pool --rolls-at 0 --rolling-speed 1", "--rolls-at 0: a value > 0 is needed, in m");
-  check_rejected("aim --ball pool --rolls-at 1 --rolling-speed -1",
-                 "--rolling-speed -1: a value >= 0 is needed, in m/s");
-  check_rejected("aim --ball pool --rolls-at 1e300 --rolling-speed 1", "too far apart for a double");
-  check_rejected("aim --ball puck --rolls-at 1 --rolling-speed 1", "never rolls");
-  check_rejected("aim --ball pool --rolling-friction 0.01 --rolls-at 1 --rolling-speed 1", "--rolling-friction 0");
-  check_rejected("aim --ball pool --slope 2 --rolls-at 1 --rolling-speed 1", "aim knows no slope");
-  check_rejected("aim --ball pool --slope 2 --distance 1 --time 1", "aim knows no slope");
-  check_rejected("aim --ball pool --rolling-friction 0.01 --distance 1 --time 1", "may have two starts");
-  check_rejected("aim --ball pool --rolling-friction 0.01 --distance 1 --turns 1 -o x.svg",
-                 "the plane of aims knows neither rolling friction nor a slope");
-  check_rejected("aim --ball pool --rolling-friction 0.01 --turns 100 --time 1",
-                 "no start comes to 100 turns in 1 s: that takes ");
-}
-
 TEST_CASE("aim with rolling friction: the motion from its start comes to the goal", "[cli]") {
   const auto motion_from = [](const nlohmann::json& aimed) {
     return json_of(

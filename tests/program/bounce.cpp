@@ -59,18 +59,6 @@ TEST_CASE("columns of a bounce stand apart, and its angle is right at any speed"
   }
 }
 
-TEST_CASE("bounce says what it misses and what it does not know of", "[cli][bounce]") {
-  check_rejected("bounce --ball pool --restitution 0.5", "--normal-speed missing: give it, or --drop LENGTH");
-  check_rejected("bounce --ball pool --drop 1", "--restitution missing");
-  check_rejected("bounce --ball pool --drop 1 --normal-speed 2 --restitution 1", "exclude each other");
-  check_rejected("bounce --ball pool --drop 1 --restitution 1.5", "0 to 1 is needed");
-  check_rejected("bounce --ball pool --normal-speed -1 --restitution 1", "above 0");
-  check_rejected("bounce --ball pool --drop 0 --restitution 1", "above 0");
-  check_rejected("bounce --ball puck --drop 1 --restitution 1", "lies flat and never rolls");
-  check_rejected("bounce --ball gel --normal-speed 30 --restitution 1",
-                 "an impact at a normal speed of 30 m/s presses a patch of 0.0596 m");
-}
-
 TEST_CASE("stop and orbit follow a load that changes, as roll does", "[cli][load]") {
   const TemporaryDirectory folder;
   const std::string table = folder.file("lift.csv");

@@ -97,12 +97,6 @@ TEST_CASE("check as JSON and CSV", "[cli]") {
   CHECK(csv.out.starts_with("law,check,measured,allowed,verdict\n"));
 }
 
-TEST_CASE("rest cannot be checked", "[cli]") {
-  const Run run = run_program("check --mu 0.1 --u0 0 --v0 0");
-  CHECK(run.status == 2);
-  CHECK(run.out.empty());
-}
-
 TEST_CASE("a table of the exact motion passes, to all digits", "[cli]") {
   for (const std::string start : {"--slip 2 --spin 50", "--slip 2 --spin 0", "--slip 0 --spin -50"}) {
     const std::string motion = run_program("roll --ball gel --samples 60 " + start).out;
@@ -232,13 +226,6 @@ TEST_CASE("--slip and --spin are the start in place of the first row's", "[cli]"
 }
 
 TEST_CASE("mistakes in a table that is checked", "[cli]") {
-  const std::string good = "t,slip,spin\n0,1,10\n1,0,0\n";
-  check_rejected("check --against -", "--against -: slip and spin are those of a ball in SI units: add --ball", good);
-  check_rejected("check --mu 0.1 --against -", "add --ball", good);
-  check_rejected("check --mu 0.1 --ball pool --against -", "exclude each other", good);
-  check_rejected("check --ball pool --body disc --against -", "--ball says its body itself", good);
-  check_rejected("check --ball pool --tolerance 0 --against -", "--tolerance 0: a share above 0 is needed", good);
-  check_rejected("check --ball pool --tolerance 0.1", "--tolerance is for a table: add --against FILE");
   const std::vector<std::pair<std::string, std::string>> tables{
       {"", "<stdin>:1: empty input"},
       {"t,slip\n0,1\n", "<stdin>:1: no column is called 'spin'"},

@@ -120,12 +120,3 @@ TEST_CASE("rolling friction as large as friction, and larger, holds the ball: it
           Approx(json_of("roll --route integrated" + ball).at("integrated").at("t_stop").get<double>()).epsilon(1e-6));
   }
 }
-
-TEST_CASE("what is no drive is refused", "[cli][errors]") {
-  check_rejected("stop --mu 0.1 --u0 1 --v0 1 --drive 1", "--drive 1: friction is at most 1 in this unit");
-  check_rejected("stop --mu 0.1 --u0 1 --v0 1 --drive -0.1", "against the slip");
-  check_rejected("stop --mu 0.1 --u0 1 --v0 1 --drive 1e-200", "0, or 1e-100 or more");
-  check_rejected("stop --ball pool --drive 0.1", "exclude each other");
-  check_rejected("stop --mu 0.1 --u0 1 --v0 1 --drive 0.1 --estimate", "no estimate with a drive");
-  check_rejected("stop --mu 0.1 --u0 1 --v0 1 --drive 0.1 --route closed", "does not have this route");
-}

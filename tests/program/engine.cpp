@@ -101,13 +101,3 @@ TEST_CASE("a program that stands on an engine is told which", "[cli]") {
   CHECK_THAT(unity.err, Contains("note: Unity's built-in 3D physics stands on PhysX"));
   CHECK(unity.out == run_program("engine physx --ball pool").out);
 }
-
-TEST_CASE("an engine that is not known is told the nearest", "[cli]") {
-  const Run run = run_program("engine mujuco --ball pool");
-  CHECK(run.status == 2);
-  CHECK(run.out.empty());
-  CHECK_THAT(run.err, Contains("no such engine") && Contains("did you mean 'mujoco'") && Contains("pooltool"));
-  const Run without_ball = run_program("engine mujoco");
-  CHECK(without_ball.status == 2);
-  CHECK_THAT(without_ball.err, Contains("--ball missing"));
-}

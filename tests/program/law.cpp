@@ -49,14 +49,6 @@ TEST_CASE("a law's name that is no UTF-8", "[cli]") {
   }
 }
 
-TEST_CASE("law as JSON", "[cli]") {
-  const auto law = json_of("law --k 1,inf --format json");
-  CHECK(law.at("schema") == 1);
-  CHECK(law.at("law") == "exact");
-  CHECK(law.at("k").at(1) == "inf");
-  CHECK(law.at("phi").at(1) == 1);
-}
-
 TEST_CASE("law by every name, by exponent and by table", "[cli]") {
   const TemporaryDirectory scratch;
   write_file(scratch.file("flat.csv"), "# flat\nrho,pressure\n0,3\n0.5,3\n1,3\n");
@@ -124,15 +116,6 @@ TEST_CASE("every verb takes every law", "[cli]") {
   }
 }
 
-TEST_CASE("a table that no speed of the curves resolves is a numerical failure with a way out", "[cli]") {
-  const TemporaryDirectory scratch;
-  write_file(scratch.file("dot.csv"), "rho,pressure\n0,1\n1e-13,1\n1e-13,0\n1,0\n");
-  const Run run = run_program("stop --mu 0.1 --u0 1 --v0 1 --law " + scratch.file("dot.csv"));
-  CHECK(run.status == 3);
-  CHECK(run.out.empty());
-  CHECK_THAT(run.err, Contains("dot.csv") && Contains("1e-11") && Contains("radius of the loaded part"));
-}
-
 TEST_CASE("a picture of a law shows that law; the paper's two are compared", "[cli]") {
   const auto curves = [](const std::string& arguments) {
     const std::string script = run_program("law " + arguments + " -o - --format gp").out;
@@ -194,34 +177,4 @@ TEST_CASE("a law typed in as formulas gives the numbers of the law that it is", 
     CHECK(std::stod(rows[i][3]) == Approx(std::stod(own[i][3])).epsilon(1e-12));
   CHECK_THAT(run_program(with_law({"law", "--k", "0,inf"}, "psi = 1/(2+k); phi = k/(2 + k)")).out,
              Contains("0,0,0.5\ninf,1,0\n"));
-}
-
-TEST_CASE("formulas that are no law of friction are refused with what was measured, or where", "[cli]") {
-  const auto rejected = [](const std::string& law, const std::string& words,
-                           const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = with_law({"stop", "--mu", "0.3", "--u0", "1", "--v0", "1"}, law);
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Run run = run_program(arguments);
-    INFO(law << "\n" << run.err);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains("--law") && Contains(words));
-  };
-  rejected("phi = k/(1+k)", "psi = is missing: a law is \"phi = F; psi = G\"");
-  rejected("phi = k/(1+k; psi = 1/(1+k)", "'(' is not closed, at character 9 of");
-  rejected("phi = k/(1+k); psi = 1/(1+v)", "'v': dry friction depends on the ratio k = v/(mu |u|) alone");
-  rejected("phi = k/(a+k); psi = 1/(1+k)", "'a' is no variable");
-  rejected("phi = k/(1+k); psi = 1/(1+k)", "no formula of", {"--param", "b=1"});
-  rejected("phi = 2*k/(1+k); psi = 1/(1+k)", "Phi must be 1 in pure sliding, got 2");
-  rejected("phi = 1; psi = 1/(1+k)", "Phi must grow in proportion to k");
-  rejected("phi = sqrt(k/(1+k)); psi = 1/(1+k)", "Phi/k is 1073741824 at k = 2^-60");
-  rejected("phi = 1-1/(1+k); psi = 1/(1+k)", "write it without the difference");
-  rejected("phi = k/(1+k); psi = 1", "k Psi must have a limit for fast sliding");
-  rejected("phi = k/(1+k); psi = 1/(1+k) - 0.3", "friction resists: phi and psi must be positive and finite");
-  rejected("pade", "--param is for formulas", {"--param", "a=1"});
-  check_rejected("stop --mu 0.3 --u0 1 --v0 1 --param a=1", "--param is for formulas");
-  check_rejected(
-      "law --law pressure:t\x1e"
-      "er",
-      "--law pressure:t\\x1eer: 't\\x1eer' is not a number");
 }

@@ -150,15 +150,6 @@ TEST_CASE("a ball has seconds in its last column", "[cli]") {
   CHECK(std::stod(rows[2].back()) == json_of("stop --ball pool --format json").at("t_stop").get<double>());
 }
 
-TEST_CASE("orbit as JSON says infinity as a string", "[cli]") {
-  const auto orbit = json_of("orbit --law pade --mu 0.3 --u0 1 --v0 1 --samples 3 --format json");
-  CHECK(orbit.at("schema") == 1);
-  CHECK(orbit.at("tau").size() == 3);
-  CHECK(orbit.at("ln_v").at(2) == "-inf");
-  CHECK(orbit.at("beta").at(2) == "inf");
-  CHECK(orbit.at("u").at(0) == 1);
-}
-
 TEST_CASE("motions along the axes and at rest", "[limit]") {
   for (const std::string start : {"--u0 0 --v0 1", "--u0 1 --v0 0", "--u0 0 --v0 0"}) {
     for (const std::string route : {"closed", "regularised", "direct"}) {

@@ -204,7 +204,6 @@ TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
   const Run script = with({"--through", "-0.5,-1", "--field", "--format", "gp", "-o", "-"});
   CHECK(script.status == 0);
   CHECK_THAT(script.out, Contains("through the points given") && Contains("direction of the motion"));
-
   const TemporaryDirectory scratch;
   const auto rejected = [&](const std::vector<std::string>& more, int status, const std::string& words) {
     std::vector<std::string> all{"portrait", "--system", "u' = -u; v' = -3*v", "-o", scratch.file("p.gp")};
@@ -222,7 +221,6 @@ TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
   rejected({"--window", "1:0,1:2"}, 2, "--window 1:0,1:2: a side");
   rejected({"--window", "1:2"}, 2, "--window 1:2: a window is U,V or U1:U2,V1:V2");
   rejected({"--window", "1,1", "--through", "3,0"}, 2, "(3, 0) lies outside the window -1 to 1 by -1 to 1");
-  check_rejected("portrait --mu 0.3 --param a=1", "--param is for formulas");
   const Run none = run_program({"portrait", "--system", "u' = -u - u^3; v' = 1 - v*v", "-o", scratch.file("p.gp")});
   CHECK(none.status == 1);
   CHECK_THAT(none.err, Contains("no scaling was found") && Contains("least singular value") && Contains("reduce"));

@@ -30,14 +30,6 @@ Json json_of_system(const std::string& system, std::vector<std::string> more = {
   return Json::parse(run.out);
 }
 
-void check_rejected_system(const std::string& system, const std::string& words) {
-  const Run run = reduce(system);
-  INFO(system);
-  CHECK(run.status == 2);
-  CHECK(run.out.empty());
-  CHECK_THAT(run.err, StartsWith("contensou: --system: ") && Contains(words));
-}
-
 }  // namespace
 
 TEST_CASE("reduce finds the symmetry of the paper's system, and all routes agree", "[cli]") {
@@ -206,45 +198,6 @@ TEST_CASE("formulas: bars, functions, constants and parameters", "[cli]") {
     INFO(formula);
     CHECK(time_of(formula).get<double>() == Approx(reference.get<double>()).epsilon(1e-13));
   }
-}
-
-TEST_CASE("mistakes in formulas: what, where, and a way out", "[cli]") {
-  check_rejected_system("u' = -u/hypt(u,v); v' = 1",
-                        "'hypt' is no variable, parameter or function (did you mean 'hypot'?)");
-  check_rejected_system("u' = -u/hypt(u,v); v' = 1", "at character 9 of 'u' = -u/hypt(u,v); v' = 1'");
-  check_rejected_system("u' = a*u; v' = |v|*b", "--param a=VALUE");
-  check_rejected_system("u' = |u|; v' = |v|*b", "at character 20");
-  check_rejected_system("u' = |u; v' = 1", "'|' is not closed, at character 6");
-  check_rejected_system("u' = u|; v' = 1", "'|' closes nothing");
-  check_rejected_system("u' = (u; v' = 1", "'(' is not closed, at character 6");
-  check_rejected_system("u' = u*; v' = 1", "at character 8");
-  check_rejected_system("u' = 1,5; v' = 1", "a decimal point is a point");
-  check_rejected_system("u' = u", "v' = is missing: a system is \"u' = F; v' = G\"");
-  check_rejected_system("w' = u; v' = 1", "u' = or v' = is missing");
-  check_rejected_system("u' = u; u' = 1", "u' stands there twice: ");
-  check_rejected_system("", "u' = or v' = is missing");
-  check_rejected_system("u' = sqrt|u|; v' = 1", "sqrt needs brackets: type sqrt(|u|), at character 6");
-  check_rejected_system("u\u2032 = u; v' = 1", "the letter '\u2032' (U+2032) has no meaning here; type '");
-  check_rejected_system("u' = -u; v' = -_pi*v", "'_pi' is no variable, parameter or function (did you mean 'pi'?)");
-  CHECK_THAT(reduce("u' = 0/0; v' = 1").err, Contains("the field has values and differences at 0 of 128 points"));
-}
-
-TEST_CASE("reduce rejects what makes no sense", "[cli]") {
-  check_rejected("reduce --mu 0.3 --u0 0 --v0 0", "a start other than rest");
-  check_rejected("reduce --mu 0.3 --u0 1 --v0 -1", "--v0 -1: a sliding speed is >= 0");
-  check_rejected("reduce --mu 0.3 --u0 1 --v0 1 --param a=1", "--param is for formulas");
-  const std::string system = "reduce --system u'=u;v'=v";
-  check_rejected(system + " --mu 0.3 --u0 1 --v0 1", "--system and --mu exclude each other");
-  check_rejected(system + " --ball pool", "--system and --ball exclude each other");
-  check_rejected(system + " --law pade --u0 1 --v0 1", "--system and --law exclude each other");
-  check_rejected(system + " --u0 1", "--v0 missing");
-  check_rejected(system + " --u0 0 --v0 0", "a start other than u = v = 0");
-  check_rejected(system + " --u0 1 --v0 1 --param a=1", "no formula of 'u'=u;v'=v' has the parameter 'a'");
-  check_rejected(system + " --u0 1 --v0 1 --param a", "a parameter is NAME=VALUE");
-  check_rejected(system + " --u0 1 --v0 1 --param a=x", "'x' is not a number");
-  check_rejected(system + " --u0 1 --v0 1 --param u=1", "'u' cannot name a parameter");
-  check_rejected(system + " --u0 1 --v0 1 --param sin=1", "'sin' cannot name a parameter");
-  check_rejected(system + " --u0 1 --v0 1 --param a=1 --param a=2", "'a' is given twice");
 }
 
 TEST_CASE("reduce draws plane and strip where the ending is a picture's", "[cli]") {

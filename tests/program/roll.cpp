@@ -303,12 +303,6 @@ TEST_CASE("a batch of motions has the events of each", "[cli]") {
   check("spin,note,slip\n100,a,1\n0,b,2\n-50,c,0\n", 3,
         {"--slip 1 --spin 100", "--slip 2 --spin 0", "--slip 0 --spin -50"});
   check("vx,vy,wx,wy,wz\n1,0,40,35,-50\n", 5, {"--velocity 1,0 --angular-velocity 40,35,-50"});
-  check_rejected("roll --ball pool --batch -", "<stdin>:2: at speeds of 1e+300", "spin,slip\n1,1e300\n");
-  check_rejected("roll --ball pool --batch -", "no column is called 'slip'", "mu,u0,v0\n1,1,1\n");
-  check_rejected("roll --ball pool --batch - --until 1 --gradient --at 1 --spin 2", "exclude each other",
-                 "spin,slip\n1,1\n");
-  check_rejected("roll --ball pool --batch - --until 1 --gradient --samples 3 --spin 2",
-                 "leave out --until, --gradient, --samples, --spin\n", "spin,slip\n1,1\n");
   const Run kept = run_program("roll --ball pool --keep-going --batch -", "spin,slip\n1,-1\n1,1\n");
   CHECK(kept.status == 2);
   CHECK_THAT(kept.out, Contains("\n1,-1,,,,,,,,,\n1,1,0.1"));

@@ -8,16 +8,6 @@
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
-TEST_CASE("a run file's mistakes come with file, line and column", "[cli]") {
-  const TemporaryDirectory scratch;
-  const std::string file = scratch.file("ball.toml");
-  write_file(file, "[ball]\nmas = 1\n");
-  const Run run = run_program("stop --ball " + file);
-  CHECK(run.status == 2);
-  CHECK(run.out.empty());
-  CHECK_THAT(run.err, StartsWith(file + ":2:1: ") && Contains("did you mean 'mass'"));
-}
-
 TEST_CASE("what counts as a file", "[cli]") {
   CHECK(run_program("stop --ball nosuch.toml").status == 4);
   CHECK(run_program("stop --ball ./pool").status == 4);
@@ -173,8 +163,6 @@ TEST_CASE("a run file keeps a cloth: its rolling friction is that of roll", "[cl
 }
 
 TEST_CASE("a start is given in one way", "[cli]") {
-  check_rejected("stop --ball pool --slip 1 --velocity 1,0",
-                 "--slip and --velocity exclude each other: give slip and spin");
   CHECK_THAT(run_program("roll --ball pool --batch -", "slip,spin,wz\n5,7,1\n").err,
              StartsWith("<stdin>:1: columns slip, spin and vx, vy, wx, wy, wz exclude each other"));
   CHECK_THAT(run_program("check --ball pool --against -", "t,slip,spin,wz\n0,1,7,7\n1,0,5,6\n").err,

@@ -110,12 +110,3 @@ TEST_CASE("a puck on a slope", "[cli][slope]") {
   CHECK(number(stop, "drive") == Approx(std::tan(2 * M_PI / 180) / number(stop.at("ball"), "friction")).epsilon(1e-15));
   check_rejected("stop --ball puck --rolling-friction 0.01", "it has no rolling friction");
 }
-
-TEST_CASE("a ball that rolls but cannot go on rolling is none whose stop time is 0", "[cli][slope]") {
-  const std::string rolling =
-      " --ball pool --velocity 1,0 --angular-velocity 0,34.99562554680665,0 --rolling-friction ";
-  CHECK_THAT(run_program("stop" + rolling + "0.1").out, Contains("stop time 0"));
-  const Run refused = run_program("stop" + rolling + "0.3");
-  CHECK(refused.status == 2);
-  CHECK_THAT(refused.err, Contains("the whole motion (roll) is integrated"));
-}

@@ -171,8 +171,6 @@ TEST_CASE("overrides act as if the run file had said so", "[cli]") {
       CHECK(pure.at("t_stop").get<double>() == Approx(10).epsilon(1e-14));
     }
   }
-  check_rejected("stop --ball pool --spin-deceleration 1e6",
-                 "from its spin deceleration 1000000 rad/s^2, under law exact");
 }
 
 TEST_CASE("a known accuracy is in every format", "[cli]") {
@@ -286,14 +284,6 @@ TEST_CASE("data of a ball say which ball it is", "[cli]") {
   CHECK_THAT(run_program("roll --ball pool --samples 2").out,
              Contains("\n# ball: {\"name\": \"pool ball on cloth\", \"body\": \"ball\", \"radius\": 0.028575") &&
                  Contains("\n# version: \"0."));
-}
-
-TEST_CASE("the error under a pressure from a table is not promised", "[cli]") {
-  const TemporaryDirectory scratch;
-  write_file(scratch.file("p.csv"), "rho,pressure\n0,1\n0.5,2\n0.5,1\n1,0.2\n");
-  const std::string start = "stop --mu 1 --u0 1 --v0 1 --law ";
-  CHECK_THAT(run_program(start + scratch.file("p.csv")).out, Contains("numerical error some 2e-15 of it"));
-  CHECK_THAT(run_program(start + "ring").out, Contains("numerical error below 2e-15 of it"));
 }
 
 TEST_CASE("what interpolation of a pressure table may cost stands beside its stop time", "[cli]") {

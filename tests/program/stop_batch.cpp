@@ -219,8 +219,6 @@ TEST_CASE("a batch excludes what makes no sense with it", "[cli]") {
     check_rejected("stop --law pade --batch - " + other, "", "mu,u0,v0\n1,0,0\n");
   }
   CHECK(run_program("stop --keep-going --ball pool").status == 2);
-  check_rejected("stop --law pade --keep-going --batch - --route quick", "--route quick: no such route",
-                 "mu,u0,v0\n1,0,0\n");
   const Run missing = run_program("stop --batch - --law exact --route closed", "mu,u0,v0\n1,0,0\n");
   CHECK(missing.status == 2);
   CHECK_THAT(missing.err, StartsWith("<stdin>:2: ") && Contains("--route closed: law exact"));
@@ -350,10 +348,4 @@ TEST_CASE("a batch is written to a file whole or not at all", "[cli]") {
   CHECK(read_file(scratch.file("table.csv")) == "mu,u0,v0,tau_stop\n1,0,0,0\n");
   CHECK(scratch.names() == std::vector<std::string>{"table.csv"});
   CHECK(run_program("stop --batch " + scratch.path().string()).status == 4);
-}
-
-TEST_CASE("a table of the other kind of starts is told what it needs", "[cli]") {
-  check_rejected("stop --batch -", "<stdin>:1: columns slip, spin are in SI units: add --ball", "slip,spin\n1,2\n");
-  check_rejected("stop --ball pool --batch -", "roll --batch", "vx,vy,wx,wy,wz\n1,1,1,1,1\n");
-  check_rejected("stop --ball pool --batch -", "roll --batch", "slip,spin,vx\n1,1,1\n");
 }

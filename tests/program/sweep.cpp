@@ -69,16 +69,6 @@ TEST_CASE("a sweep of a ball is in SI", "[cli]") {
     CHECK(std::stod(rows[i][2]) == Approx(one.at("t_stop").get<double>()).epsilon(1e-14));
   }
   CHECK(run_program(sweep + " --format npy").out.size() == 128 + 6 * sizeof(double));
-  for (const auto& [arguments, words] : std::vector<std::pair<std::string, std::string>>{
-           {"--ball pool --spin 0:1:2", "--slip missing"},
-           {"--ball pool --mu 0.1 --spin 0:1:2 --slip 0:1:2", "--ball and --mu exclude each other"},
-           {"--mu 0.1 --spin 0:1:2 --slip 0:1:2", "add --ball"},
-           {"--ball pool --spin 0:1:2 --slip -1:1:2", "a sliding speed is >= 0"},
-           {"--friction 0.1 --mu 0.1 --u0 0:1:2 --v0 0:1:2", "add --ball"},
-           {"--ball pool --spin 1 --slip 0:1:2 -o map.svg", "--spin 1: a picture needs a range"},
-           {"--ball pool --spin 0:1:2 --slip 0:1:2 --size single", "--size: csv is no picture"}}) {
-    check_rejected("sweep " + arguments, words);
-  }
 }
 
 TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
@@ -149,46 +139,6 @@ TEST_CASE("a sweep of a body other than the ball", "[cli]") {
     const double tau = Flow(disc).stop_time({std::stod(rows[i][1]), std::stod(rows[i][2])}).tau;
     CHECK(std::stod(rows[i][3]) == Approx(tau).epsilon(1e-12));
   }
-  const Run bad = run_program("sweep --body disc --mu 0.5 --u0 0:1:2 --v0 0:1:2");
-  CHECK(bad.status == 2);
-  CHECK_THAT(bad.err, Contains("--mu 0.5: a puck rests on its whole face"));
-}
-
-TEST_CASE("bad ranges are refused with a way out", "[cli]") {
-  const std::vector<std::pair<std::string, std::string>> mistakes{
-      {"", "--mu missing: give --mu M"},
-      {"--mu 0.1 --v0 0:1:2", "--u0 missing"},
-      {"--mu 0.1 --u0 0:1:2", "--v0 missing"},
-      {"--mu 0.1 --u0 0:1 --v0 0:1:2", "--u0 0:1: '0:1' is not a range; write it MIN:MAX:N, as in 0:2:201"},
-      {"--mu 0.1 --u0 a:1:2 --v0 0:1:2", "--u0 a:1:2: 'a' is not a number"},
-      {"--mu 0.1 --u0 0:nan:2 --v0 0:1:2", "'nan' is not a finite number"},
-      {"--mu 0.1 --u0 0:1e999:2 --v0 0:1:2", "'1e999' does not fit a double"},
-      {"--mu 0.1 --u0 0:1:2.5 --v0 0:1:2", "'2.5' is not a whole number from 1"},
-      {"--mu 0.1 --u0 0:1:99999999999999999999 --v0 0:1:2", "is not a whole number from 1"},
-      {"--mu 0.1 --u0 0:1:1 --v0 0:1:2",
-       "--u0 0:1:1: one value cannot be both MIN = 0 and MAX = 1: give N = 2 or more"},
-      {"--mu 0.1 --u0 1:1:2 --v0 0:1:2", "--u0 1:1:2: all 2 values would be 1"},
-      {"--mu 0.1 --u0 1:0:2 --v0 0:1:2", "--u0 1:0:2: MIN = 1 exceeds MAX = 0"},
-      {"--mu 0.1 --u0 0:1:2 --v0 -1:1:2", "--v0 -1:1:2: a sliding speed is >= 0"},
-      {"--mu 0.1 --u0 0:1:2 --v0 1:2:2 --log", "--u0 0:1:2: logarithmic steps need MIN > 0, got 0"},
-      {"--mu 0:1:2 --u0 0:1:2 --v0 1:2:2", "--mu 0:1:2: 0 < mu <= 1 is required"},
-      {"--mu 0.1:1.1:2 --u0 0:1:2 --v0 1:2:2", "--mu 0.1:1.1:2: 0 < mu <= 1 is required"},
-      {"--mu 0.1 --u0 0:1:9000000000000000000 --v0 0:1:2", "1.8e+19 starts are more than any file can hold"},
-      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 -o map.txt", "-o map.txt: a sweep is written as one of npy, csv, "},
-      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 -o map.npy --format csv", "--format csv: the file map.npy says otherwise"},
-      {
-          "--mu 0.1 --u0 0:1:2 --v0 0:1:2 --progress often",
-          "--progress often: ",
-      },
-      {"--mu 0.1:0.2:2 --u0 0:1:2 --v0 0:1:2 -o map.svg", "--mu 0.1:0.2:2: a picture shows one mu"},
-      {"--mu 0.1 --u0 1 --v0 0:1:2 -o map.svg", "--u0 1: a picture needs a range"},
-      {"--mu 0.1 --u0 0:1:2 --v0 1 -o map.svg", "--v0 1: a picture needs a range"},
-      {"--mu 0.1 --u0 0:1:1001 --v0 0:1:1000 -o map.svg", "at most 1e+06 starts, not 1.001e+06: reduce N"},
-      {"--mu 0.1 --u0 0:1e200:2 --v0 0:1:2 -o map.svg", "u0 from 0 to 1e+200 cannot be drawn"},
-      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 --law pad", "did you mean 'pade'"},
-      {"--mu 0.1 --u0 0:1:2 --v0 0:1:2 --threads 0", "--threads: '0'"},
-  };
-  for (const auto& [arguments, words] : mistakes) check_rejected("sweep " + arguments, words);
 }
 
 TEST_CASE("a sweep that fails at its first start leaves standard output empty", "[cli]") {
@@ -220,16 +170,6 @@ TEST_CASE("a sweep of any size takes constant memory", "[limit]") {
   CHECK(std::filesystem::file_size(scratch.file("map.npy")) == 128 + 20000000 * sizeof(double));
 }
 #endif
-
-TEST_CASE("progress is shown when asked for, on standard error, and not into a pipe", "[cli]") {
-  const std::string command = "sweep --mu 0.1 --u0 1:2:3 --v0 1 --law pade -o /dev/null --format npy";
-  CHECK(run_program(command).err.empty());
-  CHECK(run_program(command + " --progress never").err.empty());
-  const Run shown = run_program(command + " --progress always");
-  CHECK(shown.status == 0);
-  CHECK(shown.out.empty());
-  CHECK_THAT(shown.err, Contains("\r3 stop times in ") && EndsWith(" stop times/s\x1b[K\n"));
-}
 
 TEST_CASE("a sweep says once that its tables are not whole, and has the numbers all the same", "[cli]") {
   const TemporaryDirectory scratch;

@@ -154,23 +154,6 @@ TEST_CASE("a run file of fit carries what it is known to", "[cli]") {
   CHECK_THAT(read_file(ball), !Contains("[uncertainty]\n") && Contains("no [uncertainty]"));
 }
 
-TEST_CASE("what --uncertainty refuses", "[cli][errors]") {
-  const auto refused = [](const std::string& options, const std::string& words) {
-    check_rejected("stop " + options, words);
-  };
-  refused("--ball pool --uncertainty slipp=1%",
-          "no such number 'slipp' (did you mean 'slip'?); numbers of this start: ");
-  refused("--ball pool --uncertainty slip", "NAME=SPREAD is needed");
-  refused("--ball pool --uncertainty slip=x%", "slip: 'x%' is no number with %, m/s, cm/s");
-  refused("--ball pool --uncertainty slip=-1%", "a spread must be >= 0");
-  refused("--ball pool --uncertainty slip=1kg", "is no number with %, m/s, cm/s");
-  refused("--ball pool --uncertainty slip=1%,slip=2%", "slip is given twice");
-  refused("--ball pool --spin 0 --uncertainty spin=1%", "spin is 0, where the stop time has a corner");
-  refused("--ball pool --rolling-friction 0.01 --uncertainty slip=1%",
-          "--uncertainty is of a motion without rolling friction");
-  refused("--ball pool --batch x.csv --uncertainty slip=1%", "--uncertainty is for one start");
-}
-
 TEST_CASE("roll --uncertainty: each number of an event against differences and its quantiles", "[cli]") {
   const auto roll = [](const std::string& options) {
     return json_of("roll --format json --samples 2 --ball gel " + options);
@@ -229,20 +212,4 @@ TEST_CASE("roll --uncertainty and --gradient with rolling friction", "[cli]") {
   }
   CHECK_THAT(run_program("roll --ball pool --gradient --format text").out,
              Contains("derivatives, SI, by") && Contains("spin_deceleration"));
-}
-
-TEST_CASE("what roll --uncertainty refuses", "[cli][errors]") {
-  const auto refused = [](const std::string& options, const std::string& words) {
-    check_rejected("roll --ball pool " + options, words);
-  };
-  refused("--uncertainty vx=1%",
-          "no such number 'vx'; numbers of this start: mass, radius, friction, spin_deceleration, ");
-  refused("--velocity 1,0 --angular-velocity 0,0,9 --uncertainty vy=1%", "vy is 0, of which there is no %");
-  refused("--velocity 1,0 --angular-velocity 0,0,0 --uncertainty wz=1", "wz is 0, where the events have a corner");
-  refused("--gradient -o x.svg", "--gradient is of numbers");
-  refused("--batch x.csv --gradient", "leave out --gradient");
-  refused("--slip 0 --spin 0 --gradient", "this is rest");
-  refused("--slip 0 --spin 0 --uncertainty friction=1%", "this is rest");
-  refused("--batch x.csv --uncertainty slip=1%", "leave out --uncertainty");
-  refused("--uncertainty slip=1% -o x.svg", "leave it out of a picture");
 }
