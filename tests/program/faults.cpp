@@ -416,3 +416,13 @@ TEST_CASE("process 1 of a container ends by a signal, too", "[cli]") {
   CHECK(ended.err == "contensou: interrupted: batch.csv was not written, nothing is left of it\n");
   CHECK(folder.names() == std::vector<std::string>{"table"});
 }
+
+TEST_CASE("out of memory is status 4, with a way out", "[limit]") {
+  const std::vector<std::string> orbit{"orbit", "--mu", "0.1", "--u0", "1", "--v0", "1", "--samples", "9000000"};
+  const Run run = run_program(orbit, {}, [] {
+    constexpr rlimit limit{.rlim_cur = 300'000 << 10, .rlim_max = 300'000 << 10};
+    if (::setrlimit(RLIMIT_AS, &limit) != 0) ::_exit(98);
+  });
+  CHECK(run.status == 4);
+  CHECK_THAT(run.err, Catch::Contains("contensou: out of memory") && Catch::Contains("ulimit -v"));
+}

@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -126,67 +125,6 @@ TEST_CASE("reduction/README.md says what each row of check measures", "[cli]") {
     CHECK_THAT(chapter, Contains("\n- `" + name.substr(0, name.find(", with a drive")) + "`: "));
   }
   CHECK_THAT(chapter, Contains("with a drive"));
-}
-
-TEST_CASE("values in other units", "[cli]") {
-  using std::numbers::pi;
-  struct Typed {
-    std::vector<std::string> arguments;
-    std::string field;
-    double value;
-  };
-  const auto pool = [](std::vector<std::string> more) {
-    std::vector<std::string> all{"stop", "--ball", "pool", "--format", "json"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  };
-  constexpr double radius = 0.028575;
-  const std::vector<Typed> all{
-      {pool({"--slip", "2 m/s"}), "v0", 2},
-      {pool({"--slip", "7.2km/h"}), "v0", 2},
-      {pool({"--slip", "1e1 mph"}), "v0", 4.4704},
-      {pool({"--slip", " 10 ft/s "}), "v0", 3.048},
-      {pool({"--spin", "300 rpm"}), "u0", 10 * pi * radius},
-      {pool({"--spin", "-5 rev/s"}), "u0", -10 * pi * radius},
-      {pool({"--spin", "90 deg/s"}), "u0", pi / 2 * radius},
-      {pool({"--radius", "2.25 in", "--spin", "1"}), "u0", 0.05715},
-      {pool({"--radius", "28.575 mm", "--spin", "1"}), "u0", radius},
-      {pool({"--patch-radius", "0.28575 cm"}), "mu", 0.1},
-      {{"roll", "--ball", "pool", "--format", "json", "--velocity", "3.6,7.2 km/h"}, "velocity", 1},
-      {{"roll", "--ball", "pool", "--format", "json", "--angular-velocity", "1 rev/s, 0 rpm, 0"}, "", 0},
-      {{"roll", "--ball", "pool", "--format", "json", "--angular-velocity", "60,0,0 rpm"}, "angular_velocity", 2 * pi},
-      {{"roll", "--ball", "pool", "--format", "json", "--at", "100,200 ms"}, "t", 0.1},
-      {{"roll", "--ball", "pool", "--format", "json", "--samples", "2", "--until", "0.5 min"}, "t", 0},
-  };
-  for (const auto& [arguments, field, value] : all) {
-    const Run run = run_program(arguments);
-    INFO(Catch::Detail::stringify(arguments) << run.err);
-    CHECK(run.status == (field.empty() ? 2 : 0));
-    if (run.status != 0) continue;
-    const auto found = nlohmann::json::parse(run.out)[field];
-    CHECK((found.is_array() ? found[0] : found).get<double>() == Approx(value).epsilon(1e-15).margin(0));
-  }
-  const Run refused = run_program(pool({"--slip", "2 furlongs"}));
-  CHECK(refused.status == 2);
-  CHECK_THAT(refused.err, Contains("--slip: '2 furlongs' has the unit 'furlongs', which is none of m/s, cm/s"));
-  CHECK_THAT(run_program(pool({"--slip", "two"})).err,
-             Contains("'two' is not a number") && Contains("in m/s, or with m/s, cm/s"));
-  CHECK_THAT(run_program(pool({"--spin", "3 m/s"})).err, Contains("rad/s, deg/s, rev/s or rpm"));
-  CHECK_THAT(run_program({"stop", "--mu", "1", "--u0", "1", "--v0", "1 m/s"}).err, Contains("'1 m/s' is not a number"));
-  const std::vector<std::string> sweep{"sweep", "--ball", "pool", "--spin", "0:60 rpm:2", "--slip", "100:200 cm/s:2"};
-  CHECK(std::stod(rows_of(run_program(sweep).out).back()[0]) == Approx(2 * pi).epsilon(1e-15));
-  CHECK(rows_of(run_program(sweep).out).back()[1] == "2");
-}
-
-TEST_CASE("other names", "[cli]") {
-  const auto same = [](const std::string& one, const std::string& other) {
-    const Run run = run_program(one);
-    CHECK(run.status == 0);
-    CHECK(run.out == run_program(other).out);
-  };
-  same("stop --ball pool --law hertz", "stop --ball pool --law exact");
-  same("stop --body puck --u0 1 --v0 1", "stop --body disc --u0 1 --v0 1");
-  same("portrait --mu 1 --color none -o - --format gp", "portrait --mu 1 --colour none -o - --format gp");
 }
 
 TEST_CASE("completion", "[cli]") {

@@ -50,20 +50,6 @@ TEST_CASE("portrait --facts prints the same as a table and as text, for a ball t
   CHECK(scratch.names() == std::vector<std::string>{"facts"});
 }
 
-TEST_CASE("portrait --facts excludes what it does not draw", "[cli]") {
-  const auto rejected = [](const std::string& arguments, const std::string& words) {
-    check_rejected("portrait " + arguments, words);
-  };
-  rejected("--facts", "--mu missing");
-  rejected("--mu 2 --facts", "0 < mu <= 1");
-  rejected("--mu 0.3 --facts --window 1,1 --view disc", "--facts and --view, --window exclude each other");
-  rejected("--mu 0.3 --facts --route closed", "--facts and --route exclude each other");
-  rejected("--mu 0.3 --facts --format svg", "--format svg: unknown format");
-  rejected("--mu 0.3 --facts --format csv --digits 3", "--digits 3: csv always has all digits; choose text");
-  rejected("--mu 0.3 --digits 3", "--digits 3: a picture has no digits");
-  rejected("--mu 0.3 --facts --law pad", "no such law");
-}
-
 TEST_CASE("portrait writes every view as script, as LaTeX and as data", "[cli]") {
   const TemporaryDirectory scratch;
   for (const std::string& view : names_in_help("views")) {
@@ -123,53 +109,6 @@ TEST_CASE("portrait shows what its switches say", "[cli]") {
   CHECK_THAT(run_program("portrait --ball pool --view patch --format gp -o -").out, Contains("m/s") && Contains(", s"));
 }
 
-TEST_CASE("portrait says what is wrong with a switch, and draws nothing", "[cli]") {
-  const TemporaryDirectory scratch;
-  const auto rejected = [&](const std::string& arguments, const std::string& words) {
-    check_rejected("portrait --mu 0.3 -o " + scratch.file("p.gp") + " " + arguments, words);
-  };
-  rejected("--estimate", "--estimate is drawn against time: add --view time");
-  rejected("--estimate --view disc", "--estimate is drawn against time: add --view time");
-  rejected("--estimate --view time --against pade", "--estimate and --against exclude each other");
-  check_rejected("portrait --mu 0.3 --estimate --view time --format csv -o -", "--estimate: csv is no picture");
-  rejected("--view dics", "--view dics: no such view (did you mean 'disc'?)");
-  rejected("--window 1", "--window 1: 2 numbers");
-  rejected("--window 0,1", "--window 0,1: both sides");
-  rejected("--orbits -1", "--orbits: '-1'");
-  rejected("--orbits 1.5", "--orbits: '1.5'");
-  rejected("--isochrones many", "--isochrones: 'many'");
-  rejected("--isochrones 5,x", "--isochrones: 'x'");
-  rejected("--isochrones 5,-1", "--isochrones 5,-1: the time of an isochrone is above 0");
-  rejected("--isochrones 1e9,", "no state in the window has a stop time that isochrones are asked of");
-  rejected("--window 0:1,-1:1", "--window 0:1,-1:1: here v is 0 or more");
-  rejected("--window 1:0,0:1", "--window 1:0,0:1: a side");
-  rejected("--window 0:1,0:1 --view disc", "--window 0:1,0:1: of this view it is U,V");
-  rejected("--window 0:1,0:1 --through=-0.5,0.5", "--through -0.5,0.5: outside the window --window 0:1,0:1");
-  rejected("--law exact,pade --view pair", "the view pair has 2 panels for each plane: several planes are drawn in uv");
-  rejected("--law exact,pade --facts", "--facts are of one plane");
-  check_rejected("portrait --mu 0.1,x", "--mu: 'x'");
-  check_rejected("portrait --mu 0.1,", "--mu: '' is not a number");
-  check_rejected("portrait --mu 0.1,2", "--mu 0.1,2: 0 < mu <= 1");
-  check_rejected("portrait --mu 0.1,0.2,0.3,0.4,0.5,0.6,0.7 -o p.gp", "room for 6 planes, got 7");
-  check_rejected("orbit --mu 0.1,0.2 --u0 1 --v0 1", "--mu: '0.1,0.2'");
-  rejected("--through 1", "--through 1: 2 numbers");
-  rejected("--through 0,1", "--through 0,1: U must not be 0");
-  rejected("--through 1,nan", "--through: 'nan'");
-  rejected("--through 2,2 --window 1,3", "--through 2,2: outside the window --window 1,3");
-  rejected("--arrows all", "--arrows all: one of time, one, none");
-  rejected("--field moton", "did you mean 'motion'");
-  rejected("--axes yes", "--axes yes: one of on, off");
-  rejected("--colour red", "--colour red: one of time, none");
-  rejected("--style dark", "--style dark: one of print, screen");
-  rejected("--size 100", "--size 100: single, double, or width and height in mm");
-  rejected("--size 100xinf", "--size 100xinf: ");
-  rejected("--size 10x100", "must be 40 to 2000 mm");
-  rejected("--against exakt", "--against exakt: no such law");
-  rejected("--view disc --view uv", "--view is given 2 times");
-  CHECK(scratch.names().empty());
-  CHECK_THAT(run_program("portrait --mu 0.3 -o p.jpg").err, Contains("svg, pdf, png, eps, gp, tex, csv, json"));
-}
-
 TEST_CASE("k of an orbit's last points is 0, or what is left of it", "[cli]") {
   const auto portrait =
       json_of("portrait --ball pool --slip 4 --spin 104.98687664041995 --law exact -o - --format json");
@@ -205,22 +144,6 @@ TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
   CHECK(script.status == 0);
   CHECK_THAT(script.out, Contains("through the points given") && Contains("direction of the motion"));
   const TemporaryDirectory scratch;
-  const auto rejected = [&](const std::vector<std::string>& more, int status, const std::string& words) {
-    std::vector<std::string> all{"portrait", "--system", "u' = -u; v' = -3*v", "-o", scratch.file("p.gp")};
-    all.insert(all.end(), more.begin(), more.end());
-    const Run refused = run_program(all);
-    CHECK(refused.status == status);
-    CHECK(refused.out.empty());
-    CHECK_THAT(refused.err, Contains(words));
-    CHECK(scratch.names().empty());
-  };
-  rejected({"--law", "pade", "--view", "disc", "--facts"}, 2, "--system and --law, --view, --facts exclude each other");
-  rejected({"--mu", "0.3"}, 2, "--system and --mu exclude each other");
-  rejected({"--u0", "1"}, 2, "--v0 missing");
-  rejected({"--field", "regularised"}, 2, "--field regularised is of (2.7)");
-  rejected({"--window", "1:0,1:2"}, 2, "--window 1:0,1:2: a side");
-  rejected({"--window", "1:2"}, 2, "--window 1:2: a window is U,V or U1:U2,V1:V2");
-  rejected({"--window", "1,1", "--through", "3,0"}, 2, "(3, 0) lies outside the window -1 to 1 by -1 to 1");
   const Run none = run_program({"portrait", "--system", "u' = -u - u^3; v' = 1 - v*v", "-o", scratch.file("p.gp")});
   CHECK(none.status == 1);
   CHECK_THAT(none.err, Contains("no scaling was found") && Contains("least singular value") && Contains("reduce"));
