@@ -124,7 +124,7 @@ Orbit Flow::orbit(State start) const {
         "v did not change u, and one with more slides as if on the axis u = 0",
         system().r(), system().mu(), min_r, max_r));
   }
-  return Orbit(solved_->system, start, solved_->solution).begun();
+  return {solved_->system, start, solved_->solution};
 }
 
 StopTime Flow::stop_time(State start) const {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -112,10 +114,7 @@ class Orbit {
 
  private:
   friend class Flow;
-  /// As far as a stop time needs it.
   Orbit(const ReducedSystem& system, State start, const SimilaritySolution& solution);
-  /// And all else.
-  Orbit&& begun() &&;
 
   void require_coordinate(const char* function, double xi) const;
   OrbitPoint rest(double tau) const;
@@ -127,6 +126,7 @@ class Orbit {
     double w, v;
   };
   static constexpr Progress at_start{0, 0, 1, 1};
+  double log_start() const;
   Progress fallen(double xi) const;               ///< the logarithms alone
   double sliding(const Progress& now) const;      ///< v
   double log_sliding(const Progress& now) const;  ///< ln v
@@ -153,6 +153,17 @@ class Orbit {
   double tau_of(double scaled) const;
   double scaled_of(double tau) const;
 
+  /// A number that is not known before it is needed; threads that need it at once compute the same.
+  struct OnDemand {
+    OnDemand() = default;
+    OnDemand(const OnDemand& other) : value(other.value.load()) {}
+    OnDemand& operator=(const OnDemand& other) {
+      value = other.value.load();
+      return *this;
+    }
+    std::atomic<double> value = std::numeric_limits<double>::quiet_NaN();
+  };
+
   ReducedSystem system_;
   SimilaritySolution::Curve curve_;  ///< null on the axes
   double u0_, v0_;
@@ -162,7 +173,7 @@ class Orbit {
   double pivoting_;      ///< P, scaled
   double ln_k0_;
   double xi0_ = 0;
-  double ln_w0_ = 0;
+  mutable OnDemand ln_w0_;
   double m0_;             ///< m(k0)
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };
