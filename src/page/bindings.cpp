@@ -30,12 +30,9 @@
 #include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/course.hpp"
 #include "contensou/si/description.hpp"
 #include "contensou/si/motion.hpp"
-#include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
 
@@ -239,30 +236,29 @@ class Plane {
   /// ball when its slip has fallen to `least`, m/s, what lies flat when it stops. And when slip and spin have ended, s.
   /// @param fields  as those of ride
   val slide(const val& fields, double rolling_friction, double least) const {
-    const auto course = course_of(fields, rolling_friction, least);
+    const si::Motion motion = motion_of(fields, rolling_friction);
     const bool flat = system().inertia().chi == 1;
-    const double end = course.rolls;
+    const double end = motion.rolls(least);
     const auto heading = [&](double t) {
-      const Eigen::Vector2d velocity = course.at_time(t).velocity;
+      const Eigen::Vector2d velocity = motion.at(t).velocity;
       return std::atan2(velocity.y(), velocity.x());
     };
     const double turned = flat ? 0 : std::remainder(heading(end) - heading(0), 2 * std::numbers::pi);
-    return object("end", end, "path", flat ? course.slip_length() : course.path_length(end), "turned",
-                  turned * 180 / std::numbers::pi, "stop",
-                  course.resisted ? course.resisted->stop_time() : course.motion.stop_time());
+    return object("end", end, "path", flat ? motion.slip_length() : motion.path_length(end), "turned",
+                  turned * 180 / std::numbers::pi, "stop", motion.stop_time());
   }
 
   /// The motion over the table until `end`, in s, as columns in times that are dense at its beginning: those of `contensou
   /// roll`. And {t, x, y} of where it rests, with rolling friction or on a slope, if it does.
   /// @param fields  a ball whose patch the plane knows better
   val ride(const val& fields, double rolling_friction, double end) const {
-    const auto course = course_of(fields, rolling_friction, 0);
+    const si::Motion moves = motion_of(fields, rolling_friction);
     constexpr Eigen::Index pieces = 160;
     const Eigen::ArrayXd times = end * Eigen::ArrayXd::LinSpaced(pieces + 1, 0, 1).square();
-    const si::MotionColumns motion = course.at_times(times);
+    const si::MotionColumns motion = moves.at(times);
     val result = object("t", motion.t, "x", motion.x, "y", motion.y, "vx", motion.vx, "vy", motion.vy, "wx", motion.wx,
                         "wy", motion.wy, "wz", motion.wz, "slip", motion.slip, "energy", motion.energy);
-    if (const auto rest = course.rest()) {
+    if (const auto rest = moves.rest()) {
       result.set("rest", object("t", rest->t, "x", rest->place.x(), "y", rest->place.y()));
     }
     return result;
@@ -315,11 +311,12 @@ class Plane {
   }
   const ReducedSystem& system() const { return flow().system(); }
 
-  /// The course of a ball with the plane's body.
-  si::Course<si::BallMotion> course_of(const val& fields, double rolling_friction, double least) const {
+  /// The motion of a ball with the plane's body.
+  si::Motion motion_of(const val& fields, double rolling_friction) const {
     si::Experiment experiment = experiment_of(fields);
     experiment.ball.body.inertia = system().inertia();
-    return {experiment, si::BallMotion(experiment, level_.value()), least, rolling_friction};
+    experiment.contact.rolling_friction = rolling_friction;
+    return si::Motion::reduced(experiment, level_.value()).finite();
   }
 
   Instant state(State at, double left) const {
@@ -442,7 +439,7 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
   if (u_r == 0 || (start.u == 0 && start.v == 0)) return "";
   try {
     (void)si::drive_of(experiment);
-    const auto pieces = si::ResistedMotion(experiment, law, u_r).pieces();
+    const auto pieces = si::Motion::reduced(experiment, law).pieces();
     return pieces.size() == 1 && pieces.front().turns ? "" : "it keeps this ball from turning at first";
   } catch (const std::domain_error& error) {
     return error.what();

@@ -11,7 +11,7 @@ namespace {
 std::string in_words_of_python(std::string text) {
   const std::size_t begin = text.starts_with("row ") ? text.find(": ") + 2 : 0, end = text.find(": ", begin);
   if (end != std::string::npos && std::isupper(static_cast<unsigned char>(text[begin])) &&
-      text.find(' ', begin) > end) {  // as in "BallMotion::at_time: "
+      text.find(' ', begin) > end) {  // as in "Motion::at: "
     text.erase(begin, end + 2 - begin);
   }
   for (const auto& [words, instead] : {std::pair<std::string, const char*>{"slip_of_ratio: ", ""},

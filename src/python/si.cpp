@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <thread>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,16 +19,12 @@
 #include "answers/verbs/roll_uncertainty.hpp"
 #include "contensou/portraits/json.hpp"
 #include "contensou/reduction/infinity.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/course.hpp"
 #include "contensou/si/cue_strike.hpp"
-#include "contensou/si/loaded_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
 #include "contensou/si/scaling.hpp"
-#include "contensou/si/shots.hpp"
-#include "contensou/si/uncoupled_motion.hpp"
 #include "values.hpp"
 
 namespace contensou::python {
@@ -104,14 +99,14 @@ si::Velocities start_of(const double* row) { return {{row[0], row[1]}, {row[2], 
 
 constexpr py::ssize_t columns_of_start = 5;
 
-/// The events of a shot, in the order of Python's fields; a rest that never comes is infinite.
-void write_events(const si::Course<si::BallMotion>& course, double stop_time, double* row) {
-  const si::Events events = si::events_of(course);
+/// The events of a motion, in the order of Python's fields; a rest that never comes is infinite.
+void write_events(const si::Motion& motion, double rolling_below, double* row) {
+  const si::Events events = motion.finite().events(rolling_below);
   for (const si::Event& event :
        {events.rolls, events.spin_ends, events.rest.value_or(si::Event{infinity, {infinity, infinity}})}) {
     for (double value : {event.t, event.place.x(), event.place.y()}) *row++ = value;
   }
-  for (double value : {events.slip_length, events.turns, events.path, stop_time}) *row++ = value;
+  for (double value : {events.slip_length, events.turns, events.path, motion.stop_time()}) *row++ = value;
 }
 
 constexpr py::ssize_t columns_of_events = 13;
@@ -246,43 +241,6 @@ py::dict fields_of_ball(const si::Description& described) {
 
 py::tuple place_of(const si::Event& event) { return py::make_tuple(event.t, event.place.x(), event.place.y()); }
 
-/// s until slip and spin end.
-template <class Motion, class Course>
-double stop_time_of(const Course& course) {
-  if (course.resisted) return course.resisted->stop_time();
-  if constexpr (std::is_same_v<Motion, si::BallMotion>)
-    return course.motion.stop_time();
-  else
-    return std::max(course.motion.slip_time(0), course.motion.spin_end());
-}
-
-template <class Motion, class Given>
-void bind_course(py::module_& module, const char* name) {
-  using Course = si::Course<si::Loaded<Motion>>;
-  py::class_<Course>(module, name)
-      .def(py::init([](const si::Experiment& experiment, const Given& given, double rolling_below,
-                       double rolling_friction, const std::optional<si::LoadHistory>& load) {
-             return Course(experiment, {experiment, Motion(experiment, given), load}, rolling_below, rolling_friction);
-           }),
-           Released())
-      .def_property_readonly("stop_time", [](const Course& course) { return stop_time_of<Motion>(course); })
-      .def("at",
-           [](const Course& course, const Numbers& times) {
-             return mapped<Instant>(times, [&](double t) { return instant_of(course.at_time(t)); });
-           })
-      .def_property_readonly("rolls_after", [](const Course& course) { return place_of(course.event(course.rolls)); })
-      .def_property_readonly("spin_ends",
-                             [](const Course& course) { return place_of(course.event(course.spin_end())); })
-      .def_property_readonly("rest",
-                             [](const Course& course) {
-                               const auto rest = course.rest();
-                               return rest ? std::optional(place_of(*rest)) : std::nullopt;
-                             })
-      .def_property_readonly("slip_length", [](const Course& course) { return course.slip_length(); })
-      .def_property_readonly("turns", [](const Course& course) { return course.turns(); })
-      .def_property_readonly("path", [](const Course& course) { return course.path_length(course.rolls); });
-}
-
 }  // namespace
 
 void bind_si(py::module_& module) {
@@ -321,15 +279,56 @@ void bind_si(py::module_& module) {
         return py::make_tuple(py::make_tuple(velocity.x(), velocity.y()), py::make_tuple(w.x(), w.y(), w.z()));
       });
 
+  const auto with_rolling_friction = [](si::Experiment experiment, double u_r) {
+    experiment.contact.rolling_friction = u_r;
+    return experiment;
+  };
+  py::class_<si::Motion>(module, "Motion")
+      .def_static(
+          "reduced",
+          [=](const si::Experiment& experiment, const Flow& flow, double u_r,
+              const std::optional<si::LoadHistory>& load) {
+            return si::Motion::reduced(with_rolling_friction(experiment, u_r), flow, load).finite();
+          },
+          Released())
+      .def_static(
+          "uncoupled",
+          [=](const si::Experiment& experiment, const Law& law, double u_r, const std::optional<si::LoadHistory>& load,
+              double rolling_below) {
+            return si::Motion::uncoupled(with_rolling_friction(experiment, u_r), law, rolling_below, load).finite();
+          },
+          Released())
+      .def_property_readonly("stop_time", &si::Motion::stop_time)
+      .def("at",
+           [](const si::Motion& motion, const Numbers& times) {
+             return mapped<Instant>(times, [&](double t) { return instant_of(motion.at(t)); });
+           })
+      .def("rolls_after",
+           [](const si::Motion& motion, double below) { return place_of(motion.event(motion.rolls(below))); })
+      .def_property_readonly("spin_ends",
+                             [](const si::Motion& motion) { return place_of(motion.event(motion.spin_end())); })
+      .def_property_readonly("rest",
+                             [](const si::Motion& motion) {
+                               const auto rest = motion.rest();
+                               return rest ? std::optional(place_of(*rest)) : std::nullopt;
+                             })
+      .def_property_readonly("slip_length", &si::Motion::slip_length)
+      .def_property_readonly("turns", &si::Motion::turns)
+      .def("path", [](const si::Motion& motion, double below) { return motion.path_length(motion.rolls(below)); });
+
   py::class_<si::Shots>(module, "Shots")
-      .def(py::init<const si::Experiment&, const Law&, double, double>(), Released())
+      .def(py::init([=](const si::Experiment& experiment, const Law& law, double u_r) {
+             return si::Shots(with_rolling_friction(experiment, u_r), law);
+           }),
+           Released())
       .def("events",
-           [](const si::Shots& shots, const Numbers& starts, py::array_t<double>& out, unsigned threads) {
+           [](const si::Shots& shots, const Numbers& starts, double rolling_below, py::array_t<double>& out,
+              unsigned threads) {
              const double* const from = starts.data();
              double* const to = out.mutable_data();
              for_rows(starts.size() / columns_of_start, threads, [&](py::ssize_t row) {
-               const auto course = shots.from(start_of(from + row * columns_of_start));
-               write_events(course, stop_time_of<si::BallMotion>(course), to + row * columns_of_events);
+               write_events(shots.from(start_of(from + row * columns_of_start)), rolling_below,
+                            to + row * columns_of_events);
              });
            })
       .def("at", [](const si::Shots& shots, const Numbers& starts, const Numbers& times, unsigned threads) {
@@ -338,8 +337,8 @@ void bind_si(py::module_& module) {
         const double *const from = starts.data(), *const at = times.data();
         Instant* const to = result.mutable_data();
         for_rows(rows, threads, [&](py::ssize_t row) {
-          const auto course = shots.from(start_of(from + row * columns_of_start));
-          for (py::ssize_t i = 0; i < columns; ++i) to[row * columns + i] = instant_of(course.at_time(at[i]));
+          const si::Motion motion = shots.from(start_of(from + row * columns_of_start)).finite();
+          for (py::ssize_t i = 0; i < columns; ++i) to[row * columns + i] = instant_of(motion.at(at[i]));
         });
         return result;
       });
@@ -361,9 +360,6 @@ void bind_si(py::module_& module) {
     });
     return result;
   });
-
-  bind_course<si::BallMotion, Flow>(module, "BallMotion");
-  bind_course<si::UncoupledMotion, Law>(module, "UncoupledMotion");
 
   module.def("ball", [](const std::string& name) {
     std::vector<std::pair<std::string, si::Experiment>> balls;

@@ -6,25 +6,17 @@
 
 #include "contensou/fit/fit.hpp"
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/si/ball_motion.hpp"
-#include "contensou/si/resisted_motion.hpp"
+#include "contensou/si/motion.hpp"
 
-/// A film of a ball as it would be without errors: what BallMotion says, or with rolling friction ResistedMotion.
+/// A film of a ball as it would be without errors.
 struct Film {
   contensou::si::Experiment ball;
   contensou::reduction::Law law = contensou::reduction::HertzLaw{};
 
   double value(contensou::fit::Observable observable, double t) const {
-    if (const double u_r = ball.contact.rolling_friction; u_r > 0)
-      return value_of(contensou::si::ResistedMotion(ball, law, u_r), observable, t);
-    return value_of(contensou::si::BallMotion(ball, law), observable, t);
-  }
-
- private:
-  template <class Motion>
-  static double value_of(const Motion& motion, contensou::fit::Observable observable, double t) {
     using enum contensou::fit::Observable;
-    const contensou::si::MotionPoint at = motion.at_time(t);
+    const contensou::si::Motion motion = contensou::si::Motion::reduced(ball, law);
+    const contensou::si::MotionPoint at = motion.at(t);
     switch (observable) {
       case slip:
         return at.slip;
@@ -45,7 +37,7 @@ struct Film {
     constexpr int steps = 2000;
     double sum = 0;
     for (int i = 0; i <= steps; ++i) {
-      sum += (i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2) * motion.at_time(t * i / steps).angular_velocity.z();
+      sum += (i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2) * motion.at(t * i / steps).angular_velocity.z();
     }
     return sum * t / (3 * steps);
   }

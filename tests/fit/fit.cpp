@@ -98,7 +98,7 @@ TEST_CASE("a film without errors gives any body that it is of", "[route]") {
     CAPTURE(name, factor);
     const si::Experiment body = body_named(name, factor);
     const Film film{body, *reduction::find_law(law)};
-    const double stop = si::BallMotion(body, film.law).stop_time();
+    const double stop = si::Motion::reduced(body, film.law).stop_time();
     si::Experiment unknown = body;
     unknown.contact.friction *= 1.7;
     unknown.start = si::SlipAndSpin{.slip = 0, .spin = 0};
@@ -113,7 +113,7 @@ TEST_CASE("a film without errors gives any body that it is of", "[route]") {
     CHECK(found.estimate(Parameter::slip).value == Approx(si::slip_at_start(body)).epsilon(1e-6));
     CHECK(found.estimate(Parameter::spin).value == Approx(si::spin_at_start(body)).epsilon(1e-6));
     CHECK(found.ball.ball.body.factor == factor);
-    CHECK(si::BallMotion(found.ball, film.law).stop_time() == Approx(stop).epsilon(1e-5));
+    CHECK(si::Motion::reduced(found.ball, film.law).stop_time() == Approx(stop).epsilon(1e-5));
   }
 }
 

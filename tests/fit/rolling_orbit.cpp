@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/resisted_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "films.hpp"
 
@@ -22,7 +22,7 @@ struct Off {
 
 /// How far an orbit is from another route, over its whole motion and beyond, relative to the speeds and lengths of its own.
 Off off(const si::Experiment& ball, const reduction::Law& law, double rolling, bool in_steps) {
-  const si::ResistedMotion motion(ball, law, ball.contact.rolling_friction, in_steps);
+  const si::Motion motion = in_steps ? si::Motion::in_steps(ball, law) : si::Motion::reduced(ball, law);
   const double rate = ball.contact.friction * ball.environment.gravity;
   const double v0 = si::slip_at_start(ball), u0 = ball.ball.radius * si::spin_at_start(ball);
   fit::RollingOrbit orbit(law, si::patch_ratio(ball, law), {.u = u0, .v = v0}, rolling,
@@ -35,7 +35,7 @@ Off off(const si::Experiment& ball, const reduction::Law& law, double rolling, b
   Off worst;
   std::size_t cell = 0;
   for (double at : t) {
-    const si::MotionPoint is = motion.at_time(at);
+    const si::MotionPoint is = motion.at(at);
     const fit::Speeds now = orbit.speeds_at(rate * at, cell);
     const auto keep = [](double& most, double error) { most = std::max(most, std::abs(error)); };
     keep(worst.slip, (now.v - is.slip) / size);

@@ -20,7 +20,7 @@ TEST_CASE("an orbit by its own quadrature is that of the ball to 1e-9, from star
         si::Experiment ball = pool_ball();
         ball.contact.patch = si::PatchRadius{mu * ball.ball.radius};
         ball.start = si::SlipAndSpin{.slip = slip, .spin = spin};
-        const si::BallMotion motion(ball, law);
+        const si::Motion motion = si::Motion::reduced(ball, law);
         const double rate = 0.2 * ball.environment.gravity, stop = motion.stop_time();
         ArrayXd t(122);  // the whole motion and beyond, and where it slides
         t << ArrayXd::LinSpaced(61, 0, 0.999 * std::min(stop, 2 * slip / (7 * rate) + 1e-9)),
@@ -33,7 +33,7 @@ TEST_CASE("an orbit by its own quadrature is that of the ball to 1e-9, from star
         std::size_t cell = 0;
         double worst_slip = 0, worst_spin = 0, worst_length = 0;
         for (Eigen::Index i = 0; i < t.size(); ++i) {
-          const si::MotionPoint at = motion.at_time(t[i]);
+          const si::MotionPoint at = motion.at(t[i]);
           const fit::Speeds now = orbit.at(rate * t[i], cell).now;
           worst_slip = std::max(worst_slip, std::abs(now.v - at.slip));
           worst_spin = std::max(worst_spin, std::abs(now.u / ball.ball.radius - at.angular_velocity.z()));

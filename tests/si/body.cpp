@@ -6,12 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/cue_strike.hpp"
-#include "contensou/si/integrated_motion.hpp"
 #include "contensou/si/motion.hpp"
-#include "contensou/si/resisted_motion.hpp"
 
 using namespace contensou;
 using namespace contensou::si;
@@ -34,8 +31,8 @@ TEST_CASE("a ball of inertia c m R^2 that slides without spin ends at v0/(1 + c)
     Experiment experiment = with_inertia("pool", c);
     experiment.start = SlipAndSpin{.slip = 2, .spin = 0};
     const double deceleration = 0.2 * 9.80665, stop = 2 / (deceleration * (1 + 1 / c));
-    const BallMotion motion(experiment, law);
-    const MotionPoint end = motion.at_time(stop);
+    const Motion motion = Motion::reduced(experiment, law);
+    const MotionPoint end = motion.at(stop);
     CHECK(motion.stop_time() == Approx(stop).epsilon(1e-14));
     CHECK(end.velocity.x() == Approx(2 / (1 + 1 / c) / c).epsilon(1e-14));
     CHECK(end.position.x() == Approx(2 * stop - deceleration * stop * stop / 2).epsilon(1e-13));
@@ -45,7 +42,7 @@ TEST_CASE("a ball of inertia c m R^2 that slides without spin ends at v0/(1 + c)
     experiment.start = SlipAndSpin{.slip = 0, .spin = 50};
     experiment.contact.patch = PatchRadius{2e-3};
     const double rate = deceleration * 2e-3 * law.pivoting_moment() / (c * std::pow(experiment.ball.radius, 2));
-    CHECK(BallMotion(experiment, law).stop_time() == Approx(50 / rate).epsilon(1e-14));
+    CHECK(Motion::reduced(experiment, law).stop_time() == Approx(50 / rate).epsilon(1e-14));
     // Struck 1 + c above the table it rolls at once.
     const Velocities rolling = struck(experiment.ball, {.speed = 1, .right = 0, .above = c / 2, .elevation = 0});
     CHECK(experiment.ball.radius * rolling.angular_velocity.y() == Approx(rolling.velocity.x() / 2).epsilon(1e-14));
@@ -61,11 +58,11 @@ TEST_CASE("a body of any inertia moves the same by both routes", "[route]") {
     CAPTURE(name, c);
     const Experiment experiment = with_inertia(name, c);
     const reduction::Law of_friction = *reduction::find_law(law);
-    const BallMotion reduced(experiment, of_friction);
+    const Motion reduced = Motion::reduced(experiment, of_friction);
     const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(9, 0, 1.1 * reduced.stop_time());
-    const IntegratedMotion integrated = integrate_motion(experiment, of_friction, times);
-    const MotionColumns a = reduced.at_times(times), &b = integrated.points;
-    CHECK(integrated.stop_time == Approx(reduced.stop_time()).epsilon(1e-11));
+    const Motion integrated = Motion::in_steps(experiment, of_friction);
+    const MotionColumns a = reduced.at(times), b = integrated.at(times);
+    CHECK(integrated.stop_time() == Approx(reduced.stop_time()).epsilon(1e-11));
     CHECK((a.x - b.x).abs().maxCoeff() < 1e-11 * a.x.maxCoeff());
     CHECK((a.wz - b.wz).abs().maxCoeff() < 1e-10 * a.wz[0]);
     CHECK((a.energy - b.energy).abs().maxCoeff() < 1e-11 * a.energy[0]);
@@ -82,9 +79,10 @@ TEST_CASE("no body has more inertia than with all of its mass at its radius", "[
 TEST_CASE("rolling resistance slows a ball of any inertia at u_r g while it rolls", "[table]") {
   Experiment experiment = with_inertia("pool", 0.6);
   experiment.start = Velocities{{1, 0}, {0, 1 / experiment.ball.radius, 0}};
-  const ResistedMotion motion(experiment, *reduction::find_law("exact"), 0.01);
-  CHECK(motion.rest_time() == Approx(1 / (0.01 * 9.80665)).epsilon(1e-9));
-  CHECK(motion.rolling_loss() == Approx(0.1701 / 2 * 1.6).epsilon(1e-6));
+  experiment.contact.rolling_friction = 0.01;
+  const Motion motion = Motion::reduced(experiment, *reduction::find_law("exact"));
+  CHECK(motion.rest()->t == Approx(1 / (0.01 * 9.80665)).epsilon(1e-9));
+  CHECK(motion.energy_balance().rolling == Approx(0.1701 / 2 * 1.6).epsilon(1e-6));
 }
 
 TEST_CASE("a disc on a small patch goes as far as its contact slides, and stands still from the stop on",
@@ -95,8 +93,8 @@ TEST_CASE("a disc on a small patch goes as far as its contact slides, and stands
   const reduction::Law law = *reduction::find_law("uniform");
   for (const Start& start : {Start{SlipAndSpin{0.3, 1e7}}, Start{Velocities{{0.1, 0.2}, {0, 0, -1e7}}}}) {
     experiment.start = start;
-    const BallMotion motion(experiment, law);
-    const MotionPoint end = motion.at_time(motion.stop_time());
+    const Motion motion = Motion::reduced(experiment, law);
+    const MotionPoint end = motion.at(motion.stop_time());
     CHECK(end.position.norm() == Approx(motion.slip_length()).epsilon(1e-12));
     CHECK(end.velocity == Eigen::Vector2d(0, 0));
   }

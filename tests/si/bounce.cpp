@@ -11,9 +11,8 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/loaded_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 using namespace contensou;
 using namespace contensou::si;
@@ -77,9 +76,9 @@ TEST_CASE("however the load comes and goes, its impulse counts", "[bounce][route
   Experiment pressed = ball;
   constexpr double first = 1;
   pressed.environment = {.gravity = first / ball.ball.mass, .load = first};
-  const Loaded<BallMotion> motion(pressed, {pressed, law},
-                                  LoadHistory({0, 0, 0.7e-3, 3e-3, 3e-3}, {first, 0, peak, 0, first}));
-  const MotionPoint after = motion.at_time(3e-3);
+  const Motion motion =
+      Motion::reduced(pressed, law, LoadHistory({0, 0, 0.7e-3, 3e-3, 3e-3}, {first, 0, peak, 0, first}));
+  const MotionPoint after = motion.at(3e-3);
   CHECK((end.velocities.velocity - after.velocity).norm() < 1e-11);
   CHECK((end.velocities.angular_velocity - after.angular_velocity).norm() < 1e-9);
   CHECK(end.slip == Approx(after.slip).epsilon(1e-11));

@@ -11,8 +11,8 @@
 
 #include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/hertz_law.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/motion.hpp"
 
 using namespace contensou;
 using namespace contensou::si;
@@ -149,9 +149,9 @@ TEST_CASE("the elliptic cone is a friction law", "[route]") {
 TEST_CASE("times of a law are those of its motion", "[route]") {
   const Experiment experiment = gel(0.5, -30);
   const FadeTimes times = fade_times(experiment, reduction::HertzLaw{});
-  const BallMotion motion(experiment, reduction::HertzLaw{});
-  CHECK(motion.at_time(times.slip).slip == Approx(0.5e-3).epsilon(1e-9));
-  CHECK(motion.at_time(times.spin).angular_velocity.z() == Approx(-30e-3).epsilon(1e-9));
+  const Motion motion = Motion::reduced(experiment, reduction::HertzLaw{});
+  CHECK(motion.at(times.slip).slip == Approx(0.5e-3).epsilon(1e-9));
+  CHECK(motion.at(times.spin).angular_velocity.z() == Approx(-30e-3).epsilon(1e-9));
   CHECK(motion.spin_time(31) == 0);
   CHECK(motion.spin_time(0) == Approx(motion.stop_time()).epsilon(1e-12));
   CHECK_THROWS_AS(motion.spin_time(-1), std::domain_error);

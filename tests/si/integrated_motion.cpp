@@ -1,4 +1,4 @@
-#include "contensou/si/integrated_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 #include <cmath>
 #include <limits>
@@ -30,7 +30,8 @@ TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under an
   for (const reduction::Law& law : reduction::named_laws()) {
     for (double mu : {1e-2, 0.3, 1.0}) {
       const Experiment experiment = experiment_of(motion_cases[2], mu);
-      const double stop = integrate_motion(experiment, law, {}).stop_time;
+      const Motion in_steps = Motion::in_steps(experiment, law);
+      const double stop = in_steps.stop_time();
       // The power of each friction, (f N) Phi v and (f N eps) Psi |omega_z|, summed along the integration.
       const double load = experiment.contact.friction * experiment.ball.mass * experiment.environment.gravity;
       const double eps = patch_radius_of(experiment, law);
@@ -38,7 +39,7 @@ TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under an
       constexpr Eigen::Index panels = 4000;
       const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(panels + 1, 0, 1);
       const Eigen::ArrayXd times = stop * s.pow(4);
-      const MotionColumns motion = integrate_motion(experiment, law, times).points;
+      const MotionColumns motion = in_steps.at(times);
       double sliding = 0, pivoting = 0;
       for (Eigen::Index i = 0; i <= panels; ++i) {
         const double weight = (i == 0 || i == panels ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * panels);
@@ -62,7 +63,7 @@ TEST_CASE("instants in any order, past the stop too", "[limit]") {
   const Experiment experiment = experiment_of(motion_cases[2], 0.1);
   Eigen::ArrayXd times(5);
   times << 30, 0.01, 0, 0.01, 2;
-  const MotionColumns motion = integrate_motion(experiment, reduction::HertzLaw{}, times).points;
+  const MotionColumns motion = Motion::in_steps(experiment, reduction::HertzLaw{}).at(times);
   CHECK((motion.t == times).all());
   CHECK(motion.vx[1] == motion.vx[3]);
   CHECK(motion.x[2] == 0);
@@ -75,8 +76,29 @@ TEST_CASE("what cannot be integrated is said", "[domain]") {
   const Experiment experiment = experiment_of(motion_cases[0], 0.1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (double t : {-1.0, nan}) {
-    CHECK_THROWS_AS(integrate_motion(experiment, reduction::PadeLaw{}, Eigen::ArrayXd::Constant(1, t)),
+    CHECK_THROWS_AS(Motion::in_steps(experiment, reduction::PadeLaw{}).at(Eigen::ArrayXd::Constant(1, t)),
                     std::domain_error);
   }
-  CHECK_THROWS_AS(integrate_motion(experiment, NotANumber{}, {}), std::runtime_error);
+  CHECK_THROWS_AS(Motion::in_steps(experiment, NotANumber{}), std::runtime_error);
+}
+
+TEST_CASE("a motion in steps has all the events of the reduced one", "[route]") {
+  for (const std::size_t each : {std::size_t{1}, std::size_t{2}}) {
+    const Experiment experiment = experiment_of(motion_cases[each], 0.1);
+    const Motion reduced = Motion::reduced(experiment, reduction::HertzLaw{}),
+                 in_steps = Motion::in_steps(experiment, reduction::HertzLaw{});
+    const Events ours = reduced.events(), theirs = in_steps.events();
+    CHECK(theirs.rolls.t == Approx(ours.rolls.t).epsilon(1e-10));
+    CHECK((theirs.rolls.place - ours.rolls.place).norm() < 1e-10);
+    CHECK(theirs.spin_ends.t == Approx(ours.spin_ends.t).epsilon(1e-10));
+    CHECK(theirs.slip_length == Approx(ours.slip_length).epsilon(1e-10));
+    CHECK(theirs.turns == Approx(ours.turns).epsilon(1e-10));
+    CHECK(theirs.path == Approx(ours.path).epsilon(1e-8));
+    CHECK(in_steps.spin_time(5) == Approx(reduced.spin_time(5)).epsilon(1e-10));
+    CHECK(in_steps.slip_time(0) == in_steps.stop_time());
+    CHECK(in_steps.steps() > 0);
+    CHECK(in_steps.pieces().empty());
+    CHECK_FALSE(in_steps.is_reduced());
+    CHECK(in_steps.energy_balance().kept == Approx(reduced.energy_balance().kept));
+  }
 }

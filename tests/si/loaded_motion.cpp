@@ -1,4 +1,4 @@
-#include "contensou/si/loaded_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/uncoupled_motion.hpp"
 
 using namespace contensou;
 using namespace contensou::si;
@@ -58,10 +56,10 @@ TEST_CASE("the clock of a load is its impulse", "[table]") {
 
 TEST_CASE("a puck without spin under a growing load, in closed form", "[table]") {
   const Experiment puck = pressed("puck", {.slip = 1, .spin = 0});
-  const Loaded<BallMotion> motion(puck, {puck, *reduction::find_law("uniform")}, LoadHistory({0, 1}, {2, 4}));
+  const Motion motion = Motion::reduced(puck, *reduction::find_law("uniform"), LoadHistory({0, 1}, {2, 4}));
   const double a = 0.1 / 0.163;  // f/m
   for (double t : {0.1, 0.4}) {
-    const MotionPoint at = motion.at_time(t);
+    const MotionPoint at = motion.at(t);
     CHECK(at.slip == Approx(1 - a * (2 * t + t * t)).epsilon(1e-14));
     CHECK(at.position.x() == Approx(t - a * (t * t + t * t * t / 3)).epsilon(1e-13));
     CHECK(motion.path_length(t) == Approx(at.position.x()).epsilon(1e-10));
@@ -70,25 +68,25 @@ TEST_CASE("a puck without spin under a growing load, in closed form", "[table]")
   CHECK(motion.stop_time() == Approx(stop).epsilon(1e-14));
   CHECK(motion.slip_length() == Approx(stop - a * (stop * stop + stop * stop * stop / 3)).epsilon(1e-12));
   CHECK(motion.slip_time(0.5) == Approx(std::sqrt(1 + 0.5 / a) - 1).epsilon(1e-14));
-  CHECK(motion.at_time(3).position.x() == Approx(motion.slip_length()).epsilon(1e-12));
-  CHECK_THROWS_WITH(Loaded<BallMotion>(puck, {puck, *reduction::find_law("uniform")}, LoadHistory({0, 0.1}, {2, 0})),
+  CHECK(motion.at(3).position.x() == Approx(motion.slip_length()).epsilon(1e-12));
+  CHECK_THROWS_WITH(Motion::reduced(puck, *reduction::find_law("uniform"), LoadHistory({0, 0.1}, {2, 0})),
                     Contains("the load ends at 0 before the motion does"));
 }
 
 TEST_CASE("a constant load is that load, and a load as large again one of half the time", "[symmetry]") {
   const reduction::Law law = *reduction::find_law("exact");
   const Experiment ball = pressed("gel", {.slip = 1, .spin = 60});
-  const BallMotion nominal(ball, law);
-  const Loaded<BallMotion> same(ball, nominal, LoadHistory({0, 1}, {2, 2}));
+  const Motion nominal = Motion::reduced(ball, law);
+  const Motion same = Motion::reduced(ball, law, LoadHistory({0, 1}, {2, 2}));
   Experiment heavier = ball;
   heavier.environment = {.gravity = 4 / ball.ball.mass, .load = 4};
-  const BallMotion twice(heavier, law);
+  const Motion twice = Motion::reduced(heavier, law);
   // 2 N for no time at all.
-  const Loaded<BallMotion> doubled(ball, nominal, LoadHistory({0, 0, 1}, {2, 4, 4}));
+  const Motion doubled = Motion::reduced(ball, law, LoadHistory({0, 0, 1}, {2, 4, 4}));
   for (double share : {0.01, 0.1, 0.6, 1.2}) {
     for (const auto& [one, other] :
-         {std::pair{same.at_time(share * nominal.stop_time()), nominal.at_time(share * nominal.stop_time())},
-          {doubled.at_time(share * twice.stop_time()), twice.at_time(share * twice.stop_time())}}) {
+         {std::pair{same.at(share * nominal.stop_time()), nominal.at(share * nominal.stop_time())},
+          {doubled.at(share * twice.stop_time()), twice.at(share * twice.stop_time())}}) {
       CHECK(one.position.x() == Approx(other.position.x()).epsilon(1e-11));
       CHECK(one.velocity.x() == Approx(other.velocity.x()).epsilon(1e-11));
       CHECK(one.angular_velocity.z() == Approx(other.angular_velocity.z()).epsilon(1e-11).margin(1e-11));
@@ -96,9 +94,9 @@ TEST_CASE("a constant load is that load, and a load as large again one of half t
   }
   CHECK(doubled.spin_angle() == Approx(twice.spin_angle()).epsilon(1e-10));
   CHECK(doubled.path_length(0.1) == Approx(twice.path_length(0.1)).epsilon(1e-9));
-  CHECK(Loaded<UncoupledMotion>(ball, {ball, law}, LoadHistory({0, 0, 1}, {2, 4, 4})).spin_end() ==
-        Approx(UncoupledMotion(heavier, law).spin_end()).epsilon(1e-14));
-  CHECK(Loaded<BallMotion>(ball, nominal, {}).at_time(0.3).position == nominal.at_time(0.3).position);
+  CHECK(Motion::uncoupled(ball, law, 0, LoadHistory({0, 0, 1}, {2, 4, 4})).spin_end() ==
+        Approx(Motion::uncoupled(heavier, law).spin_end()).epsilon(1e-14));
+  CHECK(Motion::reduced(ball, law, std::nullopt).at(0.3).position == nominal.at(0.3).position);
 }
 
 TEST_CASE("a load that comes and goes, against the equations of motion in steps", "[route]") {
@@ -106,7 +104,7 @@ TEST_CASE("a load that comes and goes, against the equations of motion in steps"
     CAPTURE(name);
     const reduction::Law law = *reduction::find_law(law_name);
     const Experiment body = pressed(name, {.slip = 2, .spin = 400});
-    const Loaded<BallMotion> motion(body, {body, law}, varied);
+    const Motion motion = Motion::reduced(body, law, varied);
     const double eps = patch_radius_of(body, law), R = body.ball.radius,
                  f_over_m = body.contact.friction / body.ball.mass;
     const double chi = body.ball.body.inertia.chi, gamma = body.ball.body.inertia.gamma;
@@ -136,7 +134,7 @@ TEST_CASE("a load that comes and goes, against the equations of motion in steps"
       }
       t = end;
       CAPTURE(t);
-      const MotionPoint at = motion.at_time(t);
+      const MotionPoint at = motion.at(t);
       CHECK(at.slip == Approx(state[0]).epsilon(1e-7).margin(1e-9));
       CHECK(at.angular_velocity.z() == Approx(state[1]).epsilon(1e-9));
       CHECK(at.position.x() == Approx(2 * t - (2 * t - state[2]) / chi).epsilon(1e-8));
@@ -148,10 +146,10 @@ TEST_CASE("from its stop on a body under a load that changes stands still", "[ed
   const Experiment puck = pressed("puck", {.slip = 3, .spin = 40});
   const reduction::Law law = *reduction::find_law("uniform");
   const LoadHistory lifted({0, 1, 3}, {1.6, 0.8, 1.6});
-  const Loaded<BallMotion> motion(puck, {puck, law}, lifted);
+  const Motion motion = Motion::reduced(puck, law, lifted);
   for (double t : {motion.stop_time(), motion.stop_time() + 0.9874, 8.0, 80.0}) {
     CAPTURE(t);
-    const MotionPoint at = motion.at_time(t);
+    const MotionPoint at = motion.at(t);
     CHECK(at.velocity == Eigen::Vector2d(0, 0));
     CHECK(at.angular_velocity == Eigen::Vector3d(0, 0, 0));
     CHECK(at.position.x() == Approx(motion.slip_length()).epsilon(1e-12));

@@ -11,12 +11,9 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/course.hpp"
-#include "contensou/si/resisted_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
-#include "contensou/si/uncoupled_motion.hpp"
 #include "si/motion/pure_rolling.hpp"
 
 using namespace contensou;
@@ -38,9 +35,7 @@ Experiment ball_on(double slope, const Start& start, double u_r = 0, const char*
   return experiment;
 }
 
-ResistedMotion motion_of(const Experiment& experiment, bool in_steps = false) {
-  return {experiment, hertz(), experiment.contact.rolling_friction, in_steps};
-}
+Motion motion_of(const Experiment& experiment) { return Motion::reduced(experiment, hertz()); }
 
 /// x, y, vx, vy, wx, wy, wz of a rigid ball.
 using Rigid = std::array<double, 7>;
@@ -99,7 +94,7 @@ TEST_CASE("a ball without spin on a slope, in closed form", "[formula][slope]") 
   for (double slope : {-2.0, -0.1, 2.0, 5.0}) {
     for (double u_r : {0.0, 0.01}) {
       const Experiment experiment = ball_on(slope, SlipAndSpin{1, 0}, u_r);
-      const ResistedMotion motion = motion_of(experiment);
+      const Motion motion = motion_of(experiment);
       INFO("slope " << slope << ", u_r " << u_r);
       CHECK(motion.is_reduced() == (slope < 0));
       const double f = experiment.contact.friction, g = experiment.environment.gravity, alpha = radians(slope);
@@ -107,16 +102,16 @@ TEST_CASE("a ball without spin on a slope, in closed form", "[formula][slope]") 
       const double slides = 2 / (7 * f * g * std::cos(alpha) * (1 - drive)), exact = motion.is_reduced() ? 1e-13 : 1e-7;
       CHECK(motion.stop_time() == Approx(slides).epsilon(exact));
       const double speed = 1 - (f * std::cos(alpha) + std::sin(alpha)) * g * slides;
-      CHECK(motion.at_time(slides).velocity.x() == Approx(speed).epsilon(10 * exact));
+      CHECK(motion.at(slides).velocity.x() == Approx(speed).epsilon(10 * exact));
       // Then it rolls: uphill to where it turns round or rests.
       const double up = (5.0 / 7 * std::sin(alpha) + u_r * std::cos(alpha)) * g;
       const double half = 0.5 * (up > 0 ? speed / up : 1);
-      CHECK(motion.at_time(slides + half).velocity.x() == Approx(speed - up * half).epsilon(10 * exact));
+      CHECK(motion.at(slides + half).velocity.x() == Approx(speed - up * half).epsilon(10 * exact));
       const bool holds = u_r >= 5.0 / 7 * std::abs(std::tan(alpha));
-      CHECK(std::isinf(motion.rest_time()) == !holds);
+      CHECK(motion.rest().has_value() == holds);
       if (slope < 0 || holds) continue;
       const double back = (5.0 / 7 * std::sin(alpha) - u_r * std::cos(alpha)) * g;
-      CHECK(motion.at_time(slides + speed / up + 1).velocity.x() == Approx(-back).epsilon(1e-6));
+      CHECK(motion.at(slides + speed / up + 1).velocity.x() == Approx(-back).epsilon(1e-6));
     }
   }
 }
@@ -148,10 +143,10 @@ TEST_CASE("a ball on a slope against Newton's and Euler's equations in steps", "
                                                              {2, Velocities{{-1, 0}, {0, -20, 60}}, 0}};
   for (const auto& [slope, start, u_r] : cases) {
     const Experiment experiment = ball_on(slope, start, u_r);
-    const ResistedMotion motion = motion_of(experiment);
+    const Motion motion = motion_of(experiment);
     for (double t : {0.02, 0.15, 0.4}) {
       INFO("slope " << slope << ", u_r " << u_r << ", slip " << slip_at_start(experiment) << ", t " << t);
-      check_rigid(motion.at_time(t), stepped(experiment, hertz(), t, 20'000), 1e-7);
+      check_rigid(motion.at(t), stepped(experiment, hertz(), t, 20'000), 1e-7);
     }
   }
 }
@@ -182,7 +177,7 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
       const double rolls = uniform(0, 0.5);
       experiment.start = Velocities{{slip + rolls, 0}, {0, rolls / R, spin}};
     }
-    const ResistedMotion reduced(experiment, law, u_r), in_steps(experiment, law, u_r, true);
+    const Motion reduced = Motion::reduced(experiment, law), in_steps = Motion::in_steps(experiment, law);
     INFO(i << ": law " << law.name() << ", flat " << flat << ", f " << f << ", u_r " << u_r << ", slope "
            << experiment.environment.slope << ", slip " << slip << ", R spin " << R * spin << ", mu "
            << patch_ratio(experiment, law) << ", pieces " << reduced.pieces().size());
@@ -192,11 +187,11 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
     held_first += !flat && !reduced.pieces().empty() && !reduced.pieces().front().turns;
     const double stop = reduced.stop_time(), size = 2 + 10 * stop;
     REQUIRE(in_steps.stop_time() == Approx(stop).epsilon(1e-5).margin(1e-9));
-    CHECK(std::isinf(in_steps.rest_time()) == std::isinf(reduced.rest_time()));
+    CHECK(in_steps.rest().has_value() == reduced.rest().has_value());
     CHECK(in_steps.slip_length() == Approx(reduced.slip_length()).epsilon(1e-5).margin(1e-8));
     CHECK(in_steps.spin_angle() == Approx(reduced.spin_angle()).epsilon(1e-5).margin(1e-7));
     for (double part : {0.1, 0.5, 0.9, 1.2}) {
-      const MotionPoint a = reduced.at_time(part * stop), b = in_steps.at_time(part * stop);
+      const MotionPoint a = reduced.at(part * stop), b = in_steps.at(part * stop);
       REQUIRE((a.position - b.position).norm() < 1e-6 * size * (1 + stop));
       REQUIRE((a.velocity - b.velocity).norm() < 1e-6 * size);
       REQUIRE((a.angular_velocity - b.angular_velocity).norm() < 1e-6 * size / R);
@@ -211,27 +206,27 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
 TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[reference][slope]") {
   const double R = find_ball("pool")->experiment.ball.radius;
   const Experiment experiment = ball_on(-6, Velocities{{0, 0.5}, {-0.5 / R, 0, 0}}, 0.19);
-  const ResistedMotion motion = motion_of(experiment);
+  const Motion motion = motion_of(experiment);
   CHECK_FALSE(motion.is_reduced());
   // It needs |tan(angle)/chi + u_r V/|V|| = f.
   const double share = std::tan(radians(6)) / 3.5, rolls = motion.slip_time(0) / 10;
   for (double t : {0.05, 0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2}) {
-    const MotionPoint point = motion.at_time(t);
+    const MotionPoint point = motion.at(t);
     const Vector2d needed = Vector2d(share, 0) + 0.19 * point.velocity.normalized();
     INFO("t " << t << ", needs " << needed.norm());
     if (point.slip == 0) CHECK(needed.norm() <= 0.2 * (1 + 1e-12));
     if (needed.norm() < 0.1999) CHECK(point.slip == 0);
   }
-  CHECK(motion.at_time(rolls).slip == 0);
-  CHECK(motion.at_time(0.3).slip > 0.03);
-  CHECK(motion.rest_time() == Approx(0.3378015).margin(3e-6));
-  CHECK(motion.rest_position().x() == Approx(0.0167889).margin(1e-6));
-  CHECK(motion.rest_position().y() == Approx(0.0706613).margin(1e-6));
+  CHECK(motion.at(rolls).slip == 0);
+  CHECK(motion.at(0.3).slip > 0.03);
+  CHECK(motion.rest()->t == Approx(0.3378015).margin(3e-6));
+  CHECK(motion.rest()->place.x() == Approx(0.0167889).margin(1e-6));
+  CHECK(motion.rest()->place.y() == Approx(0.0706613).margin(1e-6));
   CHECK(motion.slip_length() == Approx(0.0029546).margin(2e-6));
   // One that needs too much from the start, and as much friction as is enough everywhere.
-  const ResistedMotion at_once = motion_of(ball_on(-6, Velocities{{0.3, 0.5}, {-0.5 / R, 0.3 / R, 0}}, 0.19));
-  CHECK(at_once.rest_time() == Approx(0.5130047).margin(2e-6));
-  CHECK((at_once.rest_position() - Vector2d(0.0951515, 0.0948541)).norm() < 1e-6);
+  const Motion at_once = motion_of(ball_on(-6, Velocities{{0.3, 0.5}, {-0.5 / R, 0.3 / R, 0}}, 0.19));
+  CHECK(at_once.rest()->t == Approx(0.5130047).margin(2e-6));
+  CHECK((at_once.rest()->place - Vector2d(0.0951515, 0.0948541)).norm() < 1e-6);
   CHECK(at_once.slip_length() == Approx(0.0337911).margin(1e-6));
   Experiment held = experiment;
   held.contact.friction = 0.19 + std::tan(radians(6)) / 3.5 + 1e-9;
@@ -240,20 +235,20 @@ TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[re
   CHECK(motion_of(held).slip_length() > 0);
   // Straight down it slides from the start.
   const Experiment down = ball_on(-6, Velocities{{0.5, 0}, {0, 0.5 / R, 0}}, 0.19);
-  CHECK(motion_of(down).at_time(0.01).slip > 0);
+  CHECK(motion_of(down).at(0.01).slip > 0);
 }
 
 TEST_CASE("energy on a slope: what gravity gives is in the balance", "[formula][slope]") {
   for (double slope : {-3.0, 3.0}) {
     for (const Start& start : {Start(SlipAndSpin{1, 100}), Start(Velocities{{1, 0.5}, {0, 3, 80}})}) {
       const Experiment experiment = ball_on(slope, start, 0.01);
-      const ResistedMotion motion = motion_of(experiment);
-      const double first = motion.at_time(0).energy, gained = motion.gained_on_slope();
-      const double kept = motion.at_time(motion.last_time()).energy;
+      const Motion motion = motion_of(experiment);
+      const double first = motion.at(0).energy, gained = motion.energy_balance().gained;
+      const double kept = motion.at(motion.last_time()).energy;
       const double spun = energy_loss(experiment).pivoting;
-      const double slid = first + gained - kept - spun - motion.rolling_loss();
+      const double slid = first + gained - kept - spun - motion.energy_balance().rolling;
       INFO("slope " << slope << ", gained " << gained);
-      const double fell = -std::sin(radians(slope)) * motion.at_time(motion.last_time()).position.x();
+      const double fell = -std::sin(radians(slope)) * motion.at(motion.last_time()).position.x();
       CHECK(gained == Approx(experiment.ball.mass * experiment.environment.gravity * fell).epsilon(1e-12));
       // The force does not exceed f N.
       const double N = experiment.ball.mass * pressing(experiment.environment);
@@ -265,13 +260,13 @@ TEST_CASE("energy on a slope: what gravity gives is in the balance", "[formula][
 
 TEST_CASE("as the slope vanishes, the motion on the level", "[limit][slope]") {
   for (const Start& start : {Start(SlipAndSpin{1, 100}), Start(Velocities{{1, 0}, {30, -60, 50}})}) {
-    const BallMotion level(ball_on(0, start), hertz());
+    const Motion level = Motion::reduced(ball_on(0, start), hertz());
     for (double slope : {-1e-7, 1e-7}) {
-      const ResistedMotion almost = motion_of(ball_on(slope, start));
+      const Motion almost = motion_of(ball_on(slope, start));
       CHECK(almost.stop_time() == Approx(level.stop_time()).epsilon(1e-6));
       for (double t : {0.05, 0.3, 2.0}) {
-        CHECK((almost.at_time(t).position - level.at_time(t).position).norm() < 1e-6);
-        CHECK((almost.at_time(t).velocity - level.at_time(t).velocity).norm() < 1e-6);
+        CHECK((almost.at(t).position - level.at(t).position).norm() < 1e-6);
+        CHECK((almost.at(t).velocity - level.at(t).velocity).norm() < 1e-6);
       }
     }
   }
@@ -317,13 +312,13 @@ TEST_CASE("pure rolling on a slope against Runge-Kutta", "[formula][slope]") {
 
 TEST_CASE("the textbook's ball on a slope is one without spin, and spins by itself", "[slope]") {
   const Experiment experiment = ball_on(-2, SlipAndSpin{1, 100}), still = ball_on(-2, SlipAndSpin{1, 0});
-  const Course<UncoupledMotion> textbook(experiment, {experiment, hertz()}, 0, 0);
-  const Course<BallMotion> spinless(still, {still, hertz()}, 0, 0);
-  CHECK(textbook.rolls == Approx(spinless.rolls).epsilon(1e-13));
+  const Motion textbook = Motion::uncoupled(experiment, hertz(), 0), spinless = Motion::reduced(still, hertz());
+  CHECK(textbook.rolls(0) == Approx(spinless.rolls(0)).epsilon(1e-13));
+  CHECK(textbook.stop_time() == textbook.spin_end());
   CHECK_FALSE(textbook.rest());
   for (double t : {0.1, 1.0, 20.0}) {
-    CHECK((textbook.at_time(t).position - spinless.at_time(t).position).norm() < 1e-12 * (1 + t * t));
-    CHECK(textbook.at_time(t).angular_velocity.z() == Approx(std::max(0.0, 100 * (1 - t / textbook.spin_end()))));
+    CHECK((textbook.at(t).position - spinless.at(t).position).norm() < 1e-12 * (1 + t * t));
+    CHECK(textbook.at(t).angular_velocity.z() == Approx(std::max(0.0, 100 * (1 - t / textbook.spin_end()))));
   }
 }
 
@@ -333,7 +328,7 @@ TEST_CASE("what slides on too steep a slope never stops, and that is said", "[er
   CHECK_NOTHROW(motion_of(ball_on(-0.999 * steepest, SlipAndSpin{1, 100})));
   for (double slope : {1.001 * steepest, -1.001 * steepest, 89.0}) {
     CHECK_THROWS_WITH(motion_of(ball_on(slope, SlipAndSpin{1, 100})), Contains("never stops sliding"));
-    CHECK_THROWS_WITH(motion_of(ball_on(slope, SlipAndSpin{1, 100}), true), Contains("never stops sliding"));
+    CHECK_THROWS_WITH(Motion::in_steps(ball_on(slope, SlipAndSpin{1, 100}), hertz()), Contains("never stops sliding"));
   }
   CHECK_THROWS_WITH(reduced_system(ball_on(2, SlipAndSpin{1, 100}), hertz()), Contains("must slide straight down"));
   CHECK_THROWS_WITH(reduced_system(ball_on(-2, Velocities{{1, 0.5}, {0, 0, 9}}), hertz()),
@@ -341,7 +336,6 @@ TEST_CASE("what slides on too steep a slope never stops, and that is said", "[er
   CHECK_THROWS_WITH(reduced_system(ball_on(-2, Velocities{{1, 0}, {0, -3, 9}}), hertz()),
                     Contains("roll the way it slides"));
   CHECK_THROWS_WITH(motion_of(ball_on(90, SlipAndSpin{1, 100})), Contains("above -90 and below 90"));
-  CHECK_THROWS_WITH(motion_of(ball_on(0, SlipAndSpin{1, 100})), Contains("rolling friction > 0 or a slope"));
   CHECK_THROWS_WITH(motion_of(ball_on(-2, SlipAndSpin{1, 100}, 0.01, "puck")), Contains("never rolls"));
   Experiment loaded = ball_on(-2, SlipAndSpin{1, 100});
   loaded.environment.load = 3;

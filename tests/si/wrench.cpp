@@ -18,8 +18,8 @@
 #include "allocations.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/wrench.h"
 
 using namespace contensou;
@@ -171,7 +171,7 @@ TEST_CASE("time steps stop a pool ball when it stops", "[analytic]") {
   const double m = pool.ball.mass, R = pool.ball.radius, dt = 1e-3;
   for (const char* name : {"exact", "elliptic", "pade"}) {
     const reduction::Law law = *reduction::find_law(name);
-    const BallMotion exact(pool, law);
+    const Motion exact = Motion::reduced(pool, law);
     const PatchFriction friction(law);
     const Patch of{pool.contact.friction, patch_radius_of(pool, law), 1e-4};
     // The contact point moves as a mass of 2 m/7.

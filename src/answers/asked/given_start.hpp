@@ -3,8 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "contensou/reduction/reduced_system.hpp"
-#include "contensou/si/resisted_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 namespace contensou::answers {
 
@@ -13,12 +12,18 @@ struct GivenStart {
   reduction::ReducedSystem system;
   reduction::State state;
   std::optional<si::Experiment> experiment;  ///< where it came from, if it is a ball in SI units
-  std::optional<si::ResistedMotion> resisted =
-      {};  ///< with rolling friction or on a slope: of the first piece is system
+  std::optional<si::Motion> motion = {};     ///< of a ball, reduced: of its first piece is system
 
-  /// The orbits of a ball with rolling friction or on a slope.
-  std::vector<si::ReducedPiece> pieces() const {
-    return resisted ? resisted->pieces() : std::vector<si::ReducedPiece>();
+  /// Its orbits, one after the other; none of what is no ball.
+  std::vector<si::ReducedPiece> pieces() const { return motion ? motion->pieces() : std::vector<si::ReducedPiece>(); }
+  bool is_in_pieces() const { return pieces().size() > 1; }
+
+  /// The solution of system.
+  /// @param by_quadrature  also where the law has a closed form
+  reduction::Flow flow(bool by_quadrature = false) const {
+    const auto all = pieces();
+    const reduction::Flow best = all.empty() ? reduction::Flow(system) : all.front().flow;
+    return by_quadrature && !best.is_by_quadrature() ? reduction::Flow::by_quadrature(system) : best;
   }
 
   bool at_rest() const { return state.u == 0 && state.v == 0; }

@@ -99,9 +99,8 @@ portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::v
 }
 
 std::vector<si::ReducedPiece> PortraitSpec::pieces() const {
-  if (!experiment || (experiment->contact.rolling_friction == 0 && experiment->environment.slope == 0)) return {};
-  if (!start || (start->u == 0 && start->v == 0)) return {};
-  return si::ResistedMotion(*experiment, flow.system().law(), experiment->contact.rolling_friction).pieces();
+  if (!experiment || !si::is_driven(*experiment) || !start || (start->u == 0 && start->v == 0)) return {};
+  return si::Motion::reduced(*experiment, flow.system().law()).pieces();
 }
 
 portraits::Figure PortraitSpec::figure(const portraits::PhasePortrait& portrait) const {

@@ -6,7 +6,7 @@
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/si/resisted_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 namespace contensou::answers {
 

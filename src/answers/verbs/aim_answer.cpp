@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include "answers/verbs/ball_answer.hpp"
-#include "contensou/si/ball_motion.hpp"
-#include "contensou/si/course.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::answers {
@@ -121,25 +120,23 @@ Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const Ai
     experiment.start = si::aimed(experiment, flow, std::get<si::Goal>(goal));
   }
   const si::Velocities start = si::velocities_of(experiment.start);
-  const double u_r = experiment.contact.rolling_friction;
-  const si::Course<si::BallMotion> course(experiment, {experiment, flow}, si::rolling_slip, u_r);
-  const double time = course.resisted ? course.resisted->last_time() : course.motion.stop_time();
-  si::require_finite_motion(experiment, time);
-  const std::optional<si::Event> rest = course.rest();
+  const si::Motion motion = si::Motion::reduced(experiment, flow).finite();
+  const double time = motion.last_time();
+  const std::optional<si::Event> rest = motion.rest();
   std::optional<si::Event> rolls;
   std::optional<si::CueStrike> strike;
   si::Velocities final = si::final_motion(experiment);
   if (rolling) final.velocity.x() = rolling->speed;
   if (!experiment.ball.body.lies_flat()) {
-    rolls = course.event(course.rolls);
+    rolls = motion.event(motion.rolls());
     strike = si::level_strike(experiment.ball, start);
   }
   AimReport report{experiment,
                    law,
                    start,
                    start.velocity.x() - experiment.ball.radius * start.angular_velocity.y(),
-                   rest ? rest->place.x() : course.at_time(time).position.x(),
-                   course.turns(),
+                   rest ? rest->place.x() : motion.at(time).position.x(),
+                   motion.turns(),
                    time,
                    final,
                    rolls,

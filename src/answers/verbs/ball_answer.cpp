@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "contensou/si/course.hpp"
 #include "contensou/si/load_history.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
 

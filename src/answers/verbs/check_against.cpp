@@ -10,11 +10,10 @@
 
 #include "answers/input/headings.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/contact_cone.hpp"
-#include "contensou/si/course.hpp"
 #include "contensou/si/engine.hpp"
-#include "contensou/si/uncoupled_motion.hpp"
+#include "contensou/si/motion.hpp"
+#include "contensou/si/scaling.hpp"
 
 namespace contensou::answers {
 
@@ -142,7 +141,7 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
   const si::SlipAndSpin first = instants.front().speeds;
   si::Description first_row;
   // How it rolls matters where rolling resistance or a slope acts.
-  const bool driven = ball.contact.rolling_friction != 0 || ball.environment.slope != 0;
+  const bool driven = si::is_driven(ball);
   if (const auto& body = instants.front().body; driven && body) {
     const auto& [velocity, w] = *body;
     first_row.set(si::velocity, {velocity.x(), velocity.y()}, {"", "velocity of the first row", ""});
@@ -172,18 +171,15 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
     compare(model, result, tolerance);
     result.models.push_back(std::move(model));
   };
-  const auto speeds_of = [](const auto& motion) {
-    return [motion](double t) {
-      const si::MotionPoint point = motion.at_time(t);
+  const auto speeds_of = [](const si::Motion& motion) {
+    return [motion = motion.finite()](double t) {
+      const si::MotionPoint point = motion.at(t);
       return si::SlipAndSpin{point.slip, point.angular_velocity.z()};
     };
   };
-  const auto under = [&](const reduction::Law& of) {
-    return speeds_of(si::Course<si::BallMotion>(experiment, {experiment, of}, 0, experiment.contact.rolling_friction));
-  };
+  const auto under = [&](const reduction::Law& of) { return speeds_of(si::Motion::reduced(experiment, of)); };
   add(law.name(), under(law));
-  add("textbook (uncoupled)", speeds_of(si::Course<si::UncoupledMotion>(experiment, {experiment, law}, 0,
-                                                                        experiment.contact.rolling_friction)));
+  add("textbook (uncoupled)", speeds_of(si::Motion::uncoupled(experiment, law, 0)));
   if (!driven) {
     add("pyramid (engines)", [experiment, arm = si::contact_of(experiment, law).moment_arm()](double t) {
       return si::speeds_under_pyramid(experiment, arm, t);

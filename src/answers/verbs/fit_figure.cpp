@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "contensou/portraits/layout.hpp"
-#include "contensou/si/uncoupled_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 namespace contensou::answers {
 
@@ -76,9 +76,9 @@ Eigen::ArrayXd of_textbook(const fit::Fit& fit, const reduction::Law& law, std::
   si::Experiment ball = fit.ball;
   const double spin = fit.estimate(Parameter::spin, track).value;
   ball.start = si::SlipAndSpin{std::max(0.0, fit.estimate(Parameter::slip, track).value), spin};
-  const si::UncoupledMotion motion(ball, law);
-  if (observable == Observable::slip) return motion.at_times(times).slip;
-  if (observable == Observable::spin) return motion.at_times(times).wz;
+  const si::Motion motion = si::Motion::uncoupled(ball, law);
+  if (observable == Observable::slip) return motion.at(times).slip;
+  if (observable == Observable::spin) return motion.at(times).wz;
   if (observable != Observable::angle) return {};
   if (!(motion.spin_end() > 0))
     return Eigen::ArrayXd::Constant(times.size(), fit.estimate(Parameter::angle, track).value);

@@ -272,8 +272,8 @@ ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, co
 }
 
 ReduceAnswer reduce_answer(const GivenStart& given) {
-  const auto& [system, state, experiment, resisted] = given;
-  if (given.pieces().size() > 1) {
+  const auto& [system, state, experiment, motion] = given;
+  if (given.is_in_pieces()) {
     throw BadInput(
         "reduce is of one orbit, and rolling friction lets this ball turn for a part of its motion only: leave it out "
         "(--rolling-friction 0), or ask for --mu, --u0, --v0 with --drive");
@@ -291,7 +291,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
         system.mu()));
   }
   const PlanarReduction plane(reduction::planar_field(system), *found.scaling, start, found.residual);
-  const reduction::Flow flow(system);
+  const reduction::Flow flow = given.flow();
   const reduction::StopTime stop = flow.stop_time(state);
 
   Json rays = Json::array();

@@ -12,34 +12,10 @@
 #include "answers/verbs/ball_answer.hpp"
 #include "answers/verbs/plain_words.hpp"
 #include "contensou/reduction/pade_law.hpp"
-#include "contensou/si/integrated_motion.hpp"
-#include "contensou/si/scaling.hpp"
 
 namespace contensou::answers {
 
 namespace {
-
-/// What friction takes of the kinetic energy, in J.
-struct EnergyBalance {
-  double start;
-  si::EnergyLoss loss;
-  double kept;
-  double rolling = 0;  ///< lost to rolling resistance
-  double gained = 0;   ///< on a slope
-};
-
-EnergyBalance energy_balance(const Roll& roll) {
-  const si::Experiment& experiment = roll.experiment;
-  const double start = si::kinetic_energy(experiment.ball, si::velocities_of(experiment.start));
-  const si::EnergyLoss loss = si::energy_loss(experiment);
-  if (const auto& resisted = roll.whole.resisted) {  // spin has lost what it had
-    const double rolling = resisted->rolling_loss(), gained = resisted->gained_on_slope();
-    const double kept = resisted->at_time(resisted->last_time()).energy;
-    return {start, {start + gained - loss.pivoting - rolling - kept, loss.pivoting}, kept, rolling, gained};
-  }
-  const auto [velocity, angular_velocity] = si::final_motion(experiment);
-  return {start, loss, si::kinetic_energy(experiment.ball, {velocity, angular_velocity})};
-}
 
 using Motion = si::MotionColumns;
 constexpr ColumnField<Motion> columns[]{
@@ -59,14 +35,14 @@ constexpr ColumnField<Motion> columns[]{
 constexpr Field<Roll> start_fields[]{
     {"law", "", nullptr, [](const Roll& roll) -> Json { return roll.law.name(); }},
     {"route", "", nullptr,
-     [](const Roll& roll) -> Json { return roll.integrated || !roll.reduced() ? "integrated" : "reduced"; }},
+     [](const Roll& roll) -> Json { return roll.integrated || !roll.whole.is_reduced() ? "integrated" : "reduced"; }},
     {"mu", "", nullptr, [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
     {"ball", "", "as of stop", [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
     {"velocity", "m/s", "at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).velocity); }},
     {"angular_velocity", "1/s", "at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).angular_velocity); }},
-    {"t_stop", "s", "when slip and spin end", [](const Roll& roll) -> Json { return roll.stop_time(); }},
+    {"t_stop", "s", "when slip and spin end", [](const Roll& roll) -> Json { return roll.whole.stop_time(); }},
     {"load", "s, N", "in: columns `t`, `load` of the table of --load, where it is one",
      [](const Roll& roll) { return roll.load ? members_of(*roll.load) : Json(); }, nullptr, 0,
      " {`t` [...], `load` [...]}"},
@@ -110,27 +86,18 @@ constexpr Field<Roll> rest_of_roll_fields[]{
     {"creeps", "",
      "with --rolling-friction or --slope: the ratio v/(patch radius abs(wz)) that it tends to while it spins",
      [](const Roll& roll) -> Json {
-       const auto k = roll.whole.resisted ? roll.whole.resisted->creep_ratio() : std::nullopt;
+       const auto k = roll.whole.creep_ratio();
        return k ? Json{{"k", *k}} : Json();
      },
      nullptr, 0, " {`k`}"},
     {"integrated", "s; m; 1; 1",
      "with --route integrated, by it; its rows are, too, and all other events of the reduced route",
      [](const Roll& roll) -> Json {
-       if (!roll.integrated) return {};
-       Json members;
-       const auto say = [&](double stop_time, double slip_length, double spin_angle) {
-         members = {
-             {"t_stop", stop_time}, {"slip_length", slip_length}, {"turns", spin_angle / (2 * std::numbers::pi)}};
-       };
-       if (const auto& steps = roll.in_steps) {
-         say(steps->stop_time(), steps->slip_length(), steps->spin_angle());
-         if (const auto rest = rest_of(*steps)) members["rest"] = members_of(*rest);
-       } else {
-         const si::IntegratedMotion by_steps = si::integrate_motion(roll.experiment, roll.law, {});
-         say(by_steps.stop_time, by_steps.slip_length, by_steps.spin_angle);
-         members["steps"] = by_steps.steps;
-       }
+       if (!roll.in_steps) return {};
+       const si::Motion& motion = *roll.in_steps;
+       Json members{{"t_stop", motion.stop_time()}, {"slip_length", motion.slip_length()}, {"turns", motion.turns()}};
+       if (const auto rest = motion.rest()) members["rest"] = members_of(*rest);
+       if (!roll.is_driven()) members["steps"] = motion.steps();
        return members;
      },
      nullptr, 0, " {`t_stop`, `slip_length`, `turns`, `steps`}"},
@@ -140,16 +107,16 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      "for ever, until slip and spin end",
      [](const Roll& roll) -> Json {
        if (!si::mass_is_known(roll.experiment.ball)) return {};
-       const auto& [start, loss, kept, rolling, gained] = energy_balance(roll);
-       Json members{{"start", start}, {"lost_sliding", loss.sliding}, {"lost_spinning", loss.pivoting}, {"kept", kept}};
-       if (roll.whole.resisted) members["lost_rolling"] = rolling;
+       const auto [start, sliding, pivoting, rolling, gained, kept] = roll.whole.energy_balance();
+       Json members{{"start", start}, {"lost_sliding", sliding}, {"lost_spinning", pivoting}, {"kept", kept}};
+       if (roll.is_driven()) members["lost_rolling"] = rolling;
        if (roll.experiment.environment.slope != 0) members["gained_on_slope"] = gained;
        return members;
      },
      nullptr, 0, " {`start`, `lost_sliding`, `lost_spinning`, `kept`}"},
     {"textbook", "", "the same events, by the same threshold, where slip and spin do not know of each other",
      [](const Roll& roll) {
-       return members_of(event_fields, RollEvents{events_of(roll.textbook), roll.lies_flat()});
+       return members_of(event_fields, RollEvents{roll.theirs(), roll.lies_flat()});
      }},
     {"gradient", "SI",
      "with --gradient: how each number of an event changes with each of the ball and its start, the others kept; "
@@ -172,7 +139,7 @@ std::string heading(const si::Experiment& experiment, const reduction::Law& law,
 
 /// Tells the motion in one sentence of plain words.
 std::string opening(const Roll& roll) {
-  const si::Events ours = events_of(roll.whole), theirs = events_of(roll.textbook);
+  const si::Events ours = roll.ours(), theirs = roll.theirs();
   const Eigen::Vector2d velocity = si::velocities_of(roll.experiment.start).velocity;
   const bool flat = roll.lies_flat(), slips = si::slip_at_start(roll.experiment) > 0;
   const bool spins = si::spin_at_start(roll.experiment) != 0, slopes = roll.experiment.environment.slope != 0;
@@ -213,8 +180,7 @@ std::string opening(const Roll& roll) {
 }
 
 std::string events_text(const Roll& roll, const Digits& digits) {
-  const si::Events ours = events_of(roll.whole);
-  const si::Events theirs = events_of(roll.textbook);
+  const si::Events ours = roll.ours(), theirs = roll.theirs();
   const auto width = TextTable::right(std::max(26, 2 * digits.count + 16));
   TextTable table({TextTable::left(24), width, width});
   const auto number = [&](const std::string& label, double first, double second, const std::string& unit) {
@@ -253,20 +219,20 @@ std::string resistance_text(const Roll& roll, const Digits& digits) {
     text += fmt::format("slope  {} degrees, {} along x: gravity pulls by {} m/s^2 and presses by {} m/s^2\n",
                         digits(environment.slope), environment.slope > 0 ? "uphill" : "downhill",
                         digits(si::pull(environment).norm()), digits(si::pressing(environment)));
-  if (roll.rolling_friction > 0)
+  if (const double u_r = roll.experiment.contact.rolling_friction; u_r > 0)
     text += fmt::format(
         "rolling resistance slows it down by u_r g = {} m/s^2 when it rolls without slip; it acts all the time\n",
-        digits(roll.rolling_friction * si::pressing(environment)));
-  if (const auto k = roll.whole.resisted->creep_ratio()) {
+        digits(u_r * si::pressing(environment)));
+  if (const auto k = roll.whole.creep_ratio()) {
     const double rim = *k * si::patch_radius_of(roll.experiment, roll.law);
     text +=
         fmt::format("creeps while it spins: its slip tends to {} m times its spin, k = {}\n", digits(rim), digits(*k));
   }
-  const auto pieces = roll.whole.resisted->pieces();
-  text += !roll.reduced()  ? "route  integrated: the slip turns, or is driven by more than friction holds\n"
-          : pieces.empty() ? "route  reduced: it does not slide\n"
-                           : fmt::format("route  reduced: it slides the way it rolls, with a drive of {}\n",
-                                         digits(pieces.front().system.drive()));
+  const auto pieces = roll.whole.pieces();
+  text += !roll.whole.is_reduced() ? "route  integrated: the slip turns, or is driven by more than friction holds\n"
+          : pieces.empty()         ? "route  reduced: it does not slide\n"
+                                   : fmt::format("route  reduced: it slides the way it rolls, with a drive of {}\n",
+                                                 digits(pieces.front().flow.system().drive()));
   if (roll.lies_flat()) return text;
   return text + (roll.whole.rest()
                      ? fmt::format("rests  once it no longer turns and slides below {} m/s\n", digits(si::resting_slip))
@@ -276,18 +242,18 @@ std::string resistance_text(const Roll& roll, const Digits& digits) {
 std::string ending(const Roll& roll, const Digits& digits) {
   const si::Experiment& experiment = roll.experiment;
   const auto [velocity, angular_velocity] = si::final_motion(experiment);
-  const auto [start, loss, kept, rolling, gained] = energy_balance(roll);
+  const auto [start, sliding, pivoting, rolling, gained, kept] = roll.whole.energy_balance();
   const bool slopes = experiment.environment.slope != 0;
   const std::string energy =
       !si::mass_is_known(experiment.ball)
           ? ""
           : fmt::format("energy {} J{}: {} lost by sliding, {} by spinning, {}{} kept{}\n", digits(start),
-                        slopes ? fmt::format(" and {} J of the slope", digits(gained)) : "", digits(loss.sliding),
-                        digits(loss.pivoting), rolling > 0 ? fmt::format("{} by rolling, ", digits(rolling)) : "",
+                        slopes ? fmt::format(" and {} J of the slope", digits(gained)) : "", digits(sliding),
+                        digits(pivoting), rolling > 0 ? fmt::format("{} by rolling, ", digits(rolling)) : "",
                         digits(kept), slopes && !roll.whole.rest() ? " when slip and spin end" : "");
-  const std::string resistance = roll.whole.resisted ? resistance_text(roll, digits) : "";
+  const std::string resistance = roll.is_driven() ? resistance_text(roll, digits) : "";
   if (roll.lies_flat()) return resistance + "then   it lies still\n" + energy;
-  if (roll.whole.resisted) return resistance + energy;
+  if (roll.is_driven()) return resistance + energy;
   std::string text = fmt::format("then   it rolls straight on: velocity {} m/s, angular velocity {} 1/s\n",
                                  digits.list(velocity), digits.list(angular_velocity));
   if (velocity.norm() > 0) {
@@ -299,23 +265,14 @@ std::string ending(const Roll& roll, const Digits& digits) {
 
 }  // namespace
 
-si::MotionColumns Roll::at_times(const Eigen::ArrayXd& times) const {
-  if (!integrated) return whole.at_times(times);
-  if (!in_steps) return si::integrate_motion(experiment, law, times).points;
-  si::MotionColumns moments(times.size());
-  for (Eigen::Index i = 0; i < times.size(); ++i) moments.set(i, in_steps->at_time(times[i]));
-  return moments;
-}
-
 double Roll::standard_end() const {
-  const auto rest = whole.rest();
-  const double end = std::max(stop_time(), rest ? rest->t : 0);
+  const double end = whole.last_time();
   return end > 0 ? 1.1 * end : 1;
 }
 
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times) {
-  Answer answer{.members = members_of(start_fields, roll), .columns = columns_of(columns, roll.at_times(times))};
-  answer.members.update(members_of(event_fields, {events_of(roll.whole), roll.lies_flat(), roll.rolling_below}));
+  Answer answer{.members = members_of(start_fields, roll), .columns = columns_of(columns, roll.at(times))};
+  answer.members.update(members_of(event_fields, {roll.ours(), roll.lies_flat(), roll.rolling_below}));
   answer.members.update(members_of(rest_of_roll_fields, roll));
   answer.remarks = answer.members;
   return answer;
@@ -329,22 +286,22 @@ std::string roll_text(const Roll& roll, const Digits& digits) {
                            "\n" + events_text(roll, digits) + "\n" +
                            (roll.gradient ? text_of(*roll.gradient, digits) + "\n" : "") +
                            (roll.uncertainty ? text_of(*roll.uncertainty, digits) + "\n" : "") + ending(roll, digits);
-  if (roll.in_steps) {
-    const auto rest = rest_of(*roll.in_steps);
+  if (!roll.in_steps) return text;
+  const si::Motion& motion = *roll.in_steps;
+  if (roll.is_driven()) {
+    const auto rest = motion.rest();
     return text + fmt::format("route integrated: {}slip and spin end after {} s\n",
                               rest ? fmt::format("its centre rests after {} s at {} m, ", digits(rest->t),
                                                  digits.list(rest->place))
                                    : "",
-                              digits(roll.in_steps->stop_time()));
+                              digits(motion.stop_time()));
   }
-  if (!roll.integrated) return text;
-  const si::IntegratedMotion motion = si::integrate_motion(roll.experiment, roll.law, {});
   return text +
          fmt::format(
              "route integrated: slip and spin end after {} s, {:.1g} from the reduced route, whose events are those "
              "above;\n       it slips {} m and turns {} times, in {} steps\n",
-             digits(motion.stop_time), std::abs(motion.stop_time - roll.stop_time()), digits(motion.slip_length),
-             digits(motion.spin_angle / (2 * std::numbers::pi)), motion.steps);
+             digits(motion.stop_time()), std::abs(motion.stop_time() - roll.whole.stop_time()),
+             digits(motion.slip_length()), digits(motion.turns()), motion.steps());
 }
 
 std::vector<FieldText> roll_fields() {

@@ -9,10 +9,8 @@
 #include "answers/table/answer.hpp"
 #include "answers/table/record.hpp"
 #include "answers/verbs/roll_uncertainty.hpp"
-#include "contensou/si/ball_motion.hpp"
-#include "contensou/si/course.hpp"
-#include "contensou/si/loaded_motion.hpp"
-#include "contensou/si/uncoupled_motion.hpp"
+#include "contensou/si/motion.hpp"
+#include "contensou/si/scaling.hpp"
 
 namespace contensou::answers {
 
@@ -23,25 +21,19 @@ struct Roll {
   bool integrated;       ///< the route of its columns: the equations of motion instead of the similarity solution
   double rolling_below;  ///< m/s of slip
   std::optional<si::LoadHistory> load = {};
-  double rolling_friction = experiment.contact.rolling_friction;
-  si::Course<si::Loaded<si::BallMotion>> whole{
-      experiment, {experiment, {experiment, law}, load}, rolling_below, rolling_friction};
-  si::Course<si::Loaded<si::UncoupledMotion>> textbook{
-      experiment, {experiment, {experiment, law}, load}, rolling_below, rolling_friction};
-  /// With rolling friction or on a slope, by the route integrated.
-  std::optional<si::ResistedMotion> in_steps =
-      integrated && whole.resisted ? std::optional<si::ResistedMotion>({experiment, law, rolling_friction, true})
-                                   : std::nullopt;
+  si::Motion whole = si::Motion::reduced(experiment, law, load).finite();
+  si::Motion textbook = si::Motion::uncoupled(experiment, law, rolling_below, load).finite();
+  std::optional<si::Motion> in_steps = integrated ? std::optional(si::Motion::in_steps(experiment, law)) : std::nullopt;
   std::optional<RollUncertainty> uncertainty = {};
   std::optional<si::EventGradient> gradient = {};
   std::optional<double> tip = {};  ///< of a stroke of a cue: radii above the centre
 
-  /// How the events are found.
-  bool reduced() const { return !whole.resisted || whole.resisted->is_reduced(); }
+  si::Events ours() const { return whole.events(rolling_below); }
+  si::Events theirs() const { return textbook.events(rolling_below); }
   bool lies_flat() const { return experiment.ball.body.lies_flat(); }
-  double stop_time() const { return whole.resisted ? whole.resisted->stop_time() : whole.motion.stop_time(); }
+  bool is_driven() const { return si::is_driven(experiment); }
 
-  si::MotionColumns at_times(const Eigen::ArrayXd& times) const;
+  si::MotionColumns at(const Eigen::ArrayXd& times) const { return (in_steps ? *in_steps : whole).at(times); }
 
   /// Where a series of instants ends unless the user says otherwise, in s: a little past the stop, and the rest.
   double standard_end() const;

@@ -23,7 +23,7 @@ struct RollUncertainty : Sampled {
   std::vector<Part> parts = {};
 };
 
-/// @param rolling_below  as si::Course's
+/// @param rolling_below  as of si::Motion::rolls
 /// @param typed          as read_spreads has it: of the ball's numbers, and of the start slip, spin or vx, vy, wx, wy, wz
 /// @throws BadInput  as read_spreads, of a motion that is at rest, and where all samples are outside
 RollUncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,

@@ -19,9 +19,6 @@
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "contensou/si/ball_motion.hpp"
-#include "contensou/si/course.hpp"
-#include "contensou/si/loaded_motion.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -34,16 +31,14 @@ struct OtherLaw {
   double tau;
 };
 
-/// tau of a ball with rolling friction or on a slope.
 double tau_of(const si::Experiment& experiment, const reduction::Law& law) {
-  const si::ResistedMotion motion(experiment, law, experiment.contact.rolling_friction);
-  return motion.stop_time() / si::seconds(experiment, 1);
+  return si::Motion::reduced(experiment, law).stop_time() / si::seconds(experiment, 1);
 }
 
 /// The stop time of a start with the same patch under another law.
 double tau_under(const GivenStart& start, const reduction::Law& law) {
   const reduction::ReducedSystem& system = start.system;
-  if (start.pieces().size() < 2)
+  if (!start.is_in_pieces())
     return reduction::Flow({law, system.mu(), system.inertia(), system.drive()}).stop_time(start.state).tau;
   si::Experiment experiment = *start.experiment;
   experiment.contact.patch = si::PatchRadius{si::patch_radius_of(experiment, system.law())};
@@ -53,7 +48,7 @@ double tau_under(const GivenStart& start, const reduction::Law& law) {
 /// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say
 /// nothing, nor where only one speed is: there they are one law.
 std::optional<OtherLaw> other_law(const GivenStart& start) {
-  const auto& [system, state, experiment, resisted] = start;
+  const reduction::ReducedSystem& system = start.system;
   const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
   if (!start.slides_and_spins() || (!is_pade && !system.law().as<reduction::HertzLaw>())) return std::nullopt;
   const reduction::Law& other = reduction::paper_laws()[is_pade ? 0 : 1];
@@ -67,8 +62,7 @@ struct CoarserTable {
 };
 
 std::optional<CoarserTable> coarser_table(const GivenStart& start) {
-  const auto& [system, state, experiment, resisted] = start;
-  const auto* table = system.law().as<reduction::TabulatedPressureLaw>();
+  const auto* table = start.system.law().as<reduction::TabulatedPressureLaw>();
   if (table == nullptr || !start.slides_and_spins()) return std::nullopt;
   const auto coarser = table->coarser();
   if (!coarser) return std::nullopt;
@@ -84,7 +78,6 @@ struct StopReport {
   std::optional<OtherLaw> other;                   ///< the other law of the paper, beside one of its laws
   std::optional<CoarserTable> coarser;             ///< of a law that is a table of pressures
   std::vector<reduction::StopEstimate> estimates;  ///< for small mu
-  double slip_length;                              ///< m, of a ball
   std::optional<reduction::StopTimeGradient> gradient;
   std::optional<Uncertainty> uncertainty;    ///< of t_stop, of what is no ball tau_stop
   std::optional<si::LoadHistory> load = {};  ///< that changes
@@ -98,8 +91,8 @@ struct StopReport {
 
 /// tau of a body that does not slide at the start; with a drive it begins to.
 double pivoting_only(const GivenStart& start) {
-  const auto& [system, state, experiment, resisted] = start;
-  if (resisted && state.u != 0) {
+  const auto& [system, state, experiment, motion] = start;
+  if (experiment && si::is_driven(*experiment) && state.u != 0) {
     si::Experiment still = *experiment;
     still.start = si::SlipAndSpin{0, si::spin_at_start(*experiment)};
     return tau_of(still, system.law());  // in place, or down the slope
@@ -108,27 +101,14 @@ double pivoting_only(const GivenStart& start) {
 }
 
 double sliding_only(const GivenStart& start) {
-  const auto& [system, state, experiment, resisted] = start;
-  if (start.pieces().size() < 2) return system.sliding_limit(state.v) / (1 - system.drive());
-  return tau_of(si::without_spin(*experiment), system.law());
+  const reduction::ReducedSystem& system = start.system;
+  if (!start.is_in_pieces()) return system.sliding_limit(start.state.v) / (1 - system.drive());
+  return tau_of(si::without_spin(*start.experiment), system.law());
 }
 
-/// The integral of v dtau until the stop.
-double slip_length(const reduction::Flow& flow, reduction::State start) {
-  const reduction::Orbit orbit = flow.orbit(start);
-  return orbit.slip_length(orbit.stop_time());
-}
-
-/// How a ball moves when slip and spin have ended.
-si::Velocities final_motion(const GivenStart& start) {
-  if (!start.resisted) return si::final_motion(*start.experiment);
-  const si::MotionPoint end = start.resisted->at_time(start.resisted->stop_time());
-  return {end.velocity, end.angular_velocity};
-}
-
-/// Where the centre rests, of a ball with rolling friction, or of a body on a slope; none if it rolls on for ever.
+/// Where the centre of a ball rests that moves and that something resists, if it does.
 std::optional<si::Event> rest_of(const GivenStart& start) {
-  return start.resisted ? si::rest_of(*start.resisted) : std::nullopt;
+  return start.motion && !start.at_rest() ? start.motion->rest() : std::nullopt;
 }
 
 /// What an estimate is too long by; 0 where both are infinite.
@@ -181,7 +161,7 @@ constexpr Field<StopReport> fields[]{
        if (pieces.size() < 2) return {};
        Json list = Json::array();
        for (const si::ReducedPiece& piece : pieces)
-         list.push_back({{"tau", piece.tau}, {"turns", piece.turns}, {"drive", piece.system.drive()}});
+         list.push_back({{"tau", piece.tau}, {"turns", piece.turns}, {"drive", piece.flow.system().drive()}});
        return list;
      },
      "", 0, " [{`tau`, `turns`, `drive`}]"},
@@ -195,7 +175,7 @@ constexpr Field<StopReport> fields[]{
      [](const StopReport& r) -> Json { return r.stop.tau / (1.5 * std::numbers::pi); }, nullptr, 2},
     {"bounds", "speed", "of tau_stop, proved; not of one in pieces",
      [](const StopReport& r) {
-       return r.start.pieces().size() > 1 ? Json() : Json::array({r.stop.bounds.lower, r.stop.bounds.upper});
+       return r.start.is_in_pieces() ? Json() : Json::array({r.stop.bounds.lower, r.stop.bounds.upper});
      },
      "lower,upper", 0, " [lower, upper]"},
     {"limits", "speed", "tau_stop of a body with u0 = 0, with v0 = 0",
@@ -254,14 +234,17 @@ constexpr Field<StopReport> fields[]{
     {"slip", "m/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::slip_at_start); }, ""},
     {"spin", "1/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::spin_at_start); }, ""},
     {"slip_length", "m", "slid by the contact point of a ball",
-     [](const StopReport& r) { return of_ball(r, [&](const auto& /*ball*/) { return r.slip_length; }); }, ""},
+     [](const StopReport& r) {
+       return of_ball(r, [&](const auto& /*ball*/) { return r.start.motion->slip_length(); });
+     },
+     ""},
     {"t_stop", "s", "of a ball, when slip and spin end",
      [](const StopReport& r) { return of_ball(r, [&](const auto& /*ball*/) { return r.seconds(r.stop.tau); }); },
      nullptr, 4},
     {"final", "m/s, 1/s", "of a ball: how it rolls then",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& /*ball*/) -> Json {
-         const auto [velocity, angular_velocity] = final_motion(r.start);
+         const auto [velocity, angular_velocity] = r.start.motion->final_motion();
          return {{"velocity", list_of(velocity)}, {"angular_velocity", list_of(angular_velocity)}};
        });
      },
@@ -291,7 +274,7 @@ class Text {
  private:
   /// Tells the motion in one sentence of plain words.
   std::string opening() const {
-    const auto& [system, state, experiment, resisted] = report_.start;
+    const auto& [system, state, experiment, motion] = report_.start;
     const double tau = report_.stop.tau, uncoupled = std::max(report_.sliding_only, system.pivoting_limit(state.u));
     if (std::isinf(tau)) return "";
     const auto time = [&](double of) {
@@ -310,7 +293,7 @@ class Text {
   }
 
   std::string heading() const {
-    const auto& [system, state, experiment, resisted] = report_.start;
+    const auto& [system, state, experiment, motion] = report_.start;
     if (!experiment) {
       return fmt::format(
           "mu = {}, u0 = {}, v0 = {}; times in the unit of u0 and v0\n{}{}", number_(system.mu()), number_(state.u),
@@ -333,6 +316,7 @@ class Text {
 
   /// What else acts on a ball.
   std::string resistance(const si::Experiment& experiment) const {
+    if (!si::is_driven(experiment)) return "";
     std::string text;
     if (const double u_r = experiment.contact.rolling_friction; u_r != 0)
       text += fmt::format("rolling friction {}\n", number_(u_r));
@@ -343,7 +327,7 @@ class Text {
                           piece.turns                        ? "it turns as it slides"
                           : experiment.ball.body.lies_flat() ? "it slides"
                                                              : "rolling resistance keeps it from turning",
-                          number_(piece.system.drive()));
+                          number_(piece.flow.system().drive()));
     }
     return text;
   }
@@ -386,7 +370,7 @@ class Text {
                         : fmt::format("numerical error {} {:.0e} of it", pressures() ? "some" : "below",
                                       rounded_up(report_.stop.accuracy)));
     if (!report_.start.slides_and_spins()) return table.text();
-    if (report_.start.pieces().size() < 2) {
+    if (!report_.start.is_in_pieces()) {
       row("at least", report_.stop.bounds.lower);
       row("at most", report_.stop.bounds.upper);
     }
@@ -481,7 +465,7 @@ class Text {
   }
 
   std::string ending() const {
-    const auto& [system, state, experiment, resisted] = report_.start;
+    const auto& [system, state, experiment, motion] = report_.start;
     if (!experiment && system.drive() > 0) return driven_ending();
     if (!experiment) {
       const double chi = system.inertia().chi;
@@ -490,15 +474,15 @@ class Text {
                          is_ball() ? "-2 v0/7" : "-v0/chi", number_(0 - state.v / chi));
     }
     if (experiment->ball.body.lies_flat()) {
-      return fmt::format("then   it lies still, {} m from its start\n", number_(report_.slip_length));
+      return fmt::format("then   it lies still, {} m from its start\n", number_(motion->slip_length()));
     }
-    const auto [velocity, angular_velocity] = final_motion(report_.start);
+    const auto [velocity, angular_velocity] = motion->final_motion();
     std::string text;
-    if (resisted) {
+    if (si::is_driven(*experiment)) {
       const auto rest = rest_of(report_.start);
       text = rest ? fmt::format("rests  after {} s at {} m\n", number_(rest->t), number_.list(rest->place))
                   : "rests  never: it rolls down the slope, faster and faster\n";
-      if (rest && rest->t < resisted->stop_time()) return text + "then   it spins in place until its spin ends\n";
+      if (rest && rest->t < motion->stop_time()) return text + "then   it spins in place until its spin ends\n";
     }
     return text + fmt::format("then   it rolls: velocity {} m/s, angular velocity {} 1/s\n       ({}, z up)\n",
                               number_.list(velocity), number_.list(angular_velocity),
@@ -542,7 +526,7 @@ std::vector<FieldText> stop_fields() { return texts_of(fields); }
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient,
                    const std::optional<Spreads>& uncertain, const std::optional<si::LoadHistory>& load) {
   using Estimates = std::vector<reduction::StopEstimate>;
-  const auto& [system, state, experiment, resisted] = start;
+  const auto& [system, state, experiment, motion] = start;
   const auto pieces = start.pieces();
   if (pieces.size() > 1) {
     if (route != reduction::Route::quadrature) {
@@ -556,7 +540,7 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
     if (gradient)
       throw BadInput("--gradient is of one orbit, and this motion with rolling friction is several: leave it out");
   }
-  if (uncertain && (system.drive() > 0 || resisted)) {
+  if (uncertain && (system.drive() > 0 || (experiment && si::is_driven(*experiment)))) {
     throw BadInput(
         "--uncertainty is of a motion without rolling friction, slope and drive: leave it out, or take "
         "'contensou roll --uncertainty', which has t_stop with rolling friction and on a slope");
@@ -564,17 +548,15 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
   if (uncertain && start.at_rest()) throw BadInput("--uncertainty is of a motion, and this is rest: leave it out");
   const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;
   std::optional<reduction::Flow> flow;
-  if (route == reduction::Route::quadrature) {
-    flow = reduction::Flow::by_quadrature(system);
-  } else if (!stepped || experiment || gradient || uncertain) {
-    flow = system;
-  }
+  if (!stepped || experiment || gradient || uncertain) flow = start.flow(route == reduction::Route::quadrature);
+  GivenStart moves = start;
+  if (experiment && !si::is_driven(*experiment)) moves.motion = si::Motion::reduced(*experiment, *flow, load);
   std::optional<Uncertainty> uncertainty;
   if (uncertain) {
     const reduction::StopTimeGradient by = flow->stop_time_gradient(state);
     uncertainty = uncertainty_of(start, *uncertain, experiment ? si::seconds(*experiment, by.tau) : by.tau, by);
   }
-  const StopReport report{start,
+  const StopReport report{moves,
                           route,
                           pieces.size() > 1 ? in_pieces(pieces)
                           : stepped         ? reduction::stop_time(system, state, route)
@@ -584,10 +566,6 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           other_law(start),
                           coarser_table(start),
                           estimate ? reduction::small_mu_estimates(system, state) : Estimates{},
-                          resisted ? resisted->slip_length()
-                          : load   ? si::Loaded<si::BallMotion>(*experiment, {*experiment, *flow}, load).slip_length()
-                          : experiment ? si::seconds(*experiment, slip_length(*flow, state))
-                                       : 0,
                           gradient && !start.at_rest() ? std::optional(flow->stop_time_gradient(state)) : std::nullopt,
                           uncertainty,
                           load};

@@ -176,20 +176,16 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
   require_one_kind();
   if (ball_.given()) {
     const si::Experiment experiment = read_ball(law);
-    const double rolling_friction = experiment.contact.rolling_friction;
     try {
       GivenStart start{si::undriven_system(experiment, law), si::reduced_start(experiment), experiment};
       (void)si::drive_of(experiment);  // says which motion is not one of a reduced system
-      if (rolling_friction == 0 && experiment.environment.slope == 0) return start;
-      const si::ResistedMotion resisted(experiment, law, rolling_friction);
-      if (!resisted.is_reduced()) {
+      start.motion = si::Motion::reduced(experiment, law);
+      if (!start.motion->is_reduced()) {
         throw std::domain_error(
             "slope and rolling resistance drive the slip as much as friction holds it, or more, for a while: the whole "
             "motion (roll) is integrated");
       }
-      if (start.at_rest()) return start;
-      start.system = resisted.pieces().front().system;
-      start.resisted = resisted;
+      if (!start.at_rest()) start.system = start.pieces().front().flow.system();
       return start;
     } catch (const std::domain_error& error) {
       reject_ball(error.what());

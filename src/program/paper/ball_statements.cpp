@@ -4,7 +4,7 @@
 
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/integrated_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "paper/statements.hpp"
 #include "paper/zh98.hpp"
@@ -50,10 +50,10 @@ std::vector<Statement> ball_statements() {
   rates *= 2 * m / (3 * pi * fN);  // dt/dtau
 
   // By integration, at 0.02, 1, 1.5 and 2 stop times.
-  const double stop = si::integrate_motion(experiment, law, Eigen::ArrayXd(0)).stop_time;
+  const si::Motion motion = si::Motion::in_steps(experiment, law);
+  const double stop = motion.stop_time();
   const Eigen::ArrayXd times = stop * (Eigen::ArrayXd(4) << 0.02, 1, 1.5, 2).finished();
-  const si::IntegratedMotion integrated = si::integrate_motion(experiment, law, times);
-  const auto& at = integrated.points;
+  const si::MotionColumns at = motion.at(times);
   const auto V_at = [&](int i) { return Vector2d(at.vx[i], at.vy[i]); };
   const auto omega_at = [&](int i) { return Vector2d(at.wx[i], at.wy[i]); };
   const auto position_at = [&](int i) { return Vector2d(at.x[i], at.y[i]); };
@@ -93,7 +93,7 @@ std::vector<Statement> ball_statements() {
        7 * R * omega_at(0).dot(n) + 5 * at.slip[0], stepping},
       {"", "omega_y = (const - 5 v)/(7 R): at the stop, 1/s", first_integral / (7 * R), omega_at(1).dot(n), stepping},
       {"", "x is 1/7 of the integral of 2 v + const: at the stop, m",
-       (2 * integrated.slip_length + first_integral * stop) / 7, position_at(1).dot(e), stepping},
+       (2 * motion.slip_length() + first_integral * stop) / 7, position_at(1).dot(e), stepping},
       {"", "y = y0 - R omega_x t: at the stop, m", -R * omega_along * stop, position_at(1).dot(n), stepping},
       {"", "after the stop it rolls without slip, m/s", 0., c_at(2).norm(), stepping},
       {"", "and without spin, 1/s", 0., at.wz[2], stepping},

@@ -9,9 +9,9 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/cue_strike.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
@@ -59,8 +59,8 @@ struct Bowled {
     experiment.start = si::Velocities{.velocity = {speed, 0}, .angular_velocity = {0, 0, 0}};
     return experiment;
   }();
-  si::BallMotion motion{ball, law_named("exact")};
-  si::MotionPoint end = motion.at_time(motion.stop_time());
+  si::Motion motion = si::Motion::reduced(ball, law_named("exact"));
+  si::MotionPoint end = motion.at(motion.stop_time());
   double friction = ball.contact.friction * ball.environment.gravity;
 };
 
@@ -69,8 +69,8 @@ double speed_of_draw() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const double speed = 1;
   ball.start = si::Velocities{.velocity = {speed, 0}, .angular_velocity = {0, -2.5 * speed / ball.ball.radius, 0}};
-  const si::BallMotion motion(ball, law_named("exact"));
-  return motion.at_time(motion.stop_time()).velocity.norm() / speed;
+  const si::Motion motion = si::Motion::reduced(ball, law_named("exact"));
+  return motion.at(motion.stop_time()).velocity.norm() / speed;
 }
 
 /// How far above the centre, in radii, a level cue sets a ball rolling: the slip is linear in it.

@@ -89,9 +89,9 @@ class CheckCommand final : public Verb {
   std::vector<Check> checks_of_start(const Law& law) const {
     const GivenStart start = start_.read(law);
     if (start.at_rest()) throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
-    if (!start.resisted) return verify(start.system, start.state);
+    if (!start.motion) return verify(start.system, start.state);
     std::vector<Check> worst;  // of each orbit that the motion is made of
-    for (const si::ReducedPiece& piece : start.pieces()) take_worse(worst, verify(piece.system, piece.start));
+    for (const si::ReducedPiece& piece : start.pieces()) take_worse(worst, verify(piece.flow.system(), piece.start));
     return worst;
   }
 

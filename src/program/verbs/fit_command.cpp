@@ -13,8 +13,7 @@
 #include "answers/verbs/fit_answer.hpp"
 #include "answers/verbs/fit_figure.hpp"
 #include "contensou/fit/fit.hpp"
-#include "contensou/si/ball_motion.hpp"
-#include "contensou/si/resisted_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/run_file.hpp"
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
@@ -251,10 +250,7 @@ class FitCommand final : public Verb {
     if (si::slip_at_start(request.ball) == 0 && si::spin_at_start(request.ball) == 0)
       missing.emplace_back("a start, --slip V, --spin W or both");
     if (!missing.empty()) throw BadInput(fmt::format("--plan needs {}", fmt::join(missing, " and ")));
-    const double u_r = request.ball.contact.rolling_friction;
-    const double end = until_.given() ? *until_
-                       : u_r > 0      ? si::ResistedMotion(request.ball, request.law, u_r).stop_time()
-                                      : si::BallMotion(request.ball, request.law).stop_time();
+    const double end = until_.given() ? *until_ : si::Motion::reduced(request.ball, request.law).stop_time();
     const double frames = std::floor(end * *fps_ * (1 + 1e-12)) + 1;
     constexpr double most = 1e7;
     if (!(frames >= 2 && frames <= most))

@@ -26,7 +26,7 @@ namespace {
 /// q = v/u, p = ln v and the first integral on every row. Where the integral has no value, on the axes, on an
 /// invariant ray and at rest, it is infinite.
 std::array<Column, 3> canonical_columns(const GivenStart& start, const reduction::OrbitColumns& motion) {
-  const reduction::Flow flow(start.system);
+  const reduction::Flow flow = start.flow();
   Eigen::ArrayXd integral = Eigen::ArrayXd::Constant(motion.rows(), infinity);
   for (Eigen::Index i = 0; i < motion.rows(); ++i) {
     try {
@@ -105,8 +105,8 @@ class OrbitCommand final : public Verb {
     // At rest k is what it tends to.
     if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
       const double k0 = start.state.u == 0 ? infinity : start.state.v / (system.mu() * std::abs(start.state.u));
-      const reduction::ReducedSystem& last = pieces.empty() ? system : pieces.back().system;
-      const double k_end = start.at_rest() ? 0 : reduction::Flow(last).terminal().end_of(k0).k;
+      const reduction::Flow last = pieces.empty() ? reduction::Flow(system) : pieces.back().flow;
+      const double k_end = start.at_rest() ? 0 : last.terminal().end_of(k0).k;
       motion.k = at_rest.select(k_end, motion.k);
     }
     Answer answer{.members = {{"law", system.law().name()},

@@ -135,12 +135,12 @@ class PortraitCommand final : public Verb {
       if (route == reduction::Route::direct) {
         throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
       }
-      PortraitSpec& question = questions.emplace_back(PortraitSpec{
-          .flow = route == reduction::Route::quadrature ? reduction::Flow::by_quadrature(start.system) : start.system,
-          .start = has_start ? std::optional(start.state) : std::nullopt,
-          .experiment = start.experiment,
-          .request = request_,
-          .style = style_});
+      PortraitSpec& question =
+          questions.emplace_back(PortraitSpec{.flow = start.flow(route == reduction::Route::quadrature),
+                                              .start = has_start ? std::optional(start.state) : std::nullopt,
+                                              .experiment = start.experiment,
+                                              .request = request_,
+                                              .style = style_});
       question.request.stepped = route == reduction::Route::regularised;
       if (against_.given()) question.request.comparison = against_.read(std::string(si::Body{}.law));
     }

@@ -10,11 +10,10 @@
 #include "answers/verbs/roll_answer.hpp"
 #include "contensou/portraits/roll_figure.hpp"
 #include "contensou/reduction/infinity.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/cue_strike.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
-#include "contensou/si/shots.hpp"
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/instants_option.hpp"
@@ -44,8 +43,8 @@ portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionCol
 /// The picture of the motion at these instants, beside the textbook's.
 portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times) {
   const si::Experiment& experiment = roll.experiment;
-  const double rolls = roll.whole.rolls;
-  const double textbook_rolls = roll.textbook.rolls;
+  const double rolls = roll.whole.rolls(roll.rolling_below);
+  const double textbook_rolls = roll.textbook.rolls(roll.rolling_below);
   const double slip = si::slip_at_start(experiment);
   const double spin = si::spin_at_start(experiment);
   portraits::RollPicture picture{
@@ -53,15 +52,15 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
                                    fmt::format("{:.4g}", si::patch_ratio(experiment, roll.law)),
                                    portraits::shortened(roll.law.name())),
       .subtitle = fmt::format("slip {:.4g} m/s, spin {:.4g} rad/s", slip, spin),
-      .ball = curve(experiment, roll.at_times(times), rolls),
-      .textbook = curve(experiment, roll.textbook.at_times(times), textbook_rolls),
+      .ball = curve(experiment, roll.at(times), rolls),
+      .textbook = curve(experiment, roll.textbook.at(times), textbook_rolls),
       .lies_flat = roll.lies_flat()};
   const auto seconds = [](double time) { return portraits::unbroken(fmt::format("{:.3g} s", time)); };
   if (slip > 0) {
     picture.subtitle += fmt::format("; it {} after {}, the textbook's after {}", roll.lies_flat() ? "rests" : "rolls",
                                     seconds(rolls), seconds(textbook_rolls));
   }
-  if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {}", seconds(roll.stop_time()));
+  if (spin != 0) picture.subtitle += fmt::format("; its spin lasts {}", seconds(roll.whole.stop_time()));
   if (const auto rest = roll.whole.rest()) {
     const auto& place = rest->place;
     picture.subtitle += fmt::format("; it rests after {} at {}", seconds(rest->t),
@@ -144,7 +143,7 @@ class RollCommand final : public Verb {
               load_for(experiment, law)};
     const auto* at = instants_.at();
     const double last = at != nullptr && at->values.size() > 0 ? at->values.maxCoeff() : until_.value_or(0);
-    si::require_finite_motion(roll.experiment, roll.stop_time(), last);
+    si::require_finite_motion(roll.experiment, roll.whole.stop_time(), last);
     if (strike_.given()) roll.tip = tip_.value_or(Eigen::Vector2d::Zero()).y();
     start_.tell_left_out();
     const double end = until_.value_or(roll.standard_end());
@@ -170,7 +169,7 @@ class RollCommand final : public Verb {
       if (const auto [centre, body] = si::velocities_of(roll.experiment.start); centre.isZero(0) && body.isZero(0)) {
         throw BadInput("the ball is at rest, there is nothing to draw: give it a --slip, a --spin or a --velocity");
       }
-      const double rolls = std::max(roll.whole.rolls, roll.textbook.rolls);
+      const double rolls = std::max(roll.whole.rolls(roll.rolling_below), roll.textbook.rolls(roll.rolling_below));
       const double film_end = rolls > 0 && !until_.given() ? std::min(1.6 * rolls, end) : end;
       const auto [film_times, slow] = portraits::film_pace(film_end, instants_.asked());
       portraits::RollPicture picture =
@@ -185,7 +184,7 @@ class RollCommand final : public Verb {
     } else if (output.format == "text" && !instants_.given() && !until_.given()) {
       output.write(answers::roll_text(roll, output.digits));
     } else {
-      output.write(answers::roll_answer(roll, instants_.between(roll.whole.rolls, end)));
+      output.write(answers::roll_answer(roll, instants_.between(roll.whole.rolls(roll.rolling_below), end)));
     }
     return ExitStatus::done;
   }
@@ -224,7 +223,8 @@ class RollCommand final : public Verb {
     if (start_.load_history()) throw BadInput("--batch is of a constant load: give --load a number");
     const std::string rolls = still.ball.body.lies_flat() ? "rest" : "rolls";
     const double chi = still.ball.body.inertia.chi, u_r = still.contact.rolling_friction;
-    const si::Shots shots(still, law, rolling_below_.value_or(si::rolling_slip), u_r);
+    const si::Shots shots(still, law);
+    const double rolling_below = rolling_below_.value_or(si::rolling_slip);
     // Else it rolls down for ever.
     const bool may_rest = u_r * si::pressing(still.environment) > (1 - 1 / chi) * si::pull(still.environment).norm();
     OutputFile output(out.path);
@@ -241,11 +241,10 @@ class RollCommand final : public Verb {
                                      "y_spin_ends", "slip_length", "turns", "path"},
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long /*line*/) {
-                               if (general) {
-                                 write(shots.from(si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}}), results);
-                               } else {
-                                 write(shots.from(si::SlipAndSpin{row[0], row[1]}), results);
-                               }
+                               const si::Start start =
+                                   general ? si::Start(si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}})
+                                           : si::Start(si::SlipAndSpin{row[0], row[1]});
+                               write(shots.from(start).finite().events(rolling_below), results);
                              },
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
@@ -257,8 +256,8 @@ class RollCommand final : public Verb {
   }
 
   /// The events of a row.
-  static void write(const si::Course<si::BallMotion>& course, std::span<double> results) {
-    const auto [rolls, spin_ends, rest, slip_length, turns, path] = events_of(course);
+  static void write(const si::Events& events, std::span<double> results) {
+    const auto& [rolls, spin_ends, rest, slip_length, turns, path] = events;
     auto place = results.begin();
     const auto add = [&](const si::Event& event) {
       for (double value : {event.t, event.place.x(), event.place.y()}) *place++ = value;

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/si/resisted_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
@@ -55,12 +55,9 @@ void StopTimes::resist(const si::Experiment& ball) {
 
 StopTimes::AtMu StopTimes::made(double mu) {
   if (resisted_) {
-    const auto one = [ball = *resisted_, law = law_, flows = std::make_shared<si::ResistedFlows>()](State start) {
+    const auto one = [ball = *resisted_, shots = si::Shots(*resisted_, law_)](State start) {
       if (start.u == 0 && start.v == 0) return 0.0;
-      si::Experiment experiment = ball;
-      experiment.start = si::SlipAndSpin{start.v, start.u / ball.ball.radius};
-      const double u_r = ball.contact.rolling_friction;
-      return si::ResistedMotion(experiment, law, u_r, false, flows).stop_time() / si::seconds(experiment, 1);
+      return shots.from(si::SlipAndSpin{start.v, start.u / ball.ball.radius}).stop_time() / si::seconds(ball, 1);
     };
     return {.flow = {}, .one = one, .starts = starts_};
   }

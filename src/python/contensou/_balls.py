@@ -371,16 +371,15 @@ class Roll:
     rolling_friction: float
     textbook: bool = False
     load: Optional[tuple[tuple[float, ...], tuple[float, ...]]] = None
-    _core: Union[_core.BallMotion, _core.UncoupledMotion] = field(init=False, repr=False, compare=False)
+    _core: _core.Motion = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         experiment = self.ball.but(velocity=self.velocity, angular_velocity=self.angular_velocity)._experiment
         load = None if self.load is None else _core.LoadHistory(list(self.load[0]), list(self.load[1]))
-        settings = self.rolling_below, self.rolling_friction, load
         if self.textbook:
-            core: Union[_core.BallMotion, _core.UncoupledMotion] = _core.UncoupledMotion(experiment, self.law._core, *settings)
+            core = _core.Motion.uncoupled(experiment, self.law._core, self.rolling_friction, load, self.rolling_below)
         else:
-            core = _core.BallMotion(experiment, _solved(self.ball.but(slip=0, spin=0), self.law), *settings)
+            core = _core.Motion.reduced(experiment, _solved(self.ball.but(slip=0, spin=0), self.law), self.rolling_friction, load)
         object.__setattr__(self, "_core", core)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -428,7 +427,7 @@ class Roll:
     @property
     def rolls_after(self) -> Event:
         """When its slip has fallen to rolling_below; of a body that lies flat when it rests."""
-        return Event(*self._core.rolls_after)
+        return Event(*self._core.rolls_after(self.rolling_below))
 
     @property
     def spin_ends(self) -> Event:
@@ -460,7 +459,7 @@ class Roll:
     @cached_property
     def path(self) -> float:
         """m along the path of the centre until it rolls."""
-        return self._core.path
+        return self._core.path(self.rolling_below)
 
     def uncertainty(self, *own: str, **spreads: Union[str, float]) -> dict[str, Any]:
         """What the events are known to, where numbers of the ball or of its start are known to a standard deviation each:
@@ -510,12 +509,12 @@ class Rolls:
                  threads: int = 1, out: Optional[NDArray[Any]] = None) -> None:
         self.ball, self.starts, self.law = ball, np.ascontiguousarray(starts), law
         self.rolling_below, self.rolling_friction, self.threads = rolling_below, rolling_friction, threads
-        self._core = _core.Shots(ball._experiment, law._core, rolling_below, rolling_friction)
+        self._core = _core.Shots(ball._experiment, law._core, rolling_friction)
         self.events = self._events(np.empty(len(self), self.dtype) if out is None else target(out, (len(self),), self.dtype))
 
     def _events(self, out: NDArray[Any]) -> NDArray[Any]:
         into = out if out.flags.c_contiguous else np.empty(len(self), self.dtype)
-        self._core.events(self.starts, into.view(np.float64), self.threads)
+        self._core.events(self.starts, self.rolling_below, into.view(np.float64), self.threads)
         if into is not out:
             out[...] = into
         return out

@@ -10,7 +10,7 @@
 
 #include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
 // With F = f N Phi and M = c N Psi a cone's motion is that of (2.6) for a patch of radius c/f whose Psi(0) is 1:
@@ -43,11 +43,11 @@ using reduction::ReducedSystem;
 
 constexpr double turn = 2 * std::numbers::pi;
 
-FadeTimes fade_times(const Experiment& experiment, const BallMotion& motion) {
+FadeTimes fade_times(const Experiment& experiment, const Motion& motion) {
   return {.slip = motion.slip_time(faded * slip_at_start(experiment)),
           .spin = motion.spin_time(faded * std::abs(spin_at_start(experiment))),
           .slip_length = motion.slip_length(),
-          .turns = std::abs(motion.spin_angle()) / turn};
+          .turns = std::abs(motion.turns())};
 }
 
 double mu_of(const Experiment& experiment, double moment_arm) {
@@ -103,7 +103,7 @@ std::string_view name(Cone cone) {
 }
 
 FadeTimes fade_times(const Experiment& experiment, const reduction::Law& law) {
-  return fade_times(experiment, BallMotion(experiment, law));
+  return fade_times(experiment, Motion::reduced(experiment, law));
 }
 
 FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm) {
@@ -121,7 +121,7 @@ FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm)
       cone == Cone::points ? *reduction::find_law("ring") : reduction::Law(reduction::EllipticLaw(1));
   const ReducedSystem system(law, mu > 0 ? mu : 1,
                              experiment.ball.body.inertia);  // where mu is 0, its sliding is asked for
-  if (mu > 0 && is_law) return fade_times(experiment, BallMotion(experiment, reduction::Flow(system)));
+  if (mu > 0 && is_law) return fade_times(experiment, Motion::reduced(experiment, reduction::Flow(system)));
   if (mu > 0 && cone == Cone::pyramid) {
     const PyramidMotion motion(experiment, mu);
     return {.slip = v0 > 0 ? motion.time(v0, faded * v0) : 0,

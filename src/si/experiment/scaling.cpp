@@ -45,9 +45,13 @@ Eigen::Vector2d direction_at_start(const Experiment& experiment) {
   return {experiment.environment.slope > 0 ? -1 : 1, 0};
 }
 
+bool is_driven(const Experiment& experiment) {
+  return experiment.contact.rolling_friction != 0 || experiment.environment.slope != 0;
+}
+
 double drive_of(const Experiment& experiment) {
+  if (!is_driven(experiment)) return 0;
   const auto& [ball, contact, start, environment, spreads] = experiment;
-  if (contact.rolling_friction == 0 && environment.slope == 0) return 0;
   require_stop(experiment);
   const Eigen::Vector2d along = direction_at_start(experiment);
   const double v = slip_at_start(experiment);
@@ -84,12 +88,11 @@ void require_stop(const Experiment& experiment) {
 }
 
 void require_undriven(const Experiment& experiment, std::string_view what) {
-  const double u_r = experiment.contact.rolling_friction, slope = experiment.environment.slope;
-  if (u_r == 0 && slope == 0) return;
+  if (!is_driven(experiment)) return;
   throw std::domain_error(
       fmt::format("{} knows neither rolling friction nor a slope: rolling_friction and slope must be 0, got {} and {} "
                   "degrees",
-                  what, u_r, slope));
+                  what, experiment.contact.rolling_friction, experiment.environment.slope));
 }
 
 double seconds(const Experiment& experiment, double tau) {

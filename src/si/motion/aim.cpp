@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -11,9 +10,7 @@
 
 #include "contensou/reduction/aim.hpp"
 #include "contensou/reduction/root.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/motion.hpp"
-#include "contensou/si/resisted_motion.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::si {
@@ -91,19 +88,17 @@ std::string out_of_reach(const Goal& goal, double least) {
 /// distance or has taken so long. Lengths and turns go with the square of the speeds and times with them, but for
 /// resting_slip; so the ratio k at the start is the root of a quotient (reduction/README.md), and the speeds follow.
 /// @param goal  of which turns is one
-SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Law& law, const Goal& goal) {
+SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal) {
   struct Reached {
     double turns, other;  ///< other: what goes with the square of the speeds, too, distance or the square of the time
   };
   const double R = experiment.ball.radius, turns = std::abs(*goal.turns);
   const double other = goal.distance ? *goal.distance : *goal.time * *goal.time;
-  const auto flows = std::make_shared<ResistedFlows>();
+  const Shots shots(experiment, flow);
   const auto reached = [&](const SlipAndSpin& start) -> Reached {
-    Experiment shot = experiment;
-    shot.start = start;
-    const ResistedMotion motion(shot, law, experiment.contact.rolling_friction, false, flows);
+    const Motion motion = shots.from(start);
     const double time = motion.last_time();
-    return {motion.spin_angle() / (2 * std::numbers::pi), goal.distance ? motion.rest_position().x() : time * time};
+    return {motion.turns(), goal.distance ? motion.rest()->place.x() : time * time};
   };
   // A start with these speeds, and from it the one of the same kind that comes to what is asked for.
   const auto settled = [&](const auto& start_of) {
@@ -137,7 +132,7 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Law& la
     }
   }
   if (other == 0) return settled(in_place);
-  const double mu = patch_ratio(experiment, law);
+  const double mu = flow.system().mu();
   const SlipAndSpin found = settled([&](double speed) {
     const auto start_of = [&](double ln_k) -> SlipAndSpin {
       const double slip = mu * std::exp(ln_k), size = std::hypot(slip, 1);
@@ -166,7 +161,7 @@ SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, con
   require_level(experiment);
   reduction::require_monotone(flow.system().law());
   if (experiment.contact.rolling_friction != 0) {
-    if (goal.turns) return aimed_to_rest(experiment, flow.system().law(), goal);
+    if (goal.turns) return aimed_to_rest(experiment, flow, goal);
     throw std::domain_error(
         "with rolling friction one distance in one time may have two starts, a slow spin and a fast one: give turns "
         "with one of them; --rolling-friction 0 leaves it out");
@@ -208,16 +203,12 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
   }
   reduction::require_monotone(flow.system().law());
   // What its slip adds to the speed of the centre at the start.
-  Experiment shot = experiment;
-  const auto added = [&](double slip) {
-    shot.start = SlipAndSpin{slip, goal.spin};
-    return slip - final_motion(shot).velocity.x();
-  };
+  const Shots shots(experiment, flow);
+  const auto added = [&](const Motion& motion, double slip) { return slip - motion.final_motion().velocity.x(); };
   const auto too_far = [&](double slip) {
-    const double more = added(slip);
-    const BallMotion motion(shot, flow);
-    const double rolls = motion.slip_time(rolling_slip);
-    return motion.at_time(rolls).position.x() + (goal.speed + more - slip) * rolls - goal.place;
+    const Motion motion = shots.from(SlipAndSpin{slip, goal.spin});
+    const Event rolls = motion.event(motion.rolls());
+    return rolls.place.x() + (goal.speed + added(motion, slip) - slip) * rolls.t - goal.place;
   };
   double high = 2 * rolling_slip;
   constexpr double most = 1e100;
@@ -226,11 +217,10 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
     if (high > most) too_far_apart(goal);
   }
   const double slip = reduction::root_between(too_far, high / 2, high);
-  const double speed = goal.speed + added(slip);
+  const double speed = goal.speed + added(shots.from(SlipAndSpin{slip, goal.spin}), slip);
   const Velocities start{{speed, 0}, {0, (speed - slip) / experiment.ball.radius, goal.spin}};
-  shot.start = start;
-  const BallMotion motion(shot, flow);
-  if (!comes_to(motion.at_time(motion.slip_time(rolling_slip)).position.x(), goal.place)) too_far_apart(goal);
+  const Motion motion = shots.from(start);
+  if (!comes_to(motion.event(motion.rolls()).place.x(), goal.place)) too_far_apart(goal);
   return start;
 }
 

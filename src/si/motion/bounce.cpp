@@ -5,18 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/hertz_contact.hpp"
-#include "contensou/si/uncoupled_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 namespace contensou::si {
 
 namespace {
 
-template <class Motion>
-Rebound rebound(const Experiment& experiment, const reduction::Law& law, const Impact& impact, double rolling_below) {
-  const Motion motion(pressed_in(impact, experiment, law), law);
-  const MotionPoint last = motion.at_time(impact.impulse());
+Rebound rebound(const Motion& motion, const Impact& impact, double rolling_below) {
+  const MotionPoint last = motion.at(impact.impulse());
   return {{last.velocity, last.angular_velocity}, last.slip, motion.slip_time(rolling_below) / impact.impulse()};
 }
 
@@ -45,6 +42,7 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
                                                                          normal_speed, experiment.ball.radius, *moduli)
                                              : patch_radius_of(experiment, law)};
   pressed.environment = {.gravity = 1};
+  pressed.contact.rolling_friction = 0;
   if (const double patch = std::get<PatchRadius>(pressed.contact.patch).value;
       moduli && !(patch > 0 && patch <= pressed.ball.radius))
     throw std::domain_error(fmt::format(
@@ -56,12 +54,12 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
 }
 
 Rebound bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact, double rolling_below) {
-  return rebound<BallMotion>(experiment, law, impact, rolling_below);
+  return rebound(Motion::reduced(pressed_in(impact, experiment, law), law), impact, rolling_below);
 }
 
 Rebound uncoupled_bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
                          double rolling_below) {
-  return rebound<UncoupledMotion>(experiment, law, impact, rolling_below);
+  return rebound(Motion::uncoupled(pressed_in(impact, experiment, law), law), impact, rolling_below);
 }
 
 }  // namespace contensou::si

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "contensou/reduction/infinity.hpp"
-#include "contensou/si/ball_motion.hpp"
-#include "contensou/si/course.hpp"
+#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::si {
@@ -38,11 +37,7 @@ EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& l
   };
   add(flat ? "rest" : "rolls_after");
   add("spin_ends");
-  if (!flat && resisted()) {
-    const Course<BallMotion> course(experiment_, {experiment_, flow_}, rolling_below_,
-                                    experiment_.contact.rolling_friction);
-    if (course.rest()) add("rest");
-  }
+  if (!flat && Motion::reduced(experiment_, flow_).finite().rest()) add("rest");
   names_.insert(names_.end(), {{"slip_length", "", "m"}, {"turns", "", ""}, {"path", "", "m"}, {"t_stop", "", "s"}});
   for (const Component& each : uncertain_components()) {
     const bool fixed = flat && each.quantity == &angular_velocity && each.index < 2;
@@ -51,9 +46,7 @@ EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& l
   values_ = of(experiment_, flow_);
 }
 
-bool EventNumbers::resisted() const {
-  return experiment_.contact.rolling_friction != 0 || experiment_.environment.slope != 0;
-}
+bool EventNumbers::resisted() const { return is_driven(experiment_); }
 
 double EventNumbers::value(const Component& of) const { return described_.find(*of.quantity)->numbers[of.index]; }
 
@@ -69,8 +62,8 @@ Experiment EventNumbers::with(const std::vector<Component>& components, const Ve
 }
 
 VectorXd EventNumbers::of(const Experiment& other, const reduction::Flow& flow) const {
-  const Course<BallMotion> course(other, {other, flow}, rolling_below_, other.contact.rolling_friction);
-  const Events events = events_of(course);
+  const Motion motion = Motion::reduced(other, flow).finite();
+  const Events events = motion.events(rolling_below_);
   VectorXd values(static_cast<Index>(names_.size()));
   Index place = 0;
   const auto add = [&](const Event& event) {
@@ -83,8 +76,7 @@ VectorXd EventNumbers::of(const Experiment& other, const reduction::Flow& flow) 
     if (!events.rest) throw std::domain_error("it rolls for ever");
     add(*events.rest);
   }
-  const double stop = course.resisted ? course.resisted->stop_time() : course.motion.stop_time();
-  for (double each : {events.slip_length, events.turns, events.path, stop}) values[place++] = each;
+  for (double each : {events.slip_length, events.turns, events.path, motion.stop_time()}) values[place++] = each;
   return values;
 }
 

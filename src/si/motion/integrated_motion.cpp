@@ -5,8 +5,6 @@
 // with R^2/J = (chi - 1)/m, J_z = m R^2/gamma: of a ball J = J_z = (2/5) m R^2, of a body that lies flat 1/J is 0.
 // Units of the integration: speed scale for R omega, time scale T for t, their product for the position, the slip
 // length without spin for the slip length.
-#include "contensou/si/integrated_motion.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +20,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 
 #include "contensou/reduction/root.hpp"
+#include "solution.hpp"
 
 namespace contensou::si {
 
@@ -196,16 +195,30 @@ std::vector<Eigen::Index> increasing(const Eigen::ArrayXd& times) {
   return order;
 }
 
-}  // namespace
+/// What an integration gives.
+struct Integration {
+  MotionColumns points;
+  double stop_time = 0;    ///< s
+  double slip_length = 0;  ///< m, until the stop
+  double spin_angle = 0;   ///< rad about the vertical, until the stop
+  long steps = 0;
+};
 
-IntegratedMotion integrate_motion(const Experiment& experiment, const reduction::Law& law,
-                                  const Eigen::ArrayXd& times) {
-  require_experiment(experiment);
+/// The equations of motion (2.5) of a ball, or of a body that lies flat, under any friction law, with its position, integrated
+/// in SI: a route of its own, that knows neither the reduction nor the first integrals.
+///
+/// Force and torque act on the Cartesian velocities; the step is made in omega_x, omega_y, the position and, in place
+/// of the velocity of the contact point and of omega_z, in ln v, the direction of v and ln |omega_z|, as Zh98 does
+/// before (2.6): these cannot step through the stop. Once one friction is all there is, the tail is closed with its
+/// exact limit; beyond the stop the ball rolls.
+///
+/// @param times  s, >= 0, in any order
+Integration integrate(const Experiment& experiment, const reduction::Law& law, const Eigen::ArrayXd& times) {
   for (double t : times) {
     if (t >= 0 && std::isfinite(t)) continue;
-    throw std::domain_error(fmt::format("integrate_motion: times must be finite and >= 0, in s; got {}", t));
+    throw std::domain_error(fmt::format("Motion::in_steps: times must be finite and >= 0, in s; got {}", t));
   }
-  IntegratedMotion motion{MotionColumns(times.size())};
+  Integration motion{MotionColumns(times.size())};
   const Velocities start = velocities_of(experiment.start);
   const Vector2d contact = slip_velocity_at_start(experiment);
   const double v0 = slip_at_start(experiment);
@@ -252,7 +265,7 @@ IntegratedMotion integrate_motion(const Experiment& experiment, const reduction:
   const double T = ball.time_scale;
   while (!in_tail(ball, x, t * T)) {
     if (motion.steps == step_limit) {
-      throw std::runtime_error(fmt::format("integrate_motion: {} steps were not enough to reach the stop", step_limit));
+      throw std::runtime_error(fmt::format("Motion::in_steps: {} steps were not enough to reach the stop", step_limit));
     }
     while (next != order.end() && times[*next] / T <= t) {
       motion.points.set(*next, point_of(ball, experiment.ball, x, times[*next]));
@@ -266,12 +279,12 @@ IntegratedMotion integrate_motion(const Experiment& experiment, const reduction:
     double taken = trial;
     while (stepper.try_step(std::cref(ball), x, t, trial) == odeint::fail) {
       if (!(trial > std::numeric_limits<double>::min())) {
-        throw std::runtime_error("integrate_motion: the step size fell to nothing: the friction law is not a number");
+        throw std::runtime_error("Motion::in_steps: the step size fell to nothing: the friction law is not a number");
       }
       taken = trial;
     }
     for (double value : x) {
-      if (std::isnan(value)) throw std::runtime_error("integrate_motion: the friction law gave no number");
+      if (std::isnan(value)) throw std::runtime_error("Motion::in_steps: the friction law gave no number");
     }
     step = cut && t >= wanted ? std::max(step, trial) : trial;
     if (ball.log_ratio(before) > 0 && ball.log_ratio(x) < 0) {
@@ -292,6 +305,31 @@ IntegratedMotion integrate_motion(const Experiment& experiment, const reduction:
   motion.slip_length = end[7] * ball.slip_scale;
   motion.spin_angle = ball.turn * end[8] * speed * T / R;
   return motion;
+}
+
+class InSteps final : public Motion::Solution {
+ public:
+  InSteps(const Experiment& of, const reduction::Law& law) : Solution(of), law_(law), whole_(integrate(of, law, {})) {}
+
+  MotionPoint at(double t) const override { return at_times(Eigen::ArrayXd::Constant(1, t)).row(0); }
+  MotionColumns at_times(const Eigen::ArrayXd& times) const override {
+    return integrate(experiment, law_, times).points;
+  }
+  double stop_time() const override { return whole_.stop_time; }
+  double slip_length() const override { return whole_.slip_length; }
+  double spin_angle() const override { return whole_.spin_angle; }
+  long steps() const override { return whole_.steps; }
+
+ private:
+  reduction::Law law_;
+  Integration whole_;
+};
+
+}  // namespace
+
+SolvedMotion undriven_motion_in_steps(const Experiment& experiment, const reduction::Law& law) {
+  require_experiment(experiment);
+  return std::make_shared<InSteps>(experiment, law);
 }
 
 }  // namespace contensou::si

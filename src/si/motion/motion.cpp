@@ -1,74 +1,197 @@
 #include "contensou/si/motion.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include "contensou/reduction/root.hpp"
+#include "contensou/si/scaling.hpp"
+#include "solution.hpp"
+
 namespace contensou::si {
 
-MotionColumns::MotionColumns(Eigen::Index rows)
-    : t(rows), x(rows), y(rows), vx(rows), vy(rows), wx(rows), wy(rows), wz(rows), slip(rows), energy(rows) {}
+namespace {
 
-void MotionColumns::set(Eigen::Index row, const MotionPoint& point) {
-  t[row] = point.t;
-  x[row] = point.position.x();
-  y[row] = point.position.y();
-  vx[row] = point.velocity.x();
-  vy[row] = point.velocity.y();
-  wx[row] = point.angular_velocity.x();
-  wy[row] = point.angular_velocity.y();
-  wz[row] = point.angular_velocity.z();
-  slip[row] = point.slip;
-  energy[row] = point.energy;
+double require_time(const char* function, double t) {
+  if (t >= 0) return t;
+  throw std::domain_error(fmt::format("Motion::{}: t must be >= 0, in s; got {}", function, t));
 }
 
-MotionPoint MotionColumns::row(Eigen::Index i) const {
-  return {t[i], {x[i], y[i]}, {vx[i], vy[i]}, {wx[i], wy[i], wz[i]}, slip[i], energy[i]};
+double require_speed(const char* function, double speed) {
+  if (speed >= 0) return speed;
+  throw std::domain_error(fmt::format("Motion::{}: speed >= 0 is required, got {}", function, speed));
 }
 
-double kinetic_energy(const Ball& ball, const Velocities& velocities) {
-  const Eigen::Vector3d rim = ball.radius * velocities.angular_velocity;
-  const auto [chi, gamma] = ball.body.inertia;
-  const double turning = ball.body.lies_flat() ? 0 : rim.head<2>().squaredNorm() / (2 * (chi - 1));
-  return ball.mass * (velocities.velocity.squaredNorm() / 2 + turning + rim.z() * rim.z() / (2 * gamma));
+/// The time at which what falls until `last` has fallen to a value above 0.
+double time_of_fall(const std::function<double(double)>& value, double to, double last) {
+  return value(0) <= to ? 0 : reduction::root_between([&](double t) { return value(t) - to; }, 0, last);
 }
 
-EnergyLoss energy_loss(const Experiment& experiment) {
-  const double v = slip_at_start(experiment);
-  const double u = experiment.ball.radius * spin_at_start(experiment);
-  const auto [chi, gamma] = experiment.ball.body.inertia;
-  return {experiment.ball.mass * v * v / (2 * chi), experiment.ball.mass * u * u / (2 * gamma)};
+SolvedMotion reduced_motion(const Experiment& experiment, const reduction::Law& law, SharedFlows& flows) {
+  return is_driven(experiment) ? resisted_motion(experiment, law, flows) : undriven_motion(experiment, law, flows);
 }
 
-Velocities final_motion(const Experiment& experiment) {
-  const double R = experiment.ball.radius;
-  const double chi = experiment.ball.body.inertia.chi;
-  if (experiment.ball.body.lies_flat()) return {Eigen::Vector2d::Zero(), Eigen::Vector3d::Zero()};
-  if (const auto* start = std::get_if<SlipAndSpin>(&experiment.start)) {
-    const double speed = start->slip * ((chi - 1) / chi);
-    return {{speed, 0}, {0, speed / R, 0}};
+SolvedMotion under(const std::optional<LoadHistory>& history, SolvedMotion motion) {
+  return history ? loaded_motion(std::move(motion), *history) : motion;
+}
+
+}  // namespace
+
+reduction::OrbitPoint state_at(const std::vector<ReducedPiece>& pieces, double tau) {
+  double beta = 0;
+  for (std::size_t i = 0;; ++i) {
+    const ReducedPiece& piece = pieces[i];
+    const bool last = i + 1 == pieces.size();
+    if (!last && tau >= pieces[i + 1].tau) {
+      beta += piece.orbit.at_time(pieces[i + 1].tau - piece.tau).beta;
+      continue;
+    }
+    reduction::OrbitPoint point = piece.orbit.at_time(std::max(0.0, tau - piece.tau));
+    point.tau = tau;
+    point.beta += beta;
+    return point;
   }
-  const Eigen::Vector2d rolling =
-      velocities_of(experiment.start).velocity - slip_velocity_at_start(experiment) * (1 / chi);
-  return {rolling, {(0 - rolling.y()) / R, rolling.x() / R, 0}};  // 0 - y: no -0
 }
 
-MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, double slip_length, double spin) {
-  const Velocities start = velocities_of(experiment.start);
-  const Eigen::Vector2d contact = slip_velocity_at_start(experiment);
-  const double v0 = slip_at_start(experiment);
-  const Eigen::Vector2d along = v0 > 0 ? Eigen::Vector2d(contact / v0) : Eigen::Vector2d::Zero();
-  const double lost = v0 - slip;
-  const double chi = experiment.ball.body.inertia.chi;
-  const double rolling = (chi - 1) * lost / (chi * experiment.ball.radius);
-
-  MotionPoint point;
-  point.t = t;
-  const Velocities final = final_motion(experiment);
-  const auto way = [t](double speed) { return speed == 0 ? 0 : speed * t; };  // also for ever
-  point.position = final.velocity.unaryExpr(way) + slip_length * (1 / chi) * along;
-  point.velocity = slip == 0 ? final.velocity : start.velocity - lost * (1 / chi) * along;
-  point.angular_velocity = {start.angular_velocity.x() - rolling * along.y(),
-                            start.angular_velocity.y() + rolling * along.x(), spin};
-  point.slip = slip;
-  point.energy = kinetic_energy(experiment.ball, {point.velocity, point.angular_velocity});
+reduction::OrbitPoint state_at_time_left(const std::vector<ReducedPiece>& pieces, double left) {
+  const ReducedPiece& last = pieces.back();
+  const double stop = stop_time(pieces), tau = stop - left;
+  if (!(left >= 0 && tau >= 0))
+    throw std::domain_error(fmt::format("state_at_time_left: 0 to {} is allowed, got {}", stop, left));
+  if (!(left <= last.orbit.stop_time())) return state_at(pieces, tau);
+  reduction::OrbitPoint point = last.orbit.at_time_left(left);
+  point.tau = tau;
+  if (pieces.size() > 1) point.beta += state_at(pieces, last.tau).beta;
   return point;
+}
+
+MotionColumns Motion::Solution::at_times(const Eigen::ArrayXd& times) const {
+  MotionColumns columns(times.size());
+  for (Eigen::Index i = 0; i < times.size(); ++i) columns.set(i, at(require_time("at", times[i])));
+  return columns;
+}
+
+double Motion::Solution::slip_time(double speed) const {
+  const auto slip = [this](double t) { return at(t).slip; };
+  return speed == 0 ? stop_time() : time_of_fall(slip, speed, stop_time());
+}
+
+double Motion::Solution::spin_time(double speed) const {
+  const auto spin = [this](double t) { return std::abs(at(t).angular_velocity.z()); };
+  return speed == 0 ? spin_end() : time_of_fall(spin, speed, spin_end());
+}
+
+double Motion::Solution::path_length(double t) const {
+  return integral_over_time([this](double now) { return at(now).velocity.norm(); }, 0, t, 1e-10);
+}
+
+double integral_over_time(const std::function<double(double)>& value, double from, double to, double tolerance) {
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+  constexpr unsigned depth = 12;
+  return to > from ? Rule::integrate(value, from, to, depth, tolerance) : 0;
+}
+
+reduction::Flow SharedFlows::get(Of of, const std::function<reduction::Flow()>& made) {
+  const std::lock_guard lock(guard_);
+  auto& flow = known_[static_cast<std::size_t>(of)];
+  if (!flow) flow = made();
+  return *flow;
+}
+
+Motion Motion::reduced(const Experiment& experiment, const reduction::Law& law,
+                       const std::optional<LoadHistory>& history) {
+  SharedFlows flows;
+  return Motion(under(history, reduced_motion(experiment, law, flows)));
+}
+
+Motion Motion::reduced(const Experiment& experiment, const reduction::Flow& flow,
+                       const std::optional<LoadHistory>& history) {
+  SharedFlows flows(flow);
+  return Motion(under(history, reduced_motion(experiment, flow.system().law(), flows)));
+}
+
+Motion Motion::in_steps(const Experiment& experiment, const reduction::Law& law,
+                        const std::optional<LoadHistory>& history) {
+  SharedFlows none;
+  return Motion(under(history, is_driven(experiment) ? resisted_motion(experiment, law, none, true)
+                                                     : undriven_motion_in_steps(experiment, law)));
+}
+
+Motion Motion::uncoupled(const Experiment& experiment, const reduction::Law& law, double rolling_below,
+                         const std::optional<LoadHistory>& history) {
+  return Motion(under(history, uncoupled_motion(experiment, law, require_speed("uncoupled", rolling_below))));
+}
+
+const Motion& Motion::finite() const {
+  const double stop = stop_time();
+  require_finite_motion(experiment(), stop);
+  if (!std::isfinite(stop)) throw std::runtime_error("the stop time exceeds the largest double");
+  require_finite_motion(experiment(), last_time());
+  return *this;
+}
+
+const Experiment& Motion::experiment() const { return solution_->experiment; }
+MotionPoint Motion::at(double t) const { return solution_->at(require_time("at", t)); }
+MotionColumns Motion::at(const Eigen::ArrayXd& times) const { return solution_->at_times(times); }
+double Motion::stop_time() const { return solution_->stop_time(); }
+double Motion::spin_end() const { return solution_->spin_end(); }
+double Motion::slip_time(double speed) const { return solution_->slip_time(require_speed("slip_time", speed)); }
+double Motion::spin_time(double speed) const { return solution_->spin_time(require_speed("spin_time", speed)); }
+double Motion::rolls(double rolling_below) const {
+  return slip_time(experiment().ball.body.lies_flat() ? 0 : rolling_below);
+}
+std::optional<Event> Motion::rest() const { return solution_->rest(); }
+double Motion::slip_length() const { return solution_->slip_length(); }
+double Motion::spin_angle() const { return solution_->spin_angle(); }
+double Motion::turns() const { return spin_angle() / (2 * std::numbers::pi); }
+double Motion::path_length(double t) const { return solution_->path_length(require_time("path_length", t)); }
+Velocities Motion::final_motion() const { return solution_->final_motion(); }
+bool Motion::is_reduced() const { return solution_->is_reduced(); }
+std::vector<ReducedPiece> Motion::pieces() const { return solution_->pieces(); }
+std::optional<double> Motion::creep_ratio() const { return solution_->creep_ratio(); }
+long Motion::steps() const { return solution_->steps(); }
+
+double Motion::last_time() const {
+  const auto rests = rest();
+  return rests ? std::max(stop_time(), rests->t) : stop_time();
+}
+
+Events Motion::events(double rolling_below) const {
+  const double rolling = rolls(rolling_below);
+  return {event(rolling), event(spin_end()), rest(), slip_length(), turns(), path_length(rolling)};
+}
+
+EnergyBalance Motion::energy_balance() const {
+  const auto& [ball, contact, start, environment, spreads] = experiment();
+  const double first = kinetic_energy(ball, velocities_of(start));
+  const auto [sliding, pivoting] = energy_loss(experiment());
+  if (!is_driven(experiment())) return {first, sliding, pivoting, 0, 0, kinetic_energy(ball, final_motion())};
+  const MotionPoint last = at(last_time());
+  const double chi = ball.body.inertia.chi, resisting = contact.rolling_friction * pressing(environment);
+  const double rolling = resisting == 0 ? 0 : chi / (chi - 1) * ball.mass * resisting * solution_->rolled();
+  const double gained = ball.mass * pull(environment).dot(last.position) + 0.0;
+  // Spin has lost what it had.
+  return {first, first + gained - pivoting - rolling - last.energy, pivoting, rolling, gained, last.energy};
+}
+
+Shots::Shots(const Experiment& ball, const reduction::Law& law)
+    : Shots(ball, reduction::Flow(undriven_system(ball, law))) {}
+
+Shots::Shots(const Experiment& ball, const reduction::Flow& flow)
+    : ball_(ball), law_(flow.system().law()), flows_(std::make_shared<SharedFlows>(flow)) {
+  require_stop(ball_);
+}
+
+Motion Shots::from(const Start& start) const {
+  Experiment experiment = ball_;
+  experiment.start = start;
+  require_experiment(experiment);
+  return Motion(reduced_motion(experiment, law_, *flows_));
 }
 
 }  // namespace contensou::si

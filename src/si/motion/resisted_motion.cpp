@@ -2,8 +2,6 @@
 // k = |c|/w, e = c/|c|, a = u_r g, d the pull of a slope; on one g stands for g cos(alpha). Friction, rolling resistance and
 // the pull give (reduction/README.md, (R53), (R54))
 //   V' = -f g Phi e + d,   W' = (chi - 1) f g Phi e - chi a W/|W|,   c' = V' - W'
-#include "contensou/si/resisted_motion.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +20,7 @@
 #include "contensou/reduction/root.hpp"
 #include "contensou/si/scaling.hpp"
 #include "pure_rolling.hpp"
+#include "solution.hpp"
 
 namespace contensou::si {
 
@@ -67,8 +66,8 @@ State rolled_on(const State& from, double seconds, const PureRolling& rolling) {
 
 /// What does not change.
 struct Given {
-  Given(const Experiment& given, const Law& of_law, std::shared_ptr<ResistedFlows> known)
-      : experiment(given),
+  Given(const Experiment& given, const Law& of_law)
+      : lies_flat(given.ball.body.lies_flat()),
         law(of_law),
         radius(given.ball.radius),
         patch(patch_radius_of(given, of_law)),
@@ -77,12 +76,11 @@ struct Given {
         sliding(given.contact.friction * pressing(given.environment)),
         resisting(given.contact.rolling_friction * pressing(given.environment)),
         down(pull(given.environment)),
-        flows(known ? std::move(known) : std::make_shared<ResistedFlows>()) {}
+        tau_per_second(1 / seconds(given, 1)) {}
 
   /// Phi up to which rolling resistance keeps a ball that does not turn from turning: of a body that lies flat any.
   double holding() const {
-    return experiment.ball.body.lies_flat() ? std::numeric_limits<double>::infinity()
-                                            : inertia.chi * drive / (inertia.chi - 1);
+    return lies_flat ? std::numeric_limits<double>::infinity() : inertia.chi * drive / (inertia.chi - 1);
   }
 
   /// Whether friction turns a ball that does not turn.
@@ -95,7 +93,7 @@ struct Given {
   /// What follows when it neither slides nor spins.
   PureRolling rolling_on(const State& from) const {
     const Vector2d rolls = (1 - 1 / inertia.chi) * down;
-    return {from.rolling, rolls, experiment.ball.body.lies_flat() ? 0 : resisting};
+    return {from.rolling, rolls, lies_flat ? 0 : resisting};
   }
 
   /// s for which friction keeps it from sliding then.
@@ -114,9 +112,7 @@ struct Given {
     return (n - v / (inertia.chi * needed.norm()) * turns).normalized();
   }
 
-  double tau_per_second() const { return 1 / seconds(experiment, 1); }
-
-  Experiment experiment;
+  bool lies_flat;
   Law law;
   double radius, patch;
   reduction::Inertia inertia;
@@ -124,71 +120,51 @@ struct Given {
   double sliding;    ///< f g
   double resisting;  ///< u_r g
   Vector2d down;     ///< m/s^2, the pull
-  std::shared_ptr<ResistedFlows> flows;
+  double tau_per_second;
 };
 
-}  // namespace
+/// A motion by its states.
+class Resisted : public Motion::Solution {
+ public:
+  Resisted(const Experiment& of, Given given) : Solution(of), body_(std::move(given)) {}
 
-Flow ResistedFlows::of(bool turning, const std::function<Flow()>& made) {
-  const std::lock_guard lock(guard_);
-  auto& flow = turning ? turning_ : held_;
-  if (!flow) flow = made();
-  return *flow;
-}
+  virtual State state(double t) const = 0;
 
-reduction::OrbitPoint state_at(const std::vector<ReducedPiece>& pieces, double tau) {
-  double beta = 0;
-  for (std::size_t i = 0;; ++i) {
-    const ReducedPiece& piece = pieces[i];
-    const bool last = i + 1 == pieces.size();
-    if (!last && tau >= pieces[i + 1].tau) {
-      beta += piece.orbit.at_time(pieces[i + 1].tau - piece.tau).beta;
-      continue;
-    }
-    reduction::OrbitPoint point = piece.orbit.at_time(std::max(0.0, tau - piece.tau));
-    point.tau = tau;
-    point.beta += beta;
+  MotionPoint at(double t) const override {
+    const State now = state(std::min(t, std::max(rest_, stop_)));
+    const Vector2d velocity = now.velocity();
+    const double radius = body_.radius;
+    MotionPoint point{
+        .t = t,
+        .position = now.position,
+        .velocity = velocity,
+        .angular_velocity = {(0 - now.rolling.y()) / radius, now.rolling.x() / radius + 0.0, now.spin + 0.0},
+        .slip = now.slip.norm(),
+        .energy = 0};
+    point.energy = kinetic_energy(experiment.ball, {point.velocity, point.angular_velocity});
     return point;
   }
-}
-
-reduction::OrbitPoint state_at_time_left(const std::vector<ReducedPiece>& pieces, double left) {
-  const ReducedPiece& last = pieces.back();
-  const double stop = stop_time(pieces), tau = stop - left;
-  if (!(left >= 0 && tau >= 0))
-    throw std::domain_error(fmt::format("state_at_time_left: 0 to {} is allowed, got {}", stop, left));
-  if (!(left <= last.orbit.stop_time())) return state_at(pieces, tau);
-  reduction::OrbitPoint point = last.orbit.at_time_left(left);
-  point.tau = tau;
-  if (pieces.size() > 1) point.beta += state_at(pieces, last.tau).beta;
-  return point;
-}
-
-/// How a motion is known.
-class ResistedMotion::Course {
- public:
-  explicit Course(Given given) : body_(std::move(given)) {}
-  Course(const Course&) = delete;
-  Course& operator=(const Course&) = delete;
-  virtual ~Course() = default;
-
-  virtual bool is_reduced() const = 0;
-  virtual std::optional<double> creep_ratio() const = 0;
-  virtual State at(double t) const = 0;
-  virtual std::vector<ReducedPiece> pieces() const { return {}; }
-
-  const Given& body() const { return body_; }
-  double stop() const { return stop_; }
-  double rest() const { return rest_; }
-
-  double slip_time(double speed) const {
-    const auto excess = [&](double t) { return at(t).slip.norm() - speed; };
+  double stop_time() const override { return stop_; }
+  double slip_time(double speed) const override {
+    if (speed == 0) return stop_;
+    const auto excess = [&](double t) { return state(t).slip.norm() - speed; };
     for (auto knot = knots_.rbegin(); knot != knots_.rend(); ++knot) {
       if (excess(*knot) <= 0) continue;
       return knot == knots_.rbegin() ? *knot : reduction::root_between(excess, *knot, *std::prev(knot));
     }
     return 0;
   }
+  double slip_length() const override { return state(stop_).slip_length; }
+  double spin_angle() const override { return state(stop_).turned; }
+  double path_length(double t) const override { return state(t).path; }
+  std::optional<Event> rest() const override {
+    return std::isinf(rest_) ? std::nullopt : std::optional(Event{rest_, state(rest_).position});
+  }
+  Velocities final_motion() const override {
+    const MotionPoint end = at(stop_);
+    return {end.velocity, end.angular_velocity};
+  }
+  double rolled() const override { return state(std::isinf(rest_) ? stop_ : std::max(stop_, rest_)).rolled; }
 
  protected:
   Given body_;
@@ -196,29 +172,27 @@ class ResistedMotion::Course {
   double stop_ = 0, rest_ = 0;
 };
 
-namespace {
-
 /// A drive of 1 or more, under which sliding alone does not end.
 struct DrivenOut {};
 
 /// A ball that slides the way it rolls, straight down if there is a slope, in pieces: while it turns, while resistance
 /// holds it, and when it slides no more.
-class Straight final : public ResistedMotion::Course {
+class Straight final : public Resisted {
  public:
-  Straight(Given given, const State& start, const Vector2d& along)
-      : Course(std::move(given)), along_(along), drives_(drives_along(body_.experiment, along, body_.inertia.chi)) {
+  Straight(const Experiment& of, Given given, const State& start, const Vector2d& along, SharedFlows& flows)
+      : Resisted(of, std::move(given)), along_(along) {
     State here = start;
     double t = 0;
     bool turning = here.rolling.norm() > 0 || body_.turns(here.slip.norm(), here.spin);
     while (here.slip.norm() > 0 || here.spin != 0) {
-      const Flow driven = flow(turning);
+      const Flow driven = flow(turning, flows);
       const auto end = driven.terminal().end_of(1);
       const bool creeps = here.spin != 0 && driven.system().drive() > 0 && end.regime == reduction::TerminalRegime::ray;
-      if (creeps && (pieces_.empty() || !pieces_.front().turns)) creep_ratio_ = end.k;
+      if (creeps && (pieces_.empty() || !pieces_.front().of.turns)) creep_ratio_ = end.k;
       const reduction::State speeds{body_.radius * here.spin, here.slip.norm()};
-      pieces_.push_back({t, turning, here, driven.system(), speeds, driven.orbit(speeds)});
+      pieces_.push_back({t, here, {t * body_.tau_per_second, turning, driven, speeds, driven.orbit(speeds)}});
       const Piece& piece = pieces_.back();
-      const double stop = t + seconds(body_.experiment, piece.orbit.stop_time());
+      const double stop = t + seconds(experiment, piece.of.orbit.stop_time());
       // What begins to turn goes on to (R55).
       const bool goes_on = turning && pieces_.size() > 1;
       const std::optional<double> changes = goes_on   ? std::nullopt
@@ -226,7 +200,7 @@ class Straight final : public ResistedMotion::Course {
                                                       : begins_to_turn(piece);
       const double until = changes.value_or(stop);
       sample(t, until);
-      here = at(until);
+      here = state(until);
       t = until;
       if (!changes) break;
       if (turning) here.rolling.setZero();
@@ -235,14 +209,14 @@ class Straight final : public ResistedMotion::Course {
     stop_ = t;
     here.slip.setZero();
     here.spin = 0;
-    const bool held = !pieces_.empty() && !pieces_.back().turns;
+    const bool held = !pieces_.empty() && !pieces_.back().of.turns;
     if (held) here.rolling.setZero();
     last_ = here;
     rolls_.emplace(body_.rolling_on(here));
     if (std::isfinite(body_.rolls_for(*rolls_))) throw DrivenOut();
     rest_ = stop_ + rolls_->rest_time();
     if (held && rest_ == stop_ && start.spin != 0)
-      rest_ = pieces_.back().t + seconds(body_.experiment, pieces_.back().orbit.time_of_v(resting_slip));
+      rest_ = pieces_.back().t + seconds(experiment, pieces_.back().of.orbit.time_of_v(resting_slip));
   }
 
   bool is_reduced() const override { return true; }
@@ -250,27 +224,26 @@ class Straight final : public ResistedMotion::Course {
 
   std::vector<ReducedPiece> pieces() const override {
     std::vector<ReducedPiece> result;
-    for (const Piece& piece : pieces_)
-      result.push_back({piece.t * body_.tau_per_second(), piece.turns, piece.system, piece.speeds, piece.orbit});
+    for (const Piece& piece : pieces_) result.push_back(piece.of);
     return result;
   }
 
-  State at(double t) const override {
+  State state(double t) const override {
     if (rolls_ && t >= stop_) return rolled_on(last_, t - stop_, *rolls_);
     const auto after = std::ranges::upper_bound(pieces_, t, {}, &Piece::t);
     const Piece& piece = after == pieces_.begin() ? *after : *std::prev(after);
     const double passed = std::max(0.0, t - piece.t);
     State now = piece.start;
     const double v0 = now.slip.norm(), W0 = now.rolling.norm();
-    const double tau = std::min(passed * body_.tau_per_second(), piece.orbit.stop_time());
-    const Orbit::Instant instant = piece.orbit.instant(tau);
-    const double slid = seconds(body_.experiment, instant.slip_length);
+    const double tau = std::min(passed * body_.tau_per_second, piece.of.orbit.stop_time());
+    const Orbit::Instant instant = piece.of.orbit.instant(tau);
+    const double slid = seconds(experiment, instant.slip_length);
     now.slip = instant.v * along_;
     now.spin = instant.u / body_.radius;
     now.slip_length += slid;
-    now.turned += seconds(body_.experiment, instant.turned) / body_.radius;
+    now.turned += seconds(experiment, instant.turned) / body_.radius;
     double way = slid;
-    if (piece.turns) {
+    if (piece.of.turns) {
       const double chi = body_.inertia.chi;
       const double slowing = body_.resisting - (1 - 1 / chi) * body_.down.dot(along_);
       const double centre = v0 + W0 - (v0 - instant.v) / chi - slowing * passed;
@@ -284,41 +257,40 @@ class Straight final : public ResistedMotion::Course {
  private:
   struct Piece {
     double t;
-    bool turns;
     State start;
-    ReducedSystem system;
-    reduction::State speeds;
-    Orbit orbit;
+    ReducedPiece of;
   };
 
   /// @throws DrivenOut
-  Flow flow(bool turning) const {
-    const reduction::Inertia puck{.chi = 1, .gamma = body_.inertia.gamma};
-    const double drive = turning ? drives_.turning() : drives_along(body_.experiment, along_, puck.chi).slope;
+  Flow flow(bool turning, SharedFlows& flows) const {
+    const reduction::Inertia inertia{.chi = turning ? body_.inertia.chi : 1, .gamma = body_.inertia.gamma};
+    const Drives drives = drives_along(experiment, along_, inertia.chi);
+    const double drive = turning ? drives.turning() : drives.slope;
     if (drive >= 1) throw DrivenOut();
-    return body_.flows->of(turning, [&] {
+    return flows.get(turning ? SharedFlows::Of::turning : SharedFlows::Of::held, [&] {
       const double counts = drive < ReducedSystem::least_drive ? 0 : drive;
-      return Flow(ReducedSystem(body_.law, body_.patch / body_.radius, turning ? body_.inertia : puck, counts));
+      return Flow(ReducedSystem(body_.law, body_.patch / body_.radius, inertia, counts));
     });
   }
 
   /// s at which a piece passes the k at which friction is what resistance holds.
   std::optional<double> passes_holding(const Piece& piece) const {
     const double force = body_.holding();
-    if (!(force > 0 && force < 1) || piece.orbit.on_axis()) return std::nullopt;
+    if (!(force > 0 && force < 1) || piece.of.orbit.on_axis()) return std::nullopt;
     constexpr double far = 100;
     const auto excess = [&](double ln_k) { return body_.law(reduction::slip_of_ratio(std::exp(ln_k))).force - force; };
     if (excess(-far) >= 0 || excess(far) <= 0) return std::nullopt;
     const double ln_k = reduction::root_between(excess, -far, far);
-    const auto [low, high] = std::minmax({piece.orbit.start_log_ratio(), piece.orbit.chart().log_terminal_ratio()});
+    const auto [low, high] =
+        std::minmax({piece.of.orbit.start_log_ratio(), piece.of.orbit.chart().log_terminal_ratio()});
     if (!(low < ln_k && ln_k < high)) return std::nullopt;
-    return piece.t + seconds(body_.experiment, piece.orbit.at_log_ratio(ln_k).tau);
+    return piece.t + seconds(experiment, piece.of.orbit.at_log_ratio(ln_k).tau);
   }
 
   /// s at which rolling ends before slip and spin do.
   std::optional<double> ceases_to_turn(const Piece& piece, double stop) const {
     if (body_.resisting == 0) return std::nullopt;
-    const auto turning = [&](double t) { return at(t).rolling.dot(along_); };
+    const auto turning = [&](double t) { return state(t).rolling.dot(along_); };
     // Between these it does nothing but grow, or fall.
     constexpr double first = 1e-9;
     double from = piece.start.rolling.norm() > 0 ? piece.t : piece.t + first * (stop - piece.t);
@@ -332,7 +304,7 @@ class Straight final : public ResistedMotion::Course {
   /// s at which friction begins to turn what resistance held.
   std::optional<double> begins_to_turn(const Piece& piece) const {
     const auto t = passes_holding(piece);
-    return t && piece.orbit.start_log_ratio() < piece.orbit.chart().log_terminal_ratio() ? t : std::nullopt;
+    return t && piece.of.orbit.start_log_ratio() < piece.of.orbit.chart().log_terminal_ratio() ? t : std::nullopt;
   }
 
   void sample(double from, double to) {
@@ -341,7 +313,6 @@ class Straight final : public ResistedMotion::Course {
   }
 
   Vector2d along_;
-  Drives drives_;
   std::vector<Piece> pieces_;
   State last_;
   std::optional<PureRolling> rolls_;
@@ -352,16 +323,16 @@ class Straight final : public ResistedMotion::Course {
 using Progress = std::array<double, 11>;
 
 /// Any ball.
-class Integrated final : public ResistedMotion::Course {
+class Integrated final : public Resisted {
  public:
-  Integrated(Given given, const State& start) : Course(std::move(given)), turn_(std::copysign(1.0, start.spin)) {
+  Integrated(const Experiment& of, Given given, const State& start)
+      : Resisted(of, std::move(given)), turn_(std::copysign(1.0, start.spin)) {
     run(start);
   }
 
-  bool is_reduced() const override { return false; }
-  std::optional<double> creep_ratio() const override { return std::nullopt; }
+  long steps() const override { return static_cast<long>(steps_.size()); }
 
-  State at(double t) const override {
+  State state(double t) const override {
     const auto after = std::ranges::upper_bound(steps_, t, {}, &Step::t);
     const Step& step = *std::prev(after);
     if (step.rolls) return rolled_on(state_of(step), t - step.t, body_.rolling_on(state_of(step)));
@@ -482,13 +453,13 @@ class Integrated final : public ResistedMotion::Course {
       }
       add(now);
       if (steps == step_limit)
-        throw std::runtime_error(fmt::format("ResistedMotion: {} steps were not enough to reach the stop", steps));
+        throw std::runtime_error(fmt::format("Motion: {} steps were not enough to reach the stop", steps));
       const Step before = now;
       double trial = std::min(step, time_to_stop(now));
       while (stepper.try_step([&](const Progress& at_x, Progress& rate, double) { equations(at_x, rate, before); }, x,
                               now.t, trial) == odeint::fail) {
         if (!(trial > std::numeric_limits<double>::min()) || std::isnan(trial))
-          throw std::runtime_error("ResistedMotion: the step size fell to nothing: the friction law is not a number");
+          throw std::runtime_error("Motion: the step size fell to nothing: the friction law is not a number");
       }
       step = std::max(trial, now.t - before.t);
       // Where friction begins to turn it a step ends.
@@ -510,13 +481,12 @@ class Integrated final : public ResistedMotion::Course {
   std::vector<Step> steps_;
 };
 
-std::shared_ptr<const ResistedMotion::Course> course_of(Experiment experiment, const Law& law, double rolling_friction,
-                                                        bool in_steps, std::shared_ptr<ResistedFlows> flows) {
-  experiment.contact.rolling_friction = rolling_friction;
+}  // namespace
+
+SolvedMotion resisted_motion(const Experiment& experiment, const Law& law, SharedFlows& flows, bool in_steps) {
   require_experiment(experiment);
-  if (rolling_friction == 0 && experiment.environment.slope == 0)
-    throw std::domain_error("ResistedMotion: rolling friction > 0 or a slope is required, got 0 and 0");
   require_stop(experiment);
+  require_finite_motion(experiment, 0);  // their squares
   const auto [velocity, angular_velocity] = velocities_of(experiment.start);
   const Vector2d slip = slip_at_start(experiment) > 0 ? slip_velocity_at_start(experiment) : Vector2d(0, 0);
   const bool flat = experiment.ball.body.lies_flat();
@@ -524,82 +494,15 @@ std::shared_ptr<const ResistedMotion::Course> course_of(Experiment experiment, c
       .slip = slip, .rolling = flat ? Vector2d(0, 0) : Vector2d(velocity - slip), .spin = angular_velocity.z()};
   const Vector2d along = direction_at_start(experiment);
   const bool straight = points_along(start.rolling, along) && points_along(pull(experiment.environment), along);
-  Given given(experiment, law, std::move(flows));
+  const Given given(experiment, law);
   if (!in_steps && straight) {
     try {
-      return std::make_shared<Straight>(given, start, along);
+      return std::make_shared<Straight>(experiment, given, start, along, flows);
     } catch (const DrivenOut&) {
       // It speeds up for a while.
     }
   }
-  return std::make_shared<Integrated>(std::move(given), start);
+  return std::make_shared<Integrated>(experiment, given, start);
 }
-
-}  // namespace
-
-ResistedMotion::ResistedMotion(const Experiment& experiment, const Law& law, double u_r, bool in_steps,
-                               std::shared_ptr<ResistedFlows> flows)
-    : course_(course_of(experiment, law, u_r, in_steps, std::move(flows))) {}
-
-std::vector<ReducedPiece> ResistedMotion::pieces() const { return course_->pieces(); }
-
-bool ResistedMotion::is_reduced() const { return course_->is_reduced(); }
-
-std::optional<double> ResistedMotion::creep_ratio() const { return course_->creep_ratio(); }
-
-MotionPoint ResistedMotion::at_time(double t) const {
-  if (!(t >= 0)) throw std::domain_error(fmt::format("ResistedMotion::at_time: t must be >= 0, in s; got {}", t));
-  const State now = course_->at(std::min(t, std::max(rest_time(), stop_time())));
-  const double radius = course_->body().radius;
-  const Vector2d velocity = now.velocity();
-  MotionPoint point{
-      .t = t,
-      .position = now.position,
-      .velocity = velocity,
-      .angular_velocity = {(0 - now.rolling.y()) / radius, now.rolling.x() / radius + 0.0, now.spin + 0.0},
-      .slip = now.slip.norm(),
-      .energy = 0};
-  point.energy = kinetic_energy(course_->body().experiment.ball, {point.velocity, point.angular_velocity});
-  return point;
-}
-
-double ResistedMotion::stop_time() const { return course_->stop(); }
-
-double ResistedMotion::spin_end() const { return spin_at_start(course_->body().experiment) == 0 ? 0 : course_->stop(); }
-
-double ResistedMotion::slip_time(double speed) const {
-  if (!(speed >= 0))
-    throw std::domain_error(fmt::format("ResistedMotion::slip_time: speed >= 0 is required, got {}", speed));
-  return speed == 0 ? course_->stop() : course_->slip_time(speed);
-}
-
-double ResistedMotion::rest_time() const { return course_->rest(); }
-
-Vector2d ResistedMotion::rest_position() const {
-  if (std::isinf(course_->rest())) throw std::domain_error("ResistedMotion::rest_position: it rolls on for ever");
-  return course_->at(course_->rest()).position;
-}
-
-double ResistedMotion::slip_length() const { return course_->at(course_->stop()).slip_length; }
-
-double ResistedMotion::spin_angle() const { return course_->at(course_->stop()).turned; }
-
-double ResistedMotion::rolling_loss() const {
-  const Given& body = course_->body();
-  if (body.resisting == 0) return 0;
-  const double chi = body.inertia.chi;
-  return chi / (chi - 1) * body.experiment.ball.mass * body.resisting * course_->at(last_time()).rolled;
-}
-
-double ResistedMotion::last_time() const {
-  return std::isfinite(course_->rest()) ? std::max(course_->stop(), course_->rest()) : course_->stop();
-}
-
-double ResistedMotion::gained_on_slope() const {
-  const Given& body = course_->body();
-  return body.experiment.ball.mass * body.down.dot(course_->at(last_time()).position) + 0.0;
-}
-
-double ResistedMotion::path_length(double t) const { return course_->at(t).path; }
 
 }  // namespace contensou::si

@@ -1,4 +1,4 @@
-#include "contensou/si/rolling_friction.hpp"
+#include "rolling_friction.hpp"
 
 #include <algorithm>
 #include <cmath>

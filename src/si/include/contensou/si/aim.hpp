@@ -35,7 +35,7 @@ struct RollingGoal {
 /// carried by the slip alone, and of two such starts with one spin that with the greater slip slips on faster, turns on
 /// faster and so begins to roll later: were the slips equal at some instant, the faster spin would brake its slip less,
 /// and likewise for equal spins. So the place grows with the slip, from 0 to any.
-/// Accuracy  what BallMotion's instant when it rolls has, 1e-12 of its stop time: so 1e-9 of the place but for a start whose
+/// Accuracy  what Motion's instant when it rolls has, 1e-12 of its stop time: so 1e-9 of the place but for a start whose
 ///           slip is just above rolling_slip and whose spin lasts long. A steel ball with 1e4 rad/s that rolls on at 10 m/s
 ///           after 1 cm is off by 1.5e-8.
 /// @param flow  as above

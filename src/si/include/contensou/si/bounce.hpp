@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contensou/si/motion.hpp"
+#include "contensou/si/motion_point.hpp"
 
 namespace contensou::si {
 
@@ -42,18 +42,18 @@ struct Rebound {
 Experiment pressed_in(const Impact& impact, const Experiment& experiment, const reduction::Law& law);
 
 /// A ball that hits the plane at a slant, sliding and spinning. The friction of a patch is in proportion to the load,
-/// so that slip and spin go through the states of a sliding ball (BallMotion) with the normal impulse in the place of time,
+/// so that slip and spin go through the states of a sliding ball (Motion::reduced) with the normal impulse in the place of time,
 /// however the load rises and falls. Rigid bodies; the patch does not change during the impact and does not roll or
 /// yield sideways, and gravity counts for nothing beside the impact.
 ///
 /// @param experiment     its start is what the ball does when it touches the plane
 /// @param rolling_below  m/s, >= 0: a slip from which on it rolls; 0: none, which a ball that spins does not reach before its spin ends
-/// @throws std::domain_error  as pressed_in and BallMotion
+/// @throws std::domain_error  as pressed_in and Motion::reduced
 Rebound bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
                double rolling_below = rolling_slip);
 
 /// The textbook's: the slip falls by chi f (1 + e) v_n, or ends, and the velocity of the centre by 1/chi of that, f (1 + e) v_n or,
-/// of a homogeneous ball, 2/7 of the slip; spin about the vertical falls by itself (UncoupledMotion).
+/// of a homogeneous ball, 2/7 of the slip; spin about the vertical falls by itself (Motion::uncoupled).
 Rebound uncoupled_bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
                          double rolling_below = rolling_slip);
 

@@ -21,8 +21,8 @@ struct EventNumber {
 /// where it rests, if it does; slip length, turns, path (as Events); stop time.
 class EventNumbers {
  public:
-  /// @param rolling_below  as Course's; the rolling friction is the experiment's own
-  /// @throws std::domain_error  as Course, and for one at rest
+  /// @param rolling_below  as of Motion::rolls; the rolling friction is the experiment's own
+  /// @throws std::domain_error  as Motion::reduced and finite, and for one at rest
   EventNumbers(const Experiment& experiment, const reduction::Law& law, double rolling_below);
 
   const std::vector<EventNumber>& names() const { return names_; }
@@ -39,7 +39,7 @@ class EventNumbers {
 
   /// Of such an experiment.
   /// @param flow  of undriven_system(other, law)
-  /// @throws std::domain_error  as Course, and where it rolls for ever and this one rests
+  /// @throws std::domain_error  as Motion::reduced and finite, and where it rolls for ever and this one rests
   Eigen::VectorXd of(const Experiment& other, const reduction::Flow& flow) const;
   Eigen::VectorXd of(const Experiment& other) const;
 

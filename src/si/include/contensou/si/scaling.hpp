@@ -40,6 +40,9 @@ bool points_along(const Eigen::Vector2d& vector, const Eigen::Vector2d& along);
 /// The direction of the slip at the start; where there is none, that in which it rolls or is pulled.
 Eigen::Vector2d direction_at_start(const Experiment& experiment);
 
+/// Returns whether rolling friction or a slope acts.
+bool is_driven(const Experiment& experiment);
+
 /// The drive rho of the motion from the start while the ball turns.
 /// @throws std::domain_error  saying why there is none: up or across the slope, or if it does not roll the way it slides,
 ///                            the slip turns, and the motion is no orbit of a reduced system; as require_stop

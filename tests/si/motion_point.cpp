@@ -3,9 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/ball_motion.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/integrated_motion.hpp"
 #include "motion_cases.hpp"
 
 using namespace contensou::si;
@@ -61,8 +59,8 @@ TEST_CASE("any start ends in rolling along one line", "[invariant]") {
 TEST_CASE("a body that lies flat comes to rest, and loses all its energy", "[invariant]") {
   Experiment puck = find_ball("puck")->experiment;
   const contensou::reduction::Law law = *contensou::reduction::find_law(law_of(puck));
-  const BallMotion motion(puck, law);
-  const MotionPoint end = motion.at_time(motion.stop_time());
+  const Motion motion = Motion::reduced(puck, law);
+  const MotionPoint end = motion.at(motion.stop_time());
   CHECK(end.velocity.norm() < 1e-14);
   CHECK(end.angular_velocity == Eigen::Vector3d::Zero());
   CHECK(end.position.x() == Approx(motion.slip_length()).epsilon(1e-13));  // it slides wherever it moves
@@ -72,12 +70,12 @@ TEST_CASE("a body that lies flat comes to rest, and loses all its energy", "[inv
   CHECK(sliding + pivoting == Approx(kinetic_energy(puck.ball, velocities_of(puck.start))).epsilon(1e-15));
   // Power of friction: dE/dt = -f m g (Phi v + eps Psi |omega|), by a difference.
   const double t = 0.4 * motion.stop_time(), dt = 1e-4;
-  const MotionPoint at = motion.at_time(t);
+  const MotionPoint at = motion.at(t);
   const double eps = patch_radius_of(puck, law);
   const auto [force, moment] = law(contensou::reduction::Slip{at.slip, eps * at.angular_velocity.z()});
   const double power = puck.contact.friction * puck.ball.mass * puck.environment.gravity *
                        (force * at.slip + eps * moment * at.angular_velocity.z());
-  CHECK((motion.at_time(t - dt).energy - motion.at_time(t + dt).energy) / (2 * dt) == Approx(power).epsilon(1e-6));
+  CHECK((motion.at(t - dt).energy - motion.at(t + dt).energy) / (2 * dt) == Approx(power).epsilon(1e-6));
 
   puck.start = Velocities{{1, 0}, {0, 1, 2}};
   CHECK_THROWS_WITH(require_experiment(puck), Catch::Matchers::Contains("turns about the vertical only"));
@@ -96,19 +94,19 @@ TEST_CASE("a body that lies flat by the equations of motion in steps", "[route]"
                                     {{0, 0}, {0, 0, 40}},
                                     {{5, 0}, {0, 0, 1e-3}}}) {
       flat.start = start;
-      const BallMotion motion(flat, law);
+      const Motion motion = Motion::reduced(flat, law);
       const double stop = motion.stop_time();
       const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(12, 0, 1.1 * stop);
-      const IntegratedMotion steps = integrate_motion(flat, law, times);
-      const MotionColumns points = motion.at_times(times);
+      const Motion steps = Motion::in_steps(flat, law);
+      const MotionColumns points = motion.at(times), by_steps = steps.at(times);
       INFO(body << ", vx " << start.velocity.x() << ", wz " << start.angular_velocity.z());
-      CHECK(steps.stop_time == Approx(stop).epsilon(1e-11));
-      CHECK(steps.spin_angle == Approx(motion.spin_angle()).epsilon(1e-10));
+      CHECK(steps.stop_time() == Approx(stop).epsilon(1e-11));
+      CHECK(steps.spin_angle() == Approx(motion.spin_angle()).epsilon(1e-10));
       const double length = std::max(motion.slip_length(), 1e-12);
-      CHECK((steps.points.x - points.x).abs().maxCoeff() <= 1e-10 * length);
-      CHECK((steps.points.y - points.y).abs().maxCoeff() <= 1e-10 * length);
-      CHECK((steps.points.wz - points.wz).abs().maxCoeff() <= 1e-10 * 100);
-      CHECK(steps.points.wx.abs().maxCoeff() == 0);
+      CHECK((by_steps.x - points.x).abs().maxCoeff() <= 1e-10 * length);
+      CHECK((by_steps.y - points.y).abs().maxCoeff() <= 1e-10 * length);
+      CHECK((by_steps.wz - points.wz).abs().maxCoeff() <= 1e-10 * 100);
+      CHECK(by_steps.wx.abs().maxCoeff() == 0);
     }
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contensou/si/motion.hpp"
+#include "contensou/si/motion_point.hpp"
 
 namespace contensou::si {
 
@@ -16,6 +16,9 @@ class RollingFriction {
   /// @throws std::domain_error  unless the deceleration is positive and finite
   RollingFriction(const Ball& ball, const MotionPoint& rolls, double deceleration, double most);
 
+  /// s from the start until the ball rolls.
+  double start() const { return rolls_.t; }
+
   /// s from the start until the centre rests.
   double rest_time() const { return rolls_.t + speed_ / deceleration_; }
 
@@ -25,11 +28,14 @@ class RollingFriction {
   /// m from where it rolls.
   double way() const { return speed_ * speed_ / (2 * deceleration_); }
 
+  /// m, the integral of R |omega| from there on.
+  double rolled() const { return speed_ * speed_ / (2 * turning_); }
+
   /// Returns the s from the start after which it slides no faster than that many m/s.
   double slip_time(double speed) const;
 
   /// m that the contact point slides after that instant.
-  double slip_length() const { return way() - speed_ * speed_ / (2 * turning_); }
+  double slip_length() const { return way() - rolled(); }
 
   /// Returns the same instant with rolling friction.
   /// @param free  without it

@@ -1,4 +1,4 @@
-#include "contensou/si/ball_motion.hpp"
+#include "contensou/si/motion.hpp"
 
 #include <cmath>
 #include <limits>
@@ -11,8 +11,6 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/integrated_motion.hpp"
-#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "motion_cases.hpp"
 
@@ -26,8 +24,8 @@ TEST_CASE("the bowling ball of the textbook", "[table]") {
   experiment.environment.gravity = 9.8;
   experiment.start = Velocities{{8.10, 0}, {0, 0, 0}};
   for (const reduction::Law& law : reduction::named_laws()) {
-    const BallMotion motion(experiment, law);
-    const MotionPoint stop = motion.at_time(motion.stop_time());
+    const Motion motion = Motion::reduced(experiment, law);
+    const MotionPoint stop = motion.at(motion.stop_time());
     CHECK(motion.stop_time() == Approx(1.243).margin(5e-4));
     CHECK(stop.velocity.x() == Approx(5.786).margin(5e-4));
     CHECK(stop.position.x() == Approx(8.63).margin(5e-3));
@@ -47,14 +45,14 @@ TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
       for (const MotionCase& motion_case : motion_cases) {
         INFO(law.name() << ", mu = " << mu << ", " << motion_case.name);
         const Experiment experiment = experiment_of(motion_case, mu);
-        const BallMotion reduced(experiment, law);
+        const Motion reduced = Motion::reduced(experiment, law);
         const double stop = reduced.stop_time();
         const double sliding = 2 * slip_at_start(experiment) / (7 * 0.2 * 9.80665);
         Eigen::ArrayXd times(62);  // the whole motion and beyond, and where it slides
         times << Eigen::ArrayXd::LinSpaced(31, 0, 1.2 * stop), Eigen::ArrayXd::LinSpaced(31, 0, 2 * sliding);
-        const MotionColumns a = reduced.at_times(times);
-        const IntegratedMotion integrated = integrate_motion(experiment, law, times);
-        const MotionColumns& b = integrated.points;
+        const MotionColumns a = reduced.at(times);
+        const Motion integrated = Motion::in_steps(experiment, law);
+        const MotionColumns b = integrated.at(times);
 
         const double R = experiment.ball.radius;
         const double speed = motion_case.start.velocity.norm() + R * motion_case.start.angular_velocity.norm();
@@ -72,9 +70,9 @@ TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
         CHECK(differ(a.wz, b.wz, speed / R) < 1e-12);
         CHECK(differ(a.slip, b.slip, speed) < 1e-12);
         CHECK(differ(a.energy, b.energy, energy) < 1e-12);
-        CHECK(integrated.stop_time == Approx(stop).epsilon(1e-12));
-        CHECK(integrated.slip_length == Approx(reduced.slip_length()).epsilon(1e-12));
-        CHECK(integrated.spin_angle == Approx(reduced.spin_angle()).epsilon(1e-12));
+        CHECK(integrated.stop_time() == Approx(stop).epsilon(1e-12));
+        CHECK(integrated.slip_length() == Approx(reduced.slip_length()).epsilon(1e-12));
+        CHECK(integrated.spin_angle() == Approx(reduced.spin_angle()).epsilon(1e-12));
       }
     }
   }
@@ -85,11 +83,11 @@ TEST_CASE("the path is the integral of the centre's speed", "[route]") {
   for (const MotionCase& motion_case : motion_cases) {
     for (double mu : {1e-2, 0.3}) {
       const Experiment experiment = experiment_of(motion_case, mu);
-      const BallMotion motion(experiment, reduction::HertzLaw{});
+      const Motion motion = Motion::reduced(experiment, reduction::HertzLaw{});
       for (double end : {motion.slip_time(1e-3), 0.5 * motion.stop_time(), 1.5 * motion.stop_time()}) {
         constexpr Eigen::Index panels = 2000;
         const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(panels + 1, 0, 1);
-        const MotionColumns at = motion.at_times(end * s.pow(4));
+        const MotionColumns at = motion.at(end * s.pow(4));
         const Eigen::ArrayXd rate = (at.vx.square() + at.vy.square()).sqrt() * 4 * end * s.cube();
         double path = 0;
         for (Eigen::Index i = 0; i < panels; i += 2) {
@@ -106,11 +104,11 @@ TEST_CASE("after the stop the ball rolls on a straight line", "[invariant]") {
   for (const MotionCase& motion_case : motion_cases) {
     INFO(motion_case.name);
     const Experiment experiment = experiment_of(motion_case, 0.1);
-    const BallMotion motion(experiment, reduction::HertzLaw{});
+    const Motion motion = Motion::reduced(experiment, reduction::HertzLaw{});
     const double stop = motion.stop_time();
     const Velocities rolling = final_motion(experiment);
-    const MotionPoint here = motion.at_time(stop);
-    const MotionPoint later = motion.at_time(stop + 3);
+    const MotionPoint here = motion.at(stop);
+    const MotionPoint later = motion.at(stop + 3);
     CHECK((later.position - here.position - 3 * rolling.velocity).norm() < 1e-13 * (1 + later.position.norm()));
     for (const MotionPoint& point : {here, later}) {
       CHECK((point.velocity - rolling.velocity).norm() < 1e-15);
@@ -122,9 +120,9 @@ TEST_CASE("after the stop the ball rolls on a straight line", "[invariant]") {
 
 TEST_CASE("a masse shot curves while it slips", "[limit]") {
   const Experiment experiment = experiment_of(motion_cases[1], 0.1);
-  const BallMotion motion(experiment, reduction::PadeLaw{});
+  const Motion motion = Motion::reduced(experiment, reduction::PadeLaw{});
   const auto direction = [&](double t) {
-    const MotionPoint point = motion.at_time(t);
+    const MotionPoint point = motion.at(t);
     return std::atan2(point.velocity.y(), point.velocity.x());
   };
   CHECK(direction(0) == 0);
@@ -141,23 +139,23 @@ TEST_CASE("a masse shot curves while it slips", "[limit]") {
 TEST_CASE("when the slip has fallen to a speed", "[route]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     const Experiment experiment = experiment_of(motion_cases[2], 0.1);
-    const BallMotion motion(experiment, law);
+    const Motion motion = Motion::reduced(experiment, law);
     for (double share : {0.9, 0.5, 1e-3}) {
-      CHECK(motion.at_time(motion.slip_time(share * slip_at_start(experiment))).slip ==
+      CHECK(motion.at(motion.slip_time(share * slip_at_start(experiment))).slip ==
             Approx(share * slip_at_start(experiment)).epsilon(1e-9));
     }
     CHECK(motion.slip_time(0) == motion.stop_time());
     CHECK(motion.slip_time(slip_at_start(experiment)) == 0);
     CHECK_THROWS_AS(motion.slip_time(-1), std::domain_error);
   }
-  CHECK(BallMotion(experiment_of(motion_cases[5], 0.1), reduction::PadeLaw{}).slip_time(0.5) == 0);
+  CHECK(Motion::reduced(experiment_of(motion_cases[5], 0.1), reduction::PadeLaw{}).slip_time(0.5) == 0);
 }
 
 TEST_CASE("a time before the start is refused", "[domain]") {
-  const BallMotion motion(experiment_of(motion_cases[0], 0.1), reduction::PadeLaw{});
+  const Motion motion = Motion::reduced(experiment_of(motion_cases[0], 0.1), reduction::PadeLaw{});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (double t : {-1.0, nan}) {
-    CHECK_THROWS_AS(motion.at_time(t), std::domain_error);
+    CHECK_THROWS_AS(motion.at(t), std::domain_error);
     CHECK_THROWS_AS(motion.path_length(t), std::domain_error);
   }
 }

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "contensou/si/motion.hpp"
+
+namespace contensou::si {
+
+/// A solution of the equations of motion: what a Motion asks, of times >= 0 and speeds >= 0. What is not overridden is that
+/// of a body on a level plane that rolls on for ever, from its instants alone.
+class Motion::Solution {
+ public:
+  explicit Solution(const Experiment& of) : experiment(of) {}
+  Solution(const Solution&) = delete;
+  Solution& operator=(const Solution&) = delete;
+  virtual ~Solution() = default;
+
+  virtual MotionPoint at(double t) const = 0;
+  virtual MotionColumns at_times(const Eigen::ArrayXd& times) const;
+  virtual double stop_time() const = 0;
+  virtual double spin_end() const { return spin_at_start(experiment) == 0 ? 0 : stop_time(); }
+  virtual double slip_time(double speed) const;
+  virtual double spin_time(double speed) const;
+  virtual double slip_length() const = 0;
+  virtual double spin_angle() const = 0;
+  virtual double path_length(double t) const;
+  virtual std::optional<Event> rest() const { return std::nullopt; }
+  virtual Velocities final_motion() const { return si::final_motion(experiment); }
+  virtual double rolled() const { return 0; }  ///< m, the integral of R |omega| about horizontal axes under resistance
+  virtual bool is_reduced() const { return false; }
+  virtual std::vector<ReducedPiece> pieces() const { return {}; }
+  virtual std::optional<double> creep_ratio() const { return std::nullopt; }
+  virtual long steps() const { return 0; }
+
+  const Experiment experiment;
+};
+
+using SolvedMotion = std::shared_ptr<const Motion::Solution>;
+
+/// The solutions that motions of one ball share: made by the first that needs them. Threads may share it.
+class SharedFlows {
+ public:
+  /// Of a ball that nothing drives; with a drive, of one that turns, and of one that is held.
+  enum class Of { undriven, turning, held };
+
+  explicit SharedFlows(std::optional<reduction::Flow> undriven = {}) : known_{std::move(undriven)} {}
+
+  reduction::Flow get(Of of, const std::function<reduction::Flow()>& made);
+
+ private:
+  std::mutex guard_;
+  std::array<std::optional<reduction::Flow>, 3> known_;
+};
+
+/// Returns the integral of a function of time over [from, to]; 0 where that is empty.
+double integral_over_time(const std::function<double(double t)>& value, double from, double to, double tolerance);
+
+/// On a level plane without rolling friction, and else.
+SolvedMotion undriven_motion(const Experiment& experiment, const reduction::Law& law, SharedFlows& flows);
+SolvedMotion undriven_motion_in_steps(const Experiment& experiment, const reduction::Law& law);
+SolvedMotion resisted_motion(const Experiment& experiment, const reduction::Law& law, SharedFlows& flows,
+                             bool in_steps = false);
+
+SolvedMotion uncoupled_motion(const Experiment& experiment, const reduction::Law& law, double rolling_below);
+
+/// @throws std::domain_error  as Motion::reduced
+SolvedMotion loaded_motion(SolvedMotion nominal, const LoadHistory& history);
+
+}  // namespace contensou::si
