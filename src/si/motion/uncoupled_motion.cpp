@@ -1,15 +1,20 @@
 #include <algorithm>
+#include <cmath>
 
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/scaling.hpp"
-#include "rolling_friction.hpp"
 #include "solution.hpp"
 
 namespace contensou::si {
 
 namespace {
 
-/// Sliding and pivoting that do not know of each other.
+using Eigen::Vector2d;
+
+/// The uncoupled model. From the instant when it rolls, a ball with rolling friction rolls without slip along a straight
+/// line, slows down at a = u_r g and rests. Where friction f g is less than a, it cannot: it slows down at f g, its turning at
+/// chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). Its spin about the vertical is that of the motion
+/// without rolling friction.
 class Uncoupled final : public Motion::Solution {
  public:
   Uncoupled(const Experiment& of, const reduction::Law& law, double rolling_below) : Solution(of) {
@@ -17,49 +22,60 @@ class Uncoupled final : public Motion::Solution {
     const reduction::State start = reduced_start(of);
     slip_end_ = seconds(of, system.sliding_limit(start.v));
     spin_end_ = seconds(of, system.pivoting_limit(start.u));
-    const double g = of.environment.gravity, u_r = of.contact.rolling_friction;
+    const double g = of.environment.gravity, a = of.contact.rolling_friction * g;
     if (of.environment.slope != 0) {
       SharedFlows flows;
       on_slope_ = resisted_motion(without_spin(of), reduction::HertzLaw{}, flows);
-    } else if (u_r != 0) {
-      friction_.emplace(of.ball, free(free_slip_time(rolling_below)), u_r * g, of.contact.friction * g);
+    } else if (a != 0) {
+      rolls_ = free(free_slip_time(rolling_below));
+      speed_ = rolls_->velocity.norm();
+      slowing_ = std::min(a, of.contact.friction * g);
+      turning_ = slowing_ + of.ball.body.inertia.chi * (a - slowing_);
     }
   }
 
   MotionPoint at(double t) const override {
-    if (friction_) return (*friction_)(free(t));
-    if (!on_slope_) return free(t);
-    MotionPoint point = on_slope_->at(t);
-    point.angular_velocity.z() = spin(t);
-    point.energy = kinetic_energy(experiment.ball, {point.velocity, point.angular_velocity});
-    return point;
+    if (on_slope_) {
+      MotionPoint point = on_slope_->at(t);
+      point.angular_velocity.z() = spin(t);
+      point.energy = kinetic_energy(experiment.ball, {point.velocity, point.angular_velocity});
+      return point;
+    }
+    return rolls_ && t > rolls_->t ? slowed(free(t)) : free(t);
   }
 
   double stop_time() const override { return std::max({slip_end_, spin_end_, slip_time(0)}); }
   double spin_end() const override { return spin_end_; }
   double slip_time(double speed) const override {
-    return on_slope_ ? on_slope_->slip_time(speed) : friction_ ? friction_->slip_time(speed) : free_slip_time(speed);
+    if (on_slope_) return on_slope_->slip_time(speed);
+    if (!rolls_) return free_slip_time(speed);
+    // The slip grows until the ball turns no more, and then is its speed.
+    const double most = speed_ * (1 - slowing_ / turning_);
+    return most > speed ? rest_time() - speed / slowing_ : rolls_->t;
   }
   double slip_length() const override {
     if (on_slope_) return on_slope_->slip_length();
-    return slip_at_start(experiment) * slip_end_ / 2 + (friction_ ? friction_->slip_length() : 0);
+    const double sliding = slip_at_start(experiment) * slip_end_ / 2;
+    return rolls_ ? sliding + (way() - rolled()) : sliding;
   }
   double spin_angle() const override { return spin_at_start(experiment) * spin_end_ / 2; }
   double path_length(double t) const override {
     if (on_slope_) return on_slope_->path_length(t);
-    if (!friction_ || t <= friction_->start()) return Solution::path_length(t);
-    const double free = friction_->start();
-    return Solution::path_length(free) + (at(t).position - at(free).position).norm();
+    if (!rolls_ || t <= rolls_->t) return Solution::path_length(t);
+    return Solution::path_length(rolls_->t) + (at(t).position - rolls_->position).norm();
   }
   std::optional<Event> rest() const override {
     if (on_slope_) return on_slope_->rest();
-    return friction_ ? std::optional(Event{friction_->rest_time(), friction_->rest_position()}) : std::nullopt;
+    return rolls_ ? std::optional(Event{rest_time(), rolls_->position + way() * direction()}) : std::nullopt;
   }
   Velocities final_motion() const override {
+    if (!is_driven(experiment)) return Solution::final_motion();
     const MotionPoint end = at(stop_time());
-    return is_driven(experiment) ? Velocities{end.velocity, end.angular_velocity} : Solution::final_motion();
+    return {end.velocity, end.angular_velocity};
   }
-  double rolled() const override { return on_slope_ ? on_slope_->rolled() : friction_ ? friction_->rolled() : 0; }
+  double rolled() const override {
+    return on_slope_ ? on_slope_->rolled() : rolls_ ? speed_ * speed_ / (2 * turning_) : 0;
+  }
 
  private:
   double free_slip_time(double speed) const {
@@ -78,9 +94,30 @@ class Uncoupled final : public Motion::Solution {
     return motion_by_slip(experiment, t, slip, slip_length, spin(t));
   }
 
-  double slip_end_, spin_end_;  ///< s, where nothing resists
-  std::optional<RollingFriction> friction_;
-  SolvedMotion on_slope_;
+  double rest_time() const { return rolls_->t + speed_ / slowing_; }
+  double way() const { return speed_ * speed_ / (2 * slowing_); }
+  Vector2d direction() const { return speed_ > 0 ? Vector2d(rolls_->velocity / speed_) : Vector2d(0, 0); }
+
+  /// The same instant with rolling friction.
+  MotionPoint slowed(MotionPoint point) const {
+    const double whole = speed_ / slowing_, braked = std::min(point.t - rolls_->t, whole);
+    const double speed = braked < whole ? speed_ - slowing_ * braked : 0;
+    const double rolling = turning_ == slowing_ ? speed : std::max(0.0, speed_ - turning_ * braked);
+    const Vector2d still = Vector2d::Zero();  // added so that no -0 is left
+    const Vector2d rim = rolling * direction() + still;
+    point.position = rolls_->position + (speed_ + speed) / 2 * braked * direction();
+    point.velocity = speed * direction() + still;
+    point.angular_velocity.head<2>() = Vector2d(0 - rim.y(), rim.x()) / experiment.ball.radius;
+    point.slip = speed - rolling;
+    point.energy = kinetic_energy(experiment.ball, {point.velocity, point.angular_velocity});
+    return point;
+  }
+
+  double slip_end_, spin_end_;        ///< s, where nothing resists
+  SolvedMotion on_slope_;             ///< of the ball without spin
+  std::optional<MotionPoint> rolls_;  ///< with rolling friction: from here on it acts
+  double speed_ = 0;                  ///< then
+  double slowing_ = 0, turning_ = 0;  ///< m/s^2, of the centre, of R omega
 };
 
 }  // namespace

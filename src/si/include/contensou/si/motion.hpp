@@ -98,7 +98,7 @@ class Motion {
                          const std::optional<LoadHistory>& history = {});
 
   /// The uncoupled model: the slip falls at chi f g, the spin at its rate without sliding. Its rolling friction begins when
-  /// it rolls (RollingFriction). On a slope it moves as a ball without spin, and spins by itself.
+  /// it rolls: it slows down at u_r g and rests. On a slope it moves as a ball without spin, and spins by itself.
   /// @param law            gives Psi(0), the moment of pure pivoting
   /// @param rolling_below  m/s, >= 0: the slip at which its rolling friction begins
   static Motion uncoupled(const Experiment& experiment, const reduction::Law& law, double rolling_below = rolling_slip,
