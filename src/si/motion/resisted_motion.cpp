@@ -351,14 +351,17 @@ class Integrated final : public Resisted {
   };
 
   Vector2d slip_of(const Progress& x, const Step& step) const {
-    return step.follows ? Vector2d(x[0] * body_.following(x[0], {x[2], x[3]})) : Vector2d(x[0], x[1]);
+    if (!step.follows) return {x[0], x[1]};
+    const double v = std::max(x[0], 0.0);
+    return v * body_.following(v, {x[2], x[3]});
   }
 
   void equations(const Progress& x, Progress& rate, const Step& step) const {
     const Vector2d slip = slip_of(x, step), rolling(x[2], x[3]);
     const double v = slip.norm(), rim = std::max(x[4], 0.0), turning = rolling.norm();
     const auto [phi, psi] = v > 0 || rim > 0 ? body_.law({v, rim}) : reduction::Resistance{1, 0};
-    const Vector2d e = v > 0 ? Vector2d(slip / v) : step.follows ? body_.following(0, rolling) : Vector2d(0, 0);
+    // Friction keeps the direction of a slip that begins at 0: rounding may make it negative.
+    const Vector2d e = step.follows ? body_.following(v, rolling) : v > 0 ? Vector2d(slip / v) : Vector2d(0, 0);
     const Vector2d heading = turning > 0 ? Vector2d(rolling / turning) : e;
     const double chi = body_.inertia.chi;
     const Vector2d friction = -body_.sliding * phi * e;
@@ -394,10 +397,37 @@ class Integrated final : public Resisted {
   double time_to_stop(const Step& step) const {
     Progress rate;
     equations(step.x, rate, step);
-    const Vector2d slip(step.x[0], step.x[1]), change(rate[0], rate[1]);
+    const Vector2d slip = slip_of(step.x, step), change(rate[0], rate[1]);
     const double v = slip.norm(), rim = std::max(step.x[4], 0.0);
-    const double falls = -rate[4] - (v > 0 ? slip.dot(change) / v : change.norm());
+    const double grows = step.follows ? rate[0] : v > 0 ? slip.dot(change) / v : change.norm();
+    const double falls = -rate[4] - grows;
     return falls > 0 && v + rim > 0 ? (v + rim) / falls : std::numeric_limits<double>::infinity();
+  }
+
+  /// The motion so few seconds later that friction keeps its size and direction. If resistance holds the ball from then
+  /// on, slip takes over the last of the rolling.
+  Step passed(Step now, double seconds, bool held) const {
+    Progress& x = now.x;
+    x = progress_of(state_of(now));
+    now.follows = false;
+    now.held = held;
+    Progress rate;
+    equations(x, rate, now);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += seconds * rate[i];
+    now.t += seconds;
+    if (held) x[0] += std::exchange(x[2], 0), x[1] += std::exchange(x[3], 0);
+    return now;
+  }
+
+  /// s until resistance has stopped so slow a rolling that friction keeps its size and direction, (R56) with A for it.
+  double time_to_hold(Step step) const {
+    const Vector2d rolling(step.x[2], step.x[3]);
+    if (rolling.norm() == 0) return 0;
+    step.held = false;
+    Progress rate;
+    equations(step.x, rate, step);
+    const double most = body_.inertia.chi * body_.resisting;
+    return PureRolling(rolling, Vector2d(rate[2], rate[3]) + most * rolling.normalized(), most).rest_time();
   }
 
   Progress progress_of(const State& state) const {
@@ -415,15 +445,18 @@ class Integrated final : public Resisted {
   }
 
   void run(const State& start) {
-    constexpr double tolerance = 1e-12;
+    // A held ball creeps so slowly that the slip's last digits decide when it rests.
+    constexpr double tolerance = 1e-13, slip_tolerance = 1e-15;
     constexpr double nothing = 1e-9;  // of the speeds at the start
+    constexpr double soon = 1e-6;     // of the time in which friction takes them
     constexpr double slow = 3e-4;     // of the speed of rolling
     constexpr long step_limit = 2'000'000;
     Step now{0, progress_of(start)};
     Progress& x = now.x;
     const double size = start.slip.norm() + start.rolling.norm() + x[4];
     double step = 1e-4 * size / body_.sliding;
-    auto stepper = odeint::make_controlled(tolerance * size, tolerance, odeint::runge_kutta_cash_karp54<Progress>());
+    auto stepper =
+        odeint::make_controlled(slip_tolerance * size, tolerance, odeint::runge_kutta_cash_karp54<Progress>());
     for (long steps = 0;; ++steps) {
       const double v = std::hypot(x[0], x[1]), turning = std::hypot(x[2], x[3]);
       if (now.follows && v > std::max(slow * turning, nothing * size)) {
@@ -432,10 +465,15 @@ class Integrated final : public Resisted {
       }
       // The torque of friction turns a ball that stands, or resistance holds it.
       const bool moved = body_.turns(v, x[4] / body_.patch);
-      if (turning <= nothing * size && !moved) now.held = true;
       if (now.held && moved) now.held = false;
+      if (!now.held && !moved && turning <= nothing * size) {
+        const double left = time_to_hold(now);
+        if (left <= soon * size / body_.sliding) now = passed(now, left, true);
+      }
       if (now.held) x[2] = x[3] = 0;
       if (v + std::max(x[4], 0.0) <= nothing * size) {
+        if (const double left = time_to_stop(now); left <= soon * size / body_.sliding)
+          now = passed(now, left, now.held);
         State here = state_of(now);
         here.slip.setZero();
         here.spin = 0;
