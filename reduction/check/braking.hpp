@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contensou/reduction/reduced_system.hpp"
+#include "system/balance.hpp"
 #include "system/regularising_weight.hpp"
 
 namespace contensou::reduction {
@@ -19,8 +20,8 @@ struct Braking {
 inline Braking braking(const ReducedSystem& system, double ln_w, double ln_v) {
   const double w = std::exp(ln_w), v = std::exp(ln_v), k = std::exp(ln_v - ln_w);
   if (std::isnan(k)) return {k, k, k, k};
-  const auto [force, moment] = system.law()(slip_of_ratio(k));
-  const double net = force - system.drive(), weight = regularising_weight(w, v);
+  const Balance balance = Balance::of(system.law(), system.r(), system.drive(), k);
+  const double net = balance.force, moment = balance.moment, weight = regularising_weight(w, v);
   return k > 1 ? Braking{v, k * moment, net, weight} : Braking{w, moment, net / k, weight};
 }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "system/balance.hpp"
+
 namespace contensou::reduction {
 
 Canonical to_canonical(State state) {
@@ -32,9 +34,8 @@ double separated_slope(const ReducedSystem& system, double q) {
   }
   // d ln v = -(Phi - rho) ds/v and d ln k = -(Phi - rho - r k Psi) ds/v (README (R2), (R48)), and q = mu k.
   const double k = std::abs(q) / system.mu();
-  const auto [force, moment] = system.law()(slip_of_ratio(k));
-  const double net = force - system.drive();
-  return net / (q * (net - system.r() * k * moment));
+  const Balance balance = Balance::of(system.law(), system.r(), system.drive(), k);
+  return balance.force / (q * balance.difference());
 }
 
 }  // namespace contensou::reduction

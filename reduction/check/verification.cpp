@@ -15,6 +15,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 #include "contensou/reduction/symmetry.hpp"
+#include "system/balance.hpp"
 
 namespace contensou::reduction {
 
@@ -158,9 +159,8 @@ class Examination {
   /// to its ray, where rho is the larger part of what Phi is compared with.
   double steepness(double ln_k) const {
     const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
-    const auto [force, moment] = system_.law()(slip_of_ratio(k));
-    const double drag = system_.r() * k * moment;
-    return (system_.drive() + drag) / std::abs(force - system_.drive() - drag);
+    const Balance balance = Balance::of(system_.law(), system_.r(), system_.drive(), k);
+    return balance.speeds / std::abs(balance.difference());
   }
 
   /// Where k does not change, and says nothing about where a motion is.

@@ -47,4 +47,12 @@ double EllipticLaw::moment_deficit(Slip slip) const {
   return k / root * (k / (root + moment_));
 }
 
+double EllipticLaw::force_deficit(Slip slip) const {
+  if (slip.sliding <= slip.pivoting) return 1 - (*this)(slip).force;
+  require_slip("EllipticLaw", slip);
+  const double rim = moment_ * (slip.pivoting / slip.sliding);
+  const double root = std::sqrt(1 + rim * rim);
+  return rim / root * (rim / (1 + root));
+}
+
 }  // namespace contensou::reduction

@@ -9,6 +9,7 @@
 //            Phi' = (3/16) [(4 - 3 k^2) theta* + (3 - 2/k^2) sqrt(k^2 - 1)] = 2F1(1/2, 3/2; 7/2; k^-2)/(5 k^3)
 #include "contensou/reduction/hertz_law.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -42,10 +43,16 @@ constexpr auto force_series = gauss_coefficients(-0.5, 0.5, 2.5);
 constexpr auto moment_series = gauss_coefficients(0.5, 0.5, 3.5);
 constexpr auto curvature_series = gauss_coefficients(0.5, 1.5, 3.5);
 
-Resistance fast_sliding(double inverse_k) {
-  const double x = inverse_k * inverse_k;
+/// How many terms of the series count.
+std::size_t terms_at(double x) {
   std::size_t terms = 1;
   for (double power = x; power > 1e-18 && terms < series_terms; power *= x) ++terms;
+  return terms;
+}
+
+Resistance fast_sliding(double inverse_k) {
+  const double x = inverse_k * inverse_k;
+  const std::size_t terms = terms_at(x);
   double force = 0;
   double moment = 0;
   for (std::size_t n = terms; n-- > 0;) {  // from the small end
@@ -104,6 +111,15 @@ double HertzLaw::moment_deficit(Slip slip) const {
     return s * (1 - 0.375 * s);
   }
   return 1 - (*this)(slip).moment / (3 * pi / 16);
+}
+
+double HertzLaw::force_deficit(Slip slip) const {
+  if (!(slip.sliding >= series_from * slip.pivoting)) return 1 - (*this)(slip).force;
+  require_slip("HertzLaw", slip);
+  const double inverse_k = slip.pivoting / slip.sliding, x = inverse_k * inverse_k;
+  double sum = 0;
+  for (std::size_t n = std::min(terms_at(x) + 1, series_terms); n-- > 1;) sum = sum * x - force_series[n];
+  return sum * x;
 }
 
 }  // namespace contensou::reduction

@@ -24,4 +24,10 @@ double PadeLaw::moment_deficit(Slip slip) const {
   return 15 * pi / (16 * (slip.pivoting / slip.sliding) + 15 * pi);
 }
 
+double PadeLaw::force_deficit(Slip slip) const {
+  if (slip.sliding <= slip.pivoting) return 8 / (8 + 3 * pi * (slip.sliding / slip.pivoting));
+  const double inverse_k = slip.pivoting / slip.sliding;
+  return 8 * inverse_k / (8 * inverse_k + 3 * pi);
+}
+
 }  // namespace contensou::reduction

@@ -85,4 +85,11 @@ double PressureLaw::moment_deficit(Slip slip) const {
   return square * series_->inner_moment.deficit(square, rest);
 }
 
+double PressureLaw::force_deficit(Slip slip) const {
+  if (slip.sliding <= slip.pivoting) return 1 - (*this)(slip).force;
+  require_slip("PressureLaw", slip);
+  const auto [inverse_k, square, rest] = ratio(slip.pivoting, slip.sliding);
+  return square * series_->outer_force.deficit(square, rest);
+}
+
 }  // namespace contensou::reduction

@@ -318,6 +318,7 @@ class TabulatedPressureLaw::Rings {
     double force;
     double moment;
     double deficit;  ///< moment of pure pivoting less this one
+    double missing;  ///< load less force
   };
 
   Rings(const Eigen::ArrayXd& given_rho, const Eigen::ArrayXd& given_pressure)
@@ -357,6 +358,7 @@ class TabulatedPressureLaw::Rings {
   }
 
   double moment_deficit(double k) const { return sum(k).deficit / pivoting_moment_; }
+  double force_deficit(double k) const { return sum(k).missing / load_; }
 
   Eigen::ArrayXd rho, pressure;  ///< the table
 
@@ -430,7 +432,7 @@ class TabulatedPressureLaw::Rings {
   /// The disc in the middle: a uniform one and a paraboloid.
   Sum disc(double k) const {
     static const PressureLaw flat = PressureLaw::uniform(), round(1);
-    Sum total{0, 0, 0};
+    Sum total{0, 0, 0, 0};
     const Slip slip = k <= radius_ ? Slip{k / radius_, 1} : Slip{1, radius_ / k};
     for (const auto& [law, load] : {std::pair{&flat, flat_load_}, {&round, round_load_}}) {
       if (load == 0) continue;
@@ -438,6 +440,7 @@ class TabulatedPressureLaw::Rings {
       total.force += load * force;
       total.moment += load * radius_ * moment;
       total.deficit += load * radius_ * ((*law)({0, 1}).moment * law->moment_deficit(slip));
+      total.missing += load * law->force_deficit(slip);
     }
     return total;
   }
@@ -450,6 +453,7 @@ class TabulatedPressureLaw::Rings {
         const auto [a, d] = functions((1 - q) * (1 + q));
         const double loss = q * q * d;
         total.force += load * (q / 2 * a);
+        total.missing += load * (1 - q / 2 * a);
         total.moment += load * radius * (1 - loss);
         total.deficit += load * radius * loss;
       }
@@ -459,6 +463,7 @@ class TabulatedPressureLaw::Rings {
         const auto [a, d] = functions((1 - q) * (1 + q));
         const double moment = q / 2 * a;
         total.force += load * (1 - q * q * d);
+        total.missing += load * (q * q * d);
         total.moment += load * radius * moment;
         total.deficit += load * radius * (1 - moment);
       }
@@ -477,7 +482,9 @@ class TabulatedPressureLaw::Rings {
              width * square;
     };
     const double moment = k * mean(inner.moment, inner.moment_again, outer.moment, outer.moment_again);
-    total.force += mean(inner.force, inner.force_again, outer.force, outer.force_again);
+    const double force = mean(inner.force, inner.force_again, outer.force, outer.force_again);
+    total.force += force;
+    total.missing += piece.load() - force;
     total.moment += moment;
     total.deficit += pivoting_moment - moment;  // Psi is nearly 2/pi, that of k = a: nothing cancels
   }
@@ -524,6 +531,11 @@ Resistance TabulatedPressureLaw::operator()(Slip slip) const {
 double TabulatedPressureLaw::moment_deficit(Slip slip) const {
   require_slip("TabulatedPressureLaw", slip);
   return rings_->moment_deficit(slip.sliding / slip.pivoting);
+}
+
+double TabulatedPressureLaw::force_deficit(Slip slip) const {
+  require_slip("TabulatedPressureLaw", slip);
+  return rings_->force_deficit(slip.sliding / slip.pivoting);
 }
 
 }  // namespace contensou::reduction

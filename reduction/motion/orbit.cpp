@@ -20,6 +20,7 @@
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
+#include "system/balance.hpp"
 
 namespace contensou::reduction {
 
@@ -332,7 +333,9 @@ double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction,
 }
 
 double Orbit::coordinate_of_fastest() const {
-  const auto excess = [&](double ln_k) { return system_.law()(slip_of_ratio(std::exp(ln_k))).force - system_.drive(); };
+  const auto excess = [&](double ln_k) {
+    return Balance::of(system_.law(), system_.r(), system_.drive(), std::exp(ln_k)).force;
+  };
   const double at_begin = on_axis() ? 0 : excess(ln_k0_);
   if (at_begin >= 0) return xi0_;
   // k grows to its end, where friction is the larger.

@@ -12,6 +12,7 @@
 #include "numerics/later.hpp"
 #include "numerics/legendre_series.hpp"
 #include "similarity/regular_solution.hpp"
+#include "system/balance.hpp"
 
 namespace contensou::reduction {
 
@@ -116,16 +117,14 @@ class QuadratureCurve::Panels {
     double k;
     double rate;        ///< (ln k)'
     double drag;        ///< r k Psi
-    double larger;      ///< of Phi and rho + r k Psi
+    double larger;      ///< of the two terms of D
     double difference;  ///< D, of the sign of the rate
   };
   Drag drag_at(double xi) const {
     const double k = std::exp(chart_.log_ratio(xi));
     const double rate = chart_.log_ratio_rate(xi);
-    const auto [force, moment] = law_(slip_of_ratio(k));
-    const double drag = r_ * (k * moment);
-    const double against = drive_ + drag;
-    return {k, rate, drag, std::max(force, against), rate > 0 ? force - against : against - force};
+    const Balance balance = Balance::of(law_, r_, drive_, k);
+    return {k, rate, balance.drag, balance.larger(), rate > 0 ? balance.difference() : -balance.difference()};
   }
 
   double clearness(double xi) const {

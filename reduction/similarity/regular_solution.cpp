@@ -23,6 +23,7 @@
 #include "contensou/reduction/tangent.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "numerics/linear_ode.hpp"
+#include "system/balance.hpp"
 
 namespace contensou::reduction {
 
@@ -77,11 +78,9 @@ class ForcesOnTheWay {
     /// D relative to its larger term: beyond this its sign is no rounding.
     constexpr double certainty = 1e-9;
     const double sign = sign_of(chart_);
-    const auto [sliding, moment] = law_(slip_of_ratio(k));
-    const double drag = r_ * (k * moment);
-    const double force = sliding - drive_;
-    const double difference = sign * (force - drag);
-    const double larger = std::max(sliding, drive_ + drag);
+    const Balance balance = Balance::of(law_, r_, drive_, k);
+    const double force = balance.force, drag = balance.drag, sliding = balance.sliding;
+    const double difference = sign * balance.difference(), larger = balance.larger();
     if (difference < -certainty * larger) {
       throw std::domain_error(fmt::format(
           "QuadratureCurve: Phi {} {}r k Psi must hold for every k between the terminal ratio {} and {}, but law {} "
@@ -224,7 +223,7 @@ RegularSolution slip_length_solution(const Law& law, double r, const TerminalCha
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto equation = [&, to_rest = reaches_rest(chart, drive)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
-    const double source = (1 - sliding) / (1 - drive);
+    const double source = law.force_deficit(slip_of_ratio(k)) / (1 - drive);
     if (to_rest) return {difference, 2 * (k * force + drag) / (1 + k), k / (1 + k) * (k / (1 + k)) * source};
     return {difference * (1 + k) / k, (force * (1 + 2 * k) + drag) / k, source};
   };

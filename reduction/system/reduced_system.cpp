@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/infinity.hpp"
+#include "system/balance.hpp"
 #include "system/regularising_weight.hpp"
 
 namespace contensou::reduction {
@@ -64,9 +65,11 @@ ReducedSystem::ReducedSystem(const Law& law, double patch_ratio)
 
 Rate ReducedSystem::field(State state) const {
   require_state("ReducedSystem::field", state);
-  const Resistance resistance = law_({state.v, mu_ * std::abs(state.u)});
+  const Slip slip{state.v, mu_ * std::abs(state.u)};
+  const Resistance resistance = law_(slip);
+  const double net_force = reduction::net_force(law_, slip, resistance.force, drive_);
   const double spin_down = 2 * inertia_.gamma * mu_ / (3 * pi) * resistance.moment;
-  return {state.u == 0 ? 0.0 : -std::copysign(spin_down, state.u), scaled_time_rate_ * (drive_ - resistance.force)};
+  return {state.u == 0 ? 0.0 : -std::copysign(spin_down, state.u), scaled_time_rate_ * (0 - net_force)};
 }
 
 double ReducedSystem::regularising_weight(State state) const {

@@ -1,4 +1,5 @@
-// Notation (README (R2)): x = ln k,  E = Phi/(rho + r k Psi) - 1;  k falls where E > 0.
+// Notation (README (R2)): x = ln k,  E = Phi/(rho + r k Psi) - 1, or (1 - rho)/(1 - Phi + r k Psi) - 1;  k falls where
+// E > 0.
 #include "contensou/reduction/terminal_ratio.hpp"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
+#include "system/balance.hpp"
 
 namespace contensou::reduction {
 
@@ -33,6 +35,7 @@ class Search {
  public:
   Search(const Law& law, double r, double drive) : law_(law), r_(r), drive_(drive) {
     sample();
+    require_decided();
     sharpen();
     collect();
   }
@@ -42,9 +45,8 @@ class Search {
 
  private:
   double excess(double ln_k) const {
-    const double k = std::exp(ln_k);
-    const auto [force, moment] = law_(slip_of_ratio(k));
-    return force / (drive_ + r_ * (k * moment)) - 1;
+    const Balance balance = Balance::of(law_, r_, drive_, std::exp(ln_k));
+    return balance.slows / balance.speeds - 1;
   }
 
   void sample() {
@@ -53,6 +55,16 @@ class Search {
     for (double x = min_x; x <= max_x; x += std::abs(x + 0.01) < fine ? 1 / fine : 0.5) {
       samples_.push_back({x, excess(x)});
     }
+  }
+
+  /// Where a drive leaves so little of friction that rounding of Phi is a part of it, k = infinity needs a sign.
+  void require_decided() const {
+    constexpr double part = 1e-8;
+    if (by_deficit(law_, drive_) || samples_.back().sign() != 0 || without_sign < part * (1 - drive_)) return;
+    throw std::runtime_error(fmt::format(
+        "drive {} with r = {}: law {} does not state 1 - Phi, and rounding of Phi hides whether v/(mu |u|) tends "
+        "to a ray or to infinity; give a law with a name, or another drive",
+        drive_, r_, law_.name()));
   }
 
   /// Adds the extrema where E comes near to 0, or passes it and returns.

@@ -313,3 +313,56 @@ TEST_CASE("stop times of motions that ride the ray have the accuracy that they s
     CHECK(std::abs(stop.tau / row.tau - 1) <= stop.accuracy);
   }
 }
+
+// k* by 60 digits from 1 - rho = r k Psi + (1 - Phi), of these very doubles.
+TEST_CASE("a ray beside its birth at infinity has the digits that it states", "[drive][reference]") {
+  struct Row {
+    const char* law;
+    double r, drive, k;
+  };
+  for (const auto& [name, r, drive, k] : {
+           Row{"exact", 0.004999999444047623, 0.999, 29999.999989770634},
+           {"exact", 2.4999999648063226e-08, 0.999999995, 50000000.081316432},
+           {"exact", 4.9998768913993925e-12, 0.999999999999, 200000000.00050604},
+           {"exact", 1.499999999939286, 0.7, 99999.969740405111},
+           {"uniform", 0.003999999444074078, 0.999, 29999.99999995835},
+           {"uniform", 1.999999967845058e-08, 0.999999995, 50000000.075364051},
+           {"uniform", 3.999899013119514e-12, 0.999999999999, 200000000.00050128},
+           {"paraboloid", 2.999999961767587e-08, 0.999999995, 49999999.67219042},
+           {"ring", 9.99999973922529e-09, 0.999999995, 50000000.054530718},
+           {"ring", 0.5999999999425001, 0.7, 99999.99586341649},
+           {"elliptic", 1.4410123608222042e-08, 0.999999995, 50000000.01530441},
+           {"elliptic", 0.8646074337129491, 0.7, 99999.923680632974},
+           {"pade", 0.00485858792951745, 0.999, 30000.000000000084},
+           {"pade", 1.4999626518561713, 0.7, 99999.999999820728},
+       }) {
+    CAPTURE(name, drive, k);
+    const Law law = *find_law(name);
+    const TerminalRatios ratios = terminal_ratios(law, r, drive);
+    REQUIRE(ratios.rays.size() == 1);
+    const double accuracy = ratios.rays[0].accuracy;
+    CHECK(ratios.rays[0].attracts());
+    CHECK(std::abs(ratios.rays[0].k / k - 1) <= accuracy);
+    // r K is rounded to eps of 1 - rho.
+    CHECK(accuracy <= 16 * eps * (1 + (1 - drive) / law.force_deficit({k, 1})));
+  }
+}
+
+TEST_CASE("a drive next to 1 leaves friction its digits, or the law is asked for them", "[drive][reference]") {
+  // k* = 50101105.3 and tau = 408610279.52626 in quadruple precision
+  const Law uniform = *find_law("uniform");
+  const State start{1, 0.01730412754774478};
+  const ReducedSystem system(uniform, 0.0001875959958651888, {2.5, 1.5}, 0.9999999947211613);
+  const Flow flow(system);
+  CHECK(flow.terminal().end_of(1).k == Approx(50101105.3).epsilon(1e-7));
+  const StopTime stop = flow.stop_time(start);
+  CHECK(stop.tau == Approx(408610279.52626).epsilon(1e-13));
+  CHECK(stop.accuracy < 1e-6);
+  CHECK(integrate_directly(system, start, {}).stop_time == Approx(408610279.52626).epsilon(1e-11));
+  // A law of one function has 1 - Phi to the rounding of Phi only.
+  const Law unstated([uniform](Slip slip) { return uniform(slip); });
+  const auto beside = [&](double drive) { return ReducedSystem(unstated, system.mu(), system.inertia(), drive); };
+  CHECK_THROWS_WITH(Flow(beside(system.drive())).stop_time(start), Contains("another drive"));
+  CHECK(Flow(beside(0.99999999)).stop_time(start).tau ==
+        Approx(Flow({uniform, system.mu(), system.inertia(), 0.99999999}).stop_time(start).tau).epsilon(1e-8));
+}

@@ -59,6 +59,8 @@ TEST_CASE("a law keeps what it offers", "[friction_law]") {
   CHECK(exact.sliding_bounds()->min == 0);
   CHECK(exact.sliding_bounds()->max == 1);
   CHECK(exact.moment_deficit({1e-9, 1}) == HertzLaw{}.moment_deficit({1e-9, 1}));
+  CHECK(exact.states_force_deficit());
+  CHECK(exact.force_deficit({1, 1e-9}) == HertzLaw{}.force_deficit({1, 1e-9}));
   CHECK(Law(PadeLaw{}).name() == "pade");
   CHECK(Law(Named{}).name() == "mine");
   // It is known by its type alone.
@@ -76,6 +78,8 @@ TEST_CASE("a law of one function has the defaults", "[friction_law]") {
   CHECK_FALSE(law.sliding_bounds());
   CHECK(law.kinks() == std::vector<double>{1});
   CHECK(law.moment_deficit({1, 1}) == 1 - law({1, 1}).moment / law.pivoting_moment());
+  CHECK_FALSE(law.states_force_deficit());
+  CHECK(law.force_deficit({1, 1}) == 1 - law({1, 1}).force);
 
   const ReducedSystem system(law, 0.1);
   CHECK(system.stop_time_bounds({1, 1}).lower == 0);

@@ -94,7 +94,8 @@ Resistance farthest_from_exact(const Law& law) {
 TEST_CASE("every law keeps 4 eps for every k", "[laws][table]") {
   for (const auto& [type, law, table, column, steepest, curvature] : all_laws()) {
     if (table.empty()) continue;
-    WorstCase given(law.name()), swapped(law.name() + " of 1 : 1/k"), deficit(law.name() + ", 1 - Psi/Psi(0)");
+    WorstCase given(law.name()), swapped(law.name() + " of 1 : 1/k"), deficit(law.name() + ", 1 - Psi/Psi(0)"),
+        missing(law.name() + ", 1 - Phi");
     const auto rows = reference_table(table);
     const long double pure_pivoting = rows.front().result("psi_" + column);
     CHECK(law({0, 1}).moment == static_cast<double>(pure_pivoting));
@@ -107,6 +108,9 @@ TEST_CASE("every law keeps 4 eps for every k", "[laws][table]") {
       if (const long double wanted = 1 - moment / pure_pivoting; wanted > 1e-3L) {
         deficit.add(wanted, law.moment_deficit({k, 1}), row.where());
       }
+      if (const long double wanted = 1 - force; wanted > 1e-3L) {
+        missing.add(wanted, law.force_deficit({k, 1}), k < 1.5 ? 1 : wanted, row.where());  // Phi has eps of 1
+      }
       if (!std::isnormal(inverse)) continue;
       // 1/k is rounded unless k is a power of two.
       const long double rounding = std::fma(inverse, k, -1.0) == 0 ? 1 : 1 + 0.5L * steepest;
@@ -116,6 +120,7 @@ TEST_CASE("every law keeps 4 eps for every k", "[laws][table]") {
     CHECK_WITHIN_EPS(given, 4);
     CHECK_WITHIN_EPS(swapped, 4);
     CHECK_WITHIN_EPS(deficit, 6);
+    CHECK_WITHIN_EPS(missing, 6);
   }
 }
 
@@ -136,6 +141,23 @@ TEST_CASE("every law has both limits exactly", "[laws][limit]") {
       CHECK(law.moment_deficit({k, 1}) / k / k == Approx(asked.curvature).epsilon(1e-14));
   }
   CHECK(uneven().moment_deficit({1e-9, 1}) == Approx(1e-8 * uneven().moment_deficit({1e-5, 1})).epsilon(1e-8));
+}
+
+TEST_CASE("every law states 1 - Phi for fast sliding: K/(2 k^2) of a pressure, K = k Psi", "[laws][limit]") {
+  for (const char* name : {"exact", "uniform", "punch", "ring", "paraboloid", "pressure:25", "elliptic", "elliptic:1",
+                           "annulus:0.65", "soft:4"}) {
+    const Law law = *find_law(name);
+    CAPTURE(name);
+    REQUIRE(law.states_force_deficit());
+    for (double k : {0x1p30, 0x1p50, 0x1p200})
+      CHECK(law.force_deficit({k, 1}) * k == Approx(law({k, 1}).moment / 2).epsilon(4e-15));
+    for (double k : {0.3, 1.01, 3.0, 1e3}) {
+      CHECK(law.force_deficit({k, 1}) == Approx(1 - law({k, 1}).force).margin(4e-15));
+    }
+    CHECK(law.force_deficit({0, 1}) == 1);
+    CHECK(law.force_deficit({1, 0}) == 0);
+  }
+  CHECK(PadeLaw{}.force_deficit({0x1p60, 1}) == Approx(8 / (3 * std::numbers::pi) * 0x1p-60).epsilon(1e-15));
 }
 
 TEST_CASE("every law is of degree 0, bit for bit", "[laws][symmetry]") {

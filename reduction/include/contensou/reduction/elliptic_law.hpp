@@ -42,6 +42,9 @@ class EllipticLaw {
   /// 1 - Psi/Psi(0), without cancellation for k << 1.
   double moment_deficit(Slip slip) const;
 
+  /// 1 - Phi, without cancellation for k >> 1.
+  double force_deficit(Slip slip) const;
+
  private:
   double moment_;
 };

@@ -26,6 +26,8 @@ namespace contensou::reduction {
 /// A law may state more; each of these is used when it is there:
 ///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
+///   - `double force_deficit(Slip) const`, 1 - Phi without the subtraction (keeps digits for k >> 1, where a drive next
+///     to 1 leaves nothing else of friction);
 ///   - `static constexpr SlidingBounds sliding_bounds`, its two-sided bound of the stop time;
 ///   - `kinks()`, every k where Phi or Psi is not smooth (1 unless stated: where the rim of the patch is at rest). A
 ///     kink that is not named costs accuracy of the steppers, and of the curves only time.
@@ -87,6 +89,12 @@ class Law {
   /// 1 - Psi/Psi(0).
   double moment_deficit(Slip slip) const { return function_->moment_deficit(slip); }
 
+  /// 1 - Phi.
+  double force_deficit(Slip slip) const { return function_->force_deficit(slip); }
+
+  /// Whether the law states its force_deficit, so that it keeps digits where Phi is next to 1.
+  bool states_force_deficit() const { return function_->states_force_deficit(); }
+
   const std::string& name() const { return function_->name; }
 
   /// The law that this was made from if its type is L itself, else null: a law derived from L is another law.
@@ -114,6 +122,8 @@ class Law {
     virtual ~Function() = default;
     virtual Resistance resistance(Slip slip) const = 0;
     virtual double moment_deficit(Slip slip) const = 0;
+    virtual double force_deficit(Slip slip) const = 0;
+    virtual bool states_force_deficit() const = 0;
     void read_limits();
     void require_degree_0() const;
     void require_approach() const;
@@ -137,6 +147,16 @@ class Law {
       else
         return 1 - resistance(slip).moment / this->pivoting_moment;
     }
+    static constexpr bool has_force_deficit = requires(const L& law, Slip slip) {
+      { law.force_deficit(slip) } -> std::convertible_to<double>;
+    };
+    double force_deficit(Slip slip) const override {
+      if constexpr (has_force_deficit)
+        return law.force_deficit(slip);
+      else
+        return 1 - resistance(slip).force;
+    }
+    bool states_force_deficit() const override { return has_force_deficit; }
 
     L law;
   };

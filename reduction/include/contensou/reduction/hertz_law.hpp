@@ -21,6 +21,9 @@ struct HertzLaw {
 
   /// 1 - Psi/Psi(0), without cancellation for k <= 1.
   double moment_deficit(Slip slip) const;
+
+  /// 1 - Phi, without cancellation for k >> 1.
+  double force_deficit(Slip slip) const;
 };
 
 }  // namespace contensou::reduction

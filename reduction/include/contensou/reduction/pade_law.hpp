@@ -24,6 +24,9 @@ struct PadeLaw {
 
   /// 1 - Psi/Psi(0) = 15 pi k/(16 + 15 pi k).
   double moment_deficit(Slip slip) const;
+
+  /// 1 - Phi, without cancellation for k >> 1.
+  double force_deficit(Slip slip) const;
 };
 
 }  // namespace contensou::reduction

@@ -68,7 +68,9 @@ struct TerminalRatios {
 ///
 /// @param r      gamma mu^2/chi, > 0
 /// @param drive  rho of ReducedSystem. With one, k = 0 is no invariant ratio: starts at k = 0 go where those next to it do.
-/// @throws std::domain_error  if r is not positive and finite
+/// @throws std::domain_error   if r is not positive and finite
+/// @throws std::runtime_error  if a drive next to 1 leaves less of friction than decides whether there is a ray next to
+///                             infinity, under a law that does not state its force_deficit
 ///
 /// Accuracy  InvariantRay::accuracy: 2e-15 where Phi/(k Psi) is steep.
 /// Cost      700 evaluations of the law, at distances of 1/16 in ln k. Between two of them there may be two rays, if

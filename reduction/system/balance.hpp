@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+
+#include "contensou/reduction/friction_law.hpp"
+
+namespace contensou::reduction {
+
+/// Whether 1 - Phi tells what a drive leaves of friction better than Phi does. From 1/2 on, 1 - rho is exact.
+inline bool by_deficit(const Law& law, double drive) { return drive >= 0.5 && law.states_force_deficit(); }
+
+/// F = Phi - rho.
+/// @param sliding  Phi of this slip
+inline double net_force(const Law& law, Slip slip, double sliding, double drive) {
+  return by_deficit(law, drive) ? (1 - drive) - law.force_deficit(slip) : sliding - drive;
+}
+
+/// D = Phi - rho - r k Psi of README (R2) and (R49) as a difference of two numbers that have all their digits: k falls
+/// where D > 0.
+struct Balance {
+  double slows;            ///< Phi, or 1 - rho
+  double speeds;           ///< rho + r k Psi, or (1 - Phi) + r k Psi
+  double force;            ///< F
+  double drag;             ///< r k Psi
+  double sliding, moment;  ///< Phi, Psi
+
+  double difference() const { return slows - speeds; }
+  double larger() const { return std::max(slows, speeds); }
+
+  static Balance of(const Law& law, double r, double drive, double k) {
+    const Slip slip = slip_of_ratio(k);
+    const auto [sliding, moment] = law(slip);
+    const double drag = r * (k * moment);
+    if (!by_deficit(law, drive)) return {sliding, drive + drag, sliding - drive, drag, sliding, moment};
+    const double deficit = law.force_deficit(slip);
+    return {1 - drive, deficit + drag, (1 - drive) - deficit, drag, sliding, moment};
+  }
+};
+
+}  // namespace contensou::reduction
