@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
@@ -53,6 +56,29 @@ double error_of(const Law& law, const Question& asked) {
   return std::max({error(found.by_u, &Question::u), error(found.by_v, &Question::v), error(found.by_mu, &Question::mu),
                    error(found.by_chi, &Question::chi), error(found.by_gamma, &Question::gamma),
                    error(found.by_drive, &Question::drive)});
+}
+
+using Precise = long double;
+using Quantities = std::array<Precise, 4>;  ///< u, v, slip length, turned
+
+/// Phi and Psi at v and w = mu |u|.
+using PreciseLaw = std::array<Precise, 2> (*)(Precise v, Precise w);
+
+constexpr Precise precise_pi = std::numbers::pi_v<Precise>;
+
+/// (2.6) by 3000 Runge-Kutta steps of order 8 in long double: no code of the library.
+Quantities integrated(PreciseLaw law, const ReducedSystem& system, Precise u, Precise v, Precise tau) {
+  const Precise mu = system.mu(), chi = system.inertia().chi, gamma = system.inertia().gamma, rho = system.drive();
+  Quantities x{u, v, 0, 0};
+  constexpr int steps = 3000;
+  boost::numeric::odeint::runge_kutta_fehlberg78<Quantities, Precise> stepper;
+  const auto equations = [&](const Quantities& at, Quantities& rate, Precise) {
+    const auto [force, moment] = law(at[1], mu * std::abs(at[0]));
+    rate = {-std::copysign(2 * gamma * mu / (3 * precise_pi) * moment, at[0]),
+            2 * chi / (3 * precise_pi) * (rho - force), at[1], at[0]};
+  };
+  for (int i = 0; i < steps; ++i) stepper.do_step(equations, x, 0, tau / steps);
+  return x;
 }
 
 }  // namespace
@@ -133,6 +159,74 @@ TEST_CASE("the gradient on the ellipse is closed, at any spin, with a drive, too
       CHECK(unit * found.by_v == Approx((v / E + drive) / rest).epsilon(1e-10));
       CHECK(unit * found.by_u == Approx(C * C * w / E / rest).epsilon(1e-9));
       CHECK(unit * found.by_drive == Approx((v * rest + 2 * drive * (E + drive * v)) / (rest * rest)).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("the gradient of an instant has its 13 digits against differences in long double", "[gradient][reference]") {
+  if (std::numeric_limits<Precise>::digits < 64) return;  // differences need them
+  constexpr PreciseLaw pade = [](Precise v, Precise w) {
+    return std::array{3 * precise_pi * v / (8 * w + 3 * precise_pi * v),
+                      3 * precise_pi * w / (16 * w + 15 * precise_pi * v)};
+  };
+  constexpr PreciseLaw ellipse = [](Precise v, Precise w) {
+    constexpr Precise C = static_cast<Precise>(EllipticLaw::hertz_moment);
+    const Precise size = std::sqrt(v * v + C * C * w * w);
+    return std::array{v / size, C * C * w / size};
+  };
+  constexpr PreciseLaw hertz = [](Precise v, Precise w) {  // k <= 1
+    const Precise k = v / w, s = k * k;
+    return std::array{3 * precise_pi / 32 * k * (4 - s), 3 * precise_pi / 128 * (8 - 8 * s + 3 * s * s)};
+  };
+  struct Case {
+    Law law;
+    PreciseLaw precise;
+    double mu, drive, u, v;
+  };
+  for (const Case& at : {Case{PadeLaw{}, pade, 0.2, 0, 1, 1},
+                         {PadeLaw{}, pade, 0.3, 0.05, -1, 0.2},
+                         {PadeLaw{}, pade, 1.5, 0, 1, 2},
+                         {EllipticLaw{}, ellipse, 0.5, 0.2, 1, 2},
+                         {EllipticLaw{}, ellipse, 0.2, 0, -3, 0.5},
+                         {EllipticLaw{}, ellipse, 0.1, 0.9, 1, 0.3},
+                         {HertzLaw{}, hertz, 0.3, 0, 1, 0.25},
+                         {HertzLaw{}, hertz, 0.1, 0.01, -1, 0.05}}) {
+    const Flow flow(ReducedSystem(at.law, at.mu, homogeneous_ball, at.drive));
+    const double stop = flow.stop_time({at.u, at.v}).tau;
+    const Rate first = flow.system().field({at.u, at.v});
+    const double larger = std::max(std::abs(at.u * first.v), std::abs(at.v * first.u));
+    const double cancels = larger / std::abs(at.u * first.v - at.v * first.u);
+    for (double tau : {0.03 * stop, 0.3 * stop, 0.5 * stop}) {
+      const InstantGradient found = instant_gradient(flow, {at.u, at.v}, tau);
+      const std::array parts{found.u, found.v, found.slip_length, found.turned};
+      const auto slopes = [&](Precise of_u, Precise of_v) {
+        constexpr Precise step = 5e-4L;
+        const auto moved = [&](Precise times) {
+          return integrated(at.precise, flow.system(), at.u * (1 + times * step * of_u),
+                            at.v * (1 + times * step * of_v), tau);
+        };
+        const std::array forth{moved(1), moved(2), moved(3)}, back{moved(-1), moved(-2), moved(-3)};
+        Quantities result;
+        for (std::size_t i = 0; i < result.size(); ++i) {
+          // A slip that has all but vanished is the exponential of what changes evenly.
+          const auto change = [&](std::size_t n) {
+            return i == 1 ? std::log(forth[n][1] / back[n][1]) : forth[n][i] - back[n][i];
+          };
+          result[i] = (45 * change(0) - 9 * change(1) + change(2)) / (60 * step);
+        }
+        return result;
+      };
+      const Quantities by_u = slopes(1, 0), by_v = slopes(0, 1);
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        CAPTURE(at.law.name(), at.mu, at.drive, tau / stop, i);
+        const Precise unit = std::max(std::abs(by_u[i]), std::abs(by_v[i]));
+        const auto error = [&](double derivative, Precise wanted) {
+          const double own = i == 1 ? derivative / found.v.value : derivative;
+          return static_cast<double>(std::abs(own - wanted) / unit) / cancels;
+        };
+        const double largest = std::max(error(at.u * parts[i].by_u, by_u[i]), error(at.v * parts[i].by_v, by_v[i]));
+        CHECK(largest <= 1e-13);
+      }
     }
   }
 }

@@ -158,6 +158,27 @@ TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", 
   CHECK(gradient.slopes.cols() == static_cast<Eigen::Index>(gradient.by.size()));
 }
 
+// By differences of an integration in Python that shares no code with this one, good to 1e-9.
+TEST_CASE("a ball that slides across its roll: what its rest changes with", "[reference]") {
+  Experiment experiment = find_ball("pool")->experiment;
+  experiment.contact.patch = PatchRadius{0.0028270315380884551};
+  experiment.contact.rolling_friction = 0.03;
+  experiment.start = Velocities{{1, 0}, {30, -60, 50}};
+  const EventNumbers numbers(experiment, of_hertz, rolling_slip);
+  CHECK(numbers.values()[6] == Approx(1.7021593006278).epsilon(1e-11));
+  for (const auto& [by, wanted] : {std::pair{Component{&velocity, 0}, 1.92660974935},
+                                   {Component{&velocity, 1}, -1.11223209823},
+                                   {Component{&angular_velocity, 0}, 0.0115651085306},
+                                   {Component{&angular_velocity, 1}, 0.0139441862134},
+                                   {Component{&angular_velocity, 2}, 0.0062010590741},
+                                   {Component{&friction, 0}, -3.36941076323},
+                                   {Component{&rolling_friction, 0}, -34.2759049326},
+                                   {Component{&patch_radius, 0}, 56.1797729966}}) {
+    INFO(by.name());
+    CHECK((*numbers.slopes(by))[6] == Approx(wanted).epsilon(1e-8));
+  }
+}
+
 TEST_CASE("at the threshold of rolling what moves the slip has a corner, and near it none of its steps meets it",
           "[edge]") {
   // Without spin slip falls at chi f g.

@@ -44,8 +44,8 @@ class EventNumbers {
   Eigen::VectorXd of(const Experiment& other) const;
 
   /// How they change with a component, the others kept, by differences of fourth order, a thousandth of it apart: those by
-  /// the start and by friction to 1e-8 against the algebra of (R61). Less sharp of a motion that is integrated in
-  /// steps, which was not measured. None where they have a corner, as at a spin of 0 and by what moves a slip that is the
+  /// the start and by friction to 1e-8 against the algebra of (R61); the time of rest of a motion that is integrated in
+  /// steps to 1e-8, too. None where they have a corner, as at a spin of 0 and by what moves a slip that is the
   /// threshold of rolling to 1e-6, and at the end of what a ball can have.
   std::optional<Eigen::VectorXd> slopes(const Component& by) const;
 
