@@ -62,7 +62,7 @@ class PlanarTracer {
     highest_ += 0.1;
     // Nobody sees orbits move nearer to the centre.
     constexpr double deep = 9;
-    lowest_ -= deep / plane.scaling().growth();
+    lowest_ -= deep / plane.scaling()->growth();
     for (const PlanarSector& sector : plane.sectors()) courses_.push_back(course_of(sector));
     if (plane.turn() != nullptr) read_turn();
   }
@@ -103,7 +103,7 @@ class PlanarTracer {
 
   /// The lines of one time left.
   std::vector<Isochrone> isochrones(const std::vector<double>& times) const {
-    const double c = plane_.scaling().time;
+    const double c = plane_.scaling()->time;
     std::vector<Isochrone> result;
     if (c == 0) return result;
     std::vector<Polyline> curves;  // (q, ln of the time left at p = 0)
@@ -174,7 +174,7 @@ class PlanarTracer {
     try {
       // One picture has one kind of times: to the centre, or to infinity where motions grow slower with their size.
       const reduction::PlanarOrbit orbit = plane_.orbit(x);
-      const PlanarEnd timed = plane_.scaling().time < 0 ? PlanarEnd::infinity : PlanarEnd::centre;
+      const PlanarEnd timed = plane_.scaling()->time < 0 ? PlanarEnd::infinity : PlanarEnd::centre;
       return orbit.end() == timed ? orbit.end_time() : infinity;
     } catch (const std::domain_error&) {
       return infinity;  // a chord has left the part of the plane that has values

@@ -96,7 +96,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     (style.colour_by_time && std::isfinite(orbit.tau_left[0]) ? timed : untimed).push_back(orbit);
   }
   PortraitCaption caption;
-  caption.time_symbol = portrait.plane.scaling().time < 0 ? Text("to infinity") : math("t*");
+  caption.time_symbol = portrait.plane.scaling()->time < 0 ? Text("to infinity") : math("t*");
   if (!untimed.empty()) {
     layers.add_plain(lines_of(untimed), {look.palette.orbit, 1.3}, timed.empty() ? "orbits" : "other orbits");
   }

@@ -52,6 +52,7 @@ struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_fro
   Vector2d point(double q, double p) const override { return section.point(turned({1, 0}, q), p); }
   std::shared_ptr<const PlanarOrbit::Motion> orbit(const Vector2d& start) const override;
   double end_time_error(const Vector2d& x) const override;
+  double factor(const Vector2d& x) const override { return cross(field(x), scaling->matrix * (x - centre)); }
   std::optional<double> first_integral(const Vector2d& x) const override;
 
   void leave_branching_open();
@@ -70,7 +71,9 @@ struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_fro
 
 ScalingSolution::ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around,
                                  double given_noise)
-    : Solution(std::move(given), generator), section(field, generator, around), noise(std::max(given_noise, eps)) {
+    : Solution(std::move(given), "scaling"), section(field, generator, around), noise(std::max(given_noise, eps)) {
+  scaling = generator;
+  centre = section.centre();
   const auto refuse = [](const Vector2d& n) {
     throw UndecidedRays(
         fmt::format("at the angle {:.6g} the field points along the scaling within rounding: "
@@ -266,7 +269,7 @@ double ScalingSolution::end_time_error(const Vector2d& x) const {
     return solution.end_time(solution.place(n), p);
   };
   constexpr double other = 1.37, margin = 8, least = 1e-13;
-  const ScalingSolution again(field, scaling, centre + other * (x - centre), noise);
+  const ScalingSolution again(field, *scaling, centre + other * (x - centre), noise);
   return std::max(least, margin * std::abs(time_from(again) / time_from(*this) - 1));
 }
 
@@ -277,12 +280,57 @@ std::optional<double> ScalingSolution::first_integral(const Vector2d& x) const {
   return p - at.strip->ln_rho(at.xi);
 }
 
+/// A way along an orbit against xi, and the time that it takes.
+struct Walk {
+  const Strip& strip;
+  double c, integral;  ///< p - L(q)
+  double xi;
+  double passed = 0;  ///< time
+
+  double elapsed(double left, double right) const {
+    using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+    const auto rate = [&](double at) { return std::exp(c * (integral + strip.ln_rho(at))) / strip.rate(at); };
+    constexpr unsigned halvings = 3;  // both are smooth between ends of panels
+    return Rule::integrate(rate, left, right, halvings, 1e-13);
+  }
+
+  /// Goes on until that time has passed or xi is `last`, in steps on which the integrand changes moderately.
+  /// @return true if the time has passed
+  bool go(double wanted, double last) {
+    while (xi > last) {
+      constexpr double longest = 1, change = 4;
+      const double growth = std::abs(c * (strip.ln_rho(xi) - strip.ln_rho(xi - 1e-3)) / 1e-3);
+      const double step = growth * longest > change ? change / growth : longest;
+      const double left = std::max({xi - step, last, strip.smooth_from(xi)}), part = elapsed(left, xi);
+      if (!(passed + part < wanted)) {
+        xi = root_between([&](double at) { return passed + elapsed(at, xi) - wanted; }, left, xi);
+        return true;
+      }
+      if (part == 0) return false;  // the centre, but for underflow
+      passed += part;
+      xi = left;
+    }
+    return false;
+  }
+};
+
 struct ScalingMotion final : PlanarOrbit::Motion {
   Vector2d at(double time) const override;
   Vector2d at_end() const override {
     if (end == PlanarEnd::centre) return solution->centre;
     const Strip& strip = *place.strip;
     return solution->section.point(strip.to().n(), p + (strip.ln_rho(-infinity) - strip.ln_rho(place.xi)));
+  }
+
+  /// The time of a turn, where orbits turn for ever.
+  double turn_time() const {
+    const Strip& strip = *place.strip;
+    Walk turn{strip, solution->section.time_degree(), p - strip.ln_rho(place.xi), place.xi};
+    turn.go(infinity, place.xi - 2 * pi);
+    return turn.passed;
+  }
+  std::optional<double> period() const override {
+    return end == PlanarEnd::periodic ? std::optional(turn_time()) : std::nullopt;
   }
 
   std::shared_ptr<const ScalingSolution> solution;
@@ -298,6 +346,7 @@ std::shared_ptr<const PlanarOrbit::Motion> ScalingSolution::orbit(const Vector2d
   motion->place = place(motion->n);
   motion->end = end(motion->place);
   motion->end_time = end_time(motion->place, motion->p);
+  if (motion->end == PlanarEnd::undecided) motion->undecided = undecided;
   return motion;
 }
 
@@ -325,42 +374,16 @@ Vector2d ScalingMotion::at(double time) const {
         [&](double xi) { return c * (integral + strip.ln_rho(xi)) + std::log(strip.time_left(xi)) - ln_left; },
         place.xi));
   }
-  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
-  const auto elapsed = [&](double left, double right) {
-    const auto rate = [&](double xi) { return std::exp(c * (integral + strip.ln_rho(xi))) / strip.rate(xi); };
-    constexpr unsigned halvings = 3;  // both are smooth between ends of panels
-    return Rule::integrate(rate, left, right, halvings, 1e-13);
-  };
-  // Steps against xi until the time has passed, on each of which the integrand changes moderately.
-  double passed = 0, xi = place.xi;
-  const auto go = [&](double wanted, double last) {
-    while (xi > last) {
-      constexpr double longest = 1, change = 4;
-      const double growth = std::abs(c * (strip.ln_rho(xi) - strip.ln_rho(xi - 1e-3)) / 1e-3);
-      const double step = growth * longest > change ? change / growth : longest;
-      const double left = std::max({xi - step, last, strip.smooth_from(xi)}), part = elapsed(left, xi);
-      if (!(passed + part < wanted)) {
-        const auto missing = [&](double at) { return passed + elapsed(at, xi) - wanted; };
-        xi = root_between(missing, left, xi);
-        return true;
-      }
-      if (part == 0) return false;  // the centre, but for underflow
-      passed += part;
-      xi = left;
-    }
-    return false;
-  };
+  Walk walk{strip, c, integral, place.xi};
   // sum of the first n terms of a geometric series, of ratio exp(growth), and n of a sum
   const auto terms = [](double growth, double count) {
     return growth == 0 ? count : std::expm1(growth * count) / std::expm1(growth);
   };
   if (strip.closed()) {
-    go(infinity, place.xi - 2 * pi);
-    const double turn = std::exchange(passed, 0), growth = c * strip.turn();
+    const double turn = turn_time(), growth = c * strip.turn();
     const double turns = std::floor(growth == 0 ? time / turn : std::log1p(time / turn * std::expm1(growth)) / growth);
-    xi = place.xi;
-    go((time - turn * terms(growth, turns)) * std::exp(-growth * turns), place.xi - 2 * pi);
-    return at_coordinate(xi - 2 * pi * turns);
+    walk.go((time - turn * terms(growth, turns)) * std::exp(-growth * turns), place.xi - 2 * pi);
+    return at_coordinate(walk.xi - 2 * pi * turns);
   }
   const bool decided = strip.to().decided(), joins = strip.joins_ray();
   const bool linear = decided && !joins && strip.to().angular().order == 1;
@@ -369,18 +392,18 @@ Vector2d ScalingMotion::at(double time) const {
   const double last = joins                ? Strip::first / (1 - strip.to().angular().order)
                       : linear || !decided ? Strip::first
                                            : farthest;
-  if (go(time, std::min(place.xi, last))) return at_coordinate(xi);
+  if (walk.go(time, std::min(place.xi, last))) return at_coordinate(walk.xi);
   if (!decided) {
     throw std::domain_error(
         fmt::format("PlanarOrbit: the point at the time {} is not known: {}", time, solution->undecided));
   }
-  if (joins) return on_ray(time - passed);
-  if (!linear) return at_coordinate(xi);
+  if (joins) return on_ray(time - walk.passed);
+  if (!linear) return at_coordinate(walk.xi);
   // s is constant beyond, and R, too, where p has no bound.
   const double rate = std::abs(strip.to().angular().factor);
   const double growth = strip.to().radial().order == 0 ? c * strip.to().radial().factor : 0;
-  const double sigma = (time - passed) * std::exp(-c * (integral + strip.ln_rho(xi)));
-  return at_coordinate(xi - rate * (growth == 0 ? sigma : std::log1p(growth * sigma) / growth));
+  const double sigma = (time - walk.passed) * std::exp(-c * (integral + strip.ln_rho(walk.xi)));
+  return at_coordinate(walk.xi - rate * (growth == 0 ? sigma : std::log1p(growth * sigma) / growth));
 }
 
 /// The motion of the centre itself.
@@ -407,7 +430,8 @@ PlanarReduction::PlanarReduction(PlanarField field, const Generator& scaling, co
 PlanarReduction::PlanarReduction(std::shared_ptr<const Solution> solution) : solution_(std::move(solution)) {}
 
 const PlanarField& PlanarReduction::field() const { return solution_->field; }
-const Generator& PlanarReduction::scaling() const { return solution_->scaling; }
+std::string_view PlanarReduction::form() const { return solution_->form; }
+const Generator* PlanarReduction::scaling() const { return solution_->scaling ? &*solution_->scaling : nullptr; }
 const Vector2d& PlanarReduction::centre() const { return solution_->centre; }
 bool PlanarReduction::star() const { return solution_->star; }
 const std::vector<PlanarRay>& PlanarReduction::rays() const { return solution_->rays; }
@@ -415,6 +439,11 @@ const std::vector<PlanarSector>& PlanarReduction::sectors() const { return solut
 const PlanarTurn* PlanarReduction::turn() const { return solution_->turn ? &*solution_->turn : nullptr; }
 std::string_view PlanarReduction::kind() const { return solution_->kind; }
 const std::string& PlanarReduction::undecided() const { return solution_->undecided; }
+
+double PlanarReduction::factor(const Vector2d& x) const {
+  require_point(x);
+  return solution_->factor(x);
+}
 
 PlanarCanonical PlanarReduction::canonical(const Vector2d& x) const {
   require_point(x);
@@ -437,7 +466,7 @@ double PlanarReduction::first_integral(const Vector2d& x) const {
     if (const auto integral = solution_->first_integral(x)) return *integral;
   }
   throw std::domain_error(
-      fmt::format("the first integral has no value on a ray and at the centre, got ({}, {})", x[0], x[1]));
+      fmt::format("the first integral has no value on an invariant curve and at the centre, got ({}, {})", x[0], x[1]));
 }
 
 PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {
@@ -448,6 +477,8 @@ PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {
 
 PlanarOrbit::PlanarOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
 PlanarEnd PlanarOrbit::end() const { return motion_->end; }
+std::optional<double> PlanarOrbit::period() const { return motion_->period(); }
+const std::string& PlanarOrbit::undecided() const { return motion_->undecided; }
 double PlanarOrbit::end_time() const { return motion_->end == PlanarEnd::border ? infinity : motion_->end_time; }
 
 Vector2d PlanarOrbit::at(double time) const {

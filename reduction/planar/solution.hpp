@@ -1,7 +1,9 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,21 +16,29 @@ namespace contensou::reduction {
 
 /// One way of solving a planar system: the answers of PlanarReduction, which checks its arguments.
 struct PlanarReduction::Solution {
-  Solution(PlanarField of, Generator by) : field(std::move(of)), scaling(std::move(by)), centre(scaling.centre()) {}
+  Solution(PlanarField of, std::string_view way) : field(std::move(of)), form(way) {}
   Solution(const Solution&) = delete;
   Solution& operator=(const Solution&) = delete;
   virtual ~Solution() = default;
 
-  /// @param x  finite, not the centre
-  virtual PlanarCanonical canonical(const Eigen::Vector2d& x) const = 0;
-  virtual Eigen::Vector2d point(double q, double p) const = 0;
+  virtual double factor(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const PlanarOrbit::Motion> orbit(const Eigen::Vector2d& start) const = 0;
   virtual double end_time_error(const Eigen::Vector2d& x) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
 
+  // By a scaling:
+  /// @param x  finite, not the centre
+  virtual PlanarCanonical canonical(const Eigen::Vector2d&) const { throw without_scaling(); }
+  virtual Eigen::Vector2d point(double, double) const { throw without_scaling(); }
+
+  static std::domain_error without_scaling() {
+    return std::domain_error("the system has no scaling, and no canonical coordinates of one");
+  }
+
   PlanarField field;
-  Generator scaling;
-  Eigen::Vector2d centre;
+  std::string_view form;
+  std::optional<Generator> scaling;
+  Eigen::Vector2d centre = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool star = false;
   std::vector<PlanarRay> rays;
   std::vector<PlanarSector> sectors;
@@ -43,11 +53,14 @@ struct PlanarOrbit::Motion {
   /// @param time  0 <= time < end_time
   virtual Eigen::Vector2d at(double time) const = 0;
 
+  virtual std::optional<double> period() const { return std::nullopt; }
+
   /// The point where it stays from end_time on, if it stays anywhere.
   virtual Eigen::Vector2d at_end() const = 0;
 
   PlanarEnd end = PlanarEnd::centre;
   double end_time = 0;  ///< that of coming to a border, too
+  std::string undecided = {};
 };
 
 }  // namespace contensou::reduction

@@ -194,9 +194,9 @@ TEST_CASE("weights that differ", "[planar][exact]") {
   const PlanarReduction plane = reduced([](const Vector2d& x) {
     return Vector2d(-std::copysign(1, x[0]), -3 * std::copysign(std::sqrt(std::abs(x[1])), x[1]));
   });
-  CHECK(plane.scaling().matrix.isDiagonal(0));
-  CHECK(plane.scaling().matrix(0, 0) == Approx(plane.scaling().time).epsilon(1e-13));
-  CHECK(plane.scaling().matrix(1, 1) == Approx(2 * plane.scaling().time).epsilon(1e-13));
+  CHECK(plane.scaling()->matrix.isDiagonal(0));
+  CHECK(plane.scaling()->matrix(0, 0) == Approx(plane.scaling()->time).epsilon(1e-13));
+  CHECK(plane.scaling()->matrix(1, 1) == Approx(2 * plane.scaling()->time).epsilon(1e-13));
   const PlanarCanonical here = plane.canonical({0.3, 0.7});
   CHECK((plane.point(here.q, here.p) - Vector2d(0.3, 0.7)).norm() < 1e-14);
   // a smooth one: u' = v, v' = -u^3 - v |v|: weights 1, 2, of time -1

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -64,15 +65,15 @@ class UndecidedRays : public std::domain_error {
 
 class PlanarOrbit;
 
-/// x' = f(x) solved by its scaling X = c t d/dt + A (x - x_0) . d/dx: f on one closed curve about x_0 is all of f.
+/// A planar system x' = f(x) reduced to quadratures, by a scaling X = c t d/dt + A (x - x_0) . d/dx, for which f on one
+/// closed curve about x_0 is all of f, or by an inverse integrating factor V alone (reduced_by_factor).
 ///
 ///     const PlanarReduction reduction(field, *find_symmetries(field, start).scaling, start);
 ///     reduction.end(start);        // PlanarEnd::centre
 ///     reduction.end_time(start);   // when
 ///     reduction.orbit(start).at(0.5)
 ///
-/// README (R42) to (R45). A value; copies share what is solved. The ways of solving a system are its Solutions: by a
-/// scaling alone, and by the similarity solution of (2.6) (flow_reduction.hpp).
+/// README (R42) to (R45). A value; copies share what is solved.
 ///
 /// Accuracy  relative 1e-12 of times, for a field that is smooth except for kinks and jumps and good to its last bits.
 ///           Next to multiple rays and poles that lie on no axis digits are lost: end_time_error() estimates how many.
@@ -89,11 +90,21 @@ class PlanarReduction {
   struct Solution;  // planar/solution.hpp
   explicit PlanarReduction(std::shared_ptr<const Solution> solution);
 
+  /// Returns the way it was solved: "scaling", or a form of FactorReduction.
+  std::string_view form() const;
+
   const PlanarField& field() const;
-  const Generator& scaling() const;
+
+  /// Returns V, an inverse integrating factor: f . grad V = V div f. By a scaling it is f ^ (A (x - x_0)).
+  /// @throws std::domain_error  if x is not finite, or V is not known there
+  double factor(const Eigen::Vector2d& x) const;
+
+  /// Returns the scaling that solves it; null where V alone does. Without a scaling there are no centre, canonical
+  /// coordinates, rays, sectors, turn and kind.
+  const Generator* scaling() const;
   const Eigen::Vector2d& centre() const;
 
-  /// @throws std::domain_error  if x is not finite
+  /// @throws std::domain_error  if x is not finite, and without a scaling
   PlanarCanonical canonical(const Eigen::Vector2d& x) const;
   Eigen::Vector2d point(double q, double p) const;
 
@@ -127,10 +138,11 @@ class PlanarReduction {
   /// @throws as end, and as the constructor
   double end_time_error(const Eigen::Vector2d& x) const;
 
-  /// Returns p - L(q), the logarithm of the factor that moves one curve of the sector onto the orbit of x. It is constant
+  /// Returns a number that is constant along an orbit. By V alone it is H, dH = (F dv - G du)/V, 0 at the start of the
+  /// search. By a scaling it is p - L(q), the logarithm of the factor that moves one curve of the sector onto the orbit of x. It is constant
   /// along an orbit, different on any two of one sector, and grows by s under exp(s X); after a turn about a centre
   /// without rays it is less by ln factor.
-  /// @throws std::domain_error  as end; on a ray, where it has no value
+  /// @throws std::domain_error  as end; on a ray and where V = 0, where it has no value
   double first_integral(const Eigen::Vector2d& x) const;
 
   PlanarOrbit orbit(const Eigen::Vector2d& start) const;
@@ -147,6 +159,12 @@ class PlanarOrbit {
 
   PlanarEnd end() const;
   double end_time() const;
+
+  /// Returns the period, if it returns.
+  std::optional<double> period() const;
+
+  /// Returns why the end is not decided; empty if it is.
+  const std::string& undecided() const;
 
   /// Where it is at a time after the start; from end_time on at the centre, if it ends there.
   /// @throws std::domain_error  unless time >= 0; and for a time when it is at infinity or beyond a border
