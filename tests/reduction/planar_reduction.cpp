@@ -521,3 +521,36 @@ TEST_CASE("far from 1, too", "[planar][domain]") {
     CHECK(plane.end_time({3 * unit, 4 * unit}) == Approx(5 * unit).epsilon(1e-13));
   }
 }
+
+TEST_CASE("the period of a centre is that of closed forms", "[planar]") {
+  CHECK(reduced(linear((Matrix2d() << 0, 1, -4, 0).finished())).orbit({1, 0.3}).period().value() ==
+        Approx(pi).epsilon(1e-13));
+  // u'' = -u^3 from rest at a: 4 K(1/2)/a, K for the parameter 1/2.
+  const PlanarReduction quartic = reduced([](const Vector2d& x) { return Vector2d(x[1], -std::pow(x[0], 3)); });
+  constexpr double k_half = 1.8540746773013719184338503471953;
+  for (double a : {0.1, 1.0, 7.0}) {
+    CHECK(quartic.orbit({a, 0}).period().value() == Approx(4 * k_half / a).epsilon(1e-12));
+    CHECK((quartic.orbit({a, 0}).at(4 * k_half / a) - Vector2d(a, 0)).norm() < 1e-11 * a);
+  }
+  CHECK_FALSE(reduced(linear((Matrix2d() << -1, 1, -4, 0).finished())).orbit({1, 0.3}).period());
+}
+
+TEST_CASE("the factor of a scaling is an inverse integrating factor", "[planar]") {
+  const PlanarField field = [](const Vector2d& x) {
+    return Vector2d(x[1] - x[0] * x[0], x[0] * x[1] - 2 * std::pow(x[0], 3));
+  };
+  const PlanarReduction plane = reduced(field);
+  CHECK(plane.form() == "scaling");
+  for (const Vector2d& x : {Vector2d(1, 0.4), Vector2d(-0.7, 1.3), Vector2d(0.2, -2)}) {
+    const auto slope = [&](const auto& of, int i) {
+      constexpr double h = 1e-3;
+      const Vector2d step = h * Vector2d::Unit(i);
+      return (8 * (of(x + step) - of(x - step)) - of(x + 2 * step) + of(x - 2 * step)) / (12 * h);
+    };
+    const auto factor = [&](const Vector2d& at) { return plane.factor(at); };
+    const Vector2d f = field(x), gradient(slope(factor, 0), slope(factor, 1));
+    const double divergence = slope([&](const Vector2d& at) { return field(at)[0]; }, 0) +
+                              slope([&](const Vector2d& at) { return field(at)[1]; }, 1);
+    CHECK(std::abs(f.dot(gradient) - plane.factor(x) * divergence) < 1e-9 * f.norm() * gradient.norm());
+  }
+}
