@@ -421,7 +421,7 @@ void require_point(const Vector2d& x) {
 }  // namespace
 
 std::string_view name(PlanarEnd end) {
-  constexpr std::string_view names[]{"centre", "infinity", "rest", "border", "periodic", "undecided"};
+  constexpr std::string_view names[]{"centre", "infinity", "rest", "border", "periodic", "undecided", "equilibrium"};
   return names[static_cast<std::size_t>(end)];
 }
 

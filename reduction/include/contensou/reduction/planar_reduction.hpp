@@ -30,6 +30,7 @@ enum class PlanarEnd {
   border,     ///< a pole, a border of the field's values, or a jump: no orbit goes on
   periodic,   ///< none: the orbit returns
   undecided,  ///< not known: PlanarReduction::undecided says why
+  equilibrium,  ///< a zero of the field, which the orbit nears for ever
 };
 
 /// As its name in C++, such as "centre".

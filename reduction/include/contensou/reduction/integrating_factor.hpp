@@ -1,0 +1,102 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/reduction/planar_reduction.hpp"
+
+namespace contensou::reduction {
+
+/// A field with its Jacobian. Where it has no value it throws or returns what is not finite.
+struct SmoothField {
+  PlanarField value;
+  /// The derivatives, exact except for rounding; row 0 holds those of u'. If it is empty, differences take their place.
+  std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
+};
+
+/// A form of V that was tried, and how well the best V of this form satisfies (R64).
+struct TriedForm {
+  std::string_view form;
+  double singular_value;  ///< the least: mean square of (R66) over the points of the fit
+  double gap;             ///< ratio of the least singular value that counts as large to the largest that counts as 0
+  double residual;        ///< largest (R66) at other points
+};
+
+class FactorOrbit;
+
+/// x' = f(x) solved by an inverse integrating factor V, f . grad V = V div f, README (R64) to (R68).
+///
+///     const FactorReduction reduction({field, jacobian}, start);
+///     if (reduction.found()) reduction.orbit(start).at(0.5);
+///
+/// A value; copies share what is solved.
+///
+/// Accuracy  relative 1e-12 of states and times, where the motion does not amplify rounding.
+class FactorReduction {
+ public:
+  /// Looks for V in a box of 30 % about the start: form after form, the first that holds.
+  /// @throws std::domain_error  unless the start is finite and the field has a value there
+  FactorReduction(SmoothField field, const Eigen::Vector2d& start);
+
+  bool found() const { return !form().empty(); }
+
+  /// Returns "affine" (V = f ^ X, X affine), "polynomial" (degree 4 or less), "linear in v", "quadratic in v", "linear in
+  /// u", "quadratic in u" (coefficients are functions of the other coordinate) or "product" (V = A(u) B(v)); empty if none
+  /// was found.
+  std::string_view form() const;
+
+  /// Returns the forms in the order in which they were tried.
+  const std::vector<TriedForm>& tried() const;
+
+  /// Returns V, which is 1 at the start unless the start lies on V = 0.
+  /// @throws std::domain_error  if none was found; outside the box, unless V is affine
+  double factor(const Eigen::Vector2d& x) const;
+
+  /// Returns H, dH = (F dv - G du)/V, which is constant along orbits and 0 at the start.
+  /// @throws std::domain_error  as factor; and if V vanishes between the start and x
+  double first_integral(const Eigen::Vector2d& x) const;
+
+  /// Follows the orbit of another start, or of this one. V is fitted anew from box to box.
+  /// @throws std::domain_error  if none was found; unless the start is finite and the field has a value there
+  FactorOrbit orbit(const Eigen::Vector2d& start) const;
+
+ private:
+  struct Solved;
+  std::shared_ptr<const Solved> solved_;
+};
+
+/// One motion.
+class FactorOrbit {
+ public:
+  struct Motion;  // planar/factor_orbit.cpp
+  explicit FactorOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
+
+  /// Returns where it ends: equilibrium, infinity, border, periodic or undecided.
+  PlanarEnd end() const;
+
+  /// Returns the time of the end; infinity if it takes for ever, NaN if it is not decided.
+  double end_time() const;
+
+  /// Returns the period of a periodic orbit.
+  std::optional<double> period() const;
+
+  /// Returns why the end is not decided; empty if it is.
+  const std::string& undecided() const;
+
+  /// Returns the state at a time after the start.
+  /// @throws std::domain_error  unless time >= 0; from the end time on, and beyond the time up to which an orbit was
+  ///                            followed whose end is not decided
+  Eigen::Vector2d at(double time) const;
+
+ private:
+  std::shared_ptr<const Motion> motion_;
+};
+
+}  // namespace contensou::reduction

@@ -1,0 +1,366 @@
+#include "planar/factor_orbit.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/root.hpp"
+#include "numerics/epsilon.hpp"
+#include "numerics/legendre_series.hpp"
+#include "planar/matrix_exponential.hpp"
+
+namespace contensou::reduction {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+struct FactorOrbit::Motion {
+  /// A part of the orbit, along which one coordinate grows or falls.
+  struct Panel {
+    int along;            ///< this coordinate
+    double from, length;  ///< of it
+    double begin;         ///< time
+    LegendreSeries other, time;
+
+    Vector2d at(double t) const {
+      Vector2d x;
+      x[along] = from + length * (1 + t) / 2;
+      x[1 - along] = other(t);
+      return x;
+    }
+  };
+
+  Vector2d start;
+  std::vector<Panel> panels = {};
+  PlanarEnd end = PlanarEnd::undecided;
+  double end_time = std::numeric_limits<double>::quiet_NaN();
+  double followed = 0;  ///< time
+  std::string undecided = {};
+  // Near an equilibrium, from `followed` on: rest + exp(t flow) offset.
+  Vector2d rest = Vector2d::Zero(), offset = rest;
+  Matrix2d flow = Matrix2d::Zero();
+};
+
+namespace {
+
+/// The way of an orbit from panel to panel and from box to box.
+class Follower {
+  using Samples = LegendreSeries::Samples;
+  using Panel = FactorOrbit::Motion::Panel;
+
+ public:
+  Follower(const SmoothField& field, const InverseFactor& factor, FactorOrbit::Motion& motion)
+      : field_(field),
+        motion_(motion),
+        x_(motion.start),
+        form_(factor.form()),
+        box_(factor.box()),
+        first_(jet_of(field, x_)),
+        size_(x_.norm() + box_about(x_).radii.norm()) {
+    if (form_ == FactorForm::affine || box_.centre == x_) {
+      factor_ = factor;
+      on_curve_ = factor.vanishes && box_.centre == x_;
+    }
+  }
+
+  void follow() {
+    constexpr int most_panels = 4000;
+    for (int i = 0; i < most_panels; ++i) {
+      const auto here = jet_of(field_, x_);
+      if (!here) return stop("the field has no derivatives");
+      noise_ = eps * (here->slopes * x_.asDiagonal()).norm() / here->f.norm();
+      if (rests(*here) || escapes(*here)) return;
+      constexpr double edge = 0.7;
+      const bool enters =
+          i == 0 ? !factor_ || form_ == FactorForm::affine : box_.inside(x_).cwiseAbs().maxCoeff() > edge;
+      if (enters && !enter(*here)) return stop("the form of V does not hold");
+      if (form_ == FactorForm::affine && factor_->residual(x_, *here) > std::max(accurate_, noise_)) {
+        return stop("the form of V does not hold");
+      }
+      if (!step(*here)) {
+        const bool pole = here->f.norm() > singular_ * first_->f.norm();
+        if (failure_ != Failure::no_value && !(failure_ == Failure::turned && pole)) {
+          return stop("the field is not smooth");
+        }
+        return end(PlanarEnd::border, motion_.followed);
+      }
+      if (on_curve_ && factor_) return_to_curve();
+      if (returns()) return;
+    }
+    stop("more parts of the orbit are needed than 4000; the last comes");
+  }
+
+ private:
+  enum class Failure { none, no_value, turned, outside, rough };
+
+  void end(PlanarEnd kind, double time) {
+    motion_.end = kind;
+    motion_.end_time = time;
+  }
+
+  void stop(std::string_view reason) { motion_.undecided = fmt::format("{} about ({}, {})", reason, x_[0], x_[1]); }
+
+  /// True if the orbit nears a zero of the field for ever: from here on the linear flow is exact except for rounding.
+  bool rests(const Jet& here) {
+    motion_.rest = x_;
+    motion_.offset.setZero();
+    if (here.f.isZero(0)) {
+      end(PlanarEnd::equilibrium, motion_.followed);
+      return true;
+    }
+    constexpr double close = 0.1;
+    Vector2d rest = x_;
+    Matrix2d slopes = here.slopes;
+    Vector2d way = newton_step(here);
+    if (!(way.norm() <= close * size_)) return false;
+    constexpr int steps = 8;
+    for (int i = 0; i < steps && way.norm() > 4 * eps * rest.norm(); ++i) {
+      rest -= way;
+      const auto there = jet_of(field_, rest);
+      if (!there) return false;
+      slopes = there->slopes;
+      way = newton_step(*there);
+      if (!(way.norm() <= (x_ - rest).norm())) return false;
+    }
+    const Vector2d offset = x_ - rest;
+    const double change = (here.slopes - slopes).norm() / slopes.norm();
+    constexpr double exact = 1e-14;
+    if (!(change * offset.norm() <= exact * std::max(rest.norm(), offset.norm()))) return false;
+    const double trace = slopes.trace(), determinant = slopes.determinant(), norm = slopes.norm();
+    constexpr double clear = 1e-10;
+    if (determinant > clear * norm * norm && trace < -clear * norm) {
+      motion_.flow = slopes;
+      motion_.offset = offset;
+    } else if (determinant < -clear * norm * norm && on_curve_ && offset.dot(here.f) < 0) {
+      // On the stable line of a saddle.
+      const double root = std::sqrt(trace * trace / 4 - determinant), in = trace / 2 - root, out = trace / 2 + root;
+      motion_.flow = in * Matrix2d::Identity();
+      motion_.offset = (slopes * offset - out * offset) / (in - out);
+    } else {
+      return false;
+    }
+    motion_.rest = rest;
+    end(PlanarEnd::equilibrium, infinity);
+    return true;
+  }
+
+  /// True if it goes to infinity: |x'| ~ |x|^p along it.
+  bool escapes(const Jet& here) {
+    constexpr double far = 1e6, farther = 1e12;
+    const double distance = x_.norm(), outward = x_.dot(here.f);
+    if (!(distance > far * size_) || !(outward > 0)) return false;
+    const double growth = outward / (distance * distance);
+    const double power = here.f.dot(here.slopes * here.f) / here.f.squaredNorm() / growth;
+    constexpr double above = 1.02, below = 1 + 1e-4;
+    if (power > above) {
+      const double left = 1 / (growth * (power - 1));
+      if (!(left <= eps * motion_.followed)) return false;
+      end(PlanarEnd::infinity, motion_.followed + left);
+      return true;
+    }
+    if (!(power < below) || distance < farther * size_) return false;
+    end(PlanarEnd::infinity, infinity);
+    return true;
+  }
+
+  static Vector2d newton_step(const Jet& here) { return here.slopes.inverse() * here.f; }
+
+  /// Fits V in a box about this point.
+  bool enter(const Jet& here) {
+    box_ = box_about(x_);
+    // Near an equilibrium, where V is small, the box is as small as the distance.
+    constexpr double part = 0.7;
+    const double distance = part * newton_step(here).norm();
+    if (std::isfinite(distance)) box_.radii = box_.radii.cwiseMin(distance);
+    box_.radii *= fraction_;
+    for (int i = 0; i < 2; ++i) {
+      const auto ends_have_values = [&] {
+        const Vector2d side = box_.radii[i] * Vector2d::Unit(i);
+        return value_of(field_, x_ + side) && value_of(field_, x_ - side);
+      };
+      while (!ends_have_values() && box_.radii[i] > eps * std::abs(x_[i])) box_.radii[i] /= 2;
+    }
+    if (form_ == FactorForm::affine) return true;
+    factor_.reset();
+    // Where the rounding of x alone hides the form, V is not needed any more.
+    constexpr double hidden = 1e-12;
+    if (noise_ > hidden) return true;
+    constexpr int halvings = 10;
+    for (int i = 0; i <= halvings; ++i, box_.radii /= 2, fraction_ /= 2) {
+      const auto samples = sample(field_, box_);
+      if (!samples) continue;
+      const auto fit = fit_factor(form_, *samples);
+      if (!fit || !fit->small) continue;
+      factor_ = fit->factor;
+      on_curve_ = fit->factor.vanishes;
+      fraction_ = std::min(1., 2 * fraction_);
+      return true;
+    }
+    return false;
+  }
+
+  /// Adds a panel as long as its series allow.
+  bool step(const Jet& here) {
+    const Vector2d speed = here.f.cwiseQuotient(box_.radii).cwiseAbs();
+    const int along = speed[0] >= speed[1] ? 0 : 1;
+    const double sense = here.f[along] > 0 ? 1 : -1;
+    const double room = 1 - sense * box_.inside(x_)[along];
+    double length = std::min(2 * stretch_, room) * box_.radii[along];
+    constexpr double least = 1e-40;
+    for (; length > 4 * eps * std::abs(x_[along]) && length > least * size_; length /= 2) {
+      failure_ = solve(along, sense * length, here);
+      if (failure_ == Failure::none) {
+        stretch_ = length / box_.radii[along];
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Finds the other coordinate w at the points of a panel. q approximates dw/ds; along w = w_0 + integral of q
+  /// H changes by the integral of F (q - G/F)/V, and dH/dw = F/V: Newton's method, README (R67).
+  Failure solve(int along, double length, const Jet& start) {
+    const int across = 1 - along;
+    const double half = length / 2, size = x_.lpNorm<Eigen::Infinity>();
+    const Samples s = x_[along] + half * (1 + LegendreSeries::points());
+    Samples q = Samples::Constant(start.f[across] / start.f[along]), slopes, rate, y;
+    double missed = infinity;
+    constexpr int most = 24, first = 2;
+    for (int iteration = 0;; ++iteration) {
+      const Samples w = x_[across] + half * LegendreSeries::through(q).antiderivative().samples();
+      bool newton = iteration >= first && factor_ && !on_curve_;
+      for (int i = 0; i < LegendreSeries::order; ++i) {
+        Vector2d x;
+        x[along] = s[i];
+        x[across] = w[i];
+        const auto f = value_of(field_, x);
+        if (!f) return Failure::no_value;
+        rate[i] = 1 / (*f)[along];
+        slopes[i] = (*f)[across] * rate[i];
+        if (!(rate[i] * length > 0)) return Failure::turned;
+        if (newton) y[i] = (*factor_)(x, {*f, Matrix2d::Zero()})[0] * rate[i];
+        newton = newton && y[i] * y[0] > 0;
+      }
+      const Samples defect = slopes - q;
+      const double before = missed;
+      missed = std::abs(half) * LegendreSeries::through(defect).antiderivative().samples().abs().maxCoeff();
+      const double largest = std::abs(half) * slopes.abs().maxCoeff();
+      q = slopes;
+      if (missed <= 4 * eps * (size + largest) + noise_ * largest) break;
+      constexpr double edge = 1.05;
+      const bool inside = std::abs(w[LegendreSeries::order - 1] - box_.centre[across]) <= edge * box_.radii[across];
+      if (!inside) return Failure::outside;
+      if (iteration == most || (iteration > first && !(missed < before / 2))) return Failure::rough;
+      if (newton) {
+        const Samples correction = half * y * LegendreSeries::through(defect / y).antiderivative().samples();
+        q += correction * LegendreSeries::through(y.abs().log()).derivative().samples() / half;
+      }
+    }
+    constexpr double accurate = 1e-14, timed = 1e-13;
+    if (LegendreSeries::tail(q) * std::abs(half) > accurate * size + 8 * noise_ * std::abs(half) * q.abs().maxCoeff() ||
+        LegendreSeries::tail(rate) > std::max(timed, 8 * noise_) * rate.abs().maxCoeff()) {
+      return Failure::rough;
+    }
+    Panel panel{along,
+                      x_[along],
+                      length,
+                      motion_.followed,
+                      LegendreSeries::through(half * q).antiderivative(),
+                      LegendreSeries::through(half * rate).antiderivative()};
+    panel.other += x_[across];
+    x_[along] += length;
+    x_[across] = panel.other.at_end();
+    motion_.followed += panel.time.at_end();
+    motion_.panels.push_back(panel);
+    return Failure::none;
+  }
+
+  /// Moves the point onto V = 0.
+  void return_to_curve() {
+    const auto here = jet_of(field_, x_);
+    if (!here) return;
+    const InverseFactor::Value v = (*factor_)(x_, *here);
+    const int across = 1 - motion_.panels.back().along;
+    const double step = v[0] / v[1 + across];
+    if (std::abs(step) <= near_ * x_.norm()) x_[across] -= step;
+  }
+
+  /// True if it has come back to the start.
+  bool returns() {
+    const Vector2d f = first_->f, now = x_ - motion_.start;
+    extent_ = std::max(extent_, now.norm());
+    const double before = std::exchange(along_start_, now.dot(f));
+    if (!(before < 0 && along_start_ >= 0)) return false;
+    const Panel& panel = motion_.panels.back();
+    const double t = root_between([&](double at) { return (panel.at(at) - motion_.start).dot(f); }, -1, 1);
+    if (!((panel.at(t) - motion_.start).norm() <= near_ * extent_)) return false;
+    end(PlanarEnd::periodic, panel.begin + panel.time(t));
+    return true;
+  }
+
+  static constexpr double near_ = 1e-11, accurate_ = 1e-8, singular_ = 1e4;
+
+  const SmoothField& field_;
+  FactorOrbit::Motion& motion_;
+  Vector2d x_;
+  FactorForm form_;
+  Box box_;
+  std::optional<InverseFactor> factor_ = {};
+  std::optional<Jet> first_ = {};  ///< at the start
+  bool on_curve_ = false;          ///< V = 0
+  double size_;                    ///< of the start
+  double noise_ = 0;               ///< relative error of f by the rounding of x
+  double fraction_ = 1;            ///< of the largest box
+  double stretch_ = 0.25;          ///< of the box, the last panel's
+  double extent_ = 0;              ///< of the orbit, from the start
+  double along_start_ = 0;         ///< the point's coordinate along the orbit at the start
+  Failure failure_ = Failure::none;
+};
+
+}  // namespace
+
+std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, const InverseFactor& factor,
+                                                  const Vector2d& start) {
+  auto motion = std::make_shared<FactorOrbit::Motion>();
+  motion->start = start;
+  Follower(field, factor, *motion).follow();
+  return motion;
+}
+
+PlanarEnd FactorOrbit::end() const { return motion_->end; }
+double FactorOrbit::end_time() const { return motion_->end == PlanarEnd::periodic ? infinity : motion_->end_time; }
+const std::string& FactorOrbit::undecided() const { return motion_->undecided; }
+
+std::optional<double> FactorOrbit::period() const {
+  return motion_->end == PlanarEnd::periodic ? std::optional(motion_->end_time) : std::nullopt;
+}
+
+Vector2d FactorOrbit::at(double time) const {
+  const Motion& motion = *motion_;
+  if (!(time >= 0)) throw std::domain_error(fmt::format("FactorOrbit: times >= 0 are required, got {}", time));
+  if (motion.end == PlanarEnd::periodic) time = std::fmod(time, motion.end_time);
+  if (time >= motion.followed) {
+    if (motion.end == PlanarEnd::equilibrium) {
+      const Vector2d offset = matrix_exponential((time - motion.followed) * motion.flow) * motion.offset;
+      return offset.allFinite() ? Vector2d(motion.rest + offset) : motion.rest;
+    }
+    if (time > motion.followed || motion.panels.empty()) {
+      throw std::domain_error(time >= motion.end_time
+                                  ? fmt::format("FactorOrbit: the orbit ends at the time {}", motion.end_time)
+                                  : fmt::format("FactorOrbit: the orbit was followed up to the time {}{}{}",
+                                                motion.followed, motion.undecided.empty() ? "" : ": ",
+                                                motion.undecided));
+    }
+  }
+  const auto after = std::ranges::upper_bound(motion.panels, time, {}, &Motion::Panel::begin);
+  const Motion::Panel& panel = *std::prev(after);
+  const double left = time - panel.begin;
+  return panel.at(root_between([&](double t) { return panel.time(t) - left; }, -1, 1));
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+
+#include "contensou/reduction/integrating_factor.hpp"
+#include "planar/inverse_factor.hpp"
+
+namespace contensou::reduction {
+
+/// Follows the level of H through the start to its end.
+/// @param factor  in a box about `start`
+std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, const InverseFactor& factor,
+                                                  const Eigen::Vector2d& start);
+
+}  // namespace contensou::reduction

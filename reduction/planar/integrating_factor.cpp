@@ -1,0 +1,96 @@
+#include "contensou/reduction/integrating_factor.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "numerics/legendre_series.hpp"
+#include "planar/factor_orbit.hpp"
+
+namespace contensou::reduction {
+
+using Eigen::Vector2d;
+
+struct FactorReduction::Solved {
+  SmoothField field;
+  Vector2d start;
+  std::vector<TriedForm> tried = {};
+  std::optional<InverseFactor> factor = {};
+
+  const InverseFactor& found() const {
+    if (!factor) throw std::domain_error("FactorReduction: no inverse integrating factor was found");
+    return *factor;
+  }
+
+  /// V at a point of the box; the field there.
+  std::pair<double, Vector2d> at(const Vector2d& x) const {
+    const InverseFactor& v = found();
+    if (v.form() != FactorForm::affine && !(v.box().inside(x).cwiseAbs().maxCoeff() <= 1)) {
+      throw std::domain_error(
+          fmt::format("FactorReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", x[0], x[1],
+                      start[0], start[1], v.box().radii[0], v.box().radii[1]));
+    }
+    const auto f = value_of(field, x);
+    if (!f) throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", x[0], x[1]));
+    return {v(x, {*f, Eigen::Matrix2d::Zero()})[0], *f};
+  }
+
+  /// Integral of dH along a straight line.
+  double integral(const Vector2d& from, const Vector2d& to, double sign, int depth) const {
+    const Vector2d way = to - from;
+    LegendreSeries::Samples samples;
+    for (int i = 0; i < LegendreSeries::order; ++i) {
+      const auto [v, f] = at(from + (1 + LegendreSeries::points()[i]) / 2 * way);
+      if (!(v * sign > 0)) {
+        throw std::domain_error("FactorReduction: V = 0 between the start and the point, where H is infinite");
+      }
+      samples[i] = (f[0] * way[1] - f[1] * way[0]) / v / 2;
+    }
+    constexpr double accurate = 1e-14;
+    if (depth == 0 || LegendreSeries::tail(samples) <= accurate * samples.abs().maxCoeff()) {
+      return LegendreSeries::through(samples).antiderivative().at_end();
+    }
+    const Vector2d middle = from + way / 2;
+    return integral(from, middle, sign, depth - 1) + integral(middle, to, sign, depth - 1);
+  }
+};
+
+FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
+  if (!start.allFinite() || !value_of(field, start)) {
+    throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
+  }
+  auto solved = std::make_shared<Solved>(Solved{std::move(field), start});
+  Box box = box_about(start);
+  std::optional<FieldSamples> samples;
+  // A small box would prove nothing: every smooth V is a polynomial there.
+  constexpr int halvings = 4;
+  for (int i = 0; i <= halvings && !samples; ++i, box.radii /= 2) samples = sample(solved->field, box);
+  constexpr double large = 1e4;
+  for (int i = 0; samples && i < factor_forms && !solved->factor; ++i) {
+    const auto fit = fit_factor(static_cast<FactorForm>(i), *samples);
+    if (!fit) continue;
+    solved->tried.push_back(fit->tried);
+    if (fit->small && fit->tried.gap >= large) solved->factor = fit->factor;
+  }
+  solved_ = std::move(solved);
+}
+
+std::string_view FactorReduction::form() const { return solved_->factor ? name(solved_->factor->form()) : ""; }
+const std::vector<TriedForm>& FactorReduction::tried() const { return solved_->tried; }
+double FactorReduction::factor(const Vector2d& x) const { return solved_->at(x).first; }
+
+double FactorReduction::first_integral(const Vector2d& x) const {
+  constexpr int halvings = 12;
+  return solved_->integral(solved_->start, x, solved_->at(solved_->start).first, halvings);
+}
+
+FactorOrbit FactorReduction::orbit(const Vector2d& start) const {
+  if (!start.allFinite() || !value_of(solved_->field, start)) {
+    throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
+  }
+  return FactorOrbit(follow(solved_->field, solved_->found(), start));
+}
+
+}  // namespace contensou::reduction

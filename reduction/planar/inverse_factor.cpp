@@ -1,0 +1,251 @@
+#include "planar/inverse_factor.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "planar/differences.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+constexpr int series_terms = 15;
+
+/// The powers of a term; a product has sums of powers of one coordinate, for ln V.
+bool has_term(FactorForm form, int i, int j) {
+  switch (form) {
+    case FactorForm::affine:
+      return i + j <= 1;
+    case FactorForm::polynomial:
+      return i + j <= 4;
+    case FactorForm::linear_v:
+      return j <= 1;
+    case FactorForm::quadratic_v:
+      return j <= 2;
+    case FactorForm::linear_u:
+      return i <= 1;
+    case FactorForm::quadratic_u:
+      return i <= 2;
+    case FactorForm::product:
+      return i == 0 || j == 0;
+  }
+  return false;
+}
+
+/// T_0, T_1, ... and their derivatives.
+struct Chebyshev {
+  std::array<double, series_terms> value, slope;
+  explicit Chebyshev(double x) {
+    value = {1, x};
+    slope = {0, 1};
+    for (std::size_t k = 2; k < series_terms; ++k) {
+      value[k] = 2 * x * value[k - 1] - value[k - 2];
+      slope[k] = 2 * value[k - 1] + 2 * x * slope[k - 1] - slope[k - 2];
+    }
+  }
+};
+
+/// 1/(|F|/radius + |G|/radius + |div f|)
+double weight(const Box& box, const Jet& jet) {
+  const double size = jet.f.cwiseQuotient(box.radii).lpNorm<1>() + std::abs(jet.slopes.trace());
+  return size > 0 ? 1 / size : 0;
+}
+
+}  // namespace
+
+std::optional<Vector2d> value_of(const SmoothField& field, const Vector2d& x) {
+  try {
+    const Vector2d f = field.value(x);
+    if (f.allFinite()) return f;
+  } catch (const std::exception&) {  // a border of its values
+  }
+  return std::nullopt;
+}
+
+std::optional<Jet> jet_of(const SmoothField& field, const Vector2d& x) {
+  const auto f = value_of(field, x);
+  if (!f) return std::nullopt;
+  Jet jet{*f, Eigen::Matrix2d::Zero()};
+  if (field.jacobian) {
+    try {
+      jet.slopes = field.jacobian(x);
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+    return jet.slopes.allFinite() ? std::optional(jet) : std::nullopt;
+  }
+  for (int i = 0; i < 2; ++i) {
+    constexpr double step = 1. / 32;
+    const auto found =
+        slope([&](const Vector2d& at) { return value_of(field, at); }, x, i, step * std::max(std::abs(x[i]), 1.));
+    if (!found) return std::nullopt;
+    jet.slopes.col(i) = found->value;
+    jet.error += found->error;
+  }
+  return jet;
+}
+
+Box box_about(const Vector2d& x) {
+  constexpr double part = 0.3, least = 0.3;
+  return {x, part * x.cwiseAbs().cwiseMax(least)};
+}
+
+std::string_view name(FactorForm form) {
+  constexpr std::array<std::string_view, factor_forms> names{
+      "affine", "polynomial", "linear in v", "quadratic in v", "linear in u", "quadratic in u", "product"};
+  return names[static_cast<std::size_t>(form)];
+}
+
+InverseFactor::Terms<3> InverseFactor::terms(FactorForm form, const Box& box, const Vector2d& x, const Jet& jet) {
+  const Vector2d inside = box.inside(x);
+  const Chebyshev a(inside[0]), b(inside[1]);
+  Terms<3> terms(most, 3);
+  Index count = 0;
+  const auto add = [&](double f, double by_u, double by_v, int i, int j) {
+    const auto m = static_cast<std::size_t>(i), n = static_cast<std::size_t>(j);
+    const double term = a.value[m] * b.value[n];
+    terms.row(count++) << f * term, by_u * term + f * a.slope[m] * b.value[n] / box.radii[0],
+        by_v * term + f * a.value[m] * b.slope[n] / box.radii[1];
+  };
+  for (int i = 0; i < series_terms; ++i) {
+    for (int j = 0; j < series_terms && has_term(form, i, j); ++j) {
+      if (form != FactorForm::affine) {
+        add(1, 0, 0, i, j);
+      } else {
+        for (int k = 0; k < 2; ++k) add(jet.f[k], jet.slopes(k, 0), jet.slopes(k, 1), i, j);
+      }
+    }
+  }
+  terms.conservativeResize(count, 3);
+  return terms;
+}
+
+InverseFactor::Value InverseFactor::operator()(const Vector2d& x, const Jet& jet) const {
+  Value value = coefficients_.transpose() * terms(form_, box_, x, jet);
+  if (form_ == FactorForm::product) {
+    value[0] = std::exp(value[0]);
+    value.tail<2>() *= value[0];
+  }
+  return value;
+}
+
+double InverseFactor::residual(const Vector2d& x, const Jet& jet) const {
+  const Terms<3> all = terms(form_, box_, x, jet);
+  const Value value = coefficients_.transpose() * all;
+  const bool log = form_ == FactorForm::product;
+  const double size = log ? 1 : coefficients_.cwiseAbs().dot(all.col(0).cwiseAbs());
+  const double change = value.tail<2>() * jet.f - (log ? 1 : value[0]) * jet.slopes.trace();
+  return weight(box_, jet) * std::abs(change) / size;
+}
+
+std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {
+  constexpr int tried = 220;
+  const auto centre = jet_of(field, box.centre);
+  if (!centre || centre->f.isZero(0)) return std::nullopt;
+  FieldSamples samples{box, *centre};
+  // A sequence of low discrepancy (M. Roberts' R2), dense at the edges as the zeros of Chebyshev's polynomials.
+  constexpr double plastic = 1.32471795724474602596;
+  const auto fold = [](double x) { return std::cos(std::numbers::pi * (x - std::floor(x))); };
+  int left_out = 0;
+  for (int i = 1; i <= tried && 5 * left_out <= tried; ++i) {
+    const Vector2d inside(fold(i / plastic), fold(i / (plastic * plastic)));
+    const Vector2d x = box.centre + inside.cwiseProduct(box.radii);
+    if (const auto jet = jet_of(field, x)) {
+      samples.points.push_back(x);
+      samples.jets.push_back(*jet);
+      samples.error = std::max(samples.error, jet->error * weight(box, *jet));
+    } else {
+      ++left_out;
+    }
+  }
+  if (5 * left_out > tried) return std::nullopt;
+  return samples;
+}
+
+std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples) {
+  const bool log = form == FactorForm::product;
+  const auto terms_at = [&](std::size_t i) {
+    return InverseFactor::terms(form, samples.box, samples.points[i], samples.jets[i]);
+  };
+  const InverseFactor::Terms<3> here = InverseFactor::terms(form, samples.box, samples.box.centre, samples.centre);
+  const Index rows = samples.fitted(), all = std::ssize(samples.points), columns = here.rows();
+  MatrixXd values(all, columns), changes(all, columns);
+  VectorXd divergence(all);
+  for (Index i = 0; i < all; ++i) {
+    const Jet& jet = samples.jets[static_cast<std::size_t>(i)];
+    const double scale = weight(samples.box, jet);
+    const InverseFactor::Terms<3> terms = terms_at(static_cast<std::size_t>(i));
+    divergence[i] = scale * jet.slopes.trace();
+    values.row(i) = terms.col(0).transpose();
+    changes.row(i) = scale * (terms.rightCols<2>() * jet.f).transpose();
+    if (!log) changes.row(i) -= divergence[i] * values.row(i);
+  }
+  constexpr double smallest = 1e-16, level = 1e-11, loosest = 1e-9, accurate = 1e-8, vanishing = 1e-12;
+  const double limit = std::clamp(8 * samples.error, level, loosest);
+  TriedForm tried{name(form), 0, 0, 0};
+  InverseFactor::Terms<1> coefficients;
+  bool vanishes = false;
+  VectorXd missed;
+  double size = 1;
+  if (log) {
+    coefficients = changes.topRows(rows).colPivHouseholderQr().solve(divergence.head(rows));
+    coefficients[0] = 0;
+    coefficients[0] = -coefficients.dot(here.col(0));
+    missed = changes * coefficients - divergence;
+    const double mean = std::sqrt(static_cast<double>(rows));
+    tried.singular_value = missed.head(rows).norm() / mean;
+    tried.gap = divergence.head(rows).norm() / mean / std::max(tried.singular_value, smallest);
+  } else {
+    // Functions of the form that are orthonormal over the points, so that V = 0 is no solution.
+    constexpr double dependent = 1e-4;
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(values.topRows(rows));
+    const VectorXd diagonal = qr.matrixR().diagonal().cwiseAbs();
+    const Index rank = (diagonal.array() > dependent * diagonal[0]).count();
+    if (rank == 0) return std::nullopt;
+    const MatrixXd permuted = changes.topRows(rows) * qr.colsPermutation();
+    MatrixXd equations = permuted.leftCols(rank);
+    const auto triangle = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
+    triangle.solveInPlace<Eigen::OnTheRight>(equations);
+    const Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner> svd(equations, Eigen::ComputeThinV);
+    const VectorXd sigma = svd.singularValues().reverse();
+    Index nullity = 1;
+    for (Index i = 0; i < rank && (i == 0 || sigma[i - 1] <= limit); ++i) {
+      const double gap = i + 1 < rank ? sigma[i + 1] / std::max(sigma[i], smallest) : 1 / smallest;
+      if (gap > tried.gap) {
+        tried.gap = gap;
+        nullity = i + 1;
+      }
+    }
+    tried.singular_value = sigma[0];
+    MatrixXd null = MatrixXd::Zero(columns, nullity);
+    null.topRows(rank) = triangle.solve(svd.matrixV().rightCols(nullity));
+    null = (qr.colsPermutation() * null).eval();
+    // The V that is largest at the centre, or that changes most across the orbit if all vanish there.
+    const double mean = 1 / std::sqrt(static_cast<double>(rows));
+    VectorXd part = null.transpose() * here.col(0);
+    vanishes = part.norm() <= vanishing * mean;
+    const Vector2d& f = samples.centre.f;
+    if (vanishes) part = null.transpose() * (here.rightCols<2>() * Vector2d(-f[1], f[0]));
+    coefficients = null * part.normalized();
+    const double one = vanishes ? mean : coefficients.dot(here.col(0));
+    coefficients /= one;
+    size = mean / std::abs(one);
+    missed = changes * coefficients;
+  }
+  tried.residual = missed.tail(all - rows).cwiseAbs().maxCoeff() / size;
+  FactorFit fit{InverseFactor(form, samples.box, coefficients), tried,
+                tried.singular_value <= limit && tried.residual <= accurate};
+  fit.factor.vanishes = vanishes;
+  return fit;
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/reduction/integrating_factor.hpp"
+
+namespace contensou::reduction {
+
+/// f and its derivatives at a point.
+struct Jet {
+  Eigen::Vector2d f;
+  Eigen::Matrix2d slopes;
+  double error = 0;  ///< of the slopes, for differences
+};
+
+/// Return f, and f with its derivatives; none where the field has no value.
+std::optional<Eigen::Vector2d> value_of(const SmoothField& field, const Eigen::Vector2d& x);
+std::optional<Jet> jet_of(const SmoothField& field, const Eigen::Vector2d& x);
+
+struct Box {
+  Eigen::Vector2d centre, radii;
+
+  /// Returns the coordinates in which the box is [-1, 1] x [-1, 1].
+  Eigen::Vector2d inside(const Eigen::Vector2d& x) const { return (x - centre).cwiseQuotient(radii); }
+};
+
+/// The box in which V is looked for.
+Box box_about(const Eigen::Vector2d& x);
+
+enum class FactorForm { affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product };
+inline constexpr int factor_forms = 7;
+
+std::string_view name(FactorForm form);
+
+/// V in a box.
+class InverseFactor {
+ public:
+  static constexpr int most = 45;
+  template <int Columns>
+  using Terms = Eigen::Matrix<double, Eigen::Dynamic, Columns, 0, most, Columns>;
+
+  /// V, dV/du and dV/dv.
+  using Value = Eigen::RowVector3d;
+
+  InverseFactor(FactorForm form, Box box, Terms<1> coefficients)
+      : form_(form), box_(std::move(box)), coefficients_(std::move(coefficients)) {}
+
+  /// Returns the functions that V, or ln V of a product, is a sum of, with their derivatives.
+  static Terms<3> terms(FactorForm form, const Box& box, const Eigen::Vector2d& x, const Jet& jet);
+
+  /// @param jet  its slopes count only for the derivatives of an affine form
+  Value operator()(const Eigen::Vector2d& x, const Jet& jet) const;
+
+  /// Returns (R66): f . grad V - V div f divided by |V| (|F|/radius + |G|/radius + |div f|).
+  double residual(const Eigen::Vector2d& x, const Jet& jet) const;
+
+  FactorForm form() const { return form_; }
+  const Box& box() const { return box_; }
+
+  /// True if the centre of the box lies on the invariant curve V = 0.
+  bool vanishes = false;
+
+ private:
+  FactorForm form_;
+  Box box_;
+  Terms<1> coefficients_;
+};
+
+/// f at points of a box, some for the fit and some to examine it.
+struct FieldSamples {
+  Box box;
+  Jet centre;
+  std::vector<Eigen::Vector2d> points = {};
+  std::vector<Jet> jets = {};
+  double error = 0;  ///< of the slopes, relative to those that (R66) divides by
+
+  int fitted() const { return static_cast<int>(points.size()) * 8 / 11; }
+};
+
+/// Returns the samples; none if a fifth of the box is without values.
+std::optional<FieldSamples> sample(const SmoothField& field, const Box& box);
+
+struct FactorFit {
+  InverseFactor factor;  ///< with V = 1 at the centre of the box if it does not vanish there
+  TriedForm tried;
+  bool small;  ///< the singular value and the residual
+};
+
+/// Returns the best V of this form; none if all functions of the form vanish.
+std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples);
+
+}  // namespace contensou::reduction
