@@ -8,6 +8,7 @@
 
 #include "numerics/legendre_series.hpp"
 #include "planar/factor_orbit.hpp"
+#include "planar/solution.hpp"
 
 namespace contensou::reduction {
 
@@ -84,6 +85,41 @@ double FactorReduction::factor(const Vector2d& x) const { return solved_->at(x).
 double FactorReduction::first_integral(const Vector2d& x) const {
   constexpr int halvings = 12;
   return solved_->integral(solved_->start, x, solved_->at(solved_->start).first, halvings);
+}
+
+namespace {
+
+struct FactorMotion final : PlanarOrbit::Motion {
+  explicit FactorMotion(FactorOrbit of) : orbit(std::move(of)) {
+    end = orbit.end();
+    end_time = orbit.end_time();
+    undecided = orbit.undecided();
+  }
+  Vector2d at(double time) const override { return orbit.at(time); }
+  Vector2d at_end() const override { return orbit.at(end_time); }
+  std::optional<double> period() const override { return orbit.period(); }
+
+  FactorOrbit orbit;
+};
+
+struct FactorSolution final : PlanarReduction::Solution {
+  FactorSolution(PlanarField of, FactorReduction by) : Solution(std::move(of), by.form()), reduction(std::move(by)) {}
+
+  double factor(const Vector2d& x) const override { return reduction.factor(x); }
+  double end_time_error(const Vector2d&) const override { return 1e-12; }
+  std::shared_ptr<const PlanarOrbit::Motion> orbit(const Vector2d& start) const override {
+    return std::make_shared<const FactorMotion>(reduction.orbit(start));
+  }
+  std::optional<double> first_integral(const Vector2d& x) const override { return reduction.first_integral(x); }
+
+  FactorReduction reduction;
+};
+
+}  // namespace
+
+PlanarReduction FactorReduction::reduction() const {
+  solved_->found();
+  return PlanarReduction(std::make_shared<const FactorSolution>(solved_->field.value, *this));
 }
 
 FactorOrbit FactorReduction::orbit(const Vector2d& start) const {

@@ -483,7 +483,7 @@ double PlanarOrbit::end_time() const { return motion_->end == PlanarEnd::border 
 
 Vector2d PlanarOrbit::at(double time) const {
   if (!(time >= 0)) throw std::domain_error(fmt::format("PlanarOrbit: times >= 0 are required, got {}", time));
-  if (time < motion_->end_time) return motion_->at(time);
+  if (time < motion_->end_time || motion_->end == PlanarEnd::undecided) return motion_->at(time);
   switch (motion_->end) {
     case PlanarEnd::centre:
     case PlanarEnd::rest:

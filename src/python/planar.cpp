@@ -71,7 +71,7 @@ void bind_planar(py::module_& module) {
   py::class_<Planar>(module, "Planar")
       .def_static("of_function",
                   [](py::function function, double u, double v) {
-                    return Planar(field_of(std::move(function)), {u, v});
+                    return Planar({field_of(std::move(function))}, {u, v});
                   })
       .def_static("of_text",
                   [](const std::string& text, const std::map<std::string, double>& parameters, double u, double v) {
@@ -79,7 +79,7 @@ void bind_planar(py::module_& module) {
                   })
       .def_static("of_flow",
                   [](const reduction::Flow& flow) {
-                    return Planar(reduction::planar_field(flow.system()), {1, flow.system().mu()});
+                    return Planar({reduction::planar_field(flow.system())}, {1, flow.system().mu()});
                   })
       .def_property_readonly("generators",
                              [](const Planar& planar) {
@@ -97,7 +97,7 @@ void bind_planar(py::module_& module) {
       .def_property_readonly("singular_values", [](const Planar& planar) { return planar.symmetries.singular_values; })
       .def_property_readonly("level", [](const Planar& planar) { return planar.symmetries.level; })
       .def_property_readonly("gap", [](const Planar& planar) { return planar.symmetries.gap; })
-      .def_property_readonly("solved", [](const Planar& planar) { return planar.solution.has_value(); })
+      .def_property_readonly("solved", [](const Planar& planar) { return planar.solved_plane.plane.has_value(); })
       .def_property_readonly("kind",
                              [](const Planar& planar) -> std::optional<std::string> {
                                const std::string_view kind = planar.solved().kind();

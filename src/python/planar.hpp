@@ -30,24 +30,21 @@ auto interruptible(Function compute) {
 /// A planar system, the symmetries that it has, and its motions where one of them is a scaling.
 class Planar {
  public:
-  Planar(reduction::PlanarField given, const Eigen::Vector2d& around) : field(std::move(given)) {
+  Planar(reduction::SmoothField given, const Eigen::Vector2d& around) : field(std::move(given)) {
     interruptible([&] {
-      symmetries = reduction::find_symmetries(field, around);
-      auto [plane, why] = answers::solve_planar(field, symmetries, around);
-      solution = std::move(plane);
-      why_not = std::move(why);
+      symmetries = reduction::find_symmetries(field.value, around);
+      solved_plane = answers::solve_planar(field, symmetries, around);
     });
   }
 
   const reduction::PlanarReduction& solved() const {
-    if (solution) return *solution;
-    throw std::domain_error("reduce: this field is not solved: " + why_not);
+    if (solved_plane.plane) return *solved_plane.plane;
+    throw std::domain_error("reduce: this field is not solved: " + solved_plane.why_not);
   }
 
-  reduction::PlanarField field;
+  reduction::SmoothField field;
   reduction::PlanarSymmetries symmetries;
-  std::optional<reduction::PlanarReduction> solution;
-  std::string why_not;  ///< there is a solution
+  answers::SolvedPlane solved_plane;
 };
 
 }  // namespace contensou::python

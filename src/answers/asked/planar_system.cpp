@@ -14,13 +14,19 @@ Eigen::Matrix2d FormulaField::jacobian(const Eigen::Vector2d& x) const {
   return Eigen::Matrix2d{{u[1], u[2]}, {v[1], v[2]}};
 }
 
+FormulaField::operator reduction::SmoothField() const {
+  return {*this, [*this](const Eigen::Vector2d& x) { return jacobian(x); }};
+}
+
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start) {
   constexpr double rounding = 1e-12;
   return (start - scaling.centre()).stableNorm() <= rounding * start.stableNorm();
 }
 
-SolvedPlane solve_planar(const reduction::PlanarField& field, const reduction::PlanarSymmetries& found,
-                         const Eigen::Vector2d& start) {
+namespace {
+
+SolvedPlane solve_by_scaling(const reduction::PlanarField& field, const reduction::PlanarSymmetries& found,
+                             const Eigen::Vector2d& start) {
   using Verdict = reduction::PlanarSymmetries::Verdict;
   if (found.scaling) {
     const bool at_centre = is_centre(*found.scaling, start);
@@ -39,6 +45,22 @@ SolvedPlane solve_planar(const reduction::PlanarField& field, const reduction::P
   return {std::nullopt, everywhere ? "no generator is a scaling"
                                    : "no scaling holds throughout, only within sectors in which the field is smooth: "
                                      "across their borders orbits are no copies of one another"};
+}
+
+}  // namespace
+
+SolvedPlane solve_planar(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
+                         const Eigen::Vector2d& start) {
+  SolvedPlane solved = solve_by_scaling(field.value, found, start);
+  if (solved.plane) return solved;
+  const reduction::FactorReduction by_factor(field, start);
+  solved.tried = by_factor.tried();
+  if (by_factor.found()) {
+    solved.plane = by_factor.reduction();
+  } else {
+    solved.why_not += ", and no inverse integrating factor of the forms that are tried";
+  }
+  return solved;
 }
 
 }  // namespace contensou::answers

@@ -3,11 +3,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "answers/input/formulas.hpp"
-#include "contensou/reduction/planar_reduction.hpp"
+#include "contensou/reduction/integrating_factor.hpp"
 
 namespace contensou::answers {
 
@@ -19,6 +20,8 @@ struct FormulaField {
 
   /// Returns the derivatives of (u', v') with respect to u and v, as Formula::with_slopes: row 0 is that of u'.
   Eigen::Matrix2d jacobian(const Eigen::Vector2d& x) const;
+
+  operator reduction::SmoothField() const;  // NOLINT(google-explicit-constructor): it is one
 };
 
 /// Returns the field of "u' = F; v' = G", formulas in u, v and parameters as answers/input/formulas.hpp has them.
@@ -29,14 +32,15 @@ FormulaField parse_planar_system(const std::string& text, const std::map<std::st
 /// Whether a start is the centre of the scaling, but for rounding.
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
 
-/// A system solved by its scaling; or why it is not.
+/// A system solved by its scaling, else by an inverse integrating factor; or why it is not.
 struct SolvedPlane {
   std::optional<reduction::PlanarReduction> plane;
   std::string why_not;
+  std::vector<reduction::TriedForm> tried = {};  ///< forms of the factor, where it was looked for
 };
 
 /// @param found  of the same start
-SolvedPlane solve_planar(const reduction::PlanarField& field, const reduction::PlanarSymmetries& found,
+SolvedPlane solve_planar(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
                          const Eigen::Vector2d& start);
 
 }  // namespace contensou::answers

@@ -22,7 +22,7 @@ namespace contensou::answers {
 using Eigen::Vector2d;
 using reduction::Generator;
 using reduction::PlanarEnd;
-using reduction::PlanarField;
+using reduction::PlanarOrbit;
 using reduction::PlanarReduction;
 using reduction::PlanarSymmetries;
 using std::numbers::pi;
@@ -159,116 +159,177 @@ std::string difference(double one, double other) {
   return fmt::format("differs by {:.1e}", std::abs(one / other - 1));
 }
 
+/// The forms of V that were tried; the last holds if one does.
+std::string text_of(const std::vector<reduction::TriedForm>& tried) {
+  std::string text;
+  for (const auto& [form, value, gap, residual] : tried) {
+    text += fmt::format("{:<12}{}: least singular value {:.0e}, gap {:.0e}, residual {:.0e}\n",
+                        text.empty() ? "factor V" : "", form, value, gap, residual);
+  }
+  return text;
+}
+
+/// Adds the members of a system that its scaling solves.
+/// @return their text
+std::function<std::string(const Digits&)> solved_by_scaling(Json& members, const PlanarReduction& plane,
+                                                            const PlanarOrbit& orbit, const Vector2d& start,
+                                                            bool at_centre) {
+  const auto canonical = plane.canonical(start);
+  std::optional<double> integral;
+  try {
+    if (!at_centre) integral = plane.first_integral(start);
+  } catch (const std::domain_error&) {
+    // on a ray it has no value
+  }
+  Json rays = Json::array();
+  for (const auto& ray : plane.rays()) {
+    rays.push_back({{"angle", ray.q},
+                    {"attracts", ray.attracts},
+                    {"to_centre", ray.to_centre},
+                    {"radial", ray.radial},
+                    {"angular", or_infinity(ray.angular)},
+                    {"order", ray.order}});
+  }
+  if (!at_centre) {
+    members["canonical"] = {{"q", canonical.q}, {"p", canonical.p}, {"dp_dq", or_infinity(canonical.dp_dq)}};
+  }
+  if (integral) members["first_integral"] = *integral;
+  const std::string_view kind = plane.kind();
+  members.update({{"rays", rays}, {"kind", kind.empty() ? Json() : Json(kind)}});
+  if (!plane.undecided().empty()) members["undecided"] = plane.undecided();
+  if (integral && !kind.empty() && kind != "bordered") {
+    members.update(strip_members(portraits::reduced_orbits(plane, start), "q", [&](const Vector2d& x) {
+      const auto there = plane.orbit(x);
+      return there.end() == PlanarEnd::centre ? there.end_time() : infinity;
+    }));
+  }
+  if (plane.turn()) members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
+  if (at_centre) members.update({{"end", name(orbit.end())}, {"tau_stop", 0.0}});
+  return [=](const Digits& digits) {
+    std::string lines =
+        fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]),
+                    plane.kind().empty() ? "not decided, as " + plane.undecided() : std::string(plane.kind()));
+    for (const auto& ray : plane.rays()) {
+      lines += fmt::format("ray         at the angle {}{}: {}, the motion on it goes {}\n", digits(ray.q),
+                           ray.order == 2   ? ", double"
+                           : ray.order == 3 ? ", triple"
+                                            : "",
+                           ray.attracts ? "attracts" : "repels",
+                           ray.radial == 0 ? "nowhere: its points are at rest"
+                           : ray.to_centre ? "to the centre"
+                                           : "away");
+    }
+    if (plane.turn()) {
+      lines += fmt::format("a turn      multiplies exp(p) by {} in {} of sigma, d sigma = exp(-c p) dt\n",
+                           digits(plane.turn()->factor), digits(plane.turn()->sigma));
+    }
+    if (at_centre) return lines + "tau_stop    0: the start is the centre\n";
+    lines += fmt::format("canonical   q = {} (angle), p = {}, dp/dq = {}\n", digits(canonical.q), digits(canonical.p),
+                         digits(canonical.dp_dq));
+    return lines +
+           (integral
+                ? fmt::format("integral    p - L(q) = {}\n", digits(*integral))
+                : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n"));
+  };
+}
+
+/// As solved_by_scaling, for a system that V alone solves.
+std::function<std::string(const Digits&)> solved_by_factor(Json& members, const PlanarReduction& plane) {
+  members.update({{"factor", fmt::format("{}, 1 at the start", plane.form())}, {"kind", Json()}});
+  return [=](const Digits&) {
+    return fmt::format("solution    by quadrature along H = constant, dH = (u' dv - v' du)/V; V is {}\n", plane.form());
+  };
+}
+
+/// Adds the members of the end of the orbit.
+/// @return their text
+std::function<std::string(const Digits&)> end_of(Json& members, const PlanarReduction& plane, const PlanarOrbit& orbit,
+                                                 const Vector2d& start) {
+  const PlanarEnd end = orbit.end();
+  const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided;
+  const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
+  members.update({{"end", end == PlanarEnd::undecided ? Json() : Json(name(end))},
+                  {"tau_stop", unknown ? Json() : Json(tau_stop)}});
+  const double error = std::isfinite(tau_stop) ? plane.end_time_error(start) : 0;
+  if (error > 0) members["accuracy"] = error;
+  if (orbit.period()) members["period"] = *orbit.period();
+  if (!orbit.undecided().empty()) members["undecided"] = orbit.undecided();
+  return [=](const Digits& digits) -> std::string {
+    if (end == PlanarEnd::border) {
+      return "tau_stop    not known: the orbit comes to a border of the field, a pole or a jump\n";
+    }
+    if (end == PlanarEnd::undecided) return fmt::format("tau_stop    not decided: {}\n", orbit.undecided());
+    const double time = orbit.end_time();
+    const auto words = [&]() -> std::string {
+      switch (end) {
+        case PlanarEnd::centre:
+          return std::isfinite(time) ? fmt::format(", by quadrature; relative error below {:.0e}", error)
+                                     : ": it nears the centre for ever";
+        case PlanarEnd::periodic:
+          return fmt::format(": it returns after {}", digits(orbit.period().value()));
+        case PlanarEnd::rest:
+          return ": it comes to rest elsewhere";
+        case PlanarEnd::equilibrium:
+          return ": it nears an equilibrium for ever";
+        default:
+          return std::isfinite(time) ? fmt::format(": it is at infinity after {}", digits(time))
+                                     : ": it goes to infinity, for ever";
+      }
+    };
+    return fmt::format("tau_stop    {}{}\n", digits(tau_stop), words());
+  };
+}
+
 }  // namespace
 
-ReduceAnswer reduce_answer(const PlanarField& field, const std::string& text, const Vector2d& start) {
+ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Vector2d& start) {
   if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
   const auto has_value = [&] {
     try {
-      return field(start).allFinite();
+      return field.value(start).allFinite();
     } catch (const std::exception&) {
       return false;
     }
   };
-  const PlanarSymmetries found = reduction::find_symmetries(field, start);
+  const PlanarSymmetries found = reduction::find_symmetries(field.value, start);
   if (!has_value()) {
     throw BadInput(fmt::format("the field has no value at the start u = {}, v = {}: give a start where it has one",
                                start[0], start[1]));
   }
   Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}};
   answer.members.update(symmetry_members(found));
-  std::function<std::string(const Digits&)> solution;
-  const auto [solved, unsolved] = solve_planar(field, found, start);
-  if (solved) {
-    const PlanarReduction& plane = *solved;
-    const bool at_centre = is_centre(*found.scaling, start);
-    const auto orbit = plane.orbit(at_centre ? plane.centre() : start);
-    const auto canonical = plane.canonical(start);
-    std::optional<double> integral;
-    try {
-      if (!at_centre) integral = plane.first_integral(start);
-    } catch (const std::domain_error&) {
-      // on a ray it has no value
+  const SolvedPlane solved = solve_planar(field, found, start);
+  answer.members["form"] = solved.plane ? Json(solved.plane->form()) : Json();
+  if (!solved.tried.empty()) {
+    Json tried = Json::array();
+    for (const auto& [form, value, gap, residual] : solved.tried) {
+      tried.push_back({{"form", form}, {"singular_value", or_infinity(value)}, {"gap", or_infinity(gap)}});
     }
-    Json rays = Json::array();
-    for (const auto& ray : plane.rays()) {
-      rays.push_back({{"angle", ray.q},
-                      {"attracts", ray.attracts},
-                      {"to_centre", ray.to_centre},
-                      {"radial", ray.radial},
-                      {"angular", or_infinity(ray.angular)},
-                      {"order", ray.order}});
-    }
-    if (!at_centre) {
-      answer.members["canonical"] = {{"q", canonical.q}, {"p", canonical.p}, {"dp_dq", or_infinity(canonical.dp_dq)}};
-    }
-    if (integral) answer.members["first_integral"] = *integral;
-    const std::string_view kind = plane.kind();
-    answer.members.update({{"rays", rays}, {"kind", kind.empty() ? Json() : Json(kind)}});
-    if (!plane.undecided().empty()) answer.members["undecided"] = plane.undecided();
-    if (integral && !kind.empty() && kind != "bordered") {
-      answer.members.update(strip_members(portraits::reduced_orbits(plane, start), "q", [&](const Vector2d& x) {
-        const auto there = plane.orbit(x);
-        return there.end() == PlanarEnd::centre ? there.end_time() : infinity;
-      }));
-    }
-    if (plane.turn()) answer.members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
-    const auto end = orbit.end();
-    const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided;
-    const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
-    answer.members.update({{"end", end == PlanarEnd::undecided ? Json() : Json(name(end))},
-                           {"tau_stop", unknown ? Json() : Json(tau_stop)}});
-    const double error = !at_centre && std::isfinite(tau_stop) ? plane.end_time_error(start) : 0;
-    if (error > 0) answer.members["accuracy"] = error;
-    solution = [=, plane = plane](const Digits& digits) {
-      std::string lines =
-          fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]),
-                      plane.kind().empty() ? "not decided, as " + plane.undecided() : std::string(plane.kind()));
-      for (const auto& ray : plane.rays()) {
-        lines += fmt::format("ray         at the angle {}{}: {}, the motion on it goes {}\n", digits(ray.q),
-                             ray.order == 2   ? ", double"
-                             : ray.order == 3 ? ", triple"
-                                              : "",
-                             ray.attracts ? "attracts" : "repels",
-                             ray.radial == 0 ? "nowhere: its points are at rest"
-                             : ray.to_centre ? "to the centre"
-                                             : "away");
-      }
-      if (plane.turn()) {
-        lines += fmt::format("a turn      multiplies exp(p) by {} in {} of sigma, d sigma = exp(-c p) dt\n",
-                             digits(plane.turn()->factor), digits(plane.turn()->sigma));
-      }
-      if (at_centre) return lines + "tau_stop    0: the start is the centre\n";
-      lines += fmt::format("canonical   q = {} (angle), p = {}, dp/dq = {}\n", digits(canonical.q), digits(canonical.p),
-                           digits(canonical.dp_dq));
-      lines += integral
-                   ? fmt::format("integral    p - L(q) = {}\n", digits(*integral))
-                   : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
-      if (end == PlanarEnd::border) {
-        return lines + "tau_stop    not known: the orbit comes to a border of the field, a pole or a jump\n";
-      }
-      if (end == PlanarEnd::undecided) {
-        return lines + fmt::format("tau_stop    not decided: {}\n", plane.undecided());
-      }
-      const bool finite = std::isfinite(orbit.end_time());
-      return lines + fmt::format("tau_stop    {}{}\n", digits(end == PlanarEnd::centre ? orbit.end_time() : infinity),
-                                 end == PlanarEnd::centre
-                                     ? (finite ? fmt::format(", by quadrature; relative error below {:.0e}", error)
-                                               : ": it nears the centre for ever")
-                                 : end == PlanarEnd::periodic ? ": it returns"
-                                 : end == PlanarEnd::rest     ? ": it comes to rest elsewhere"
-                                 : finite ? fmt::format(": it is at infinity after {}", digits(orbit.end_time()))
-                                          : ": it goes to infinity, for ever");
-    };
-  } else if (!found.generators.empty()) {
-    solution = [why = unsolved](const Digits&) { return fmt::format("solution    none by quadrature: {}\n", why); };
+    answer.members["tried"] = tried;
   }
-  answer.text = [=](const Digits& digits) {
-    return fmt::format("system      {}\nstart       u = {}, v = {}\n{}{}", text, digits(start[0]), digits(start[1]),
-                       text_of(found, "t", digits), solution ? solution(digits) : "");
+  std::function<std::string(const Digits&)> solution;
+  if (solved.plane) {
+    const PlanarReduction& plane = *solved.plane;
+    const bool at_centre = plane.scaling() != nullptr && is_centre(*plane.scaling(), start);
+    const PlanarOrbit orbit = plane.orbit(at_centre ? plane.centre() : start);
+    solution = plane.scaling() ? solved_by_scaling(answer.members, plane, orbit, start, at_centre)
+                               : solved_by_factor(answer.members, plane);
+    if (!at_centre) {
+      solution = [before = solution, after = end_of(answer.members, plane, orbit, start)](const Digits& digits) {
+        return before(digits) + after(digits);
+      };
+    }
+  } else if (!found.generators.empty()) {
+    solution = [why = solved.why_not](const Digits&) {
+      return fmt::format("solution    none by quadrature: {}\n", why);
+    };
+  }
+  answer.text = [=, tried = solved.tried](const Digits& digits) {
+    return fmt::format("system      {}\nstart       u = {}, v = {}\n{}{}{}", text, digits(start[0]), digits(start[1]),
+                       text_of(found, "t", digits), text_of(tried), solution ? solution(digits) : "");
   };
   answer.rows = {row_of(answer.members, found)};
-  return {std::move(answer), !found.generators.empty()};
+  return {std::move(answer), solved.plane || !found.generators.empty()};
 }
 
 ReduceAnswer reduce_answer(const GivenStart& given) {

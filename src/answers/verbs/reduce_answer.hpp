@@ -7,14 +7,14 @@
 #include "answers/asked/given_start.hpp"
 #include "answers/input/errors.hpp"
 #include "answers/table/answer.hpp"
-#include "contensou/reduction/planar_symmetry.hpp"
+#include "contensou/reduction/integrating_factor.hpp"
 
 namespace contensou::answers {
 
 /// Symmetries, canonical coordinates and solution of a system at a start.
 struct ReduceAnswer {
   Answer answer;
-  bool found;  ///< a generator
+  bool found;  ///< a generator, or a factor
 };
 
 /// Reduces (2.6); beside it stands what the other routes say.
@@ -23,6 +23,6 @@ ReduceAnswer reduce_answer(const GivenStart& given);
 
 /// Reduces any field.
 /// @param text  of the field, for the answer
-ReduceAnswer reduce_answer(const reduction::PlanarField& field, const std::string& text, const Eigen::Vector2d& start);
+ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
 
 }  // namespace contensou::answers

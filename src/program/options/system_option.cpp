@@ -15,7 +15,7 @@ void SystemOption::add(CLI::App& app) {
               "--u0 and --v0 of either sign are its start");
 }
 
-reduction::PlanarField SystemOption::read(const ParameterOptions& parameters) const {
+reduction::SmoothField SystemOption::read(const ParameterOptions& parameters) const {
   try {
     return parse_planar_system(system_.text(), parameters.read());
   } catch (const BadInput& error) {
@@ -23,9 +23,9 @@ reduction::PlanarField SystemOption::read(const ParameterOptions& parameters) co
   }
 }
 
-std::optional<reduction::PlanarReduction> SystemOption::solve(const reduction::PlanarField& field,
+std::optional<reduction::PlanarReduction> SystemOption::solve(const reduction::SmoothField& field,
                                                               const Eigen::Vector2d& around) const {
-  const reduction::PlanarSymmetries found = reduction::find_symmetries(field, around);
+  const reduction::PlanarSymmetries found = reduction::find_symmetries(field.value, around);
   SolvedPlane solved = solve_planar(field, found, around);
   if (solved.plane) return std::move(solved.plane);
   fmt::print(

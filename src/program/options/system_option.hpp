@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/planar_reduction.hpp"
+#include "contensou/reduction/integrating_factor.hpp"
 #include "contensou/reduction/planar_symmetry.hpp"
 #include "options/argument.hpp"
 #include "options/parameter_options.hpp"
@@ -20,10 +20,10 @@ class SystemOption {
   const std::string& text() const { return system_.text(); }
 
   /// @throws BadInput  as parse_planar_system
-  reduction::PlanarField read(const ParameterOptions& parameters) const;
+  reduction::SmoothField read(const ParameterOptions& parameters) const;
 
-  /// The system solved by its scaling, for a picture; none, and on standard error why, where none was found.
-  std::optional<reduction::PlanarReduction> solve(const reduction::PlanarField& field,
+  /// The system solved, for a picture; none, and on standard error why, where none was found.
+  std::optional<reduction::PlanarReduction> solve(const reduction::SmoothField& field,
                                                   const Eigen::Vector2d& around) const;
 
  private:

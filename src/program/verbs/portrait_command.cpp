@@ -192,7 +192,7 @@ class PortraitCommand final : public Verb {
           "reduce --system' says which rays, kind and times there are",
           others));
     }
-    const reduction::PlanarField field = system_.read(law_.parameters());
+    const reduction::SmoothField field = system_.read(law_.parameters());
     portraits::PlanarPortraitRequest request{.through = through_,
                                              .orbits = request_.orbits_per_side,
                                              .isochrones = request_.isochrones,

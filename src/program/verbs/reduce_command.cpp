@@ -34,7 +34,7 @@ class ReduceCommand final : public Verb {
  private:
   ExitStatus run_system(const Output& output) {
     if (law_.given()) throw BadInput("--system and --law exclude each other: friction is in the formulas");
-    const reduction::PlanarField field = system_.read(law_.parameters());
+    const reduction::SmoothField field = system_.read(law_.parameters());
     const Eigen::Vector2d start = start_.read_point();
     if (!output.picture()) return write(reduce_answer(field, system_.text(), start), output);
     const auto plane = system_.solve(field, start);

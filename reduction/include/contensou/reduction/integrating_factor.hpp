@@ -63,6 +63,10 @@ class FactorReduction {
   /// @throws std::domain_error  as factor; and if V vanishes between the start and x
   double first_integral(const Eigen::Vector2d& x) const;
 
+  /// Returns the system as one that is solved.
+  /// @throws std::domain_error  if no factor was found
+  PlanarReduction reduction() const;
+
   /// Follows the orbit of another start, or of this one. V is fitted anew from box to box.
   /// @throws std::domain_error  if none was found; unless the start is finite and the field has a value there
   FactorOrbit orbit(const Eigen::Vector2d& start) const;
