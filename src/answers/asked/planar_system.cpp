@@ -6,12 +6,45 @@
 namespace contensou::answers {
 
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters) {
-  return {{{{"u'", "v'"}, {"u", "v"}, "a system is \"u' = F; v' = G\""}, text, parameters}};
+  using Equations = FormulaField::Equations;
+  const std::vector<std::string> lefts = left_sides(text);
+  const auto has = [&](std::string_view left) { return std::ranges::count(lefts, left) > 0; };
+  const auto read = [&](Equations equations, const FormulaShape& shape) {
+    return FormulaField{equations, Formulas(shape, text, parameters)};
+  };
+  if (has("x''")) return read(Equations::second, {{"x''"}, {"x", "x'"}, "an equation of second order is \"x'' = F\""});
+  if (has("y'") && !has("x'")) return read(Equations::first, {{"y'"}, {"x", "y"}, "an equation is \"y' = F\""});
+  if (has("x'")) return read(Equations::system, {{"x'", "y'"}, {"x", "y"}, "a system is \"x' = F; y' = G\""});
+  return read(Equations::system, {{"u'", "v'"}, {"u", "v"}, "a system is \"u' = F; v' = G\""});
+}
+
+Eigen::Vector2d FormulaField::operator()(const Eigen::Vector2d& x) const {
+  const auto [first, second] = formulas({x[0], x[1]});
+  switch (equations) {
+    case Equations::first:
+      return {1, first};
+    case Equations::second:
+      return {x[1], first};
+    default:
+      return {first, second};
+  }
 }
 
 Eigen::Matrix2d FormulaField::jacobian(const Eigen::Vector2d& x) const {
-  const auto [u, v] = formulas.with_slopes(std::array{x[0], x[1]});
-  return Eigen::Matrix2d{{u[1], u[2]}, {v[1], v[2]}};
+  const auto [first, second] = formulas.with_slopes(std::array{x[0], x[1]});
+  const Eigen::RowVector2d slopes(first[1], first[2]);
+  Eigen::Matrix2d all;
+  switch (equations) {
+    case Equations::first:
+      all << 0, 0, slopes;
+      break;
+    case Equations::second:
+      all << 0, 1, slopes;
+      break;
+    default:
+      all << slopes, second[1], second[2];
+  }
+  return all;
 }
 
 FormulaField::operator reduction::SmoothField() const {

@@ -12,11 +12,17 @@
 
 namespace contensou::answers {
 
-/// A reduction::PlanarField of two formulas in u and v.
+/// A reduction::PlanarField of formulas.
 struct FormulaField {
+  enum class Equations {
+    system,  ///< u' = F(u, v), v' = G(u, v)
+    first,   ///< y' = F(x, y): u = x, u' = 1, and v = y
+    second,  ///< x'' = F(x, x'): u = x and v = x'
+  };
+  Equations equations;
   Formulas formulas;
 
-  Eigen::Vector2d operator()(const Eigen::Vector2d& x) const { return Eigen::Vector2d(formulas({x[0], x[1]}).data()); }
+  Eigen::Vector2d operator()(const Eigen::Vector2d& x) const;
 
   /// Returns the derivatives of (u', v') with respect to u and v, as Formula::with_slopes: row 0 is that of u'.
   Eigen::Matrix2d jacobian(const Eigen::Vector2d& x) const;
@@ -24,7 +30,8 @@ struct FormulaField {
   operator reduction::SmoothField() const;  // NOLINT(google-explicit-constructor): it is one
 };
 
-/// Returns the field of "u' = F; v' = G", formulas in u, v and parameters as answers/input/formulas.hpp has them.
+/// Returns the field of "u' = F; v' = G", of "x' = F; y' = G" in x and y, of the equation "y' = F" in x and y, or of
+/// "x'' = F" in x and x'; formulas as answers/input/formulas.hpp has them.
 ///
 /// @throws BadInput  as Formulas
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);

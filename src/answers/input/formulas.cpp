@@ -133,6 +133,7 @@ constexpr std::size_t most_values = 2 * deepest + 2;
 template <std::size_t N>
 Dual<N> run(const std::vector<Step>& steps, const double* values) {
   std::array<Dual<N>, most_values> stack;
+  if (steps.empty()) return {};
   Dual<N>* end = stack.data() + 1;
   Dual<N> last{};  // the top of the stack
   for (const Step& step : steps) {
@@ -405,7 +406,25 @@ class Parser {
   std::vector<unsigned char> variables_;  ///< that each value on the stack depends on, as Step::left
 };
 
+/// Returns what stands before the equals sign, without blanks; an empty text if there is none.
+std::string left_side(std::string_view formula) {
+  const std::size_t equals = formula.find('=');
+  std::string left(equals == formula.npos ? "" : formula.substr(0, equals));
+  std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
+  return left;
+}
+
 }  // namespace formula_parts
+
+std::vector<std::string> left_sides(const std::string& text) {
+  std::vector<std::string> lefts;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    lefts.push_back(formula_parts::left_side(std::string_view(text).substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return lefts;
+}
 
 struct Formulas::Compiled {
   std::array<std::vector<formula_parts::Step>, 2> formulas;
@@ -432,14 +451,13 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);
     if (first < end || (begin == 0 && end == text.size())) {
       const std::size_t equals = text.find('=', first);
-      std::string left = equals < end ? text.substr(first, equals - first) : "";
-      std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
+      const std::string left = formula_parts::left_side(text.substr(first, end - first));
       const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
-      if (which == shape.left.size()) {
+      if (which == shape.left.size() || left.empty()) {
         const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
         if (!may_be_parameter(left) || !is_number(value)) {
-          reject_at(first, text,
-                    fmt::format("{} = or {} = is missing: {}", shape.left[0], shape.left[1], shape.sentence));
+          const std::string second = shape.left[1].empty() ? "" : fmt::format(" or {} =", shape.left[1]);
+          reject_at(first, text, fmt::format("{} ={} is missing: {}", shape.left[0], second, shape.sentence));
         }
         own[left] = parse_number(value);
       } else if (found[which]) {
@@ -454,6 +472,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
   std::map<std::string, double> unused = parameters;
   Compiled compiled;
   for (std::size_t i = 0; i < 2; ++i) {
+    if (shape.left[i].empty()) continue;
     if (!found[i]) reject_at(text.size(), text, fmt::format("{} = is missing: {}", shape.left[i], shape.sentence));
     const auto& [from, to] = *found[i];
     compiled.formulas[i] = formula_parts::Parser(shape, parameters, unused, text, from, to).steps;

@@ -14,13 +14,16 @@ namespace contensou::answers {
 template <std::size_t N>
 using Dual = std::array<double, N + 1>;
 
-/// The form of a pair of formulas.
+/// The form of a pair of formulas, or of one.
 struct FormulaShape {
-  std::array<std::string, 2> left;                  ///< before the equals signs
+  std::array<std::string, 2> left;                  ///< before the equals signs; the second is empty where one is due
   std::vector<std::string> variables;               ///< of the formulas
   std::string sentence;                             ///< for messages, such as a system is "u' = F; v' = G"
   std::map<std::string, std::string> refused = {};  ///< names that no parameter has, either, and why
 };
+
+/// Returns the names before the equals signs of a text, without blanks.
+std::vector<std::string> left_sides(const std::string& text);
 
 /// Two formulas, "u' = F; v' = G" in any order, of some variables and parameters. Behind them the text may give
 /// parameters, "; a = 2". From the loosest binding to the tightest a formula has
@@ -43,6 +46,7 @@ class Formulas {
   Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters);
 
   /// @param values  of the variables
+  /// @return the values of the formulas; 0 for one that is not due
   std::array<double, 2> operator()(std::initializer_list<double> values) const;
 
   /// Returns the same values with their slopes by the chain rule, exact except for rounding. N is 1 or 2.
