@@ -39,11 +39,19 @@ struct FactorOrbit::Motion {
   std::vector<Panel> panels = {};
   PlanarEnd end = PlanarEnd::undecided;
   double end_time = std::numeric_limits<double>::quiet_NaN();
-  double followed = 0;  ///< time
+  double followed = 0;                  ///< time
+  double turn_begin = 0, turn_end = 0;  ///< times of the last turn
   std::string undecided = {};
   // Near an equilibrium, from `followed` on: rest + exp(t flow) offset.
   Vector2d rest = Vector2d::Zero(), offset = rest;
   Matrix2d flow = Matrix2d::Zero();
+
+  /// The state at a time that the panels cover.
+  Vector2d at(double time) const {
+    const Panel& panel = *std::prev(std::ranges::upper_bound(panels, time, {}, &Panel::begin));
+    const double left = time - panel.begin;
+    return panel.at(root_between([&](double t) { return panel.time(t) - left; }, -1, 1));
+  }
 };
 
 namespace {
@@ -61,7 +69,11 @@ class Follower {
         form_(factor.form()),
         box_(factor.box()),
         first_(jet_of(field, x_)),
-        size_(x_.norm() + box_about(x_).radii.norm()) {
+        size_(x_.norm() + box_about(x_).radii.norm()),
+        scale_(2 * x_.cwiseAbs()),
+        anchor_(x_),
+        forward_(x_),
+        passed_(x_) {
     if (form_ == FactorForm::affine || box_.centre == x_) {
       factor_ = factor;
       on_curve_ = factor.vanishes && box_.centre == x_;
@@ -69,30 +81,36 @@ class Follower {
   }
 
   void follow() {
-    constexpr int most_panels = 4000;
-    for (int i = 0; i < most_panels; ++i) {
+    constexpr int most_panels = 2000, most_fits = 300;
+    int next_anchor = 0;
+    for (int i = 0; i < most_panels && fits_ < most_fits; ++i) {
       const auto here = jet_of(field_, x_);
       if (!here) return stop("the field has no derivatives");
-      noise_ = eps * (here->slopes * x_.asDiagonal()).norm() / here->f.norm();
+      if (i == next_anchor) {
+        anchor(here->f);
+        next_anchor = std::max(64, 2 * i);
+      }
+      noise_ = eps * here->slopes.cwiseAbs() * x_.cwiseAbs();
       if (rests(*here) || escapes(*here)) return;
-      constexpr double edge = 0.7;
+      constexpr double edge = 0.7, longer = 0.01;
       const bool enters =
           i == 0 ? !factor_ || form_ == FactorForm::affine : box_.inside(x_).cwiseAbs().maxCoeff() > edge;
       if (enters && !enter(*here)) return stop("the form of V does not hold");
-      if (form_ == FactorForm::affine && factor_->residual(x_, *here) > std::max(accurate_, noise_)) {
+      if (form_ == FactorForm::affine && factor_->residual(x_, *here) > accurate_) {
         return stop("the form of V does not hold");
       }
       if (!step(*here)) {
-        const bool pole = here->f.norm() > singular_ * first_->f.norm();
-        if (failure_ != Failure::no_value && !(failure_ == Failure::turned && pole)) {
-          return stop("the field is not smooth");
-        }
-        return end(PlanarEnd::border, motion_.followed);
+        const double last = motion_.panels.empty() ? 0 : motion_.panels.back().time.at_end();
+        if (at_border(*here)) return end(PlanarEnd::border, motion_.followed);
+        // The distance falls to the smallest numbers, and every part of the way takes longer.
+        if (x_.norm() <= tiny_ * size_ && last > longer * motion_.followed)
+          return end(PlanarEnd::equilibrium, infinity);
+        return stop("the field is not smooth");
       }
       if (on_curve_ && factor_) return_to_curve();
       if (returns()) return;
     }
-    stop("more parts of the orbit are needed than 4000; the last comes");
+    stop("the orbit has too many parts; the last ends");
   }
 
  private:
@@ -116,23 +134,30 @@ class Follower {
     constexpr double close = 0.1;
     Vector2d rest = x_;
     Matrix2d slopes = here.slopes;
-    Vector2d way = newton_step(here);
+    constexpr double clear = 1e-10;
+    const auto step_to_rest = [](const Jet& at) {
+      const double norm = at.slopes.norm();
+      const bool line = std::abs(at.slopes.determinant()) <= clear * norm * norm;  // of points at rest
+      return line ? Vector2d(at.f / at.slopes.trace()) : newton_step(at);
+    };
+    Vector2d way = step_to_rest(here);
     if (!(way.norm() <= close * size_)) return false;
     constexpr int steps = 8;
-    for (int i = 0; i < steps && way.norm() > 4 * eps * rest.norm(); ++i) {
+    for (int i = 0; i == 0 || (i < steps && way.norm() > 4 * eps * rest.norm()); ++i) {
       rest -= way;
       const auto there = jet_of(field_, rest);
       if (!there) return false;
       slopes = there->slopes;
-      way = newton_step(*there);
+      way = step_to_rest(*there);
       if (!(way.norm() <= (x_ - rest).norm())) return false;
     }
     const Vector2d offset = x_ - rest;
+    constexpr double found = 1e-10;
+    if (!(way.norm() <= found * offset.norm() + 8 * eps * rest.norm())) return false;
     const double change = (here.slopes - slopes).norm() / slopes.norm();
     constexpr double exact = 1e-14;
     if (!(change * offset.norm() <= exact * std::max(rest.norm(), offset.norm()))) return false;
     const double trace = slopes.trace(), determinant = slopes.determinant(), norm = slopes.norm();
-    constexpr double clear = 1e-10;
     if (determinant > clear * norm * norm && trace < -clear * norm) {
       motion_.flow = slopes;
       motion_.offset = offset;
@@ -141,6 +166,9 @@ class Follower {
       const double root = std::sqrt(trace * trace / 4 - determinant), in = trace / 2 - root, out = trace / 2 + root;
       motion_.flow = in * Matrix2d::Identity();
       motion_.offset = (slopes * offset - out * offset) / (in - out);
+    } else if (std::abs(determinant) <= clear * norm * norm && trace < -clear * norm) {
+      motion_.flow = trace * Matrix2d::Identity();
+      motion_.offset = offset;
     } else {
       return false;
     }
@@ -168,11 +196,22 @@ class Follower {
     return true;
   }
 
+  /// True if a step that fails here does so for want of values, or beside a pole; time has converged.
+  bool at_border(const Jet& here) const {
+    if (motion_.panels.empty() || motion_.panels.back().time.at_end() > 8 * eps * motion_.followed) return false;
+    const int along = motion_.panels.back().along;
+    const double way = 16 * eps * std::abs(x_[along]) + 4 * least_length_ * size_;
+    const bool value = value_of(field_, x_ + std::copysign(way, here.f[along]) * Vector2d::Unit(along)).has_value();
+    return failure_ == Failure::no_value || !value ||
+           (failure_ == Failure::turned && here.f.norm() > singular_ * first_->f.norm());
+  }
+
   static Vector2d newton_step(const Jet& here) { return here.slopes.inverse() * here.f; }
 
   /// Fits V in a box about this point.
   bool enter(const Jet& here) {
-    box_ = box_about(x_);
+    scale_ = x_.cwiseAbs().cwiseMax(scale_ / 2);
+    box_ = {x_, box_about(scale_).radii};
     // Near an equilibrium, where V is small, the box is as small as the distance.
     constexpr double part = 0.7;
     const double distance = part * newton_step(here).norm();
@@ -185,20 +224,25 @@ class Follower {
       };
       while (!ends_have_values() && box_.radii[i] > eps * std::abs(x_[i])) box_.radii[i] /= 2;
     }
-    if (form_ == FactorForm::affine) return true;
+    constexpr double wide = 4;
+    if (form_ == FactorForm::affine) {
+      fraction_ = wide;
+      return true;
+    }
     factor_.reset();
     // Where the rounding of x alone hides the form, V is not needed any more.
     constexpr double hidden = 1e-12;
-    if (noise_ > hidden) return true;
+    if (noise_.norm() > hidden * here.f.norm()) return true;
     constexpr int halvings = 10;
     for (int i = 0; i <= halvings; ++i, box_.radii /= 2, fraction_ /= 2) {
+      ++fits_;
       const auto samples = sample(field_, box_);
       if (!samples) continue;
       const auto fit = fit_factor(form_, *samples);
       if (!fit || !fit->small) continue;
       factor_ = fit->factor;
       on_curve_ = fit->factor.vanishes;
-      fraction_ = std::min(1., 2 * fraction_);
+      fraction_ = std::min(form_ == FactorForm::polynomial ? wide : 1, 2 * fraction_);
       return true;
     }
     return false;
@@ -211,8 +255,7 @@ class Follower {
     const double sense = here.f[along] > 0 ? 1 : -1;
     const double room = 1 - sense * box_.inside(x_)[along];
     double length = std::min(2 * stretch_, room) * box_.radii[along];
-    constexpr double least = 1e-40;
-    for (; length > 4 * eps * std::abs(x_[along]) && length > least * size_; length /= 2) {
+    for (; length > 4 * eps * std::abs(x_[along]) && length > least_length_ * size_; length /= 2) {
       failure_ = solve(along, sense * length, here);
       if (failure_ == Failure::none) {
         stretch_ = length / box_.radii[along];
@@ -227,13 +270,16 @@ class Follower {
   Failure solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
     const double half = length / 2, size = x_.lpNorm<Eigen::Infinity>();
+    const double noise = 8 * noise_[along] / std::abs(start.f[along]);
+    const double noise_across = 8 * noise_[across] * std::abs(half / start.f[along]);  // of w
     const Samples s = x_[along] + half * (1 + LegendreSeries::points());
     Samples q = Samples::Constant(start.f[across] / start.f[along]), slopes, rate, y;
     double missed = infinity;
+    bool by_factor = factor_ && !on_curve_;
     constexpr int most = 24, first = 2;
     for (int iteration = 0;; ++iteration) {
       const Samples w = x_[across] + half * LegendreSeries::through(q).antiderivative().samples();
-      bool newton = iteration >= first && factor_ && !on_curve_;
+      bool newton = iteration >= first && by_factor;
       for (int i = 0; i < LegendreSeries::order; ++i) {
         Vector2d x;
         x[along] = s[i];
@@ -251,27 +297,33 @@ class Follower {
       missed = std::abs(half) * LegendreSeries::through(defect).antiderivative().samples().abs().maxCoeff();
       const double largest = std::abs(half) * slopes.abs().maxCoeff();
       q = slopes;
-      if (missed <= 4 * eps * (size + largest) + noise_ * largest) break;
+      if (missed <= 4 * eps * (size + largest) + noise_across + noise * largest) break;
       constexpr double edge = 1.05;
       const bool inside = std::abs(w[LegendreSeries::order - 1] - box_.centre[across]) <= edge * box_.radii[across];
       if (!inside) return Failure::outside;
-      if (iteration == most || (iteration > first && !(missed < before / 2))) return Failure::rough;
+      if (iteration > first && !(missed < before / 2)) {
+        // V may change its sign on the way to this curve.
+        if (!std::exchange(by_factor, false)) return Failure::rough;
+        newton = false;
+      }
+      if (iteration == most) return Failure::rough;
       if (newton) {
         const Samples correction = half * y * LegendreSeries::through(defect / y).antiderivative().samples();
         q += correction * LegendreSeries::through(y.abs().log()).derivative().samples() / half;
       }
     }
     constexpr double accurate = 1e-14, timed = 1e-13;
-    if (LegendreSeries::tail(q) * std::abs(half) > accurate * size + 8 * noise_ * std::abs(half) * q.abs().maxCoeff() ||
-        LegendreSeries::tail(rate) > std::max(timed, 8 * noise_) * rate.abs().maxCoeff()) {
+    const double largest = std::abs(half) * q.abs().maxCoeff();
+    if (LegendreSeries::tail(q) * std::abs(half) > accurate * size + noise_across + noise * largest ||
+        LegendreSeries::tail(rate) > std::max(timed, noise) * rate.abs().maxCoeff()) {
       return Failure::rough;
     }
     Panel panel{along,
-                      x_[along],
-                      length,
-                      motion_.followed,
-                      LegendreSeries::through(half * q).antiderivative(),
-                      LegendreSeries::through(half * rate).antiderivative()};
+                x_[along],
+                length,
+                motion_.followed,
+                LegendreSeries::through(half * q).antiderivative(),
+                LegendreSeries::through(half * rate).antiderivative()};
     panel.other += x_[across];
     x_[along] += length;
     x_[across] = panel.other.at_end();
@@ -290,20 +342,33 @@ class Follower {
     if (std::abs(step) <= near_ * x_.norm()) x_[across] -= step;
   }
 
-  /// True if it has come back to the start.
+  /// Looks for a return to this point from now on.
+  void anchor(const Vector2d& f) {
+    anchor_ = passed_ = x_;
+    forward_ = f;
+    extent_ = along_ = 0;
+    motion_.turn_end = motion_.followed;
+  }
+
+  /// True if it has come back to where it was a turn ago.
   bool returns() {
-    const Vector2d f = first_->f, now = x_ - motion_.start;
-    extent_ = std::max(extent_, now.norm());
-    const double before = std::exchange(along_start_, now.dot(f));
-    if (!(before < 0 && along_start_ >= 0)) return false;
+    extent_ = std::max(extent_, (x_ - passed_).norm());
+    const double before = std::exchange(along_, (x_ - anchor_).dot(forward_));
+    if (!(before < 0 && along_ >= 0)) return false;
     const Panel& panel = motion_.panels.back();
-    const double t = root_between([&](double at) { return (panel.at(at) - motion_.start).dot(f); }, -1, 1);
-    if (!((panel.at(t) - motion_.start).norm() <= near_ * extent_)) return false;
-    end(PlanarEnd::periodic, panel.begin + panel.time(t));
+    const double t = root_between([&](double at) { return (panel.at(at) - anchor_).dot(forward_); }, -1, 1);
+    const Vector2d last = std::exchange(passed_, panel.at(t));
+    const double extent = std::exchange(extent_, 0);
+    motion_.turn_begin = std::exchange(motion_.turn_end, panel.begin + panel.time(t));
+    if (!((passed_ - last).norm() <= near_ * extent)) return false;
+    const bool from_start =
+        (motion_.at(motion_.turn_end - motion_.turn_begin) - motion_.start).norm() <= near_ * extent;
+    if (from_start) motion_.turn_end -= std::exchange(motion_.turn_begin, 0);
+    end(from_start ? PlanarEnd::periodic : PlanarEnd::cycle, infinity);
     return true;
   }
 
-  static constexpr double near_ = 1e-11, accurate_ = 1e-8, singular_ = 1e4;
+  static constexpr double near_ = 1e-11, accurate_ = 1e-8, singular_ = 1e4, least_length_ = 1e-40, tiny_ = 1e-30;
 
   const SmoothField& field_;
   FactorOrbit::Motion& motion_;
@@ -311,15 +376,17 @@ class Follower {
   FactorForm form_;
   Box box_;
   std::optional<InverseFactor> factor_ = {};
-  std::optional<Jet> first_ = {};  ///< at the start
-  bool on_curve_ = false;          ///< V = 0
-  double size_;                    ///< of the start
-  double noise_ = 0;               ///< relative error of f by the rounding of x
-  double fraction_ = 1;            ///< of the largest box
-  double stretch_ = 0.25;          ///< of the box, the last panel's
-  double extent_ = 0;              ///< of the orbit, from the start
-  double along_start_ = 0;         ///< the point's coordinate along the orbit at the start
+  std::optional<Jet> first_ = {};       ///< at the start
+  bool on_curve_ = false;               ///< V = 0
+  double size_;                         ///< of the start
+  Vector2d scale_;                      ///< of the orbit's coordinates
+  Vector2d noise_ = Vector2d::Zero();   ///< errors of f by the rounding of x
+  double fraction_ = 1;                 ///< of the largest box
+  double stretch_ = 0.25;               ///< of the box, the last panel's
+  Vector2d anchor_, forward_, passed_;  ///< returns are looked for across the line through the anchor
+  double extent_ = 0, along_ = 0;
   Failure failure_ = Failure::none;
+  int fits_ = 0;
 };
 
 }  // namespace
@@ -333,17 +400,19 @@ std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, cons
 }
 
 PlanarEnd FactorOrbit::end() const { return motion_->end; }
-double FactorOrbit::end_time() const { return motion_->end == PlanarEnd::periodic ? infinity : motion_->end_time; }
+double FactorOrbit::end_time() const { return motion_->end_time; }
 const std::string& FactorOrbit::undecided() const { return motion_->undecided; }
 
 std::optional<double> FactorOrbit::period() const {
-  return motion_->end == PlanarEnd::periodic ? std::optional(motion_->end_time) : std::nullopt;
+  return motion_->end == PlanarEnd::periodic ? std::optional(motion_->turn_end) : std::nullopt;
 }
 
 Vector2d FactorOrbit::at(double time) const {
   const Motion& motion = *motion_;
   if (!(time >= 0)) throw std::domain_error(fmt::format("FactorOrbit: times >= 0 are required, got {}", time));
-  if (motion.end == PlanarEnd::periodic) time = std::fmod(time, motion.end_time);
+  if ((motion.end == PlanarEnd::periodic || motion.end == PlanarEnd::cycle) && time > motion.turn_end) {
+    time = motion.turn_begin + std::fmod(time - motion.turn_begin, motion.turn_end - motion.turn_begin);
+  }
   if (time >= motion.followed) {
     if (motion.end == PlanarEnd::equilibrium) {
       const Vector2d offset = matrix_exponential((time - motion.followed) * motion.flow) * motion.offset;
@@ -357,10 +426,7 @@ Vector2d FactorOrbit::at(double time) const {
                                                 motion.undecided));
     }
   }
-  const auto after = std::ranges::upper_bound(motion.panels, time, {}, &Motion::Panel::begin);
-  const Motion::Panel& panel = *std::prev(after);
-  const double left = time - panel.begin;
-  return panel.at(root_between([&](double t) { return panel.time(t) - left; }, -1, 1));
+  return motion.at(time);
 }
 
 }  // namespace contensou::reduction

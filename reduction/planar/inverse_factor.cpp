@@ -139,12 +139,10 @@ InverseFactor::Value InverseFactor::operator()(const Vector2d& x, const Jet& jet
 }
 
 double InverseFactor::residual(const Vector2d& x, const Jet& jet) const {
-  const Terms<3> all = terms(form_, box_, x, jet);
-  const Value value = coefficients_.transpose() * all;
-  const bool log = form_ == FactorForm::product;
-  const double size = log ? 1 : coefficients_.cwiseAbs().dot(all.col(0).cwiseAbs());
-  const double change = value.tail<2>() * jet.f - (log ? 1 : value[0]) * jet.slopes.trace();
-  return weight(box_, jet) * std::abs(change) / size;
+  const Value value = (*this)(x, jet);
+  const double change = value.tail<2>() * jet.f - value[0] * jet.slopes.trace();
+  const double size = form_ == FactorForm::affine ? jet.f.norm() * coefficients_.lpNorm<1>() : std::abs(value[0]);
+  return weight(box_, jet) * std::abs(change) / size / (1 + box_.inside(x).norm());
 }
 
 std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {

@@ -421,7 +421,8 @@ void require_point(const Vector2d& x) {
 }  // namespace
 
 std::string_view name(PlanarEnd end) {
-  constexpr std::string_view names[]{"centre", "infinity", "rest", "border", "periodic", "undecided", "equilibrium"};
+  constexpr std::string_view names[]{"centre",   "infinity",  "rest",        "border",
+                                     "periodic", "undecided", "equilibrium", "cycle"};
   return names[static_cast<std::size_t>(end)];
 }
 

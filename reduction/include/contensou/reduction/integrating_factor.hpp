@@ -82,7 +82,7 @@ class FactorOrbit {
   struct Motion;  // planar/factor_orbit.cpp
   explicit FactorOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
 
-  /// Returns where it ends: equilibrium, infinity, border, periodic or undecided.
+  /// Returns where it ends: equilibrium, infinity, border, periodic, cycle or undecided.
   PlanarEnd end() const;
 
   /// Returns the time of the end; infinity if it takes for ever, NaN if it is not decided.

@@ -26,11 +26,12 @@ struct PlanarCanonical {
 enum class PlanarEnd {
   centre,  ///< x_0
   infinity,
-  rest,       ///< a point other than the centre, at which the field vanishes
-  border,     ///< a pole, a border of the field's values, or a jump: no orbit goes on
-  periodic,   ///< none: the orbit returns
-  undecided,  ///< not known: PlanarReduction::undecided says why
+  rest,         ///< a point other than the centre, at which the field vanishes
+  border,       ///< a pole, a border of the field's values, or a jump: no orbit goes on
+  periodic,     ///< none: the orbit returns
+  undecided,    ///< not known: PlanarReduction::undecided says why
   equilibrium,  ///< a zero of the field, which the orbit nears for ever
+  cycle,        ///< a closed orbit, which it nears for ever
 };
 
 /// As its name in C++, such as "centre".
