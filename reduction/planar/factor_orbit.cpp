@@ -12,6 +12,7 @@
 #include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/legendre_series.hpp"
+#include "numerics/linear_ode.hpp"
 #include "planar/matrix_exponential.hpp"
 
 namespace contensou::reduction {
@@ -266,56 +267,51 @@ class Follower {
   }
 
   /// Finds the other coordinate w at the points of a panel. q approximates dw/ds; along w = w_0 + integral of q
-  /// H changes by the integral of F (q - G/F)/V, and dH/dw = F/V: Newton's method, README (R67).
+  /// H changes by the integral of (q - G/F) F/V, and dH/dw = F/V: Newton's method, README (R67).
   Failure solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
-    const double half = length / 2, size = x_.lpNorm<Eigen::Infinity>();
-    const double noise = 8 * noise_[along] / std::abs(start.f[along]);
-    const double noise_across = 8 * noise_[across] * std::abs(half / start.f[along]);  // of w
-    const Samples s = x_[along] + half * (1 + LegendreSeries::points());
-    Samples q = Samples::Constant(start.f[across] / start.f[along]), slopes, rate, y;
+    const double half = length / 2, size = std::abs(x_[across]);
+    const double noise = noise_[along] / std::abs(start.f[along]);
+    const double noise_across = noise_[across] * std::abs(half / start.f[along]);  // of w
+    const Samples s = x_[along] + half * (1 + LegendreSeries::points()), one = Samples::Ones();
+    Samples q = Samples::Constant(start.f[across] / start.f[along]), slopes, rate, growth;
     double missed = infinity;
-    bool by_factor = factor_ && !on_curve_;
-    constexpr int most = 24, first = 2;
+    constexpr int most = 12, first = 2;
+    constexpr double coarse = 1e-6;
     for (int iteration = 0;; ++iteration) {
       const Samples w = x_[across] + half * LegendreSeries::through(q).antiderivative().samples();
-      bool newton = iteration >= first && by_factor;
+      constexpr double edge = 1.05;
+      const bool inside = ((w - box_.centre[across]).abs() <= edge * box_.radii[across]).all();
+      if (iteration >= first && !inside) return Failure::outside;
+      const bool linearised = missed > coarse * (size + std::abs(half * q[0]));
       for (int i = 0; i < LegendreSeries::order; ++i) {
         Vector2d x;
         x[along] = s[i];
         x[across] = w[i];
-        const auto f = value_of(field_, x);
-        if (!f) return Failure::no_value;
-        rate[i] = 1 / (*f)[along];
-        slopes[i] = (*f)[across] * rate[i];
+        std::optional<Jet> here;
+        if (linearised) {
+          here = jet_of(field_, x);
+        } else if (const auto f = value_of(field_, x)) {
+          here = {*f, Matrix2d::Zero()};
+        }
+        if (!here) return Failure::no_value;
+        rate[i] = 1 / here->f[along];
+        slopes[i] = here->f[across] * rate[i];
         if (!(rate[i] * length > 0)) return Failure::turned;
-        if (newton) y[i] = (*factor_)(x, {*f, Matrix2d::Zero()})[0] * rate[i];
-        newton = newton && y[i] * y[0] > 0;
+        if (linearised) growth[i] = (here->slopes(across, across) - slopes[i] * here->slopes(along, across)) * rate[i];
       }
       const Samples defect = slopes - q;
       const double before = missed;
       missed = std::abs(half) * LegendreSeries::through(defect).antiderivative().samples().abs().maxCoeff();
       const double largest = std::abs(half) * slopes.abs().maxCoeff();
-      q = slopes;
+      q = slopes + growth * solve_linear_ode(one, -half * growth, half * defect, 0).samples();
       if (missed <= 4 * eps * (size + largest) + noise_across + noise * largest) break;
-      constexpr double edge = 1.05;
-      const bool inside = std::abs(w[LegendreSeries::order - 1] - box_.centre[across]) <= edge * box_.radii[across];
-      if (!inside) return Failure::outside;
-      if (iteration > first && !(missed < before / 2)) {
-        // V may change its sign on the way to this curve.
-        if (!std::exchange(by_factor, false)) return Failure::rough;
-        newton = false;
-      }
-      if (iteration == most) return Failure::rough;
-      if (newton) {
-        const Samples correction = half * y * LegendreSeries::through(defect / y).antiderivative().samples();
-        q += correction * LegendreSeries::through(y.abs().log()).derivative().samples() / half;
-      }
+      if (iteration == most || (iteration > first && !(missed < before / 2))) return Failure::rough;
     }
     constexpr double accurate = 1e-14, timed = 1e-13;
     const double largest = std::abs(half) * q.abs().maxCoeff();
-    if (LegendreSeries::tail(q) * std::abs(half) > accurate * size + noise_across + noise * largest ||
-        LegendreSeries::tail(rate) > std::max(timed, noise) * rate.abs().maxCoeff()) {
+    if (LegendreSeries::tail(q) * std::abs(half) > accurate * (size + largest) + 8 * (noise_across + noise * largest) ||
+        LegendreSeries::tail(rate) > std::max(timed, 8 * noise) * rate.abs().maxCoeff()) {
       return Failure::rough;
     }
     Panel panel{along,
