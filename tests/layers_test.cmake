@@ -17,7 +17,7 @@ set(python_uses reduction portraits text si fit answers)
 set(page_uses reduction portraits text platform si fit answers)
 
 set(faults "")
-set(odeint_allowed reduction/check/direct_motion.cpp reduction/check/regularised_motion.cpp src/si/motion/integrated_motion.cpp
+set(odeint_allowed reduction/check/direct_motion.cpp reduction/check/planar_steps.cpp reduction/check/regularised_motion.cpp src/si/motion/integrated_motion.cpp
   src/si/motion/resisted_motion.cpp)
 set(read 0)
 set(gnuplot_files "")

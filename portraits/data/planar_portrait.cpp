@@ -11,6 +11,7 @@
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/planar_steps.hpp"
 #include "data/isochrones.hpp"
 #include "data/lists.hpp"
 #include "data/round_numbers.hpp"
@@ -18,6 +19,7 @@
 
 namespace contensou::portraits {
 
+using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using reduction::PlanarEnd;
 using reduction::PlanarReduction;
@@ -146,17 +148,9 @@ class PlanarTracer {
     return times;
   }
 
-  /// Orbits that fill the window: each goes through the middle of the widest gap, and next its mirror images where they
-  /// have as much room, since most systems have some symmetry of that kind.
-  std::vector<PlanarPortraitOrbit> filling(std::optional<int> count) const;
-
  private:
   Vector2d at(Point place) const {
     return window_.low + Vector2d(place.x, place.y).cwiseProduct(window_.high - window_.low);
-  }
-  Point place(const Vector2d& x) const {
-    const Vector2d part = (x - window_.low).cwiseQuotient(window_.high - window_.low);
-    return {part[0], part[1]};
   }
   Point point(double q, double p) const {
     const Vector2d x = plane_.point(q, p);
@@ -317,7 +311,18 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   return line;
 }
 
-std::vector<PlanarPortraitOrbit> PlanarTracer::filling(std::optional<int> count) const {
+/// Orbits that fill the window: each goes through the middle of the widest gap, and next its mirror images where they
+/// have as much room, since most systems have some symmetry of that kind.
+/// @param tracer  PlanarTracer or MotionTracer
+template <class Tracer>
+std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindow& window, const Vector2d& middle,
+                                         std::optional<int> count) {
+  const Vector2d sides = window.high - window.low;
+  const auto at = [&](Point there) { return Vector2d(window.low + Vector2d(there.x, there.y).cwiseProduct(sides)); };
+  const auto place = [&](const Vector2d& x) {
+    const Vector2d part = (x - window.low).cwiseQuotient(sides);
+    return Point{part[0], part[1]};
+  };
   constexpr double gap = 0.055;  // in sides of the window
   constexpr int most = 80, across = 41;
   using Gaps = WidestGaps<std::size_t, Vector2d>;
@@ -325,13 +330,13 @@ std::vector<PlanarPortraitOrbit> PlanarTracer::filling(std::optional<int> count)
   for (int i = 0; i < across; ++i) {
     for (int j = 0; j < across; ++j) {
       const Point there{(i + 0.5) / across, (j + 0.5) / across};
-      if (const auto its = sector(at(there))) seeds.push_back({there, at(there), *its});
+      if (const auto its = tracer.sector(at(there))) seeds.push_back({there, at(there), *its});
     }
   }
   Gaps gaps(std::move(seeds), {1, 1});
   std::vector<PlanarPortraitOrbit> orbits;
   std::vector<Point> mirrored;  // places to look at first
-  const Point centre = place(plane_.centre());
+  const Point centre = place(middle);
   for (int traced = 0; traced < count.value_or(most) && !gaps.empty();) {
     auto widest = &gaps.widest();
     bool from_mirror = false;
@@ -352,7 +357,7 @@ std::vector<PlanarPortraitOrbit> PlanarTracer::filling(std::optional<int> count)
     }
     ++traced;
     widest->gap = 0;
-    for (PlanarPortraitOrbit& piece : orbit(through)) {
+    for (PlanarPortraitOrbit& piece : tracer.orbit(through)) {
       for (Eigen::Index row = 0; row < piece.u.size(); ++row) {
         gaps.pass(its_sector, place({piece.u[row], piece.v[row]}));
       }
@@ -363,16 +368,136 @@ std::vector<PlanarPortraitOrbit> PlanarTracer::filling(std::optional<int> count)
   return orbits;
 }
 
+/// Traces motions forth and back in time, where there is no scaling that orbits are moved by.
+class MotionTracer {
+ public:
+  MotionTracer(const PlanarReduction& plane, const PlanarWindow& window)
+      : forth_(plane),
+        back_(plane.reversed()),
+        steps_forth_(reduction::by_steps(plane.field())),
+        steps_back_(steps_forth_.reversed()),
+        window_(window) {
+    panel_.x = {"", window.low[0], window.high[0], false, {}};
+    panel_.y = {"", window.low[1], window.high[1], false, {}};
+  }
+
+  /// As PlanarTracer's.
+  std::vector<PlanarPortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
+    Polyline line;
+    if (!from_here) {
+      line = way(back_, steps_back_, x);
+      std::ranges::reverse(line);
+    }
+    line.push_back({x[0], x[1]});
+    const Polyline later = way(forth_, steps_forth_, x);
+    line.insert(line.end(), later.begin(), later.end());
+    std::vector<PlanarPortraitOrbit> pieces;
+    for (const Polyline& part : clipped(panel_, line)) {
+      if (part.size() < 2) continue;
+      const Eigen::Map<const Eigen::Array2Xd> columns(&part.front().x, 2, static_cast<Eigen::Index>(part.size()));
+      pieces.push_back({columns.row(0), columns.row(1), Eigen::ArrayXd::Constant(columns.cols(), infinity)});
+    }
+    return pieces;
+  }
+
+  /// 0 where the field has a value: what no orbit crosses is not known.
+  std::optional<std::size_t> sector(const Vector2d& x) const {
+    try {
+      if (forth_.field()(x).allFinite()) return 0;
+    } catch (const std::exception&) {
+      // none
+    }
+    return std::nullopt;
+  }
+
+  /// The orbits that leave the saddles and those that come to them, a little beside them.
+  std::vector<PlanarPortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
+    std::vector<PlanarPortraitOrbit> all;
+    for (const reduction::Equilibrium& saddle : equilibria) {
+      if (saddle.kind() != "saddle") continue;
+      const auto [stable, unstable] = saddle.eigenvalues();
+      for (const double value : {stable.real(), unstable.real()}) {
+        const Matrix2d rest = saddle.slopes - value * Matrix2d::Identity();
+        Vector2d along = rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0))
+                                                                 : Vector2d(-rest(1, 1), rest(1, 0));
+        constexpr double beside = 1e-6;
+        along *= beside / along.cwiseQuotient(window_.high - window_.low).norm();
+        for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
+          if (!sector(x)) continue;
+          std::ranges::move(orbit(x), std::back_inserter(all));
+        }
+      }
+    }
+    return all;
+  }
+
+ private:
+  /// Follows a motion out of the window and for some of its sides beyond, for it may come back.
+  Polyline way(const PlanarReduction& plane, const PlanarReduction& by_steps, const Vector2d& x) const {
+    const Vector2d f = plane.field()(x);
+    const Vector2d sides = window_.high - window_.low;
+    const double speed = f.cwiseQuotient(sides).norm();
+    if (!(speed > 0)) return {};
+    const reduction::PlanarOrbit motion = [&] {
+      try {
+        return plane.orbit(x);
+      } catch (const std::domain_error&) {
+        return by_steps.orbit(x);
+      }
+    }();
+    constexpr double near = 0.008, far = 6, rest = 1e-5;
+    constexpr int most = 4000;
+    Polyline line;
+    Vector2d here = x;
+    double time = 0, step = near / speed;
+    const double last = motion.period().value_or(infinity);
+    for (int i = 0; i < most && time < last; ++i) {
+      const double next = std::min(time + step, last);
+      Vector2d there;
+      try {
+        there = motion.at(next);
+      } catch (const std::domain_error&) {
+        if ((step /= 2) < 1e-6 * near / speed) break;  // the end of what is known
+        continue;
+      }
+      const Vector2d outside = (there - window_.low).cwiseMin(0) + (there - window_.high).cwiseMax(0);
+      const double beyond = outside.cwiseQuotient(sides).norm();
+      const double moved = (there - here).cwiseQuotient(sides).norm(), allowed = near * (1 + 10 * beyond);
+      if (!(moved <= allowed)) {
+        step /= 2;
+        if (!(time + step > time)) break;
+        continue;
+      }
+      line.push_back({there[0], there[1]});
+      here = there;
+      time = next;
+      if (beyond > far) break;
+      if (moved < allowed / 2) step *= 1.5;
+      if (moved < rest && step * speed > 1e3) break;  // it nears an equilibrium
+    }
+    return line;
+  }
+
+  PlanarReduction forth_, back_, steps_forth_, steps_back_;
+  PlanarWindow window_;
+  Panel panel_;  ///< that clips
+};
+
+Vector2d middle_of(const PlanarReduction& plane) {
+  return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
+}
+
 PlanarWindow window_of(const PlanarReduction& plane, const PlanarPortraitRequest& request) {
   if (request.window) return *request.window;
   double half = 0;
+  const double room = plane.scaling() ? 1.2 : 2.5;
   const auto include = [&](const Vector2d& x) {
-    half = std::max(half, 1.2 * (x - plane.centre()).lpNorm<Eigen::Infinity>());
+    half = std::max(half, room * (x - middle_of(plane)).lpNorm<Eigen::Infinity>());
   };
   if (request.highlight) include(*request.highlight);
   std::ranges::for_each(request.through, include);
   const Vector2d sides = request.sides.value_or(Vector2d::Constant(half > 0 ? half : 1));
-  return {plane.centre() - sides, plane.centre() + sides};
+  return {middle_of(plane) - sides, middle_of(plane) + sides};
 }
 
 void require(const PlanarWindow& window, const PlanarPortraitRequest& request) {
@@ -400,16 +525,26 @@ void require(const PlanarWindow& window, const PlanarPortraitRequest& request) {
 PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PlanarPortraitRequest& request) {
   PlanarPortrait portrait{std::move(name), plane, window_of(plane, request), {}, {}, 0, {}, {}, request.through};
   require(portrait.window, request);
+  const auto trace = [&](const auto& tracer) {
+    portrait.orbits = filling(tracer, portrait.window, middle_of(plane), request.orbits);
+    if (request.highlight) {
+      plane.end(*request.highlight);  // is one with a value
+      portrait.highlight = tracer.orbit(*request.highlight, true);
+    }
+    for (const Vector2d& x : request.through) {
+      plane.end(x);
+      std::ranges::move(tracer.orbit(x), std::back_inserter(portrait.through));
+    }
+  };
+  if (plane.scaling() == nullptr) {
+    const MotionTracer tracer(plane, portrait.window);
+    trace(tracer);
+    portrait.equilibria = reduction::find_equilibria({plane.field()}, portrait.window.low, portrait.window.high);
+    portrait.separatrices = tracer.separatrices(portrait.equilibria);
+    return portrait;
+  }
   const PlanarTracer tracer(portrait.plane, portrait.window);
-  portrait.orbits = tracer.filling(request.orbits);
-  if (request.highlight) {
-    plane.end(*request.highlight);  // is one with a value
-    portrait.highlight = tracer.orbit(*request.highlight, true);
-  }
-  for (const Vector2d& x : request.through) {
-    plane.end(x);
-    std::ranges::move(tracer.orbit(x), std::back_inserter(portrait.through));
-  }
+  trace(tracer);
   const std::vector<double> times = tracer.times_at_border();
   if (!request.isochrone_times.empty()) {
     const auto [asked, step] = asked_times(request.isochrone_times, 1);

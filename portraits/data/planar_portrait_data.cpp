@@ -27,12 +27,23 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
     rays.push_back({{"angle", ray.q}, {"attracts", ray.attracts}, {"to_centre", ray.to_centre}});
   }
   const auto& [low, high] = portrait.window;
-  const Eigen::Vector2d& centre = portrait.plane.centre();
+  const reduction::PlanarReduction& plane = portrait.plane;
   Json json{{"system", portrait.name},
             {"kind", portrait.plane.kind().empty() ? Json() : Json(portrait.plane.kind())},
-            {"centre", {centre[0], centre[1]}},
+            {"centre", plane.scaling() ? Json{plane.centre()[0], plane.centre()[1]} : Json()},
             {"window", {{low[0], high[0]}, {low[1], high[1]}}},
             {"rays", rays}};
+  if (!plane.scaling()) {
+    json["form"] = plane.form().empty() ? Json() : Json(plane.form());
+    json["equilibria"] = Json::array();
+    for (const reduction::Equilibrium& each : portrait.equilibria) {
+      const auto [first, second] = each.eigenvalues();
+      json["equilibria"].push_back({{"u", each.x[0]},
+                                    {"v", each.x[1]},
+                                    {"kind", each.kind()},
+                                    {"eigenvalues", {{first.real(), first.imag()}, {second.real(), second.imag()}}}});
+    }
+  }
   if (!source.version.empty()) json["version"] = source.version;
   return json;
 }
@@ -49,6 +60,7 @@ std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source
   }
   if (!portrait.highlight.empty()) json["highlight"] = json_of(portrait.highlight);
   if (!portrait.through.empty()) json["through"] = json_of(portrait.through);
+  if (!portrait.separatrices.empty()) json["separatrices"] = json_of(portrait.separatrices);
   return json_document(json);
 }
 
@@ -66,6 +78,7 @@ std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source)
   orbits("orbit", portrait.orbits);
   orbits("highlight", portrait.highlight);
   orbits("through", portrait.through);
+  orbits("separatrix", portrait.separatrices);
   for (std::size_t i = 0; i < portrait.isochrones.size(); ++i) {
     const auto& [time, u, v] = portrait.isochrones[i];
     for (Eigen::Index j = 0; j < u.size(); ++j) row("isochrone", i, u[j], v[j], time);

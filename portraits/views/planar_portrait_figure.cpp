@@ -1,6 +1,8 @@
 // The plane of any system that has a scaling.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -96,7 +98,8 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     (style.colour_by_time && std::isfinite(orbit.tau_left[0]) ? timed : untimed).push_back(orbit);
   }
   PortraitCaption caption;
-  caption.time_symbol = portrait.plane.scaling()->time < 0 ? Text("to infinity") : math("t*");
+  const reduction::Generator* scaling = portrait.plane.scaling();
+  caption.time_symbol = scaling && scaling->time < 0 ? Text("to infinity") : math("t*");
   if (!untimed.empty()) {
     layers.add_plain(lines_of(untimed), {look.palette.orbit, 1.3}, timed.empty() ? "orbits" : "other orbits");
   }
@@ -128,7 +131,10 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     };
     layers.add_directions(drift, "direction of the motion");
   }
-  if (style.invariant) add_rays(layers, portrait, look.palette);
+  if (style.invariant && scaling) add_rays(layers, portrait, look.palette);
+  if (style.invariant && !portrait.separatrices.empty()) {
+    layers.add_plain(lines_of(portrait.separatrices), {look.palette.comparison, 2}, "separatrices of saddles");
+  }
   const auto add_asked = [&](const Orbits& orbits, bool of_start, const Text& legend) {
     if (!orbits.empty()) layers.add_plain(lines_of(orbits), asked_stroke(look.palette, of_start), legend);
   };
@@ -145,17 +151,36 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     layers.panel().marks.push_back(
         {{{first.u[0], first.v[0]}}, look.palette.highlight, 0.6, Marks::Shape::dot, start_legend});
   }
-  const Vector2d& centre = portrait.plane.centre();
-  layers.panel().marks.push_back(
-      {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "the centre of the symmetry"});
+  if (scaling) {
+    const Vector2d& centre = portrait.plane.centre();
+    layers.panel().marks.push_back(
+        {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "the centre of the symmetry"});
+  }
+  std::map<std::string_view, Marks> of_kind;
+  for (const reduction::Equilibrium& each : portrait.equilibria) {
+    const bool attracts = each.kind().starts_with("stable");
+    Marks& marks = of_kind
+                       .try_emplace(each.kind(), Marks{{},
+                                                       look.palette.invariant,
+                                                       1.2,
+                                                       attracts ? Marks::Shape::dot : Marks::Shape::circle,
+                                                       std::string(each.kind())})
+                       .first->second;
+    marks.points.push_back({each.x[0], each.x[1]});
+  }
+  for (auto& [kind, marks] : of_kind) layers.panel().marks.push_back(std::move(marks));
 
   Figure figure;
   figure.title = shortened(portrait.name);
   const std::string kind(portrait.plane.kind().empty() ? "kind not decided" : portrait.plane.kind());
-  figure.subtitle = portrait.plane.star()
-                        ? kind
-                        : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
-                                      portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
+  figure.subtitle =
+      !scaling ? (portrait.plane.form().empty()
+                      ? std::string("no reduction found: orbits by steps")
+                      : fmt::format("orbits by quadrature; inverse integrating factor: {}", portrait.plane.form()))
+      : portrait.plane.star()
+          ? kind
+          : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
+                        portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
   figure.size = size;
   figure.theme = look.palette.theme;
   figure.panels = {std::move(layers.panel())};

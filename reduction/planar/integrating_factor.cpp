@@ -111,11 +111,26 @@ struct FactorSolution final : PlanarReduction::Solution {
     return std::make_shared<const FactorMotion>(reduction.orbit(start));
   }
   std::optional<double> first_integral(const Vector2d& x) const override { return reduction.first_integral(x); }
+  std::shared_ptr<const Solution> reversed() const override {
+    return std::make_shared<const FactorSolution>(reversed_field(), reduction.reversed());
+  }
 
   FactorReduction reduction;
 };
 
 }  // namespace
+
+FactorReduction FactorReduction::reversed() const {
+  SmoothField back{[f = solved_->field.value](const Vector2d& x) -> Vector2d { return -f(x); }};
+  if (solved_->field.jacobian) {
+    back.jacobian = [slopes = solved_->field.jacobian](const Vector2d& x) -> Eigen::Matrix2d { return -slopes(x); };
+  }
+  FactorReduction other = *this;
+  auto solved = std::make_shared<Solved>(*solved_);
+  solved->field = std::move(back);  // V is the same
+  other.solved_ = std::move(solved);
+  return other;
+}
 
 PlanarReduction FactorReduction::reduction() const {
   solved_->found();

@@ -54,6 +54,9 @@ struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_fro
   double end_time_error(const Vector2d& x) const override;
   double factor(const Vector2d& x) const override { return cross(field(x), scaling->matrix * (x - centre)); }
   std::optional<double> first_integral(const Vector2d& x) const override;
+  std::shared_ptr<const Solution> reversed() const override {
+    return std::make_shared<const ScalingSolution>(reversed_field(), *scaling, point(0, 0), noise);
+  }
 
   void leave_branching_open();
   void make_strips();
@@ -475,6 +478,8 @@ PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {
   if (start == centre()) return PlanarOrbit(std::make_shared<const Rest>(start));
   return PlanarOrbit(solution_->orbit(start));
 }
+
+PlanarReduction PlanarReduction::reversed() const { return PlanarReduction(solution_->reversed()); }
 
 PlanarOrbit::PlanarOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
 PlanarEnd PlanarOrbit::end() const { return motion_->end; }

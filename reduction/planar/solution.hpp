@@ -25,11 +25,16 @@ struct PlanarReduction::Solution {
   virtual std::shared_ptr<const PlanarOrbit::Motion> orbit(const Eigen::Vector2d& start) const = 0;
   virtual double end_time_error(const Eigen::Vector2d& x) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
+  virtual std::shared_ptr<const Solution> reversed() const = 0;
 
   // By a scaling:
   /// @param x  finite, not the centre
   virtual PlanarCanonical canonical(const Eigen::Vector2d&) const { throw without_scaling(); }
   virtual Eigen::Vector2d point(double, double) const { throw without_scaling(); }
+
+  PlanarField reversed_field() const {
+    return [forward = field](const Eigen::Vector2d& x) -> Eigen::Vector2d { return -forward(x); };
+  }
 
   static std::domain_error without_scaling() {
     return std::domain_error("the system has no scaling, and no canonical coordinates of one");

@@ -1,10 +1,9 @@
 #include "options/system_option.hpp"
 
-#include <cstdio>
-
 #include <fmt/format.h>
 
 #include "answers/asked/planar_system.hpp"
+#include "contensou/reduction/planar_steps.hpp"
 
 namespace contensou::program {
 
@@ -23,17 +22,10 @@ reduction::SmoothField SystemOption::read(const ParameterOptions& parameters) co
   }
 }
 
-std::optional<reduction::PlanarReduction> SystemOption::solve(const reduction::SmoothField& field,
-                                                              const Eigen::Vector2d& around) const {
-  const reduction::PlanarSymmetries found = reduction::find_symmetries(field.value, around);
-  SolvedPlane solved = solve_planar(field, found, around);
-  if (solved.plane) return std::move(solved.plane);
-  fmt::print(
-      stderr,
-      "contensou: --system: {}: nothing to draw orbits by. The least singular value of the determining equations is "
-      "{:.1e} of the largest, and below {:.1e} it counts as 0. Without a picture, 'contensou reduce' tells more\n",
-      solved.why_not, found.singular_values[0], found.level);
-  return std::nullopt;
+reduction::PlanarReduction SystemOption::solve(const reduction::SmoothField& field,
+                                               const Eigen::Vector2d& around) const {
+  SolvedPlane solved = solve_planar(field, reduction::find_symmetries(field.value, around), around);
+  return solved.plane ? *std::move(solved.plane) : reduction::by_steps(field.value);
 }
 
 }  // namespace contensou::program

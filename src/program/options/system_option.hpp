@@ -22,9 +22,8 @@ class SystemOption {
   /// @throws BadInput  as parse_planar_system
   reduction::SmoothField read(const ParameterOptions& parameters) const;
 
-  /// The system solved, for a picture; none, and on standard error why, where none was found.
-  std::optional<reduction::PlanarReduction> solve(const reduction::SmoothField& field,
-                                                  const Eigen::Vector2d& around) const;
+  /// Returns the system for a portrait: solved, or by steps.
+  reduction::PlanarReduction solve(const reduction::SmoothField& field, const Eigen::Vector2d& around) const;
 
  private:
   Argument system_;

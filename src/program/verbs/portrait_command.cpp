@@ -211,9 +211,8 @@ class PortraitCommand final : public Verb {
     Vector2d around(1, 1);
     if (window_) around = window_->low.cwiseAbs().cwiseMax(window_->high.cwiseAbs());
     if (request.highlight && !request.highlight->isZero(0)) around = *request.highlight;
-    const auto plane = system_.solve(field, around);
-    if (!plane) return ExitStatus::check_failed;
-    const portraits::PlanarPortrait portrait = portraits::planar_portrait(*plane, system_.text(), request);
+    const portraits::PlanarPortrait portrait =
+        portraits::planar_portrait(system_.solve(field, around), system_.text(), request);
     if (output.picture()) {
       style_.size = figure_.size();
       output.write({figure_.apply(portraits::draw(portrait, style_), output.format)});

@@ -37,9 +37,13 @@ class ReduceCommand final : public Verb {
     const reduction::SmoothField field = system_.read(law_.parameters());
     const Eigen::Vector2d start = start_.read_point();
     if (!output.picture()) return write(reduce_answer(field, system_.text(), start), output);
-    const auto plane = system_.solve(field, start);
-    if (!plane) return ExitStatus::check_failed;
-    return draw(portraits::reduction_figure(*plane, start, system_.text(), figure_.size()), output);
+    const reduction::PlanarReduction plane = system_.solve(field, start);
+    if (!plane.scaling()) {
+      throw BadInput(
+          "the picture of reduce shows how a scaling moves orbits, and this system has none: 'contensou portrait "
+          "--system' draws its plane");
+    }
+    return draw(portraits::reduction_figure(plane, start, system_.text(), figure_.size()), output);
   }
 
   static ExitStatus write(const ReduceAnswer& reduced, const Output& output) {

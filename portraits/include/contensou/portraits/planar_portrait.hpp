@@ -9,6 +9,7 @@
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::portraits {
@@ -24,7 +25,7 @@ struct PlanarPortraitOrbit {
   Eigen::ArrayXd tau_left;  ///< until it is at the centre, or at infinity; infinite if it takes for ever
 };
 
-/// The plane of any system solved by its scaling, as data; nothing here is drawn.
+/// The plane of any system, as data; nothing here is drawn.
 struct PlanarPortrait {
   std::string name;  ///< of the system
   reduction::PlanarReduction plane;
@@ -35,6 +36,9 @@ struct PlanarPortrait {
   std::vector<PlanarPortraitOrbit> highlight;  ///< the orbit of one start, from there on; none, or its pieces
   std::vector<PlanarPortraitOrbit> through;    ///< the orbits through the points asked for
   std::vector<Eigen::Vector2d> points;         ///< those points
+  // Without a scaling:
+  std::vector<reduction::Equilibrium> equilibria = {};  ///< in the window
+  std::vector<PlanarPortraitOrbit> separatrices = {};   ///< of its saddles
 };
 
 /// What to show.
@@ -49,8 +53,9 @@ struct PlanarPortraitRequest {
   std::vector<double> isochrone_times = {};  ///< of exactly these times, each > 0, whatever the count
 };
 
-/// Computes the portrait: each orbit is one curve of its sector, moved by the scaling, and goes through the middle of the
-/// widest gap that is left; so is each isochrone. No steps in time.
+/// Computes the portrait: each orbit goes through the middle of the widest gap that is left. By a scaling each is one
+/// curve of its sector, moved, and so is each isochrone; by V alone each is a quadrature of its own, and there are no
+/// isochrones. Without a reduction (reduction::by_steps) orbits are steps in time.
 ///
 /// @param name  of the system, for titles
 /// @throws std::domain_error  if the window is empty or not finite, for a point out of it or without a value of the
@@ -59,10 +64,13 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
                                const PlanarPortraitRequest& request = {});
 
 /// The portrait as JSON: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}],
-/// orbits [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and where asked for highlight and through (orbits).
+/// orbits [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and where asked for highlight and through (orbits). Without
+/// a scaling centre is null, and form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}] and separatrices
+/// (orbits) are there.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
-/// As CSV with the columns kind,index,u,v,tau; kind is orbit, highlight, through or isochrone, tau the time left.
+/// As CSV with the columns kind,index,u,v,tau; kind is orbit, highlight, through, separatrix
+/// or isochrone, tau the time left.
 std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
 /// As a drawing. Of the style counts all but `asked`; both kinds of directions are those of the field.

@@ -63,6 +63,9 @@ class FactorReduction {
   /// @throws std::domain_error  as factor; and if V vanishes between the start and x
   double first_integral(const Eigen::Vector2d& x) const;
 
+  /// Returns the system whose motions go the other way, with the same V.
+  FactorReduction reversed() const;
+
   /// Returns the system as one that is solved.
   /// @throws std::domain_error  if no factor was found
   PlanarReduction reduction() const;

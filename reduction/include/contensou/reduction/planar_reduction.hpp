@@ -149,6 +149,9 @@ class PlanarReduction {
 
   PlanarOrbit orbit(const Eigen::Vector2d& start) const;
 
+  /// Returns the system whose motions go the other way: x' = -f(x).
+  PlanarReduction reversed() const;
+
  private:
   std::shared_ptr<const Solution> solution_;
 };
