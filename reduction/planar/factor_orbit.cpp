@@ -93,21 +93,16 @@ class Follower {
       }
       noise_ = eps * here->slopes.cwiseAbs() * x_.cwiseAbs();
       if (rests(*here) || escapes(*here)) return;
-      constexpr double edge = 0.7, longer = 0.01;
+      constexpr double edge = 0.7;
       const bool enters =
           i == 0 ? !factor_ || form_ == FactorForm::affine : box_.inside(x_).cwiseAbs().maxCoeff() > edge;
       if (enters && !enter(*here)) return stop("the form of V does not hold");
-      if (form_ == FactorForm::affine && factor_->residual(x_, *here) > accurate_) {
-        return stop("the form of V does not hold");
-      }
+      const bool holds = form_ != FactorForm::affine || factor_->residual(x_, *here) <= accurate_;
       if (!step(*here)) {
-        const double last = motion_.panels.empty() ? 0 : motion_.panels.back().time.at_end();
         if (at_border(*here)) return end(PlanarEnd::border, motion_.followed);
-        // The distance falls to the smallest numbers, and every part of the way takes longer.
-        if (x_.norm() <= tiny_ * size_ && last > longer * motion_.followed)
-          return end(PlanarEnd::equilibrium, infinity);
         return stop("the field is not smooth");
       }
+      if (!holds) return stop("the form of V does not hold");
       if (on_curve_ && factor_) return_to_curve();
       if (returns()) return;
     }
@@ -132,9 +127,17 @@ class Follower {
       end(PlanarEnd::equilibrium, motion_.followed);
       return true;
     }
+    // The distance falls to the smallest numbers, and every part of the way takes longer.
+    constexpr double tiny = 1e-30, longer = 0.01;
+    if (x_.norm() <= tiny * size_ && motion_.panels.back().time.at_end() > longer * motion_.followed) {
+      motion_.rest.setZero();
+      end(PlanarEnd::equilibrium, infinity);
+      return true;
+    }
     constexpr double close = 0.1;
     Vector2d rest = x_;
     Matrix2d slopes = here.slopes;
+    double left = infinity;
     constexpr double clear = 1e-10;
     const auto step_to_rest = [](const Jet& at) {
       const double norm = at.slopes.norm();
@@ -149,12 +152,13 @@ class Follower {
       const auto there = jet_of(field_, rest);
       if (!there) return false;
       slopes = there->slopes;
+      left = there->f.norm();
       way = step_to_rest(*there);
       if (!(way.norm() <= (x_ - rest).norm())) return false;
     }
     const Vector2d offset = x_ - rest;
-    constexpr double found = 1e-10;
-    if (!(way.norm() <= found * offset.norm() + 8 * eps * rest.norm())) return false;
+    constexpr double found = 1e-6;
+    if (!(left <= found * here.f.norm())) return false;
     const double change = (here.slopes - slopes).norm() / slopes.norm();
     constexpr double exact = 1e-14;
     if (!(change * offset.norm() <= exact * std::max(rest.norm(), offset.norm()))) return false;
@@ -199,7 +203,7 @@ class Follower {
 
   /// True if a step that fails here does so for want of values, or beside a pole; time has converged.
   bool at_border(const Jet& here) const {
-    if (motion_.panels.empty() || motion_.panels.back().time.at_end() > 8 * eps * motion_.followed) return false;
+    if (motion_.panels.empty() || motion_.panels.back().time.at_end() > 64 * eps * motion_.followed) return false;
     const int along = motion_.panels.back().along;
     const double way = 16 * eps * std::abs(x_[along]) + 4 * least_length_ * size_;
     const bool value = value_of(field_, x_ + std::copysign(way, here.f[along]) * Vector2d::Unit(along)).has_value();
@@ -270,7 +274,7 @@ class Follower {
   /// H changes by the integral of (q - G/F) F/V, and dH/dw = F/V: Newton's method, README (R67).
   Failure solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
-    const double half = length / 2, size = std::abs(x_[across]);
+    const double half = length / 2, size = std::abs(x_[across]) + small_ * x_.norm();
     const double noise = noise_[along] / std::abs(start.f[along]);
     const double noise_across = noise_[across] * std::abs(half / start.f[along]);  // of w
     const Samples s = x_[along] + half * (1 + LegendreSeries::points()), one = Samples::Ones();
@@ -305,13 +309,17 @@ class Follower {
       missed = std::abs(half) * LegendreSeries::through(defect).antiderivative().samples().abs().maxCoeff();
       const double largest = std::abs(half) * slopes.abs().maxCoeff();
       q = slopes + growth * solve_linear_ode(one, -half * growth, half * defect, 0).samples();
-      if (missed <= 4 * eps * (size + largest) + noise_across + noise * largest) break;
+      if (missed <= 4 * (eps * (size + largest) + noise_across + noise * largest)) break;
       if (iteration == most || (iteration > first && !(missed < before / 2))) return Failure::rough;
     }
-    constexpr double accurate = 1e-14, timed = 1e-13;
+    constexpr double accurate = 1e-14, timed = 1e-13, smooth = 1e-3, little = 1e-6;
     const double largest = std::abs(half) * q.abs().maxCoeff();
-    if (LegendreSeries::tail(q) * std::abs(half) > accurate * (size + largest) + 8 * (noise_across + noise * largest) ||
-        LegendreSeries::tail(rate) > std::max(timed, 8 * noise) * rate.abs().maxCoeff()) {
+    // A pole that the orbit itself would pass shows in ln V.
+    const bool resolved = LegendreSeries::tail(q) * std::abs(half) <=
+                              accurate * (size + largest) + 8 * (noise_across + noise * largest) &&
+                          LegendreSeries::tail(rate) <= std::max(timed, 8 * noise) * rate.abs().maxCoeff() &&
+                          LegendreSeries::tail(growth) <= smooth * growth.abs().maxCoeff() + little / std::abs(half);
+    if (!resolved) {
       return Failure::rough;
     }
     Panel panel{along,
@@ -321,8 +329,7 @@ class Follower {
                 LegendreSeries::through(half * q).antiderivative(),
                 LegendreSeries::through(half * rate).antiderivative()};
     panel.other += x_[across];
-    x_[along] += length;
-    x_[across] = panel.other.at_end();
+    x_ = panel.at(1);
     motion_.followed += panel.time.at_end();
     motion_.panels.push_back(panel);
     return Failure::none;
@@ -364,7 +371,7 @@ class Follower {
     return true;
   }
 
-  static constexpr double near_ = 1e-11, accurate_ = 1e-8, singular_ = 1e4, least_length_ = 1e-40, tiny_ = 1e-30;
+  static constexpr double near_ = 1e-11, accurate_ = 1e-8, singular_ = 1e4, least_length_ = 1e-150, small_ = 1e-4;
 
   const SmoothField& field_;
   FactorOrbit::Motion& motion_;

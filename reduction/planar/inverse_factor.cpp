@@ -138,11 +138,16 @@ InverseFactor::Value InverseFactor::operator()(const Vector2d& x, const Jet& jet
   return value;
 }
 
+double InverseFactor::size(const Vector2d& x, const Jet& jet) const {
+  if (form_ == FactorForm::product) return (*this)(x, jet)[0];
+  const double largest = coefficients_.lpNorm<1>();
+  return form_ == FactorForm::affine ? largest * jet.f.norm() * (1 + box_.inside(x).norm()) : largest;
+}
+
 double InverseFactor::residual(const Vector2d& x, const Jet& jet) const {
   const Value value = (*this)(x, jet);
   const double change = value.tail<2>() * jet.f - value[0] * jet.slopes.trace();
-  const double size = form_ == FactorForm::affine ? jet.f.norm() * coefficients_.lpNorm<1>() : std::abs(value[0]);
-  return weight(box_, jet) * std::abs(change) / size / (1 + box_.inside(x).norm());
+  return weight(box_, jet) * std::abs(change) / size(x, jet);
 }
 
 std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {

@@ -57,8 +57,11 @@ class InverseFactor {
   /// @param jet  its slopes count only for the derivatives of an affine form
   Value operator()(const Eigen::Vector2d& x, const Jet& jet) const;
 
-  /// Returns (R66): f . grad V - V div f divided by |V| (|F|/radius + |G|/radius + |div f|).
+  /// Returns (R66), with the size of V in place of its mean square over the box.
   double residual(const Eigen::Vector2d& x, const Jet& jet) const;
+
+  /// Returns how large V is without the cancellation of its terms; the digits below are lost.
+  double size(const Eigen::Vector2d& x, const Jet& jet) const;
 
   FactorForm form() const { return form_; }
   const Box& box() const { return box_; }
