@@ -203,9 +203,9 @@ class Follower {
 
   /// True if a step that fails here does so for want of values, or beside a pole; time has converged.
   bool at_border(const Jet& here) const {
-    if (motion_.panels.empty() || motion_.panels.back().time.at_end() > 64 * eps * motion_.followed) return false;
+    if (motion_.panels.empty() || motion_.panels.back().time.at_end() > 256 * eps * motion_.followed) return false;
     const int along = motion_.panels.back().along;
-    const double way = 16 * eps * std::abs(x_[along]) + 4 * least_length_ * size_;
+    const double way = 256 * eps * std::abs(x_[along]) + 4 * least_length_ * size_;
     const bool value = value_of(field_, x_ + std::copysign(way, here.f[along]) * Vector2d::Unit(along)).has_value();
     return failure_ == Failure::no_value || !value ||
            (failure_ == Failure::turned && here.f.norm() > singular_ * first_->f.norm());
@@ -260,7 +260,7 @@ class Follower {
     const double sense = here.f[along] > 0 ? 1 : -1;
     const double room = 1 - sense * box_.inside(x_)[along];
     double length = std::min(2 * stretch_, room) * box_.radii[along];
-    for (; length > 4 * eps * std::abs(x_[along]) && length > least_length_ * size_; length /= 2) {
+    for (; length > 64 * eps * std::abs(x_[along]) && length > least_length_ * size_; length /= 2) {
       failure_ = solve(along, sense * length, here);
       if (failure_ == Failure::none) {
         stretch_ = length / box_.radii[along];

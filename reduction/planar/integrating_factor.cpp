@@ -1,6 +1,8 @@
 #include "contensou/reduction/integrating_factor.hpp"
 
+#include <algorithm>
 #include <array>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -58,6 +60,20 @@ struct FactorReduction::Solved {
   }
 };
 
+namespace {
+
+/// True unless V fails in wider boxes: in any box that is small a smooth V is near to a polynomial.
+bool holds_widely(const SmoothField& field, const FactorFit& fit) {
+  return std::ranges::all_of(std::array{4., 64.}, [&](double factor) {
+    const auto samples = sample(field, widened(fit.factor.form(), fit.factor.box(), factor));
+    if (!samples) return true;  // the field has no values there
+    const auto again = fit_factor(fit.factor.form(), *samples);
+    return again && again->small;
+  });
+}
+
+}  // namespace
+
 FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
   if (!start.allFinite() || !value_of(field, start)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
@@ -73,7 +89,7 @@ FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
     const auto fit = fit_factor(static_cast<FactorForm>(i), *samples);
     if (!fit) continue;
     solved->tried.push_back(fit->tried);
-    if (fit->small && fit->tried.gap >= large) solved->factor = fit->factor;
+    if (fit->small && fit->tried.gap >= large && holds_widely(solved->field, *fit)) solved->factor = fit->factor;
   }
   solved_ = std::move(solved);
 }

@@ -94,6 +94,15 @@ std::optional<Jet> jet_of(const SmoothField& field, const Vector2d& x) {
   return jet;
 }
 
+Box widened(FactorForm form, Box box, double factor) {
+  for (int i = 0; i < 2; ++i) {
+    if (form != FactorForm::product && !has_term(form, i == 0 ? series_terms - 1 : 0, i == 1 ? series_terms - 1 : 0)) {
+      box.radii[i] *= factor;
+    }
+  }
+  return box;
+}
+
 Box box_about(const Vector2d& x) {
   constexpr double part = 0.3, least = 0.3;
   return {x, part * x.cwiseAbs().cwiseMax(least)};
@@ -186,7 +195,8 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
   for (Index i = 0; i < all; ++i) {
     const Jet& jet = samples.jets[static_cast<std::size_t>(i)];
     const double scale = weight(samples.box, jet);
-    const InverseFactor::Terms<3> terms = terms_at(static_cast<std::size_t>(i));
+    InverseFactor::Terms<3> terms = terms_at(static_cast<std::size_t>(i));
+    if (form == FactorForm::affine) terms /= jet.f.norm();  // X across the orbit: no point counts more than others
     divergence[i] = scale * jet.slopes.trace();
     values.row(i) = terms.col(0).transpose();
     changes.row(i) = scale * (terms.rightCols<2>() * jet.f).transpose();

@@ -38,6 +38,9 @@ inline constexpr int factor_forms = 7;
 
 std::string_view name(FactorForm form);
 
+/// Returns the box wider in the directions in which V is a polynomial of this form: it is one there, too.
+Box widened(FactorForm form, Box box, double factor);
+
 /// V in a box.
 class InverseFactor {
  public:
