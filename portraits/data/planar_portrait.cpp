@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -451,6 +452,9 @@ class MotionTracer {
     Vector2d here = x;
     double time = 0, step = near / speed;
     const double last = motion.period().value_or(infinity);
+    // An orbit that nears a closed one comes to cells of the picture again and again.
+    constexpr int cells = 300, turns = 3;
+    std::map<std::pair<int, int>, std::pair<int, int>> visits;  // the last point in a cell, and how often it came there
     for (int i = 0; i < most && time < last; ++i) {
       const double next = std::min(time + step, last);
       Vector2d there;
@@ -467,6 +471,14 @@ class MotionTracer {
         step /= 2;
         if (!(time + step > time)) break;
         continue;
+      }
+      const Vector2d part = (there - window_.low).cwiseQuotient(sides) * cells;
+      if (beyond == 0) {
+        auto& [when, count] = visits[{static_cast<int>(part[0]), static_cast<int>(part[1])}];
+        const bool again = count > 0 && static_cast<int>(line.size()) - when > cells / 10;
+        when = static_cast<int>(line.size());
+        count += count == 0 || again ? 1 : 0;
+        if (count > turns) break;
       }
       line.push_back({there[0], there[1]});
       here = there;

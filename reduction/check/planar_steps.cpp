@@ -13,8 +13,8 @@
 
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 
 #include <fmt/format.h>
 
@@ -58,7 +58,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     const auto after = std::ranges::upper_bound(states_, time, {}, &State::t);
     State state = *std::prev(after);
     // Shorter than a step whose error was accepted.
-    auto stepper = odeint::runge_kutta_fehlberg78<Pair>();
+    auto stepper = odeint::runge_kutta_dopri5<Pair>();
     if (time > state.t) stepper.do_step(Equations{field_}, state.x, state.t, time - state.t);
     return {state.x[0], state.x[1]};
   }
@@ -79,7 +79,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
                                           next.x[0], next.x[1], reason));
     };
     if (states_.size() > most) stop("10000 steps are made");
-    auto stepper = odeint::make_controlled(tolerance * 1e-3, tolerance, odeint::runge_kutta_fehlberg78<Pair>());
+    auto stepper = odeint::make_controlled(tolerance * 1e-3, tolerance, odeint::runge_kutta_dopri5<Pair>());
     while (stepper.try_step(Equations{field_}, next.x, next.t, step_) == odeint::fail) {
       if (!(step_ > 1e-300) || next.t + step_ == next.t) stop("the field has no value, or changes too fast");
     }

@@ -97,6 +97,24 @@ void bind_planar(py::module_& module) {
       .def_property_readonly("singular_values", [](const Planar& planar) { return planar.symmetries.singular_values; })
       .def_property_readonly("level", [](const Planar& planar) { return planar.symmetries.level; })
       .def_property_readonly("gap", [](const Planar& planar) { return planar.symmetries.gap; })
+      .def_property_readonly("form",
+                             [](const Planar& planar) -> std::optional<std::string> {
+                               if (!planar.solved_plane.plane) return std::nullopt;
+                               return std::string(planar.solved().form());
+                             })
+      .def_property_readonly("tried",
+                             [](const Planar& planar) {
+                               py::list list;
+                               for (const auto& [form, value, gap, residual] : planar.solved_plane.tried) {
+                                 list.append(py::make_tuple(form, value, gap, residual));
+                               }
+                               return list;
+                             })
+      .def("factor",
+           [](const Planar& planar, const Numbers& u, const Numbers& v) {
+             const PlanarReduction& plane = planar.solved();
+             return at_points(u, v, [&](const Vector2d& x) { return plane.factor(x); });
+           })
       .def_property_readonly("solved", [](const Planar& planar) { return planar.solved_plane.plane.has_value(); })
       .def_property_readonly("kind",
                              [](const Planar& planar) -> std::optional<std::string> {
@@ -147,6 +165,7 @@ void bind_planar(py::module_& module) {
                              })
       .def_property_readonly("end_time", &PlanarOrbit::end_time)
       .def_property_readonly("stop_time", &stop_time_of)
+      .def_property_readonly("period", &PlanarOrbit::period)
       .def("at", [](const PlanarOrbit& orbit, const Numbers& times) {
         py::array_t<double> us = like(times), vs = like(times);
         for (py::ssize_t i = 0; i < times.size(); ++i) {

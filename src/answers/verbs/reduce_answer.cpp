@@ -15,6 +15,7 @@
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
+#include "contensou/reduction/planar_steps.hpp"
 #include "contensou/reduction/stop_time.hpp"
 
 namespace contensou::answers {
@@ -241,6 +242,23 @@ std::function<std::string(const Digits&)> solved_by_factor(Json& members, const 
   };
 }
 
+/// How far the state that the solution gives is from that of steps, relative to the way between, and when: at 95 % of a
+/// finite end time, else at 5; none where one of them gives no state.
+struct BySteps {
+  double time, difference;
+};
+std::optional<BySteps> by_steps(const PlanarReduction& plane, const PlanarOrbit& orbit, const Vector2d& start) {
+  constexpr double share = 0.95, usual = 5;
+  const double time = std::isfinite(orbit.end_time()) ? share * orbit.end_time() : usual;
+  if (time == 0) return std::nullopt;
+  try {
+    const Vector2d here = orbit.at(time), there = reduction::by_steps(plane.field()).orbit(start).at(time);
+    return BySteps{time, (here - there).norm() / std::max(start.norm(), there.norm())};
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+}
+
 /// Adds the members of the end of the orbit.
 /// @return their text
 std::function<std::string(const Digits&)> end_of(Json& members, const PlanarReduction& plane, const PlanarOrbit& orbit,
@@ -248,13 +266,16 @@ std::function<std::string(const Digits&)> end_of(Json& members, const PlanarRedu
   const PlanarEnd end = orbit.end();
   const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided;
   const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
-  members.update({{"end", end == PlanarEnd::undecided ? Json() : Json(name(end))},
-                  {"tau_stop", unknown ? Json() : Json(tau_stop)}});
+  // A limit cycle is no end that scripts know.
+  const bool named = end != PlanarEnd::undecided && end != PlanarEnd::cycle;
+  members.update({{"end", named ? Json(name(end)) : Json()}, {"tau_stop", unknown ? Json() : Json(tau_stop)}});
   const double error = std::isfinite(tau_stop) ? plane.end_time_error(start) : 0;
   if (error > 0) members["accuracy"] = error;
   if (orbit.period()) members["period"] = *orbit.period();
   if (!orbit.undecided().empty()) members["undecided"] = orbit.undecided();
-  return [=](const Digits& digits) -> std::string {
+  const auto stepped = by_steps(plane, orbit, start);
+  members["by_steps"] = stepped ? Json{{"difference", stepped->difference}, {"time", stepped->time}} : Json();
+  const auto end_text = [=](const Digits& digits) -> std::string {
     if (end == PlanarEnd::border) {
       return "tau_stop    not known: the orbit comes to a border of the field, a pole or a jump\n";
     }
@@ -271,12 +292,19 @@ std::function<std::string(const Digits&)> end_of(Json& members, const PlanarRedu
           return ": it comes to rest elsewhere";
         case PlanarEnd::equilibrium:
           return ": it nears an equilibrium for ever";
+        case PlanarEnd::cycle:
+          return ": it nears a closed orbit for ever";
         default:
           return std::isfinite(time) ? fmt::format(": it is at infinity after {}", digits(time))
                                      : ": it goes to infinity, for ever";
       }
     };
     return fmt::format("tau_stop    {}{}\n", digits(tau_stop), words());
+  };
+  return [=](const Digits& digits) {
+    return end_text(digits) + (stepped ? fmt::format("by steps    at t = {} the state differs by {:.0e}\n",
+                                                     digits(stepped->time), stepped->difference)
+                                       : std::string("by steps    not compared: one of the two gives no state\n"));
   };
 }
 

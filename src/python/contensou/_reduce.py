@@ -39,7 +39,10 @@ class Reduction:
     singular_values:  of the determining equations, ascending, relative to the largest; below level they count as 0
     gap:              how far those that count as 0 are from the others
     verdict:          found, none, or undecided: the field's noise hides what a generator would leave
-    solved:           whether a generator is a scaling that holds everywhere; else what follows raises ValueError
+    solved:           True if a scaling, or an inverse integrating factor alone, solves it; else what follows raises
+                      ValueError
+    form:             how it is solved: "scaling", or the form of the factor, such as "polynomial"; else None
+    tried:            forms of the factor that were tried: (form, least singular value, gap, residual)
 
     It keeps the system: orbit and portrait are its motions.
     Points are numbers, or arrays of shapes that broadcast; NaN where there is no answer.
@@ -53,12 +56,16 @@ class Reduction:
         self.gap = core.gap
         self.verdict = core.verdict
         self.solved = core.solved
+        self.form: Optional[str] = core.form
+        self.tried: tuple[tuple[str, float, float, float], ...] = tuple(core.tried)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return self._again
 
     def __repr__(self) -> str:
-        return f"<reduction: {self.kind}>" if self.solved else f"<reduction: {len(self.generators)} generators, no scaling>"
+        if self.solved:
+            return f"<reduction: {self.kind if self.form == 'scaling' else self.form}>"
+        return f"<reduction: {len(self.generators)} generators, no factor>"
 
     @property
     def generator(self) -> Generator:
@@ -71,6 +78,10 @@ class Reduction:
     def kind(self) -> str:
         """Of the blown-up centre: stable node, saddle, stable focus, ..."""
         return self._core.kind
+
+    def factor(self, u: ArrayLike, v: ArrayLike) -> Any:
+        """An inverse integrating factor V, for which f . grad V = V div f; NaN where it is not known."""
+        return self._core.factor(*together(u=u, v=v))[()]
 
     @property
     def rays(self) -> tuple[PlanarRay, ...]:
@@ -145,15 +156,18 @@ def _of_plane(asked: dict[str, Any]) -> _core.Portrait:
 class PlanarOrbit:
     """One motion: Reduction.orbit makes it.
 
-    end:        centre, infinity, rest (a point that is none of both), border (of the field, or a jump), or periodic
+    end:        centre, infinity, rest (a point that is none of both), border (of the field, or a jump), periodic,
+                equilibrium or cycle (which it nears for ever); None if it is not decided
     end_time:   when it is there, by quadrature, relative 1e-12; inf if that takes for ever, or is not known
     stop_time:  when it is at the centre; inf if it never is; NaN if it comes to a border
+    period:     of a motion that returns; else None
     """
 
     def __init__(self, reduction: Reduction, u: float, v: float) -> None:
         self.reduction, self.u, self.v = reduction, u, v
         self._core = reduction._core.orbit(u, v)
         self.end, self.end_time, self.stop_time = self._core.end, self._core.end_time, self._core.stop_time
+        self.period: Optional[float] = self._core.period
 
     def __reduce__(self) -> tuple[Any, ...]:
         return PlanarOrbit, (self.reduction, self.u, self.v)
@@ -168,16 +182,20 @@ class PlanarOrbit:
         states = np.empty(times.shape, [(name, float) for name in ("t", "u", "v", "q", "p")])
         states["t"] = times
         states["u"], states["v"] = self._core.at(times)
-        states["q"], states["p"] = self.reduction.canonical(states["u"], states["v"])
+        if self.reduction.form == "scaling":
+            states["q"], states["p"] = self.reduction.canonical(states["u"], states["v"])
+        else:
+            states["q"] = states["p"] = np.nan
         return states[()]
 
 
 def reduce(
     system: Union[str, Callable[[float, float], tuple[float, float]]], *, u: float, v: float, **parameters: float
 ) -> Reduction:
-    """The scaling symmetries of u' = F(u, v), v' = G(u, v), and the system solved by them, without steps in time.
+    """The symmetries of u' = F(u, v), v' = G(u, v), and the system solved by quadrature, without steps in time.
 
-    system:      a function (u, v) -> (u', v'), or its formulas "u' = F; v' = G"; an exception, NaN and inf stand for
+    system:      a function (u, v) -> (u', v'), or its formulas "u' = F; v' = G", "y' = F(x, y)" or "x'' = F(x, x')", where
+                 u, v are x, y and x, x'; an exception, NaN and inf stand for
                  points without a value
     u, v:        a start, not 0: its size is the scale at which the field is sampled
     parameters:  of the formulas
