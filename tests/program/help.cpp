@@ -16,7 +16,6 @@
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
 
 namespace {
 

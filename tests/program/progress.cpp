@@ -1,6 +1,5 @@
 #include "output/progress.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <string>
 

@@ -84,20 +84,6 @@ TEST_CASE("a start by velocities, from a run file and from options", "[invariant
   CHECK(run_program("check --ball " + file).status == 0);
 }
 
-TEST_CASE("roll as JSON, asked for or by the file's ending", "[cli]") {
-  const auto roll = json_of(masse + " --samples 3 --law exact --format json");
-  CHECK(roll.at("schema") == 1);
-  CHECK(roll.at("law") == "exact");
-  CHECK(roll.at("route") == "reduced");
-  CHECK(roll.at("angular_velocity").at(2) == -50);
-  for (const char* name : {"t", "x", "y", "vx", "vy", "wx", "wy", "wz", "slip", "energy"}) {
-    CHECK(roll.at(name).size() == 3);
-  }
-  const TemporaryDirectory scratch;
-  CHECK(run_program(masse + " --samples 3 --law exact -o " + scratch.file("roll.json")).status == 0);
-  CHECK(nlohmann::json::parse(read_file(scratch.file("roll.json"))) == roll);
-}
-
 TEST_CASE("roll has its events in JSON and as comments of CSV", "[cli]") {
   const auto roll = json_of(masse + " --samples 2 --format json");
   const auto& rolls = roll.at("rolls_after");
@@ -201,23 +187,6 @@ TEST_CASE("a spinning ball never rolls before the textbook's, whatever counts as
   CHECK(all.at("rolls_after").at("t") == all.at("t_stop"));
 }
 
-TEST_CASE("the summary has both models and the energy", "[cli]") {
-  const Run run = run_program(masse + " --format text");
-  CHECK(run.status == 0);
-  for (const char* words : {"rolls after", "spins no more after", "textbook (uncoupled)", "length of slip",
-                            "turned about vertical", "lost by sliding", "rolls straight on"}) {
-    CHECK_THAT(run.out, Contains(words));
-  }
-  CHECK_THAT(run_program(masse + " --format text --route integrated").out, Contains("route integrated"));
-  for (const std::string start :
-       {"--velocity 0,0 --angular-velocity 0,0,0", "--velocity 0,0 --angular-velocity 0,0,9"}) {
-    const Run still = run_program("roll --ball pool --format text " + start);
-    INFO(start << still.err);
-    CHECK(still.status == 0);
-    CHECK(still.out.find("nan") == std::string::npos);
-  }
-}
-
 TEST_CASE("a moving picture, in real time or a stated pace", "[cli][gnuplot]") {
   const TemporaryDirectory scratch;
   const Run run = run_program("roll --ball pool --until 0.01 --samples 30 --size 120x90 --font Serif -o " +
@@ -235,43 +204,6 @@ TEST_CASE("a moving picture, in real time or a stated pace", "[cli][gnuplot]") {
     ++frames;
   }
   CHECK(frames == 30);
-}
-
-TEST_CASE("a picture of the motion as a script", "[cli]") {
-  const TemporaryDirectory scratch;
-  for (const std::string& start :
-       {masse, std::string("roll --ball gel --slip 0"), std::string("roll --ball bowling --spin 0"),
-        std::string("roll --ball pool --velocity 1,0 --angular-velocity 0,35,0")}) {
-    const Run run = run_program(start + " -o " + scratch.file("roll.gp"));
-    INFO(start << "\n" << run.err);
-    CHECK(run.status == 0);
-    const std::string script = read_file(scratch.file("roll.gp"));
-    CHECK_THAT(script, Contains("speeds"));
-    CHECK(script.find("nan") == std::string::npos);
-    CHECK(script.find("inf") == std::string::npos);
-  }
-}
-
-TEST_CASE("every built-in ball rolls", "[cli]") {
-  for (const auto& entry : contensou::si::catalogue()) {
-    if (entry.experiment.ball.body.lies_flat()) continue;
-    for (const std::string route : {"reduced", "integrated"}) {
-      const Run run = run_program("roll --samples 11 --ball " + entry.name + " --route " + route);
-      INFO(entry.name << " " << run.err);
-      CHECK(run.status == 0);
-      CHECK(run.out.find("nan") == std::string::npos);
-    }
-  }
-}
-
-TEST_CASE("the largest speeds that roll allows have no infinity", "[limit]") {
-  for (const std::string start :
-       {"--slip 4e152", "--slip 1 --spin 4e152", "--slip 1e-300 --spin 1e-300", "--strike 2.7e152"}) {
-    const Run run = run_program("roll --format json --rolling-friction 0.01 --samples 5 --ball pool " + start);
-    INFO(start << run.err);
-    CHECK(run.status == 0);
-    CHECK(run.out.find("inf") == std::string::npos);
-  }
 }
 
 TEST_CASE("a batch of motions has the events of each", "[cli]") {
@@ -310,60 +242,6 @@ TEST_CASE("a batch of motions has the events of each", "[cli]") {
 }
 
 TEST_CASE("mistakes in a motion are bad input", "[cli]") {
-  const std::vector<std::pair<std::string, std::string>> mistakes{
-      {"roll", "--ball missing"},
-      {"roll --mu 0.1 --u0 1 --v0 1", "unknown option '--mu': it is an option of orbit, "},
-      {"stop --ball pool --strike 1", "unknown option '--strike': it is an option of roll"},
-      {"roll --ball pool --tip 0,0.4", "--tip is of a stroke: add --strike SPEED"},
-      {"roll --ball pool --strike 2 --tip 0.4,0.4", "--strike, --tip: the tip slips off the ball"},
-      {"roll --ball pool --strike 2 --tip 0.4", "2 numbers are needed, A,B"},
-      {"roll --ball pool --strike 0", "--strike: a cue's speed must be positive"},
-      {"roll --ball pool --strike 2 --elevation 90", "0 to below 90 degrees; got 90"},
-      {"roll --ball pool --strike 2 --cue-mass 0", "a cue's mass must be positive, in kg; got 0"},
-      {"roll --ball pool --strike 2 --velocity 1,0", "--strike is a start of its own"},
-      {"roll --ball pool --strike 2 --slip 1", "--strike is a start of its own"},
-      {"roll --ball pool --strike 1e308 --radius 1e-300 --patch-radius 1e-301", "must be finite"},
-      {"roll --ball pool --rolling-friction -1",
-       "--rolling-friction -1: rolling_friction must be finite and >= 0, got -1"},
-      {"roll --ball pool --velocity 1", "--velocity 1: 2 numbers are needed, VX,VY"},
-      {"roll --ball pool --velocity 1,2,3", "2 numbers are needed"},
-      {"roll --ball pool --angular-velocity 1,2", "3 numbers are needed, WX,WY,WZ"},
-      {"roll --ball pool --velocity 1,nan", "'nan' is not a finite number"},
-      {"roll --ball pool --angular-velocity 1,inf,0", "'inf' is not a finite number"},
-      {"roll --ball pool --velocity 1,x", "--velocity: 'x' is not a number"},
-      {"roll --ball pool --slip 1 --velocity 1,0", "exclude each other"},
-      {"roll --ball pool --angular-velocity 0,1e308,0 --radius 1e10 --patch-radius 1", "must be finite"},
-      {"roll --ball pool --route closed", "--route closed: no such route; routes: reduced, integrated"},
-      {"roll --ball pool --route reducd", "did you mean 'reduced'"},
-      {"roll --ball pool --samples 1", "from 2"},
-      {"roll --ball pool --at 1,-1", "t >= 0"},
-      {"roll --ball pool --at 1 --samples 3", "exclude each other"},
-      {"roll --ball pool --at 1 --until 3", "exclude each other"},
-      {"roll --ball pool --until 0", "--until 0: "},
-      {"roll --ball pool --until -1", "--until -1: "},
-      {"roll --ball pool --until inf", "'inf' is not a finite number"},
-      {"roll --ball pool --samples 3 -o roll.svg", "leave them out"},
-      {"roll --ball pool --equidistant -o roll.gif", "leave them out"},
-      {"roll --ball pool --samples 1001 -o roll.gif", "at most 1000 frames, got --samples 1001"},
-      {"roll --ball pool --velocity 0,0 --angular-velocity 0,0,0 -o roll.svg", "the ball is at rest"},
-      {"roll --ball pool --dpi 100 -o roll.gif", "--dpi 100: a gif has no dots"},
-      {"roll --ball pool --digits 3 -o roll.gif", "a picture has no digits"},
-      {"roll --ball pool --font Times -o roll.tex", "--font Times: a tex has the font of the document"},
-      {"roll --ball pool --font a,b -o roll.svg", "--font a,b: the name of a font is needed"},
-      {"roll --ball pool --rolling-below -1", "--rolling-below -1: 0 or more is needed"},
-      {"roll --ball pool --strike 1e300", "lengths, angles or energies exceed the largest double; up to 1.3e+153 is"},
-      {"roll --ball pool --slip 2e299", "exceed the largest double"},
-      {"roll --ball pool --slip 1e153 --spin 1e155 -o roll.json", "exceed the largest double"},
-      {"roll --ball pool --slip 1e10 --until 1e300", "up to 1.8e+06 is allowed"},
-      {"roll --ball pool --slip 1 --batch -", "leave out --slip"},
-      {"roll --ball pool --strike 1 --batch -", "leave out --strike"},
-      {"roll --ball pool --samples 3 --batch -", "leave out --samples\n"},
-      {"roll --ball pool --keep-going", "--keep-going is for many starts: add --batch FILE"},
-      {"roll --ball pool --threads 2", "--threads is for many starts: add --batch FILE"},
-      {"roll --ball pool --rolling-below nan", "'nan' is not a finite number"},
-  };
-  for (const auto& [arguments, words] : mistakes) check_rejected(arguments, words);
-
   const TemporaryDirectory scratch;
   const std::string file = scratch.file("mixed.toml");
   write_file(file, general_file + "spin = 3\n");
@@ -401,41 +279,6 @@ TEST_CASE("what is 0 by symmetry is 0, and nothing is -0", "[cli]") {
         }
       }
     }
-  }
-}
-
-TEST_CASE("the text of roll opens with one sentence of plain words, for every kind of motion", "[cli]") {
-  const std::string rolling = " --velocity 1,0 --angular-velocity 0,34.99562554680665,0";
-  const std::vector<std::pair<std::string, std::string>> cases{
-      {"--ball pool --slip 1 --spin 0",
-       "It rolls after 0.15 s, 12 cm on; the uncoupled model says the same to two digits.\n"},
-      {"--ball pool --slip 1 --spin 100", "It rolls after 0.31 s, 24 cm on; the uncoupled model says 0.15 s.\n"},
-      {"--ball pool --slip 0 --spin 100",
-       "It spins in place and stops after 10 s; the uncoupled model says the same to two digits.\n"},
-      {"--ball pool --slip 0 --spin 0", "It is at rest and stays there.\n"},
-      {"--ball pool" + rolling, "It rolls at once.\n"},
-      {"--ball pool --strike 2 --tip 0,0.4",
-       "It rolls at once, for a stroke 0.4 radii above the centre gives it the spin of rolling.\n"},
-      {"--ball pool --velocity 0.1,0 --angular-velocity 0,-50,0",
-       " back; the uncoupled model says the same to two digits.\n"},
-      {"--ball pool --slip 1 --spin 0 --rolling-friction 0.01", " and rests after "},
-      {"--ball pool --rolling-friction 0.3" + rolling,
-       "It rolls after 0.51 s, 25 cm on and rests after 0.51 s, 25 cm on; the uncoupled model says the same to two "
-       "digits.\n"},
-      {"--ball pool --slip 0 --spin 0 --slope -2", "It rolls at once and rolls down the slope for ever.\n"},
-      {"--ball pool --slip 1 --spin 0 --slope -2", " and rolls down the slope for ever; the uncoupled model says"},
-      {"--ball puck --slip 0.5 --spin 60", "It rests after "},
-      {"--ball puck --slip 0 --spin 60", "It spins in place and stops after "},
-      {"--ball puck --slip 0.5 --spin 60 --slope -1", "It rests after "},
-  };
-  for (const auto& [arguments, opening] : cases) {
-    const Run run = run_program("roll --format text " + arguments);
-    const std::string first = run.out.substr(0, run.out.find('\n') + 1);
-    INFO(arguments << "\n" << first << run.err);
-    CHECK(run.status == 0);
-    CHECK(first.starts_with("It "));
-    CHECK(first.ends_with(".\n"));
-    CHECK_THAT(first, Contains(opening));
   }
 }
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -75,17 +74,6 @@ TEST_CASE("the law is exact, or that of the body's own pressure", "[cli]") {
   }
 }
 
-TEST_CASE("stop of a ball has seconds and the final motion", "[cli]") {
-  const json stop = json_of("stop --ball pool --format json");
-  CHECK(stop.size() == 20);
-  CHECK(stop.at("t_stop").get<double>() == Approx(10.1).margin(0.05));
-  CHECK(stop.at("final").at("velocity").size() == 2);
-  CHECK(stop.at("final").at("velocity").at(0).get<double>() == Approx(5.0 / 7).epsilon(1e-15));
-  CHECK(stop.at("final").at("velocity").at(1) == 0);
-  CHECK(stop.at("final").at("angular_velocity").size() == 3);
-  CHECK(stop.at("final").at("angular_velocity").at(1).get<double>() == Approx(5.0 / (7 * 0.028575)).epsilon(1e-15));
-}
-
 TEST_CASE("routes and laws of stop agree with the library", "[route]") {
   for (const std::string route : {"quadrature", "regularised", "direct"}) {
     const json stop = json_of("stop --mu 0.3 --u0 1 --v0 1 --law exact --format json --route " + route);
@@ -105,53 +93,6 @@ TEST_CASE("negative numbers are values, not options", "[cli]") {
   }
   CHECK(json_of("stop --ball pool --spin -100 --format json").at("t_stop") ==
         json_of("stop --ball pool --spin +100 --format json").at("t_stop"));
-}
-
-// What `stop --ball pool` prints is on README's console.
-TEST_CASE("stop for people", "[cli]") {
-  CHECK_THAT(run_program("stop --ball pool --law pade").out,
-             Contains("law exact") && Contains("% shorter") && Contains("the paper's approximation"));
-  CHECK_THAT(run_program("stop --ball pool --digits 3").out, Contains("93.4 ") && !Contains("93.39"));
-  CHECK_THAT(run_program("stop --mu 0.1 --u0 1 --v0 1").out, Contains("unit of u0 and v0") && !Contains("(s)"));
-}
-
-TEST_CASE("each law of the paper has the other beside it, in every format", "[cli]") {
-  const std::string start = "stop --mu 0.1 --u0 2 --v0 1 --law ";
-  for (const auto& [law, other] : {std::pair{"pade", "exact"}, {"exact", "pade"}}) {
-    const double tau = json_of(start + other + " --format json").at("tau_stop").get<double>();
-    CHECK(json_of(start + law + " --format json").at("other_law") == json{{"law", other}, {"tau_stop", tau}});
-    const auto rows = rows_of(run_program(start + law + " --format csv").out);
-    const std::vector<std::string> names(rows[0].end() - 2, rows[0].end());
-    CHECK(names == std::vector<std::string>{"other_law", "other_tau"});
-    CHECK(*(rows[1].end() - 2) == other);
-    CHECK(std::stod(rows[1].back()) == tau);
-    CHECK_THAT(run_program(start + law).out, Contains(std::string("law ") + other));
-  }
-  // Of another pressure they say nothing, nor of rest or where one speed is alone: no limit is then worth a line.
-  for (const std::string axis : {"stop --ball pool --spin 0", "stop --ball pool --slip 0"}) {
-    CHECK_FALSE(json_of(axis + " --format json").contains("other_law"));
-    CHECK_THAT(run_program(axis).out, !Contains("law pade") && !Contains("only") && !Contains("at most"));
-  }
-  CHECK_FALSE(json_of(start + "uniform --format json").contains("other_law"));
-  CHECK_THAT(run_program(start + "uniform").out, !Contains("law pade") && !Contains("law exact"));
-  CHECK_FALSE(json_of("stop --mu 0.1 --u0 0 --v0 0 --format json").contains("other_law"));
-}
-
-TEST_CASE("a ball at rest has stopped", "[limit]") {
-  const Run run = run_program("stop --mu 0.1 --u0 0 --v0 0");
-  CHECK(run.status == 0);
-  CHECK_THAT(run.out, Contains("rolls already") && !Contains("nan"));
-  CHECK(json_of("stop --mu 0.1 --u0 0 --v0 0 --format json").at("tau_stop") == 0);
-  const json ball = json_of("stop --ball pool --spin 0 --slip 0 --format json");
-  CHECK(ball.at("t_stop") == 0);
-  CHECK(ball.at("bounds").at(1) == 0);
-}
-
-TEST_CASE("a stop time that overflows is said to be infinite", "[limit]") {
-  const json stop = json_of("stop --mu 1e-100 --u0 1e300 --v0 1 --format json");
-  CHECK(stop.at("tau_stop") == "inf");
-  CHECK(stop.at("limits").at("pivoting_only") == "inf");
-  CHECK_THAT(run_program("stop --mu 1e-100 --u0 1e300 --v0 1").out, Contains("inf") && !Contains("nan"));
 }
 
 TEST_CASE("overrides act as if the run file had said so", "[cli]") {
@@ -184,106 +125,6 @@ TEST_CASE("a known accuracy is in every format", "[cli]") {
     CHECK(std::stod(rows[1][static_cast<std::size_t>(column)]) == accuracy);
     CHECK_THAT(run_program(start).out, Contains("numerical error below"));
   }
-}
-
-TEST_CASE("stop --gradient: derivatives of the stop time, in every format", "[cli]") {
-  const std::string question = "stop --law pade --mu 0.3 --u0 1 --v0 1 --gradient";
-  const json gradient = json_of(question + " --format json").at("gradient");
-  CHECK(gradient.at("u").get<double>() == Approx(10.9679009161).epsilon(1e-11));
-  CHECK(gradient.at("v").get<double>() == Approx(1.52868423111).epsilon(1e-11));
-  CHECK(gradient.size() == 6);
-  CHECK_THAT(run_program(question).out, Contains("derivative by") && Contains("1 % more of it: 0.88 % longer"));
-  CHECK_THAT(run_program(question + " --format csv").out, Contains(",by_u,by_v,by_mu,by_chi,by_gamma,by_drive\n"));
-  // By the stepper, too; at rest there is none.
-  CHECK(json_of(question + " --route direct --format json").at("gradient") == gradient);
-  CHECK_FALSE(json_of("stop --mu 0.3 --u0 0 --v0 0 --gradient --format json").contains("gradient"));
-}
-
-TEST_CASE("stop --estimate: the estimates for small mu and what they miss by", "[cli]") {
-  const json stop = json_of("stop --law pade --mu 0.1 --u0 1 --v0 1 --estimate --format json");
-  const auto& estimates = stop.at("estimates");
-  REQUIRE(estimates.size() == 2);
-  CHECK(estimates.at(0).at("name") == "E1");
-  CHECK(estimates.at(0).at("error").get<double>() == Approx(4.6e-4).epsilon(0.02));
-  CHECK(estimates.at(1).at("name") == "E2");
-  CHECK(std::abs(estimates.at(1).at("error").get<double>()) == Approx(2.465e-7).epsilon(0.02));
-  for (const auto& estimate : estimates) {
-    CHECK(estimate.at("tau_stop").get<double>() - stop.at("tau_stop").get<double>() == estimate.at("error"));
-  }
-  CHECK_FALSE(json_of("stop --mu 0.1 --u0 1 --v0 1 --format json").contains("estimates"));
-
-  // A patch under Coulomb friction has the logarithm, beyond k0 = 1.
-  CHECK(json_of("stop --mu 0.01 --u0 1 --v0 1 --law exact --estimate --format json").at("estimates").size() == 3);
-  CHECK(json_of("stop --mu 0.01 --u0 1 --v0 1e-3 --law exact --estimate --format json").at("estimates").size() == 2);
-
-  const auto rows = rows_of(run_program("stop --law pade --mu 0.1 --u0 1 --v0 1 --estimate --format csv").out);
-  const std::vector<std::string> last(rows[0].end() - 4, rows[0].end());
-  CHECK(last == std::vector<std::string>{"tau_E1", "error_E1", "tau_E2", "error_E2"});
-  REQUIRE(rows[1].size() == rows[0].size());
-  CHECK(std::stod(*(rows[1].end() - 2)) == estimates.at(1).at("tau_stop"));
-
-  CHECK_THAT(run_program("stop --ball pool --estimate").out, Contains("for small mu") && !Contains("not small"));
-  CHECK_THAT(run_program("stop --mu 1 --u0 1 --v0 1 --estimate").out, Contains("not small"));
-  CHECK_THAT(run_program("stop --mu 1e-100 --u0 1e300 --v0 1 --estimate --format json").out, !Contains("nan"));
-  CHECK(run_program("stop --batch - --estimate", "mu,u0,v0\n0.1,1,1\n").status == 2);
-}
-
-TEST_CASE("a patch that follows from a spin deceleration says so, and when it changes", "[cli]") {
-  CHECK_THAT(run_program("stop --ball pool").out,
-             Contains("patch radius 0.00282703 m, from its spin deceleration 10 rad/s^2: mu = 0.0989337\n"));
-  CHECK_THAT(run_program("stop --ball steel").out, Contains("m, by Hertz's formula: mu"));
-  CHECK_THAT(run_program("roll --ball pool --patch-radius 0.002 --format text").out,
-             Contains("patch radius 0.002 m, given: mu = 0.0699913\n"));
-  for (const auto& [changed, patch] : {std::pair{"--gravity 1.62", "0.0171134"},
-                                       {"--friction 0.1", "0.00565406"},
-                                       {"--radius 0.03", "0.003116"},
-                                       {"--law uniform", "0.00249789"}}) {
-    for (const std::string verb : {"stop", "orbit", "roll", "portrait -o - --format csv"}) {
-      const Run run = run_program(fmt::format("{} --ball pool {}", verb, changed));
-      INFO(verb << changed);
-      CHECK(run.status == 0);
-      CHECK_THAT(run.err, Contains(fmt::format("goes from 0.00282703 m to {}", patch)) &&
-                              Contains("--patch-radius 0.00282703 keeps"));
-      CHECK(json_of(fmt::format("stop --format json --ball pool {} --patch-radius 0.00282703", changed))
-                .at("ball")
-                .at("patch_radius") == 0.00282703);
-    }
-  }
-  for (const std::string silent :
-       {"--mass 1", "--law pade", "--gravity 1.62 --spin-deceleration 10", "--gravity 1.62 --patch-radius 0.003"}) {
-    CHECK(run_program("stop --ball pool " + silent).err.empty());
-  }
-  CHECK(run_program("stop --ball steel --gravity 1.62").err.empty());
-  // A file that leaves a value to the command line has no patch of its own.
-  const TemporaryDirectory scratch;
-  write_file(scratch.file("b.toml"),
-             "[ball]\nmass=1\nradius=0.1\n[contact]\nspin_deceleration=10\n[start]\nslip=1\nspin=1\n");
-  const Run run = run_program("stop --ball " + scratch.file("b.toml") + " --friction 0.9");
-  CHECK(run.status == 0);
-  CHECK(run.err.empty());
-}
-
-TEST_CASE("data of a ball say which ball it is", "[cli]") {
-  for (const std::string verb : {"stop", "orbit", "roll"}) {
-    const json answer = json_of(verb + " --ball pool --format json");
-    CAPTURE(verb);
-    CHECK_THAT(answer.at("version").get<std::string>(), Catch::Matchers::StartsWith("0."));
-    const json& ball = answer.at("ball");
-    CHECK(ball.at("name") == "pool ball on cloth");
-    CHECK(ball.at("radius") == 0.028575);
-    CHECK(ball.at("mass") == 0.1701);
-    CHECK(ball.at("friction") == 0.2);
-    CHECK(ball.at("gravity") == 9.80665);
-    CHECK(ball.at("spin_deceleration") == 10);
-    CHECK(ball.at("patch_radius").get<double>() == Approx(0.00282703).epsilon(1e-6));
-  }
-  const json stop = json_of("stop --ball pool --slip 2 --spin 50 --format json");
-  CHECK(stop.at("slip") == 2);
-  CHECK(stop.at("spin") == 50);
-  CHECK(json_of("stop --ball steel --format json").at("ball").at("youngs_modulus") == json{2.1e11, 7e10});
-  CHECK_THAT(run_program("roll --ball pool --samples 2").out,
-             Contains("\n# ball: {\"name\": \"pool ball on cloth\", \"body\": \"ball\", \"radius\": 0.028575") &&
-                 Contains("\n# version: \"0."));
 }
 
 TEST_CASE("what interpolation of a pressure table may cost stands beside its stop time", "[cli]") {
@@ -324,26 +165,4 @@ TEST_CASE("the accuracy next to a border counts what was taken for the border", 
   CHECK(error > 1e-14);
   CHECK(error < stop.at("accuracy").get<double>());
   CHECK(stop.at("accuracy").get<double>() < 1e-13);
-}
-
-TEST_CASE("the text of stop opens with one sentence of plain words", "[cli]") {
-  const std::vector<std::pair<std::string, std::string>> cases{
-      {"--ball pool --slip 1 --spin 100",
-       "Slip and spin end after 10 s; the uncoupled model says the same to two digits.\n"},
-      {"--ball pool --slip 1 --spin 0",
-       "Its slip ends after 0.15 s; the uncoupled model says the same to two digits.\n"},
-      {"--ball pool --slip 0 --spin 100",
-       "Its spin ends after 10 s; the uncoupled model says the same to two digits.\n"},
-      {"--ball pool --slip 0 --spin 0", "It neither slides nor spins: its stop time is 0.\n"},
-      {"--ball puck --slip 0.5 --spin 60", "It rests after "},
-      {"--ball pool --slip 1 --spin 100 --rolling-friction 0.01", ", and its centre rests after "},
-      {"--mu 0.1 --u0 1 --v0 1", "Slip and spin end after tau = "},
-      {"--mu 0.1 --u0 1 --v0 1 --drive 0.05", "Slip and spin end after tau = "},
-  };
-  for (const auto& [arguments, opening] : cases) {
-    const Run run = run_program("stop " + arguments);
-    INFO(arguments << "\n" << run.out << run.err);
-    CHECK(run.status == 0);
-    CHECK_THAT(run.out.substr(0, run.out.find('\n') + 1), Contains(opening));
-  }
 }

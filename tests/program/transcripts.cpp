@@ -105,8 +105,9 @@ int check_file(const std::filesystem::path& file) {
     const auto refusal = line.find(" ! ", 2);
     const Lines printed = session(line.substr(2, refusal - 2), folder.path(), !has_blocks);
     if (refusal != std::string::npos) {
-      using namespace Catch::Matchers;
-      CHECK_THAT(text_of(printed), StartsWith("! ") && EndsWith("\n[2]\n") && Contains(line.substr(refusal + 3)));
+      INFO(text_of(printed));
+      CHECK(text_of(printed).starts_with("! "));
+      CHECK(same({"...", "! ..." + line.substr(refusal + 3) + "...", "...", "[2]"}, printed));
     } else if (!same(shown, printed)) {
       CHECK(text_of(shown) == text_of(printed));
       shown = printed;
