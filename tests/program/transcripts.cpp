@@ -68,7 +68,8 @@ bool same(const Lines& shown, const Lines& printed, std::size_t i = 0, std::size
 Lines session(const std::string& command, const std::filesystem::path& folder, bool with_notes) {
   const std::string path = std::filesystem::path(CONTENSOU_PROGRAM).parent_path().string() + ":" + std::getenv("PATH");
   const Run run = run_command({"/bin/sh", "-c", command}, {}, [&] {
-    if (::chdir(folder.c_str()) != 0 || ::setenv("PATH", path.c_str(), 1) != 0) ::_exit(98);
+    const bool ready = ::chdir(folder.c_str()) == 0 && ::setenv("PATH", path.c_str(), 1) == 0;
+    if (!ready || ::setenv("LC_ALL", "C", 1) != 0) ::_exit(98);
   });
   Lines lines = lines_of(run.out);
   for (const std::string& line : lines_of(with_notes || run.status != 0 ? run.err : "")) {
