@@ -71,13 +71,13 @@ class Follower {
         box_(factor.box()),
         first_(jet_of(field, x_)),
         size_(x_.norm() + box_about(x_).radii.norm()),
-        scale_(2 * x_.cwiseAbs()),
+        scale_(x_.cwiseAbs()),
         anchor_(x_),
         forward_(x_),
         passed_(x_) {
-    if (form_ == FactorForm::affine || box_.centre == x_) {
+    if (box_.centre == x_) {
       factor_ = factor;
-      on_curve_ = factor.vanishes && box_.centre == x_;
+      on_curve_ = factor.vanishes;
     }
   }
 
@@ -93,16 +93,14 @@ class Follower {
       }
       noise_ = eps * here->slopes.cwiseAbs() * x_.cwiseAbs();
       if (rests(*here) || escapes(*here)) return;
-      constexpr double edge = 0.7;
+      constexpr double edge = 0.7, near = 0.2;
       const bool enters =
-          i == 0 ? !factor_ || form_ == FactorForm::affine : box_.inside(x_).cwiseAbs().maxCoeff() > edge;
-      if (enters && !enter(*here)) return stop("the form of V does not hold");
-      const bool holds = form_ != FactorForm::affine || factor_->residual(x_, *here) <= accurate_;
-      if (!step(*here)) {
+          i == 0 ? !factor_ : box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near;
+      const bool holds = !enters || enter(*here);
+      if (!holds || !step(*here)) {
         if (at_border(*here)) return end(PlanarEnd::border, motion_.followed);
-        return stop("the field is not smooth");
+        return stop(holds ? "the field is not smooth" : "the form of V does not hold");
       }
-      if (!holds) return stop("the form of V does not hold");
       if (on_curve_ && factor_) return_to_curve();
       if (returns()) return;
     }
@@ -110,8 +108,6 @@ class Follower {
   }
 
  private:
-  enum class Failure { none, no_value, turned, outside, rough };
-
   void end(PlanarEnd kind, double time) {
     motion_.end = kind;
     motion_.end_time = time;
@@ -159,18 +155,27 @@ class Follower {
     const Vector2d offset = x_ - rest;
     constexpr double found = 1e-6;
     if (!(left <= found * here.f.norm())) return false;
-    const double change = (here.slopes - slopes).norm() / slopes.norm();
+    const double trace = slopes.trace(), determinant = slopes.determinant(), norm = slopes.norm();
+    const bool saddle = determinant < -clear * norm * norm;
+    // The parts of the offset along the lines of a saddle.
+    const double root = std::sqrt(std::max(trace * trace / 4 - determinant, 0.)), in = trace / 2 - root,
+                 out = trace / 2 + root;
+    const Vector2d stable = (slopes * offset - out * offset) / (in - out), unstable = offset - stable;
+    const bool on_line = on_curve_ || unstable.norm() <= 8 * eps * offset.norm();
+    constexpr double hidden = 5e-5;
+    if (saddle && !on_line && offset.norm() < hidden * size_) {
+      stop("rounding decides on which side the orbit passes a saddle; it comes");
+      return true;
+    }
+    const double change = (here.slopes - slopes).norm() / norm;
     constexpr double exact = 1e-14;
     if (!(change * offset.norm() <= exact * std::max(rest.norm(), offset.norm()))) return false;
-    const double trace = slopes.trace(), determinant = slopes.determinant(), norm = slopes.norm();
     if (determinant > clear * norm * norm && trace < -clear * norm) {
       motion_.flow = slopes;
       motion_.offset = offset;
-    } else if (determinant < -clear * norm * norm && on_curve_ && offset.dot(here.f) < 0) {
-      // On the stable line of a saddle.
-      const double root = std::sqrt(trace * trace / 4 - determinant), in = trace / 2 - root, out = trace / 2 + root;
+    } else if (saddle && on_line && offset.dot(here.f) < 0) {
       motion_.flow = in * Matrix2d::Identity();
-      motion_.offset = (slopes * offset - out * offset) / (in - out);
+      motion_.offset = stable;
     } else if (std::abs(determinant) <= clear * norm * norm && trace < -clear * norm) {
       motion_.flow = trace * Matrix2d::Identity();
       motion_.offset = offset;
@@ -207,8 +212,13 @@ class Follower {
     const int along = motion_.panels.back().along;
     const double way = 256 * eps * std::abs(x_[along]) + 4 * least_length_ * size_;
     const bool value = value_of(field_, x_ + std::copysign(way, here.f[along]) * Vector2d::Unit(along)).has_value();
-    return failure_ == Failure::no_value || !value ||
-           (failure_ == Failure::turned && here.f.norm() > singular_ * first_->f.norm());
+    return !value || here.f.norm() > singular_ * first_->f.norm();
+  }
+
+  /// Returns the estimated distance of an equilibrium, in units of the box; infinity if there is none.
+  static double rest_in(const Jet& here, const Box& box) {
+    const double distance = newton_step(here).cwiseQuotient(box.radii).norm();
+    return std::isfinite(distance) ? distance : infinity;
   }
 
   static Vector2d newton_step(const Jet& here) { return here.slopes.inverse() * here.f; }
@@ -219,9 +229,8 @@ class Follower {
     box_ = {x_, box_about(scale_).radii};
     // Near an equilibrium, where V is small, the box is as small as the distance.
     constexpr double part = 0.7;
-    const double distance = part * newton_step(here).norm();
-    if (std::isfinite(distance)) box_.radii = box_.radii.cwiseMin(distance);
-    box_.radii *= fraction_;
+    const double distance = rest_in(here, box_);
+    box_.radii *= std::min(1., part * distance) * fraction_;
     for (int i = 0; i < 2; ++i) {
       const auto ends_have_values = [&] {
         const Vector2d side = box_.radii[i] * Vector2d::Unit(i);
@@ -229,12 +238,13 @@ class Follower {
       };
       while (!ends_have_values() && box_.radii[i] > eps * std::abs(x_[i])) box_.radii[i] /= 2;
     }
-    constexpr double wide = 4;
-    if (form_ == FactorForm::affine) {
-      fraction_ = wide;
+    const auto last = std::exchange(factor_, {});
+    const bool lasts = form_ == FactorForm::affine && last && last->residual(x_, here) <= accurate_;
+    if (lasts && distance > 1) {
+      factor_ = last;
       return true;
     }
-    factor_.reset();
+
     // Where the rounding of x alone hides the form, V is not needed any more.
     constexpr double hidden = 1e-12;
     if (noise_.norm() > hidden * here.f.norm()) return true;
@@ -247,22 +257,24 @@ class Follower {
       if (!fit || !fit->small) continue;
       factor_ = fit->factor;
       on_curve_ = fit->factor.vanishes;
-      fraction_ = std::min(form_ == FactorForm::polynomial ? wide : 1, 2 * fraction_);
+      constexpr double wide = 4;
+      const bool global = form_ == FactorForm::polynomial || form_ == FactorForm::affine;
+      fraction_ = std::min(global ? wide : 1, 2 * fraction_);
       return true;
     }
-    return false;
+    if (lasts) factor_ = last;
+    return lasts;
   }
 
   /// Adds a panel as long as its series allow.
   bool step(const Jet& here) {
-    const Vector2d speed = here.f.cwiseQuotient(box_.radii).cwiseAbs();
+    const Vector2d speed = here.f.cwiseQuotient(box_about(scale_).radii).cwiseAbs();
     const int along = speed[0] >= speed[1] ? 0 : 1;
     const double sense = here.f[along] > 0 ? 1 : -1;
     const double room = 1 - sense * box_.inside(x_)[along];
     double length = std::min(2 * stretch_, room) * box_.radii[along];
     for (; length > 64 * eps * std::abs(x_[along]) && length > least_length_ * size_; length /= 2) {
-      failure_ = solve(along, sense * length, here);
-      if (failure_ == Failure::none) {
+      if (solve(along, sense * length, here)) {
         stretch_ = length / box_.radii[along];
         return true;
       }
@@ -272,7 +284,7 @@ class Follower {
 
   /// Finds the other coordinate w at the points of a panel. q approximates dw/ds; along w = w_0 + integral of q
   /// H changes by the integral of (q - G/F) F/V, and dH/dw = F/V: Newton's method, README (R67).
-  Failure solve(int along, double length, const Jet& start) {
+  bool solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
     const double half = length / 2, size = std::abs(x_[across]) + small_ * x_.norm();
     const double noise = noise_[along] / std::abs(start.f[along]);
@@ -286,7 +298,7 @@ class Follower {
       const Samples w = x_[across] + half * LegendreSeries::through(q).antiderivative().samples();
       constexpr double edge = 1.05;
       const bool inside = ((w - box_.centre[across]).abs() <= edge * box_.radii[across]).all();
-      if (iteration >= first && !inside) return Failure::outside;
+      if (iteration >= first && !inside) return false;
       const bool linearised = missed > coarse * (size + std::abs(half * q[0]));
       for (int i = 0; i < LegendreSeries::order; ++i) {
         Vector2d x;
@@ -298,10 +310,10 @@ class Follower {
         } else if (const auto f = value_of(field_, x)) {
           here = {*f, Matrix2d::Zero()};
         }
-        if (!here) return Failure::no_value;
+        if (!here) return false;
         rate[i] = 1 / here->f[along];
         slopes[i] = here->f[across] * rate[i];
-        if (!(rate[i] * length > 0)) return Failure::turned;
+        if (!(rate[i] * length > 0)) return false;
         if (linearised) growth[i] = (here->slopes(across, across) - slopes[i] * here->slopes(along, across)) * rate[i];
       }
       const Samples defect = slopes - q;
@@ -310,7 +322,7 @@ class Follower {
       const double largest = std::abs(half) * slopes.abs().maxCoeff();
       q = slopes + growth * solve_linear_ode(one, -half * growth, half * defect, 0).samples();
       if (missed <= 4 * (eps * (size + largest) + noise_across + noise * largest)) break;
-      if (iteration == most || (iteration > first && !(missed < before / 2))) return Failure::rough;
+      if (iteration == most || (iteration > first && !(missed < before / 2))) return false;
     }
     constexpr double accurate = 1e-14, timed = 1e-13, smooth = 1e-3, little = 1e-6;
     const double largest = std::abs(half) * q.abs().maxCoeff();
@@ -320,7 +332,7 @@ class Follower {
                           LegendreSeries::tail(rate) <= std::max(timed, 8 * noise) * rate.abs().maxCoeff() &&
                           LegendreSeries::tail(growth) <= smooth * growth.abs().maxCoeff() + little / std::abs(half);
     if (!resolved) {
-      return Failure::rough;
+      return false;
     }
     Panel panel{along,
                 x_[along],
@@ -332,7 +344,7 @@ class Follower {
     x_ = panel.at(1);
     motion_.followed += panel.time.at_end();
     motion_.panels.push_back(panel);
-    return Failure::none;
+    return true;
   }
 
   /// Moves the point onto V = 0.
@@ -340,9 +352,11 @@ class Follower {
     const auto here = jet_of(field_, x_);
     if (!here) return;
     const InverseFactor::Value v = (*factor_)(x_, *here);
+
     const int across = 1 - motion_.panels.back().along;
     const double step = v[0] / v[1 + across];
-    if (std::abs(step) <= near_ * x_.norm()) x_[across] -= step;
+    if (std::abs(v[0]) > factor_->error * factor_->size(x_, *here) && std::abs(step) <= near_ * x_.norm())
+      x_[across] -= step;
   }
 
   /// Looks for a return to this point from now on.
@@ -388,7 +402,6 @@ class Follower {
   double stretch_ = 0.25;               ///< of the box, the last panel's
   Vector2d anchor_, forward_, passed_;  ///< returns are looked for across the line through the anchor
   double extent_ = 0, along_ = 0;
-  Failure failure_ = Failure::none;
   int fits_ = 0;
 };
 

@@ -219,7 +219,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
     tried.gap = divergence.head(rows).norm() / mean / std::max(tried.singular_value, smallest);
   } else {
     // Functions of the form that are orthonormal over the points, so that V = 0 is no solution.
-    constexpr double dependent = 1e-4;
+    constexpr double dependent = 1e-13;
     const Eigen::ColPivHouseholderQR<MatrixXd> qr(values.topRows(rows));
     const VectorXd diagonal = qr.matrixR().diagonal().cwiseAbs();
     const Index rank = (diagonal.array() > dependent * diagonal[0]).count();
@@ -258,6 +258,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
   FactorFit fit{InverseFactor(form, samples.box, coefficients), tried,
                 tried.singular_value <= limit && tried.residual <= accurate};
   fit.factor.vanishes = vanishes;
+  fit.factor.error = 8 * eps / (tried.gap * std::max(tried.singular_value, smallest));
   return fit;
 }
 

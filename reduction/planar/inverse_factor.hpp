@@ -63,7 +63,7 @@ class InverseFactor {
   /// Returns (R66), with the size of V in place of its mean square over the box.
   double residual(const Eigen::Vector2d& x, const Jet& jet) const;
 
-  /// Returns how large V is without the cancellation of its terms; the digits below are lost.
+  /// Returns how large V is without the cancellation of its terms.
   double size(const Eigen::Vector2d& x, const Jet& jet) const;
 
   FactorForm form() const { return form_; }
@@ -71,6 +71,9 @@ class InverseFactor {
 
   /// True if the centre of the box lies on the invariant curve V = 0.
   bool vanishes = false;
+
+  /// Relative error of the coefficients, of which size() is 1.
+  double error = 0;
 
  private:
   FactorForm form_;
