@@ -1,3 +1,5 @@
+// An orbit as the level of H, dH = (F dv - G du)/V, part by part, README (R67), (R68). No time is stepped: a part is a
+// curve w(s) of one coordinate over the other, put on the level by Newton's method, and its time is the integral of ds/F.
 #include "planar/factor_orbit.hpp"
 
 #include <algorithm>
@@ -209,9 +211,8 @@ class Follower {
   /// True if a step that fails here does so for want of values, or beside a pole; time has converged.
   bool at_border(const Jet& here) const {
     if (motion_.panels.empty() || motion_.panels.back().time.at_end() > 256 * eps * motion_.followed) return false;
-    const int along = motion_.panels.back().along;
-    const double way = 256 * eps * std::abs(x_[along]) + 4 * least_length_ * size_;
-    const bool value = value_of(field_, x_ + std::copysign(way, here.f[along]) * Vector2d::Unit(along)).has_value();
+    // A time of some rounding errors further on.
+    const bool value = value_of(field_, x_ + 256 * eps * motion_.followed * here.f).has_value();
     return !value || here.f.norm() > singular_ * first_->f.norm();
   }
 
@@ -258,7 +259,7 @@ class Follower {
       factor_ = fit->factor;
       on_curve_ = fit->factor.vanishes;
       constexpr double wide = 4;
-      const bool global = form_ == FactorForm::polynomial || form_ == FactorForm::affine;
+      const bool global = form_ <= FactorForm::polynomial;
       fraction_ = std::min(global ? wide : 1, 2 * fraction_);
       return true;
     }

@@ -1,3 +1,8 @@
+// The equation of V, README (R64), in a basis of functions: f . grad V - V div f = 0, one row for a point.
+//   [X, f] = g f for a generator X of the orbits, and areas grow at the rate div f, so V = f ^ X satisfies it.
+// Rows are divided by |F|/radius + |G|/radius + |div f|, and the basis is made orthonormal over the points. The singular
+// values are then the values (R66) of all V of the form; the terms of f . grad V, which vanish for V = 1 and a conservative
+// field, scale nothing.
 #include "planar/inverse_factor.hpp"
 
 #include <algorithm>
@@ -23,6 +28,9 @@ constexpr int series_terms = 15;
 /// The powers of a term; a product has sums of powers of one coordinate, for ln V.
 bool has_term(FactorForm form, int i, int j) {
   switch (form) {
+    case FactorForm::constant:
+      return i + j == 0;
+
     case FactorForm::affine:
       return i + j <= 1;
     case FactorForm::polynomial:
@@ -110,7 +118,7 @@ Box box_about(const Vector2d& x) {
 
 std::string_view name(FactorForm form) {
   constexpr std::array<std::string_view, factor_forms> names{
-      "affine", "polynomial", "linear in v", "quadratic in v", "linear in u", "quadratic in u", "product"};
+      "constant", "affine", "polynomial", "linear in v", "quadratic in v", "linear in u", "quadratic in u", "product"};
   return names[static_cast<std::size_t>(form)];
 }
 

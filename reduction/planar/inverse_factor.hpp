@@ -33,8 +33,8 @@ struct Box {
 /// The box in which V is looked for.
 Box box_about(const Eigen::Vector2d& x);
 
-enum class FactorForm { affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product };
-inline constexpr int factor_forms = 7;
+enum class FactorForm { constant, affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product };
+inline constexpr int factor_forms = 8;
 
 std::string_view name(FactorForm form);
 

@@ -47,7 +47,7 @@ class FactorReduction {
 
   bool found() const { return !form().empty(); }
 
-  /// Returns "affine" (V = f ^ X, X affine), "polynomial" (degree 4 or less), "linear in v", "quadratic in v", "linear in
+  /// Returns "constant" (div f = 0), "affine" (V = f ^ X, X affine), "polynomial" (degree 4 or less), "linear in v", "quadratic in v", "linear in
   /// u", "quadratic in u" (coefficients are functions of the other coordinate) or "product" (V = A(u) B(v)); empty if none
   /// was found.
   std::string_view form() const;

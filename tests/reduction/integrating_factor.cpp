@@ -1,0 +1,381 @@
+#include "contensou/reduction/integrating_factor.hpp"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <boost/numeric/odeint.hpp>
+#include <catch2/catch.hpp>
+
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/laws.hpp"
+#include "worst_case.hpp"
+
+using namespace contensou::reduction;
+using namespace contensou::tests;
+using Catch::Matchers::Contains;
+using contensou::infinity;
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using std::numbers::pi;
+
+namespace {
+
+/// A number with its derivatives by u and v: what a formula needs for an exact Jacobian.
+struct Dual {
+  double value, by_u = 0, by_v = 0;
+  Dual(double number) : value(number) {}  // NOLINT(google-explicit-constructor): formulas have constants
+  Dual(double number, double u, double v) : value(number), by_u(u), by_v(v) {}
+  Dual chain(double f, double slope) const { return {f, slope * by_u, slope * by_v}; }
+};
+Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.by_u + b.by_u, a.by_v + b.by_v}; }
+Dual operator-(Dual a) { return {-a.value, -a.by_u, -a.by_v}; }
+Dual operator-(Dual a, Dual b) { return a + -b; }
+Dual operator*(Dual a, Dual b) {
+  return {a.value * b.value, a.by_u * b.value + a.value * b.by_u, a.by_v * b.value + a.value * b.by_v};
+}
+Dual operator/(Dual a, Dual b) { return a * b.chain(1 / b.value, -1 / (b.value * b.value)); }
+Dual sin(Dual a) { return a.chain(std::sin(a.value), std::cos(a.value)); }
+Dual cos(Dual a) { return a.chain(std::cos(a.value), -std::sin(a.value)); }
+Dual sqrt(Dual a) { return a.chain(std::sqrt(a.value), 1 / (2 * std::sqrt(a.value))); }
+
+using Formulas = std::function<std::array<Dual, 2>(Dual u, Dual v)>;
+
+SmoothField smooth(const Formulas& formulas) {
+  const auto at = [formulas](const Vector2d& x) { return formulas({x[0], 1, 0}, {x[1], 0, 1}); };
+  return {[=](const Vector2d& x) {
+            const auto f = at(x);
+            return Vector2d(f[0].value, f[1].value);
+          },
+          [=](const Vector2d& x) {
+            const auto f = at(x);
+            return Matrix2d{{f[0].by_u, f[0].by_v}, {f[1].by_u, f[1].by_v}};
+          }};
+}
+
+FactorReduction reduced(const Formulas& formulas, const Vector2d& start) { return {smooth(formulas), start}; }
+
+Vector2d stepped(const Formulas& formulas, const Vector2d& start, double time) {
+  namespace odeint = boost::numeric::odeint;
+  using State = std::array<double, 2>;
+  State x{start[0], start[1]};
+  const auto right_side = [&](const State& at, State& f, double) {
+    const auto values = formulas(at[0], at[1]);
+    f = {values[0].value, values[1].value};
+  };
+  constexpr double tolerance = 1e-14;
+  odeint::integrate_adaptive(odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(tolerance, tolerance),
+                             right_side, x, 0.0, time, time / 100);
+  return {x[0], x[1]};
+}
+
+struct Example {
+  std::string text, form;
+  Formulas field;
+  Vector2d start;
+  std::function<double(double u, double v)> factor;  ///< V up to a number
+};
+
+const Formulas pendulum = [](Dual u, Dual v) { return std::array{v, -sin(u)}; };
+const Formulas lotka = [](Dual u, Dual v) { return std::array{u * (1 - v), v * (u - 1)}; };
+const Formulas well = [](Dual u, Dual v) { return std::array{v, u - u * u * u}; };
+const Formulas kepler = [](Dual u, Dual v) { return std::array{v, 1 / (u * u * u) - 1 / (u * u)}; };
+const Formulas hopf = [](Dual u, Dual v) {
+  const Dual gap = 1 - u * u - v * v;
+  return std::array{u * gap - v, v * gap + u};
+};
+const Formulas brusselator = [](Dual u, Dual v) { return std::array{u * u * v - 3 * u + 1, 2 * u - u * u * v}; };
+
+const std::vector<Example>& examples() {
+  const Vector2d start{1.3, 0.7};
+  static const std::vector<Example> all{
+      {"pendulum", "constant", pendulum, start, [](double, double) { return 1.0; }},
+      {"double well", "constant", well, start, [](double, double) { return 1.0; }},
+      {"Kepler", "constant", kepler, start, [](double, double) { return 1.0; }},
+      {"Lotka-Volterra", "polynomial", lotka, start, [](double u, double v) { return u * v; }},
+      {"Strogatz's reversible system",
+       "polynomial",
+       [](Dual u, Dual v) {
+         return std::array{v - v * v * v, -u - v * v};
+       },
+       Vector2d(0.4, 0.3),
+       {}},
+      {"Hopf's normal form", "affine", hopf, start,
+       [](double u, double v) { return (u * u + v * v) * (1 - u * u - v * v); }},
+      {"SIR",
+       "affine",
+       [](Dual u, Dual v) {
+         return std::array{-2 * u * v, 2 * u * v - v};
+       },
+       start,
+       {}},
+      {"resonant node", "affine",
+       [](Dual u, Dual v) {
+         return std::array{u, 2 * v + u * u};
+       },
+       start, [](double u, double) { return u * u * u; }},
+      {"linear",
+       "linear in v",
+       [](Dual u, Dual v) {
+         return std::array{Dual(1), sin(2 * u) / 2 - v * cos(u)};
+       },
+       start,
+       {}},
+      {"Riccati, Airy",
+       "quadratic in v",
+       [](Dual u, Dual v) {
+         return std::array{Dual(1), 2 * u + 3 - v * v};
+       },
+       start,
+       {}},
+      {"Riccati, u and v exchanged",
+       "quadratic in u",
+       [](Dual u, Dual v) {
+         return std::array{2 * v + 3 - u * u, Dual(1)};
+       },
+       Vector2d(0.7, 1.3),
+       {}},
+      {"Bernoulli, degree 5", "product",
+       [](Dual u, Dual v) {
+         return std::array{Dual(1), v * cos(u) - v * v * v * v * v};
+       },
+       Vector2d(0.3, 0.5), [](double u, double v) { return std::pow(v, 5) * std::exp(-4 * std::sin(u)); }},
+  };
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("The forms of V are found, with V and orbits as known", "[factor]") {
+  WorstCase factors("V"), states("states against steps"), levels("H on the orbit");
+  for (const Example& example : examples()) {
+    CAPTURE(example.text);
+    const FactorReduction reduction = reduced(example.field, example.start);
+    REQUIRE(reduction.form() == example.form);
+    CHECK(reduction.tried().back().form == example.form);
+    if (example.factor) {
+      const double unit = reduction.factor(example.start) / example.factor(example.start[0], example.start[1]);
+      for (const Vector2d& way : {Vector2d(0.2, 0.1), Vector2d(-0.1, 0.2), Vector2d(-0.2, -0.2)}) {
+        const Vector2d x = example.start + way.cwiseProduct(example.start);
+        const double wanted = unit * example.factor(x[0], x[1]);
+        factors.add(wanted, reduction.factor(x), std::abs(wanted) + std::abs(unit), example.text);
+      }
+    }
+    const FactorOrbit orbit = reduction.orbit(example.start);
+    for (const double time : {0.02, 0.5, 2.0}) {
+      const Vector2d wanted = stepped(example.field, example.start, time), got = orbit.at(time);
+      CAPTURE(time, wanted, got);
+      states.add(0, (got - wanted).norm(), wanted.norm(), example.text);
+      if (time > 0.02) continue;
+      // H, in lengths across the orbit, beside H of a point there.
+      const Vector2d f = smooth(example.field).value(got);
+      levels.add(0, reduction.first_integral(got) * reduction.factor(got) / f.norm(), got.norm(), example.text);
+      const Vector2d beside = got + 1e-3 * Vector2d(-f[1], f[0]) / f.norm();
+      CHECK(std::abs(reduction.first_integral(beside) * reduction.factor(got) / f.norm() - 1e-3) < 1e-5);
+    }
+    // An orbit from a later point is the rest of this one; V is then fitted in other boxes.
+    const Vector2d later = reduction.orbit(orbit.at(0.7)).at(0.8);
+    states.add(0, (later - orbit.at(1.5)).norm(), later.norm(), example.text + ", in two parts");
+  }
+  INFO(factors.sentence());
+  INFO(states.sentence());
+  INFO(levels.sentence());
+  CHECK(factors.worst() < 3e5);
+  CHECK(states.worst() < 1000);
+  CHECK(levels.worst() < 50);
+}
+
+TEST_CASE("Periods are those of closed forms and of a quadrature in 30 digits", "[factor]") {
+  WorstCase periods("period");
+  const auto add = [&](const Formulas& field, const Vector2d& start, double wanted, const std::string& what) {
+    const FactorOrbit orbit = reduced(field, start).orbit(start);
+    CAPTURE(what);
+    REQUIRE(orbit.end() == PlanarEnd::periodic);
+    REQUIRE(orbit.period());
+    CHECK(std::isinf(orbit.end_time()));
+    periods.add(wanted, *orbit.period(), what);
+    CHECK((orbit.at(1000.25 * wanted) - orbit.at(0.25 * wanted)).norm() < 1e-9);
+  };
+  for (const double amplitude : {0.1, 1.0, 2.0, 3.0}) {
+    add(pendulum, {amplitude, 0}, 4 * boost::math::ellint_1(std::sin(amplitude / 2)), "pendulum");
+  }
+  // u'^2 = (a^2 - u^2)(u^2 - b^2)/2, b^2 = 2 - a^2; for b^2 < 0 the orbit goes about both wells.
+  for (const double a : {1.2, 1.4, 1.7}) {
+    const double square = 2 - a * a;
+    const double wanted = square > 0 ? 2 * std::sqrt(2) / a * boost::math::ellint_1(std::sqrt(1 - square / (a * a)))
+                                     : 4 / std::sqrt(a * a - 1) * boost::math::ellint_1(a / std::sqrt(2 * (a * a - 1)));
+    add(well, {a, 0}, wanted, "double well");
+  }
+  const double energy = 0.7 * 0.7 / 2 + 1 / (2 * 1.3 * 1.3) - 1 / 1.3;
+  add(kepler, {1.3, 0.7}, 2 * pi * std::pow(-2 * energy, -1.5), "Kepler");
+  add(
+      [](Dual u, Dual v) {
+        return std::array{v, -u * u * u};
+      },
+      {1, 0}, std::pow(std::tgamma(0.25), 2) / std::sqrt(pi), "quartic oscillator");
+  // Gauss-Legendre quadrature of dt = du/(u (1 - v)) on the level of H, 60 digits.
+  add(lotka, {1.3, 0.7}, 6.38233109541062525232917793724, "Lotka-Volterra");
+  add(hopf, {1, 0}, 2 * pi, "Hopf's cycle, on which V = 0");
+  INFO(periods.sentence());
+  CHECK(periods.worst() < 200);
+}
+
+TEST_CASE("No V is found for systems that have none", "[factor]") {
+  std::mt19937 random(11);
+  std::normal_distribution<double> number;
+  for (int i = 0; i < 40; ++i) {
+    const int degree = 2 + i % 2;
+    std::array<std::array<double, 10>, 2> c{};
+    for (auto& row : c) {
+      for (double& entry : row) entry = number(random);
+    }
+    const FactorReduction reduction = reduced(
+        [&](Dual u, Dual v) {
+          std::array<Dual, 2> f{0, 0};
+          const std::array<Dual, 10> terms{1, u, v, u * u, u * v, v * v, u * u * u, u * u * v, u * v * v, v * v * v};
+          for (std::size_t j = 0; j < (degree == 2 ? 6u : 10u); ++j) {
+            for (std::size_t k = 0; k < 2; ++k) f[k] = f[k] + c[k][j] * terms[j];
+          }
+          return f;
+        },
+        {1.3, 0.7});
+    CHECK(!reduction.found());
+    CHECK(reduction.tried().size() == 8);
+  }
+  const auto none = [](const Formulas& field, const Vector2d& start) {
+    const FactorReduction reduction = reduced(field, start);
+    CHECK(reduction.form() == "");
+    CHECK_THROWS_WITH(reduction.orbit(start), Contains("no inverse integrating factor was found"));
+    CHECK_THROWS_AS(reduction.factor(start), std::domain_error);
+  };
+  none([](Dual u, Dual v) { return std::array{v, v * (1 - u * u) - u}; }, {1.3, 0.7});
+  none([](Dual u, Dual v) { return std::array{v, -sin(u) - v / 5}; }, {1.3, 0.7});
+  none([](Dual u, Dual v) { return std::array{u * u * v - u + v / 10, 0.5 - u * u * v - v / 10}; }, {1.3, 0.7});
+  none(brusselator, {1.3, 0.7});
+  // In a small box every V is near to a polynomial.
+  none(brusselator, {0.01, 0.02});
+  none(brusselator, {0, 1});
+  none([](Dual u, Dual v) { return std::array{v, u - u * u * u - v / 5}; }, {100, 3});
+}
+
+TEST_CASE("The ends of orbits and their times", "[factor]") {
+  const auto orbit = [](const Formulas& field, const Vector2d& start) { return reduced(field, start).orbit(start); };
+  const auto ends = [&](const Formulas& field, const Vector2d& start, PlanarEnd end, double time) {
+    const FactorOrbit there = orbit(field, start);
+    CAPTURE(there.undecided(), start, there.end_time());
+    CHECK(there.end() == end);
+    CHECK(there.undecided().empty());
+    CHECK(!there.period());
+    if (std::isinf(time)) {
+      CHECK(there.end_time() == time);
+    } else {
+      CHECK(std::abs(there.end_time() / time - 1) < 1e-12);
+      CHECK_THROWS_WITH(there.at(1.01 * time), Contains("ends at the time"));
+    }
+    return there;
+  };
+  // v = u^2/3 + C u^10 about (1, 2), u - 1 = exp(-t)/2: near the equilibrium a curve on which V = 0 is within rounding.
+  const Formulas node = [](Dual u, Dual v) { return std::array{1 - u, (u - 1) * (u - 1) - 10 * (v - 2)}; };
+  const FactorOrbit to_node = ends(node, {1.5, 1}, PlanarEnd::equilibrium, infinity);
+  for (const double t : {1.0, 10.0, 30.0, 1e4}) {
+    const double a = std::exp(-t) / 2, b = a * a / 8 - (1 + 1. / 32) * std::exp(-10 * t);
+    CHECK((to_node.at(t) - Vector2d(1 + a, 2 + b)).norm() < 1e-13);
+  }
+  // The stable line of a saddle: the axis, and a parabola.
+  CHECK(ends(lotka, {0, 0.7}, PlanarEnd::equilibrium, infinity).at(10) ==
+        Vector2d(0, orbit(lotka, {0, 0.7}).at(10)[1]));
+  const Formulas saddle = [](Dual u, Dual v) { return std::array{-u, u * u + 2 * v}; };
+  const Vector2d near_saddle = ends(saddle, {1, -0.25}, PlanarEnd::equilibrium, infinity).at(10);
+  CHECK((near_saddle - Vector2d(std::exp(-10), -std::exp(-20) / 4)).norm() < 1e-11 * near_saddle.norm());
+  // A line of equilibria, a closed orbit.
+  ends(
+      [](Dual u, Dual v) {
+        return std::array{-2 * u * v, 2 * u * v - v};
+      },
+      {1.3, 0.7}, PlanarEnd::equilibrium, infinity);
+  const FactorOrbit to_cycle = ends(hopf, {0.1, 0}, PlanarEnd::cycle, infinity);
+  CHECK((to_cycle.at(100) - Vector2d(std::cos(100), std::sin(100))).norm() < 1e-10);
+  // Infinity in finite time and for ever; a pole, and the border of a root.
+  ends(
+      [](Dual, Dual v) {
+        return std::array{Dual(1), 1 + v * v};
+      },
+      {1.3, 0.7}, PlanarEnd::infinity, pi / 2 - std::atan(0.7));
+  ends([](Dual u, Dual v) { return std::array{u * u, v}; }, {1, 1}, PlanarEnd::infinity, 1);
+  ends([](Dual u, Dual v) { return std::array{u, v + u * u}; }, {1, 1}, PlanarEnd::infinity, infinity);
+  ends([](Dual, Dual v) { return std::array{Dual(1), -1 / v}; }, {1.3, 0.7}, PlanarEnd::border, 0.7 * 0.7 / 2);
+  ends(
+      [](Dual u, Dual v) {
+        return std::array{-sqrt(u), sqrt(u) - sqrt(v)};
+      },
+      {1.3, 0.7}, PlanarEnd::border, 2 * std::sqrt(1.3));
+  // Not decided: the separatrix of the double well, that rounding is beside; a pole that all orbits meet in.
+  const auto open = [&](const Formulas& field, const Vector2d& start, const std::string& reason) {
+    const FactorOrbit there = orbit(field, start);
+    CHECK(there.end() == PlanarEnd::undecided);
+    CHECK(std::isnan(there.end_time()));
+    CHECK_THAT(there.undecided(), Contains(reason));
+    CHECK_THROWS_WITH(there.at(1e6), Contains("was followed up to the time"));
+  };
+  open(well, {std::sqrt(2), 0}, "saddle");
+  open([](Dual u, Dual v) { return std::array{Dual(1), sin(2 * u) - v * sin(u) / cos(u)}; }, {1.3, 0.7}, "(1.57079");
+  const FactorOrbit resting = orbit(lotka, {1.3, 0.7});
+  CHECK_THROWS_WITH(resting.at(-1), Contains("times >= 0"));
+}
+
+TEST_CASE("T of (2.6) is V on the section but for a factor without zeros, README (R65)", "[factor]") {
+  for (const Law& law : {*find_law("pade"), *find_law("exact")}) {
+    const ReducedSystem system(law, 0.3);
+    const SmoothField field{planar_field(system)};
+    const Vector2d start{1, 0.5};
+    const FactorReduction reduction(field, start);
+    REQUIRE(reduction.form() == "affine");
+    const PlanarReduction plane(field.value, *find_symmetries(field.value, start).scaling, start);
+    // A = 1: x = sqrt(2) exp(p) n, T = n ^ g.
+    constexpr double by_differences = 1e-7;
+    double ratio = 0;
+
+    for (const double angle : {0.05, 0.3, 0.8, 1.4, 1.9, 2.7}) {
+      const Vector2d n(std::cos(angle), std::sin(angle)), g = field.value(std::sqrt(2) * n) / std::sqrt(2);
+      const double t = n[0] * g[1] - n[1] * g[0], p = 0.4 * angle;
+      const double here = reduction.factor(plane.point(angle, p)) / (std::exp(p) * t);
+      if (ratio == 0) ratio = here;
+      CHECK(std::abs(here / ratio - 1) < by_differences);
+    }
+    for (const PlanarRay& ray : plane.rays()) {
+      CHECK(std::abs(reduction.factor(plane.point(ray.q, 0))) < by_differences * std::abs(ratio));
+    }
+    // The same motion by the flow.
+    const Orbit flow = Flow(system).orbit({start[0], start[1]});
+    const OrbitPoint wanted = flow.at_time(0.4 * flow.stop_time());
+    const Vector2d got = reduction.orbit(start).at(0.4 * flow.stop_time());
+    CHECK((got - Vector2d(wanted.u, wanted.v)).norm() < 1e-11 * got.norm());
+  }
+}
+
+TEST_CASE("Differences take the place of a Jacobian", "[factor]") {
+  for (const Example& example : examples()) {
+    CAPTURE(example.text);
+    const SmoothField without{smooth(example.field).value};
+    const FactorReduction reduction(without, example.start);
+    CHECK(reduction.form() == example.form);
+    if (!reduction.found()) continue;
+    const Vector2d wanted = stepped(example.field, example.start, 1), got = reduction.orbit(example.start).at(1);
+    CHECK((got - wanted).norm() < 1e-11 * wanted.norm());
+  }
+}
+
+TEST_CASE("Values outside the box of V, and starts without values, are refused", "[factor]") {
+  const FactorReduction reduction = reduced(lotka, {1.3, 0.7});
+  CHECK_THROWS_WITH(reduction.factor({3, 3}), Contains("outside the box"));
+  CHECK_THROWS_WITH(reduction.first_integral({3, 3}), Contains("outside the box"));
+  CHECK_THROWS_WITH(reduction.orbit({NAN, 1}), Contains("no value at"));
+  CHECK_THROWS_WITH(reduced(kepler, {0, 1}), Contains("no value at"));
+  CHECK_THROWS_WITH(reduced(hopf, {0.9, 0.3}).first_integral({1.1, 0.3}), Contains("V = 0 between"));
+}
