@@ -203,8 +203,8 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
   CHECK(asked == systems * starts);
 }
 
-/// The scaled stop time over w, T(k), of a driven body with a ray: dT/dk = (1 - r Psi T)/D from (R2) and (R48), in steps of
-/// ln |k - k*| from the ray's tangent, in more digits than a double has. It shares no code with the library, nor its laws.
+/// The scaled stop time over w, T(k), of a driven body with a ray: dT/dk = (1 - r Psi T)/D from (R2) and (R48), in steps
+/// from the ray's tangent, in more digits than a double has. It shares no code with the library, nor its laws.
 class ByTheRay {
  public:
   using Wide = std::conditional_t<(std::numeric_limits<long double>::digits > 60), long double,
@@ -228,15 +228,19 @@ class ByTheRay {
     using std::abs, std::ceil, std::exp, std::log;
     using Values = std::array<Wide, 1>;
     const int side = k < ray_ ? -1 : 1;
-    const Wide from = log(near * ray_), to = log(abs(k - ray_));
+    // In steps of ln |k - k*| above the ray, and below it of ln(k*/k - 1), which resolves k where it is small, too.
+    const Wide from = side > 0 ? log(near * ray_) : log(near / (1 - near)),
+               to = log(abs(k - ray_) / (side > 0 ? 1 : k));
     Values value{at_ray_ + side * tangent_ * near * ray_};
     if (!(to > from)) return at_ray_ + tangent_ * (k - ray_);
     const int steps = static_cast<int>(static_cast<double>(to - from) / 0.02) + 1;
     const Wide step = (to - from) / steps;
     boost::numeric::odeint::runge_kutta_fehlberg78<Values, Wide, Values, Wide> stepper;
-    const auto rate = [&](const Values& x, Values& slope, Wide ln_distance) {
-      const Wide distance = exp(ln_distance), at = ray_ + side * distance;
-      slope[0] = side * distance * (1 - r_ * moment(at) * x[0]) / difference(at);
+    const auto rate = [&](const Values& x, Values& slope, Wide along) {
+      const Wide share = side > 0 ? Wide(1) : Wide(1 / (1 + exp(along))),
+                 distance = exp(along) * (side > 0 ? share : share * ray_);
+      const Wide at = ray_ + side * distance;
+      slope[0] = side * share * distance * (1 - r_ * moment(at) * x[0]) / difference(at);
     };
     for (int i = 0; i < steps; ++i) stepper.do_step(rate, value, Wide(from + step * i), step);
     return value[0];
