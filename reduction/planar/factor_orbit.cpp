@@ -95,6 +95,8 @@ class Follower {
       }
       noise_ = eps * here->slopes.cwiseAbs() * x_.cwiseAbs();
       if (rests(*here) || escapes(*here)) return;
+      constexpr double largest = 1e150;
+      if (!(x_.stableNorm() < largest)) return stop("the orbit leaves the numbers");
       constexpr double edge = 0.7, near = 0.2;
       const bool enters =
           i == 0 ? !factor_ : box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near;
@@ -192,10 +194,11 @@ class Follower {
   /// True if it goes to infinity: |x'| ~ |x|^p along it.
   bool escapes(const Jet& here) {
     constexpr double far = 1e6, farther = 1e12;
-    const double distance = x_.norm(), outward = x_.dot(here.f);
-    if (!(distance > far * size_) || !(outward > 0)) return false;
-    const double growth = outward / (distance * distance);
-    const double power = here.f.dot(here.slopes * here.f) / here.f.squaredNorm() / growth;
+    const double distance = x_.norm();
+    const Vector2d way = here.f.stableNormalized();
+    const double growth = x_.stableNormalized().dot(way) * (here.f.stableNorm() / distance);
+    if (!(distance > far * size_) || !(growth > 0)) return false;
+    const double power = way.dot(here.slopes * way) / growth;
     constexpr double above = 1.02, below = 1 + 1e-4;
     if (power > above) {
       const double left = 1 / (growth * (power - 1));

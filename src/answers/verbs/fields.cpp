@@ -69,6 +69,8 @@ std::vector<VerbFields> field_table() {
       {"portrait --system",
        {
            {"`system`, `kind`, `rays`; `centre`; `window`", "", "as `reduce` has them; [[U1, U2], [V1, V2]]"},
+           {"`form`; `equilibria` [{`u`, `v`, `kind`, `eigenvalues`}]; `separatrices`", "",
+            "without a scaling: as `reduce` has it, null for steps; eigenvalues [[re, im], [re, im]]; orbits"},
            {"CSV `kind`, `index`, `u`, `v`, `tau`", "", "as `portrait` has them; inf where the centre is not reached"},
        }},
       {"portrait --facts", phase_plane_fields()},
@@ -88,6 +90,10 @@ std::vector<VerbFields> field_table() {
             "across the lines where the field is not smooth"},
            {"`singular_values`; `level`; `gap`", "",
             "of the determining equations, over the largest; what counts as 0 is below level; how far the others are"},
+           {"`form`; `factor`; `tried` [{`form`, `singular_value`, `gap`}]", "",
+            "scaling, or the form of the inverse integrating factor V that solves the system, null for none; V in "
+            "words; "
+            "forms of V in the order in which they were tried"},
            {"`canonical` {`q`, `p`, `dp_dq`}; `first_integral`", "",
             "v/u and ln v; of a system the angle of a direction and ln of the distance, over those of the start; p "
             "less its value on one orbit"},
@@ -105,6 +111,8 @@ std::vector<VerbFields> field_table() {
            {"`tau_stop`; `accuracy`; `end`; `routes` [{`name`, `tau_stop`}]", "speed",
             "inf where the centre is not reached, null before a border or if not decided; its relative error; null if "
             "not decided; section: by the general way; `failure` of a route instead"},
+           {"`period`; `by_steps` {`difference`, `time`}", "",
+            "time after which the motion returns; difference of its state from that of steps, relative, and when"},
        }},
       {"fit", fit_fields()},
       {"balls",

@@ -10,7 +10,8 @@ namespace contensou::program {
 void SystemOption::add(CLI::App& app) {
   app.option_defaults()->group("Another system");
   system_.add(app, "--system", "\"u' = F; v' = G\"",
-              "in place of (2.6): formulas in u and v with + - * / ^, |x|, hypot, sqrt, sign, exp, ...; "
+              "another system in place of (2.6), or \"y' = F(x, y)\", \"x'' = F(x, x')\": formulas in u and v with + - "
+              "* / ^, |x|, hypot, sqrt, sign, exp, ...; "
               "--u0 and --v0 of either sign are its start");
 }
 
