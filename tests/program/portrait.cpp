@@ -143,9 +143,39 @@ TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
   const Run script = with({"--through", "-0.5,-1", "--field", "--format", "gp", "-o", "-"});
   CHECK(script.status == 0);
   CHECK_THAT(script.out, Contains("through the points given") && Contains("direction of the motion"));
-  const TemporaryDirectory scratch;
-  const Run none = run_program({"portrait", "--system", "u' = -u - u^3; v' = 1 - v*v", "-o", scratch.file("p.gp")});
-  CHECK(none.status == 1);
-  CHECK_THAT(none.err, Contains("no scaling was found") && Contains("least singular value") && Contains("reduce"));
-  CHECK(scratch.names().empty());
+}
+
+TEST_CASE("portrait draws fields without a scaling, by quadrature or by steps", "[cli]") {
+  const auto drawn = [](const char* system) {
+    return nlohmann::json::parse(
+        run_program({"portrait", "--system", system, "--window", "4,3", "--orbits", "6", "--format", "json", "-o", "-"})
+            .out);
+  };
+  const nlohmann::json pendulum = drawn("x'' = -sin(x)");
+  CHECK(pendulum["form"] == "constant");
+  REQUIRE(pendulum["equilibria"].size() == 3);
+  CHECK(pendulum["equilibria"][0]["u"].get<double>() == Approx(-3.14159265358979324).epsilon(1e-14));
+  CHECK(pendulum["equilibria"][0]["kind"] == "saddle");
+  CHECK(pendulum["equilibria"][1]["kind"] == "center or focus");
+  CHECK(pendulum["equilibria"][1]["eigenvalues"][0][1].get<double>() == Approx(-1).epsilon(1e-12));
+  REQUIRE(pendulum["separatrices"].size() >= 4);
+  // Energy is constant along orbits, and is that of the saddles on separatrices.
+  const auto energy = [](const nlohmann::json& orbit, std::size_t i) {
+    return std::pow(orbit["v"][i].get<double>(), 2) / 2 - std::cos(orbit["u"][i].get<double>());
+  };
+  for (const nlohmann::json& orbit : pendulum["separatrices"]) {
+    for (std::size_t i = 1; i + 1 < orbit["u"].size(); i += 7) CHECK(energy(orbit, i) == Approx(1).epsilon(1e-9));
+  }
+  for (const nlohmann::json& orbit : pendulum["orbits"]) {
+    for (std::size_t i = 1; i + 1 < orbit["u"].size(); i += 7) {
+      CHECK(energy(orbit, i) == Approx(energy(orbit, 1)).epsilon(1e-9));
+    }
+  }
+  const nlohmann::json van_der_pol = drawn("u' = v; v' = (1-u^2)*v-u");
+  CHECK(van_der_pol["form"].is_null());
+  CHECK(van_der_pol["orbits"].size() >= 6);
+  REQUIRE(van_der_pol["equilibria"].size() == 1);
+  CHECK(van_der_pol["equilibria"][0]["kind"] == "unstable focus");
+  const Run script = run_program({"portrait", "--system", "u' = v; v' = (1-u^2)*v-u", "--format", "gp", "-o", "-"});
+  CHECK_THAT(script.out, Contains("no reduction found: orbits by steps"));
 }
