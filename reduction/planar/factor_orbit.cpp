@@ -95,14 +95,13 @@ class Follower {
       }
       noise_ = eps * here->slopes.cwiseAbs() * x_.cwiseAbs();
       if (rests(*here) || escapes(*here)) return;
-      constexpr double largest = 1e150;
-      if (!(x_.stableNorm() < largest)) return stop("the orbit leaves the numbers");
-      constexpr double edge = 0.7, near = 0.2;
+      if (at_border(*here, 4)) return end(PlanarEnd::border, motion_.followed);
+      constexpr double edge = 0.7, near = 0.2, shortest = 256;
       const bool enters =
           i == 0 ? !factor_ : box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near;
       const bool holds = !enters || enter(*here);
       if (!holds || !step(*here)) {
-        if (at_border(*here)) return end(PlanarEnd::border, motion_.followed);
+        if (at_border(*here, shortest)) return end(PlanarEnd::border, motion_.followed);
         return stop(holds ? "the field is not smooth" : "the form of V does not hold");
       }
       if (on_curve_ && factor_) return_to_curve();
@@ -193,12 +192,12 @@ class Follower {
 
   /// True if it goes to infinity: |x'| ~ |x|^p along it.
   bool escapes(const Jet& here) {
-    constexpr double far = 1e6, farther = 1e12;
-    const double distance = x_.norm();
-    const Vector2d way = here.f.stableNormalized();
-    const double growth = x_.stableNormalized().dot(way) * (here.f.stableNorm() / distance);
-    if (!(distance > far * size_) || !(growth > 0)) return false;
-    const double power = way.dot(here.slopes * way) / growth;
+    constexpr double farther = 1e12;
+    const Vector2d direction = here.f.stableNormalized();  // squares may overflow
+    const double distance = x_.stableNorm(), growth = (x_ / distance).dot(here.f / distance);
+    if (!(distance > far_ * size_) || !(growth > 0)) return false;
+
+    const double power = direction.dot(here.slopes * direction) / growth;
     constexpr double above = 1.02, below = 1 + 1e-4;
     if (power > above) {
       const double left = 1 / (growth * (power - 1));
@@ -211,12 +210,20 @@ class Follower {
     return true;
   }
 
-  /// True if a step that fails here does so for want of values, or beside a pole; time has converged.
-  bool at_border(const Jet& here) const {
-    if (motion_.panels.empty() || motion_.panels.back().time.at_end() > 256 * eps * motion_.followed) return false;
-    // A time of some rounding errors further on.
-    const bool value = value_of(field_, x_ + 256 * eps * motion_.followed * here.f).has_value();
-    return !value || here.f.norm() > singular_ * first_->f.norm();
+  /// True beside a pole or where values end, if the last part of the way took some rounding errors of the time.
+  bool at_border(const Jet& here, double roundings) const {
+    constexpr double overflows = 1e100;
+    const double rounding = roundings * eps * motion_.followed;
+    if (motion_.panels.empty() || motion_.panels.back().time.at_end() > rounding) return false;
+    if (!(x_.norm() <= far_ * size_) || !(here.slopes.norm() < overflows)) return false;
+    constexpr double singular = 1e4, short_way = 0.01;
+    const Vector2d way = rounding * here.f;
+    if (!(way.norm() < short_way * size_)) return false;
+    if (!value_of(field_, x_ + way)) return true;
+    // A speed that grows within a longer way may belong to an orbit that goes to infinity as a logarithm.
+    const Vector2d direction = here.f.normalized();
+    const double speed = here.f.norm(), growth = direction.dot(here.slopes * direction);
+    return speed > singular * first_->f.norm() && speed < short_way * size_ * growth;
   }
 
   /// Returns the estimated distance of an equilibrium, in units of the box; infinity if there is none.
@@ -328,10 +335,12 @@ class Follower {
       if (missed <= 4 * (eps * (size + largest) + noise_across + noise * largest)) break;
       if (iteration == most || (iteration > first && !(missed < before / 2))) return false;
     }
-    constexpr double accurate = 1e-14, timed = 1e-13, smooth = 1e-3, little = 1e-6;
+    constexpr double accurate = 1e-14, timed = 1e-13, smooth = 1e-3, little = 1e-6, varied = 100;
     const double largest = std::abs(half) * q.abs().maxCoeff();
-    // A pole that the orbit itself would pass shows in ln V.
-    const bool resolved = LegendreSeries::tail(q) * std::abs(half) <=
+    // Poles that the orbit would pass smoothly show in ln V, or as zeros of the rate of time.
+
+    const bool resolved = rate.abs().maxCoeff() <= varied * rate.abs().minCoeff() &&
+                          LegendreSeries::tail(q) * std::abs(half) <=
                               accurate * (size + largest) + 8 * (noise_across + noise * largest) &&
                           LegendreSeries::tail(rate) <= std::max(timed, 8 * noise) * rate.abs().maxCoeff() &&
                           LegendreSeries::tail(growth) <= smooth * growth.abs().maxCoeff() + little / std::abs(half);
@@ -389,7 +398,7 @@ class Follower {
     return true;
   }
 
-  static constexpr double near_ = 1e-11, accurate_ = 1e-8, singular_ = 1e4, least_length_ = 1e-150, small_ = 1e-4;
+  static constexpr double near_ = 1e-11, accurate_ = 1e-8, far_ = 1e6, least_length_ = 1e-150, small_ = 1e-4;
 
   const SmoothField& field_;
   FactorOrbit::Motion& motion_;
