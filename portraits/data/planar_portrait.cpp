@@ -439,10 +439,12 @@ class MotionTracer {
     const Vector2d sides = window_.high - window_.low;
     const double speed = f.cwiseQuotient(sides).norm();
     if (!(speed > 0)) return {};
-    const reduction::PlanarOrbit motion = [&] {
+    bool stepped = false;
+    reduction::PlanarOrbit motion = [&] {
       try {
         return plane.orbit(x);
       } catch (const std::domain_error&) {
+        stepped = true;
         return by_steps.orbit(x);
       }
     }();
@@ -461,7 +463,13 @@ class MotionTracer {
       try {
         there = motion.at(next);
       } catch (const std::domain_error&) {
-        if ((step /= 2) < 1e-6 * near / speed) break;  // the end of what is known
+        step /= 2;
+        if (step > 1e-6 * near / speed) continue;
+        // The end of what is known: steps may lead on.
+        if (std::exchange(stepped, true) || motion.end() != PlanarEnd::undecided) break;
+        motion = by_steps.orbit(here);
+        time = 0;
+        step = 1e-3 * near / speed;
         continue;
       }
       const Vector2d outside = (there - window_.low).cwiseMin(0) + (there - window_.high).cwiseMax(0);
