@@ -213,6 +213,14 @@ TEST_CASE("--keep-going leaves out what it cannot compute", "[cli]") {
   for (const char* place : {"<stdin>:3: ", "<stdin>:4: ", "<stdin>:5: "}) CHECK_THAT(run.err, Contains(place));
 }
 
+TEST_CASE("quotes that do not close where they should are named where they open", "[cli]") {
+  std::string csv = "mu,u0,v0,id\n0.1,1,1,a\n0.1,1,1,\"b\n";
+  for (int i = 0; i < 50; ++i) csv += "0.1,1,1,c\n";
+  const Run run = run_program("stop --law pade --keep-going --batch -", csv + "0.1,1,1,\"d\"\n");
+  CHECK(run.status == 2);
+  CHECK_THAT(run.err, Contains("<stdin>:3: a quote inside a field, or one that closes on line 54 only"));
+}
+
 TEST_CASE("a batch excludes what makes no sense with it", "[cli]") {
   for (const std::string other : {"--mu 0.1", "--ball pool", "--slip 1", "--format json", "--format text",
                                   "--digits banana", "--digits 18", "--digits 5"}) {

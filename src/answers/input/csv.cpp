@@ -78,9 +78,14 @@ void CsvParser::add(char letter, CsvBlock& block) {
     place_ = Place::field_start;
   } else if (letter == '"' && place_ != Place::field) {
     if (place_ == Place::after_quote) values_ += letter;
+    if (place_ == Place::field_start) quote_line_ = line_;
     place_ = place_ == Place::quoted ? Place::after_quote : Place::quoted;
   } else if (letter == '"' || place_ == Place::after_quote) {
-    throw complaint(line_, "a quote inside a field: put the field in quotes and double those inside");
+    // The fault is where a quote opens, however many lines it takes with it.
+    const long begin = place_ == Place::after_quote ? quote_line_ : line_;
+    throw complaint(begin,
+                    fmt::format("a quote inside a field{}: put the field in quotes and double those inside",
+                                begin < line_ ? fmt::format(", or one that closes on line {} only", line_) : ""));
   } else {
     if (place_ == Place::field_start) place_ = Place::field;
     values_ += letter;
@@ -100,7 +105,7 @@ void CsvParser::end_record(CsvBlock& block) {
 }
 
 void CsvParser::finish(CsvBlock& block) {
-  if (place_ == Place::quoted) throw complaint(record_line_, "the quotes that open here are never closed");
+  if (place_ == Place::quoted) throw complaint(quote_line_, "the quotes that open here are never closed");
   if (place_ != Place::between_records && place_ != Place::comment) end_record(block);
 }
 

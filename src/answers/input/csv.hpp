@@ -104,8 +104,9 @@ class CsvParser {
   bool at_line_start_ = true;
   bool after_return_ = false;  ///< a line feed here belongs to the line end before
   long record_line_ = 0;
-  std::string text_;    ///< of the record so far
-  std::string values_;  ///< its fields
+  long quote_line_ = 0;  ///< on which the quotes of the field open
+  std::string text_;     ///< of the record so far
+  std::string values_;   ///< its fields
   std::vector<std::size_t> ends_;
 };
 
