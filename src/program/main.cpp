@@ -220,8 +220,8 @@ ExitStatus guarded(const std::vector<std::string>& arguments) {
   } catch (const si::RunFileError& error) {
     return complain(ExitStatus::bad_input, error.what());
   } catch (const std::domain_error& error) {
-    return complain(ExitStatus::bad_input, fmt::format("contensou: {}\nTry 'contensou {}{}--help'.", error.what(), verb,
-                                                       verb.empty() ? "" : " "));
+    return complain(ExitStatus::bad_input, fmt::format("contensou: {}\nTry 'contensou {}{}--help'.",
+                                                       words_of(error.what()), verb, verb.empty() ? "" : " "));
   } catch (const FileFailure& error) {
     return complain(ExitStatus::file_failure, fmt::format("contensou: {}", error.what()));
   } catch (const std::system_error& error) {

@@ -1,4 +1,3 @@
-#include <cctype>
 #include <string>
 #include <utility>
 
@@ -9,14 +8,8 @@ namespace {
 
 /// A message of the library without the names of its functions, and with the names of arguments for options.
 std::string in_words_of_python(std::string text) {
-  const std::size_t begin = text.starts_with("row ") ? text.find(": ") + 2 : 0, end = text.find(": ", begin);
-  if (end != std::string::npos && std::isupper(static_cast<unsigned char>(text[begin])) &&
-      text.find(' ', begin) > end) {  // as in "Motion::at: "
-    text.erase(begin, end + 2 - begin);
-  }
-  for (const auto& [words, instead] : {std::pair<std::string, const char*>{"slip_of_ratio: ", ""},
-                                       {"verify: ", ""},
-                                       {"fit: track t: ", ""},
+  text = contensou::answers::words_of(std::move(text));
+  for (const auto& [words, instead] : {std::pair<std::string, const char*>{"fit: track t: ", ""},
                                        {"with --param ", "as "},
                                        {"--mu", "mu"},
                                        {"--slope 0", "slope=0"},

@@ -4,9 +4,31 @@
 
 #include <catch2/catch.hpp>
 
+#include "answers/input/message.hpp"
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+TEST_CASE("messages are without names of the library", "[cli]") {
+  using contensou::answers::words_of;
+  CHECK(words_of("Flow::orbit: gamma: 1") == "gamma: 1");
+  CHECK(words_of("ReducedSystem: mu = 2") == "mu = 2");
+  CHECK(words_of("Flow: a solution") == "a solution");
+  CHECK(words_of("slip_of_ratio: no k") == "no k");
+  CHECK(words_of("row 3: SimilarityCurve: no k") == "row 3: no k");
+  for (const std::string words :
+       {"--mu 2: no", "f.csv:3: slip_sd: 'x'", "f.csv:3: Slip: 'x'", "law Mine: no", "fit: no", "a"})
+    CHECK(words_of(words) == words);
+  CHECK_THAT(run_program("orbit --mu 1e-160 --u0 1 --v0 1").err, StartsWith("contensou: gamma mu^2/chi = "));
+  CHECK_THAT(run_program("stop --mu 0.1 --u0 1 --v0 1 --estimate --body 2,1000").err, StartsWith("contensou: r = "));
+  CHECK_THAT(run_program("check --mu 1e-300 --u0 1 --v0 1").err, StartsWith("contensou: mu = 1e-300 is too small"));
+  const TemporaryDirectory scratch;
+  const std::string table = scratch.file("p.csv");
+  write_file(table, "rho,pressure\n0,1\n1e-12,0\n1,0\n");
+  CHECK_THAT(run_program("stop --mu 0.1 --u0 1 --v0 1 --law " + table).err,
+             StartsWith("contensou: " + table + ": rows within rho = 1e-11"));
+}
 
 TEST_CASE("messages quote what they can show", "[cli]") {
   const std::string long_text(20000, 'x');

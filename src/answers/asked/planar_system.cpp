@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "answers/input/message.hpp"
+
 namespace contensou::answers {
 
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters) {
@@ -67,7 +69,7 @@ SolvedPlane solve_by_scaling(const reduction::PlanarField& field, const reductio
     try {
       return {reduction::PlanarReduction(field, *found.scaling, around, found.residual), ""};
     } catch (const std::domain_error& refused) {
-      return {std::nullopt, refused.what()};
+      return {std::nullopt, words_of(refused.what())};
     }
   }
   if (found.verdict == Verdict::none) return {std::nullopt, "no scaling was found"};

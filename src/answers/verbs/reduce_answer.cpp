@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "answers/asked/planar_system.hpp"
+#include "answers/input/message.hpp"
 #include "contensou/portraits/reduced_orbits.hpp"
 #include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/infinity.hpp"
@@ -400,7 +401,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
       const double tau = route == ways.front() ? stop.tau : reduction::stop_time(system, state, route).tau;
       routes.push_back({{"name", name(route)}, {"tau_stop", tau}});
     } catch (const std::runtime_error& failure) {  // a stepper did not come to the stop
-      routes.push_back({{"name", name(route)}, {"failure", failure.what()}});
+      routes.push_back({{"name", name(route)}, {"failure", words_of(failure.what())}});
     }
   }
   routes.push_back({{"name", "section"}, {"tau_stop", plane.end_time(start)}});

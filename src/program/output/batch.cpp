@@ -11,6 +11,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include "answers/input/message.hpp"
 #include "answers/table/answer.hpp"
 #include "contensou/si/quantity.hpp"
 #include "output/ordered_work.hpp"
@@ -140,9 +141,9 @@ class Batch {
     try {
       request_.compute(piece.values, piece.results, row.line());
     } catch (const std::domain_error& error) {
-      throw table_.complaint(row.line(), error.what());
+      throw table_.complaint(row.line(), words_of(error.what()));
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(table_.complaint(row.line(), error.what()).what());
+      throw std::runtime_error(table_.complaint(row.line(), words_of(error.what())).what());
     }
   }
 
