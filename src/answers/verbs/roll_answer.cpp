@@ -229,10 +229,12 @@ std::string resistance_text(const Roll& roll, const Digits& digits) {
         fmt::format("creeps while it spins: its slip tends to {} m times its spin, k = {}\n", digits(rim), digits(*k));
   }
   const auto pieces = roll.whole.pieces();
-  text += !roll.whole.is_reduced() ? "route  integrated: the slip turns, or is driven by more than friction holds\n"
-          : pieces.empty()         ? "route  reduced: it does not slide\n"
-                                   : fmt::format("route  reduced: it slides the way it rolls, with a drive of {}\n",
-                                                 digits(pieces.front().flow.system().drive()));
+  text += !roll.whole.is_reduced()
+              ? "route  integrated: its slip, its roll and the slope have more than one direction, or "
+                "drive it by more than friction holds\n"
+          : pieces.empty() ? "route  reduced: it does not slide\n"
+                           : fmt::format("route  reduced: it slides the way it rolls, with a drive of {}\n",
+                                         digits(pieces.front().flow.system().drive()));
   if (roll.lies_flat()) return text;
   return text + (roll.whole.rest()
                      ? fmt::format("rests  once it no longer turns and slides below {} m/s\n", digits(si::resting_slip))

@@ -57,17 +57,18 @@ double drive_of(const Experiment& experiment) {
   const double v = slip_at_start(experiment);
   const Eigen::Vector2d rolling =
       velocities_of(start).velocity - (v > 0 ? slip_velocity_at_start(experiment) : Eigen::Vector2d(0, 0));
-  const char* const integrated =
-      ": the slip turns, which is no motion of a reduced system; the whole motion (roll) is integrated";
+  const char* const integrated = ": no reduced system has this motion; the whole motion (roll) is integrated";
   if (!points_along(rolling, along)) {
     throw std::domain_error(fmt::format(
         "with rolling friction {} and a slope of {} degrees a ball must roll the way it slides, or not at all{}",
         contact.rolling_friction, environment.slope, integrated));
   }
   if (environment.slope != 0 && !points_along(pull(environment), along)) {
-    throw std::domain_error(fmt::format(
-        "on a slope of {} degrees along x it must slide straight down, got a slip in the direction ({:.3g}, {:.3g}){}",
-        environment.slope, along.x(), along.y(), integrated));
+    throw std::domain_error(
+        fmt::format("on a slope of {} degrees along x it must slide straight down, got a slip in the direction "
+                    "({:.3g}, {:.3g}), which "
+                    "the slope slows or turns{}",
+                    environment.slope, along.x(), along.y(), integrated));
   }
   const double drive = drives_along(experiment, along, ball.body.inertia.chi).turning();
   return drive < reduction::ReducedSystem::least_drive ? 0 : drive;
