@@ -70,7 +70,7 @@ TEST_CASE("a start by velocities, from a run file and from options", "[invariant
   const std::string file = scratch.file("masse.toml");
   write_file(file, general_file);
   CHECK(run_program("roll --ball " + file + " --samples 9").out == run_program(masse + " --samples 9").out);
-  // Each option alone replaces its part of [start].
+  // Each option alone replaces its part of a [start] of its kind.
   CHECK(run_program("roll --ball " + file + " --velocity 2,3 --at 0").out ==
         run_program("roll --ball pool --velocity 2,3 --angular-velocity 40,35,-50 --at 0").out);
   CHECK(rows_of(run_program("roll --ball pool --velocity 2,3 --at 0").out)[1][7] == "100");

@@ -211,15 +211,25 @@ TEST_CASE("rolling friction and a slope are taken or refused by name, by every v
   }
 }
 
-TEST_CASE("a slip or a spin on the command line replaces the velocities of a run file", "[cli]") {
+TEST_CASE("a slip or a spin on the command line replaces a whole [start] of velocities", "[cli]") {
   const TemporaryDirectory scratch;
-  const std::string file = scratch.file("moves.toml");
-  std::ofstream(file) << "[ball]\nmass = 0.1701\nradius = 0.028575\n[contact]\nfriction = 0.2\n"
-                         "patch_radius = 2.83e-3\n[start]\nvelocity = [1, 2]\nangular_velocity = [3, 4, 70]\n"
-                         "[uncertainty]\nfriction = 0.01\n";
-  const auto anew = json_of("stop --format json --ball " + file + " --slip 2 --uncertainty fit");
-  const auto same = json_of("stop --format json --ball " + file + " --slip 2 --spin 70");
-  CHECK(anew.at("t_stop") == same.at("t_stop"));
-  CHECK(anew.contains("uncertainty"));
-  CHECK_THAT(run_program("roll --format text --ball " + file + " --spin 5").out, Contains("spin 5 rad/s"));
+  const std::string file = scratch.file("moves.toml"), stop = "stop --format json --ball " + file;
+  const auto write = [&](const std::string& start) {
+    std::ofstream(file) << "[ball]\nmass = 0.1701\nradius = 0.028575\n[contact]\nfriction = 0.2\n"
+                           "patch_radius = 2.83e-3\n[start]\n"
+                        << start << "[uncertainty]\nfriction = 0.01\n";
+  };
+  const auto check_anew = [&](const std::string& given, const std::string& whole) {
+    CAPTURE(given);
+    const Run anew = run_program(stop + given), same = run_program(stop + whole);
+    CHECK(anew.out == same.out);
+    CHECK(same.err.empty());
+    CHECK_THAT(anew.err, Contains("replaces [start] of " + file + "; the rest of the start is 0"));
+  };
+  write("velocity = [1, 2]\nangular_velocity = [3, 4, 70]\n");
+  check_anew(" --slip 2", " --slip 2 --spin 0");
+  check_anew(" --spin 5", " --slip 0 --spin 5");
+  CHECK(json_of(stop + " --slip 2 --uncertainty fit").contains("uncertainty"));
+  write("slip = 3\nspin = 70\n");
+  CHECK(run_program(stop + " --slip 2").out == run_program(stop + " --slip 2 --spin 70").out);
 }

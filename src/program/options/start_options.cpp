@@ -284,8 +284,12 @@ std::optional<si::LoadHistory> StartOptions::load_history() const {
 
 si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Description& between) const {
   if (ball_.given()) require_one_kind();
-  const si::Description& own = ball_of_its_own();
   const si::Description given = given_values();
+  // A slip or a spin replaces a whole [start] of velocities; every other option its own number or vector.
+  const bool slip_given = given.find(si::slip) != nullptr, spin_given = given.find(si::spin) != nullptr;
+  const bool starts_anew = (slip_given || spin_given) && ball_.given() && names_a_file(ball_.text(), {".toml"}) &&
+                           ball_of_its_own().find(si::velocity) != nullptr;
+  const si::Description own = starts_anew ? ball_of_its_own().under(at_rest("")) : ball_of_its_own();
   try {
     given.require_no_contradiction();
   } catch (const std::domain_error& error) {
@@ -296,6 +300,9 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
     const si::Experiment experiment = si::experiment_of(described);
     si::patch_radius_of(experiment, law);  // is one that it can have
     tell_new_patch(experiment, law);
+    if (starts_anew && slip_given != spin_given) {
+      fmt::print(stderr, "note: {} replaces [start] of {}; the rest of the start is 0\n", start_names(), ball_.text());
+    }
     return experiment;
   } catch (const si::RunFileError&) {
     throw;
