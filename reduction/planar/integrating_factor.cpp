@@ -110,6 +110,7 @@ struct FactorMotion final : PlanarOrbit::Motion {
     end = orbit.end();
     end_time = orbit.end_time();
     undecided = orbit.undecided();
+    border_time_known = true;
   }
   Vector2d at(double time) const override { return orbit.at(time); }
   Vector2d at_end() const override { return orbit.at(end_time); }

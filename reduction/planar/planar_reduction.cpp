@@ -485,7 +485,9 @@ PlanarOrbit::PlanarOrbit(std::shared_ptr<const Motion> motion) : motion_(std::mo
 PlanarEnd PlanarOrbit::end() const { return motion_->end; }
 std::optional<double> PlanarOrbit::period() const { return motion_->period(); }
 const std::string& PlanarOrbit::undecided() const { return motion_->undecided; }
-double PlanarOrbit::end_time() const { return motion_->end == PlanarEnd::border ? infinity : motion_->end_time; }
+double PlanarOrbit::end_time() const {
+  return motion_->end == PlanarEnd::border && !motion_->border_time_known ? infinity : motion_->end_time;
+}
 
 Vector2d PlanarOrbit::at(double time) const {
   if (!(time >= 0)) throw std::domain_error(fmt::format("PlanarOrbit: times >= 0 are required, got {}", time));

@@ -64,7 +64,8 @@ struct PlanarOrbit::Motion {
   virtual Eigen::Vector2d at_end() const = 0;
 
   PlanarEnd end = PlanarEnd::centre;
-  double end_time = 0;  ///< that of coming to a border, too
+  double end_time = 0;             ///< that of coming to a border, too
+  bool border_time_known = false;  ///< that time is told
   std::string undecided = {};
 };
 

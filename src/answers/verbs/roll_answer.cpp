@@ -18,7 +18,7 @@ namespace contensou::answers {
 namespace {
 
 using Motion = si::MotionColumns;
-constexpr ColumnField<Motion> columns[]{
+constexpr ColumnField<Motion> motion_columns[]{
     {"t", "s", "time", [](const Motion& rows) { return &rows.t; }},
     {"x", "m", "", [](const Motion& rows) { return &rows.x; }},
     {"y", "m", "place of the centre, 0 at the start", [](const Motion& rows) { return &rows.y; }},
@@ -273,7 +273,7 @@ double Roll::standard_end() const {
 }
 
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times) {
-  Answer answer{.members = members_of(start_fields, roll), .columns = columns_of(columns, roll.at(times))};
+  Answer answer{.members = members_of(start_fields, roll), .columns = columns_of(motion_columns, roll.at(times))};
   answer.members.update(members_of(event_fields, {roll.ours(), roll.lies_flat(), roll.rolling_below}));
   answer.members.update(members_of(rest_of_roll_fields, roll));
   answer.remarks = answer.members;
@@ -307,7 +307,8 @@ std::string roll_text(const Roll& roll, const Digits& digits) {
 }
 
 std::vector<FieldText> roll_fields() {
-  return joined({texts_of(columns), texts_of(start_fields), texts_of(event_fields), texts_of(rest_of_roll_fields)});
+  return joined(
+      {texts_of(motion_columns), texts_of(start_fields), texts_of(event_fields), texts_of(rest_of_roll_fields)});
 }
 
 }  // namespace contensou::answers

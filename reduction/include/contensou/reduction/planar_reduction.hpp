@@ -132,7 +132,8 @@ class PlanarReduction {
   /// @throws std::domain_error  if x is not finite, or the field has no value there
   PlanarEnd end(const Eigen::Vector2d& x) const;
 
-  /// When it is there: 0 at the centre; infinity if it takes for ever or there is a border.
+  /// When it is there: 0 at the centre; infinity if it takes for ever; the time of a border by V alone, else infinity
+  /// before one; NaN if the end is not decided, by V alone.
   double end_time(const Eigen::Vector2d& x) const;
 
   /// Returns an estimate of the relative error of end_time(x): eight times the difference from a solution about another
