@@ -51,7 +51,7 @@ Json rebound(const BounceReport& r, const si::Rebound& of) {
   return members;
 }
 
-constexpr const char* columns = "vx,vy,vz,wx,wy,wz,slip,angle,change_vx,change_vy,change_wz,grip";
+constexpr const char* rebound_columns = "vx,vy,vz,wx,wy,wz,slip,angle,change_vx,change_vy,change_wz,grip";
 constexpr const char* textbook_columns =
     "textbook_vx,textbook_vy,textbook_vz,textbook_wx,textbook_wy,textbook_wz,textbook_slip,textbook_angle,"
     "textbook_change_vx,textbook_change_vy,textbook_change_wz,textbook_grip";
@@ -75,7 +75,7 @@ constexpr Field<BounceReport> bounce_row[]{
     {"after", "m/s, 1/s, degrees, 1",
      "as it leaves; what that is more than before; grip: after which part of the impulse it rolls, above 1 it leaves "
      "slipping",
-     [](const BounceReport& r) { return rebound(r, r.ours); }, columns, 0,
+     [](const BounceReport& r) { return rebound(r, r.ours); }, rebound_columns, 0,
      " {as of `start`, `change_vx`, `change_vy`, `change_wz`, `grip`}"},
     {"textbook", "", "the same where slip and spin do not know of each other",
      [](const BounceReport& r) { return rebound(r, r.textbook); }, textbook_columns, 0, " {as `after`}"},

@@ -62,7 +62,7 @@ std::string line_of(std::string_view text) {
   return line;
 }
 
-Json names_of(const std::vector<std::string_view>& texts) {
+Json list_of_texts(const std::vector<std::string_view>& texts) {
   Json list = Json::array();
   for (std::string_view text : texts) list.push_back(line_of(text));
   return list;
@@ -108,7 +108,7 @@ constexpr Field<EngineWithBall> text_fields[]{
     {"combination", "", "of the numbers of two bodies",
      [](const EngineWithBall& of) -> Json { return of.engine->combination; }, ""},
     {"needs", "", "switches without which the numbers do nothing",
-     [](const EngineWithBall& of) { return names_of(of.use->needs); }, ""},
+     [](const EngineWithBall& of) { return list_of_texts(of.use->needs); }, ""},
     {"settings", "", "CSV has a row for each; none for a flat body that it has not, or was not read for",
      [](const EngineWithBall& of) {
        Json settings = Json::array();
@@ -116,8 +116,9 @@ constexpr Field<EngineWithBall> text_fields[]{
        return settings;
      },
      "", 0, " [...]"},
-    {"remarks", "", "what goes wrong", [](const EngineWithBall& of) { return names_of(of.engine->remarks); }, ""},
-    {"sources", "", "where that is read", [](const EngineWithBall& of) { return names_of(of.engine->sources); }, ""},
+    {"remarks", "", "what goes wrong", [](const EngineWithBall& of) { return list_of_texts(of.engine->remarks); }, ""},
+    {"sources", "", "where that is read", [](const EngineWithBall& of) { return list_of_texts(of.engine->sources); },
+     ""},
 };
 
 Json members_of_engine(const EngineWithBall& engine) {

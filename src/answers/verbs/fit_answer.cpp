@@ -15,7 +15,7 @@ namespace {
 using fit::Estimate;
 using fit::Parameter;
 
-Json members_of(const Estimate& estimate) {
+Json members_of_estimate(const Estimate& estimate) {
   return {{"value", estimate.value},
           {"standard_error", estimate.standard_error},
           {"low", estimate.interval.low},
@@ -184,11 +184,11 @@ struct FitReport {
 
 constexpr Field<FitReport> answer_fields[]{
     {"law", "", nullptr, [](const FitReport& r) -> Json { return r.best.law; }},
-    {"friction", "1", "", [](const FitReport& r) { return members_of(r.best.estimates[0]); }},
-    {"patch_radius", "m", "", [](const FitReport& r) { return members_of(r.best.estimates[1]); }},
-    {"slip", "m/s", "", [](const FitReport& r) { return members_of(r.best.estimate(Parameter::slip)); }},
+    {"friction", "1", "", [](const FitReport& r) { return members_of_estimate(r.best.estimates[0]); }},
+    {"patch_radius", "m", "", [](const FitReport& r) { return members_of_estimate(r.best.estimates[1]); }},
+    {"slip", "m/s", "", [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::slip)); }},
     {"spin", "1, m, m/s, 1/s", "estimates; the last two of the first track, at its start",
-     [](const FitReport& r) { return members_of(r.best.estimate(Parameter::spin)); }},
+     [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::spin)); }},
     {"correlation", "", "of friction and patch_radius",
      [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }},
     {"reduced_chi2", "", "1 where the noise is estimated",
@@ -207,7 +207,7 @@ constexpr Field<FitReport> answer_fields[]{
      [](const FitReport& r) -> Json { return remarks_on(r.best, r.tracks, r.planned); }},
     {"rolling_friction", "1", "an estimate, of a ball that has it, or where it was searched",
      [](const FitReport& r) {
-       return r.best.rolls_with_friction() ? members_of(r.best.estimate(Parameter::rolling_friction)) : Json();
+       return r.best.rolls_with_friction() ? members_of_estimate(r.best.estimate(Parameter::rolling_friction)) : Json();
      }},
     {"only", "", "the one combination of the two that the data determine, where they do no more",
      [](const FitReport& r) -> Json {
@@ -232,7 +232,7 @@ constexpr Field<FitReport> answer_fields[]{
          Json track{{"file", r.tracks[i].name}, {"start", r.tracks[i].start}};
          for (const Estimate& estimate : r.best.estimates) {
            if (is_of_start(estimate) && estimate.track == i)
-             track[std::string(name_of(estimate))] = members_of(estimate);
+             track[std::string(name_of(estimate))] = members_of_estimate(estimate);
          }
          const double half_turn_spin = r.best.turns[i].half_turn_spin;
          if (std::isfinite(half_turn_spin)) track["half_turn_spin"] = half_turn_spin;
@@ -279,7 +279,7 @@ Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track
     for (const Estimate& estimate : fit.estimates) {
       const std::string track = is_of_start(estimate) ? tracks[estimate.track].name : "";
       Json& row = answer.rows.emplace_back(Json{{"law", fit.law}, {"track", track}, {"parameter", name_of(estimate)}});
-      row.update(members_of(estimate));
+      row.update(members_of_estimate(estimate));
     }
   }
   return answer;
