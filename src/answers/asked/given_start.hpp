@@ -12,13 +12,13 @@ struct GivenStart {
   reduction::ReducedSystem system;
   reduction::State state;
   std::optional<si::Experiment> experiment;  ///< where it came from, if it is a ball in SI units
-  std::optional<si::Motion> motion = {};     ///< of a ball, reduced: of its first piece is system
+  std::optional<si::Motion> motion = {};     ///< of a ball; system is that of its first piece
 
-  /// Its orbits, one after the other; none of what is no ball.
+  /// Returns the orbits of a ball, one after the other; none without a ball.
   std::vector<si::ReducedPiece> pieces() const { return motion ? motion->pieces() : std::vector<si::ReducedPiece>(); }
   bool is_in_pieces() const { return pieces().size() > 1; }
 
-  /// The solution of system.
+  /// Returns the solution of system.
   /// @param by_quadrature  also where the law has a closed form
   reduction::Flow flow(bool by_quadrature = false) const {
     const auto all = pieces();

@@ -106,7 +106,7 @@ double sliding_only(const GivenStart& start) {
   return tau_of(si::without_spin(*start.experiment), system.law());
 }
 
-/// Where the centre of a ball rests that moves and that something resists, if it does.
+/// Returns the rest of a moving ball with rolling friction or on a slope, if it comes to one.
 std::optional<si::Event> rest_of(const GivenStart& start) {
   return start.motion && !start.at_rest() ? start.motion->rest() : std::nullopt;
 }

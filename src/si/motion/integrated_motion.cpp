@@ -195,7 +195,7 @@ std::vector<Eigen::Index> increasing(const Eigen::ArrayXd& times) {
   return order;
 }
 
-/// What an integration gives.
+/// The result of an integration.
 struct Integration {
   MotionColumns points;
   double stop_time = 0;    ///< s

@@ -10,8 +10,8 @@
 
 namespace contensou::si {
 
-/// A solution of the equations of motion: what a Motion asks, of times >= 0 and speeds >= 0. What is not overridden is that
-/// of a body on a level plane that rolls on for ever, from its instants alone.
+/// A solution of the equations of motion, for times >= 0 and speeds >= 0. The standard functions are those of a body on a
+/// level plane that rolls on for ever, from its instants alone.
 class Motion::Solution {
  public:
   explicit Solution(const Experiment& of) : experiment(of) {}
@@ -44,7 +44,7 @@ using SolvedMotion = std::shared_ptr<const Motion::Solution>;
 /// The solutions that motions of one ball share: made by the first that needs them. Threads may share it.
 class SharedFlows {
  public:
-  /// Of a ball that nothing drives; with a drive, of one that turns, and of one that is held.
+  /// The systems of a ball: without a drive; with one, while it turns and while resistance holds it.
   enum class Of { undriven, turning, held };
 
   explicit SharedFlows(std::optional<reduction::Flow> undriven = {}) : known_{std::move(undriven)} {}
@@ -59,7 +59,7 @@ class SharedFlows {
 /// Returns the integral of a function of time over [from, to]; 0 where that is empty.
 double integral_over_time(const std::function<double(double t)>& value, double from, double to, double tolerance);
 
-/// On a level plane without rolling friction, and else.
+/// Return the motion on a level plane without rolling friction, and any other.
 SolvedMotion undriven_motion(const Experiment& experiment, const reduction::Law& law, SharedFlows& flows);
 SolvedMotion undriven_motion_in_steps(const Experiment& experiment, const reduction::Law& law);
 SolvedMotion resisted_motion(const Experiment& experiment, const reduction::Law& law, SharedFlows& flows,

@@ -46,8 +46,8 @@ struct ReducedPiece {
   reduction::Orbit orbit;  ///< from there; the piece may end before it does
 };
 
-/// The state of a motion of such pieces at a time tau after its start, past the stop rest, and so much before its stop. beta
-/// goes on from one piece to the next.
+/// Return the state of a motion of such pieces at a time tau after its start, past the stop rest, and so much before its
+/// stop. beta goes on from one piece to the next.
 /// @throws std::domain_error  as Orbit::at_time and at_time_left
 reduction::OrbitPoint state_at(const std::vector<ReducedPiece>& pieces, double tau);
 reduction::OrbitPoint state_at_time_left(const std::vector<ReducedPiece>& pieces, double left);
@@ -84,20 +84,20 @@ class Motion {
   static Motion reduced(const Experiment& experiment, const reduction::Law& law,
                         const std::optional<LoadHistory>& history = {});
 
-  /// The same with what is known already.
+  /// Finds the same motion from a system that is solved already.
   /// @param flow  of undriven_system(experiment, law)
   static Motion reduced(const Experiment& experiment, const reduction::Flow& flow,
                         const std::optional<LoadHistory>& history = {});
 
   /// Integrates the equations of motion in any case, a route of its own, by Cash-Karp 5(4). Without rolling friction and
-  /// slope it knows neither the reduction nor the first integrals: each instant is integrated from the start. Parameters
+  /// slope it uses neither the reduction nor the first integrals: each instant is integrated from the start. Parameters
   /// and errors are those of reduced.
   ///
   /// Accuracy  1e-12 of the scales of the motion for mu from 1e-3 to 1; with rolling friction or on a slope 1e-6.
   static Motion in_steps(const Experiment& experiment, const reduction::Law& law,
                          const std::optional<LoadHistory>& history = {});
 
-  /// The uncoupled model: the slip falls at chi f g, the spin at its rate without sliding. Its rolling friction begins when
+  /// Returns the motion of the uncoupled model: the slip falls at chi f g, the spin at its rate without sliding. Its rolling friction begins when
   /// it rolls: it slows down at u_r g and rests. On a slope it moves as a ball without spin, and spins by itself.
   /// @param law            gives Psi(0), the moment of pure pivoting
   /// @param rolling_below  m/s, >= 0: the slip at which its rolling friction begins
@@ -111,28 +111,29 @@ class Motion {
 
   const Experiment& experiment() const;
 
+  /// Returns the instant at t.
   /// @param t  s, >= 0
   /// @throws std::domain_error  if t is negative or not a number
   MotionPoint at(double t) const;
 
-  /// Returns all the instants, in the order given.
+  /// Returns the instants at all times, in the order given.
   MotionColumns at(const Eigen::ArrayXd& times) const;
 
-  /// s from the start until the body neither slides nor spins.
+  /// Returns the s from the start until the body neither slides nor spins.
   double stop_time() const;
 
-  /// s until it spins no more; 0 without spin at the start.
+  /// Returns the s until it spins no more; 0 without spin at the start.
   double spin_end() const;
 
-  /// s from which on the slip is no faster than that many m/s, >= 0; 0 for one that is never faster.
+  /// Returns the s from which on the slip is no faster than that many m/s, >= 0; 0 for one that is never faster.
   /// @throws std::domain_error  if the speed is negative or not a number
   double slip_time(double speed) const;
 
-  /// s until the spin, of either sign, has fallen to that many rad/s, >= 0; 0 for a body that spins no faster.
+  /// Returns the s until the spin, of either sign, has fallen to that many rad/s, >= 0; 0 for a body that spins no faster.
   /// @throws std::domain_error  if the speed is negative or not a number
   double spin_time(double speed) const;
 
-  /// s until it rolls; of a body that lies flat until its centre rests.
+  /// Returns the s until it rolls; of a body that lies flat until its centre rests.
   /// @param rolling_below  m/s, >= 0: a ball that slips no faster rolls; not of a body that lies flat
   double rolls(double rolling_below = rolling_slip) const;
 
@@ -140,7 +141,7 @@ class Motion {
   /// body that lies flat on a level plane.
   std::optional<Event> rest() const;
 
-  /// s until it neither slides, spins nor moves; until it neither slides nor spins, where it rolls on for ever.
+  /// Returns the s until it neither slides, spins nor moves; until slip and spin have ended, where it rolls on for ever.
   double last_time() const;
 
   Event event(double t) const { return {t, at(t).position}; }
@@ -149,14 +150,14 @@ class Motion {
   /// @param rolling_below  as of rolls
   Events events(double rolling_below = rolling_slip) const;
 
-  /// m that the contact point slides on the body, the integral of slip over time, until the stop.
+  /// Returns the m that the contact point slides on the body until the stop: the integral of slip over time.
   double slip_length() const;
 
-  /// rad that the body turns about the vertical until the stop, of the sign of its spin; and turns.
+  /// Return the rad that the body turns about the vertical until the stop, of the sign of its spin; and the turns.
   double spin_angle() const;
   double turns() const;
 
-  /// m along the path of the centre until that time in s >= 0, to 1e-9.
+  /// Returns the m along the path of the centre until that time in s >= 0, to 1e-9.
   double path_length(double t) const;
 
   EnergyBalance energy_balance() const;
@@ -164,17 +165,17 @@ class Motion {
   /// Returns how it moves when slip and spin have ended.
   Velocities final_motion() const;
 
-  /// Whether it was found without time steps, from the reduced system.
+  /// Returns whether it was found without time steps, from the reduced system.
   bool is_reduced() const;
 
   /// The orbits it is made of until slip and spin end: one of a body that nothing drives. None of a motion that is not
   /// reduced, and of one that neither slides nor spins beside rolling friction or on a slope.
   std::vector<ReducedPiece> pieces() const;
 
-  /// v/(eps |omega_z|) at which it creeps while it spins, if there is such a ratio and it spins.
+  /// Returns the v/(eps |omega_z|) at which it creeps while it spins, if there is such a ratio and it spins.
   std::optional<double> creep_ratio() const;
 
-  /// How many steps an integration took; 0 without one.
+  /// Returns the number of steps of an integration; 0 without one.
   long steps() const;
 
   class Solution;
