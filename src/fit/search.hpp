@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "contensou/fit/fit.hpp"
-#include "fit/scaled_orbit.hpp"
 #include "fit/track_model.hpp"
 
 namespace contensou::fit {
@@ -53,7 +52,7 @@ class Search {
  public:
   /// @param asked     with checked tracks; kept by reference
   /// @param accuracy  as TrackModel
-  explicit Search(const FitRequest& asked, double accuracy = ScaledOrbit::standard_accuracy);
+  explicit Search(const FitRequest& asked, double accuracy = FilmOrbit::standard_accuracy);
 
   const FitRequest& request;
   const bool resisted;  ///< by rolling friction

@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "fit/rolling_orbit.hpp"
-
 namespace contensou::fit {
 
 using Eigen::Index;
@@ -35,43 +33,28 @@ Speeds over_rate(const Speeds& by, double rate) {
 
 /// The motion of one track.
 struct Motion {
-  const Track& track;
   const VectorXd& parameters;
   std::size_t number;
   double radius;
-  double velocity_for_slip;  ///< 1/chi: what friction takes of the velocity of the centre for each m/s of slip
-  bool lies_flat;            ///< the slip is the velocity of the centre
-  bool resisted;             ///< by rolling friction: the orbit has the velocity of the centre
-  double rate;               ///< f g
   double cosine = std::cos(of(Parameter::direction)), sine = std::sin(of(Parameter::direction));
 
   double of(Parameter parameter) const { return parameters[TrackModel::place(parameter, number)]; }
 
-  /// What friction takes of the velocity of the centre along the slip, in units of the slip, and of its way; of what lies
-  /// flat and with rolling friction all of both.
-  double way(const Speeds& by, double v0, double t) const {
-    return resisted ? by.way : lies_flat ? by.slid : velocity_for_slip * (by.slid - v0 * t);
-  }
-  double velocity(const Speeds& by, double v0) const {
-    return resisted ? by.centre : lies_flat ? by.v : velocity_for_slip * (by.v - v0);
-  }
-
-  /// What the orbit, with the slip v0 at the start, makes of a series at t: linear in both, so also what changes of them
-  /// do.
-  double of_orbit(Observable observable, const Speeds& by, double v0, double t) const {
+  /// What the orbit makes of a series: linear, so also what changes of the orbit do.
+  double of_orbit(Observable observable, const Speeds& by) const {
     switch (observable) {
       case Observable::slip:
         return by.v;
       case Observable::spin:
         return by.u / radius;
       case Observable::x:
-        return cosine * way(by, v0, t);
+        return cosine * by.way;
       case Observable::y:
-        return sine * way(by, v0, t);
+        return sine * by.way;
       case Observable::vx:
-        return cosine * velocity(by, v0);
+        return cosine * by.centre;
       case Observable::vy:
-        return sine * velocity(by, v0);
+        return sine * by.centre;
       case Observable::angle:
         break;
     }
@@ -82,11 +65,10 @@ struct Motion {
   double placing(Observable observable, Parameter parameter, const Speeds& now, double t) const {
     using enum Observable;
     if (parameter == Parameter::direction) {
-      const double v0 = of(Parameter::slip);
-      if (observable == x) return -sine * way(now, v0, t);
-      if (observable == y) return cosine * way(now, v0, t);
-      if (observable == vx) return -sine * velocity(now, v0);
-      if (observable == vy) return cosine * velocity(now, v0);
+      if (observable == x) return -sine * now.way;
+      if (observable == y) return cosine * now.way;
+      if (observable == vx) return -sine * now.centre;
+      if (observable == vy) return cosine * now.centre;
       return 0;
     }
     if ((parameter == Parameter::vx && observable == x) || (parameter == Parameter::vy && observable == y)) return t;
@@ -99,7 +81,7 @@ struct Motion {
 
   /// A series at t.
   double value(Observable observable, const Speeds& now, double t) const {
-    double result = of_orbit(observable, now, of(Parameter::slip), t);
+    double result = of_orbit(observable, now);
     for (Parameter parameter : {Parameter::vx, Parameter::vy, Parameter::x, Parameter::y, Parameter::angle}) {
       result += of(parameter) * placing(observable, parameter, now, t);
     }
@@ -112,14 +94,16 @@ struct Motion {
 TrackModel::TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks,
                        double accuracy, bool resisted)
     : inertia_(ball.ball.body.inertia),
-      lies_flat_(ball.ball.body.lies_flat()),
-      resisted_(resisted),
+      kind_(resisted                     ? Kind::resisted
+            : ball.ball.body.lies_flat() ? Kind::flat
+                                         : Kind::ball),
       radius_(ball.ball.radius),
       gravity_(ball.environment.gravity),
       accuracy_(accuracy),
       // What rolling friction holds slides like a puck.
       max_ln_patch_radius_(std::log(
-          (lies_flat_ ? 1 : max_ratio(law, resisted ? reduction::Inertia{1, inertia_.gamma} : inertia_)) * radius_)),
+          (kind_ == Kind::flat ? 1 : max_ratio(law, resisted ? reduction::Inertia{1, inertia_.gamma} : inertia_)) *
+          radius_)),
       law_(law),
       tracks_(tracks),
       orbits_(tracks.size()) {
@@ -137,7 +121,7 @@ TrackModel::Range TrackModel::range(Index place) const {
     case Parameter::rolling_friction:
       return {0, max_rolling_friction};
     case Parameter::slip:
-      return {resisted_ ? 0 : -max_speed, max_speed};
+      return {kind_ == Kind::resisted ? 0 : -max_speed, max_speed};
     case Parameter::rolling:
       return {0, max_speed};
     case Parameter::spin:
@@ -155,35 +139,26 @@ VectorXd TrackModel::limited(VectorXd parameters) const {
   return parameters;
 }
 
-std::unique_ptr<FilmOrbit> TrackModel::new_orbit(const OrbitNumbers& of) const {
-  const double mu = std::exp(of.ln_patch_radius) / radius_;
-  const reduction::State start{.u = radius_ * of.spin, .v = of.slip};
-  if (resisted_) return std::make_unique<RollingOrbit>(law_, mu, start, of.rolling, of.drive, inertia_, accuracy_);
-  if (!lies_flat_) return std::make_unique<ScaledOrbit>(law_, mu, start, accuracy_, inertia_);
-  if (!flows_ || flows_->here.system().mu() != mu)
-    flows_ = std::make_shared<const FlowsOfPatch>(reduction::ReducedSystem(law_, mu, inertia_));
-  return std::make_unique<FlowOrbit>(flows_, start);
-}
-
-TrackModel::OrbitNumbers TrackModel::orbit_numbers(std::size_t i, const VectorXd& parameters) const {
+FilmOrbit::Numbers TrackModel::orbit_numbers(std::size_t i, const VectorXd& parameters) const {
   const auto of = [&](Parameter parameter) { return parameters[place(parameter, i)]; };
-  OrbitNumbers numbers{of(Parameter::patch_radius), of(Parameter::slip), of(Parameter::spin), 0, 0};
-  if (resisted_) {
-    numbers.rolling = of(Parameter::rolling);
-    numbers.drive = of(Parameter::rolling_friction) / std::exp(of(Parameter::friction));
+  FilmOrbit::Numbers numbers{of(Parameter::patch_radius) - std::log(radius_), of(Parameter::slip),
+                             radius_ * of(Parameter::spin)};
+  if (kind_ == Kind::resisted) {
+    numbers[FilmOrbit::drive] = of(Parameter::rolling_friction) / std::exp(of(Parameter::friction));
+    numbers[FilmOrbit::rolling] = of(Parameter::rolling);
   }
   return numbers;
 }
 
 const FilmOrbit& TrackModel::orbit_of(std::size_t i, const VectorXd& parameters) const {
-  const OrbitNumbers numbers = orbit_numbers(i, parameters);
+  const FilmOrbit::Numbers numbers = orbit_numbers(i, parameters);
   std::optional<Known>& known = orbits_[i];
-  if (!known || known->numbers != numbers) known = Known{numbers, new_orbit(numbers)};
+  if (!known || known->numbers != numbers) known.emplace(Known{numbers, {law_, inertia_, kind_, numbers, accuracy_}});
   const Track& track = tracks_[i];
-  known->orbit->reach(track.stop_time
-                          ? std::numeric_limits<double>::infinity()
-                          : std::exp(parameters[0]) * gravity_ * (track.t[track.t.size() - 1] - track.start));
-  return *known->orbit;
+  known->orbit.reach(track.stop_time
+                         ? std::numeric_limits<double>::infinity()
+                         : std::exp(parameters[0]) * gravity_ * (track.t[track.t.size() - 1] - track.start));
+  return known->orbit;
 }
 
 VectorXd TrackModel::values(const VectorXd& free) const {
@@ -193,13 +168,11 @@ VectorXd TrackModel::values(const VectorXd& free) const {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const Track& track = tracks_[i];
     const FilmOrbit& orbit = orbit_of(i, parameters);
-    const Motion motion{
-        track, parameters, i, radius_, 1 / inertia_.chi, lies_flat_, resisted_, std::exp(parameters[0]) * gravity_};
-    std::size_t cell = 0;
+    const double rate = std::exp(parameters[0]) * gravity_;
+    const Motion motion{parameters, i, radius_};
     for (Index row = 0; row < track.t.size(); ++row) {
       const double t = track.t[row] - track.start;
-      const Speeds scaled = orbit.speeds_at(motion.rate * t, cell);
-      const Speeds now = over_rate(scaled, motion.rate);
+      const Speeds now = over_rate(orbit.speeds_at(rate * t), rate);
       Index place = first + row;
       for (const Series& series : track.series) {
         result[place] = motion.value(series.observable, now, t);
@@ -207,7 +180,7 @@ VectorXd TrackModel::values(const VectorXd& free) const {
       }
     }
     first += track.t.size() * static_cast<Index>(track.series.size());
-    if (track.stop_time) result[first++] = orbit.stop().T / motion.rate;
+    if (track.stop_time) result[first++] = orbit.stop() / rate;
   }
   return result;
 }
@@ -220,8 +193,26 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     const Track& track = tracks_[i];
     const FilmOrbit& orbit = orbit_of(i, parameters);
     const double rate = std::exp(parameters[0]) * gravity_;
-    const Motion motion{track, parameters, i, radius_, 1 / inertia_.chi, lies_flat_, resisted_, rate};
-    const double drive = orbit_numbers(i, parameters).drive;
+    const Motion motion{parameters, i, radius_};
+    /// The number of the orbit that a parameter changes, and its derivative.
+    const auto number_of = [&](Parameter parameter) -> std::pair<FilmOrbit::Number, double> {
+      switch (parameter) {
+        case Parameter::friction:  // which stretches time, too
+          return {FilmOrbit::drive, -orbit_numbers(i, parameters)[FilmOrbit::drive]};
+        case Parameter::rolling_friction:
+          return {FilmOrbit::drive, 1 / std::exp(parameters[0])};
+        case Parameter::patch_radius:
+          return {FilmOrbit::ln_mu, 1};
+        case Parameter::slip:
+          return {FilmOrbit::slip, 1};
+        case Parameter::spin:
+          return {FilmOrbit::spin, radius_};
+        case Parameter::rolling:
+          return {FilmOrbit::rolling, 1};
+        default:
+          return {FilmOrbit::rolling, 0};
+      }
+    };
     // The columns that change this track; beyond a limit a parameter changes nothing.
     std::vector<std::pair<Index, Parameter>> columns;
     for (std::size_t column = 0; column < wanted.size(); ++column) {
@@ -230,61 +221,32 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
       if (parameters[at] != free[at]) continue;
       columns.emplace_back(static_cast<Index>(column), parameter_at(at));
     }
-    std::size_t cell = 0;
     for (Index row = 0; row < track.t.size(); ++row) {
-      const double t = track.t[row] - track.start, T = rate * t;
-      const FilmOrbit::Moment moment = orbit.at(T, cell);
-      const auto over_time = [&](const Speeds& by) { return over_rate(by, rate); };
-      const Speeds now = over_time(moment.now);
+      const double t = track.t[row] - track.start;
+      const Speeds now = over_rate(orbit.speeds_at(rate * t), rate);
       for (const auto& [column, parameter] : columns) {
+        const auto [number, factor] = number_of(parameter);
         Speeds by{};
-        double v0_by = 0;
-        switch (parameter) {
-          case Parameter::friction:  // which stretches time, and is in the drive
-            by = Speeds{T * moment.dv,          T * moment.du,      t * now.v - now.slid,
-                        t * now.u - now.turned, T * moment.dcentre, t * now.centre - now.way} +
-                 -drive * over_time(moment.by_drive);
-            break;
-          case Parameter::rolling_friction:
-            by = 1 / std::exp(parameters[0]) * over_time(moment.by_drive);
-            break;
-          case Parameter::rolling:
-            by = over_time(moment.by_rolling);
-            break;
-          case Parameter::patch_radius:
-            by = over_time(moment.by_ln_mu);
-            break;
-          case Parameter::slip:
-            by = over_time(moment.by_v);
-            v0_by = 1;
-            break;
-          case Parameter::spin:
-            by = radius_ * over_time(moment.by_u);
-            break;
-          default:
-            break;
-        }
+        if (factor != 0) by = factor * over_rate(orbit.by(number, rate * t), rate);
+        if (parameter == Parameter::friction)
+          by =
+              by + over_rate(rate * t * orbit.by_T(rate * t), rate) + Speeds{0, 0, -now.slid, -now.turned, 0, -now.way};
         const bool places =
             parameter != Parameter::rolling && static_cast<int>(parameter) >= static_cast<int>(Parameter::direction);
         Index place = first + row;
         for (const Series& series : track.series) {
-          result(place, column) = places ? motion.placing(series.observable, parameter, now, t)
-                                         : motion.of_orbit(series.observable, by, v0_by, t);
+          result(place, column) =
+              places ? motion.placing(series.observable, parameter, now, t) : motion.of_orbit(series.observable, by);
           place += track.t.size();
         }
       }
     }
     first += track.t.size() * static_cast<Index>(track.series.size());
     if (!track.stop_time) continue;
-    const FilmOrbit::Stop stop = orbit.stop();
     for (const auto& [column, parameter] : columns) {
-      result(first, column) = parameter == Parameter::friction           ? -(stop.T + drive * stop.by_drive) / rate
-                              : parameter == Parameter::patch_radius     ? stop.by_ln_mu / rate
-                              : parameter == Parameter::rolling_friction ? stop.by_drive * gravity_ / (rate * rate)
-                              : parameter == Parameter::slip             ? stop.by_v / rate
-                              : parameter == Parameter::spin             ? radius_ * stop.by_u / rate
-                              : parameter == Parameter::rolling          ? stop.by_rolling / rate
-                                                                         : 0;
+      const auto [number, factor] = number_of(parameter);
+      const double by = (factor != 0 ? factor * orbit.stop_by(number) : 0);
+      result(first, column) = (by - (parameter == Parameter::friction ? orbit.stop() : 0)) / rate;
     }
     ++first;
   }

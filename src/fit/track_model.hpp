@@ -1,14 +1,12 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "contensou/fit/fit.hpp"
-#include "fit/flow_orbit.hpp"
-#include "fit/scaled_orbit.hpp"
+#include "fit/film_orbit.hpp"
 
 namespace contensou::fit {
 
@@ -19,7 +17,7 @@ namespace contensou::fit {
 class TrackModel {
  public:
   /// @param tracks    checked; they are kept by reference
-  /// @param accuracy  of orbits, as ScaledOrbit or RollingOrbit
+  /// @param accuracy  of orbits, as FilmOrbit
   /// @param resisted  whether there is rolling friction
   TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks, double accuracy,
              bool resisted = false);
@@ -66,27 +64,19 @@ class TrackModel {
   /// The orbit of track i, up to its last instant: the last one where only the friction has changed since.
   const FilmOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
 
-  /// The numbers that an orbit depends on.
-  struct OrbitNumbers {
-    double ln_patch_radius, slip, spin, rolling, drive;
-    bool operator==(const OrbitNumbers&) const = default;
-  };
-  OrbitNumbers orbit_numbers(std::size_t i, const Eigen::VectorXd& parameters) const;
-
-  std::unique_ptr<FilmOrbit> new_orbit(const OrbitNumbers& of) const;
+  FilmOrbit::Numbers orbit_numbers(std::size_t i, const Eigen::VectorXd& parameters) const;
 
   reduction::Inertia inertia_;
-  bool lies_flat_, resisted_;
+  Kind kind_;
   double radius_, gravity_, accuracy_, max_ln_patch_radius_;
   reduction::Law law_;
   const std::vector<Track>& tracks_;
   Eigen::Index rows_ = 0;
   struct Known {
-    OrbitNumbers numbers;
-    std::unique_ptr<FilmOrbit> orbit;
+    FilmOrbit::Numbers numbers;
+    FilmOrbit orbit;
   };
   mutable std::vector<std::optional<Known>> orbits_;
-  mutable std::shared_ptr<const FlowsOfPatch> flows_;  ///< of a body that lies flat, of the last patch
 };
 
 }  // namespace contensou::fit

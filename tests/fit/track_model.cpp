@@ -1,5 +1,4 @@
 #include "fit/track_model.hpp"
-#include "fit/rolling_orbit.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -62,7 +61,7 @@ TEST_CASE("derivatives of all that is seen are those of differences", "[route]")
          std::vector<std::pair<double, double>>{{1, 100}, {-0.4, -70}, {0.02, 60}, {1, 0.5}, {1, 0}, {0, 60}}) {
       // On an axis the step crosses a kink of |u| or |v|.
       const double tolerance = slip == 0 || spin == 0 ? 1e-4 : 3e-6;
-      const TrackModel model(pool_ball(), law, tracks, ScaledOrbit::standard_accuracy);
+      const TrackModel model(pool_ball(), law, tracks, FilmOrbit::standard_accuracy);
       VectorXd parameters(model.parameters());
       parameters << std::log(0.2), std::log(2e-3), 0, slip, spin, 0.7, 0.3, -0.2, 4, 5, 6, 0, 0.5, 50, -2, 0.1, 0.2,
           0.3, 0.4, 0.5, 0;
@@ -95,7 +94,7 @@ TEST_CASE("derivatives of the motion of a puck are those of differences, on its 
   const std::vector<Track> tracks{track};
   const si::Experiment puck = si::find_ball("puck")->experiment;
   for (const char* name : {"uniform", "exact", "annulus:0.5"}) {
-    const TrackModel model(puck, *reduction::find_law(name), tracks, ScaledOrbit::standard_accuracy);
+    const TrackModel model(puck, *reduction::find_law(name), tracks, FilmOrbit::standard_accuracy);
     const double R = puck.ball.radius;
     for (const auto& [slip, spin, patch] :
          std::vector<std::tuple<double, double, double>>{{5, 100, 0.9 * R},
