@@ -220,6 +220,8 @@ class Follower {
     const Vector2d way = rounding * here.f;
     if (!(way.norm() < short_way * size_)) return false;
     if (!value_of(field_, x_ + way)) return true;
+    // A field that changes by its own size within rounding has a pole, though the orbit may be smooth: v' = -v tan u.
+    if (here.slopes.norm() * way.norm() > here.f.norm()) return true;
     // A speed that grows within a longer way may belong to an orbit that goes to infinity as a logarithm.
     const Vector2d direction = here.f.normalized();
     const double speed = here.f.norm(), growth = direction.dot(here.slopes * direction);
