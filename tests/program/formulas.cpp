@@ -504,3 +504,28 @@ TEST_CASE("formulas are values that threads share; a planar system has its Jacob
   }
   CHECK(as_function({3, -4}) == Eigen::Vector2d(-0.6, 144));
 }
+
+TEST_CASE("equations of first and second order are systems in u and v", "[system]") {
+  const auto check = [](const std::string& text, Eigen::Vector2d value, Eigen::Matrix2d slopes) {
+    INFO(text);
+    const FormulaField field = parse_planar_system(text, {});
+    CHECK((field({2, 3}) - value).norm() == 0);
+    CHECK((field.jacobian({2, 3}) - slopes).norm() == 0);
+  };
+  check("y' = x*y", {1, 6}, (Eigen::Matrix2d() << 0, 0, 3, 2).finished());
+  check("x'' = -x - a*x'; a = 2", {3, -8}, (Eigen::Matrix2d() << 0, 1, -1, -2).finished());
+  check("y' = x**2; x' = y", {3, 4}, (Eigen::Matrix2d() << 0, 1, 4, 0).finished());
+  check("u' = v; v' = u*v", {3, 6}, (Eigen::Matrix2d() << 0, 1, 3, 2).finished());
+  const auto refusal = [](const std::string& text) {
+    try {
+      parse_planar_system(text, {});
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  CHECK_THAT(refusal("y' = u"), Contains("'u' is no variable") && Contains(", at character 6 of"));
+  CHECK_THAT(refusal("x'' = x''"), Contains("no variable") && Contains(", at character 7 of"));
+  CHECK_THAT(refusal("y' = x; y' = 3"), Contains("stands there twice"));
+  CHECK_THAT(refusal("y = 3"), Contains("is missing"));
+}

@@ -243,3 +243,36 @@ TEST_CASE("reduce --system draws sectors too narrow for a double's steps", "[cli
   CHECK(reduced["end"] == "centre");
   CHECK(reduced["strip"].size() == 1);
 }
+
+TEST_CASE("reduce solves systems without a scaling by an inverse integrating factor", "[cli]") {
+  struct Case {
+    const char* system;
+    const char* form;
+  };
+  for (const auto& [system, form] : {Case{"x'' = -sin(x)", "constant"},
+                                     {"u' = u*(1-v); v' = v*(u-1)", "polynomial"},
+                                     {"y' = x*y", "affine"},
+                                     {"y' = x - y**2", "quadratic in v"},
+                                     {"y' = y*cos(x) + y^2*x", "quadratic in v"}}) {
+    INFO(system);
+    const Json reduced = json_of_system(system, {"--u0", "1.3", "--v0", "0.7"});
+    CHECK(reduced["form"] == form);
+    CHECK(reduced["tried"].back()["form"] == form);
+    CHECK(reduced["by_steps"]["difference"] < 1e-10);
+    CHECK(reduce(system, {"--u0", "1.3", "--v0", "0.7"}).status == 0);
+  }
+  // From rest at 1 the pendulum's period is 4 K(sin 1/2).
+  const Json pendulum = json_of_system("x'' = -sin(x)", {"--u0", "1", "--v0", "0"});
+  CHECK(pendulum["period"].get<double>() == Approx(6.6999756643704523).epsilon(1e-12));
+  CHECK(pendulum["end"] == "periodic");
+  const Json none = json_of_system("u' = v; v' = (1-u^2)*v-u");
+  CHECK(none["form"].is_null());
+  CHECK(none["tried"].size() == 8);
+  CHECK(reduce("u' = v; v' = (1-u^2)*v-u").status == 1);
+  const Json pole = json_of_system("y' = -y*tan(x)+sin(2*x)", {"--u0", "1.3", "--v0", "0.7"});
+  CHECK(pole["end"] == "border");
+  CHECK(pole["tau_stop"].is_null());
+  const Run picture = reduce("x'' = -sin(x)", {"--u0", "1", "--v0", "0", "--format", "svg"});
+  CHECK(picture.status == 2);
+  CHECK_THAT(picture.err, Contains("this system has none"));
+}

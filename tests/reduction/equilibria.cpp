@@ -1,0 +1,50 @@
+#include "contensou/reduction/equilibria.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+using namespace contensou::reduction;
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+TEST_CASE("equilibria are found with their types", "[planar]") {
+  // Each row of a matrix is a field about its own zero: the type is that of the matrix.
+  const auto kind = [](double a, double b, double c, double d) {
+    return Equilibrium{{0, 0}, (Matrix2d() << a, b, c, d).finished()}.kind();
+  };
+  CHECK(kind(1, 0, 0, -1) == "saddle");
+  CHECK(kind(-1, 0, 3, -2) == "stable node");
+  CHECK(kind(1, 0, 3, 2) == "unstable node");
+  CHECK(kind(-1, 1, -1, -1) == "stable focus");
+  CHECK(kind(1, 1, -1, 1) == "unstable focus");
+  CHECK(kind(1, 2, -1, -1) == "center or focus");
+  CHECK(kind(1, 1, 1, 1) == "degenerate");
+  const auto [first, second] = Equilibrium{{0, 0}, (Matrix2d() << -1, 2, -2, -1).finished()}.eigenvalues();
+  CHECK(first == std::complex<double>(-1, -2));
+  CHECK(second == std::complex<double>(-1, 2));
+
+  // With an exact Jacobian and without one.
+  const SmoothField rabbits{
+      [](const Vector2d& x) { return Vector2d(x[0] * (3 - x[0] - 2 * x[1]), x[1] * (2 - x[0] - x[1])); },
+      [](const Vector2d& x) {
+        return (Matrix2d() << 3 - 2 * x[0] - 2 * x[1], -2 * x[0], -x[1], 2 - x[0] - 2 * x[1]).finished();
+      }};
+  for (const SmoothField& field : {rabbits, SmoothField{rabbits.value}}) {
+    const std::vector<Equilibrium> found = find_equilibria(field, {-0.5, -0.5}, {4, 4});
+    REQUIRE(found.size() == 4);
+    const Vector2d places[] = {{0, 0}, {0, 2}, {1, 1}, {3, 0}};
+    const std::string_view kinds[] = {"unstable node", "stable node", "saddle", "stable node"};
+    for (std::size_t i = 0; i < 4; ++i) {
+      CHECK((found[i].x - places[i]).norm() < 1e-12);
+      CHECK(found[i].kind() == kinds[i]);
+    }
+  }
+  CHECK(find_equilibria(rabbits, {0.5, 1.5}, {0.8, 1.9}).empty());
+  // A field without a value in a part of the rectangle.
+  const std::vector<Equilibrium> half =
+      find_equilibria({[](const Vector2d& x) { return Vector2d(std::log(x[0]), x[1]); }}, {-2, -1}, {2, 1});
+  REQUIRE(half.size() == 1);
+  CHECK((half[0].x - Vector2d(1, 0)).norm() < 1e-12);
+}
