@@ -442,7 +442,7 @@ class MotionTracer {
     bool stepped = false;
     reduction::PlanarOrbit motion = [&] {
       try {
-        return plane.orbit(x);
+        return plane.part_of_orbit(x);
       } catch (const std::domain_error&) {
         stepped = true;
         return by_steps.orbit(x);

@@ -83,8 +83,8 @@ class Follower {
     }
   }
 
-  void follow() {
-    constexpr int most_panels = 2000, most_fits = 300;
+  void follow(int most_panels) {
+    const int most_fits = most_panels / 7;
     int next_anchor = 0;
     for (int i = 0; i < most_panels && fits_ < most_fits; ++i) {
       const auto here = jet_of(field_, x_);
@@ -428,10 +428,10 @@ class Follower {
 }  // namespace
 
 std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, const InverseFactor& factor,
-                                                  const Vector2d& start) {
+                                                  const Vector2d& start, int most_parts) {
   auto motion = std::make_shared<FactorOrbit::Motion>();
   motion->start = start;
-  Follower(field, factor, *motion).follow();
+  Follower(field, factor, *motion).follow(most_parts);
   return motion;
 }
 

@@ -10,6 +10,6 @@ namespace contensou::reduction {
 /// Follows the level of H through the start to its end.
 /// @param factor  in a box about `start`
 std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, const InverseFactor& factor,
-                                                  const Eigen::Vector2d& start);
+                                                  const Eigen::Vector2d& start, int most_parts);
 
 }  // namespace contensou::reduction

@@ -127,6 +127,9 @@ struct FactorSolution final : PlanarReduction::Solution {
   std::shared_ptr<const PlanarOrbit::Motion> orbit(const Vector2d& start) const override {
     return std::make_shared<const FactorMotion>(reduction.orbit(start));
   }
+  std::shared_ptr<const PlanarOrbit::Motion> part_of_orbit(const Vector2d& start) const override {
+    return std::make_shared<const FactorMotion>(reduction.orbit(start, FactorReduction::parts_of_a_picture));
+  }
   std::optional<double> first_integral(const Vector2d& x) const override { return reduction.first_integral(x); }
   std::shared_ptr<const Solution> reversed() const override {
     return std::make_shared<const FactorSolution>(reversed_field(), reduction.reversed());
@@ -154,11 +157,11 @@ PlanarReduction FactorReduction::reduction() const {
   return PlanarReduction(std::make_shared<const FactorSolution>(solved_->field.value, *this));
 }
 
-FactorOrbit FactorReduction::orbit(const Vector2d& start) const {
+FactorOrbit FactorReduction::orbit(const Vector2d& start, int most_parts) const {
   if (!start.allFinite() || !value_of(solved_->field, start)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
   }
-  return FactorOrbit(follow(solved_->field, solved_->found(), start));
+  return FactorOrbit(follow(solved_->field, solved_->found(), start, most_parts));
 }
 
 }  // namespace contensou::reduction

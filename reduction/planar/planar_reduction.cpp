@@ -479,6 +479,11 @@ PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {
   return PlanarOrbit(solution_->orbit(start));
 }
 
+PlanarOrbit PlanarReduction::part_of_orbit(const Vector2d& start) const {
+  require_point(start);
+  return start == centre() ? orbit(start) : PlanarOrbit(solution_->part_of_orbit(start));
+}
+
 PlanarReduction PlanarReduction::reversed() const { return PlanarReduction(solution_->reversed()); }
 
 PlanarOrbit::PlanarOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}

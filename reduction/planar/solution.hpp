@@ -23,6 +23,9 @@ struct PlanarReduction::Solution {
 
   virtual double factor(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const PlanarOrbit::Motion> orbit(const Eigen::Vector2d& start) const = 0;
+  virtual std::shared_ptr<const PlanarOrbit::Motion> part_of_orbit(const Eigen::Vector2d& start) const {
+    return orbit(start);
+  }
   virtual double end_time_error(const Eigen::Vector2d& x) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const Solution> reversed() const = 0;

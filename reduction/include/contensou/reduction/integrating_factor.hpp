@@ -71,8 +71,10 @@ class FactorReduction {
   PlanarReduction reduction() const;
 
   /// Follows the orbit of another start, or of this one. V is fitted anew from box to box.
+  /// @param most_parts  the number of parts after which its end is left open
   /// @throws std::domain_error  if none was found; unless the start is finite and the field has a value there
-  FactorOrbit orbit(const Eigen::Vector2d& start) const;
+  FactorOrbit orbit(const Eigen::Vector2d& start, int most_parts = 32000) const;
+  static constexpr int parts_of_a_picture = 150;
 
  private:
   struct Solved;

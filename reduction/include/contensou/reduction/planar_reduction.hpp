@@ -150,6 +150,10 @@ class PlanarReduction {
 
   PlanarOrbit orbit(const Eigen::Vector2d& start) const;
 
+  /// Returns the first part of the orbit, for a picture: by V alone its end is not decided where that takes more work
+  /// than some boxes.
+  PlanarOrbit part_of_orbit(const Eigen::Vector2d& start) const;
+
   /// Returns the system whose motions go the other way: x' = -f(x).
   PlanarReduction reversed() const;
 
