@@ -42,6 +42,8 @@ TEST_CASE("equilibria are found with their types", "[planar]") {
     }
   }
   CHECK(find_equilibria(rabbits, {0.5, 1.5}, {0.8, 1.9}).empty());
+  // u' = 1 has none, though its Jacobian is singular everywhere.
+  CHECK(find_equilibria({[](const Vector2d& x) { return Vector2d(1, x[0] - x[1] * x[1]); }}, {-2, -3}, {6, 3}).empty());
   // A field without a value in a part of the rectangle.
   const std::vector<Equilibrium> half =
       find_equilibria({[](const Vector2d& x) { return Vector2d(std::log(x[0]), x[1]); }}, {-2, -1}, {2, 1});
