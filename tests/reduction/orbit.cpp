@@ -1,9 +1,11 @@
 #include "contensou/reduction/orbit.hpp"
 
 #include <cmath>
+#include <future>
 #include <numbers>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
@@ -532,4 +534,16 @@ TEST_CASE("an orbit is asked within its motion", "[orbit][domain]") {
   for (const State bad : {State{1, -1}, State{not_a_number, 1}, State{infinity, 1}, State{1, infinity}}) {
     CHECK_THROWS_AS(Flow(system).orbit(bad), std::domain_error);
   }
+}
+
+TEST_CASE("threads that share an orbit, and copies of it, find the same instants", "[orbit][threads]") {
+  const Flow flow(ReducedSystem(HertzLaw{}, 0.1));
+  const Orbit alone = flow.orbit({1, 1}), shared = flow.orbit({1, 1}), copy = shared;
+  const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(50, 0, 0.99 * alone.stop_time());
+  const OrbitColumns wanted = alone.at_times(times);
+  std::vector<std::future<OrbitColumns>> asked;
+  for (int i = 0; i < 4; ++i) asked.push_back(std::async(std::launch::async, [&] { return shared.at_times(times); }));
+  for (auto& each : asked) CHECK((each.get().ln_v == wanted.ln_v).all());
+  CHECK((copy.at_times(times).ln_v == wanted.ln_v).all());
+  CHECK((Orbit(shared).at_times(times).ln_v == wanted.ln_v).all());
 }
