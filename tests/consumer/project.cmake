@@ -1,4 +1,4 @@
-# CMakeLists.txt of somebody else's project, made of the programs that README.md shows (consumer_test.cmake).
+# CMakeLists.txt of somebody else's project, made of the programs that the documents show (consumer_test.cmake).
 cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES C CXX)
 
@@ -26,6 +26,10 @@ else()
 endif()
 
 file(GLOB sources readme_*.cpp)
+if(TARGET contensou::si)
+  file(GLOB of_si si_*.cpp)
+  list(APPEND sources ${of_si})
+endif()
 foreach(source IN LISTS sources)
   cmake_path(GET source STEM program)
   add_library(${program}_object OBJECT ${source})

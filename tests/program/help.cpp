@@ -69,7 +69,7 @@ TEST_CASE("topics of help", "[cli]") {
   CHECK_THAT(run_program("help roll").out, Contains("squirt") && Contains("by the same threshold"));
 }
 
-TEST_CASE("the table of fields in src/README.md is that of the answers", "[table]") {
+TEST_CASE("the table in src/program/fields.md is that of the answers", "[table]") {
   std::string table = "| verb | field | unit | |\n|---|---|---|---|\n";
   for (const auto& [verb, fields] : contensou::answers::field_table()) {
     std::string first = verb == "all" ? verb : fmt::format("`{}`", verb);
@@ -79,7 +79,7 @@ TEST_CASE("the table of fields in src/README.md is that of the answers", "[table
                            unit, meaning);
     }
   }
-  const auto path = std::filesystem::path(CONTENSOU_README).parent_path() / "src/README.md";
+  const auto path = std::filesystem::path(CONTENSOU_README).parent_path() / "src/program/fields.md";
   std::stringstream readme;
   readme << std::ifstream(path).rdbuf();
   INFO("It has to hold this:\n" << table);

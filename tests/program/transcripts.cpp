@@ -1,4 +1,4 @@
-// The sessions in transcripts/*.txt and in README.md's blocks of console: each command prints what is shown below it.
+// The sessions in transcripts/*.txt and in the documents' blocks of console: each command prints what is shown below it.
 //
 //   $ COMMAND          is run by sh in an empty folder, one for each file, where `contensou` is the program
 //   $ COMMAND ! WORDS  is refused as bad input: status 2, these words on standard error, nothing on standard output
@@ -121,8 +121,15 @@ int check_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("the commands of README.md and of the transcripts print what is shown", "[cli]") {
-  CHECK(check_file(CONTENSOU_README) >= 2);
+TEST_CASE("the commands of the transcripts print what is shown", "[cli]") {
   for (const auto& entry : std::filesystem::directory_iterator(CONTENSOU_TRANSCRIPTS))
     CHECK(check_file(entry.path()) >= 1);
+}
+
+TEST_CASE("the commands of the documents print what is shown", "[cli]") {
+  const auto top = std::filesystem::path(CONTENSOU_README).parent_path();
+  CHECK(check_file(CONTENSOU_README) >= 3);
+  CHECK(check_file(top / "src/program/README.md") >= 50);
+  CHECK(check_file(top / "src/si/README.md") >= 4);
+  CHECK(check_file(top / "src/fit/README.md") >= 5);
 }

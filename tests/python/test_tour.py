@@ -15,7 +15,7 @@ TOP = Path(__file__).parents[2]
 README = TOP / "src/python/README.md"
 
 
-@pytest.mark.parametrize("readme, examples", [(README, 40), (TOP / "README.md", 4)], ids=["tour", "README"])
+@pytest.mark.parametrize("readme, examples", [(README, 40), (TOP / "README.md", 3)], ids=["tour", "README"])
 def test_what_is_shown(readme, examples, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     results = doctest.testfile(str(readme), module_relative=False, optionflags=doctest.ELLIPSIS)
