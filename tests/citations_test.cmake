@@ -1,26 +1,28 @@
-# The equations (R1), (R2), ... of reduction/README.md: each number stands there once, none is left out, and whatever cites
-# one, in any file of the project, finds it.
+# The equations (R1), (R2), ... of reduction/README.md and reduction/numerics.md: each number stands there once, none is left
+# out, and whatever cites one, in any file of the project, finds it.
 #   cmake -D ROOT=<top of the tree> -P citations_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
 file(READ ${ROOT}/reduction/README.md text)
+file(READ ${ROOT}/reduction/numerics.md numerics)
+string(APPEND text "${numerics}")
 string(REGEX MATCHALL "\\\\tag{R[0-9]+}" tags "${text}")
 set(faults "")
 set(numbers "")
 foreach(tag IN LISTS tags)
   string(REGEX MATCH "[0-9]+" number "${tag}")
   if(number IN_LIST numbers)
-    list(APPEND faults "reduction/README.md has (R${number}) twice")
+    list(APPEND faults "reduction/*.md have (R${number}) twice")
   endif()
   list(APPEND numbers ${number})
 endforeach()
 list(LENGTH numbers count)
 if(count LESS 30)
-  message(FATAL_ERROR "only ${count} equations were found in reduction/README.md")
+  message(FATAL_ERROR "only ${count} equations were found in reduction/*.md")
 endif()
 foreach(number RANGE 1 ${count})
   if(NOT number IN_LIST numbers)
-    list(APPEND faults "reduction/README.md has ${count} equations, and none of them is (R${number})")
+    list(APPEND faults "reduction/*.md have ${count} equations, and none of them is (R${number})")
   endif()
 endforeach()
 
@@ -38,7 +40,7 @@ foreach(file IN LISTS files)
     string(REGEX MATCH "[0-9]+" number "${citation}")
     if(NOT number IN_LIST numbers)
       file(RELATIVE_PATH name ${ROOT} ${file})
-      list(APPEND faults "${name} cites ${citation}, which reduction/README.md does not have")
+      list(APPEND faults "${name} cites ${citation}, which reduction/*.md do not have")
     endif()
   endforeach()
 endforeach()

@@ -138,7 +138,7 @@ const readers = [
     command: "contensou fit hit10.csv --fps 360 --ball cylinder.toml --law uniform -o film.png", picture: "src/fit/film.png", alt: "A cylinder that slides and turns: measured, exact, textbook", parts: [],
     links: [["src/fit/README.md#how-to-film-it", "How to film it"], ["src/fit/README.md#real-films", "Two real slides"], ["src/fit/README.md#the-estimate", "The estimate"]] },
   { path: "mathematics.html", title: "Mathematics", gallery: "similarity.svg", parts: [],
-    links: ["theory", "proofs", "laws", "the-plane-at-the-origin-and-at-infinity", "a-constant-drive", "any-planar-field", "numerics", "symbols", "errata-of-the-paper"].map((id) => [`reduction/README.md#${id}`]) },
+    links: ["theory", "the-plane-at-the-origin-and-at-infinity", "a-constant-drive", "any-planar-field", "symbols", "errata-of-the-paper"].map((id) => [`reduction/README.md#${id}`]).concat(["proofs", "laws", "numerics"].map((id) => [`reduction/numerics.md#${id}`])) },
 ];
 
 // Of README: the section of "#id"; or the paragraph that begins so, with the block of code below it.

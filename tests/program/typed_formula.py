@@ -1,6 +1,6 @@
-"""The formula to type in, of reduction/README.md: its C, GLSL and Python against the program, over all k and mu.
+"""The formula to type in, of reduction/README.md and numerics.md: its C, GLSL and Python against the program, over all k and mu.
 
-    typed_formula.py PROGRAM README COMPILER
+    typed_formula.py PROGRAM FOLDER COMPILER
 """
 
 import ctypes
@@ -11,15 +11,15 @@ import subprocess
 import sys
 import tempfile
 
-PROGRAM, README, COMPILER = sys.argv[1:]
+PROGRAM, FOLDER, COMPILER = sys.argv[1:]
+TEXT = "".join(pathlib.Path(FOLDER, name).read_text(encoding="utf-8") for name in ("README.md", "numerics.md"))
 ALLOWED = {"stop_time": 0.00094, "slip_length": 0.001, "slip_end": 0.00084}  # as the text says
 GLSL = "#include <cmath>\nusing std::exp, std::log;\nextern \"C\" {\n%s}\n"  # the part of GLSL that is C++, too
 
 
 def block(language):
-    text = pathlib.Path(README).read_text(encoding="utf-8")
-    assert text.count(f"```{language}\n") == 1, language
-    return text.split(f"```{language}\n")[1].split("```")[0]
+    assert TEXT.count(f"```{language}\n") == 1, language
+    return TEXT.split(f"```{language}\n")[1].split("```")[0]
 
 
 def compiled(folder, name, source, language, number, *options):

@@ -151,9 +151,9 @@ Stop time, at which u and v vanish together:
     m(k) = (5/k) Int(0, k) W(x)/W(k) (8 + 3 pi x)/(A + B x) dx
     W(x) = x^a (A + B x)^(e - a)
 
-Theorem for any law of friction and any body, proofs and numerics: chapter
-"Theory" of share/doc/contensou/theory.md in the folder of the installation,
-reduction/README.md in the sources.
+Theorem for any law of friction and any body: chapter "Theory" of theory.md.
+Proofs and numerics: numerics.md. Both files are in share/doc/contensou of the
+installation; in the sources they are reduction/README.md and numerics.md.
 )";
 
 /// The words of its headings, which are topics, too.
