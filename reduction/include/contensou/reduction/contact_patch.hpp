@@ -6,29 +6,31 @@
 
 namespace contensou::reduction {
 
-/// Coulomb friction of a circular patch from its definition, (1.1) and (1.2) of Zh98: the local slip over the disc. Slow, and
-/// sharing no formula with any law: it is what the laws are tested against.
+/// Coulomb friction of a circular patch by its definition, (1.1) and (1.2) of Zh98: an integral of the local slip over
+/// the disc. It is slow and shares no formula with any law, so tests compare the laws with it.
 ///
+/// The unit of length is the patch radius eps. Only the ratio of the pressure to the load matters.
 /// Unit of length: the radius eps of the patch. Pressures are relative; only their ratio to the load matters.
 /// Accuracy  1e-12 of the largest value (1 for Phi, Psi(0) for Psi), for pressures that are smooth inside the disc and
 ///           a power of 1 - rho^2, larger than -1, at its edge.
 class ContactPatch {
  public:
-  /// @param pressure  as a function of 1 - rho^2, which keeps its digits at the edge; >= 0
-  /// @throws std::domain_error  if the load, its integral over the disc, is not positive and finite
+  /// @param pressure  pressure as a function of 1 - rho^2, >= 0; this argument keeps its digits at the edge
+  /// @throws std::domain_error  if the load, the integral of the pressure over the disc, is not positive and finite
   explicit ContactPatch(std::function<double(double)> pressure);
 
-  /// (1.1) and the moment about the centre, in polar coordinates about the centre of the patch.
+  /// Returns force and moment by (1.1), in polar coordinates about the centre of the patch.
   /// @throws std::domain_error  for a slip that no law can answer (require_slip)
   Resistance over_disc(Slip slip) const;
 
-  /// The same in polar coordinates (q, theta) about the centre of velocity, at the distance k: (1.2) with the factor
-  /// cos(theta) that the print lacks, and M = M^h - k F, theta from 0 to pi for k <= 1.
+  /// Returns force and moment by (1.2), in polar coordinates (q, theta) about the centre of velocity, which lies at the
+  /// distance k. It includes the factor cos(theta) that the print lacks, and M = M^h - k F; theta ends at pi for k <=
+  /// 1.
   /// @param k  > 0, finite
   Resistance over_chords(double k) const;
 
-  /// Q_n of (1.2) for this pressure, relative to the load: the integral of pressure q^n over the chord q_- to q_+.
-  /// @param n      >= 0
+  /// Returns Q_n of (1.2) divided by the load: the integral of pressure q^n over the chord from q_- to q_+.
+  /// @param n      exponent, >= 0
   /// @param theta  angle of the chord with the line through both centres; 0 if the chord misses the patch
   double chord_moment(int n, double theta, double k) const;
 

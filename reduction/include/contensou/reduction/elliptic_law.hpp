@@ -8,8 +8,8 @@
 
 namespace contensou::reduction {
 
-/// Friction whose force and moment lie on an ellipse, Phi^2 + (Psi/C)^2 = 1, and are normal to it: the limit surface of
-/// pushing and grasping, and the elliptic friction cone of physics engines.
+/// Friction whose force and moment lie on an ellipse, Phi^2 + (Psi/C)^2 = 1, with the velocity normal to it: the limit
+/// surface of pushing and grasping, and the elliptic friction cone of physics engines.
 ///
 /// Source    Phi = k/sqrt(k^2 + C^2), Psi = C^2/sqrt(k^2 + C^2); R. D. Howe and M. R. Cutkosky, "Practical
 ///           force-motion models for sliding manipulation", Int. J. Robotics Research 15 (1996) 557,
@@ -24,25 +24,26 @@ class EllipticLaw {
   static constexpr double hertz_moment = 3 * std::numbers::pi / 16;
   static constexpr double min_moment = 1e-3;
 
-  /// @param moment  C = Psi(0), the moment of pure pivoting in units of f N eps: min_moment to 1, that of a thin ring
-  /// @throws std::domain_error  for another
+  /// @param moment  C = Psi(0), the moment of pure pivoting in units of f N eps, from min_moment to 1 (a thin ring)
+  /// @throws std::domain_error  for any other moment
   explicit EllipticLaw(double moment = hertz_moment);
 
-  /// "elliptic", or "elliptic:C" with the shortest C that reads back to the same double.
+  /// Returns "elliptic", or "elliptic:C" with the shortest C that reads back to the same double.
   std::string name() const;
 
   double moment() const { return moment_; }
 
-  /// No k: both functions are smooth.
+  /// Returns no k, because both functions are smooth.
   static std::vector<double> kinks() { return {}; }
 
-  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  /// Returns force and moment.
+  /// @throws std::domain_error  for a slip that require_slip rejects
   Resistance operator()(Slip slip) const;
 
-  /// 1 - Psi/Psi(0), without cancellation for k << 1.
+  /// Returns 1 - Psi/Psi(0), without cancellation for k << 1.
   double moment_deficit(Slip slip) const;
 
-  /// 1 - Phi, without cancellation for k >> 1.
+  /// Returns 1 - Phi, without cancellation for k >> 1.
   double force_deficit(Slip slip) const;
 
  private:

@@ -14,97 +14,112 @@ namespace contensou::reduction {
 
 class StopTimeTable;
 
-/// A stop time and what is known of it.
+/// A stop time, its error and its cost.
 struct StopTime {
-  double tau;        ///< the paper's time; infinity where it exceeds the largest double
-  double accuracy;   ///< relative error that is answered for
-  long evaluations;  ///< of the friction law; 0 for a closed form
+  double tau;        ///< the paper's time tau; infinity if it exceeds the largest double
+  double accuracy;   ///< bound of the relative error of tau
+  long evaluations;  ///< number of calls of the friction law; 0 for a closed form
   Bounds bounds;     ///< ReducedSystem::stop_time_bounds
 };
 
-/// All motions of one system: solved once, then stop times and states of any start.
+/// The motions of one body under one friction law, solved once for all initial states.
 ///
-///     const Flow flow({HertzLaw{}, 0.1});
+/// A body slides at the speed v and pivots at the speed u = R omega_z on a circular contact patch. Dry friction slows
+/// both by the equations (2.6) of ReducedSystem, until both vanish at one time, the stop time. The equations keep their
+/// form when u, v and the time tau are multiplied by one factor. So every motion is a scaled copy of one of a few
+/// curves (SimilaritySolution). A Flow contains these curves, by quadrature or in closed form, and returns the stop
+/// time and the state at any time without steps in time.
+///
+///     const Flow flow({HertzLaw{}, 0.1});  // a homogeneous ball with the patch radius 0.1 R, exact law
 ///     flow.stop_time({1, 1}).tau;          // from u = 1, v = 1
 ///     flow.orbit({1, 1}).at_time(16);      // the state at tau = 16
-///     flow.terminal().ends;                // what k tends to
+///     flow.terminal().ends;                // the limits of k = v/(mu |u|) at the stop
 ///     flow.stop_times(u0, v0, tau);        // for arrays
 ///
-/// A value that never changes. Copies share the solution: they are cheap, and threads may share one.
+/// Pure sliding (u = 0), pure pivoting (v = 0), invariant rays and rest are ordinary initial states. A Flow never
+/// changes. Copies share the solution: they are cheap, and threads may share one.
 ///
-/// Cost  0.2 ms for a law without closed form; the table of stop_times 10 ms, once.
+/// Accuracy  StopTime::accuracy: 1e-15 in closed form for mu <= 1; by quadrature 3e-15 for a smooth law.
+/// Cost      0.2 ms for a law without closed form; the table of stop_times 10 ms, once.
+/// Source    V. F. Zhuravlev, Prikl. Mat. Mekh. 62 (1998), for the model; reduction/README.md for all formulas.
 class Flow {
  public:
-  /// By the law's closed form where it has one, else by quadrature.
+  /// Solves the system by the law's closed form if there is one, else by quadrature.
   /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios does not find
   Flow(const ReducedSystem& system);  // NOLINT(google-explicit-constructor): a system determines its flow
 
-  /// By quadrature, whatever closed form the law has.
+  /// Solves the system by quadrature even if the law has a closed form.
   static Flow by_quadrature(const ReducedSystem& system);
 
-  /// With a solution of your own, in place of a closed form. Its curves are taken at their word: verify examines them.
-  /// @throws std::domain_error  if the curves are of another r than system.r(), do not cover every k, or tend to
-  ///                            another ratio than terminal() says
+  /// Takes the solution of the caller in place of a closed form. Its curves are not tested here: verify does that.
+  /// @throws std::domain_error  if the curves belong to another r than system.r(), do not cover every k, or tend to
+  ///                            another ratio than terminal() contains
   Flow(const ReducedSystem& system, SimilaritySolution solution);
 
   const ReducedSystem& system() const;
 
-  /// Where k goes: the invariant rays, and the ends of the motions.
+  /// Returns the invariant rays and the limits of k = v/(mu |u|) at the stop.
   const TerminalRatios& terminal() const;
 
-  /// The curves that every orbit off the invariant half-lines is a scaled copy of.
+  /// Returns the curves of which every orbit off the invariant half-lines is a scaled copy.
   const SimilaritySolution& solution() const;
 
-  /// Whether solution() was found by quadrature.
+  /// Returns true if solution() was found by quadrature.
   bool is_by_quadrature() const;
 
-  /// The time until u = v = 0; 0 at rest.
+  /// Returns the time from the start until u = v = 0; 0 at rest.
   /// @throws std::domain_error  if start is not a state (finite, v >= 0)
   StopTime stop_time(State start) const;
 
-  /// The stop time and its gradient, README (R10), (R57), (R58): nothing is integrated again for a further start.
-  /// @throws std::domain_error  if start is not a state, or at rest, where there is no gradient
+  /// Returns the stop time and its gradient, README (R10), (R57), (R58). No further start needs a new integration.
+  /// @throws std::domain_error  if start is not a state, or is at rest, where there is no gradient
   ///
-  /// Accuracy  u by_u, v by_v, mu by_mu and so on: some 100 eps of tau. Beside a fast slide, k > 1000, by_u has 1e-9 of
-  ///           itself (exact and elliptic: 1e-11), up to k = 1e19.
-  /// Cost      1 ms, once; then that of a stop time.
+  /// Accuracy  about 100 eps of tau for u by_u, v by_v, mu by_mu and the like. Beside a fast slide, k > 1000, the
+  ///           relative error of by_u is 1e-9 (exact and elliptic law: 1e-11), up to k = 1e19.
+  /// Cost      1 ms for the first start; then that of a stop time.
   StopTimeGradient stop_time_gradient(State start) const;
 
-  /// The motion from this start.
+  /// Returns the motion from this start.
   /// @throws std::domain_error  if start is not a state, or unless 1e-300 <= r <= 1e250
   Orbit orbit(State start) const;
 
-  /// ln |u| - ln w(k), the first integral of (2.6) and (2.7): constant along every orbit, different on different ones,
-  /// and shifted by ln c under (u, v) -> (c u, c v). Its constant is another one on either side of a ray.
+  /// Returns ln |u| - ln w(k), the first integral of (2.6) and (2.7).
   ///
-  /// For the Pade law it is ln [ |u| k^(-a) (A + B k)^b ] up to a constant (README (R8)).
+  /// It is constant along every orbit and differs between orbits. The scaling (u, v) -> (c u, c v) adds ln c to it. Its
+  /// additive constant changes across an invariant ray. For the Pade law it is ln [ |u| k^(-a) (A + B k)^b ] up to a
+  /// constant (README (R8)).
   ///
-  /// @param ln_v  in place of v, which underflows near the stop
-  /// @throws std::domain_error  unless u and ln_v are finite and u is not 0: on the axes it has no value, and on an invariant ray
-  ///                            (k within 4 eps of it) neither
+  /// @param ln_v  natural logarithm of v; v itself underflows near the stop
+  /// @throws std::domain_error  unless u and ln_v are finite and u is not 0; also on an invariant ray (k within 4 eps
+  ///                            of it)
   ///
-  /// Accuracy  absolute, a few eps of |ln u| and of the curve's |ln w|.
+  /// Accuracy  absolute, a few eps of |ln u| and of |ln w|.
   double log_first_integral(double u, double ln_v) const;
 
-  /// From so many starts a table of them pays for itself.
+  /// Number of starts from which on stop_times makes a table.
   static constexpr std::size_t many_starts = std::size_t{1} << 15;
 
-  /// Stop times of starts (u0[i], v0[i]): one by one, or, of many_starts, by polynomials that are made once and prove
-  /// themselves (README, Table). u0 is of either sign, v0 >= 0, of any size; what stop_time rejects becomes NaN.
+  /// Computes the stop times of starts (u0[i], v0[i]).
   ///
-  /// @param tau      as many as there are starts; may be u0 or v0 itself, but must not overlap them otherwise
-  /// @param threads  how many share the work of many starts, >= 1; the calling thread is one of them
-  /// @param whole    how many starts there are in all, where these are a part of them
+  /// Fewer than many_starts are computed one by one. For more, stop_times makes a table of polynomials once and tests
+  /// each against the solution (README, Table). A start that stop_time rejects becomes NaN.
+  ///
+  /// @param u0, v0   speeds of the starts, of any size; u0 of either sign, v0 >= 0
+  /// @param tau      stop times, one for each start; may be u0 or v0 itself, but must not overlap them otherwise
+  /// @param threads  number of threads, >= 1, including the calling one
+  /// @param whole    total number of starts, if these are a part of them
   /// @throws std::domain_error  if the three sizes differ, or threads is 0
   ///
-  /// Accuracy  by polynomials 4 eps more than stop_time has.
-  /// Cost      of many starts, 3 ns each (AVX2; 6 ns without).
-  /// Bits      the same however many starts are cut into arrays and threads, if each part knows the whole.
+  /// Accuracy  the table adds at most 4 eps to the error of stop_time.
+  /// Cost      3 ns for each of many starts (AVX2; 6 ns without).
+  /// Bits      independent of the division of many starts into arrays and threads, if each call passes the same
+  ///           `whole`.
   void stop_times(std::span<const double> u0, std::span<const double> v0, std::span<double> tau, unsigned threads = 1,
                   std::size_t whole = 0) const;
 
-  /// The share of the polynomials that failed their proof: of so many starts, those there are computed one by one,
-  /// which is slow. 0 where stop_times uses none.
+  /// Returns the share of the polynomials that failed their test. Starts that fall on these are computed one by one,
+  /// which is slow.
+  /// @param whole  total number of starts; for fewer than many_starts the result is 0
   double refused(std::size_t whole) const;
 
  private:

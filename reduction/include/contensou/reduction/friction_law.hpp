@@ -13,45 +13,54 @@
 
 namespace contensou::reduction {
 
-/// A friction law of a circular patch is any value that turns a Slip into a Resistance.
+/// A dry friction law of a circular contact patch: any type whose values turn a Slip into a Resistance.
 ///
-/// What the library relies on. The first three are checked at some 40 slips when a Law is made of it, to 1e-6:
-///   - degree 0: the answer depends on the ratio k = sliding/pivoting alone;
+/// The patch slides at the speed v of its centre and pivots about its normal; w is the speed of its rim. Friction is a
+/// force F = f N Phi(k) against the sliding and a moment M = f N eps Psi(k) against the pivoting, with k = v/w, the
+/// load N, the coefficient of friction f and the patch radius eps.
+///
+/// The library requires of every law, and Law's constructor tests the first three at about 40 slips to 1e-6:
+///   - degree 0: Phi and Psi depend on the ratio k = sliding/pivoting alone;
 ///   - Phi > 0 and Psi > 0 for k > 0, Psi(0) > 0;
 ///   - Phi(k) = Phi'(0) k + o(k) with Phi'(0) > 0 and 1 - Psi/Psi(0) = O(k) at 0; k Psi has a limit and k (1 - Phi) is
 ///     bounded at infinity;
-///   - Phi and Psi continuous and piecewise smooth, Phi/(k Psi) of finitely many maxima and minima;
-///   - the call is const and may come from several threads at once.
+///   - Phi and Psi are continuous and piecewise smooth, and Phi/(k Psi) has finitely many maxima and minima;
+///   - operator() is const and may run in several threads at once.
 ///
-/// A law may state more; each of these is used when it is there:
+/// Optional members, used if they exist:
 ///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
-///   - `double force_deficit(Slip) const`, 1 - Phi without the subtraction (keeps digits for k >> 1, where a drive next
-///     to 1 leaves nothing else of friction);
-///   - `static constexpr SlidingBounds sliding_bounds`, its two-sided bound of the stop time;
-///   - `kinks()`, every k where Phi or Psi is not smooth (1 unless stated: where the rim of the patch is at rest). A
-///     kink that is not named costs accuracy of the steppers, and of the curves only time.
+///   - `double force_deficit(Slip) const`, 1 - Phi without the subtraction (keeps digits for k >> 1; a drive next to 1
+///     leaves no other part of friction);
+///   - `static constexpr SlidingBounds sliding_bounds`, the bounds of the stop time under this law;
+///   - `kinks()`, every k at which Phi or Psi is not smooth; by default 1, at which the centre of velocity is on the
+///     rim. A missing kink costs accuracy of the steppers, but only time of the curves.
 ///
-/// A law says nothing of how motions under it are solved: closed forms are found by a law's type (closed_solution),
-/// never by its name.
+/// A law contains no solution of the motion: closed_solution finds closed forms by the type of the law.
 template <class L>
 concept FrictionLaw = std::copy_constructible<L> && requires(const L& law, Slip slip) {
   { law(slip) } -> std::convertible_to<Resistance>;
 };
 
-/// Bounds of m in  tau* = P + m S  over all starts (README (R6)): P and S are the times of pure pivoting and pure
-/// sliding.
+/// Bounds of the coefficient m in tau* = P + m S (README (R6)) over all starts. tau* is the stop time; P and S are the
+/// stop times of pure pivoting and pure sliding.
 struct SlidingBounds {
   double min;
   double max;
 };
 
-/// Any friction law as one value: what the rest of the library computes with. Copies share one function: they are
-/// cheap.
+/// Any friction law as one value, the type that the rest of the library computes with. Copies are cheap, because they
+/// share one function.
+///
+///     const Law exact = HertzLaw{};
+///     exact({.sliding = 1, .pivoting = 2}).force;  // Phi at k = 1/2
+///
+/// Accuracy  that of the law given; deficits that the law does not state are differences from 1.
 class Law {
  public:
-  /// @param law  kept as a copy
-  /// @throws std::domain_error  if the law is not as FrictionLaw lists: the message says what was measured, and where
+  /// Copies and tests a law.
+  /// @throws std::domain_error  if the law breaks a requirement of FrictionLaw; the message contains the slip and the
+  ///                            values
   template <class L>
   requires(!std::same_as<L, Law> && FrictionLaw<L>) Law(L law) {  // NOLINT(google-explicit-constructor): a law is a Law
     auto function = std::make_shared<FunctionOf<L>>(std::move(law));
@@ -78,46 +87,46 @@ class Law {
     function_ = std::move(function);
   }
 
-  // No moves: a Law that was moved from would be none.
+  // No move operations: a moved-from Law would be null.
   Law(const Law&) = default;
   Law& operator=(const Law&) = default;
   ~Law() = default;
 
-  /// @return  Phi and Psi
+  /// Returns the dimensionless force Phi and moment Psi. Throws as the law given.
   Resistance operator()(Slip slip) const { return function_->resistance(slip); }
 
-  /// 1 - Psi/Psi(0).
+  /// Returns 1 - Psi/Psi(0).
   double moment_deficit(Slip slip) const { return function_->moment_deficit(slip); }
 
-  /// 1 - Phi.
+  /// Returns 1 - Phi.
   double force_deficit(Slip slip) const { return function_->force_deficit(slip); }
 
-  /// Whether the law states its force_deficit, so that it keeps digits where Phi is next to 1.
+  /// Returns true if the law has its own force_deficit, so that 1 - Phi keeps digits for Phi next to 1.
   bool states_force_deficit() const { return function_->states_force_deficit(); }
 
   const std::string& name() const { return function_->name; }
 
-  /// The law that this was made from if its type is L itself, else null: a law derived from L is another law.
+  /// Returns the law given if its type is L itself, else null. A law derived from L is another law.
   template <FrictionLaw L>
   const L* as() const {
     const auto* function = dynamic_cast<const FunctionOf<L>*>(function_.get());
     return function ? &function->law : nullptr;
   }
 
-  /// Psi(0), the moment of pure pivoting.
+  /// Returns Psi(0), the moment of pure pivoting.
   double pivoting_moment() const { return function_->pivoting_moment; }
 
-  /// Phi'(0), the viscosity of slow sliding over a pivoting patch.
+  /// Returns Phi'(0). Slow sliding of a pivoting patch has the force f N Phi'(0) k, like viscous friction.
   double force_slope() const { return function_->force_slope; }
 
-  /// The law's own bounds of the stop time, if it states any.
+  /// Returns the bounds of the stop time that the law states; empty if it states none.
   const std::optional<SlidingBounds>& sliding_bounds() const { return function_->sliding_bounds; }
 
-  /// The k where Phi or Psi may not be smooth.
+  /// Returns the values of k at which Phi or Psi may not be smooth.
   const std::vector<double>& kinks() const { return function_->kinks; }
 
  private:
-  /// A law of any type, with what is read from it once.
+  /// The law given, without its type, and the constants that are read from it once.
   struct Function {
     virtual ~Function() = default;
     virtual Resistance resistance(Slip slip) const = 0;

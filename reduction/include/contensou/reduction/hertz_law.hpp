@@ -6,23 +6,25 @@
 
 namespace contensou::reduction {
 
-/// Friction of a circular patch under Hertz pressure that slides and pivots at once: Coulomb's law, integrated exactly.
+/// Friction of a circular patch under Hertz's pressure that slides and pivots at once: Coulomb's law, integrated
+/// exactly.
 ///
-/// Source    Zh98 (1.3), (1.5) for k < 1.25, with atan2 for the angle just above k = 1; beyond, the 2F1 series
-///           in 1/k^2, because (1.5) as printed cancels like k^4 (no digit is left at k = 1e4).
+/// Source    Zh98 (1.3), (1.5) for k < 1.25, with atan2 for the angle just above k = 1. Beyond, the 2F1 series in
+///           1/k^2, because (1.5) as printed loses all digits by k = 1e4 (it cancels like k^4).
 /// Accuracy  4 eps relative for every k (tests/reference/laws.csv).
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 struct HertzLaw {
   static constexpr std::string_view name = "exact";
   static constexpr SlidingBounds sliding_bounds{0, 1};
 
-  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  /// Returns force and moment.
+  /// @throws std::domain_error  for a slip that require_slip rejects
   Resistance operator()(Slip slip) const;
 
-  /// 1 - Psi/Psi(0), without cancellation for k <= 1.
+  /// Returns 1 - Psi/Psi(0), without cancellation for k <= 1.
   double moment_deficit(Slip slip) const;
 
-  /// 1 - Phi, without cancellation for k >> 1.
+  /// Returns 1 - Phi, without cancellation for k >> 1.
   double force_deficit(Slip slip) const;
 };
 

@@ -8,7 +8,7 @@
 
 namespace contensou::reduction {
 
-/// How an integration ended.
+/// The end of an integration and its reason.
 struct Outcome {
   enum class Kind { stopped, step_limit, not_finite };
   Kind kind = Kind::stopped;
@@ -17,18 +17,18 @@ struct Outcome {
   bool ok() const { return kind == Kind::stopped; }
 };
 
-/// What a stepper returns: the states asked for, the stop time, and what it cost.
+/// The result of a stepper: the reported states, the stop time and the cost.
 struct Motion {
   OrbitColumns points;
   double stop_time = 0;
   long steps = 0;
-  long evaluations = 0;  ///< of the friction law
+  long evaluations = 0;  ///< number of calls of the friction law
   Outcome outcome;
 };
 
 /// Settings of both steppers.
 struct StepperSettings {
-  double tolerance = 1e-14;  ///< local error of ln u, ln v and tau/(S + P), README (R18)
+  double tolerance = 1e-14;  ///< bound of the local error of ln u, ln v and tau/(S + P), README (R18)
   long step_limit = 2'000'000;
 };
 

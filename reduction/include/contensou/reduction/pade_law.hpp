@@ -6,11 +6,12 @@
 
 namespace contensou::reduction {
 
-/// The rational approximation of the Hertz law that Zh98 solves: Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 + 15 pi k).
+/// The rational approximation to the law under Hertz's pressure that Zh98 solves: Phi = 3 pi k/(8 + 3 pi k), Psi = 3
+/// pi/(16 + 15 pi k).
 ///
-/// It keeps Phi(0), Phi'(0), Phi(infinity), Psi(0) and lim k Psi, but neither the slope of Psi at k = 0 (-1.735 in place
-/// of 0) nor that of Phi in 1/k at infinity (-0.849 in place of 0). Between the ends it is up to 39 % (Phi, k = 0.91) and
-/// 48 % (Psi, k = 0.54) below the exact law; it has no dissipation potential.
+/// It keeps Phi(0), Phi'(0), Phi(infinity), Psi(0) and lim k Psi. It misses the slope of Psi at k = 0 (-1.735 instead
+/// of 0) and that of Phi in 1/k at infinity (-0.849 instead of 0). Between, it is below the exact law by up to 39 %
+/// (Phi, k = 0.91) and 48 % (Psi, k = 0.54). It has no dissipation potential.
 ///
 /// Source    Zh98 (1.4), (1.6).
 /// Accuracy  4 eps relative for every k (tests/reference/laws.csv).
@@ -19,13 +20,14 @@ struct PadeLaw {
   static constexpr std::string_view name = "pade";
   static constexpr SlidingBounds sliding_bounds{1, 2.5};
 
-  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  /// Returns force and moment.
+  /// @throws std::domain_error  for a slip that require_slip rejects
   Resistance operator()(Slip slip) const;
 
-  /// 1 - Psi/Psi(0) = 15 pi k/(16 + 15 pi k).
+  /// Returns 1 - Psi/Psi(0) = 15 pi k/(16 + 15 pi k).
   double moment_deficit(Slip slip) const;
 
-  /// 1 - Phi, without cancellation for k >> 1.
+  /// Returns 1 - Phi, without cancellation for k >> 1.
   double force_deficit(Slip slip) const;
 };
 

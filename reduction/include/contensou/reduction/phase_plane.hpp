@@ -10,16 +10,17 @@
 
 namespace contensou::reduction {
 
-/// A direction that the field keeps to: the half-line from the origin to infinity along it is made of orbits.
+/// A direction of the field that does not turn. The half-line along it, from the origin to infinity, consists of
+/// orbits.
 enum class InvariantDirection {
   pivoting,  ///< the axis v = 0, q = v/|u| = 0
   ray,       ///< an invariant ray, v = mu k |u|
   sliding,   ///< the axis u = 0
 };
 
-/// Where on its half-line a singular point lies.
+/// The end of the half-line at which a singular point lies.
 enum class SingularPlace {
-  origin,    ///< on the line that the origin, itself without a linear part, is blown up to
+  origin,    ///< at u = v = 0: the origin has no linear part and is blown up to a line
   infinity,  ///< on the circle at infinity of the Poincare disc
 };
 
@@ -27,51 +28,54 @@ enum class SingularKind {
   saddle,
   stable_node,
   unstable_node,
-  degenerate,  ///< the angular eigenvalue is 0, two points merge: r = r_low, r_high, or Phi/(k Psi) touches r
+  degenerate,  ///< the angular eigenvalue is 0; two points merge: r = r_low, r_high, or Phi/(k Psi) touches r
 };
 
 std::string_view name(InvariantDirection direction);
 std::string_view name(SingularPlace place);
 std::string_view name(SingularKind kind);
 
-/// A singular point of the regularised field (2.7) after desingularisation. The angular coordinate is q = v/|u| on the
-/// half-plane u > 0, and |u|/v at the axis u = 0; the radial one is the speed |u| (there v) at the origin, its inverse
-/// at infinity. The field is divided by that speed in both places. The half-plane u < 0 is the mirror image.
+/// A singular point of the regularised field (2.7) after desingularisation.
+///
+/// The angular coordinate is q = v/|u| for u > 0, and |u|/v at the axis u = 0. The radial coordinate is the speed |u|
+/// (at the axis u = 0 the speed v) at the origin, and the inverse of this speed at infinity. The field is divided by
+/// this speed at both ends. The half-plane u < 0 is the mirror image.
 struct SingularPoint {
   InvariantDirection direction;
   SingularPlace place;
-  double k;                     ///< v/(mu |u|): 0, that of a ray, infinity
+  double k;                     ///< v/(mu |u|): 0, the k of a ray, or infinity
   double q;                     ///< mu k
-  Eigen::Matrix2d linear_part;  ///< d(radial', angular')/d(radial, angular), no unit
+  Eigen::Matrix2d linear_part;  ///< d(radial', angular')/d(radial, angular), dimensionless
   double radial;                ///< eigenvalue along the half-line
-  double angular;               ///< eigenvalue across it; -infinity where a law's slope is (the ring's at k = 1)
-  SingularKind kind;            ///< of a saddle, the half-line is a separatrix
+  double angular;  ///< eigenvalue across the half-line; -infinity if the law has an infinite slope (the ring at k = 1)
+  SingularKind kind;  ///< for a saddle, the half-line is a separatrix
 };
 
 /// The half-line along which orbits enter the origin.
 struct EndTangent {
   InvariantDirection direction;
   double k;
-  /// The angular coordinate goes to 0 (on a ray: to q*) like this power of the speed: angular/radial eigenvalue; 0
-  /// where degenerate: slower than any power.
+  /// Exponent: the angular coordinate tends to its limit (0, or q* on a ray) like this power of the speed. It is the
+  /// ratio of the angular to the radial eigenvalue, and 0 if degenerate (slower than any power).
   double contact_order;
 };
 
-/// The phase plane of (2.7), whole: what orbits are born at and what they die at.
+/// The singular points of the phase plane of (2.7), at the origin and at infinity: the beginnings and ends of all
+/// orbits.
 struct PhasePlane {
   TerminalRatios terminal;
-  double mu_low, mu_high;  ///< r_low and r_high as patch ratios of this body; with a drive mu_low counts for nothing
-  /// By direction from v = 0 to u = 0, at each the origin first. Every half-line is an orbit from infinity to the
-  /// origin and joins a saddle to a node. With a drive v = 0 is none: orbits begin there.
+  double mu_low, mu_high;  ///< r_low and r_high as patch ratios mu of this body; with a drive mu_low has no meaning
+  /// By direction from v = 0 to u = 0, the point at the origin first. Every half-line is an orbit from infinity to the
+  /// origin and joins a saddle to a node. With a drive the axis v = 0 is missing: it is no orbit.
   std::vector<SingularPoint> points;
-  std::vector<EndTangent> tangents;  ///< of the orbits of each of terminal.ends
+  std::vector<EndTangent> tangents;  ///< tangents of the orbits that end at each of terminal.ends
 };
 
-/// Solves for the singular points and linearises there (README (R15) to (R17)).
+/// Finds the singular points and the linear part of the field at each (README (R15) to (R17)).
 ///
-/// Accuracy  eigenvalues on the axes 1e-14 relative, on a ray 1e-11; 1e-6 where k* is within 1e-3 of 1, at which many
-///           laws have a kink; on a ray whose k is less accurate, no better than that. r is taken for r_low or r_high
-///           where TerminalRatios does not tell them apart.
+/// Accuracy  eigenvalues on the axes 1e-14 relative; on a ray 1e-11, and 1e-6 for k* within 1e-3 of 1, where many laws
+///           have a kink; never better than the accuracy of the ray's k. An r that TerminalRatios cannot tell from
+///           r_low or r_high counts as r_low or r_high.
 PhasePlane phase_plane(const Flow& flow);
 
 }  // namespace contensou::reduction

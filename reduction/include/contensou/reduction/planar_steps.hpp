@@ -4,11 +4,13 @@
 
 namespace contensou::reduction {
 
-/// Takes any planar field for a system without reduction: its orbits are integrated by Dormand-Prince 5(4), whose steps
-/// hold an error of 1e-12 of the distance from the origin each, up to 10 000 of them. Its error estimate sees jumps of
-/// the field, which Fehlberg 7(8) is blind to. A route of its own beside quadratures.
+/// Returns a system whose orbits are integrated by Dormand-Prince 5(4), without reduction, for any planar field.
 ///
-/// The form is empty, no end is decided, and there is neither a factor nor a first integral.
+/// Each step keeps the error below 1e-12 of the distance from the origin; an orbit has at most 10 000 steps. The error
+/// estimate of this method sees jumps of the field, unlike that of Fehlberg 7(8). Tests compare the quadratures with
+/// it.
+///
+/// @return a system with an empty form, undecided ends, and neither factor nor first integral
 PlanarReduction by_steps(PlanarField field);
 
 }  // namespace contensou::reduction

@@ -15,16 +15,16 @@ namespace contensou::reduction {
 /// Source    z = k^2:   Phi = C (p + 3/2) k 2F1(1/2, -p - 1/2; 2; z),  Psi = C 2F1(1/2, -p - 3/2; 1; z),   k <= 1
 ///           z = k^-2:  Phi = 2F1(-1/2, 1/2; p + 2; z),  Psi = 2F1(1/2, 1/2; p + 3; z)/(2 (p + 2) k),      k >= 1
 ///           with C = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)); for integer p these are elliptic integrals.
-/// Accuracy  for every k, 1e-300 to 1e300: 4 eps
-///           (tests/reference/laws_pressure.csv). Needs the 64 bits of x87's long double; without them, as in WebAssembly, 7 eps for the named laws, 40 at p = 25.
+/// Accuracy  4 eps for every k from 1e-300 to 1e300 (tests/reference/laws_pressure.csv), by the 64 bits of x87's long
+///           double. Without these, as in WebAssembly, 7 eps for the named laws and 40 eps at p = 25.
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 class PressureLaw {
  public:
   static constexpr SlidingBounds sliding_bounds{0, 1};
   static constexpr double max_p = 25;
 
-  /// @param p  -1 < p <= max_p
-  /// @throws std::domain_error  for another p
+  /// @param p  exponent, -1 < p <= max_p
+  /// @throws std::domain_error  for any other p
   explicit PressureLaw(double p);
 
   static PressureLaw uniform();
@@ -32,19 +32,21 @@ class PressureLaw {
   static PressureLaw ring();
   static PressureLaw paraboloid();
 
-  /// "uniform", "punch", "ring", "paraboloid", or "pressure:P" with the shortest P that reads back to the same double.
+  /// Returns "uniform", "punch", "ring", "paraboloid", or "pressure:P" with the shortest P that reads back to the same
+  /// double.
   const std::string& name() const { return name_; }
 
-  /// The exponent; -1 for the ring.
+  /// Returns the exponent p; -1 for the ring.
   double p() const { return p_; }
 
-  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  /// Returns force and moment.
+  /// @throws std::domain_error  for a slip that require_slip rejects
   Resistance operator()(Slip slip) const;
 
-  /// 1 - Psi/Psi(0), without cancellation for k << 1.
+  /// Returns 1 - Psi/Psi(0), without cancellation for k << 1.
   double moment_deficit(Slip slip) const;
 
-  /// 1 - Phi, without cancellation for k >> 1.
+  /// Returns 1 - Phi, without cancellation for k >> 1.
   double force_deficit(Slip slip) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace contensou::reduction {
 
-/// Returns the state of the motion from a start at a regularised time of (2.8): beta as it is given; rest at infinity.
+/// Returns the state of the motion from a start at the regularised time beta of (2.8); rest for beta = infinity.
 ///
 /// @param beta  >= 0, in the inverse of the unit of speed
 /// @throws std::domain_error  if beta is negative or not a number, or as Flow::orbit
@@ -15,7 +15,7 @@ namespace contensou::reduction {
 /// Cost      some ten times that of Orbit::at_time.
 OrbitPoint at_beta(const Flow& flow, State start, double beta);
 
-/// Returns the states at several, in the order given. Throws as at_beta.
+/// Returns the states at several beta, in the order given. Throws as at_beta.
 OrbitColumns at_betas(const Flow& flow, State start, const Eigen::ArrayXd& betas);
 
 }  // namespace contensou::reduction

@@ -4,18 +4,19 @@
 
 namespace contensou::reduction {
 
-/// The root of a function between two places at which it has, to rounding, values of different signs: to the last bits,
-/// by TOMS 748 (G. Alefeld, F. Potra, Y. Shi, doi:10.1145/210089.210111). Where the signs are equal, the place of the
-/// smaller value.
+/// Finds the root of a function between two arguments to the last bits, by TOMS 748 (G. Alefeld, F. Potra, Y. Shi,
+/// doi:10.1145/210089.210111).
+/// @param at_low, at_high  the function's values at low and high, of different signs except for rounding
+/// @return the root; for equal signs the argument with the value nearer to 0
 double root_between(const std::function<double(double)>& function, double low, double high, double at_low,
                     double at_high);
 
-/// The same, where the values at both places are still to be had.
+/// Finds the root as above and computes both values first.
 inline double root_between(const std::function<double(double)>& function, double low, double high) {
   return root_between(function, low, high, function(low), function(high));
 }
 
-/// The last place on the way from one where a condition holds to one where it does not, by so many halvings.
+/// Finds the last point on the way from `from`, where a condition holds, to `to`, where it does not, by bisection.
 template <class Holds>
 double last_where(Holds holds, double from, double to, int halvings = 50) {
   for (int i = 0; i < halvings; ++i) {

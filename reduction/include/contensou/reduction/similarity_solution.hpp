@@ -11,17 +11,15 @@
 
 namespace contensou::reduction {
 
-/// All motions under a law and an r: one curve for each interval of k between two neighbours of 0, the invariant rays
-/// and infinity.
-///
-/// A value, cheap to copy; empty where somebody has no solution to offer.
+/// All motions under a law and an r: one curve for each interval of k between two neighbours among 0, the invariant
+/// rays and infinity. It never changes and is cheap to copy. It is empty if there is no solution.
 class SimilaritySolution {
  public:
   using Curve = std::shared_ptr<const SimilarityCurve>;
 
   SimilaritySolution() = default;
 
-  /// One curve for every k.
+  /// Makes a solution of one curve that covers every k.
   SimilaritySolution(Curve only)  // NOLINT(google-explicit-constructor)
       : SimilaritySolution(std::vector{std::move(only)}) {}
 
@@ -29,13 +27,14 @@ class SimilaritySolution {
   SimilaritySolution(std::shared_ptr<C> only)  // NOLINT(google-explicit-constructor)
       : SimilaritySolution(Curve(std::move(only))) {}
 
-  /// Curves that cover every k.
+  /// Makes a solution of curves that together cover every k.
   explicit SimilaritySolution(std::vector<Curve> curves) : curves_(std::move(curves)) {}
 
   explicit operator bool() const { return !curves_.empty(); }
 
-  /// The curve of the motions with this k, finite or not; a ray itself belongs to either of its sides.
-  /// @throws std::domain_error  if there is none
+  /// Returns the curve of the motions with this k; ln_k may be infinite. For the k of a ray it returns the curve on
+  /// either side.
+  /// @throws std::domain_error  if no curve covers this k
   const Curve& through(double ln_k) const;
 
   const std::vector<Curve>& curves() const { return curves_; }
@@ -44,14 +43,14 @@ class SimilaritySolution {
   std::vector<Curve> curves_;
 };
 
-/// By quadrature: for any law and r (README (R2), (R19), (R24), (R31)).
+/// Finds the solution by quadrature, for any law and r (README (R2), (R19), (R24), (R31)).
 /// @param ratios  terminal_ratios(law, r, drive)
 /// @throws std::domain_error   unless r is positive and finite
 /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
 SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios, double drive = 0);
 
-/// In closed form, found by the law's type: PadeCurve (README (R8) to (R14)) for PadeLaw up to its max_r; else empty. The one
-/// place that knows which laws have one.
+/// Returns the solution in closed form, by the type of the law: PadeCurve (README (R8) to (R14)) for PadeLaw up to its
+/// max_r; else empty. No other code depends on the laws with a closed form.
 SimilaritySolution closed_solution(const Law& law, double r, double drive = 0);
 
 }  // namespace contensou::reduction

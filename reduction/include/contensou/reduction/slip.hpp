@@ -11,30 +11,30 @@ namespace contensou::reduction {
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53,
               "contensou needs doubles of 64 bits after IEEE 754");
 
-/// How a circular contact patch moves over the plane: two speeds in one unit, both >= 0 and not both 0.
+/// The motion of a circular contact patch over the plane: two speeds in one unit, both >= 0 and not both 0.
 ///
-/// Two speeds instead of their ratio k = sliding/pivoting, so that pure sliding (pivoting = 0) and pure pivoting
+/// Two speeds, unlike their ratio k = sliding/pivoting, need no infinity: pure sliding (pivoting = 0) and pure pivoting
 /// (sliding = 0) are ordinary values and no infinity is needed.
 struct Slip {
   double sliding;   ///< speed v of the patch centre
-  double pivoting;  ///< rim speed of the rotation about the normal, w = eps |omega_z| = mu |u|
+  double pivoting;  ///< rim speed w = eps |omega_z| = mu |u| of the rotation about the normal
 };
 
-/// Friction made dimensionless: what a law returns.
+/// Force and moment of friction in dimensionless form, the result of a law.
 struct Resistance {
   double force;   ///< Phi = F/(N f), opposes sliding
   double moment;  ///< Psi = M/(N f eps), opposes pivoting
 };
 
-/// The slip whose ratio is k = sliding/pivoting; the larger of the two speeds is 1.
+/// Returns a slip with the ratio k = sliding/pivoting, whose larger speed is 1.
 ///
-/// @param k  0 (pure pivoting) to infinity (pure sliding)
+/// @param k  from 0 (pure pivoting) to infinity (pure sliding)
 /// @throws std::domain_error  if k is negative or not a number
 Slip slip_of_ratio(double k);
 
-/// Rejects what no friction law can answer.
+/// Throws for a slip at which no friction law has a value.
 ///
-/// @param law  the name that the message begins with
+/// @param law  name of the law, with which the message begins
 /// @throws std::domain_error  if a speed is negative or not finite, or if both are 0: the law has no limit there
 ///                            (Zh98, remark 3)
 void require_slip(const char* law, Slip slip);

@@ -9,30 +9,31 @@ namespace contensou::reduction {
 struct HertzLaw;
 class EllipticLaw;
 
-/// A resistance and how it changes with both speeds, for implicit steps in time. Since a law is of degree 0, one number
-/// says it of each part: with m the larger of the speeds v and w,
+/// A resistance and its derivatives by both speeds, for implicit steps in time. Because a law is of degree 0, one slope
+/// describes each part. With m, the larger of the speeds v and w,
 ///   dPhi = force_slope (w dv - v dw)/m^2,    dPsi = -moment_slope (w dv - v dw)/m^2
 /// For a law with a dissipation potential v force_slope = w moment_slope, README (R36).
 struct Tangent {
   Resistance resistance;
-  double force_slope;   ///< Phi' for k <= 1, beyond it the slope of -Phi over 1/k
-  double moment_slope;  ///< -Psi' for k <= 1, beyond it the slope of Psi over 1/k
+  double force_slope;   ///< Phi' for k <= 1; for k > 1 the derivative of -Phi by 1/k
+  double moment_slope;  ///< -Psi' for k <= 1; for k > 1 the derivative of Psi by 1/k
 
-  /// Of a law with a potential.
-  /// @param curvature  Phi' for k <= 1, beyond it the slope of Psi over 1/k
+  /// Returns the tangent of a law with a potential.
+  /// @param curvature  Phi' for k <= 1; for k > 1 the derivative of Psi by 1/k
   static Tangent of_potential(Resistance resistance, Slip slip, double curvature);
 };
 
-/// In closed form, the slopes to 1e-11.
+/// Returns the tangent in closed form, with slopes to 1e-11.
 /// @throws std::domain_error  as the law
 Tangent tangent(const HertzLaw& law, Slip slip);
 Tangent tangent(const EllipticLaw& law, Slip slip);
 
-/// The tangent of any law: the closed form that its type has, or else central differences, 1e-9 from the slopes where the
-/// law is smooth, and finite at its kinks. Calls do not allocate if those of the law do not, and throw as the law.
+/// Returns a function that computes the tangent of a law: in closed form if there is one for its type, else by central
+/// differences. Differences are within 1e-9 of the slopes of a smooth law and finite at its kinks. Calls allocate and
+/// throw only if the law does.
 std::function<Tangent(Slip)> tangent_of(const Law& law);
 
-/// How far the slopes of tangent_of may be off: 0 for rounding alone, or what differences leave.
+/// Returns a bound of the error of tangent_of's slopes: 0 for rounding alone, else the error of differences.
 double tangent_error(const Law& law);
 
 }  // namespace contensou::reduction

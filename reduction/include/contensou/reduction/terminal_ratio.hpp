@@ -8,77 +8,77 @@
 
 namespace contensou::reduction {
 
-/// What k = v/(mu |u|) tends to as a body that slides and pivots comes to rest.
-///
-/// u and v vanish at one instant whatever the regime is (README (R39)): k says which of them is then the smaller.
+/// The limit of k = v/(mu |u|) as a body that slides and pivots comes to rest. u and v vanish at the same time in every
+/// regime (README (R39)); k shows which of them vanishes faster.
 enum class TerminalRegime {
-  zero,      ///< k -> 0: v is the smaller in the end, by any factor
-  ray,       ///< k tends to that of an invariant ray
-  infinity,  ///< k -> infinity: u is the smaller in the end
+  zero,      ///< k -> 0: v vanishes faster
+  ray,       ///< k tends to the k of an invariant ray
+  infinity,  ///< k -> infinity: u vanishes faster
 };
 
-/// The same in words.
+/// Returns a description of a regime.
 constexpr std::string_view meaning(TerminalRegime regime) {
   return regime == TerminalRegime::zero  ? "u and v vanish together, v faster"
          : regime == TerminalRegime::ray ? "u and v vanish together, in the ratio of an invariant ray"
                                          : "u and v vanish together, u faster";
 }
 
-/// One end of motions, and which motions end there.
+/// A limit of k and the starts whose motions have it.
 struct TerminalRatio {
   TerminalRegime regime;
-  double k;     ///< 0, that of the ray, or infinity
-  double from;  ///< every start with from < k < to goes there; both are invariant themselves, but for 0 with a drive
+  double k;     ///< 0, the k of a ray, or infinity
+  double from;  ///< every start with from < k < to has this limit; both are invariant, except 0 with a drive
   double to;
 };
 
-/// A ray v = k mu |u| that motions keep to: Phi = r k Psi.
+/// A ray v = k mu |u| that is an orbit: Phi = r k Psi.
 struct InvariantRay {
   double k;
-  bool attracts_above;  ///< starts with a somewhat larger k go to it; otherwise they leave it
-  bool attracts_below;  ///< starts with a somewhat smaller k do. Only one of the two where Phi/(k Psi) touches r
-  double accuracy;      ///< relative error of k: rounding of the law, over the slope of Phi/(k Psi)
+  bool attracts_above;  ///< starts with a slightly larger k tend to the ray; otherwise they leave it
+  bool attracts_below;  ///< the same for a slightly smaller k; only one of the two if Phi/(k Psi) touches r
+  double accuracy;      ///< relative error of k: rounding of the law divided by the slope of Phi/(k Psi)
 
   bool attracts() const { return attracts_above && attracts_below; }
 };
 
-/// The zeros of Phi - r k Psi beside k = 0 and k = infinity, and where k goes between them.
+/// The zeros of Phi - r k Psi beside k = 0 and k = infinity, and the limits of k between them.
 ///
-/// k falls where Phi > r k Psi and grows where it is less (README (R2)), so that between two neighbours of 0, the rays
-/// and infinity every motion leaves the one and tends to the other. Under the pressures that have a name and under the
-/// Pade law Phi/(k Psi) grows with k: there is one ray for low < r < high, it attracts, and there is one end. Under a
-/// pressure given as a table there may be several. For r <= 1/2 no pressure on a disc has a ray (README (R40)).
+/// k falls where Phi > r k Psi and grows where Phi < r k Psi (README (R2)). So every motion between two neighbours
+/// among 0, the rays and infinity leaves one and tends to the other. For the named pressures and the Pade law Phi/(k
+/// Psi) grows with k: for low < r < high there is one ray, which attracts, and there is one limit. A tabulated pressure
+/// may have several rays. For r <= 1/2 no pressure on a disc has a ray (README (R40)).
 struct TerminalRatios {
-  double low;                       ///< Phi/(k Psi) at k = 0, Phi'(0)/Psi(0)
+  double low;                       ///< Phi/(k Psi) at k = 0, that is Phi'(0)/Psi(0)
   double high;                      ///< (Phi - rho)/(k Psi) at k = infinity
-  std::vector<InvariantRay> rays;   ///< by growing k
-  std::vector<TerminalRatio> ends;  ///< by growing k; never empty
+  std::vector<InvariantRay> rays;   ///< by increasing k
+  std::vector<TerminalRatio> ends;  ///< by increasing k; never empty
 
-  /// The end of the motions with this k; an axis and a ray end on themselves.
+  /// Returns the limit of the motions with this k; an axis and a ray are their own limits.
   /// @param k  from 0 to infinity
   /// @throws std::domain_error  if k is negative or not a number
   TerminalRatio end_of(double k) const;
 
-  /// Where Phi/(k Psi) differs from r by less than this fraction of r it counts as r: two rays with no more between them
-  /// are one, and one with no more between it and an axis is none.
+  /// Relative difference of Phi/(k Psi) from r that counts as 0. Two rays with no larger difference between them count
+  /// as one; a ray with no larger difference between it and an axis is left out.
   static constexpr double tolerance = 512 * std::numeric_limits<double>::epsilon();
 };
 
-/// Finds every k with Phi(k) = rho + r k Psi(k): d ln k/ds vanishes there.
+/// Finds every k with Phi(k) = rho + r k Psi(k), at which d ln k/ds vanishes.
 ///
 /// @param r      gamma mu^2/chi, > 0
-/// @param drive  rho of ReducedSystem. With one, k = 0 is no invariant ratio: starts at k = 0 go where those next to it do.
+/// @param drive  rho of ReducedSystem; if it is not 0, k = 0 is not invariant and starts there tend to the limit of
+///               their neighbours
 /// @throws std::domain_error   if r is not positive and finite
-/// @throws std::runtime_error  if a drive next to 1 leaves less of friction than decides whether there is a ray next to
-///                             infinity, under a law that does not state its force_deficit
+/// @throws std::runtime_error  if a drive next to 1 leaves so little of friction that a ray next to infinity can be
+///                             neither found nor excluded, under a law that does not state its force_deficit
 ///
-/// Accuracy  InvariantRay::accuracy: 2e-15 where Phi/(k Psi) is steep.
-/// Cost      700 evaluations of the law, at distances of 1/16 in ln k. Between two of them there may be two rays, if
-///           Phi/(k Psi) has no more than one extremum there.
+/// Accuracy  InvariantRay::accuracy: 2e-15 if Phi/(k Psi) is steep.
+/// Cost      700 calls of the law, at distances of 1/16 in ln k. Two rays between two calls are found if Phi/(k Psi)
+///           has no more than one extremum there.
 TerminalRatios terminal_ratios(const Law& law, double r, double drive = 0);
 
-/// With a drive, a motion from v = 0 and one from this ln k are the same to the last bit: ln k of one that has just begun
-/// to creep.
+/// Returns the ln k of a motion that has just begun to creep under a drive. Motions from here and from v = 0 are equal
+/// to the last bit.
 double least_log_ratio(const Law& law, double r, double drive);
 
 }  // namespace contensou::reduction
