@@ -7,8 +7,8 @@
 
 namespace contensou::reduction {
 
-/// Where a stepper stands: logarithms of the two speeds, scaled time s and regularised time, both since the start, in
-/// speeds divided by the stepper's unit.
+/// The state of a stepper: logarithms of the two speeds, scaled time s and regularised time since the start. Speeds are
+/// divided by the stepper's unit.
 struct LogState {
   double ln_w;
   double ln_v;
@@ -16,22 +16,22 @@ struct LogState {
   double beta;  ///< integral of ds/((16 w + 15 pi v)(8 w + 3 pi v))
 };
 
-/// The exact limit of the rest of a motion, from where one of the two frictions is all there is.
+/// The exact limit of the rest of a motion, from where pivoting alone or sliding alone determines the friction.
 ///
-/// k -> 0: w falls at the rate r Psi(0), v follows with the exponent of the linearised law. k -> infinity: v falls at
-/// the rate 1 - rho, w follows.
+/// For k -> 0, w falls at the rate r Psi(0) and v follows with the exponent of the linearised law. For k -> infinity, v
+/// falls at the rate 1 - rho and w follows.
 class AsymptoticTail {
  public:
-  /// The limit that holds at this state to better than 1e-17 of the whole time, if one does.
+  /// Returns the limit that holds at this state to better than 1e-17 of the whole time; empty if there is none.
   static std::optional<AsymptoticTail> at(const ReducedSystem& system, const LogState& state);
 
-  /// Scaled time since the start at which the body stops.
+  /// Returns the scaled time from the start to the stop.
   double stop() const { return from_.s + left_; }
 
-  /// The state at a scaled time between from and stop().
+  /// Returns the state at a scaled time between that of `from` and stop().
   LogState at_time(double s) const { return at_fraction((stop() - s) / left_); }
 
-  /// The state when that fraction of the tail's time is left, 0 < fraction <= 1.
+  /// Returns the state at which the given fraction of the tail's time is left, 0 < fraction <= 1.
   LogState at_fraction(double fraction) const;
 
  private:
@@ -41,7 +41,7 @@ class AsymptoticTail {
   double left_;
   double ln_v_slope_;  ///< d ln v per d ln (time left)
   double ln_w_slope_;
-  double beta_scale_;  ///< beta gained = beta_scale_ (1/fraction left - 1)
+  double beta_scale_;  ///< beta since `from` is beta_scale_ (1/fraction left - 1)
 };
 
 }  // namespace contensou::reduction

@@ -8,15 +8,15 @@
 
 namespace contensou::reduction {
 
-/// The right sides of (R1) times the larger of w and v, by which they are still to be divided: so no quotient is by a
-/// speed that vanishes.
+/// The right sides of (R1) times the larger of w and v. A division by `larger` remains, so that no speed that vanishes
+/// is a divisor:
 ///   -d ln w/ds = r of_spin/larger,   -d ln v/ds = of_slip/larger
 struct Braking {
   double larger, of_spin, of_slip;
   double weight;  ///< dtau/dbeta of scaled speeds
 };
 
-/// At scaled speeds. Where the law had no number before, nothing is one: a run ends with its outcome.
+/// Returns the right sides at scaled speeds, or NaN if the speeds are NaN, so that the run ends with its outcome.
 inline Braking braking(const ReducedSystem& system, double ln_w, double ln_v) {
   const double w = std::exp(ln_w), v = std::exp(ln_v), k = std::exp(ln_v - ln_w);
   if (std::isnan(k)) return {k, k, k, k};

@@ -1,4 +1,4 @@
-// In scaled units (README (R1)):  d ln w/ds = -r Psi/w,  d ln v/ds = -(Phi - rho)/v,  and dbeta/ds = 1/W beside them.
+// In scaled units (README (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v, dbeta/ds = 1/W.
 #include "contensou/reduction/direct_motion.hpp"
 
 #include <algorithm>
@@ -28,13 +28,14 @@ namespace odeint = boost::numeric::odeint;
 using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + beta/beta_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
-/// Next to a kink a law may have a term x ln|x|, x = ln k less that of the kink, to which Fehlberg's estimate of the
-/// error is as good as blind (all its stages but those at the two ends of a step cancel): steps there change x by this
-/// fraction of itself, down to what x^2 does not feel.
+/// Largest change of x in one step next to a kink, as a fraction of x, where x = ln k - ln k of the kink. A law may
+/// have a term x ln|x| there. Fehlberg's error estimate does not see it, because only the stages at the two ends of a
+/// step enter.
 constexpr double fraction_of_distance = 0.5;
+/// Distance |x| below which x^2 is negligible and steps need not shrink any more.
 constexpr double nearest_kink = 1e-8;
 
-/// Within this the step before ended on the kink.
+/// Distance from a kink below which the step before ended on the kink.
 constexpr double on_kink = 16 * std::numeric_limits<double>::epsilon();
 
 struct DirectEquations {
@@ -59,7 +60,8 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
-  // beta grows without bound towards the stop: its logarithm, shifted to start at 0, is of the size of the others.
+  // beta grows without bound towards the stop. ln(1 + beta/beta_unit) starts at 0 and has the size of the other
+  // variables.
   const double speed = 16 * std::exp(here.ln_w) + 15 * pi * std::exp(here.ln_v);
   const double beta_unit = 1 / speed;
   DirectEquations equations{system, beta_unit};
@@ -71,14 +73,14 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   Values x{here.ln_w, here.ln_v, 0};
   double s = 0;
   double step = 1e-3 * std::max(std::exp(here.ln_w), std::exp(here.ln_v)) / std::max(1.0, 0.01 * system.r());
-  // What begins to creep changes ln v at the rate rho/v.
+  // A body that begins to creep changes ln v at the rate rho/v.
   if (system.drive() > 0) step = std::min(step, 0.1 * std::exp(here.ln_v) / system.drive());
   const auto log_state = [&] { return LogState{x[0], x[1], s, beta_unit * std::expm1(x[2])}; };
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {
     if (const auto tail = AsymptoticTail::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
 
-    // Up to the next instant asked for, which must not shorten the steps after it.
+    // The step ends at the next time to report. The steps after it must not be shortened by that.
     const double wanted = report.next_time();
     Values rate;
     equations(x, rate, s);
@@ -89,7 +91,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
     double trial = std::min(step, limit);
     const Values before = x;
     const double s_before = s;
-    double taken = trial;  // not s - s_before, which near the stop is all rounding
+    double taken = trial;  // not s - s_before, which loses all digits near the stop
     while (stepper.try_step(std::ref(equations), x, s, trial) == odeint::fail) {
       if (!(trial > std::numeric_limits<double>::min())) {
         return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);
@@ -107,7 +109,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
       return std::abs(side) > on_kink && (side > 0) != (x[1] - x[0] > kink);
     });
     if (crossed != kinks.end()) {
-      // Land on the kink: the length of the step that ends there.
+      // Find the length of the step that ends on the kink.
       const auto gap_of = [&](const Values& at) { return at[1] - at[0] - *crossed; };
       Fehlberg base;
       Values landed = x;

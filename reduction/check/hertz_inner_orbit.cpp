@@ -16,11 +16,11 @@ double hertz_inner_ln_w(double r, double k) {
         fmt::format("hertz_inner_ln_w: 0 < r < 2 and 0 < k <= 1 required, got r = {}, k = {}", r, k));
   }
   const double root = std::sqrt(1 + r * (8 - 2 * r));
-  // The printed roots subtract for small r: s+ from the product of the roots, s- from their sum of like signs.
+  // The printed roots cancel for small r. s+ follows from the product of the roots, s- from a sum of equal signs.
   const double outer = 4 * (2 - r) / (1 - 2 * r + root);      // s+ > 1
   const double negative = -2 * (1 - 2 * r + root) / (3 * r);  // s-
   const double distance = 4 * root / (3 * r);                 // s+ - s-
-  // 4 - s+ from 4 (4 - s) = r (8 - 8 s + 3 s^2): s+ -> 4 as r -> 0.
+  // 4 - s+ follows from 4 (4 - s) = r (8 - 8 s + 3 s^2), because s+ -> 4 as r -> 0.
   const double outer_exponent = -(8 - 8 * outer + 3 * outer * outer) / (6 * outer * distance);
   const double negative_exponent = 2 * (4 - negative) / (3 * r * negative * distance);
 

@@ -7,35 +7,36 @@
 
 namespace contensou::reduction {
 
-/// What both steppers say and in which unit: the start in logarithms, the instants still to be reported, the Motion
-/// that grows. No equation of motion lives here.
+/// The part that both steppers share: units, the start in logarithms, the times still to report, and the Motion that
+/// grows. It contains no equation of motion.
 class MotionRecorder {
  public:
-  /// @param caller  named in error messages
+  /// @param caller  function name for error messages
   /// @throws std::domain_error  if start is not a state, or times are negative, not finite or decreasing
   MotionRecorder(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times);
 
-  /// The start, speeds in the report's unit; -inf for a speed of 0. It is reported already where it was asked for.
+  /// Returns the start, with speeds in the recorder's unit; -infinity for a speed of 0. If requested, it is already
+  /// reported.
   const LogState& start() const { return start_; }
 
-  /// An upper estimate of the whole scaled time, the unit of its error.
+  /// Returns an upper bound of the whole scaled time, the unit of its error.
   double time_scale() const { return time_scale_; }
 
-  /// The next instant asked for, in scaled time; infinity when there is none.
+  /// Returns the next time to report, in scaled time; infinity if there is none.
   double next_time() const;
 
-  /// True when accepted steps are to be reported, because no instants were asked for.
+  /// Returns true if every accepted step is reported, because no times were requested.
   bool every_step() const { return every_step_; }
 
   void add(const LogState& state);
 
-  /// Reports what lies in the tail and the stop, and closes the motion.
+  /// Reports the requested times in the tail and the stop, and returns the motion.
   Motion finish(const AsymptoticTail& tail, long steps, long evaluations);
 
-  /// The motion of a body that is at rest from the start.
+  /// Returns the motion of a body that is at rest from the start.
   Motion finish_at_rest();
 
-  /// Gives up; what was reported so far stays.
+  /// Returns the states reported so far, with the reason of the failure.
   Motion fail(Outcome::Kind kind, long steps, long evaluations);
 
  private:

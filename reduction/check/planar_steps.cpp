@@ -29,7 +29,7 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using Pair = std::array<double, 2>;
 
-/// The field for a stepper.
+/// The field in the form that a stepper calls.
 struct Equations {
   const PlanarField& field;
 
@@ -39,7 +39,7 @@ struct Equations {
   }
 };
 
-/// The steps of one orbit, made as far as they are asked for.
+/// The steps of one orbit. They are made up to the latest time that was requested.
 class SteppedMotion final : public PlanarOrbit::Motion {
  public:
   SteppedMotion(PlanarField field, const Vector2d& start)
@@ -57,7 +57,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     while (states_.back().t < time) extend();
     const auto after = std::ranges::upper_bound(states_, time, {}, &State::t);
     State state = *std::prev(after);
-    // Shorter than a step whose error was accepted.
+    // This step is shorter than one whose error was accepted.
     auto stepper = odeint::runge_kutta_dopri5<Pair>();
     if (time > state.t) stepper.do_step(Equations{field_}, state.x, state.t, time - state.t);
     return {state.x[0], state.x[1]};

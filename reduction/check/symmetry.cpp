@@ -34,8 +34,8 @@ double regularised_symmetry_residual(const ReducedSystem& system, State state) {
 }
 
 double slope_symmetry_residual(const ReducedSystem& system, State state) {
-  // u w_u + v w_v from the two partial derivatives, not along the group: a different difference quotient. Short steps:
-  // across k = 1 the exact law has no third derivative.
+  // The two partial derivatives give another difference quotient than the derivative along the group. Steps are short,
+  // because the exact law has no third derivative at k = 1.
   constexpr double h = 2e-5;
   const auto partial = [&](double du, double dv) {
     const auto at = [&](double step) { return system.slope({state.u * (1 + step * du), state.v * (1 + step * dv)}); };

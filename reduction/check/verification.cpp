@@ -23,7 +23,7 @@ namespace {
 
 using std::numbers::pi;
 
-// What each statement may miss by: rounding, the difference quotients of symmetry.hpp, or the steppers' answer.
+// Allowed errors: of rounding, of the difference quotients of symmetry.hpp, and of the steppers.
 constexpr double rounding = 1e-13;
 constexpr double difference_quotient = 1e-9;
 constexpr double stepping = 1e-10;
@@ -32,11 +32,11 @@ double relative(double value, double reference) {
   return value == reference ? 0.0 : std::abs(value - reference) / std::abs(reference);
 }
 
-/// The larger measure of two; not a number wins, so that it is never lost.
+/// Returns the larger of two errors; NaN counts as the largest, so that it is never lost.
 double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// The start in a unit of speed in which neither squares nor sums overflow; exact. A speed that is 1e-200 of the other
-/// is not felt and counts as 0: the start is then checked as one on the axis.
+/// Returns the start in a unit of speed in which squares and sums do not overflow. The conversion is exact. A speed
+/// below 1e-200 of the other has no effect and becomes 0, so that the checks of an axis apply.
 State normalised(State start) {
   constexpr double faint = 1e-200;
   const int exponent = std::ilogb(std::max(std::abs(start.u), start.v));
@@ -44,7 +44,7 @@ State normalised(State start) {
   return {std::abs(scaled.u) < faint ? 0 : scaled.u, scaled.v < faint ? 0 : scaled.v};
 }
 
-/// The checks of one start, made one after the other.
+/// Computes the checks of one start.
 class Examination {
  public:
   Examination(const Flow& flow, const Flow& quadrature, State start)
@@ -92,13 +92,14 @@ class Examination {
     add("generator on (2.6)", field_symmetry_residual(system_, start_), difference_quotient);
     add("generator on (2.7)", regularised_symmetry_residual(system_, start_), difference_quotient);
 
-    // A factor that is no power of two, so that no digit agrees by construction.
+    // The factor is no power of two, so that no digit agrees by construction.
     constexpr double factor = 1e3 / 7;
     const double scaled = integrate_directly(system_, {factor * start_.u, factor * start_.v}).stop_time;
     add("stop time of the scaled start, (2.6)", relative(scaled, factor * orbit_.stop_time()), stepping);
   }
 
-  /// The start, or one with partial derivatives: at their kinks the ring and the uniform disc have none.
+  /// Returns the start, or a state beside it if the start lies at a kink, at which the ring and the uniform disc have
+  /// no partial derivatives.
   State beside_the_kink() const {
     const double k = start_.v / (system_.mu() * std::abs(start_.u));
     const bool beside =
@@ -111,7 +112,7 @@ class Examination {
     double worst = 0;
     const TerminalChart& chart = orbit_.chart();
     for (double xi : {orbit_.start_coordinate(), std::min(orbit_.start_coordinate(), chart.coordinate(0) + 0.5)}) {
-      if (on_a_ray(chart.log_ratio(xi - 1))) continue;  // k = 1 may be on it, or on its other side
+      if (on_a_ray(chart.log_ratio(xi - 1))) continue;  // k = 1 may lie on the ray or beyond it
       const auto [bottom, top] = std::minmax({chart.log_ratio(xi - 1), chart.log_ratio(xi)});
       const double sign = std::copysign(1.0, start_.u);
       const auto slope = [&](double ln_k) {
@@ -127,19 +128,19 @@ class Examination {
         if (edges[i] > edges[i - 1]) change += Rule::integrate(slope, edges[i - 1], edges[i], 8, 1e-14);
       }
       const double along = orbit_.at_coordinate(xi).ln_v - orbit_.at_coordinate(xi - 1).ln_v;
-      // dp/dq has the digits that Phi - r k Psi has.
+      // dp/dq loses the digits that Phi - r k Psi loses.
       const double digits = 1 / std::max(1.0, steepness(chart.log_ratio(xi - 1)));
       worst = worse(relative(along, std::copysign(change, along)) * digits, worst);
     }
     add("separated equation dp/dq", worst, 1e-12);
   }
 
-  /// ln k, also where k itself underflows.
+  /// Returns ln k, even if k underflows.
   double log_ratio(const OrbitPoint& point) const { return point.ln_v - std::log(system_.mu() * std::abs(point.u)); }
 
   void first_integral(const Motion& regularised, const Motion& direct) {
-    // An error of ln k comes in by the curve's slope: along an invariant ray, or with r next to Phi'(0)/Psi(0), that is
-    // without bound.
+    // The slope of the curve multiplies an error of ln k. This slope is unbounded along an invariant ray, and for r
+    // next to Phi'(0)/Psi(0).
     const auto drift = [&](const Motion& motion) {
       const double at_start = flow_.log_first_integral(start_.u, std::log(start_.v));
       double worst = 0;
@@ -155,20 +156,20 @@ class Examination {
     add("first integral along (2.6)", drift(direct), stepping);
   }
 
-  /// |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). With a drive as much more as steps in time blur k next
-  /// to its ray, where rho is the larger part of what Phi is compared with.
+  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). With a drive it is larger, as is the error
+  /// of k by steps in time next to the ray, where most of the sum compared with Phi is rho.
   double steepness(double ln_k) const {
     const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
     const Balance balance = Balance::of(system_.law(), system_.r(), system_.drive(), k);
     return balance.speeds / std::abs(balance.difference());
   }
 
-  /// Where k does not change, and says nothing about where a motion is.
+  /// Returns true on a ray, where k does not change and does not determine the state.
   bool on_a_ray(double ln_k) const { return steepness(ln_k) > 1e9; }
 
   void times(const Motion& regularised) {
-    // tau(k) and beta(k) of the similarity solution where the stepper passed the same k. Beside an invariant ray k says
-    // little about either, and on it nothing.
+    // Compare tau(k) and beta(k) of the similarity solution with the stepper at the same k. Beside an invariant ray k
+    // determines neither of them well, and on the ray not at all.
     const double beta_unit = 1 / (16 * system_.mu() * std::abs(start_.u) + 15 * pi * start_.v);
     double worst_tau = 0;
     double worst_beta = 0;
@@ -187,14 +188,14 @@ class Examination {
   }
 
   void limits() {
-    // Next to the axes, where the orbit is still computed as any other, against the axes themselves.
+    // Just off the axes the general formulas must give the values on the axes.
     const double speed = std::max(std::abs(start_.u), start_.v);
     const double faint = 1e-15 / std::max(1.0, system_.r());
     const State almost_pivoting{speed, faint * system_.mu() * speed};
     const double pivoting_rate = system_.r() * system_.law().pivoting_moment();
     const State almost_sliding{faint * std::min(1.0, pivoting_rate) * speed / system_.mu(), speed};
     const auto stop = [&](State start) { return flow_.orbit(start).stop_time(); };
-    // With a drive, k = 0 is no limit: what begins there begins to creep.
+    // With a drive k = 0 is no limit: a body there begins to creep.
     const bool creeps = system_.drive() > 0;
     const double pivoting = creeps ? stop({speed, 0}) : system_.pivoting_limit(speed);
     add(creeps ? "start of creeping" : "limit of pure pivoting", relative(stop(almost_pivoting), pivoting), rounding);
@@ -208,7 +209,7 @@ class Examination {
     const auto [lower, upper] = system_.stop_time_bounds(start_);
     add("two-sided bound of the stop time", worse(lower / stop - 1, worse(stop / upper - 1, 0)), rounding);
 
-    // The inequality that the bounds rest on: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 where m >= 1.
+    // The bounds follow from this inequality: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 for laws with m >= 1.
     const double sign = system_.law().sliding_bounds()->min >= 1 ? 1 : -1;
     double worst = 0;
     for (int i = -200; i <= 200; ++i) {
@@ -222,7 +223,7 @@ class Examination {
   void inner_orbit() {
     if (!system_.law().as<HertzLaw>() || !(system_.r() < 2) || system_.drive() > 0) return;
     const SimilarityCurve& curve = *flow_.solution().through(0);
-    // ln w changes by r times a number of order 1, and more as r -> 2.
+    // ln w changes by r times a number of order 1, and by more as r -> 2.
     double worst = 0;
     for (double k : {1e-6, 1e-3, 0.03, 0.3, 0.7, 0.99}) {
       const double elementary = hertz_inner_ln_w(system_.r(), 1) - hertz_inner_ln_w(system_.r(), k);

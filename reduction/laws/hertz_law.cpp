@@ -23,11 +23,11 @@ namespace {
 
 using std::numbers::pi;
 
-/// The printed form is good to 7e-16 up to here; the series needs 56 terms here and fewer beyond.
+/// Below this k the printed form is accurate to 7e-16. Here the series needs 56 terms, and fewer beyond.
 constexpr double series_from = 1.25;
 constexpr std::size_t series_terms = 64;
 
-/// Taylor coefficients of 2F1(a, b; c; x), each rounded once.
+/// Returns the Taylor coefficients of 2F1(a, b; c; x), each rounded once.
 constexpr std::array<double, series_terms> gauss_coefficients(long double a, long double b, long double c) {
   std::array<double, series_terms> coefficients{};
   long double coefficient = 1;
@@ -43,7 +43,7 @@ constexpr auto force_series = gauss_coefficients(-0.5, 0.5, 2.5);
 constexpr auto moment_series = gauss_coefficients(0.5, 0.5, 3.5);
 constexpr auto curvature_series = gauss_coefficients(0.5, 1.5, 3.5);
 
-/// How many terms of the series count.
+/// Returns the number of terms of a series that are not negligible at x.
 std::size_t terms_at(double x) {
   std::size_t terms = 1;
   for (double power = x; power > 1e-18 && terms < series_terms; power *= x) ++terms;
@@ -55,7 +55,7 @@ Resistance fast_sliding(double inverse_k) {
   const std::size_t terms = terms_at(x);
   double force = 0;
   double moment = 0;
-  for (std::size_t n = terms; n-- > 0;) {  // from the small end
+  for (std::size_t n = terms; n-- > 0;) {  // the smallest terms first, so that the sum is rounded least
     force = force * x + force_series[n];
     moment = moment * x + moment_series[n];
   }
@@ -75,13 +75,13 @@ Resistance inside(double k) {
   return {3 * pi / 32 * k * (4 - s), 3 * pi / 128 * (8 * (1 - s) + 3 * s * s)};
 }
 
-/// Phi' for k <= 1, k^3 Phi' beyond.
+/// Returns Phi' for k <= 1 and k^3 Phi' for k > 1.
 double curvature(Slip slip) {
   if (slip.sliding <= slip.pivoting) {
     const double k = slip.sliding / slip.pivoting;
     return 3 * pi / 32 * (4 - 3 * k * k);
   }
-  if (slip.sliding < 8 * slip.pivoting) {  // k^4 eps is lost
+  if (slip.sliding < 8 * slip.pivoting) {  // below k = 8 the cancellation, k^4 eps, is acceptable
     const double k = slip.sliding / slip.pivoting;
     const double s = k * k;
     const double root = std::sqrt((k - 1) * (k + 1));
@@ -89,7 +89,7 @@ double curvature(Slip slip) {
   }
   const double x = (slip.pivoting / slip.sliding) * (slip.pivoting / slip.sliding);
   double sum = 0;
-  for (std::size_t n = 9; n-- > 0;) sum = sum * x + curvature_series[n];  // 64^-9
+  for (std::size_t n = 9; n-- > 0;) sum = sum * x + curvature_series[n];  // the terms left out are below 64^-9
   return sum / 5;
 }
 

@@ -14,12 +14,12 @@ namespace contensou::reduction {
 
 namespace {
 
-/// C = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)) = Psi(0).
+/// Returns C = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)) = Psi(0).
 Wide pivoting_moment_of(Wide p) {
   return std::sqrt(std::numbers::pi_v<Wide>) / 2 * boost::math::tgamma_delta_ratio(p + 2, Wide{0.5});
 }
 
-/// The smaller speed over the larger, its square, and 1 minus its square without the subtraction.
+/// The smaller speed divided by the larger, its square, and 1 minus the square without the subtraction.
 struct Ratio {
   double ratio;
   double square;

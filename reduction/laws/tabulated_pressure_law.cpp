@@ -1,5 +1,5 @@
-// Notation (README (R32) to (R34)): s = rho^2; a ring has the radius a, the load dL = p ds, and q < 1, the smaller of
-// k and a over the larger; y = 1 - q^2. Its force is Phi dL and its moment a Psi dL, with
+// Notation (README (R32) to (R34)): s = rho^2. A ring has the radius a and the load dL = p ds. q < 1 is the smaller of
+// k and a divided by the larger; y = 1 - q^2. The force of the ring is Phi dL and its moment a Psi dL, with
 //   Phi = q A/2,  Psi = 1 - q^2 D  for k <= a;   Phi = 1 - q^2 D,  Psi = q A/2  for k >= a
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 
@@ -28,10 +28,10 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Functions of y in [0, 1], smooth but for y = 0, side by side in one table of polynomials.
+/// Functions of y in [0, 1] that are smooth except at y = 0, side by side in one table of polynomials.
 ///
-/// A panel is a sixteenth of an octave of y, so its half width is at most 1/33 of the way to y = 0; the last begins at
-/// y = 0, where a singular part like y ln y is below the last bit.
+/// A panel is a sixteenth of an octave of y, so its half width is at most 1/33 of its distance from y = 0. The last
+/// panel begins at y = 0; there a singular part like y ln y is below the last bit.
 template <int functions>
 class FunctionTable {
  public:
@@ -41,7 +41,7 @@ class FunctionTable {
   explicit FunctionTable(Function function) : panels_(panels) {
     using Matrix = Eigen::Matrix<double, terms, terms>;
     using Rows = Eigen::Matrix<double, terms, functions, functions == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-    Eigen::Array<double, terms, 1> nodes;  // Chebyshev's
+    Eigen::Array<double, terms, 1> nodes;  // Chebyshev's points
     for (int j = 0; j < terms; ++j) nodes[j] = std::cos(std::numbers::pi * (2 * j + 1) / (2 * terms));
     Matrix powers;
     for (int n = 0; n < terms; ++n) powers.col(n) = nodes.pow(terms - 1 - n);
@@ -59,7 +59,8 @@ class FunctionTable {
   }
 
   Values operator()(double y) const {
-    // The exponent and the first bits of the mantissa count the panels, the others go from -1 to 1 across each.
+    // The exponent and the first bits of the mantissa are the number of the panel. The other bits go from -1 to 1
+    // across it.
     constexpr int fraction_bits = 52;
     constexpr std::uint64_t fraction = (std::uint64_t{1} << fraction_bits) - 1;
     constexpr auto first = std::bit_cast<std::uint64_t>(lowest) >> (fraction_bits - cut_bits);
@@ -77,7 +78,7 @@ class FunctionTable {
   static constexpr int cuts = 1 << cut_bits;
   static constexpr int panels = 60 * cuts + 1;
 
-  /// Edges of panel i; panel 0 is (0, lowest).
+  /// Returns the edges of panel i; panel 0 is (0, lowest).
   static std::pair<double, double> edges(int i) {
     if (i == 0) return {0, lowest};
     const double octave = std::ldexp(lowest, (i - 1) / cuts);
@@ -96,7 +97,7 @@ class FunctionTable {
   std::vector<std::array<Values, terms>> panels_;  ///< powers of (distance from the centre)/(half width), highest first
 };
 
-/// A and D of a thin ring, functions of y = 1 - q^2.
+/// Returns the table of A and D of a thin ring, functions of y = 1 - q^2.
 const FunctionTable<2>& ring_functions() {
   static const GaussFunction weaker(0.5L, 0.5L, 2), stronger(-0.5L, 0.5L, 1);
   static const FunctionTable<2> table([](double y) {
@@ -105,10 +106,10 @@ const FunctionTable<2>& ring_functions() {
   return table;
 }
 
-/// Rings of neighbouring radii, and k among them: (R34), with u = s/k^2 - 1.
+/// The integrals of (R34) over rings of neighbouring radii with k among them; u = s/k^2 - 1.
 class NearRings {
  public:
-  /// Of Phi and a Psi/k of a ring as functions of u: the integral from 0 to u, and the integral of that.
+  /// Integrals of Phi and of a Psi/k of a ring from 0 to u, and the integrals of these.
   struct Integrals {
     double force, force_again, moment, moment_again;
   };
@@ -117,7 +118,7 @@ class NearRings {
     static const NearRings instance;
     if (u == 0) return {0, 0, 0, 0};
     std::array<double, columns> sum{};
-    // As many powers as count: 2^(-n distance) < 2^-56.
+    // Powers below 2^-56 are left out: 2^(-n distance) bounds them.
     const int distance = -std::ilogb(u);
     const std::size_t count = distance > 1 ? std::min<std::size_t>(terms, 56 / (distance - 1) + 2) : terms;
     for (const auto& coefficients : std::span(instance.powers_).last(count)) {
@@ -134,7 +135,7 @@ class NearRings {
   static constexpr std::size_t columns = 8;
   static constexpr int terms = 36;
 
-  /// The coefficient of (-u)^n (plain + log ln|u|) after one more integration, without the factor u.
+  /// Coefficient of (-u)^n (plain + log ln|u|). `integrated` leaves out the factor u.
   struct Term {
     double plain;
     double log;
@@ -168,7 +169,7 @@ class NearRings {
     }
   }
 
-  std::array<std::array<double, columns>, terms> powers_{};  ///< of -u, highest first
+  std::array<std::array<double, columns>, terms> powers_{};  ///< coefficients of powers of -u, highest first
 };
 
 struct Ring {
@@ -176,16 +177,17 @@ struct Ring {
   double load;
 };
 
-/// Rings that stand for all between two radii: a Gauss rule in s with the pressure as its weight.
+/// A few rings that replace all rings between two radii: a Gauss rule in s with the pressure as its weight.
 using Rule = std::vector<Ring>;
 constexpr int rule_order = 10;
 
-/// Rows between which the pressure is linear in s. p is relative to the load of the whole patch.
+/// The part of the patch between two rows, where the pressure is linear in s. The pressure is relative to the whole
+/// load.
 struct Piece {
   double inner, outer;  ///< radii
   double inner_pressure, outer_pressure;
 
-  double width() const { return (outer - inner) * (outer + inner); }  ///< in s
+  double width() const { return (outer - inner) * (outer + inner); }  ///< difference of s
   double load() const { return (inner_pressure + outer_pressure) / 2 * width(); }
 };
 
@@ -204,7 +206,7 @@ Rule rule_of(const Piece& piece) {
   return rule;
 }
 
-/// The Gauss rule for the rings of two others, by Lanczos' recurrence.
+/// Returns the Gauss rule for the rings of two other rules, by Lanczos' recurrence.
 Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
   Rule all = left;
   all.insert(all.end(), right.begin(), right.end());
@@ -233,7 +235,7 @@ Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
     }
     beside[order] = vector.norm();
     ++order;
-    if (!(beside[order - 1] > 1e-14)) break;  // no more radii than these
+    if (!(beside[order - 1] > 1e-14)) break;  // the two rules have no more different radii
     vector /= beside[order - 1];
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
@@ -247,13 +249,13 @@ Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
   return rule;
 }
 
-/// Neighbouring pieces, and the rings that stand for them where k is no nearer than the block is wide.
+/// Neighbouring pieces. Their rule replaces them if k is at least one width of the block away.
 struct Block {
   double inner_square, outer_square, width;
-  Rule rule;                   ///< none where the block reaches too near to the centre
-  Piece piece;                 ///< the first
-  double pivoting_moment = 0;  ///< of a block that is one piece
-  std::size_t next;            ///< the first block that is not a part of this; block + 1 if it is one piece
+  Rule rule;                   ///< empty if the block reaches too near to the centre
+  Piece piece;                 ///< the first piece
+  double pivoting_moment = 0;  ///< moment of pure pivoting of a block of one piece
+  std::size_t next;            ///< the first block that is not a part of this one; for one piece the next block
 
   bool far_from(double square) const { return square <= inner_square - width || square >= outer_square + width; }
 };
@@ -282,7 +284,7 @@ void require_table(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
   if (!(pressure.maxCoeff() > 0)) throw std::domain_error("TabulatedPressureLaw: the pressure is 0 in every row");
 }
 
-/// Where the pressure has a step, or its slope in s changes by more than its mean slope; the sharpest of them.
+/// Returns the rho of the sharpest bends: steps of the pressure, and changes of its slope in s above its mean slope.
 std::vector<double> sharpest_bends(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
   constexpr std::size_t most = 32;
   struct Bend {
@@ -311,14 +313,14 @@ std::vector<double> sharpest_bends(const Eigen::ArrayXd& rho, const Eigen::Array
 
 }  // namespace
 
-/// The patch as a disc in the middle, up to the second row, and rings around it.
+/// The patch as a disc up to the second row and rings around the disc.
 class TabulatedPressureLaw::Rings {
  public:
   struct Sum {
     double force;
     double moment;
-    double deficit;  ///< moment of pure pivoting less this one
-    double missing;  ///< load less force
+    double deficit;  ///< moment of pure pivoting - moment
+    double missing;  ///< load - force
   };
 
   Rings(const Eigen::ArrayXd& given_rho, const Eigen::ArrayXd& given_pressure)
@@ -346,7 +348,7 @@ class TabulatedPressureLaw::Rings {
     const Sum pivoting = sum(0);
     load_ = sliding.force;
     pivoting_moment_ = pivoting.moment;
-    // Curves are sampled from k = 4e-18; below, Phi is taken to be linear.
+    // Curves are sampled from k = 4e-18. For smaller k the library takes Phi to be linear.
     constexpr double slow = 0x1p-57;
     constexpr double slower = 0x1p-100;
     if (!(std::abs(sum(slow).force * (slower / slow) / sum(slower).force - 1) < 1e-13)) refuse_centre();
@@ -387,7 +389,7 @@ class TabulatedPressureLaw::Rings {
     }
   }
 
-  /// The block of these pieces and, after it, those of its two halves.
+  /// Appends the block of these pieces and, after it, the blocks of its two halves.
   void add_blocks(std::span<const Piece> pieces) {
     const double inner = pieces.front().inner;
     const double outer = pieces.back().outer;
@@ -429,7 +431,7 @@ class TabulatedPressureLaw::Rings {
     return total;
   }
 
-  /// The disc in the middle: a uniform one and a paraboloid.
+  /// Returns the sum over the disc in the middle, a uniform disc and a paraboloid.
   Sum disc(double k) const {
     static const PressureLaw flat = PressureLaw::uniform(), round(1);
     Sum total{0, 0, 0, 0};
@@ -486,13 +488,14 @@ class TabulatedPressureLaw::Rings {
     total.force += force;
     total.missing += piece.load() - force;
     total.moment += moment;
-    total.deficit += pivoting_moment - moment;  // Psi is nearly 2/pi, that of k = a: nothing cancels
+    // Psi is nearly 2/pi, its value for k = a, so the subtraction loses no digits
+    total.deficit += pivoting_moment - moment;
   }
 
   double radius_ = 1;
   double flat_load_ = 0;
   double round_load_ = 0;
-  std::vector<Block> blocks_;  ///< each is followed by its parts
+  std::vector<Block> blocks_;  ///< each block is followed by its parts
   double load_ = 1;
   double pivoting_moment_ = 0;
 };

@@ -7,9 +7,10 @@ namespace contensou::reduction {
 
 namespace {
 
-/// By the ratio of the smaller speed to the larger, to second order: from both sides, or beside 0 from one.
+/// Returns the tangent by second-order differences in the ratio of the smaller speed to the larger, central or, beside
+/// 0, one-sided.
 Tangent by_differences(const Law& law, Slip slip) {
-  constexpr double step = 6e-6;  // where rounding and the third derivative cost about the same
+  constexpr double step = 6e-6;  // rounding and the third derivative give about the same error
   const bool pivots = slip.sliding <= slip.pivoting;
   const double ratio = pivots ? slip.sliding / slip.pivoting : slip.pivoting / slip.sliding;
   const auto at = [&](double x) { return law(pivots ? Slip{x, 1} : Slip{1, x}); };

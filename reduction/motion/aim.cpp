@@ -31,7 +31,7 @@ void require_two(const Aim& aim) {
     throw std::domain_error(fmt::format("aim: two of time, distance and turning are needed, got {}", given));
 }
 
-/// The start with that k whose larger speed, v or w, is 1.
+/// Returns the start with that k whose larger speed, v or w, is 1.
 State unit_start(const Flow& flow, double ln_k) {
   return {std::exp(std::min(0.0, -ln_k)) / flow.system().mu(), std::exp(std::min(0.0, ln_k))};
 }
@@ -40,7 +40,7 @@ State scaled(State start, double factor) { return {start.u * factor, start.v * f
 
 double square_root_of_ratio(double a, double b) { return std::sqrt(a) / std::sqrt(b); }
 
-/// Pure sliding or pure pivoting over that distance, or turning so far.
+/// Returns the start of pure sliding over a distance, and of pure pivoting through an angle.
 State sliding_over(const Flow& flow, double distance) {
   return scaled({0, 1}, square_root_of_ratio(distance, reached(flow, {0, 1}).distance));
 }
@@ -52,7 +52,7 @@ State axis_start(const Flow& flow, const Aim& aim) {
   return aim.distance ? sliding_over(flow, *aim.distance) : pivoting_through(flow, *aim.turned);
 }
 
-/// Whether a start comes to what is asked for.
+/// Returns true if a motion fulfils the demands to 1e-6.
 bool comes_to(const Reached& here, const Aim& aim) {
   const auto same = [](double got, const std::optional<double>& asked) {
     constexpr double close = 1e-6;
@@ -61,9 +61,9 @@ bool comes_to(const Reached& here, const Aim& aim) {
   return same(here.tau, aim.tau) && same(here.distance, aim.distance) && same(here.turned, aim.turned);
 }
 
-/// As aimed, but that it may not come to it where it is far away.
+/// Returns the start as `aimed`, without the test that it fulfils the demands.
 std::optional<State> best_start(const Flow& flow, const Aim& aim) {
-  // With one of them 0 the motion is on an axis.
+  // If one demand is 0, the motion lies on an axis.
   const bool in_place = aim.distance && *aim.distance == 0;
   const bool straight = aim.turned && *aim.turned == 0;
   if (in_place && straight) return State{0, 0};
@@ -79,8 +79,8 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     if (straight) return sliding_over(flow, *aim.distance);
   }
 
-  // Of distance over turned, distance over time squared, or time squared over turned: what a start with that k comes to over
-  // what is asked for, its logarithm. The scale is not in it, and it grows with k.
+  // This ratio is distance/turned, distance/tau^2 or tau^2/turned. The residual is the logarithm of the ratio divided
+  // by the demanded ratio. It does not depend on the scale of the start, and it grows with k.
   const auto residual = [&](double ln_k) {
     const Reached here = reached(flow, unit_start(flow, ln_k));
     const double time = aim.tau ? 2 * std::log(here.tau / *aim.tau) : 0;
@@ -88,7 +88,7 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     const double turned = aim.turned ? std::log(here.turned / *aim.turned) : 0;
     return aim.distance ? distance - (aim.tau ? time : turned) : time - turned;
   };
-  constexpr double widest = 640;  // the speeds, and their product, are doubles still
+  constexpr double widest = 640;  // the speeds and their product are still doubles
   double low = 0, high = 0;
   double at_low = residual(0), at_high = at_low;
   for (double step = 1; at_low > 0 && low > -widest; step *= 2) {
@@ -99,7 +99,7 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     low = high, at_low = at_high;
     high = std::min(high + step, widest), at_high = residual(high);
   }
-  if (at_low > 0 || at_high < 0) return axis_start(flow, aim);  // but for what no double shows
+  if (at_low > 0 || at_high < 0) return axis_start(flow, aim);  // the difference from the axis is below a double
   const State start = unit_start(flow, root_between(residual, low, high, at_low, at_high));
   const Reached here = reached(flow, start);
   if (aim.distance) return scaled(start, square_root_of_ratio(*aim.distance, here.distance));

@@ -33,7 +33,7 @@ struct Flow::Solved {
     return terminal_.made([this] { return terminal_ratios(system.law(), system.r(), system.drive()); });
   }
 
-  /// Of the curve with this k.
+  /// Returns the derivatives of m along the curve with this k.
   const SlidingDerivatives& derivatives(double ln_k) const {
     const auto& all = derivatives_.made([this] {
       std::vector<SlidingDerivatives> made;
@@ -61,10 +61,10 @@ struct Flow::Arrays {
 
 namespace {
 
-/// Whether two ln k* are the same to what a ray's accuracy allows.
+/// Returns true if two ln k* are equal within a ray's accuracy.
 bool same_ratio(double a, double b) { return a == b || std::abs(a - b) < 1e-6; }
 
-/// A ln k between two ratios, either of which may be 0 or infinity.
+/// Returns a ln k between two ratios, each of which may be 0 or infinity.
 double between(double k, double other) {
   const auto [low, high] = std::minmax({std::log(k), std::log(other)});
   if (std::isinf(low)) return std::isinf(high) ? 0 : high - 1;
@@ -137,7 +137,7 @@ StopTimeGradient Flow::stop_time_gradient(State start) const {
   if (start.u == 0 && start.v == 0) {
     throw std::domain_error("Flow::stop_time_gradient: at rest there is none: the stop time has a corner there");
   }
-  // Derivatives by speeds are of degree 0 in them, all others of degree 1.
+  // Derivatives by speeds have degree 0 in the speeds, all others degree 1.
   const int exponent = std::ilogb(std::max(std::abs(start.u), start.v));
   const double u = std::ldexp(std::abs(start.u), -exponent), v = std::ldexp(start.v, -exponent);
   const auto [chi, gamma] = system().inertia();
@@ -145,7 +145,7 @@ StopTimeGradient Flow::stop_time_gradient(State start) const {
   const double pivoting = r * system().law().pivoting_moment();
   const double tau = stop_time(start).tau;
 
-  SlidingDerivatives::Values s{};  // of the scaled stop time
+  SlidingDerivatives::Values s{};  // derivatives of the scaled stop time
   if (u == 0) {
     s = {.by_w = 0, .by_v = 1 / (1 - drive), .by_r = 0, .by_drive = 1 / ((1 - drive) * (1 - drive))};
   } else if (v == 0 && drive == 0) {
@@ -175,7 +175,7 @@ double Flow::log_first_integral(double u, double ln_v) const {
         fmt::format("Flow::log_first_integral: it has no value on the axes, got u = {}, ln v = {}", u, ln_v));
   }
   const double ln_k = ln_v - std::log(system().mu()) - ln_u;
-  // Both sides of a ray have a curve of their own, and it has none.
+  // The curves on both sides of a ray differ, and the ray belongs to neither.
   const double k = std::exp(ln_k);
   for (const InvariantRay& ray : terminal().rays) {
     if (std::abs(k / ray.k - 1) > 4 * eps) continue;
@@ -204,11 +204,11 @@ void Flow::stop_times(std::span<const double> u0, std::span<const double> v0, st
 
 double Flow::refused(std::size_t whole) const { return by_table(whole) ? table().refused() : 0; }
 
-// With a drive m, which the table holds, is not bounded.
+// With a drive m, the content of the table, is not bounded.
 bool Flow::by_table(std::size_t starts) const { return starts >= many_starts && system().drive() == 0; }
 
 const StopTimeTable& Flow::table() const {
-  // The table keeps a flow of its own: one that kept this one would never be released.
+  // The table gets a copy of the flow, because a flow that the table refers to would never be released.
   return arrays_->table.made([this] { return StopTimeTable(Flow(solved_)); });
 }
 

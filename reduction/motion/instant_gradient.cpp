@@ -1,4 +1,4 @@
-// README (R61). A start moved along itself scales the motion; one moved along the field begins it later.
+// README (R61): a start moved along itself scales the motion; a start moved along the field delays it.
 #include "contensou/reduction/instant_gradient.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ InstantGradient instant_gradient(const Flow& flow, State start, double tau) {
   const double D = start.u * first.v - start.v * first.u;
   constexpr double clear = 1e-5;
   if (!(std::abs(D) > clear * std::max(std::abs(start.u * first.v), std::abs(start.v * first.u)))) {
-    // All is as smooth across a ray as the law is: the mean of two starts that are clear of it.
+    // Across a ray the state is as smooth as the law, so the mean of two starts beside the ray is used.
     for (double aside = 3 * clear; aside < 0.01; aside *= 3) {
       const State below{start.u, start.v * (1 - aside)}, above{start.u, start.v * (1 + aside)};
       const auto is_clear = [&](State beside) {
@@ -43,7 +43,7 @@ InstantGradient instant_gradient(const Flow& flow, State start, double tau) {
         "instant_gradient: under law {} every k near that of u = {}, v = {} keeps what it is: no gradient by k",
         system.law().name(), start.u, start.v));
   }
-  // Along the start, which scales the motion, and along its field, which begins it later.
+  // Two directional derivatives are known: along the start (scaling) and along its field (delay).
   const auto part = [&](double value, int degree, double rate, double later) {
     const double scaled = degree * value - tau * rate;
     return InstantGradient::Part{value, (scaled * first.v - start.v * later) / D,

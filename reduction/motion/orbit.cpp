@@ -1,4 +1,4 @@
-// Notation (README (R1) to (R7)): w = mu |u|, s = scaled time, and with the curve's ln w, m, n, b, c at xi:
+// Notation (README (R1) to (R7)): w = mu |u|, s = scaled time; ln w, m, n, o, b and c are functions of the curve at xi:
 //   s left    = w/(r Psi(0)) + v m                                (R4)
 //   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R5)
 //   slip left = v (v/(2 (1 - rho)) + n w)                         (R13), (R50)
@@ -28,17 +28,18 @@ namespace {
 
 using std::numbers::pi;
 
-/// ln k from speeds that may differ by more than a double holds, w = mu |u|.
+/// Returns ln k for speeds whose ratio may not be a double; w = mu |u|.
 double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled) {
   const double k = v_scaled / w_scaled;
   return std::isnormal(k) && std::isnormal(w_scaled) ? std::log(k) : std::log(v) - std::log(mu) - std::log(u);
 }
 
-/// a/b, and 0 for a = 0 where b has underflowed.
+/// Returns a/b; 0 for a = 0 even if b has underflowed.
 double quotient(double a, double b) { return a == 0 ? 0 : a / b; }
 
-/// The root of an increasing function of xi in [low, high] by Newton's method, kept inside by bisection. The function
-/// changes by a factor over a unit of xi, and so a step that small leaves an error of its square: none.
+/// Returns the root of an increasing function of xi in [low, high] by Newton's method, with bisection if a step leaves
+/// the interval. The function changes by a factor over a unit of xi. So after a step below small_step the error, its
+/// square, is negligible.
 template <class Function>
 double increasing_root(Function value_and_slope, double guess, double low, double high) {
   double x = std::clamp(guess, low, high);
@@ -96,7 +97,7 @@ Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution&
   m0_ = curve_->sliding_coefficient(xi0_);
 }
 
-/// A stop time and a slip length need no ln w, and its panels cost a fifth of them.
+/// Computes ln w at the start at its first use, because a stop time and a slip length do not need its panels.
 double Orbit::log_start() const {
   double ln_w = ln_w0_.value.load(std::memory_order_relaxed);
   if (std::isnan(ln_w)) ln_w0_.value.store(ln_w = curve_->ln_w(xi0_), std::memory_order_relaxed);
@@ -139,7 +140,7 @@ Orbit::Progress Orbit::progress(double xi) const {
 }
 
 Orbit::Progress Orbit::progress(double xi, double left) const {
-  // Both speeds from k and  left = P w/w0 + S m v/v0.  With the ratio of their fractions that is at most 1:
+  // Both speeds follow from k and from left = P w/w0 + S m v/v0, by the ratio of their fractions that is at most 1.
   const double change = curve_->chart().log_ratio(xi) - ln_k0_;
   const double ratio = std::exp(-std::abs(change));
   const double sliding = v_ * curve_->sliding_coefficient(xi);
@@ -205,7 +206,8 @@ OrbitPoint Orbit::rest(double tau) const {
 }
 
 OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
-  // One speed alone falls linearly. On either axis dtau = weight dbeta with the weight of the one speed squared.
+  // The one speed falls linearly. On either axis dtau = weight dbeta, and the weight is proportional to this speed
+  // squared.
   if (fraction_left == 0) return rest(tau);
   const double rate = system_.scaled_time_rate();
   const double spent = (1 - fraction_left) / fraction_left;
@@ -219,8 +221,8 @@ OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
 }
 
 double Orbit::beta(double xi, const Progress& now) const {
-  // Beside a ray k hardly changes: w falls linearly, and dtau/dbeta like w^2. At a law's kink x ln|x| the distance from
-  // the ray is squared while w is halved: beyond sqrt(eps) of it xi would not do.
+  // Beside a ray k hardly changes, w falls linearly, and dtau/dbeta falls like w^2. At a law's kink x ln|x| the
+  // distance from the ray is squared while w is halved. So xi is too inaccurate at distances below sqrt(eps).
   constexpr double beside = 1e-3;
   constexpr double unchanged = 3e-7;
   const TerminalChart& chart = curve_->chart();
@@ -237,7 +239,7 @@ double Orbit::beta(double xi, const Progress& now) const {
   const auto elapsed = [&](double there, const Progress& then) {
     return curve_->beta_coefficient(there) / (w_ * then.w + v_ * then.v) - curve_->beta_coefficient(xi0_) / (w_ + v_);
   };
-  // On the small ray of a drive w may fall by any factor while k does not tell.
+  // On the small ray of a drive w falls by any factor while k stays equal to the last bit.
   constexpr double there_already = 1e-9;
   if (system_.drive() > 0 && std::abs(ln_k - ln_k_star) < there_already) {
     const double xi_then = chart.coordinate(ln_k_star + std::copysign(there_already, ln_k0_ - ln_k_star));
@@ -257,8 +259,8 @@ OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
           .beta = std::ldexp(std::max(0.0, beta(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
 
-/// Beside an invariant ray the speeds fall while k hardly changes, and the time that is left tells more of them than
-/// xi.
+/// Takes the speeds from the time left. Beside an invariant ray they fall while k hardly changes, and xi does not
+/// determine them.
 OrbitPoint Orbit::point_with_left(double tau, double xi, double left) const {
   return point(tau, xi, progress(xi, left));
 }
@@ -338,7 +340,7 @@ double Orbit::coordinate_of_fastest() const {
   };
   const double at_begin = on_axis() ? 0 : excess(ln_k0_);
   if (at_begin >= 0) return xi0_;
-  // k grows to its end, where friction is the larger.
+  // k grows towards its limit, where friction exceeds the drive.
   constexpr double far = 60;
   const double end = std::min(chart().log_terminal_ratio(), far);
   const double at_end = excess(end);
@@ -354,7 +356,7 @@ double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double star
   const double ln_fraction = std::isnormal(fraction) ? std::log(fraction) : std::log(speed) - std::log(start);
   if (from != xi0_ && fallen(from).*ln_speed <= ln_fraction) return 0;
   const double xi = coordinate_of_fall(ln_speed, ln_fraction, from);
-  // Both speeds from the one that is known and from k.
+  // Both speeds follow from the known one and from k.
   Progress now = fallen(xi);
   const double correction = ln_fraction - now.*ln_speed;
   now.ln_w += correction;
@@ -377,7 +379,7 @@ double Orbit::time_of_u(double u) const {
 
 double Orbit::integral(const std::function<double(double)>& of_v, double tau, const std::vector<double>& edges) const {
   if (!(tau >= 0)) throw std::domain_error(fmt::format("Orbit::integral: tau must be >= 0, got {}", tau));
-  // What it would be at v = 0, and the rest, which dies out with v.
+  // The integral of the value at v = 0, and that of the difference, which vanishes with v.
   const double end = std::min(tau, stop_time());
   const double last_value = of_v(0);
   const double at_rest = last_value * end;
@@ -389,7 +391,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
     for (double v : edges) panels.push_back(std::min(time_of_v(std::max(v, 0.0)), end));
     integrand = [&](double at) { return of_v(v0_ * (1 - at / stop_time())) - last_value; };
   } else {
-    // Over xi: v and the time are had from it without a root.
+    // The variable is xi, because v and the time follow from it without a root.
     constexpr double ln_nothing = -50;
     constexpr double width = 3;
     constexpr double most = 64;
@@ -418,7 +420,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
   for (std::size_t i = 1; i < panels.size(); ++i) {
     const double left = panels[i - 1], width = panels[i] - left;
     if (width == 0) continue;
-    // Beside a kink the curve has roots of the distance, which 3 s^2 - 2 s^3 makes whole powers.
+    // Beside a kink the curve contains roots of the distance; 3 s^2 - 2 s^3 turns them into whole powers.
     const bool bends = std::ranges::any_of(kinks, [&](double kink) { return kink == left || kink == panels[i]; });
     const auto along = [&](double s) {
       return bends ? integrand(left + width * s * s * (3 - 2 * s)) * 6 * s * (1 - s) : integrand(left + width * s);
@@ -482,7 +484,7 @@ OrbitColumns Orbit::sample(Eigen::Index count) const {
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index to_go = count - 1 - i;
     const double last = static_cast<double>(count - 1);
-    // The nearer end sets the scale: no digit of the time left is lost near the stop.
+    // The nearer end sets the scale, so that the time left keeps its digits near the stop.
     columns.set(i, i < to_go ? at_time(stop * (static_cast<double>(i) / last))
                              : at_time_left(stop * (static_cast<double>(to_go) / last)));
   }

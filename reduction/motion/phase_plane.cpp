@@ -14,8 +14,8 @@ using std::numbers::pi;
 
 namespace {
 
-/// dD/dk at a zero k of D = Phi - rho - r k Psi, k neither 0 nor infinity. A law gives no slope of its own: differences in
-/// ln k.
+/// Returns dD/dk at a zero k of D = Phi - rho - r k Psi, k neither 0 nor infinity, by differences in ln k, because a
+/// law has no derivative.
 double excess_slope(const Law& law, double r, double k) {
   const double ln_k = std::log(k);
   const auto excess = [&](double x) {
@@ -27,12 +27,12 @@ double excess_slope(const Law& law, double r, double k) {
 
   constexpr double at_kink = 1e-6;
   if (std::abs(ln_k) < at_kink) {
-    // Across the kink; a slope that grows as the step shrinks is infinite.
+    // A difference across the kink that grows as the step shrinks shows an infinite slope.
     const double fine = central(at_kink);
     const double coarse = central(100 * at_kink);
     return fine > 1.01 * coarse ? infinity : fine / k;
   }
-  // Of order 8, on one side of k = 1.
+  // The differences have order 8 and stay on one side of k = 1.
   constexpr std::array weights{4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
   const double h = std::min(0.02, std::abs(ln_k) / 20);
   double slope = 0;
@@ -43,7 +43,7 @@ double excess_slope(const Law& law, double r, double k) {
   return slope / k;
 }
 
-/// Of an eigenvalue pair whose signs are known where the eigenvalues themselves may underflow.
+/// Returns the kind from the signs of the eigenvalues, which are known even if the eigenvalues underflow.
 SingularKind kind_of(bool attracts_radially, double attracts_angularly) {
   if (attracts_angularly == 0) return SingularKind::degenerate;
   if (attracts_radially != (attracts_angularly > 0)) return SingularKind::saddle;
@@ -71,9 +71,10 @@ PhasePlane phase_plane(const Flow& flow) {
   const double r = system.r();
   const auto [chi, gamma] = system.inertia();
   const TerminalRatios& terminal = flow.terminal();
-  const auto weight = [](double k) { return (16 + 15 * pi * k) * (8 + 3 * pi * k); };  // of (2.8), over (mu u)^2
+  // weight of (2.8) divided by (mu u)^2
+  const auto weight = [](double k) { return (16 + 15 * pi * k) * (8 + 3 * pi * k); };
 
-  // The sign of 1 - r/limit, 0 where they are not told apart.
+  // Returns the sign of 1 - r/limit; 0 if r and limit are equal within the tolerance.
   const auto sign_below = [r](double limit) {
     return std::abs(r - limit) <= TerminalRatios::tolerance * limit ? 0.0 : r < limit ? 1.0 : -1.0;
   };
@@ -82,8 +83,8 @@ PhasePlane phase_plane(const Flow& flow) {
 
   const double body_scale = std::sqrt(chi / gamma);
   PhasePlane plane{terminal, body_scale * std::sqrt(terminal.low), body_scale * std::sqrt(terminal.high), {}, {}};
-  // fall: rate at which the speed falls along the half-line, over the speed; approach: rate at which the angle falls
-  // next to it; attraction: its sign.
+  // Adds the two points of a half-line. fall is the rate of the speed along it divided by the speed, approach the rate
+  // of the angle next to it, attraction its sign.
   const auto add = [&](InvariantDirection direction, double k, double fall, double approach, double attraction) {
     for (SingularPlace place : {SingularPlace::origin, SingularPlace::infinity}) {
       const bool at_origin = place == SingularPlace::origin;
@@ -94,7 +95,8 @@ PhasePlane phase_plane(const Flow& flow) {
     }
   };
 
-  // README (R16), (R17). The orders of contact are ratios of rates in which mu, that may underflow in them, cancels.
+  // README (R16), (R17). The orders of contact are ratios of rates, in which mu, which may underflow in the rates,
+  // cancels.
   const double sliding_rate = 2 * chi / (3 * pi);
   const double pivoting_rate = 2 * gamma * mu / (3 * pi);
   const double fall_pivoting = pivoting_rate * law.pivoting_moment() * mu * mu * weight(0);

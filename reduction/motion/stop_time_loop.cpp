@@ -15,11 +15,11 @@ using Panels = StopTimePanels;
 constexpr int index_shift = std::numeric_limits<double>::digits - 1 - Panels::cut_bits;
 constexpr std::uint64_t left_mask = ~std::uint64_t{0} << index_shift;
 
-/// A stop time is ordinary from 2^-511 to 2^513: the bits of such a double, less this, begin with two zeros.
+/// Usable stop times lie from 2^-511 to 2^513: the bits of such a double, less these, begin with two zeros.
 constexpr std::uint64_t min_ordinary = std::bit_cast<std::uint64_t>(0x1p-511);
 constexpr std::uint64_t not_ordinary = std::uint64_t{3} << 62;
 
-/// Only then nothing has overflowed or underflowed, and the start is one.
+/// Returns true if nothing overflowed or underflowed and v0 >= 0.
 bool usable(double tau, double v0) {
   return ((std::bit_cast<std::uint64_t>(tau) - min_ordinary) & not_ordinary) == 0 && !std::signbit(v0);
 }
@@ -62,20 +62,20 @@ constexpr std::size_t width = 4;
 using Numbers [[gnu::vector_size(width * sizeof(double))]] = double;
 using Bits [[gnu::vector_size(width * sizeof(double))]] = std::uint64_t;
 
-// As many, anywhere in an array.
+// The same vectors, stored at any place in an array.
 using StoredNumbers [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = double;
 using StoredBits [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = std::uint64_t;
 const StoredNumbers* at(const double* first) { return reinterpret_cast<const StoredNumbers*>(first); }
 StoredNumbers* at(double* first) { return reinterpret_cast<StoredNumbers*>(first); }
 StoredBits* at(std::uint64_t* first) { return reinterpret_cast<StoredBits*>(first); }
 
-/// One loop for every instruction set: a caller's set is that of what is inlined into it. Two steps for some vectors of
-/// starts at a time, because the way through a division and a polynomial is long and a processor looks ahead by a few
+/// The loop for every instruction set: it is inlined into functions that are compiled for one set each. It handles some
+/// vectors at a time in two steps. The chain of a division and a polynomial is long, and a processor looks ahead by few
 /// vectors only.
 [[gnu::always_inline]] inline void run(const Panels& table, const double* u0, const double* v0, double* tau,
                                        std::size_t size) {
   constexpr std::size_t vectors = 8, starts = width * vectors;
-  constexpr std::size_t ahead = 256;  // what is asked of memory now is used so many starts later
+  constexpr std::size_t ahead = 256;  // memory is prefetched by this number of starts
   constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
   std::array<Numbers, vectors> u, v, t;
   std::array<double, starts> t4, found;

@@ -11,7 +11,7 @@ namespace {
 using Panels = StopTimePanels;
 using Panel = Panels::Panel;
 
-/// inverse_mu v0/|u0| at a y of the branch of a panel.
+/// Returns inverse_mu v0/|u0| at a y on the branch of a panel.
 double ratio(std::size_t panel, double y) {
   const double up_to_one = (panel & Panels::near_one) != 0 ? (1 - y) / (1 + y) : y / (1 - y);
   return (panel & Panels::above_one) != 0 ? 1 / up_to_one : up_to_one;
@@ -30,8 +30,8 @@ Span span(std::size_t panel) {
   return {octave + width * static_cast<double>(index % cuts), width};
 }
 
-/// Polynomials on [0, 1], by least squares at Chebyshev's points: twice as many as terms, so that their noise is
-/// halved.
+/// Least-squares polynomials on [0, 1] through values at Chebyshev's points. There are twice as many points as terms,
+/// so that the noise of the values is halved.
 class Fit {
  public:
   static constexpr std::size_t points = std::size_t{2} * Panels::terms;
@@ -55,9 +55,9 @@ class Fit {
     }
   }
 
-  /// Coefficients of powers of width x.
+  /// Returns the coefficients of powers of width x.
   Panel panel(const Values& values, double width) const {
-    // The constant apart, so that what is left is small and its rounding smaller.
+    // Without the constant the other coefficients are small, and so is their rounding.
     const double constant = values[0];
     Panel fitted{};
     for (std::size_t n = 0; n < Panels::terms; ++n) {
@@ -77,8 +77,9 @@ class Fit {
   Values x{};
 
  private:
-  std::array<Values, Panels::terms> analysis_{};  ///< values -> coefficients of Chebyshev's polynomials
-  std::array<std::array<double, Panels::terms>, Panels::terms> powers_{};  ///< of these polynomials
+  std::array<Values, Panels::terms> analysis_{};  ///< maps values to coefficients of Chebyshev's polynomials
+  /// coefficients of powers of x in these polynomials
+  std::array<std::array<double, Panels::terms>, Panels::terms> powers_{};
 };
 
 }  // namespace

@@ -8,13 +8,13 @@
 
 namespace contensou::reduction {
 
-/// m of README (R4) at k.
+/// Returns m of README (R4) at k.
 double sliding_coefficient(const Flow& flow, double k);
 
-/// k at x in [0, 1] of the way through a panel of StopTimePanels.
+/// Returns k at the fraction x in [0, 1] of the width of a panel.
 double ratio_in_panel(std::size_t panel, double x);
 
-/// The panel's polynomial of a function of k, by least squares.
+/// Returns the least-squares polynomial of a function of k on a panel.
 StopTimePanels::Panel fitted_panel(std::size_t panel, const std::function<double(double k)>& function);
 
 }  // namespace contensou::reduction

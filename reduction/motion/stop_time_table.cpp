@@ -29,7 +29,7 @@ constexpr double tolerance = 4 * std::numeric_limits<double>::epsilon();
 
 bool moderate(double x) { return x > 0x1p-100 && x < 0x1p100; }
 
-/// Threads take whole cache lines.
+/// Number of starts that a thread takes at least: whole cache lines.
 constexpr std::size_t grain = 64;
 
 void run_shared(const Panels& panels, std::span<const double> u0, std::span<const double> v0, std::span<double> tau,
@@ -76,7 +76,7 @@ struct StopTimeTable::Stored {
     return fitted_panel(index, [&](double k) { return sliding * sliding_coefficient(flow, k); });
   }
 
-  /// Compares some starts in each panel, and takes the panels that fail out of use.
+  /// Compares some stop times of each panel with the flow's, and disables the panels that fail.
   void prove() {
     std::vector<bool> fails(storage.size());
     for (std::size_t i = 0; i < storage.size(); ++i) {
@@ -89,7 +89,7 @@ struct StopTimeTable::Stored {
         if (error <= tolerance) {
           worst = std::max(worst, error);
         } else {
-          fails[panel_of(loop, start.u, start.v)] = true;  // which is not always this one: k is a double
+          fails[panel_of(loop, start.u, start.v)] = true;  // k is rounded, so the start may lie in a neighbouring panel
         }
       }
     }
@@ -99,12 +99,12 @@ struct StopTimeTable::Stored {
     refused = static_cast<double>(std::ranges::count(fails, true)) / (Panels::branches * Panels::used);
   }
 
-  /// A start that the table does not answer.
+  /// Returns the stop time of a start for which the table has no usable value.
   double otherwise(double u0, double v0) const {
     if (!std::isfinite(u0) || !std::isfinite(v0) || v0 < 0) return not_a_number;
     const double largest = std::max(std::abs(u0), v0);
     if (largest == 0) return 0;
-    // Scaled, it may be in the table after all.
+    // A multiple of the start may be in the range of the table.
     const int exponent = std::ilogb(largest);
     const State start{std::ldexp(std::abs(u0), -exponent), std::ldexp(std::abs(v0), -exponent)};
     const double tau = from_panels(loop, start.u, start.v);

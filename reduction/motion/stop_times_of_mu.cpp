@@ -24,7 +24,7 @@ constexpr double allowed_error = 4 * std::numeric_limits<double>::epsilon();
 
 using Weights = std::array<double, points_of_r>;
 
-/// Chebyshev's points of (0, max_r), and their barycentric weights.
+/// Chebyshev's points of (0, max_r) and their barycentric weights.
 struct PointsOfR {
   Weights r, weight;
 
@@ -36,7 +36,7 @@ struct PointsOfR {
     }
   }
 
-  /// l_j at r.
+  /// Returns the weights l_j at r = x.
   Weights at(double x) const {
     Weights share;
     double sum = 0;
@@ -53,7 +53,7 @@ struct PointsOfR {
   }
 };
 
-/// The polynomials of a panel, side by side: coefficients of one power together.
+/// The polynomials of a panel for all r; coefficients of one power are adjacent.
 struct PanelOfEveryR {
   std::array<Weights, Panels::terms> c;
   bool refused = false;
@@ -82,7 +82,7 @@ struct StopTimesOfMu::Stored {
         for (std::size_t n = 0; n < Panels::terms; ++n) panels[i].c[n][j] = fitted.c[n];
       });
     }
-    // Next to 0, and between points in the middle and at the end, where the interpolation is worst.
+    // Test next to 0, and between points in the middle and at the end, where the interpolation is worst.
     for (double r : {1e-3 * at.r[0], (at.r[points_of_r / 2 - 1] + at.r[points_of_r / 2]) / 2,
                      (at.r[points_of_r - 2] + at.r[points_of_r - 1]) / 2})
       prove(r);
@@ -95,7 +95,7 @@ struct StopTimesOfMu::Stored {
     }
   }
 
-  /// The motions of this law with that r, of any body.
+  /// Returns the motions of this law with that r; the body does not matter.
   Flow at_r(double r) const { return ReducedSystem(unit.law(), 1, {.chi = 1, .gamma = r}); }
 
   void prove(double r) {
@@ -106,7 +106,7 @@ struct StopTimesOfMu::Stored {
         const double k = ratio_in_panel(i, x);
         const auto [panel, t] = k < 1 ? place_in_panels(1, k) : place_in_panels(1 / k, 1);
         const double wanted = sliding_coefficient(flow, k);
-        // S over the stop time: so much of an error of m is felt.
+        // The share S/(stop time) of an error of m enters the stop time.
         const double felt = 1 / (1 / (r * unit.law().pivoting_moment() * k) + wanted);
         if (!(std::abs(interpolated(panels[panel], t, share) - wanted) * felt <= allowed_error))
           panels[panel].refused = true;
@@ -118,7 +118,7 @@ struct StopTimesOfMu::Stored {
     return Flow(ReducedSystem(unit.law(), mu, unit.inertia())).stop_time(start).tau;
   }
 
-  ReducedSystem unit;  ///< of law and body, mu = 1
+  ReducedSystem unit;  ///< law and body, with mu = 1
   PointsOfR at;
   std::vector<PanelOfEveryR> panels;
 };

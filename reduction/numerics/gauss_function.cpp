@@ -1,4 +1,5 @@
-// Notation: F(x) = 2F1(a, b; c; x), y = 1 - x. With c' = a + b + 1 - c for c, the equation keeps its form in y:
+// Notation: F(x) = 2F1(a, b; c; x), y = 1 - x. With c' = a + b + 1 - c in place of c the equation has the same form in
+// y:
 //   x (1 - x) F'' + [c - (a + b + 1) x] F' - a b F = 0
 // Taylor coefficients f_n about a point x, from f_0 = F, f_1 = F':
 //   x (1 - x) (n + 1)(n + 2) f_(n+2) = (n + a)(n + b) f_n - (n + 1) [n (1 - 2 x) + c - (a + b + 1) x] f_(n+1)
@@ -13,7 +14,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// A solution of the equation at one point.
+/// A solution of the equation, given by value and slope at one point.
 struct Continuation {
   static constexpr int terms = 48;
 
@@ -24,7 +25,7 @@ struct Continuation {
   Wide value;
   Wide slope;
 
-  /// Taylor coefficients in powers of (distance/unit).
+  /// Returns the Taylor coefficients in powers of (distance/unit).
   std::array<Wide, terms> series(Wide unit) const {
     std::array<Wide, terms> f{value, slope * unit};
     for (int i = 0; i + 2 < terms; ++i) {
@@ -50,7 +51,7 @@ struct Continuation {
     x = target;
   }
 
-  /// The series of the panel between here and the far end, in powers of its half width; then to that end.
+  /// Returns the series of the panel from here to `end`, in powers of its half width, and moves to `end`.
   GaussFunction::Panel cross_to(Wide end) {
     const Wide half = std::abs(end - x) / 2;
     move_to((x + end) / 2);
@@ -69,7 +70,7 @@ double polynomial(std::span<const double> coefficients, double t) {
   return sum;
 }
 
-/// The panel of a number in [2^-(panels + 1), 1/2]; beyond, the nearest.
+/// Returns the value at x by the panel that contains x, in [2^-(panels + 1), 1/2], or by the nearest panel.
 double on_panel(std::span<const GaussFunction::Panel> panels, double x) {
   const int last = static_cast<int>(panels.size()) - 1;
   const int panel = x > 0 ? std::clamp(-std::ilogb(x) - 2, 0, last) : last;
@@ -84,7 +85,7 @@ GaussFunction::GaussFunction(Wide a, Wide b, Wide c) {
   while (std::max(std::abs(a), std::abs(b)) > std::ldexp(2 * std::max(c, Wide{1}), near_exponent_)) ++near_exponent_;
 
   Continuation at{a, b, c, std::ldexp(Wide{1}, -near_exponent_), 0, 0};
-  constexpr int many = 160;  // terms of the series at 0, for the start
+  constexpr int many = 160;  // number of terms of the series at 0, for the first value
   Wide coefficient = 1;
   Wide power = 1;  // x^n
   for (int i = 0; i < many; ++i) {

@@ -5,7 +5,7 @@
 
 namespace contensou::reduction {
 
-/// A part that is made when it is first asked for, by the first thread.
+/// A part that the first thread that needs it makes.
 template <class Part>
 class Later {
  public:

@@ -12,8 +12,9 @@ namespace {
 
 using GaussRule = boost::math::quadrature::gauss<long double, LegendreSeries::order>;
 
-/// Points, the matrix samples -> coefficients (discrete orthogonality of the Gauss rule), and its inverse. Made in long
-/// double: errors of the matrix add up at the ends of the interval, where all P_j are 1.
+/// The Gauss points, the matrix from samples to coefficients (discrete orthogonality of the Gauss rule) and its
+/// inverse. They are computed in long double, because errors of the matrix add up at the ends of the interval, where
+/// all P_j are 1.
 struct Transform {
   static constexpr int order = LegendreSeries::order;
   LegendreSeries::Samples points;
@@ -85,7 +86,7 @@ LegendreSeries LegendreSeries::derivative() const {
 }
 
 LegendreSeries LegendreSeries::divided_by_x() const {
-  // From t P_j = ((j + 1) P_{j+1} + j P_{j-1})/(2j + 1), the highest coefficient of the quotient first.
+  // The recurrence t P_j = ((j + 1) P_{j+1} + j P_{j-1})/(2j + 1) gives the highest coefficient of the quotient first.
   LegendreSeries quotient;
   auto& q = quotient.coefficients_;
   for (int j = order; j >= 1; --j) {
@@ -102,7 +103,7 @@ LegendreSeries LegendreSeries::without_noise(double bound) const {
 }
 
 double LegendreSeries::operator()(double t) const {
-  // Clenshaw: (j + 1) P_{j+1} = (2j + 1) t P_j - j P_{j-1}.
+  // Clenshaw's algorithm with (j + 1) P_{j+1} = (2j + 1) t P_j - j P_{j-1}.
   constexpr auto here = of_each([](int j) { return (2 * j + 1) / (j + 1.0); });
   constexpr auto after = of_each([](int j) { return (j + 1) / (j + 2.0); });
   double next = 0;

@@ -12,8 +12,8 @@ constexpr int order = LegendreSeries::order;
 using Samples = LegendreSeries::Samples;
 using Matrix = Eigen::Matrix<double, order, order>;
 
-/// True if exp of the integral of h/d is a polynomial of that order to the last bit. Near a zero of d it is not, however
-/// small h: it is a small power of the distance from there.
+/// Returns true if exp of the integral of h/d is a polynomial of that order to the last bit. Near a zero of d it is a
+/// power of the distance, and so no polynomial however small h is.
 bool factor_is_polynomial(const Samples& advection, const Samples& rate) {
   if (!(rate <= 1.5 * advection).all() || !(advection.minCoeff() > 0)) return false;
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
@@ -21,12 +21,12 @@ bool factor_is_polynomial(const Samples& advection, const Samples& rate) {
   return ratio.maxCoeff() - ratio.minCoeff() <= 1 && LegendreSeries::tail(ratio) <= rounding;
 }
 
-/// Whether d y' is small beside h y for every polynomial y of that order.
+/// Returns true if d y' is small compared with h y for every polynomial y of that order.
 bool forgets_start(const Samples& advection, const Samples& rate) {
   return advection.maxCoeff() * (order * order) < rate.minCoeff();
 }
 
-/// Samples of a function -> samples of a linear function of it.
+/// Returns the matrix from samples of a function to samples of a linear operation on it.
 template <class Operation>
 Matrix matrix_of(Operation operation) {
   Matrix columns;
@@ -36,7 +36,7 @@ Matrix matrix_of(Operation operation) {
   return columns;
 }
 
-/// Samples of the antiderivative that vanishes at -1.
+/// Returns the matrix from samples to samples of the antiderivative that vanishes at -1.
 const Matrix& integration() {
   static const Matrix matrix = matrix_of([](const LegendreSeries& series) { return series.antiderivative(); });
   return matrix;
@@ -47,15 +47,16 @@ const Matrix& differentiation() {
   return matrix;
 }
 
-/// z' at the points, for  z' + h z = g,  z(-1) = 0.
+/// Returns z' at the points for z' + h z = g, z(-1) = 0.
 Samples slope_by_factor(const Samples& rate, const Samples& source) {
   const Samples factor = LegendreSeries::through(rate).antiderivative().samples().exp();
   return source - rate * (LegendreSeries::through(factor * source).antiderivative().samples() / factor);
 }
 
-/// z' at the points, for  d z' + h z = g,  z(-1) = 0.
+/// Returns z' at the points for d z' + h z = g, z(-1) = 0.
 Samples slope_by_collocation(const Samples& advection, const Samples& rate, const Samples& source) {
-  // z = A z', so (d + h A) z' = g; the rows where d vanishes with 1 + t as large as the others.
+  // z is the integral of z', so (d + h A) z' = g with the matrix A of integration. The divisor scales the rows where d
+  // vanishes.
   const Samples unit = advection + rate.abs() * (LegendreSeries::points() + 1);
   Matrix system = (rate / unit).matrix().asDiagonal() * integration();
   system.diagonal().array() += advection / unit;
@@ -65,8 +66,8 @@ Samples slope_by_collocation(const Samples& advection, const Samples& rate, cons
 }  // namespace
 
 LegendreSeries solve_linear_ode(const Samples& advection, const Samples& rate, const Samples& source, double start) {
-  // For z = y - start: where h and g share a noise, g/h does not have it, and nor has y; and the rounding of a series
-  // is that of what y changes by.
+  // Solve for z = y - start. Noise that h and g share cancels in g/h and so in y, and the rounding of the series is
+  // relative to the change of y.
   const Samples change = source - rate * start;
   LegendreSeries y;
   if (forgets_start(advection, rate)) {
@@ -74,8 +75,8 @@ LegendreSeries solve_linear_ode(const Samples& advection, const Samples& rate, c
     system.diagonal().array() += 1;
     y = LegendreSeries::through(system.partialPivLu().solve((change / rate).matrix()).array());
   } else {
-    // As the antiderivative of z': a series through z itself would amplify its rounding at the ends, where one panel
-    // hands over to the next.
+    // A series through z itself would amplify its rounding at the ends, where one panel continues the other. So z is
+    // the antiderivative of a series for z'.
     const Samples slope = factor_is_polynomial(advection, rate) ? slope_by_factor(rate / advection, change / advection)
                                                                 : slope_by_collocation(advection, rate, change);
     y = LegendreSeries::through(slope).antiderivative();

@@ -4,17 +4,18 @@
 
 namespace contensou::reduction {
 
-/// The solution of  d y' + h y = g  on [-1, 1] with y(-1) = start: a quantity that relaxes towards g/h, which for h/d
-/// >= 0 forgets its start and never amplifies an error. Where d vanishes at -1, the regular solution, which starts on
-/// g/h.
+/// Solves d y' + h y = g on [-1, 1] with y(-1) = start. y relaxes towards g/h; for h/d >= 0 it forgets its start and
+/// never amplifies an error. If d vanishes at -1, the result is the regular solution, which starts at g/h.
 ///
 /// @param advection  d at the points of LegendreSeries, >= 0
-/// @param rate       h there; h/d may have any size; where h < 0, y grows away from g/h
-/// @param source     g there
+/// @param rate       h at these points; h/d may have any size; where h < 0, y moves away from g/h
+/// @param source     g at these points
+/// @param start      y(-1)
 /// @return           y
 ///
-/// While h/d is moderate, by the integrating factor. Where it is large the factor is no polynomial, but y is: then by
-/// collocation, one linear system for y' at the points; where the start is forgotten at once, for y without it.
+/// For moderate h/d the method is the integrating factor. For large h/d the factor is no polynomial, but y is, and the
+/// method is collocation: one linear system for y' at the points, or for y without the start if the start is forgotten
+/// at once.
 LegendreSeries solve_linear_ode(const LegendreSeries::Samples& advection, const LegendreSeries::Samples& rate,
                                 const LegendreSeries::Samples& source, double start);
 

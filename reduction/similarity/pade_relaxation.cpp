@@ -1,4 +1,4 @@
-// Notation (README (R28) to (R30)): with p = lambda, q = Q and T
+// Notation (README (R28) to (R30)), with p = lambda and q = Q:
 //   G = 1/(1 + X), X = a_1/(b_1 + a_2/(b_2 + ...)), b_n = 1 + n p                    (R29)
 //   eta = 1/(p + T), y = p eta, d = q - 1                                             (R30)
 #include "similarity/pade_relaxation.hpp"
@@ -10,9 +10,9 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Pairs of (R29), by the slower of its two rates of convergence: what they leave out of m is less than eps/8.
+/// Returns the number of pairs of (R29) by the faster of its two rates of convergence; the error of m is below eps/8.
 int pairs_of_fraction(double p, double T) {
-  // The first rate for t up to a bound, the binary exponents of t in mind.
+  // The first rate is tabulated up to some bounds of T/p.
   if (T < 0.015625 * p) return 4;
   if (T < 0.125 * p) return 6;
   if (T < 0.5 * p) return 8;
@@ -24,11 +24,11 @@ int pairs_of_fraction(double p, double T) {
   return 1 + static_cast<int>(std::min(by_distance, by_scale) / 2);
 }
 
-/// By the continued fraction (R29) from a depth at which the rest no longer counts, its divisions taken together:
-/// what is left from a depth n on is N_n/N_(n+1). All terms are positive: nothing is lost.
+/// Evaluates the continued fraction (R29) from a depth below which the rest is negligible. It collects all divisions
+/// into one: the fraction from depth n on is N_n/N_(n+1). All terms are positive, so nothing cancels.
 double by_fraction(const PadeRelaxation& at) {
   const int pairs = pairs_of_fraction(at.p, at.T);
-  // All b_n times this, all a_n times its square: the same fraction, and no N_n overflows.
+  // A multiple of all b_n and its square as multiple of all a_n give the same fraction, and no N_n overflows.
   const double b = 1 + 2 * pairs * at.p;
   const double a = (at.q + pairs) * (1 + pairs * at.p) * at.T;
   const double unit = pairs > 17 || at.p > 1 ? 1 / std::sqrt(b * b + a) : 1;
@@ -44,12 +44,12 @@ double by_fraction(const PadeRelaxation& at) {
   }
   const double first = (unit + p) * here + (excess + p) * T * above;
   const double second = at.q * T * here;
-  // From the nearer end: what is added to it alone carries rounding.
+  // Start at the nearer end, so that only the small correction is rounded.
   return second < first ? at.begin + (at.end - at.begin) * (second / (first + second))
                         : at.end + (at.begin - at.end) * (first / (first + second));
 }
 
-/// By the series (R30) in y, its two infinities at Q = 1 taken together.
+/// Evaluates the series (R30) in y; its two infinite terms at Q = 1 are combined.
 double by_series(const PadeRelaxation& at) {
   const auto& [begin, end, p, q, excess, T, connection] = at;
   const double eta = 1 / (p + T);
@@ -57,7 +57,7 @@ double by_series(const PadeRelaxation& at) {
   const double y = p * eta;
   const double d = q - 1;
   const double L = std::log(eta) + connection;
-  // Where d L is not small, the power itself keeps a digit that the logarithm has lost, and q one that d has.
+  // If d L is not small, the power keeps a digit that the logarithm has lost, and q keeps one that d has lost.
   const double W =
       std::abs(d * L) < 0.5 ? expm1_over(d, L) : (std::pow(eta, q) / eta * std::exp(d * connection) - 1) / d;
   double sum = 0;

@@ -20,22 +20,22 @@ namespace {
 
 using Samples = LegendreSeries::Samples;
 
-/// So near a ray, relative to k*, a double k is k* itself.
+/// xi - ln k* below which no double k differs from k*.
 constexpr double nearest = -37;
 
-/// D relative to its larger term: below this it is rounding.
+/// D divided by its larger term; a smaller quotient is only rounding.
 constexpr double resolution = 128 * std::numeric_limits<double>::epsilon();
 
 /// The coefficients of the equations at one xi.
 struct CurveCoefficients {
   double ln_w_slope;    ///< (ln w)'
   double time;          ///< c
-  double cancellation;  ///< the larger term of D over D
+  double cancellation;  ///< larger term of D divided by D
 };
 
 }  // namespace
 
-/// ln w and c of one curve.
+/// The functions ln w and c of one curve.
 class QuadratureCurve::Panels {
  public:
   Panels(const Law& law, const QuadratureCurve& curve)
@@ -74,8 +74,8 @@ class QuadratureCurve::Panels {
     return after == panels_.begin() ? panels_.front() : *std::prev(after);
   }
 
-  /// Panels of width 1 with edges at k = 1 and the law's kinks, as far as D has a digit.
-  /// @return  the edge where it has most
+  /// Makes panels of width 1, with edges at k = 1 and the law's kinks, as far as D has a digit.
+  /// @return the edge at which D has most digits
   double sample() {
     const bool from_above = chart_.side() == TerminalChart::Side::above;
     const double end = chart_.log_terminal_ratio() * (from_above ? 1 : -1);
@@ -117,8 +117,8 @@ class QuadratureCurve::Panels {
     double k;
     double rate;        ///< (ln k)'
     double drag;        ///< r k Psi
-    double larger;      ///< of the two terms of D
-    double difference;  ///< D, of the sign of the rate
+    double larger;      ///< larger of the two terms of D
+    double difference;  ///< D with the sign of the rate
   };
   Drag drag_at(double xi) const {
     const double k = std::exp(chart_.log_ratio(xi));
@@ -132,17 +132,18 @@ class QuadratureCurve::Panels {
     return at.difference / at.larger;
   }
 
-  /// @return  false where D is all rounding
+  /// @return false if D is only rounding
   bool coefficients(double xi, CurveCoefficients& at) const {
     const auto [k, rate, drag, larger, difference] = drag_at(xi);
     if (!frozen_ && !(difference > resolution * larger)) return false;
-    // Where D has no digit from end to end, k changes as slowly as D tells.
+    // If D has no digit along the whole curve, its rounding bounds the rate of k.
     const double q = frozen_ ? 1 / (resolution * larger) : std::abs(rate) / difference;
     at = {.ln_w_slope = drag * q, .time = k * q / (1 + k), .cancellation = frozen_ ? 1 : larger / difference};
     return true;
   }
 
-  /// @return  false if what lies between reaches into where D is all rounding: the panel there is left out
+  /// Adds the panels between two xi.
+  /// @return false if D is only rounding in a part of the interval; the panel there is left out
   bool sample(double from, double to, int depth) {
     constexpr double narrowest = 1e-12;
     for (double kink : kinks_) {
@@ -164,7 +165,7 @@ class QuadratureCurve::Panels {
       cancellation = std::max(cancellation, at.cancellation);
     }
 
-    // What a panel leaves out, relative to a panel of full width. D has the digits that are left in it.
+    // The error of a panel's series, relative to a panel of full width. Cancellation in D limits the accuracy.
     const auto left_out = [&](const Samples& samples) {
       return LegendreSeries::through(samples).tail() / (samples.maxCoeff() * cancellation) * (panel.right - panel.left);
     };
@@ -182,7 +183,7 @@ class QuadratureCurve::Panels {
     constexpr int last = LegendreSeries::order - 1;
     lower_slope_ = panels_.front().ln_w_slope.mean();
     upper_slope_ = panels_.back().ln_w_slope[last];
-    // From where ln w changes least, for at either end it may grow without bound.
+    // The sum starts where ln w changes least, because it may grow without bound at either end.
     for (Panel& panel : panels_) panel.ln_w = LegendreSeries::through(panel.half() * panel.ln_w_slope).antiderivative();
     const auto middle = std::ranges::lower_bound(panels_, anchor, {}, &Panel::left);
     double ln_w = 0;
@@ -201,11 +202,11 @@ class QuadratureCurve::Panels {
   const Law& law_;
   double r_, drive_;
   TerminalChart chart_;
-  std::vector<double> kinks_;  ///< in xi
+  std::vector<double> kinks_;  ///< values of xi
   bool frozen_ = false;
   std::vector<Panel> panels_;
   double lower_slope_ = 0;  ///< d ln_w/d xi as xi -> -infinity
-  double upper_slope_ = 0;  ///< the same as xi -> infinity
+  double upper_slope_ = 0;  ///< d ln_w/d xi as xi -> infinity
 };
 
 struct QuadratureCurve::Parts {

@@ -32,12 +32,12 @@ namespace {
 using std::numbers::pi;
 using Samples = LegendreSeries::Samples;
 
-constexpr double highest_exponent = 700;  ///< of a double
+constexpr double highest_exponent = 700;  ///< exp(700) is still a double
 
 double sign_of(const TerminalChart& chart) { return chart.side() == TerminalChart::Side::above ? 1 : -1; }
 
-/// z where panels meet on the way from the stop: multiples of a width at which series of their order still converge to
-/// the last bit far from k = 1, and the law's kinks.
+/// Returns the z at which panels meet, from the stop on: the law's kinks, and multiples of a width for which the series
+/// converge to the last bit far from k = 1.
 std::vector<double> edges_of(const Law& law, double r, const TerminalChart& chart, double drive) {
   if (!(r > 0) || !std::isfinite(r)) {
     throw std::domain_error(fmt::format("QuadratureCurve: r = gamma mu^2/chi must be positive and finite, got {}", r));
@@ -46,7 +46,7 @@ std::vector<double> edges_of(const Law& law, double r, const TerminalChart& char
   constexpr double narrowest = 4 * std::numeric_limits<double>::epsilon();
   const double sign = sign_of(chart);
   const auto [low, high] = std::minmax({sign * lowest_ln_k(law, r, drive), sign * max_ln_k});
-  // Towards k = infinity, w counts beside v until k is beyond r, too.
+  // Towards k = infinity, w is not negligible beside v until k is also beyond r.
   const double beyond = sign < 0 ? std::clamp(std::log(r), 0.0, highest_exponent - max_ln_k) : 0;
   const double begin = std::max(sign * chart.log_terminal_ratio(), low - beyond);
   const double end = std::min(sign * chart.log_far_ratio(), high);
@@ -61,7 +61,7 @@ std::vector<double> edges_of(const Law& law, double r, const TerminalChart& char
   return edges;
 }
 
-/// The law at one k, with the sign that D must have.
+/// The law at one k, with D made positive along the chart.
 struct Forces {
   double difference;  ///< |D|
   double force;       ///< F
@@ -75,7 +75,7 @@ class ForcesOnTheWay {
       : law_(law), r_(r), drive_(drive), chart_(chart) {}
 
   Forces operator()(double k) const {
-    /// D relative to its larger term: beyond this its sign is no rounding.
+    /// D| divided by its larger term above which the sign of D is certain.
     constexpr double certainty = 1e-9;
     const double sign = sign_of(chart_);
     const Balance balance = Balance::of(law_, r_, drive_, k);
@@ -90,14 +90,14 @@ class ForcesOnTheWay {
           std::exp(chart_.log_far_ratio()), law_.name(), sliding, drag, k, r_));
     }
     against_ = std::max(against_, -difference / larger);
-    // Next to the ray of a drive F is r k Psi, which for a small r is less than the rounding of Phi and rho.
+    // Next to the ray of a drive F is r k Psi, and for a small r that is less than the rounding of Phi and rho.
     const bool on_ray = drive_ > 0 && k == std::exp(chart_.log_terminal_ratio());
-    const double positive = !on_ray && difference > 0 ? difference : 0;  // < 0: rounding
+    const double positive = !on_ray && difference > 0 ? difference : 0;  // a negative difference is rounding
     const bool beside_a_ray = drive_ > 0 && positive < drag / 2;
     return {positive, beside_a_ray ? drag + sign * positive : force, drag, sliding};
   }
 
-  /// How far D has had the other sign, relative to its larger term; 0 as far as the law's own rounding explains it.
+  /// Returns the largest |D| of the wrong sign divided by its larger term; 0 if the rounding of the law explains it.
   double against() const {
     constexpr double of_the_law = 16 * std::numeric_limits<double>::epsilon();
     return against_ > of_the_law ? against_ : 0;
@@ -140,7 +140,7 @@ void RegularSolution::march(const std::function<Terms(double)>& equation, double
   LegendreSeries y = solve_linear_ode(difference / half, rate, source, last_);
   const double y_end = y.at_end();
 
-  // What the series leave out, relative to a panel of width 1: a narrower one counts less.
+  // The error of the series, relative to a panel of width 1; a narrower panel counts less.
   const double largest = std::max(rate.maxCoeff(), difference.maxCoeff());
   const double y_size = std::max({std::abs(y_end), size_, size_ / largest});
   const double of_terms =
@@ -190,7 +190,7 @@ RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& 
   const auto equation = [&, tangent = tangent_of(law)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
     const auto [resistance, force_slope, moment_slope] = tangent(slip_of_ratio(k));
-    // Times the larger of k and 1/k. The slopes are over k up to 1, and over 1/k beyond.
+    // All terms are multiplied by max(k, 1/k). The slopes of a tangent are by k for k <= 1, and by 1/k for k > 1.
     const double larger = std::max(k, 1 / k);
     const double moment_falls = moment_slope / resistance.moment;
     return {larger * difference, force_slope + force * moment_falls, moment_falls};
@@ -204,7 +204,7 @@ RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart&
   const auto equation = [&, tangent = tangent_of(law)](double at) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(at);
     const auto [resistance, force_slope, moment_slope] = tangent(slip_of_ratio(at));
-    // The slopes are over k up to 1, and over 1/k beyond.
+    // The slopes of a tangent are by k for k <= 1, and by 1/k for k > 1.
     const double times = at < 1 ? at * at : 1;
     const double slides = times * force_slope / force;
     return {difference, r * (times * moment_slope + resistance.moment * slides), slides};
@@ -213,13 +213,13 @@ RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart&
   std::vector<double> edges = edges_of(law, r, chart, drive);
   std::erase_if(edges, [&](double edge) { return sign * edge <= std::log(k); });
   edges.insert(sign > 0 ? edges.begin() : edges.end(), sign * std::log(k));
-  // It falls like 1/k, which the noise of differences does not.
+  // The solution falls like 1/k, but the noise of differences does not.
   const double noise = tangent_error(law);
   return {equation, sign, edges, noise > 0 ? 1.0 : 0.0, start, noise};
 }
 
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
-  // With y = n/(1 + k): the slip v (v/2 + n w) feels errors of n relative to max(n, k).
+  // Solve for y = n/(1 + k), because the slip v (v/2 + n w) only needs n to an error relative to max(n, k).
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto equation = [&, to_rest = reaches_rest(chart, drive)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
@@ -261,8 +261,8 @@ RegularSolution beta_solution(const Law& law, double r, const TerminalChart& cha
 
 BetaSolution::BetaSolution(const Law& law, double r, const TerminalChart& chart, double drive)
     : b_(beta_solution(law, r, chart, drive)), sign_(sign_of(chart)), nearest_(edges_of(law, r, chart, drive).front()) {
-  // Where h is small beside D, b is far from its limit long after all else is at its own. v no longer counts in w + v
-  // where k -> 0, however small r is; nor does w where k -> infinity.
+  // If h is small compared with D, b is far from its limit long after all other functions have reached theirs. For k ->
+  // 0 v is negligible in w + v, however small r is; for k -> infinity w is.
   const double k = std::exp(sign_ * nearest_);
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto [difference, force, drag, sliding] = forces(k);

@@ -11,10 +11,10 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Beyond this k digit after digit of ds/dw is lost in 1/(r Psi(0)) - k m'.
+/// k from which on 1/(r Psi(0)) - k m' loses more and more digits of ds/dw.
 constexpr double fast_slide = 1e3;
 
-/// D relative to its larger term: below this too few digits are left of m'.
+/// D| divided by its larger term below which m' has too few digits.
 constexpr double clear = 0.01;
 
 }  // namespace
@@ -31,13 +31,13 @@ SlidingDerivatives::SlidingDerivatives(const Law& law, double r, const TerminalC
                                const double m = m_(std::log(k)), by_v = by_speeds(k, m / share(k)).v;
                                return k * law(slip_of_ratio(k)).moment * (share(k) * by_v - m);
                              })),
-      // Even the first drive that there is moves v = 0: dm/drho may grow like 1/k as k -> 0.
+      // At v = 0 any drive, however small, moves the body, so dm/drho may grow like 1/k as k -> 0.
       by_drive_(sliding_equation(law, r, chart, drive, true,
                                  [&](double k) { return k / (1 + k) * by_speeds(k, m_(std::log(k)) / share(k)).v; })),
       solved_from_(infinity) {
   const double from = chart.log_terminal_ratio(), to = chart.log_far_ratio();
   if (std::max(from, to) < infinity || std::min(from, to) > std::log(fast_slide)) return;
-  // With a drive from the ray on, towards which k falls: it is regular there.
+  // With a drive ds/dw is solved from the ray on, towards which k falls and at which the solution is regular.
   const bool from_ray = drive > 0 && from > -infinity && from < infinity;
   const double solved_from = from_ray ? std::exp(from) : fast_slide;
   std::optional<double> start;

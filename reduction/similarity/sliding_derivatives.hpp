@@ -8,10 +8,11 @@
 
 namespace contensou::reduction {
 
-/// How the scaled stop time s changes, on the way of one chart.
+/// The derivatives of the scaled stop time s along one chart.
 ///
-/// By the speeds it is algebraic in m, README (R10), but next to a ray, with a drive, and, by w, beside a fast slide:
-/// there nothing is left of a difference, and (R57) is solved. By r and rho it is one linear equation each, (R58).
+/// The derivatives by the speeds are algebraic in m, README (R10). This formula loses its digits next to a ray, with a
+/// drive, and for w beside a fast slide; (R57) is solved there. The derivatives by r and rho each need one linear
+/// equation, (R58).
 class SlidingDerivatives {
  public:
   /// @throws std::domain_error  as sliding_solution
@@ -23,8 +24,9 @@ class SlidingDerivatives {
     double by_drive;    ///< (ds/drho)/(w + v)
   };
 
-  /// @param k  v/w on the way, finite
-  /// @param m  the curve's own at this k, if it has one in closed form
+  /// Returns the derivatives at k.
+  /// @param k  v/w on the chart, finite
+  /// @param m  the curve's m at this k in closed form, if it has one
   Values at(double k, std::optional<double> m) const;
 
  private:
@@ -33,14 +35,14 @@ class SlidingDerivatives {
   };
   BySpeeds by_speeds(double k, double m) const;
 
-  /// So much of m is m_: k/(1 + k), or all.
+  /// Returns the ratio of m_ to m: k/(1 + k), or 1.
   double share(double k) const { return to_rest_ ? k / (1 + k) : 1; }
 
   Law law_;
   double r_, drive_;
   bool to_rest_;
   RegularSolution m_, by_v_, by_r_, by_drive_;
-  double solved_from_;  ///< from this k on by_w_ is solved for
+  double solved_from_;  ///< by_w_ is used from this k on
   std::optional<RegularSolution> by_w_;
 };
 

@@ -1,5 +1,5 @@
-// Notation (README (R2)): x = ln k,  E = Phi/(rho + r k Psi) - 1, or (1 - rho)/(1 - Phi + r k Psi) - 1;  k falls where
-// E > 0.
+// Notation (README (R2)): x = ln k, E = Phi/(rho + r k Psi) - 1 or (1 - rho)/(1 - Phi + r k Psi) - 1; k falls where E >
+// 0.
 #include "contensou/reduction/terminal_ratio.hpp"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace contensou::reduction {
 
 namespace {
 
-/// An E below this has no sign: a law is good to some eps, and k takes as good as for ever to pass there.
+/// An E below this has no sign: a law is accurate to some eps, and k takes practically for ever to pass there.
 constexpr double without_sign = TerminalRatios::tolerance;
 
-/// Beyond these ln k the law is its limit.
+/// Largest |ln k|; beyond, the law equals its limit.
 constexpr double max_x = 60;
 
 struct Sample {
@@ -41,7 +41,7 @@ class Search {
   }
 
   std::vector<InvariantRay> rays;
-  std::vector<int> signs{1};  ///< of E: below the first ray, between the rays, above the last
+  std::vector<int> signs{1};  ///< signs of E: below the first ray, between the rays, above the last
 
  private:
   double excess(double ln_k) const {
@@ -57,7 +57,7 @@ class Search {
     }
   }
 
-  /// Where a drive leaves so little of friction that rounding of Phi is a part of it, k = infinity needs a sign.
+  /// Throws if a drive leaves so little of friction that rounding of Phi hides the sign of E at k = infinity.
   void require_decided() const {
     constexpr double part = 1e-8;
     if (by_deficit(law_, drive_) || samples_.back().sign() != 0 || without_sign < part * (1 - drive_)) return;
@@ -67,7 +67,7 @@ class Search {
         drive_, r_, law_.name()));
   }
 
-  /// Adds the extrema where E comes near to 0, or passes it and returns.
+  /// Adds the extrema at which E comes near to 0, or crosses 0 and returns.
   void sharpen() {
     std::vector<Sample> extrema;
     for (std::size_t i = 1; i + 1 < samples_.size(); ++i) {
@@ -86,8 +86,8 @@ class Search {
   }
 
   void collect() {
-    const Sample* last = nullptr;  // the last with a sign
-    const Sample* zero = nullptr;  // the least since then, without a sign
+    const Sample* last = nullptr;  // last sample with a sign
+    const Sample* zero = nullptr;  // sample with the smallest |E| since then, without a sign
     for (const Sample& here : samples_) {
       if (here.sign() == 0) {
         if (!zero || std::abs(here.excess) < std::abs(zero->excess)) zero = &here;
@@ -147,9 +147,9 @@ TerminalRatio TerminalRatios::end_of(double k) const {
 }
 
 double least_log_ratio(const Law& law, double r, double drive) {
-  // There k grows at the rate rho/w, and friction is less than the drive by exp(44).
+  // Friction is below the drive by exp(44) there, so k grows at the rate rho/w.
   constexpr double distance = 44;
-  constexpr double least = -600;  // of a double, with room for what it is multiplied by
+  constexpr double least = -600;  // a double exp(-600) leaves room for its factors
   return std::max(std::log(drive) - std::log(law.force_slope() + r * law.pivoting_moment()) - distance, least);
 }
 
