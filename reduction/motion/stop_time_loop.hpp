@@ -18,7 +18,7 @@ struct StopTimePanels {
   static constexpr int octaves = 64;
   static constexpr double lowest = 0x1p-63;  ///< the exponent is 0 modulo 64
   static constexpr std::size_t per_branch = std::size_t{octaves} << cut_bits;
-  /// number of used panels of a branch, those with y <= 1/3
+  /// Number of used panels of a branch, those with y <= 1/3.
   static constexpr std::size_t used = (std::size_t{octaves - 3} << cut_bits) + 6;
   static constexpr std::size_t branches = 4;
   static constexpr std::size_t near_one = per_branch;       ///< 1/2 < v_mu/|u0| < 2

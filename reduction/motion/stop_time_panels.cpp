@@ -78,7 +78,7 @@ class Fit {
 
  private:
   std::array<Values, Panels::terms> analysis_{};  ///< maps values to coefficients of Chebyshev's polynomials
-  /// coefficients of powers of x in these polynomials
+  /// Coefficients of powers of x in these polynomials.
   std::array<std::array<double, Panels::terms>, Panels::terms> powers_{};
 };
 

@@ -10,13 +10,13 @@
 
 namespace contensou::portraits {
 
-/// Appends a JSON value in the one dialect of this project: numbers with the shortest digits that read back to the same
-/// double, infinities as the strings "inf" and "-inf", bytes that are no UTF-8 as U+FFFD. (nlohmann's own text has a
-/// digit too many now and then, and null for an infinity.)
+/// Appends a JSON value in the format of this project. Numbers have the shortest digits that read back to the same
+/// double; infinities are the strings "inf" and "-inf"; bytes that are not UTF-8 become U+FFFD. nlohmann's own text
+/// sometimes has a digit too many, and null for an infinity.
 ///
 /// @tparam Json      nlohmann::ordered_json
-/// @param separator  between the members of an object or the elements of an array
-/// @throws std::runtime_error  for NaN, which JSON cannot say
+/// @param separator  text between the members of an object or the elements of an array
+/// @throws std::runtime_error  for NaN, which JSON cannot represent
 template <class Json>
 void append_json(std::string& text, const Json& value, std::string_view separator = ", ") {
   const auto append_text = [&](const std::string& word) {
@@ -50,7 +50,7 @@ void append_json(std::string& text, const Json& value, std::string_view separato
   }
 }
 
-/// Members as remarks above a CSV: a line "# name: value" for each.
+/// Returns members as comments above a CSV, a line "# name: value" for each.
 template <class Json>
 std::string csv_remarks(const Json& members) {
   std::string text;
@@ -62,7 +62,7 @@ std::string csv_remarks(const Json& members) {
   return text;
 }
 
-/// The text of a document: a line for each member.
+/// Returns the text of a JSON document with a line for each member.
 template <class Json>
 std::string json_document(const Json& members) {
   std::string text;

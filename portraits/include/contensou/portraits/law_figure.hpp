@@ -7,10 +7,10 @@
 
 namespace contensou::portraits {
 
-/// Fig. 2 of Zh98: the friction force Phi and the friction moment Psi against k from 0 to 4, one line style for each law.
+/// Draws Fig. 2 of Zh98: friction force Phi and friction moment Psi against k from 0 to 4, with one line style per law.
 Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
 
-/// The limit surfaces of laws, the curves of force against moment at which a patch slips, and the ellipse.
+/// Draws the limit surfaces of laws, that is force against moment at which a patch slips, and the ellipse.
 Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
 
 }  // namespace contensou::portraits

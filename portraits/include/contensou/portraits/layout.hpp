@@ -10,43 +10,42 @@
 
 namespace contensou::portraits {
 
-// Lengths are in one of three units: on paper, in sides of the panel between its axes; in millimetres on the page; in
-// sizes of letters. A logarithmic axis needs low > 0 and points with a positive coordinate, which is not checked.
+// Lengths have one of three units: sides of the panel between its axes ("on paper"), millimetres on the page, or sizes
+// of letters. A logarithmic axis needs low > 0 and points with a positive coordinate; this is not checked.
 
-/// The point at that fraction (0 to 1) of the way from a to b, in their units.
+/// Returns the point at a fraction (0 to 1) of the way from a to b, in their units.
 Point between(Point a, Point b, double fraction);
 
-/// Where a point of a panel, in the units of its axes, lies on paper.
-/// @return  x from 0 (left) to 1 (right), y from 0 (bottom) to 1 (top); beyond the axes less or more; not finite where the
-///          point is not
+/// Returns the place on paper of a point that is given in the units of the axes.
+/// @return  x from 0 (left) to 1 (right), y from 0 (bottom) to 1 (top); outside 0 to 1 beyond the axes; not finite if
+///          the point is not finite
 Point on_paper(const Panel& panel, Point point);
 
-/// The inverse of on_paper.
-/// @return  the point in the units of the axes
+/// Returns the point in the units of the axes at a place on paper, the inverse of on_paper.
 Point from_paper(const Panel& panel, Point place);
 
-/// @return  the distance on paper of two points given in the units of the axes, in sides of the panel
+/// Returns the distance on paper of two points in the units of the axes, in sides of the panel.
 double paper_distance(const Panel& panel, Point a, Point b);
 
-/// @return  the length of a line on paper, in sides of the panel; 0 for a line of fewer than 2 points
+/// Returns the length of a line on paper, in sides of the panel; 0 for a line of fewer than 2 points.
 double paper_length(const Panel& panel, const Polyline& line);
 
-/// The parts of a line that lie within the axes; a point that is not finite breaks it.
-/// @return  in the units of the axes; a part that leaves or enters ends on the border
+/// Returns the parts of a line that lie within the axes. A point that is not finite breaks the line.
+/// @return  lines in the units of the axes; a part that leaves or enters the panel ends on the border
 std::vector<Polyline> clipped(const Panel& panel, const Polyline& line);
 
-/// The line with fewer points, by Douglas and Peucker (doi:10.3138/FM57-6770-U75U-7727).
-/// @param tolerance  in sides of the panel: no point of the line is farther than that on paper from the result
-/// @return  some of the line's points, the first and the last among them
+/// Returns a line with fewer points, by the method of Douglas and Peucker (doi:10.3138/FM57-6770-U75U-7727).
+/// @param tolerance  largest distance on paper, in sides of the panel, of a point of the line from the result
+/// @return  some of the line's points, including the first and the last
 Polyline thinned(const Panel& panel, const Polyline& line, double tolerance = 2e-4);
 
-/// What is seen of the lines: clipped, then thinned by the tolerance above.
+/// Returns the visible parts of lines: clipped, then thinned by the default tolerance.
 std::vector<Polyline> visible(const Panel& panel, const std::vector<Polyline>& lines);
 
-/// The arrow at a fraction of a line's length on paper.
+/// Returns the arrow at a fraction of a line's length on paper.
 /// @param line      not empty
 /// @param fraction  0 to 1
-/// @return  in the units of the axes; of a line without length at its end, without direction
+/// @return  arrow in the units of the axes; for a line of length 0, its end with the direction (0, 0)
 Arrow arrow_along(const Panel& panel, const Polyline& line, double fraction);
 
 /// A rectangle in millimetres from the lower left corner of the figure.
@@ -54,23 +53,23 @@ struct Box {
   double left, bottom, width, height;
 };
 
-/// An arrow of 0.5 mm, which its head covers, that ends where the arrow is.
-/// @param box  the panel on the page, mm
-/// @return  its beginning as `at`, in the units of the axes; nothing if it has no direction
+/// Returns an arrow of 0.5 mm that ends at the given arrow; its head covers it.
+/// @param box  panel on the page, mm
+/// @return  beginning as `at`, in the units of the axes; empty if the arrow has no direction
 std::optional<Arrow> short_arrow(const Panel& panel, const Box& box, const Arrow& arrow);
 
-/// What the legend lists: a text with the line and the marks that it names, or one of them.
+/// An entry of the legend: a text with the line, the mark, or both that it names.
 struct LegendEntry {
   Text text;
   const Lines* lines;
   const Marks* marks;
 };
 
-/// The entries of all panels, each text once, in the order of panels, lines before marks. They point into the figure, which
-/// must outlive them.
+/// Returns the legend entries of all panels, each text once, in the order of panels, lines before marks. They point
+/// into the figure, which must outlive them.
 std::vector<LegendEntry> legend_entries(const Figure& figure);
 
-/// A text on the page by its middle, or by the middle of its left end.
+/// A text on the page, placed by its middle or by the middle of its left end.
 struct PlacedText {
   Text text;
   Point at;         ///< mm
@@ -81,61 +80,64 @@ struct PlacedText {
 
 /// A panel on the page.
 struct PanelPlace {
-  Box box;                              ///< between the axes
-  std::vector<Axis::Tick> x, y, scale;  ///< of its axes and of its ColourMap
-  Box colour_scale;                     ///< of its ColourMap
+  Box box;                              ///< rectangle between the axes
+  std::vector<Axis::Tick> x, y, scale;  ///< ticks of the axes and of the ColourMap
+  Box colour_scale;                     ///< strip of the ColourMap
 };
 
-/// A sample of a line or a mark in the legend: from its left end.
+/// The place of a sample line or mark in the legend.
 struct LegendPlace {
   LegendEntry entry;
   Point from;
   double width;
 };
 
-/// Where everything goes, mm. Letters have the size that a journal wants: 6.5 pt in a column of 85 mm, 7.7 pt from
-/// 170 mm on. Panels stand side by side where each has 50 mm, else one above the other; margins and the number of ticks
-/// follow from the width of their labels, and titles are broken into lines.
+/// The places of all parts of a figure, in mm.
+///
+/// Letters have the size that journals require: 6.5 pt in a column of 85 mm, 7.7 pt from 170 mm on. Panels stand side
+/// by side if each has 50 mm, else one above the other. Margins and numbers of ticks follow from the width of the
+/// labels. Titles are broken into lines.
 struct Layout {
-  double letter;  ///< the size of letters
+  double letter;  ///< size of letters
   std::vector<PlacedText> texts;
   std::vector<PanelPlace> panels;
   std::vector<LegendPlace> legend;
-  std::vector<Box> colours;  ///< of the colour bar, from the bottom up
+  std::vector<Box> colours;  ///< boxes of the colour bar, from the bottom up
 };
 
+/// Computes the layout of a figure.
 /// @return  it points into the figure, which must outlive it
-/// @throws std::domain_error  if the figure is too small for its panels: one has less than 9 x 5 sizes of letters
+/// @throws std::domain_error  if the figure is so small that a panel has less than 9 x 5 sizes of letters
 Layout lay_out(const Figure& figure);
 
-/// Widens one axis of a panel about its middle so that on the page a unit of y is as many times as long as one of x.
-/// @param panel  its index, of a panel with linear axes
+/// Widens one axis of a panel about its middle, so that on the page a unit of y is `times` units of x long.
+/// @param panel  index of a panel with linear axes
 /// @throws std::domain_error  as lay_out
 void widen(Figure& figure, std::size_t panel, double times = 1);
 
 /// The width of a line, the length of an arrow's head and the width of a mark of size 1, in sizes of letters.
 inline constexpr double line_width = 0.074, head_length = 0.74, mark_size = 0.5;
-/// The size of a tick's text and of a label's.
+/// The sizes of the texts of ticks and of labels.
 inline constexpr double tick_size = 0.9, label_size = 0.85;
 
-/// The size of letters in a figure of that width, 2.2 to 2.7 mm.
+/// Returns the size of letters in a figure of a width, 2.2 to 2.7 mm.
 double letter_mm(double width_mm);
 
-/// How many panels stand side by side: the most that leave each 50 mm and fill their rows.
+/// Returns the number of panels side by side: the most that leave each 50 mm and fill their rows.
 int panel_columns(double width_mm, int panels);
 
-/// The size of a figure: what is asked for, the rest so that its panels keep their shape.
-/// @param usual        the size in which its panels, side by side, look best
-/// @param panels       how many; a width alone that is asked for decides how many stand side by side
-/// @param max_columns  of the figure; fills its rows
+/// Returns the size of a figure: the wanted sides, and others so that the panels keep their shape.
+/// @param usual        best size for all panels side by side
+/// @param panels       number of panels; if only a width is wanted, it decides how many stand side by side
+/// @param max_columns  largest number side by side; it fills its rows
 PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked,
                  int max_columns = std::numeric_limits<int>::max());
 
-/// A figure of one panel to scale, lower by what that leaves empty above and below; any other as it is.
+/// Returns a figure of one panel to scale without the empty space above and below it; any other figure unchanged.
 /// @throws std::domain_error  as lay_out
 Figure trimmed(Figure figure);
 
-/// @return  width and height of a panel of such a figure in mm, about: what is left beside names and ticks; 10 at least
+/// Returns the approximate width and height in mm of a panel of such a figure, beside names and ticks; at least 10.
 Point panel_size(const PaperSize& figure, int panels);
 
 }  // namespace contensou::portraits

@@ -4,11 +4,11 @@
 
 namespace contensou::portraits {
 
-/// Fig. 1 of Zh98: the contact patch, the centre of velocity C at the distance h = v/omega outside of it, and the polar
-/// coordinates (r, theta) about C in which the friction of an element is integrated (1.2).
+/// Draws Fig. 1 of Zh98: the contact patch, the centre of velocity C at the distance h = v/omega outside of it, and
+/// polar coordinates (r, theta) about C, in which (1.2) integrates the friction of an element.
 Figure patch_drawing(const AskedSize& size = {});
 
-/// Fig. 3: the ball on the plane, its axes and the spot on which it touches.
+/// Draws Fig. 3 of Zh98: the ball on the plane, its axes and its contact patch.
 Figure ball_drawing(const AskedSize& size = {});
 
 }  // namespace contensou::portraits

@@ -13,13 +13,13 @@
 
 namespace contensou::portraits {
 
-/// The part of the half-plane that is shown: |u| <= u, 0 <= v <= v.
+/// The visible part of the half-plane v >= 0: |u| <= u, 0 <= v <= v.
 struct Window {
   double u;
   double v;
 };
 
-/// A rectangle of the half-plane that is shown of a window.
+/// A rectangle of the half-plane, if only a part of a window is visible.
 struct WindowPart {
   double u_low, u_high, v_low, v_high;
 
@@ -28,25 +28,26 @@ struct WindowPart {
   }
 };
 
-/// Which axes. A new view is an entry here, a function in views/ and a row in views/portrait_views.hpp.
+/// The choice of axes. A new view is an entry here, a function in views/ and a row in views/portrait_views.hpp.
 enum class View { uv, patch, log, similarity, blowup, disc, time, regularised, pair };
 
 std::string_view name(View view);
 
-/// What is drawn against what, in words.
+/// Returns the quantities on the axes, in words.
 std::string_view axes(View view);
 std::optional<View> find_view(std::string_view name);
 
-/// Whether it shows the window itself: there isochrones and a field are drawn, and v may have a SpeedScale.
+/// Returns true if the view shows the window itself. Such views have isochrones and a field, and v may have a
+/// SpeedScale.
 constexpr bool shows_window(View view) { return view == View::uv || view == View::patch || view == View::pair; }
 
-/// Whether its points are moments of motions, and not states: then it has no colours of time.
+/// Returns true if points of the view are times of motions, not states. Such views have no colours of time.
 constexpr bool shows_moments(View view) { return view == View::time || view == View::regularised; }
 
-/// In the order in which they are listed.
+/// Returns all views in the order of lists.
 const std::vector<View>& views();
 
-/// One orbit. Equal lengths; the last entry is the stop: 0, 0, -inf, ln k of the terminal ratio, 0.
+/// An orbit as columns of equal length. The last row is the stop: 0, 0, -infinity, ln k of the terminal ratio, 0.
 struct PortraitOrbit {
   Eigen::ArrayXd u;
   Eigen::ArrayXd v;
@@ -54,110 +55,127 @@ struct PortraitOrbit {
   Eigen::ArrayXd ln_k;
   Eigen::ArrayXd tau_left;
 
-  /// One state of it, or of a copy.
+  /// One state of the orbit or of a scaled copy.
   struct Instant {
     double u, v, ln_v, ln_k, tau_left;
   };
 
-  /// @param factor  > 0, by which the state is scaled, as scaling symmetry allows
+  /// Returns a row, scaled.
+  /// @param factor  > 0; the scaled orbit is an orbit, by the scaling symmetry
   Instant at(Eigen::Index row, double factor = 1) const;
   Eigen::Index rows() const { return u.size(); }
 };
 
-/// A piece of the line of all states with one stop time.
+/// A connected part of the line of all states with one stop time.
 struct Isochrone {
   double tau_stop;
   Eigen::ArrayXd u;
   Eigen::ArrayXd v;
 };
 
-/// The phase plane of one system as data; nothing here is drawn. Speeds are in one unit, which is also that of tau.
+/// The phase plane of one system as data, without a drawing.
+///
+/// The phase plane shows every motion of a body that slides at the speed v and pivots at the speed u (reduction::Flow)
+/// as an orbit in the half-plane v >= 0. All orbits end at the origin, the stop. The data are the orbits, the
+/// isochrones (states with one stop time) and the singular points (reduction::PhasePlane). u, v and the time tau have
+/// one unit.
+///
+///     const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
+///     const PhasePortrait portrait = phase_portrait(flow, {});  // the default view and window
+///     render(draw(portrait), PictureFormat::svg);              // the bytes of a picture
 struct PhasePortrait {
   reduction::Flow flow;
   reduction::PhasePlane plane;
   View view;
   Window window;
-  WindowPart part;                         ///< of the window that is shown: all of it unless asked otherwise
-  SpeedScale scale;                        ///< of v, in views that show the window
-  std::vector<PortraitOrbit> orbits;       ///< from the border of the window to the origin
-  std::vector<Isochrone> isochrones;       ///< in the part
-  double isochrone_step;                   ///< isochrones are of all its multiples; 0 where they are of other times
-  std::optional<PortraitOrbit> highlight;  ///< the orbit of one start, if asked for
-  std::vector<PortraitOrbit> through;      ///< the orbits through the points asked for, from the border
-  std::vector<reduction::State> points;    ///< those points
-  /// Another law in the same window, with isochrones of the same times; one if asked for, else none.
+  WindowPart part;                    ///< visible part of the window; all of it unless requested otherwise
+  SpeedScale scale;                   ///< scale of v, in views that show the window
+  std::vector<PortraitOrbit> orbits;  ///< orbits from the border of the window to the origin
+  std::vector<Isochrone> isochrones;  ///< isochrones in the part
+  double isochrone_step;              ///< step of which the isochrones are all multiples; 0 if their times are others
+  std::optional<PortraitOrbit> highlight;  ///< orbit of one start, if requested
+  std::vector<PortraitOrbit> through;      ///< orbits through the requested points, from the border
+  std::vector<reduction::State> points;    ///< the requested points
+  /// The portrait of another law in the same window, with isochrones of the same times; at most one.
   std::vector<PhasePortrait> comparisons;
 
   const reduction::ReducedSystem& system() const { return flow.system(); }
 };
 
-/// What to show. Left empty, the window follows from mu, and the view is uv.
+/// The contents of a portrait. By default the window follows from mu, and the view is uv.
 struct PortraitRequest {
   std::optional<View> view = {};
   std::optional<Window> window = {};
-  /// In place of a window, in views that show it. Orbits are those that enter it of the smallest window around it.
+  /// A rectangle instead of a window, in views that show it. Orbits begin on the smallest window around it.
   std::optional<WindowPart> part = {};
-  std::optional<reduction::State> highlight = {};  ///< the window then contains it
-  std::vector<reduction::State> through = {};      ///< points in the window, neither u nor v 0
-  std::optional<int> orbits_per_side = {};         ///< of u = 0, >= 0
-  std::optional<int> isochrones = {};        ///< so many, >= 0, as nearly as round times allow; about 7 if not said
-  std::vector<double> isochrone_times = {};  ///< of these stop times, in time units, each > 0, whatever the count
+  std::optional<reduction::State> highlight = {};  ///< a start; the window then contains it
+  std::vector<reduction::State> through = {};      ///< points in the window with neither u nor v 0
+  std::optional<int> orbits_per_side = {};         ///< number of orbits on each side of u = 0, >= 0
+  /// Number of isochrones, >= 0, approximate because times are round; about 7 by default.
+  std::optional<int> isochrones = {};
+  /// Stop times of isochrones, in time units, each > 0; they replace the number.
+  std::vector<double> isochrone_times = {};
   std::optional<reduction::Law> comparison = {};
-  bool stepped = false;  ///< orbits by (2.7), stepped in beta, in place of the flow's own
-  /// The axis of v is linear also where the plane is then a comb of verticals: where orbits enter the origin along v =
-  /// 0 with v falling faster than |u|^12, for the ball mu < 0.48. There, if orbits are not stepped, it is a SpeedScale.
+  bool stepped = false;  ///< true: orbits come from steps of (2.7) in beta instead of the flow
+  /// True: the axis of v is always linear. By default it is a SpeedScale if a linear axis would show a comb of
+  /// verticals and orbits are not stepped. This is so if orbits enter the origin along v = 0 with v falling faster than
+  /// |u|^12; for the ball, mu < 0.48.
   bool linear = false;
-  /// Keep only what the view is drawn from: orbits and isochrones where it shows the window.
+  /// True: compute only what the view draws. Orbits and isochrones are left out unless it shows the window.
   bool drawn_only = false;
-  double time_unit = 1;  ///< isochrones are at round multiples of this many tau
+  double time_unit = 1;  ///< tau of a time unit; isochrones are at its round multiples
 };
 
-/// Computes the portrait: orbits seeded along the border at equal distances across the flow, u of both signs, and
-/// isochrones by scaling one curve.
+/// Computes a portrait.
 ///
-/// @throws std::domain_error  if the sides of the window are not within 1e-150 .. 1e150, a point lies on no orbit (u or
-///                            v is 0) or out of the window, a number is negative, or no isochrone asked for is in the
-///                            window
+/// Orbits start on the border at equal distances across the flow, with both signs of u. By the scaling symmetry all
+/// isochrones are copies of one, which is computed.
+///
+/// @throws std::domain_error  if the sides of the window are not within 1e-150 to 1e150, a point has u or v = 0 (no
+///                            orbit) or lies outside the window, a number is negative, or no requested isochrone lies
+///                            in the window
 PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest& request);
 
-/// Portraits that compare: in one window (of patch without one asked for: with one rim speed), with one kind of axis and
-/// isochrones of the same times. Where the stop times in the windows' corners differ much, isochrones are of a series 1, 2,
-/// 5, 10, each plane's as many as asked for, or 3, below its last.
+/// Computes portraits for a comparison, with one window, one kind of v axis and isochrones of the same times. Without a
+/// window, the view patch has one rim speed instead of one window. If the stop times in the windows' corners differ
+/// much, times are from a series 1, 2, 5, 10: each plane has the requested number of them, by default 3, below its last
+/// time.
 ///
 /// @param flows  one or more
 /// @throws std::domain_error  as phase_portrait
 std::vector<PhasePortrait> phase_portraits(const std::vector<reduction::Flow>& flows, const PortraitRequest& request);
 
-/// The orbit through a state with u > 0, from beyond the window to the stop. The state is given by logarithms, which do
-/// not underflow; it is neither on an axis nor on an invariant ray.
+/// Returns the orbit through a state with u > 0, from beyond the window to the stop. Logarithms describe the state,
+/// because they do not underflow. It lies neither on an axis nor on an invariant ray.
 ///
 /// @param ln_k      ln of v/(mu u)
-/// @param ln_v      of v in the unit of speed
-/// @param upstream  >= 0: where it starts, the larger of mu u and v is exp(upstream) times as large
+/// @param ln_v      ln of v, in the unit of speed
+/// @param upstream  >= 0: at the beginning the larger of mu u and v is exp(upstream) times that of the state
 PortraitOrbit orbit_through(const reduction::Flow& flow, double ln_k, double ln_v, double upstream);
 
-/// Where a portrait comes from, beside its system.
+/// The origin of a portrait beside its system, for files.
 struct PortraitSource {
-  std::string version = {};    ///< of the program; empty: not told
-  std::string ball = {};       ///< its name, if speeds are in m/s
-  double seconds_per_tau = 0;  ///< of that ball
+  std::string version = {};    ///< version of the program; empty: not written
+  std::string ball = {};       ///< name of the ball, if speeds are in m/s
+  double seconds_per_tau = 0;  ///< seconds of that ball per unit of tau
 };
 
-/// The portrait as JSON: schema, law, mu, body {chi, gamma}, view, window [U, V] or [[U1, U2], [V1, V2]], version, ball,
-/// seconds_per_tau,
-/// orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]; where asked for also highlight (an orbit),
-/// through (orbits), against {law, orbits, isochrones}. Numbers read back to the same doubles.
+/// Returns the portrait as JSON. Numbers read back to the same doubles.
+///
+/// Members: schema, law, mu, body {chi, gamma}, view, window [U, V] or [[U1, U2], [V1, V2]], version, ball,
+/// seconds_per_tau, orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]; if requested also highlight (an
+/// orbit), through (orbits), against {law, orbits, isochrones}.
 std::string to_json(const PhasePortrait& portrait, const PortraitSource& source = {});
 
-/// Several: schema, and portraits, each as above without schema; of one that portrait alone.
+/// Returns portraits as JSON: schema and portraits, each as above without schema. For one portrait it is as above.
 std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
-/// The portrait as CSV with the columns kind,index,u,v,tau,ln_v,k, and t of a ball: kind is orbit, highlight, through
-/// or isochrone (of another law, against_orbit or against_isochrone), tau and t (s) the time left. Before them, in
-/// lines that begin with #, what JSON has before its orbits.
+/// Returns the portrait as CSV with the columns kind,index,u,v,tau,ln_v,k, and t for a ball. kind is orbit, highlight,
+/// through or isochrone; another law has against_orbit or against_isochrone. tau and t (s) are the time left. Comment
+/// lines (#) above contain the members that precede the orbits in JSON.
 std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source = {});
 
-/// Several: the same with two columns mu,law before them; of one that portrait alone.
+/// Returns portraits as CSV with two more columns mu,law at the left. For one portrait it is as above.
 std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits

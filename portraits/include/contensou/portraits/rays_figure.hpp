@@ -7,15 +7,19 @@
 
 namespace contensou::portraits {
 
-/// Where motions under a law go, by r = gamma mu^2/chi, in three panels: the invariant rays, k* against r; D = Phi - r k
-/// Psi, in units of Phi + r k Psi, with the way that k goes, for one r below r_low, one between and one above r_high; m(k) of the stop time for the
-/// same r, between its bounds if the law states them.
+/// Draws, for a law and all r = gamma mu^2/chi, the limits of motions in three panels.
 ///
-/// With a drive the rays are where Phi = rho + r k Psi; those without one stand beside them, and m grows as 1/k towards k = 0.
+///   - the invariant rays: their k* against r;
+///   - D = Phi - r k Psi divided by Phi + r k Psi, with the direction in which k moves, for one r below r_low, one
+///     between r_low and r_high, and one above r_high;
+///   - m(k) of the stop time for the same r, between its bounds if the law states them.
 ///
-/// @param r      that of a body, marked in the first panel and drawn in the others
+/// With a drive the rays are where Phi = rho + r k Psi; rays without the drive stand beside them. m grows as 1/k
+/// towards k = 0.
+///
+/// @param r      r of a body, marked in the first panel and drawn in the others
 /// @param drive  rho of ReducedSystem
-/// @throws std::domain_error  unless r is positive and finite, and as ReducedSystem for a drive
+/// @throws std::domain_error  unless r is positive and finite; for a drive as ReducedSystem
 Figure rays_figure(const reduction::Law& law, std::optional<double> r = {}, const AskedSize& size = {},
                    double drive = 0);
 

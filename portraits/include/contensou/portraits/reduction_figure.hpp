@@ -10,17 +10,18 @@
 
 namespace contensou::portraits {
 
-/// The symmetry of (2.6) in three panels: the plane (u, v), where it magnifies the orbit of the start; the strip of ln k
-/// and p = ln v, where it shifts that orbit, so that all orbits are one curve; and the copies over their starts, one line.
-/// Copies are 1/8 to 8 times as large; each has one colour in all panels, in the order of their size.
+/// Draws the symmetry of (2.6) in three panels: the plane (u, v), in which it magnifies the orbit of the start; the
+/// strip of ln k and p = ln v, in which it shifts the orbit, so that all orbits are one curve; and the copies divided
+/// by their starts, which are one line. Copies are 1/8 to 8 times as large. Each has the same colour in all panels, in
+/// the order of size.
 ///
-/// @throws std::domain_error  for a start on an axis or on an invariant ray, where the symmetry moves an orbit along itself
+/// @throws std::domain_error  for a start on an axis or an invariant ray, which the symmetry maps onto itself
 Figure reduction_figure(const reduction::Flow& flow, reduction::State start, const AskedSize& size = {});
 
-/// The same for any system solved by its scaling, in the plane about its centre and the strip of PlanarCanonical, beside
-/// one grey orbit in each of the other sectors.
+/// Draws the symmetry of any system solved by its scaling, in the plane about its centre and the strip of
+/// PlanarCanonical. Each other sector has one grey orbit.
 ///
-/// @param name   of the system
+/// @param name   name of the system
 /// @throws std::domain_error  for a start on a ray or at the centre, and for a field with borders
 Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start, const std::string& name,
                         const AskedSize& size = {});

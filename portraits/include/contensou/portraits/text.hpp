@@ -7,33 +7,33 @@
 
 namespace contensou::portraits {
 
-/// Words of one look, UTF-8.
+/// Characters of one look, in UTF-8.
 struct Run {
   std::string words;
   bool italic = false;
-  int level = 0;  ///< 1: a power, -1: an index, both of them smaller; 0: on the line
+  int level = 0;  ///< 1: a power, -1: an index, both smaller; 0: on the line
 
   bool operator==(const Run&) const = default;
 };
 
-/// What is written in a figure. A string is a text of just its characters, whatever they are.
+/// A text in a figure. A string converts to a text of the same characters.
 ///
 ///     const Text name = "the ray " + math("k = v/(μ|u|)") + ",  " + math("r = γμ") + sup("2") + math("/χ");
 class Text {
  public:
   Text() = default;
   explicit Text(Run run);
-  // Words are a text as they stand.
+  // Implicit: a plain string is a Text.
   // NOLINTBEGIN(google-explicit-constructor)
   Text(std::string_view words);
   Text(const std::string& words) : Text(std::string_view(words)) {}
   Text(const char* words) : Text(std::string_view(words)) {}
   // NOLINTEND(google-explicit-constructor)
 
-  /// Neighbours differ in their look, and none is empty.
+  /// Returns the runs; neighbours differ in their look, and none is empty.
   const std::vector<Run>& runs() const { return runs_; }
   bool empty() const { return runs_.empty(); }
-  /// The words alone.
+  /// Returns the characters without their look.
   std::string words() const;
 
   Text& operator+=(const Text& text);
@@ -46,27 +46,27 @@ class Text {
   std::vector<Run> runs_;
 };
 
-/// A formula on one line, unbroken: Latin and Greek letters are in italics, with the spaces of a product such as N f;
-/// what else there is stands upright.
+/// Returns a formula on one line that is not broken. Latin and Greek letters are italic, with the spaces of a product
+/// such as N f; other characters are upright.
 Text math(std::string_view formula);
 
-/// The text as an index, or as a power.
+/// Returns the text as an index (sub) or as a power (sup).
 Text sub(const Text& text);
 Text sup(const Text& text);
 
-/// Words that no line is broken in: their spaces become no-break spaces (U+00A0), which look like others.
+/// Returns words between which no line is broken: their spaces become no-break spaces (U+00A0), which look the same.
 std::string unbroken(std::string_view words);
 
-/// About how wide a text is, in sizes of letters.
+/// Returns the approximate width of a text, in sizes of letters.
 double text_width(const Text& text);
 
-/// The words with a minus sign for each hyphen that is one: before a digit, and not within a word.
+/// Returns the words with a minus sign for each hyphen before a digit that is not within a word.
 std::string with_minus_signs(std::string_view words);
 
-/// Words of somebody else's, such as a name, cut with an ellipsis after that number of characters.
+/// Returns a foreign text, such as a name, cut after a number of characters, with an ellipsis.
 std::string shortened(std::string_view words, std::size_t longest = 60);
 
-/// The title of a picture of one body, its mu and its law.
+/// Returns the title of a picture of one body: its name, its mu and its law.
 Text title_of(const Text& body, const Text& mu, const Text& law);
 
 }  // namespace contensou::portraits
